@@ -1,0 +1,25 @@
+#pragma once
+
+#include <chrono>
+
+namespace swarmsmith {
+
+/// Monotonic time, for leases, heartbeats and rates. Wall-clock time is only for people.
+using TimePoint = std::chrono::time_point<std::chrono::steady_clock, std::chrono::nanoseconds>;
+using Duration = std::chrono::nanoseconds;
+
+/// Time as something handed in, so that tests own it.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  virtual TimePoint now() const = 0;
+};
+
+class SystemClock final : public Clock {
+ public:
+  TimePoint now() const override {
+    return std::chrono::time_point_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now());
+  }
+};
+
+}  // namespace swarmsmith

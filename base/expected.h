@@ -1,0 +1,50 @@
+#pragma once
+
+#include <string>
+#include <tl/expected.hpp>
+#include <utility>
+
+namespace swarmsmith {
+
+/// What kind of trouble an `Error` is; programs turn it into an exit code.
+enum class ErrorKind {
+  BadInput,     ///< the outside sent something wrong: a file, a text, an argument, a message
+  NotFound,     ///< no such id, file or name
+  Conflict,     ///< it exists, but belongs to another campaign or is held by another process
+  Corrupt,      ///< a store or message is damaged
+  Newer,        ///< written by a newer version than this program
+  Unavailable,  ///< a peer or the environment does not answer
+};
+
+/// Something that went wrong outside of our own logic, as a value: what was found and what was
+/// wanted (`message`, a sentence for people), and where (`where`: file:line:column, a field's
+/// path, a token's position; may be empty).
+struct Error {
+  ErrorKind kind = ErrorKind::BadInput;
+  std::string message;
+  std::string where;
+
+  friend bool operator==(const Error&, const Error&) = default;
+};
+
+/// A value of `T`, or the reason why there is none. Has the interface of C++23's std::expected, so
+/// that it can be replaced by it.
+template <class T>
+using Expected = tl::expected<T, Error>;
+
+using Unexpected = tl::unexpected<Error>;
+
+inline Unexpected unexpected(ErrorKind kind, std::string message, std::string where = {}) {
+  return Unexpected(Error{kind, std::move(message), std::move(where)});
+}
+
+inline Unexpected bad_input(std::string message, std::string where = {}) {
+  return unexpected(ErrorKind::BadInput, std::move(message), std::move(where));
+}
+
+/// "where: message", or the message alone when the place is not known.
+inline std::string to_string(const Error& error) {
+  return error.where.empty() ? error.message : error.where + ": " + error.message;
+}
+
+}  // namespace swarmsmith

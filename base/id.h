@@ -1,0 +1,54 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace swarmsmith {
+
+/// A small integer that names one thing of one kind, so that two kinds cannot be swapped. `Tag` has
+/// a `static constexpr char kLetter`, with which people see it: d3, c812. Zero is no id.
+template <class Tag>
+struct Id {
+  std::int64_t value = 0;
+
+  friend auto operator<=>(const Id&, const Id&) = default;
+  explicit operator bool() const { return value != 0; }
+};
+
+template <class Tag>
+std::string to_string(Id<Tag> id) {
+  return Tag::kLetter + std::to_string(id.value);
+}
+
+struct DesignTag {
+  static constexpr char kLetter = 'd';
+};
+struct CandidateTag {
+  static constexpr char kLetter = 'c';
+};
+struct EvaluationTag {
+  static constexpr char kLetter = 'e';
+};
+struct RealRunTag {
+  static constexpr char kLetter = 'r';
+};
+
+/// One (mission, method, repetition) of a campaign: one iterated race.
+using DesignId = Id<DesignTag>;
+/// A configuration that a design tried.
+using CandidateId = Id<CandidateTag>;
+/// The stored outcome of one experiment.
+using EvaluationId = Id<EvaluationTag>;
+/// A filmed trial.
+using RealRunId = Id<RealRunTag>;
+
+}  // namespace swarmsmith
+
+template <class Tag>
+struct std::hash<swarmsmith::Id<Tag>> {
+  std::size_t operator()(swarmsmith::Id<Tag> id) const noexcept {
+    return std::hash<std::int64_t>{}(id.value);
+  }
+};

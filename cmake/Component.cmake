@@ -1,0 +1,43 @@
+# swarmsmith_component(NAME SOURCES ... HEADERS ... PUBLIC ... PRIVATE ...)
+#
+# One folder, one static library swarmsmith_NAME. HEADERS are the folder's public surface; each is
+# compiled on its own by the target all_verify_interface_header_sets. Includes start at the root.
+function(swarmsmith_component name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
+  set(target swarmsmith_${name})
+  add_library(${target} STATIC ${arg_SOURCES})
+  target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
+    FILES ${arg_HEADERS})
+  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
+  target_link_libraries(${target} PUBLIC ${arg_PUBLIC}
+    PRIVATE ${arg_PRIVATE} swarmsmith_warnings swarmsmith_exact_arithmetic)
+  set_target_properties(${target} PROPERTIES VERIFY_INTERFACE_HEADER_SETS ON)
+endfunction()
+
+# swarmsmith_program(NAME SOURCES ... PRIVATE ...): a program in build/bin.
+function(swarmsmith_program name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PRIVATE")
+  add_executable(${name} ${arg_SOURCES})
+  target_link_libraries(${name} PRIVATE ${arg_PRIVATE} swarmsmith_warnings
+    swarmsmith_exact_arithmetic)
+endfunction()
+
+# swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end SOURCES ... USES ...)
+#
+# One test program a folder; each of its tests is a ctest of its own, so that they run in parallel.
+function(swarmsmith_test name)
+  cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;USES")
+  if(NOT arg_TIMEOUT)
+    set(arg_TIMEOUT 120)
+  endif()
+  set(target ${name}_test)
+  add_executable(${target} ${arg_SOURCES})
+  target_link_libraries(${target} PRIVATE ${arg_USES} GTest::gmock GTest::gtest_main
+    swarmsmith_warnings swarmsmith_exact_arithmetic)
+  target_compile_definitions(${target} PRIVATE
+    SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
+    SWARMSMITH_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
+    SWARMSMITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
+    PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+endfunction()

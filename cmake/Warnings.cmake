@@ -1,0 +1,10 @@
+# Warnings for our own code, as an interface target: linked PRIVATE, so that nobody inherits them.
+add_library(swarmsmith_warnings INTERFACE)
+target_compile_options(swarmsmith_warnings INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wswitch-enum
+  -Wnon-virtual-dtor -Werror)
+
+# Same bits on every machine: no fused multiply-add behind our back (GCC contracts by default when
+# the target has it), and never -ffast-math. See docs/decisions/0006-own-elementary-functions.md.
+add_library(swarmsmith_exact_arithmetic INTERFACE)
+target_compile_options(swarmsmith_exact_arithmetic INTERFACE -ffp-contract=off)
