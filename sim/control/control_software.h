@@ -1,0 +1,36 @@
+#pragma once
+
+#include "base/rng.h"
+#include "sim/control/flavour.h"
+#include "sim/control/machine.h"
+#include "sim/control/reference_model.h"
+
+namespace swarmsmith {
+
+/// One robot's running state machine. Senses in, command out; links nothing of a simulator.
+///
+/// A cycle (rvr-automode facts, section 6.2): a behaviour that was just entered is reset; it acts;
+/// then, from the second cycle in a state on, one of the enabled outgoing transitions, if any, is
+/// taken, each of the enabled ones with equal probability. The command is the one of the behaviour
+/// that acted.
+class ControlSoftware {
+ public:
+  /// `machine` and `flavour` must outlive the object.
+  ControlSoftware(const Machine& machine, const Flavour& flavour, Rng rng);
+
+  Command step(Senses& senses);
+
+  /// Index of the current state, after the last step's transition test.
+  int state() const { return state_; }
+
+ private:
+  const Machine* machine_;
+  const Flavour* flavour_;
+  Rng rng_;
+  int state_ = 0;
+  bool entered_ = true;
+  int turn_cycles_left_ = 0;  ///< Exploration's sub-state: 0 is FORWARD
+  bool turn_left_ = false;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace swarmsmith {
+
+/// The reference model of the RVR (thesis table 5.1): what control software may read and command.
+/// It is the border between control software and whatever carries it, a simulator or a robot.
+/// Frame: x forward, y left, angles counter-clockwise.
+
+inline constexpr int kProximitySensors = 8;
+
+/// Directions of the proximity sensors from the robot's head, in degrees, by index
+/// (argos3-rvr; rvr-automode facts, section 3.1).
+inline constexpr std::array<int, kProximitySensors> kProximityDirections_deg = {45,   0,   -45, -90,
+                                                                                -135, 180, 135, 90};
+
+/// One control cycle, nominally (thesis 6.6: 1200 cycles are 120 s).
+inline constexpr double kControlPeriod_s = 0.1;
+
+struct Rgb {
+  std::uint8_t r = 0;
+  std::uint8_t g = 0;
+  std::uint8_t b = 0;
+
+  friend bool operator==(const Rgb&, const Rgb&) = default;
+};
+
+/// Another robot, as seen from this one: distance between the centres, and the unit vector towards
+/// it in the robot's frame.
+struct Neighbour {
+  double distance_m = 0;
+  double direction_x = 1;
+  double direction_y = 0;
+};
+
+/// Distances to the nearest obstacle along the eight directions, in metres from the sensor:
+/// -infinity closer than 0.05, +infinity beyond the range R or with nothing there.
+using ProximityReadings = std::array<double, kProximitySensors>;
+
+/// Readings of the current cycle. A source computes what is asked for, so a sensor that no module
+/// asks for costs nothing; asking twice in a cycle gives the same reading.
+class Senses {
+ public:
+  virtual ~Senses() = default;
+  virtual const ProximityReadings& proximity() = 0;
+  /// Colour of the floor under the ground sensor, 0.05 m ahead of the centre.
+  virtual Rgb ground_color() = 0;
+  /// The robots nearer than 0.75 m (thesis 5.1, lidar clustering), in a fixed order.
+  virtual std::span<const Neighbour> neighbours() = 0;
+};
+
+/// Speeds of the treads over ground, metres per second.
+struct Command {
+  double left_mps = 0;
+  double right_mps = 0;
+
+  friend bool operator==(const Command&, const Command&) = default;
+};
+
+}  // namespace swarmsmith
