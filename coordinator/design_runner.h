@@ -62,6 +62,7 @@ class DesignRunner {
 
   DesignState state() const { return state_; }
   DesignId id() const { return plan_.row.id; }
+  std::int64_t used() const { return used_; }
   const DesignPlan& plan() const { return plan_; }
 
   static std::uint64_t key_of(std::int64_t candidate_number, std::int64_t pair) {
