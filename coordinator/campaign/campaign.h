@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "irace_core/scenario.h"
+#include "sim/engine/profile.h"
+#include "sim/mission/mission.h"
+
+namespace swarmsmith {
+
+/// A mission and how its designs are judged.
+struct CampaignMission {
+  Mission mission;
+  std::int64_t test_count = 100;  ///< fresh seeds on which each winner is scored after its race
+};
+
+/// A parameter's range that differs from the flavour's own.
+struct RangeOverride {
+  std::string module;     ///< "exploration"
+  std::string parameter;  ///< "tau"
+  double lower = 0;
+  double upper = 0;
+
+  friend bool operator==(const RangeOverride&, const RangeOverride&) = default;
+};
+
+/// A way to design: the flavour's modules that may be used, and how large machines may grow.
+struct Method {
+  std::string name;
+  std::string flavour = "watermelon";
+  std::int64_t max_states = 4;
+  std::int64_t max_transitions = 4;
+  std::vector<std::string> behaviours;  ///< names; all of the flavour's when the file has none
+  std::vector<std::string> conditions;
+  std::vector<RangeOverride> ranges;
+
+  friend bool operator==(const Method&, const Method&) = default;
+};
+
+/// A campaign file, checked and complete.
+struct Campaign {
+  std::string name = "campaign";
+  std::uint64_t seed = 1;
+  std::int64_t repetitions = 1;
+  std::vector<CampaignMission> missions;
+  std::vector<Method> methods;
+  /// Race options; number of instances and seed are set per design.
+  Scenario race;
+  Profile profile;
+
+  // Outside the digest: other values neither stop a resume nor change the answer.
+  std::filesystem::path store;
+  std::optional<std::int64_t> local_workers;  ///< processes; none: as many slots as cores
+  std::string bind;                           ///< empty: a free port on loopback
+  double task_timeout_s = 30;
+  std::int64_t retries = 2;
+  bool stop_on_failure = false;               ///< else an evaluation that fails for good is a rejection
+};
+
+}  // namespace swarmsmith

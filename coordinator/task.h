@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "storage/rows.h"
+
+namespace swarmsmith {
+
+/// One evaluation that the campaign wants: everything a worker must know besides the scenario.
+struct Task {
+  EvaluationKey key;
+  std::uint32_t mission = 0;  ///< index into the scenario's missions
+  std::uint32_t method = 0;   ///< index into the scenario's methods
+  std::int64_t instance = 0;
+  std::int64_t seed = 0;
+  std::string machine;        ///< text of the grammar
+};
+
+/// How a task ended, as a worker reported it.
+struct Outcome {
+  EvaluationKey key;
+  EvaluationStatus status = EvaluationStatus::Ok;
+  double score = 0;
+  std::uint64_t state_digest = 0;
+  std::int64_t wall_us = 0;
+  std::int64_t worker = 0;   ///< WorkerRow::id
+  std::int64_t attempt = 1;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,88 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "storage/rows.h"
+
+namespace swarmsmith {
+
+/// What a writer tells about itself, from its own thread.
+struct WriterNews {
+  std::uint64_t committed = 0;  ///< every batch up to this ticket is on disk
+  std::string trouble;          ///< why commits are being retried (disk full, ...); empty when well
+};
+
+/// The one writer of a store: a SQLite file in WAL mode, synchronous=FULL, with a thread of its own
+/// that takes whatever has queued up as one transaction (group commit). Holds the store's lock while
+/// it lives, so that there is never a second one. Rows that are already there are ignored, or
+/// replaced where the row says that it holds absolute values: appending twice does no harm.
+class Store {
+ public:
+  /// Makes the store when the file does not exist, else opens and migrates it. Errors: Conflict
+  /// (another process holds it: its pid and host; or another campaign's: the keys that differ),
+  /// Corrupt (no SQLite file, truncated, damaged), Newer (schema of a later version), BadInput (a
+  /// network file system, no such folder, not writable).
+  static Expected<std::unique_ptr<Store>> open(const std::filesystem::path& path,
+                                               const CampaignRow& campaign,
+                                               const std::vector<DesignRow>& designs);
+  virtual ~Store() = default;
+
+  /// Queues the rows as one unit: a crash keeps all of them or none. Returns their ticket, counted
+  /// up from 1. Never blocks on the disk. Tickets commit in order.
+  virtual std::uint64_t append(std::vector<Row> rows) = 0;
+
+  /// `on_news` is called from the writer's thread after each commit and whenever commits begin to
+  /// fail (disk full: it retries every second until there is room) or work again.
+  virtual void set_listener(std::function<void(const WriterNews&)> on_news) = 0;
+
+  /// Waits until everything appended so far is on disk.
+  virtual void flush() = 0;
+
+  /// Every evaluation that is stored, for replay; read before the first append.
+  virtual std::vector<StoredScore> scores() = 0;
+  virtual std::vector<StoredStep> steps() = 0;
+  /// Whether the campaign's row says that it is finished.
+  virtual bool finished() = 0;
+};
+
+/// A read-only look at a store, for any process, also while a campaign runs.
+class StoreReader {
+ public:
+  static Expected<std::unique_ptr<StoreReader>> open(const std::filesystem::path& path);
+  virtual ~StoreReader() = default;
+
+  virtual CampaignRow campaign() = 0;
+  virtual std::vector<DesignRow> designs() = 0;
+  virtual std::vector<StoredScore> scores() = 0;
+  /// One hash over every table that is part of the answer, row by row in key order.
+  virtual std::string digest() = 0;
+  /// SQLite's own integrity check and foreign keys: a sentence a fault, none when clean.
+  virtual std::vector<std::string> integrity() = 0;
+
+  /// Calls `on_row` with the cells of each row of a read-only statement (texts; null as nullopt),
+  /// after `on_columns` with the names. Stops after `row_limit` rows or `seconds`. A statement that
+  /// would write, or does not parse, is BadInput with SQLite's reason.
+  struct QueryLimits {
+    std::int64_t rows = 1'000'000;
+    double seconds = 60;
+  };
+  struct Cell {
+    enum class Type { Null, Integer, Real, Text } type = Type::Null;
+    std::string text;  ///< shortest form that reads back to the same value
+  };
+  struct QueryEnd {
+    std::int64_t rows = 0;
+    bool truncated = false;
+  };
+  virtual Expected<QueryEnd> query(const std::string& sql, const QueryLimits& limits,
+                                   const std::function<void(const std::vector<std::string>&)>& on_columns,
+                                   const std::function<void(const std::vector<Cell>&)>& on_row) = 0;
+};
+
+}  // namespace swarmsmith
