@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -34,6 +35,9 @@ struct ParameterSpec {
 
   friend bool operator==(const ParameterSpec&, const ParameterSpec&) = default;
 };
+
+/// Why `value` cannot be the parameter's value, as a sentence; nothing when it can.
+std::optional<std::string> complaint_about(const ParameterSpec& parameter, double value);
 
 /// A module in a flavour's tables, with its parameters in the order of `parameters_of`.
 struct ModuleSpec {
