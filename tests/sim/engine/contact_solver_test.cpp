@@ -32,8 +32,8 @@ class Contacts : public testing::TestWithParam<ContactModel> {
 };
 
 INSTANTIATE_TEST_SUITE_P(All, Contacts, testing::Values(ContactModel::Exact, ContactModel::Box2d),
-                         [](const auto& info) {
-                           return info.param == ContactModel::Exact ? "Exact" : "Box2d";
+                         [](const auto& instance) {
+                           return instance.param == ContactModel::Exact ? "Exact" : "Box2d";
                          });
 
 TEST_P(Contacts, WithoutATouchMotionIsFree) {

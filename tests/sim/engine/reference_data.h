@@ -59,6 +59,6 @@ ReferenceScores reference_scores();  ///< of the twenty, seeds 1..100
 ReferenceScores thesis_scores();     ///< of the thirty, seeds 1..30
 
 /// The original's starting poses and colour patches of seeds 1..100: [0] is seed 1's.
-std::vector<Instance> reference_instances(const std::string& mission);
+std::vector<Instance> reference_instances(const Mission& mission);
 
 }  // namespace swarmsmith
