@@ -6,6 +6,7 @@
 #include "base/suggestion.h"
 #include "coordinator/campaign/internal/read_mission.h"
 #include "sim/control/flavour.h"
+#include "sim/control/machine.h"
 
 namespace swarmsmith {
 namespace {
