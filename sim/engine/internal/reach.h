@@ -48,6 +48,7 @@ class Reach {
   bool join_pairs(const Swarm& swarm);
   void widen_groups(double span_s);
   void gather(const Swarm& swarm);
+  void add_walls(const Swarm& swarm, Island& island) const;
   bool wall_in_reach(const Body& body, const WallPlane& wall, double margin_m) const;
   int root(int robot) const;
 
