@@ -63,7 +63,8 @@ class Run {
       const std::int64_t end = std::int64_t{instant} * kSubStepsPerInstant;
       while (now < end) {
         std::int64_t next = end;
-        for (const Agent& agent : agents_) next = std::min(next, agent.next_act);
+        for (const Agent& agent : agents_)
+          next = std::min(next, agent.next_act);
         world_.advance(static_cast<int>(next - now));
         now = next;
         for (int i = 0; i < world_.robots(); ++i) {
@@ -109,9 +110,8 @@ class Run {
     records_.clear();
     for (int i = 0; i < world_.robots(); ++i) {
       const Agent& agent = agents_[static_cast<std::size_t>(i)];
-      records_.push_back({.pose = instant == 0
-                                      ? setup_.instance.starts[static_cast<std::size_t>(i)]
-                                      : pose_of(world_.body(i)),
+      records_.push_back({.pose = instant == 0 ? setup_.instance.starts[static_cast<std::size_t>(i)]
+                                               : pose_of(world_.body(i)),
                           .command = agent.command,
                           .state = agent.control.state()});
     }
@@ -122,8 +122,7 @@ class Run {
     Digest digest;
     for (int i = 0; i < world_.robots(); ++i) {
       const Body& body = world_.body(i);
-      for (const double value :
-           {body.x, body.y, body.cos, body.sin, body.vx, body.vy, body.spin}) {
+      for (const double value : {body.x, body.y, body.cos, body.sin, body.vx, body.vy, body.spin}) {
         digest.add(value);
       }
       digest.add(agents_[static_cast<std::size_t>(i)].control.state());

@@ -66,15 +66,18 @@ class ExactSolver final : public ContactSolver {
     for (int done = 0; done < sub_steps; ++done) {
       const int quiet = std::min(quiet_sub_steps(island, walls, sub_steps), sub_steps - done);
       if (quiet > 0) {
-        for (IslandMember& m : island) advance_freely(m.body, m.set_point, quiet);
+        for (IslandMember& m : island)
+          advance_freely(m.body, m.set_point, quiet);
         before_.clear();
         done += quiet - 1;
         continue;
       }
-      for (IslandMember& member : island) move(member.body);
+      for (IslandMember& member : island)
+        move(member.body);
       find_contacts(island, walls);
       if (contacts_.empty()) {
-        for (IslandMember& member : island) steer_alone(member);
+        for (IslandMember& member : island)
+          steer_alone(member);
       } else {
         solve(island);
       }
@@ -117,7 +120,8 @@ class ExactSolver final : public ContactSolver {
   void find_contacts(std::span<const IslandMember> island, std::span<const WallPlane> walls) {
     contacts_.clear();
     for (std::size_t i = 0; i < island.size(); ++i) {
-      for (std::size_t j = i + 1; j < island.size(); ++j) meet(island, i, j);
+      for (std::size_t j = i + 1; j < island.size(); ++j)
+        meet(island, i, j);
       for (std::size_t w = 0; w < walls.size(); ++w) {
         if (gap_to(island[i].body, walls[w]) < 0) meet_wall(island, i, walls[w], w);
       }
@@ -132,7 +136,8 @@ class ExactSolver final : public ContactSolver {
     const double dy = b.y - a.y;
     if (dx * dx + dy * dy >= 4 * kCornerRadius_m * kCornerRadius_m) return;
     if (gap_between(a, b) >= 0) return;
-    // All four axes leave the same room, so the least overlap is where the centres are widest apart.
+    // All four axes leave the same room, so the least overlap is where the centres are widest
+    // apart.
     const std::array<std::array<double, 2>, 4> axes = {
         {{a.cos, a.sin}, {-a.sin, a.cos}, {b.cos, b.sin}, {-b.sin, b.cos}}};
     double widest = -1;
@@ -212,7 +217,8 @@ class ExactSolver final : public ContactSolver {
     }
     for (int round = 0; round < kRounds; ++round) {
       double change = 0;
-      for (Contact& contact : contacts_) change = std::max(change, relax(island, contact));
+      for (Contact& contact : contacts_)
+        change = std::max(change, relax(island, contact));
       for (std::size_t i = 0; i < island.size(); ++i) {
         change = std::max(change, steer(island[i], drives_[i]));
       }
@@ -293,7 +299,9 @@ class ExactSolver final : public ContactSolver {
 
 }  // namespace
 
-std::unique_ptr<ContactSolver> make_exact_solver() { return std::make_unique<ExactSolver>(); }
+std::unique_ptr<ContactSolver> make_exact_solver() {
+  return std::make_unique<ExactSolver>();
+}
 
 std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool convex_arena) {
   return model == ContactModel::Exact && convex_arena ? make_exact_solver() : make_box2d_solver();

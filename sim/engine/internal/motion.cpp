@@ -21,8 +21,7 @@ void rotate(Body& body, double cosine, double sine) {
 void turn_slightly(Body& body, double angle_rad) {
   const double s = angle_rad * angle_rad;
   const double sine = angle_rad * (1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040))));
-  const double cosine =
-      1 + s * (-1.0 / 2 + s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320))));
+  const double cosine = 1 + s * (-1.0 / 2 + s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320))));
   rotate(body, cosine, sine);
 }
 
@@ -61,7 +60,9 @@ Body body_at(const Pose& pose) {
   return {.x = pose.x, .y = pose.y, .cos = heading.cos, .sin = heading.sin};
 }
 
-Pose pose_of(const Body& body) { return {body.x, body.y, atan2(body.sin, body.cos)}; }
+Pose pose_of(const Body& body) {
+  return {body.x, body.y, atan2(body.sin, body.cos)};
+}
 
 SetPoint set_point_of(const Command& command, const Body& body) {
   const double speed = (command.left_mps + command.right_mps) / 2;
@@ -75,7 +76,8 @@ void turn(Body& body, double angle_rad) {
   if (size <= 0.0625) return turn_slightly(body, angle_rad);
   if (size <= 0.5) return turn_part(body, angle_rad);
   const int parts = static_cast<int>(size * 2) + 1;
-  for (int i = 0; i < parts; ++i) turn_part(body, angle_rad / parts);
+  for (int i = 0; i < parts; ++i)
+    turn_part(body, angle_rad / parts);
 }
 
 void sub_step(Body& body, const SetPoint& set_point) {
@@ -122,9 +124,8 @@ void advance_freely(Body& body, const SetPoint& set_point, int sub_steps) {
 }
 
 double surface_speed(const Body& body, const SetPoint& set_point) {
-  const double speed2 =
-      std::max(body.vx * body.vx + body.vy * body.vy,
-               set_point.vx * set_point.vx + set_point.vy * set_point.vy);
+  const double speed2 = std::max(body.vx * body.vx + body.vy * body.vy,
+                                 set_point.vx * set_point.vx + set_point.vy * set_point.vy);
   return std::sqrt(speed2) +
          kCornerRadius_m * std::max(std::fabs(body.spin), std::fabs(set_point.spin));
 }

@@ -12,7 +12,9 @@ constexpr double kTail = 3.442619855899;
 constexpr double kArea = 9.91256303526217e-3;
 
 /// The normal density without its factor.
-double curve(double x) { return exp(-0.5 * x * x); }
+double curve(double x) {
+  return exp(-0.5 * x * x);
+}
 
 }  // namespace
 
@@ -23,7 +25,8 @@ NormalNoise::NormalNoise() {
     edge_[i] = std::sqrt(-2 * log(kArea / edge_[i - 1] + curve(edge_[i - 1])));
   }
   edge_[kLayers] = 0;
-  for (std::size_t i = 0; i < kLayers; ++i) inside_[i] = edge_[i + 1] / edge_[i];
+  for (std::size_t i = 0; i < kLayers; ++i)
+    inside_[i] = edge_[i + 1] / edge_[i];
 }
 
 const NormalNoise& NormalNoise::instance() {

@@ -21,7 +21,8 @@ std::span<const Island> Reach::find(const Swarm& swarm, int sub_steps) {
   if (!pairs && !any_wall_near(swarm, span_s)) return {};
   bound_motion(swarm, span_s);
   // A group that grew may be pushed further than its members drive, and reach more.
-  while (pairs && join_pairs(swarm)) widen_groups(span_s);
+  while (pairs && join_pairs(swarm))
+    widen_groups(span_s);
   gather(swarm);
   return {islands_.data(), count_};
 }
@@ -38,8 +39,7 @@ bool Reach::any_pair_near(const Swarm& swarm, double span_s) const {
 }
 
 bool Reach::any_wall_near(const Swarm& swarm, double span_s) const {
-  const double clear =
-      walls_->clear_radius_m - kCornerRadius_m - swarm.speed_limit_mps * span_s;
+  const double clear = walls_->clear_radius_m - kCornerRadius_m - swarm.speed_limit_mps * span_s;
   return std::any_of(swarm.bodies.begin(), swarm.bodies.end(), [&](const Body& body) {
     return clear <= 0 || body.x * body.x + body.y * body.y >= clear * clear;
   });
@@ -133,7 +133,8 @@ void Reach::gather(const Swarm& swarm) {
     }
     add_walls(swarm, island);
     if (island.robots.size() < 2 && island.walls.empty()) continue;
-    for (const int robot : island.robots) in_island_[static_cast<std::size_t>(robot)] = 1;
+    for (const int robot : island.robots)
+      in_island_[static_cast<std::size_t>(robot)] = 1;
     ++count_;
   }
 }

@@ -53,8 +53,8 @@ class Reach {
   int root(int robot) const;
 
   const Walls* walls_;
-  std::vector<int> parent_;       ///< union-find
-  std::vector<double> margin_m_;  ///< how far any point of the body can get
+  std::vector<int> parent_;        ///< union-find
+  std::vector<double> margin_m_;   ///< how far any point of the body can get
   std::vector<double> speed_mps_;  ///< how fast any point of the body can be
   std::vector<char> in_island_;
   std::vector<Island> islands_;

@@ -50,7 +50,8 @@ const ProximityReadings& RobotSenses::proximity() {
     reading = limited(reading, range);
     if (profile_->proximity_sd_m == 0 || !std::isfinite(reading)) continue;
     const auto index = static_cast<std::uint64_t>(cycle_) * kProximitySensors + i;
-    reading = limited(reading + profile_->proximity_sd_m * normal_at(proximity_noise_, index), range);
+    reading =
+        limited(reading + profile_->proximity_sd_m * normal_at(proximity_noise_, index), range);
   }
   return proximity_;
 }
