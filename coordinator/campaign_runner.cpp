@@ -34,6 +34,7 @@ void CampaignRunner::advance(DesignRunner& design) {
   }
   if (design.state() != DesignState::Finished) return;
   finished_.push_back(design.id());
+  used_by_finished_ += design.used();
   open_.erase(design.id());
 }
 
@@ -41,7 +42,10 @@ void CampaignRunner::open_designs() {
   while (!error_ && open_.size() < kOpenDesigns && next_plan_ < plans_.size()) {
     DesignPlan plan = std::move(plans_[next_plan_++]);
     const DesignId id = plan.row.id;
-    if (std::ranges::find(finished_, id) != finished_.end()) continue;
+    if (std::ranges::find(finished_, id) != finished_.end()) {
+      used_by_finished_ += plan.row.budget;
+      continue;
+    }
     auto stored = stored_.extract(id);
     auto runner = DesignRunner::start(std::move(plan), stored ? std::move(stored.mapped())
                                                               : StoredDesign{});
@@ -64,8 +68,10 @@ bool CampaignRunner::finished() const {
 }
 
 CampaignProgress CampaignRunner::progress() const {
-  CampaignProgress progress{.designs = plans_.size(), .finished = finished_.size()};
-  for (const DesignPlan& plan : plans_) progress.budget += plan.row.budget;
+  CampaignProgress progress{.designs = plans_.size(),
+                            .finished = finished_.size(),
+                            .budget = budget_,
+                            .used = used_by_finished_};
   for (const auto& [id, design] : open_) progress.used += design.used();
   return progress;
 }

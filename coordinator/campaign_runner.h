@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
@@ -54,6 +55,8 @@ class CampaignRunner final : public WorkSource {
   std::vector<Row> rows_;
   std::optional<Error> error_;
   bool state_recorded_ = false;
+  std::int64_t budget_ = 0;
+  std::int64_t used_by_finished_ = 0;
 };
 
 /// A store's scores and steps, sorted by design, without the designs in `finished`.

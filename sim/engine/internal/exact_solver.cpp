@@ -19,6 +19,8 @@ constexpr int kRounds = 10;
 constexpr double kSettled_Ns = 1e-9;
 constexpr double kMaxImpulse_Ns = kMaxForce_N * kSubStep_s;
 constexpr double kMaxTwist_Nms = kMaxTorque_Nm * kSubStep_s;
+/// Keeps the quotient of a gap and no motion finite, metres a sub-step.
+constexpr double kLeastReach_m = 1e-9;
 /// Inverse mass and inertia of what does not move.
 constexpr double kNoResponse = 0;
 
@@ -61,11 +63,21 @@ class ExactSolver final : public ContactSolver {
   void advance(std::span<IslandMember> island, std::span<const WallPlane> walls,
                int sub_steps) override {
     before_.clear();
-    for (int i = 0; i < sub_steps; ++i) {
-      for (IslandMember& member : island) move(member.body);
+    for (int done = 0; done < sub_steps; ++done) {
+      const int quiet = std::min(quiet_sub_steps(island, walls, sub_steps), sub_steps - done);
+      if (quiet > 0) {
+        for (IslandMember& m : island)
+          advance_freely(m.body, m.set_point, quiet);
+        before_.clear();
+        done += quiet - 1;
+        continue;
+      }
+      for (IslandMember& member : island)
+        move(member.body);
       find_contacts(island, walls);
       if (contacts_.empty()) {
-        for (IslandMember& member : island) steer_alone(member);
+        for (IslandMember& member : island)
+          steer_alone(member);
       } else {
         solve(island);
       }
@@ -74,6 +86,26 @@ class ExactSolver final : public ContactSolver {
   }
 
  private:
+  /// For how many sub-steps, up to `most`, no touch is possible: gaps against the fastest approach.
+  int quiet_sub_steps(std::span<const IslandMember> island, std::span<const WallPlane> walls,
+                      int most) {
+    reach_m_.clear();
+    for (const IslandMember& member : island) {
+      reach_m_.push_back(kSubStep_s * surface_speed(member.body, member.set_point));
+    }
+    double quiet = most;
+    for (std::size_t i = 0; i < island.size(); ++i) {
+      for (std::size_t j = i + 1; j < island.size() && quiet >= 1; ++j) {
+        const double gap = gap_between(island[i].body, island[j].body);
+        quiet = std::min(quiet, gap / (reach_m_[i] + reach_m_[j] + kLeastReach_m));
+      }
+      for (std::size_t w = 0; w < walls.size() && quiet >= 1; ++w) {
+        quiet = std::min(quiet, gap_to(island[i].body, walls[w]) / (reach_m_[i] + kLeastReach_m));
+      }
+    }
+    return std::max(0, static_cast<int>(quiet));
+  }
+
   static void move(Body& body) {
     body.x += kSubStep_s * body.vx;
     body.y += kSubStep_s * body.vy;
@@ -88,7 +120,8 @@ class ExactSolver final : public ContactSolver {
   void find_contacts(std::span<const IslandMember> island, std::span<const WallPlane> walls) {
     contacts_.clear();
     for (std::size_t i = 0; i < island.size(); ++i) {
-      for (std::size_t j = i + 1; j < island.size(); ++j) meet(island, i, j);
+      for (std::size_t j = i + 1; j < island.size(); ++j)
+        meet(island, i, j);
       for (std::size_t w = 0; w < walls.size(); ++w) {
         if (gap_to(island[i].body, walls[w]) < 0) meet_wall(island, i, walls[w], w);
       }
@@ -103,7 +136,8 @@ class ExactSolver final : public ContactSolver {
     const double dy = b.y - a.y;
     if (dx * dx + dy * dy >= 4 * kCornerRadius_m * kCornerRadius_m) return;
     if (gap_between(a, b) >= 0) return;
-    // All four axes leave the same room, so the least overlap is where the centres are widest apart.
+    // All four axes leave the same room, so the least overlap is where the centres are widest
+    // apart.
     const std::array<std::array<double, 2>, 4> axes = {
         {{a.cos, a.sin}, {-a.sin, a.cos}, {b.cos, b.sin}, {-b.sin, b.cos}}};
     double widest = -1;
@@ -183,7 +217,8 @@ class ExactSolver final : public ContactSolver {
     }
     for (int round = 0; round < kRounds; ++round) {
       double change = 0;
-      for (Contact& contact : contacts_) change = std::max(change, relax(island, contact));
+      for (Contact& contact : contacts_)
+        change = std::max(change, relax(island, contact));
       for (std::size_t i = 0; i < island.size(); ++i) {
         change = std::max(change, steer(island[i], drives_[i]));
       }
@@ -259,11 +294,14 @@ class ExactSolver final : public ContactSolver {
   std::vector<Contact> contacts_;
   std::vector<Contact> before_;
   std::vector<Drive> drives_;
+  std::vector<double> reach_m_;
 };
 
 }  // namespace
 
-std::unique_ptr<ContactSolver> make_exact_solver() { return std::make_unique<ExactSolver>(); }
+std::unique_ptr<ContactSolver> make_exact_solver() {
+  return std::make_unique<ExactSolver>();
+}
 
 std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool convex_arena) {
   return model == ContactModel::Exact && convex_arena ? make_exact_solver() : make_box2d_solver();

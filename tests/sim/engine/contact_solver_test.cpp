@@ -48,7 +48,8 @@ TEST_P(Contacts, WithoutATouchMotionIsFree) {
       member.set_point = set_point_of({rng.uniform(-0.3, 0.3), 0.3}, member.body);
     }
     std::vector<IslandMember> free = island;
-    for (IslandMember& member : free) advance_freely(member.body, member.set_point, 10);
+    for (IslandMember& member : free)
+      advance_freely(member.body, member.set_point, 10);
     solver_->advance(island, walls_.planes, 10);
     const double tolerance = GetParam() == ContactModel::Exact ? 1e-12 : 3e-6;
     for (std::size_t m = 0; m < 2; ++m) {
@@ -122,8 +123,8 @@ TEST_P(Contacts, AThrongInTheMiddleNeitherSinksInNorFliesApart) {
     std::vector<IslandMember> island;
     for (int i = 0; i < 3; ++i) {
       const double angle = 2 * kPi * i / 3 + rng.uniform(0, 0.5);
-      island.push_back({.body = body_at({0.35 * cos(angle), 0.35 * sin(angle), angle + kPi}),
-                        .set_point = {}});
+      island.push_back(
+          {.body = body_at({0.35 * cos(angle), 0.35 * sin(angle), angle + kPi}), .set_point = {}});
     }
     for (int tick = 0; tick < 60; ++tick) {
       std::vector<Command> commands(3, Command{0.3, 0.3});

@@ -57,7 +57,8 @@ Comparison compare_machine(const ReferenceRuns& runs, const Machine& machine,
   theirs.clear();
   for (const auto& [seed, score] : scores) {
     double sum = 0;
-    for (int stream = 0; stream < kStreams; ++stream) sum += runs.run(machine, seed, stream).score;
+    for (int stream = 0; stream < kStreams; ++stream)
+      sum += runs.run(machine, seed, stream).score;
     ours.push_back(sum / kStreams);
     theirs.push_back(score);
   }

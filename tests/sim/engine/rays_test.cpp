@@ -124,7 +124,8 @@ TEST_P(RaysAtRange, MeetAnotherRobotAsThePlainWayDoes) {
     RayDistances distances = nothing();
     meet_robot(self, other, GetParam(), distances);
     expect_same(distances, plain_distances(self, sides_of(other)), GetParam());
-    for (const double distance : distances) hits += distance <= GetParam() ? 1 : 0;
+    for (const double distance : distances)
+      hits += distance <= GetParam() ? 1 : 0;
   }
   EXPECT_GT(hits, 50);
 }

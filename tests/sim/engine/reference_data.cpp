@@ -34,7 +34,8 @@ std::vector<Row> rows_of(const std::string& file) {
   while (std::getline(in, line)) {
     std::istringstream fields(line);
     Row& row = rows.emplace_back();
-    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+    for (std::string field; std::getline(fields, field, ',');)
+      row.push_back(field);
   }
   return rows;
 }
@@ -48,7 +49,9 @@ ReferenceScores scores_of(const std::string& file) {
   return scores;
 }
 
-std::uint8_t channel(const std::string& text) { return static_cast<std::uint8_t>(std::stoi(text)); }
+std::uint8_t channel(const std::string& text) {
+  return static_cast<std::uint8_t>(std::stoi(text));
+}
 
 }  // namespace
 
@@ -72,7 +75,8 @@ LoggedRun logged_run(const std::string& name) {
 
 std::vector<ReferenceMachine> reference_machines() {
   std::vector<ReferenceMachine> machines;
-  for (const Row& row : rows_of("argos-fsms.csv")) machines.push_back({row.at(0), "", row.at(1)});
+  for (const Row& row : rows_of("argos-fsms.csv"))
+    machines.push_back({row.at(0), "", row.at(1)});
   return machines;
 }
 
@@ -84,9 +88,13 @@ std::vector<ReferenceMachine> thesis_designs() {
   return machines;
 }
 
-ReferenceScores reference_scores() { return scores_of("argos-scores.csv"); }
+ReferenceScores reference_scores() {
+  return scores_of("argos-scores.csv");
+}
 
-ReferenceScores thesis_scores() { return scores_of("argos-thesis-scores.csv"); }
+ReferenceScores thesis_scores() {
+  return scores_of("argos-thesis-scores.csv");
+}
 
 std::vector<Instance> reference_instances(const Mission& mission) {
   const ExplicitInstances given = {value_of(parse_starts_csv(text_of("argos-starts.csv"))),

@@ -12,8 +12,8 @@ namespace swarmsmith {
 /// The original simulator's data in tests/golden/argos, as values. A missing or malformed file
 /// throws: a test cannot go on without it.
 
-/// One robot in one tick of a recorded run. Speeds in cm/s; proximity as recorded: inf beyond 0.4 m,
-/// -inf closer than 0.05 m, 0 for nothing within 2 m.
+/// One robot in one tick of a recorded run. Speeds in cm/s; proximity as recorded: inf beyond 0.4
+/// m, -inf closer than 0.05 m, 0 for nothing within 2 m.
 struct LoggedTick {
   Pose pose;
   double left_cmps = 0;

@@ -28,9 +28,8 @@ bool in_the_open(const Poses& poses, std::size_t robot, const Walls& walls) {
       return false;
     }
   }
-  return std::all_of(walls.planes.begin(), walls.planes.end(), [&](const WallPlane& wall) {
-    return wall.depth_of(self.x, self.y) > 0.21;
-  });
+  return std::all_of(walls.planes.begin(), walls.planes.end(),
+                     [&](const WallPlane& wall) { return wall.depth_of(self.x, self.y) > 0.21; });
 }
 
 class LoggedRuns : public testing::TestWithParam<const char*> {};
@@ -139,7 +138,8 @@ TEST(ClosedLoop, AMachineWithoutRandomDrawsFollowsTheOriginalForAllTwelveHundred
       const Pose& truth = logged.at(static_cast<std::size_t>(cycle))[i].pose;
       worst_m = std::max(worst_m, hypot(robots[i].pose.x - truth.x, robots[i].pose.y - truth.y));
       if (cycle == 0) continue;
-      EXPECT_NEAR(robots[i].command.left_mps * 100, logged[static_cast<std::size_t>(cycle)][i].left_cmps, 0.01);
+      EXPECT_NEAR(robots[i].command.left_mps * 100,
+                  logged[static_cast<std::size_t>(cycle)][i].left_cmps, 0.01);
     }
   });
   EXPECT_LT(worst_m, 2e-5);

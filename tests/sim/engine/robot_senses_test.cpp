@@ -95,7 +95,8 @@ TEST(RobotSenses, NoiseDependsOnSeedAndRobot) {
     for (const std::uint64_t seed : {1U, 2U}) {
       RobotSenses senses = scene.senses(robot, seed);
       senses.begin_cycle(1);
-      for (const Rgb& other : colors) EXPECT_NE(senses.ground_color(), other);
+      for (const Rgb& other : colors)
+        EXPECT_NE(senses.ground_color(), other);
       colors.push_back(senses.ground_color());
     }
   }

@@ -1,0 +1,3 @@
+#include "storage/answer.h"
+
+#include <gtest/gtest.h>
