@@ -29,6 +29,7 @@ bool is_dumb() {
 Output standard_output() {
   Output output{.out = std::cout, .err = std::cerr};
   output.err_is_terminal = isatty(STDERR_FILENO) == 1 && !is_dumb();
+  output.out_is_terminal = isatty(STDOUT_FILENO) == 1 && !is_dumb();
   output.color = output.err_is_terminal && !is_set("NO_COLOR");
   return output;
 }

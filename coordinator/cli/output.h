@@ -19,6 +19,7 @@ struct Output {
   bool verbose = false;
   bool color = false;         ///< only for `err`, and only on a terminal without NO_COLOR
   bool err_is_terminal = false;
+  bool out_is_terminal = false;
 };
 
 /// Streams of this process; asks the environment about terminals and colour.
