@@ -32,7 +32,7 @@ void CampaignRunner::advance(DesignRunner& design) {
     error_ = advanced.error();
     return;
   }
-  if (design.state() != DesignState::Finished) return;
+  if (design.state() != DesignState::Finished && design.state() != DesignState::Stopped) return;
   finished_.push_back(design.id());
   used_by_finished_ += design.used();
   open_.erase(design.id());

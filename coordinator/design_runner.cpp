@@ -48,9 +48,7 @@ Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>&
   }
   while (state_ == DesignState::Racing && awaited_.empty()) {
     if (race_.finished()) {
-      state_ = DesignState::Testing;
-      record_state(rows);
-      want_tests(tasks, rows);
+      finish_race(tasks, rows);
       break;
     }
     consumed_ = 0;
@@ -64,6 +62,18 @@ Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>&
     record_state(rows);
   }
   return {};
+}
+
+void DesignRunner::finish_race(std::vector<Task>& tasks, std::vector<Row>& rows) {
+  if (race_.failure()) {
+    state_ = DesignState::Stopped;
+    reason_ = to_string(*race_.failure());
+    record_state(rows);
+    return;
+  }
+  state_ = DesignState::Testing;
+  record_state(rows);
+  want_tests(tasks, rows);
 }
 
 void DesignRunner::want_batch(std::vector<Task>& tasks, std::vector<Row>& rows) {
@@ -193,7 +203,7 @@ void DesignRunner::record_iteration_start(const IterationStarted& started, std::
                       .of = started.n_iterations,
                       .budget = started.budget,
                       .configurations = started.n_configurations,
-                      .elites = started.n_elites,
+                      .elites = static_cast<std::int64_t>(started.elites.size()),
                       .soft_restart = started.soft_restart,
                       .model_digest = started.model_digest},
          rows);
@@ -280,11 +290,12 @@ void DesignRunner::record_unused(std::size_t until, std::vector<Row>& rows) {
 
 void DesignRunner::record_iteration_end(const IterationEnded& ended, std::vector<Row>& rows) {
   std::set<std::int64_t> elites;
+  std::int64_t rank = 0;
   for (const Elite& elite : ended.elites) {
     elites.insert(elite.configuration);
     record(EliteRow{.design = plan_.row.id,
                     .iteration = ended.iteration,
-                    .rank = elite.rank,
+                    .rank = ++rank,
                     .candidate = candidate(elite.configuration),
                     .mean = to_score(elite.mean),
                     .runs = elite.n},

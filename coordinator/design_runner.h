@@ -78,6 +78,8 @@ class DesignRunner {
 
   DesignRunner(DesignPlan plan, StoredDesign stored, IteratedRace race);
 
+  /// To the tests of the winner; or to an end without one, when every configuration was rejected.
+  void finish_race(std::vector<Task>& tasks, std::vector<Row>& rows);
   void want_batch(std::vector<Task>& tasks, std::vector<Row>& rows);
   void want_tests(std::vector<Task>& tasks, std::vector<Row>& rows);
   /// Takes the experiment's score from the store, or makes a task of it.

@@ -147,7 +147,7 @@ std::vector<Row> StoreReader::answer_rows() {
 
 Expected<std::unique_ptr<StoreReader>> StoreReader::open(const fs::path& path) {
   std::error_code trouble;
-  if (!fs::is_regular_file(path, trouble)) {
+  if (!fs::exists(path, trouble) && !trouble) {
     return unexpected(ErrorKind::NotFound, "there is no such store", path.string());
   }
   if (auto sound = check_database_file(path); !sound) return Unexpected(sound.error());

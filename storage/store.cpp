@@ -22,16 +22,16 @@ using sqlite::Statement;
 
 /// The leaves of two JSON objects that differ, in the order of the second.
 constexpr char kDifferingKeys[] = R"(
-WITH here AS (SELECT fullkey, coalesce(atom, value) AS text FROM json_tree(?1)
-              WHERE type NOT IN ('object', 'array') OR value IN ('{}', '[]')),
+WITH here AS (SELECT id, fullkey, coalesce(atom, value) AS text FROM json_tree(?1)
+              WHERE id > 0 AND (type NOT IN ('object', 'array') OR value IN ('{}', '[]'))),
      wanted AS (SELECT id, fullkey, coalesce(atom, value) AS text FROM json_tree(?2)
-                WHERE type NOT IN ('object', 'array') OR value IN ('{}', '[]'))
+                WHERE id > 0 AND (type NOT IN ('object', 'array') OR value IN ('{}', '[]')))
 SELECT coalesce(here.fullkey, wanted.fullkey),
        iif(here.fullkey IS NULL, 'nothing', coalesce(here.text, 'null')),
        iif(wanted.fullkey IS NULL, 'nothing', coalesce(wanted.text, 'null'))
 FROM here FULL JOIN wanted ON wanted.fullkey = here.fullkey
 WHERE here.text IS NOT wanted.text OR here.fullkey IS NULL OR wanted.fullkey IS NULL
-ORDER BY wanted.id IS NULL, wanted.id, here.fullkey)";
+ORDER BY wanted.id IS NULL, wanted.id, here.id)";
 
 /// "budget is 1000 in the store and 2000 in the campaign; ..."
 std::string differing_keys(const Connection& connection, const std::string& here,
@@ -156,13 +156,15 @@ Expected<std::unique_ptr<Store>> Store::open(const fs::path& path, const Campaig
   auto lock = LockFile::acquire(path);
   if (!lock) return Unexpected(lock.error());
   const bool exists = fs::exists(path);
+  const bool unclean = exists && (lock->left_behind() || has_pending_log(path));
+  lock->set_suspect(unclean);
   if (exists) {
     if (auto sound = check_database_file(path); !sound) return Unexpected(sound.error());
   }
-  const bool unclean = exists && (lock->left_behind() || has_pending_log(path));
   try {
     auto connection = prepare(path, unclean, campaign, designs);
     if (!connection) return Unexpected(connection.error());
+    lock->set_suspect(false);
     return std::make_unique<GroupWriter>(std::move(*lock), std::move(*connection), options);
   } catch (const sqlite::SqliteError& error) {
     return refused(error, path);

@@ -77,11 +77,12 @@ Expected<LockFile> LockFile::acquire(const std::filesystem::path& store) {
 LockFile::LockFile(LockFile&& other) noexcept
     : path_(std::move(other.path_)),
       descriptor_(std::exchange(other.descriptor_, -1)),
-      left_behind_(other.left_behind_) {}
+      left_behind_(other.left_behind_),
+      suspect_(other.suspect_) {}
 
 LockFile::~LockFile() {
   if (descriptor_ < 0) return;
-  ::unlink(path_.c_str());
+  if (!suspect_) ::unlink(path_.c_str());
   ::close(descriptor_);
 }
 
