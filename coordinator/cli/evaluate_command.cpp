@@ -1,4 +1,4 @@
-#include <cmath>
+#include <cstdio>
 #include <memory>
 
 #include "coordinator/cli/commands.h"
@@ -127,10 +127,15 @@ Expected<Instance> instance_for(const Plan& plan, std::int64_t seed) {
 
 void write_summary(Output& output, const std::vector<double>& scores) {
   const MeanInterval summary = mean_interval(scores);
-  output.out << "mean " << json_number(summary.mean);
+  const auto shown = [](double value) {
+    char buffer[32];
+    const int size = std::snprintf(buffer, sizeof buffer, "%.6g", value);
+    return std::string(buffer, static_cast<std::size_t>(size));
+  };
+  output.out << "mean " << shown(summary.mean);
   if (scores.size() > 1) {
-    output.out << "  95 % interval " << json_number(summary.mean - summary.half_width) << " to "
-               << json_number(summary.mean + summary.half_width);
+    output.out << "  95 % interval " << shown(summary.mean - summary.half_width) << " to "
+               << shown(summary.mean + summary.half_width);
   }
   output.out << "  n " << scores.size() << "\n";
 }

@@ -15,7 +15,7 @@ Run declare_version(Options&) {
                  << "}\n";
     } else {
       output.out << "swarmsmith " << kVersion << " (engine " << engine << ", " << kBuild
-                 << ", GCC or Clang " << __VERSION__ << ")\n";
+                 << ", compiler " << __VERSION__ << ")\n";
     }
     return ExitCode::Done;
   };
