@@ -27,7 +27,9 @@ constexpr char kRaceStep[] =
     "INSERT OR IGNORE INTO race_step VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
 constexpr char kElimination[] = "INSERT OR IGNORE INTO elimination VALUES (?,?,?,?,?)";
 constexpr char kElite[] = "INSERT OR IGNORE INTO elite VALUES (?,?,?,?,?,?)";
-constexpr char kTotals[] = "INSERT OR REPLACE INTO candidate_totals VALUES (?,?,?,?)";
+constexpr char kTotals[] =
+    "INSERT INTO candidate_totals VALUES (?,?,?,?) ON CONFLICT DO UPDATE SET runs = excluded.runs,"
+    " score_sum = excluded.score_sum, score_squares = excluded.score_squares";
 constexpr char kDesignState[] =
     "UPDATE design SET state = ?2, used = ?3, iteration = ?4, best = ?5, best_mean = ?6,"
     " reason = ?7 WHERE id = ?1";
