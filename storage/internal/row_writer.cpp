@@ -94,8 +94,7 @@ void RowWriter::put(const PairRow& row) {
 }
 
 void RowWriter::put(const EvaluationRow& row) {
-  const std::optional<double> score =
-      row.status == EvaluationStatus::Ok ? std::optional(row.score) : std::nullopt;
+  const double* score = row.status == EvaluationStatus::Ok ? &row.score : nullptr;
   evaluation_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair,
                   unless_zero(row.iteration), number(row.status), score, row.state_digest,
                   source_id(row.source), row.wall_us, row.worker, row.attempt);
