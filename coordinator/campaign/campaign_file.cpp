@@ -1,6 +1,6 @@
 #include "coordinator/campaign/campaign_file.h"
 
-#include <algorithm>
+#include <cctype>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -28,15 +28,20 @@ void read_format(TableReader& root) {
   }
 }
 
-/// Where the table is in the file, or nothing when it is not there.
-std::optional<TableReader> section(TableReader& root, std::string_view key) {
-  return root.table(key);
+/// The file's name without folder and ending, letters that no name has replaced.
+std::string name_from(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  for (char& letter : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+    if (!plain && letter != '-' && letter != '.') letter = '_';
+  }
+  return name.empty() ? "campaign" : name;
 }
 
 void read_identity(TableReader& root, Campaign& campaign, const std::filesystem::path& file) {
   campaign.store = std::filesystem::path(file).replace_extension(".db");
-  campaign.name = file.stem().string();
-  auto table = section(root, "campaign");
+  campaign.name = name_from(file);
+  auto table = root.table("campaign");
   if (!table) return;
   if (const auto name = table->text("name"); name && check_name(*table, *name, {})) {
     campaign.name = *name;
@@ -58,7 +63,7 @@ void read_simulator(TableReader& root, Campaign& campaign) {
   static const std::vector<std::string> kProfiles = {"rvr", "argos3"};
   static const std::vector<std::string> kProfilesNotYet = {"pseudo-reality"};
   std::string profile = kProfiles.front();
-  if (auto table = section(root, "simulator")) {
+  if (auto table = root.table("simulator")) {
     table->choice("kind", kKinds, kKindsNotYet);
     const auto named = table->text("profile");
     if (named && named->ends_with(".toml")) {
@@ -104,7 +109,7 @@ void read_local(TableReader& table, Campaign& campaign) {
 }
 
 void read_workers(TableReader& root, Campaign& campaign) {
-  auto table = section(root, "workers");
+  auto table = root.table("workers");
   if (!table) return;
   read_local(*table, campaign);
   campaign.bind = read_bind(*table).value_or(campaign.bind);
@@ -116,7 +121,7 @@ void read_workers(TableReader& root, Campaign& campaign) {
 }
 
 void read_dashboard(TableReader& root) {
-  auto table = section(root, "dashboard");
+  auto table = root.table("dashboard");
   if (!table) return;
   read_bind(*table);
   table->finish();
@@ -134,7 +139,7 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
 }
 
 void complain_about_races(TableReader& root, Campaign& campaign) {
-  auto race = section(root, "race");
+  auto race = root.table("race");
   for (const Error& error : check_budget(campaign)) race->complain("max_experiments", error.message);
 }
 
@@ -157,7 +162,7 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   const auto document = parse_document(text, file.string());
   if (!document) return tl::unexpected(std::vector<Error>{document.error()});
   Complaints complaints(file.string());
-  TableReader root(*document, "the file", complaints);
+  TableReader root(*document, "", complaints);
   Campaign campaign;
   read_format(root);
   read_identity(root, campaign, file);

@@ -56,7 +56,10 @@ std::string range_text(Limits<double> limits) {
 
 std::string number_text(double value) {
   std::array<char, 32> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  char* const last = buffer.data() + buffer.size();
+  const bool whole = std::abs(value) < 1e15 && value == std::floor(value);
+  const auto end = whole ? std::to_chars(buffer.data(), last, static_cast<std::int64_t>(value)).ptr
+                         : std::to_chars(buffer.data(), last, value).ptr;
   return {buffer.data(), end};
 }
 
@@ -76,8 +79,17 @@ std::vector<Error> Complaints::take() {
   return errors;
 }
 
-TableReader::TableReader(const Node& table, std::string name, Complaints& complaints)
-    : table_(&table), name_(std::move(name)), complaints_(&complaints) {}
+TableReader::TableReader(const Node& table, std::string path, Complaints& complaints, bool in_list)
+    : table_(&table), path_(std::move(path)), in_list_(in_list), complaints_(&complaints) {}
+
+std::string TableReader::name() const {
+  if (path_.empty()) return "the file";
+  return in_list_ ? "[[" + path_ + "]]" : "[" + path_ + "]";
+}
+
+std::string TableReader::path_of(std::string_view key) const {
+  return path_.empty() ? std::string(key) : path_ + "." + std::string(key);
+}
 
 const Table::Entry* TableReader::find(std::string_view key) const {
   for (const Table::Entry& entry : entries_of(*table_).entries) {
@@ -227,7 +239,7 @@ std::optional<TableReader> TableReader::table(std::string_view key) {
   const Node* node = take(key);
   if (node == nullptr) return std::nullopt;
   if (std::holds_alternative<Table>(node->value)) {
-    return TableReader(*node, name_ + " " + std::string(key), *complaints_);
+    return TableReader(*node, path_of(key), *complaints_);
   }
   complain_type(*node, key, "a table");
   return std::nullopt;
@@ -237,13 +249,17 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
   const Node* node = take(key);
   if (node == nullptr) return {};
   const auto* array = std::get_if<Array>(&node->value);
-  std::vector<TableReader> readers;
-  for (const Node& item : array != nullptr ? array->items : std::vector<Node>{}) {
-    if (!std::holds_alternative<Table>(item.value)) break;
-    readers.emplace_back(item, name_ + " " + std::string(key), *complaints_);
-  }
-  if (array == nullptr || readers.size() != array->items.size()) {
+  if (array == nullptr) {
     complain_type(*node, key, "a list of tables");
+    return {};
+  }
+  std::vector<TableReader> readers;
+  for (const Node& item : array->items) {
+    if (std::holds_alternative<Table>(item.value)) {
+      readers.emplace_back(item, path_of(key), *complaints_, true);
+    } else {
+      complain_type(item, key, "a list of tables");
+    }
   }
   return readers;
 }
@@ -253,12 +269,12 @@ void TableReader::finish(std::span<const std::string> not_yet) {
   for (const Table::Entry& entry : entries_of(*table_).entries) {
     if (asked_.contains(entry.key)) continue;
     if (std::ranges::find(not_yet, entry.key) != not_yet.end()) {
-      complaints_->add(entry.place, "`" + entry.key + "` in " + name_ + " is not there yet");
+      complaints_->add(entry.place, "`" + entry.key + "` in " + name() + " is not there yet");
       continue;
     }
     std::string hint = did_you_mean(entry.key, known);
     if (hint.empty()) hint = "; known are: " + joined(known);
-    complaints_->add(entry.place, name_ + " has no key `" + entry.key + "`" + hint);
+    complaints_->add(entry.place, name() + " has no key `" + entry.key + "`" + hint);
   }
 }
 

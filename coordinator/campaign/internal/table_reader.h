@@ -41,11 +41,13 @@ struct Limits {
 /// value is none of what it should be; `has` tells the two apart.
 class TableReader {
  public:
-  /// `name` is how sentences call the table, for instance `[campaign]`. `table` must outlive it.
-  TableReader(const Node& table, std::string name, Complaints& complaints);
+  /// `path` is the table's place in the file, such as `mission.arena`; empty for the whole file.
+  /// `table` must outlive the reader.
+  TableReader(const Node& table, std::string path, Complaints& complaints, bool in_list = false);
 
   bool has(std::string_view key) const { return find(key) != nullptr; }
-  const std::string& name() const { return name_; }
+  /// What sentences call the table: [campaign], [[mission]], or "the file".
+  std::string name() const;
   Place place() const { return table_->place; }
   /// Where the key's value is, else where the table is.
   Place place_of(std::string_view key) const;
@@ -78,10 +80,12 @@ class TableReader {
 
  private:
   const Table::Entry* find(std::string_view key) const;
+  std::string path_of(std::string_view key) const;
   void complain_type(const Node& node, std::string_view key, std::string_view wanted);
 
   const Node* table_;
-  std::string name_;
+  std::string path_;
+  bool in_list_;
   Complaints* complaints_;
   std::set<std::string, std::less<>> asked_;
 };

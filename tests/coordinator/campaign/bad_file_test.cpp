@@ -54,13 +54,13 @@ const Mistake kMistakes[] = {
     {"OtherShape", {.mission = "name = \"aggregation\"\narena = { shape = \"square\" }\n"},
      "in/x.toml:5:19: shape = \"square\" is not there yet"},
     {"Obstacles", {.mission = "name = \"aggregation\"\narena = { obstacles = [] }\n"},
-     "in/x.toml:5:11: `obstacles` in [[mission]] arena is not there yet"},
+     "in/x.toml:5:11: `obstacles` in [mission.arena] is not there yet"},
     {"UnknownColour", {.mission = "name = \"aggregation\"\narena = { floor = \"pink\" }\n"},
      "in/x.toml:5:19: there is no colour \"pink\"; known are: black, gray"},
     {"SpotWithoutSize",
      {.mission = "name = \"aggregation\"\narena = { spots = [ { shape = \"circle\", x = 0, y = 0, "
                  "color = \"red\" } ] }\n"},
-     "in/x.toml:5:21: [[mission]] arena spots needs `diameter`"},
+     "in/x.toml:5:21: [[mission.arena.spots]] needs `diameter`"},
     {"OtherScore", {.mission = "name = \"x\"\nscore = { kind = \"external\" }\n"},
      "in/x.toml:5:18: kind = \"external\" is not there yet"},
     {"UnknownScore", {.mission = "name = \"x\"\nscore = { kind = \"robot_on\" }\n"},
@@ -91,7 +91,7 @@ const Mistake kMistakes[] = {
      "exploration has no parameter `tua` (did you mean \"tau\"?)"},
     {"RangeOfOtherType",
      {.method = "name = \"m\"\nparameters.exploration.tau = { real = [1, 2] }\n"},
-     "in/x.toml:7:40: exploration.tau is no real parameter; write { int = [...] }"},
+     "in/x.toml:7:39: exploration.tau is no real parameter; write { int = [...] }"},
     {"RangeUpsideDown", {.method = "name = \"m\"\nparameters.exploration.tau = { int = [9, 2] }\n"},
      "in/x.toml:7:38: exploration.tau: the range's lower end must be below its upper end"},
     {"RangeTooWide", {.method = "name = \"m\"\nparameters.exploration.tau = { int = [0, 2] }\n"},
@@ -154,7 +154,7 @@ TEST(CampaignFile, ReportsEveryComplaintAtOnceInTheOrderOfTheFile) {
                       .race = "max_experiments = 2000\nconfidence = 2\n"};
   EXPECT_THAT(complaints(file.text()),
               ElementsAre(HasSubstr("in/x.toml:3:1:"), HasSubstr("in/x.toml:6:10:"),
-                          HasSubstr("in/x.toml:10:14:")));
+                          HasSubstr("in/x.toml:11:14:")));
 }
 
 TEST(CampaignFile, WithoutMissionMethodAndRaceSaysSo) {

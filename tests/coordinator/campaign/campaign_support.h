@@ -13,11 +13,11 @@ namespace swarmsmith {
 /// The shortest campaign file, with room for what a test adds: more [campaign] keys, more
 /// [[mission]] keys, and so on.
 struct FileText {
-  std::string campaign;
+  std::string campaign = {};
   std::string mission = "name = \"aggregation\"\n";
   std::string method = "name = \"watermelon\"\n";
   std::string race = "max_experiments = 2_000\n";
-  std::string rest;
+  std::string rest = {};
 
   std::string text() const {
     return "format = 1\n[campaign]\n" + campaign + "[[mission]]\n" + mission + "[[method]]\n" +
