@@ -1,6 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
+
 #include "base/rng.h"
+#include "sim/control/behaviours.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
 #include "sim/control/reference_model.h"
@@ -24,13 +28,20 @@ class ControlSoftware {
   int state() const { return state_; }
 
  private:
+  /// Enabling probabilities of the neighbour counts, filled in as counts turn up; -1 is unknown.
+  static constexpr int kTabledNeighbours = 8;
+  using SigmoidTable = std::array<double, kTabledNeighbours>;
+
+  double probability_of(const Condition& condition, std::size_t transition, Senses& senses);
+  void take_transition(Senses& senses);
+
   const Machine* machine_;
   const Flavour* flavour_;
   Rng rng_;
   int state_ = 0;
   bool entered_ = true;
-  int turn_cycles_left_ = 0;  ///< Exploration's sub-state: 0 is FORWARD
-  bool turn_left_ = false;
+  BehaviourMemory memory_;
+  std::array<std::array<SigmoidTable, kMaxTransitions>, kMaxStates> sigmoids_;
 };
 
 }  // namespace swarmsmith

@@ -45,8 +45,8 @@ struct Mission {
 
 /// What one run starts from, a pure function of mission and seed, or given explicitly.
 struct Instance {
-  std::vector<Pose> starts;       ///< one a robot
-  std::vector<Patch> patches;     ///< laid over the arena's own
+  std::vector<Pose> starts;    ///< one a robot
+  std::vector<Patch> patches;  ///< laid over the arena's own
 
   friend bool operator==(const Instance&, const Instance&) = default;
 };

@@ -12,7 +12,8 @@
 namespace swarmsmith {
 
 /// Scores see positions of the robots' centres, instant by instant, and the floor; nothing else. A
-/// simulator feeds one while it runs, a camera's trajectory is fed after the fact. Larger is better.
+/// simulator feeds one while it runs, a camera's trajectory is fed after the fact. Larger is
+/// better.
 
 /// Number of robots on floor of `color` at the end (thesis eq. 6.1).
 struct RobotsOn {
@@ -57,10 +58,14 @@ class Scorer {
   double score() const;
 
  private:
+  void visit_tiles(const Coverage& rule, std::span<const Point> robots);
+  double coverage_score(const Coverage& rule) const;
+
   ScoreRule rule_;
   Arena arena_;
-  /// End scores read the last positions; coverage keeps the instant of each tile's last visit.
-  std::vector<Point> last_;
+  std::vector<Point> last_;  ///< end scores read the last positions
+  /// Coverage keeps, instead of ages, the instant at which each tile was last of age 0, and the sum
+  /// of the ages up to those instants.
   std::vector<std::int64_t> visited_;
   std::int64_t instant_ = 0;
   std::int64_t age_sum_ = 0;

@@ -1,0 +1,201 @@
+#include "sim/control/behaviours.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+#include <string>
+
+#include "base/overloaded.h"
+#include "sim/control/flavour.h"
+#include "sim/control/readings.h"
+
+namespace swarmsmith {
+namespace {
+
+std::span<const Neighbour> neighbours_in_the_way(Senses& senses, const ObstacleModel& model) {
+  return model.neighbours_as_obstacles ? senses.neighbours() : std::span<const Neighbour>{};
+}
+
+/// What Exploration knows of the front: the strongest reading, and the sums of both sides.
+struct Front {
+  double strongest = 0;
+  Vector2 direction;
+  double left = 0;
+  double right = 0;
+
+  /// Ties go to the direction nearest to straight ahead, then to the left one.
+  void add(double strength, Vector2 towards, double slope) {
+    if (!(std::fabs(towards.y) <= slope * towards.x)) return;
+    if (towards.y > 0) left += strength;
+    if (towards.y < 0) right += strength;
+    const bool nearer_ahead =
+        towards.x > direction.x || (towards.x == direction.x && towards.y > direction.y);
+    if (strength > strongest || (strength == strongest && nearer_ahead)) {
+      strongest = strength;
+      direction = towards;
+    }
+  }
+
+  bool turns_left() const {
+    if (direction.y != 0) return direction.y < 0;
+    return right > left;
+  }
+};
+
+enum class Turn { None, Left, Right };
+
+/// Away from the strongest reading of the front (thesis facts, section 6.2).
+Turn turn_from_front(Senses& senses, const Flavour& flavour) {
+  const ExplorationModel& model = flavour.exploration;
+  Front front;
+  const ProximityReadings& proximity = senses.proximity();
+  for (std::size_t i = 0; i < proximity.size(); ++i) {
+    front.add(obstacle_strength(proximity[i], flavour.obstacles), kProximityDirections[i],
+              model.front_slope);
+  }
+  for (const Neighbour& neighbour : neighbours_in_the_way(senses, flavour.obstacles)) {
+    front.add(neighbour_strength(neighbour.distance_m, flavour.obstacles),
+              {neighbour.direction_x, neighbour.direction_y}, model.front_slope);
+  }
+  if (front.strongest < model.threshold) return Turn::None;
+  return front.turns_left() ? Turn::Left : Turn::Right;
+}
+
+/// Away from the side to which the sum of the readings points (rvr-automode facts, section 5). The
+/// signs of the components stand for the angle: within +-90 degrees, and to the right.
+Turn turn_from_sum(Senses& senses, const Flavour& flavour) {
+  const double threshold = flavour.exploration.threshold;
+  const Vector2 sum = obstacle_vector(
+      senses.proximity(), neighbours_in_the_way(senses, flavour.obstacles), flavour.obstacles);
+  const bool strong = sum.x * sum.x + sum.y * sum.y >= threshold * threshold;
+  if (!strong || sum.x < 0) return Turn::None;
+  return sum.y < 0 ? Turn::Left : Turn::Right;
+}
+
+int draw_turn_cycles(int tau, ExplorationModel::TurnLength law, Rng& rng) {
+  if (law == ExplorationModel::TurnLength::ZeroToTau) {
+    return static_cast<int>(rng.uniform_int(0, tau));
+  }
+  return std::max(1, static_cast<int>(rng.uniform_int(0, tau - 1)));
+}
+
+Command explore(const Exploration& exploration, Senses& senses, const Flavour& flavour,
+                BehaviourMemory& memory, Rng& rng) {
+  const double speed = flavour.speed_mps;
+  if (memory.turn_cycles_left > 0) {
+    --memory.turn_cycles_left;
+    return memory.turn_left ? Command{-speed, speed} : Command{speed, -speed};
+  }
+  const Turn turn = flavour.exploration.trigger == ExplorationModel::Trigger::FrontReadings
+                        ? turn_from_front(senses, flavour)
+                        : turn_from_sum(senses, flavour);
+  if (turn != Turn::None) {
+    memory.turn_left = turn == Turn::Left;
+    memory.turn_cycles_left =
+        draw_turn_cycles(exploration.tau, flavour.exploration.turn_length, rng);
+  }
+  return {speed, speed};
+}
+
+/// gain * w' - obstacle_gain * w_o (thesis eq. 5.5, 5.6), where w' is `weight` times the sum of the
+/// neighbours' directions over their distances, turned round for a negative `sign`.
+Command steer(double sign, double gain, double weight, Senses& senses, const Flavour& flavour) {
+  const NeighbourModel& model = flavour.neighbours;
+  const std::span<const Neighbour> neighbours = senses.neighbours();
+  Vector2 result;
+  for (const Neighbour& neighbour : neighbours) {
+    const double distance = std::max(neighbour.distance_m, model.shortest_m) * model.per_metre;
+    const double length = sign * weight / (model.offset + distance);
+    result.x += length * neighbour.direction_x;
+    result.y += length * neighbour.direction_y;
+  }
+  if (neighbours.empty() && model.forward_when_alone) result.x = 1;
+  const Vector2 obstacles = obstacle_vector(
+      senses.proximity(), neighbours_in_the_way(senses, flavour.obstacles), flavour.obstacles);
+  result.x = gain * result.x - model.obstacle_gain * obstacles.x;
+  result.y = gain * result.y - model.obstacle_gain * obstacles.y;
+  const double square = result.x * result.x + result.y * result.y;
+  if (square < model.shortest_result * model.shortest_result) result = {1, 0};
+  return command_towards(result.x, result.y, flavour.speed_mps);
+}
+
+double used_alpha(double alpha, const NeighbourModel& model) {
+  return model.alpha_truncated ? std::floor(alpha) : alpha;
+}
+
+void need_parameters(std::span<const double> parameters, std::size_t count) {
+  if (parameters.size() == count) return;
+  throw std::invalid_argument("a behaviour takes " + std::to_string(count) + " parameters, not " +
+                              std::to_string(parameters.size()));
+}
+
+}  // namespace
+
+Module module_of(const Behaviour& behaviour) {
+  return std::visit(Overloaded{[](const Exploration&) { return Module::Exploration; },
+                               [](const Stop&) { return Module::Stop; },
+                               [](const Attraction&) { return Module::Attraction; },
+                               [](const Repulsion&) { return Module::Repulsion; }},
+                    behaviour);
+}
+
+std::vector<double> parameters_of(const Behaviour& behaviour) {
+  using Values = std::vector<double>;
+  return std::visit(
+      Overloaded{[](const Exploration& b) { return Values{static_cast<double>(b.tau)}; },
+                 [](const Stop&) { return Values{}; },
+                 [](const Attraction& b) { return Values{b.alpha}; },
+                 [](const Repulsion& b) { return Values{b.alpha}; }},
+      behaviour);
+}
+
+Behaviour make_behaviour(Module module, std::span<const double> parameters) {
+  need_parameters(parameters, module == Module::Stop ? 0 : 1);
+  switch (module) {
+    case Module::Exploration:
+      return Exploration{static_cast<int>(parameters[0])};
+    case Module::Stop:
+      return Stop{};
+    case Module::Attraction:
+      return Attraction{parameters[0]};
+    case Module::Repulsion:
+      return Repulsion{parameters[0]};
+    case Module::BlackFloor:
+    case Module::GrayFloor:
+    case Module::WhiteFloor:
+    case Module::NeighbourCount:
+    case Module::InvertedNeighbourCount:
+    case Module::FixedProbability:
+    case Module::ColorDetection:
+      break;
+  }
+  throw std::invalid_argument(std::string(id_of(module)) + " is no behaviour");
+}
+
+Command act(const Behaviour& behaviour, Senses& senses, const Flavour& flavour,
+            BehaviourMemory& memory, Rng& rng) {
+  const NeighbourModel& model = flavour.neighbours;
+  return std::visit(
+      Overloaded{[&](const Exploration& b) { return explore(b, senses, flavour, memory, rng); },
+                 [](const Stop&) {
+                   return Command{0, 0};
+                 },
+                 [&](const Attraction& b) {
+                   return steer(1, model.attraction_gain, used_alpha(b.alpha, model), senses,
+                                flavour);
+                 },
+                 [&](const Repulsion& b) {
+                   const double alpha = used_alpha(b.alpha, model);
+                   const double weight = model.repulsion_power == 2 ? alpha * alpha : alpha;
+                   return steer(-1, model.repulsion_gain, weight, senses, flavour);
+                 }},
+      behaviour);
+}
+
+Command command_towards(double x, double y, double speed_mps) {
+  if (x == 0 && y == 0) return {0, 0};
+  const double inner = speed_mps * (x / std::sqrt(x * x + y * y));
+  return y > 0 ? Command{inner, speed_mps} : Command{speed_mps, inner};
+}
+
+}  // namespace swarmsmith

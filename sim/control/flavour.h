@@ -1,0 +1,165 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expected.h"
+#include "sim/control/conditions.h"
+#include "sim/control/module.h"
+#include "sim/control/reference_model.h"
+
+namespace swarmsmith {
+
+/// A flavour of the method as plain data: its modules, their numbers in the text grammar, the
+/// ranges of their parameters, and the constants that say what a module does. One code runs all
+/// flavours. Where the value of a constant comes from stands beside it in flavour.cpp.
+
+/// One parameter of a module.
+struct ParameterSpec {
+  enum class Type { Integer, Real, Label };
+
+  std::string name;    ///< as in the thesis: tau, alpha, beta, xi, eta, label
+  std::string symbol;  ///< stem of irace's parameter name: RWM of RWM0, BI of BI0x3
+  std::string token;   ///< stem of the switch: rwm of --rwm0, p of --p0x3
+  Type type = Type::Real;
+  /// Range of the search, both ends included; of a label, of its number.
+  double low = 0;
+  double high = 0;
+  int digits = 0;  ///< decimals of a real in the search
+  /// What a machine may hold at all, wider than the search.
+  double least = 0;
+  double most = 0;
+  bool least_included = true;
+
+  friend bool operator==(const ParameterSpec&, const ParameterSpec&) = default;
+};
+
+/// Why `value` cannot be the parameter's value, as a sentence; nothing when it can.
+std::optional<std::string> complaint_about(const ParameterSpec& parameter, double value);
+
+/// A module in a flavour's tables, with its parameters in the order of `parameters_of`.
+struct ModuleSpec {
+  Module module = Module::Stop;
+  int number = 0;  ///< in the text grammar
+  std::vector<ParameterSpec> parameters;
+
+  friend bool operator==(const ModuleSpec&, const ModuleSpec&) = default;
+};
+
+/// A colour of the text grammar and the hue and saturation it stands for.
+struct LabelSpec {
+  ColorLabel label = ColorLabel::Green;
+  int number = 0;  ///< in the text grammar
+  double hue_deg = 0;
+  double saturation = 1;
+
+  friend bool operator==(const LabelSpec&, const LabelSpec&) = default;
+};
+
+/// From distances to the vector of obstacles.
+struct ObstacleModel {
+  enum class Reading {
+    Linear,           ///< 1 at `near_m` and closer, falling to 0 at `far_m`
+    InverseDistance,  ///< 1/d within [near_m, far_m], nothing outside: blind when touching
+  };
+  Reading reading = Reading::Linear;
+  double near_m = 0.05;
+  double far_m = 0.4;
+  /// The vector sum of the sensors is shortened to this length; infinity for never.
+  double longest_sum = 1;
+  /// A neighbour gives a reading of its own, 1 at `neighbour_near_m` and 0 at `neighbour_far_m`.
+  bool neighbours_as_obstacles = false;
+  double neighbour_near_m = 0.275;
+  double neighbour_far_m = 0.55;
+
+  friend bool operator==(const ObstacleModel&, const ObstacleModel&) = default;
+};
+
+struct ExplorationModel {
+  enum class Trigger {
+    FrontReadings,  ///< one reading of the front is enough; away from the highest
+    VectorSum,      ///< the sum of all readings points to the front; away from its side
+  };
+  enum class TurnLength {
+    ZeroToTau,    ///< uniform in 0..tau; 0 is no turn
+    OneBelowTau,  ///< uniform in 0..tau-1, but at least one cycle
+  };
+  Trigger trigger = Trigger::FrontReadings;
+  double threshold = 0.1;
+  /// Front of FrontReadings: |y| <= front_slope * x; of VectorSum: x >= 0.
+  double front_slope = 1;
+  TurnLength turn_length = TurnLength::ZeroToTau;
+
+  friend bool operator==(const ExplorationModel&, const ExplorationModel&) = default;
+};
+
+/// The vector of neighbours, sum of alpha^power / (offset + d) in each one's direction, and what
+/// Attraction and Repulsion make of it: sign * gain * vector - obstacle_gain * obstacles.
+struct NeighbourModel {
+  double per_metre = 1;          ///< unit of d: 1 metres, 100 centimetres
+  double shortest_m = 0;         ///< a smaller distance counts as this one
+  double offset = 0;             ///< in units of d
+  bool alpha_truncated = false;  ///< to an integer, whenever it is used
+  int repulsion_power = 1;
+  double attraction_gain = 1;
+  double repulsion_gain = 1;
+  double obstacle_gain = 5;
+  /// Without a neighbour, their vector is (1, 0); else it is zero.
+  bool forward_when_alone = true;
+  /// A shorter result means straight ahead.
+  double shortest_result = 0.1;
+
+  friend bool operator==(const NeighbourModel&, const NeighbourModel&) = default;
+};
+
+/// Grey levels from `low` to `high`, both included, in thousandths of 0..255: the grey level is
+/// 299 R + 587 G + 114 B, an exact integer.
+struct GrayRange {
+  int low = 0;
+  int high = 0;
+
+  bool contains(int gray) const { return low <= gray && gray <= high; }
+  friend bool operator==(const GrayRange&, const GrayRange&) = default;
+};
+
+struct FloorModel {
+  GrayRange black;
+  GrayRange gray;
+  GrayRange white;
+  std::vector<LabelSpec> labels;
+  double hue_tolerance_deg = 15;  ///< a label's hue differs by less
+  bool hue_wraps = true;          ///< 359 degrees is near to 0
+  /// A label's saturation differs by less; infinity for not looked at.
+  double saturation_tolerance = 0;
+
+  friend bool operator==(const FloorModel&, const FloorModel&) = default;
+};
+
+struct Flavour {
+  std::string name;
+  std::vector<ModuleSpec> behaviours;
+  std::vector<ModuleSpec> conditions;
+  double speed_mps = 0.30;
+  ObstacleModel obstacles;
+  ExplorationModel exploration;
+  NeighbourModel neighbours;
+  FloorModel floor;
+
+  /// The entry of a module in the tables, or null when the flavour lacks it.
+  const ModuleSpec* find(Module module) const;
+
+  friend bool operator==(const Flavour&, const Flavour&) = default;
+};
+
+/// The thesis as written, its silent points decided (thesis facts, sections 5 to 8 and 14).
+const Flavour& watermelon();
+
+/// The program published with the thesis, defects included (rvr-automode facts, sections 4 to 6).
+const Flavour& watermelon_argos3();
+
+/// The flavour with this name; an unknown name is an error that lists the known ones.
+Expected<const Flavour*> find_flavour(std::string_view name);
+
+}  // namespace swarmsmith

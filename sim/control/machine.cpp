@@ -1,0 +1,65 @@
+#include "sim/control/machine.h"
+
+#include <cstddef>
+#include <string>
+
+#include "sim/control/flavour.h"
+
+namespace swarmsmith {
+namespace {
+
+std::optional<std::string> complaint_about_module(Module module, const std::vector<double>& values,
+                                                  const Flavour& flavour) {
+  const ModuleSpec* spec = flavour.find(module);
+  if (spec == nullptr) {
+    return "the flavour " + flavour.name + " has no module " + std::string(id_of(module));
+  }
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (auto complaint = complaint_about(spec->parameters[i], values[i])) return complaint;
+  }
+  return std::nullopt;
+}
+
+std::optional<Error> check_state(const Machine& machine, std::size_t index,
+                                 const Flavour& flavour) {
+  const State& state = machine.states[index];
+  const std::string where = "state " + std::to_string(index);
+  if (auto complaint = complaint_about_module(module_of(state.behaviour),
+                                              parameters_of(state.behaviour), flavour)) {
+    return Error{ErrorKind::BadInput, *complaint, where};
+  }
+  if (state.transitions.size() > kMaxTransitions) {
+    return Error{ErrorKind::BadInput, "a state has at most 4 transitions", where};
+  }
+  for (std::size_t j = 0; j < state.transitions.size(); ++j) {
+    const Transition& transition = state.transitions[j];
+    const std::string place = where + ", transition " + std::to_string(j);
+    const int states = static_cast<int>(machine.states.size());
+    if (transition.target < 0 || transition.target >= states) {
+      return Error{ErrorKind::BadInput,
+                   "the target " + std::to_string(transition.target) + " is no state", place};
+    }
+    if (transition.target == static_cast<int>(index)) {
+      return Error{ErrorKind::BadInput, "a transition leads to another state", place};
+    }
+    if (auto complaint = complaint_about_module(module_of(transition.condition),
+                                                parameters_of(transition.condition), flavour)) {
+      return Error{ErrorKind::BadInput, *complaint, place};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace
+
+std::optional<Error> check(const Machine& machine, const Flavour& flavour) {
+  if (machine.states.empty() || machine.states.size() > kMaxStates) {
+    return Error{ErrorKind::BadInput, "a machine has 1 to 4 states", ""};
+  }
+  for (std::size_t i = 0; i < machine.states.size(); ++i) {
+    if (auto error = check_state(machine, i, flavour)) return error;
+  }
+  return std::nullopt;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+
+#include "sim/control/conditions.h"
+#include "sim/control/reference_model.h"
+
+namespace swarmsmith {
+
+struct ObstacleModel;
+struct FloorModel;
+
+/// What modules make of raw readings: obstacles as vectors, floors as grey levels and labels.
+
+/// A vector of the robot's frame.
+struct Vector2 {
+  double x = 0;
+  double y = 0;
+
+  friend bool operator==(const Vector2&, const Vector2&) = default;
+};
+
+inline constexpr double kSqrtHalf = 0.7071067811865476;
+
+/// Unit vectors of `kProximityDirections_deg`, by index.
+inline constexpr std::array<Vector2, kProximitySensors> kProximityDirections = {
+    {{kSqrtHalf, kSqrtHalf},
+     {1, 0},
+     {kSqrtHalf, -kSqrtHalf},
+     {0, -1},
+     {-kSqrtHalf, -kSqrtHalf},
+     {-1, 0},
+     {-kSqrtHalf, kSqrtHalf},
+     {0, 1}}};
+
+/// Strength of one proximity sensor's reading: prox of the reference model, in [0, 1], or the
+/// published program's inverse distance in 1/m. 0 when there is no obstacle.
+double obstacle_strength(double distance_m, const ObstacleModel& model);
+
+/// Strength of a neighbour as an obstacle, in [0, 1] (thesis 7.1).
+double neighbour_strength(double distance_m, const ObstacleModel& model);
+
+/// Vector of all obstacles: w_o of the thesis, P of the published program (rvr-automode facts,
+/// section 4.1). Pass no neighbours when the model does not take them for obstacles.
+Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
+                        const ObstacleModel& model);
+
+/// Grey level in thousandths of 0..255: 0.299 R + 0.587 G + 0.114 B without rounding.
+constexpr int gray_level(Rgb color) {
+  return 299 * color.r + 587 * color.g + 114 * color.b;
+}
+
+struct HueSaturation {
+  double hue_deg = 0;     ///< in [0, 360)
+  double saturation = 0;  ///< in [0, 1]
+};
+
+/// Nothing when the three channels are equal: greys have no hue.
+std::optional<HueSaturation> hue_and_saturation(Rgb color);
+
+/// The label nearest in hue, if one is near enough.
+std::optional<ColorLabel> perceived_label(Rgb color, const FloorModel& model);
+
+}  // namespace swarmsmith

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string_view>
+
+#include "sim/control/reference_model.h"
+
+namespace swarmsmith {
+
+/// A floor colour that files call by name.
+struct NamedColor {
+  std::string_view name;
+  Rgb color;
+};
+
+/// The labeler's colours (thesis 3.2): full or no light in each channel, and the base floor's grey.
+inline constexpr std::array<NamedColor, 7> kNamedColors = {{{"black", {0, 0, 0}},
+                                                            {"gray", {127, 127, 127}},
+                                                            {"white", {255, 255, 255}},
+                                                            {"red", {255, 0, 0}},
+                                                            {"green", {0, 255, 0}},
+                                                            {"blue", {0, 0, 255}},
+                                                            {"yellow", {255, 255, 0}}}};
+
+/// The colour of that name, if it has one.
+std::optional<Rgb> color_from_name(std::string_view name);
+
+}  // namespace swarmsmith

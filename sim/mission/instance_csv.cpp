@@ -1,0 +1,219 @@
+#include "sim/mission/instance_csv.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <span>
+#include <string>
+#include <system_error>
+
+#include "base/math.h"
+#include "sim/mission/colors.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Centres in files are decimal; a place is meant when they differ by less.
+constexpr double kSamePlace_m = 1e-6;
+
+std::string line_place(std::size_t line) {
+  return "line " + std::to_string(line);
+}
+
+/// Cuts at every separator: one part more than there are separators.
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  while (true) {
+    const std::size_t at = text.find(separator);
+    parts.push_back(text.substr(0, at));
+    if (at == std::string_view::npos) return parts;
+    text.remove_prefix(at + 1);
+  }
+}
+
+/// A row's cells, its header and its line number: enough to read a cell or say what is wrong.
+struct Row {
+  std::span<const std::string_view> columns;
+  std::vector<std::string_view> cells;
+  std::size_t line = 0;
+
+  Unexpected wrong(std::size_t column, std::string_view wanted) const {
+    return bad_input("column " + std::string(columns[column]) + " wants " + std::string(wanted) +
+                         ", not `" + std::string(cells[column]) + "`",
+                     line_place(line));
+  }
+
+  template <class Number>
+  Expected<Number> number(std::size_t column, std::string_view wanted) const {
+    Number value{};
+    const std::string_view cell = cells[column];
+    const char* end = cell.data() + cell.size();
+    const auto [stop, error] = std::from_chars(cell.data(), end, value);
+    if (error != std::errc() || stop != end) return wrong(column, wanted);
+    return value;
+  }
+
+  Expected<std::int64_t> integer(std::size_t column) const {
+    return number<std::int64_t>(column, "an integer");
+  }
+
+  Expected<double> real(std::size_t column) const {
+    const Expected<double> value = number<double>(column, "a number");
+    if (value && !std::isfinite(*value)) return wrong(column, "a finite number");
+    return value;
+  }
+};
+
+/// The rows below the header, which must be `columns`. Lines may end in CR LF; the last may be
+/// empty.
+Expected<std::vector<Row>> rows_of(std::string_view text,
+                                   std::span<const std::string_view> columns) {
+  std::vector<std::string_view> lines = split(text, '\n');
+  if (lines.back().empty()) lines.pop_back();
+  std::string header;
+  for (const std::string_view column : columns) {
+    header.append(header.empty() ? "" : ",").append(column);
+  }
+  std::vector<Row> rows;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i].ends_with('\r')) lines[i].remove_suffix(1);
+    if (i == 0) continue;
+    rows.push_back({columns, split(lines[i], ','), i + 1});
+    if (rows.back().cells.size() != columns.size()) {
+      return bad_input("expected " + std::to_string(columns.size()) + " cells (" + header +
+                           "), found " + std::to_string(rows.back().cells.size()),
+                       line_place(i + 1));
+    }
+  }
+  if (lines.empty() || lines[0] != header) {
+    return bad_input("expected the header `" + header + "`", line_place(1));
+  }
+  return rows;
+}
+
+/// Whether the point lies inside of a convex arena.
+bool inside(const Arena& arena, Point point) {
+  return std::all_of(arena.walls.begin(), arena.walls.end(), [point](const Wall& wall) {
+    return (wall.to.x - wall.from.x) * (point.y - wall.from.y) -
+               (wall.to.y - wall.from.y) * (point.x - wall.from.x) >
+           0;
+  });
+}
+
+Unexpected no_row(std::string_view what, std::int64_t seed) {
+  return unexpected(ErrorKind::NotFound,
+                    "the " + std::string(what) + " have no row for seed " + std::to_string(seed));
+}
+
+Expected<std::vector<Pose>> explicit_starts(const Mission& mission, std::int64_t seed,
+                                            const StartsBySeed& given) {
+  const auto found = given.find(seed);
+  if (found == given.end()) return no_row("starts", seed);
+  const std::vector<Pose>& starts = found->second;
+  const std::string where = "starts, seed " + std::to_string(seed);
+  if (starts.size() != static_cast<std::size_t>(mission.robots)) {
+    return bad_input("the mission has " + std::to_string(mission.robots) + " robots, the file " +
+                         std::to_string(starts.size()),
+                     where);
+  }
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    if (!inside(mission.arena, starts[i].position())) {
+      return bad_input("robot " + std::to_string(i) + " stands outside of the arena", where);
+    }
+  }
+  return starts;
+}
+
+Expected<std::vector<Patch>> explicit_patches(const Mission& mission, std::int64_t seed,
+                                              const PatchesBySeed& given) {
+  const auto found = given.find(seed);
+  if (found == given.end()) return no_row("patches", seed);
+  const std::string where = "patches, seed " + std::to_string(seed);
+  std::vector<Rectangle> free = mission.shuffled.places;
+  std::vector<Patch> patches;
+  for (const PatchPlacement& patch : found->second) {
+    const auto place = std::find_if(free.begin(), free.end(), [&patch](const Rectangle& box) {
+      return std::fabs(box.centre.x - patch.centre.x) < kSamePlace_m &&
+             std::fabs(box.centre.y - patch.centre.y) < kSamePlace_m;
+    });
+    if (place == free.end()) {
+      return bad_input("there is no free place for a patch at (" + std::to_string(patch.centre.x) +
+                           ", " + std::to_string(patch.centre.y) + ")",
+                       where);
+    }
+    patches.push_back({*place, patch.color});
+    free.erase(place);
+  }
+  return patches;
+}
+
+}  // namespace
+
+Expected<StartsBySeed> parse_starts_csv(std::string_view text) {
+  static constexpr std::string_view kColumns[] = {"seed", "robot", "x", "y", "theta"};
+  const Expected<std::vector<Row>> rows = rows_of(text, kColumns);
+  if (!rows) return Unexpected(rows.error());
+  StartsBySeed starts;
+  for (const Row& row : *rows) {
+    const Expected<std::int64_t> seed = row.integer(0);
+    if (!seed) return Unexpected(seed.error());
+    const Expected<std::int64_t> robot = row.integer(1);
+    if (!robot) return Unexpected(robot.error());
+    std::vector<Pose>& poses = starts[*seed];
+    if (*robot != static_cast<std::int64_t>(poses.size())) {
+      return row.wrong(1, "robot " + std::to_string(poses.size()) + " of this seed");
+    }
+    Pose pose;
+    double* const targets[] = {&pose.x, &pose.y, &pose.theta};
+    for (std::size_t i = 0; i < 3; ++i) {
+      const Expected<double> value = row.real(2 + i);
+      if (!value) return Unexpected(value.error());
+      *targets[i] = *value;
+    }
+    pose.theta = wrap_angle(pose.theta);
+    poses.push_back(pose);
+  }
+  return starts;
+}
+
+Expected<PatchesBySeed> parse_patches_csv(std::string_view text) {
+  static constexpr std::string_view kColumns[] = {"seed", "x", "y", "color"};
+  const Expected<std::vector<Row>> rows = rows_of(text, kColumns);
+  if (!rows) return Unexpected(rows.error());
+  PatchesBySeed patches;
+  for (const Row& row : *rows) {
+    const Expected<std::int64_t> seed = row.integer(0);
+    if (!seed) return Unexpected(seed.error());
+    const Expected<double> x = row.real(1);
+    if (!x) return Unexpected(x.error());
+    const Expected<double> y = row.real(2);
+    if (!y) return Unexpected(y.error());
+    const std::optional<Rgb> color = color_from_name(row.cells[3]);
+    if (!color) return row.wrong(3, "the name of a colour");
+    patches[*seed].push_back({{*x, *y}, *color});
+  }
+  return patches;
+}
+
+Expected<Instance> instance_of(const Mission& mission, std::int64_t seed,
+                               const ExplicitInstances& given) {
+  // Parts that are given are not drawn, so that an arena too small for random placement will do.
+  Mission drawn = mission;
+  if (given.starts) drawn.robots = 0;
+  Expected<Instance> instance = instance_of(drawn, seed);
+  if (!instance) return instance;
+  if (given.starts) {
+    Expected<std::vector<Pose>> starts = explicit_starts(mission, seed, *given.starts);
+    if (!starts) return Unexpected(std::move(starts.error()));
+    instance->starts = std::move(*starts);
+  }
+  if (given.patches && !mission.shuffled.places.empty()) {
+    Expected<std::vector<Patch>> patches = explicit_patches(mission, seed, *given.patches);
+    if (!patches) return Unexpected(std::move(patches.error()));
+    instance->patches = std::move(*patches);
+  }
+  return instance;
+}
+
+}  // namespace swarmsmith

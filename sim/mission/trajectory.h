@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/mission/mission.h"
+#include "sim/mission/pose.h"
+
+namespace swarmsmith {
+
+/// Poses of a swarm at the global instants 0.1 s, 0.2 s, ... of a run, the start left out. Made by
+/// a simulator or measured by a camera.
+struct Trajectory {
+  int robots = 0;
+  std::vector<Pose> poses;  ///< instant by instant, in each all robots in a fixed order
+
+  int instants() const {
+    return robots == 0 ? 0 : static_cast<int>(poses.size() / static_cast<std::size_t>(robots));
+  }
+  /// The robots' poses at an instant, counted from 0.
+  std::span<const Pose> at(int instant) const;
+
+  friend bool operator==(const Trajectory&, const Trajectory&) = default;
+};
+
+/// What the mission's score says of the whole trajectory; larger is better. The number of robots
+/// and instants is the trajectory's. Throws std::invalid_argument when an instant is incomplete.
+double score_of(const Mission& mission, const Instance& instance, const Trajectory& trajectory);
+
+}  // namespace swarmsmith
