@@ -1,0 +1,61 @@
+#pragma once
+
+#include "sim/control/reference_model.h"
+#include "sim/mission/mission.h"
+#include "sim/mission/pose.h"
+
+namespace swarmsmith {
+
+/// The RVR's body and drive (rvr-automode facts, section 2). SI units; world frame.
+
+inline constexpr double kHalfSide_m = kBodySide_m / 2;
+/// From the centre to a corner of the square.
+inline constexpr double kCornerRadius_m = kHalfSide_m * 1.4142135623730951;
+inline constexpr double kMass_kg = 2.0;
+inline constexpr double kInertia_kg_m2 = kMass_kg * 2 * kBodySide_m * kBodySide_m / 12;
+inline constexpr double kWheelSeparation_m = 0.147;
+/// The drive tracks its set-point with at most this force and torque.
+inline constexpr double kMaxForce_N = 1.5;
+inline constexpr double kMaxTorque_Nm = 1.5;
+/// Of a contact, with another robot or a wall; restitution is 0.
+inline constexpr double kFriction = 0.49;
+
+/// The grain of simulated time: clocks count these, contacts are solved at these.
+inline constexpr double kSubStep_s = 0.01;
+/// Scores and recorders look at the world every 0.1 s.
+inline constexpr int kSubStepsPerInstant = 10;
+/// What the drive can change in one sub-step: speed as a vector, and spin.
+inline constexpr double kSpeedStep_mps = kMaxForce_N / kMass_kg * kSubStep_s;
+inline constexpr double kSpinStep_radps = kMaxTorque_Nm / kInertia_kg_m2 * kSubStep_s;
+
+/// State of one robot. The heading is kept as the unit vector (cos, sin): no angle is stored, so
+/// that no trigonometric function is needed while a robot moves.
+struct Body {
+  double x = 0;
+  double y = 0;
+  double cos = 1;
+  double sin = 0;
+  double vx = 0;
+  double vy = 0;
+  double spin = 0;  ///< rad/s, counter-clockwise
+
+  friend bool operator==(const Body&, const Body&) = default;
+};
+
+/// What the drive steers towards; a world-frame vector, held while the heading turns.
+struct SetPoint {
+  double vx = 0;
+  double vy = 0;
+  double spin = 0;
+
+  friend bool operator==(const SetPoint&, const SetPoint&) = default;
+};
+
+/// A robot that stands at the pose.
+Body body_at(const Pose& pose);
+Pose pose_of(const Body& body);
+
+/// Set-point of a command that starts to act at the body's present heading.
+SetPoint set_point_of(const Command& command, const Body& body);
+
+}  // namespace swarmsmith

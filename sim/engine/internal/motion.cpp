@@ -1,0 +1,113 @@
+#include "sim/engine/internal/motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
+
+namespace swarmsmith {
+namespace {
+
+/// |angle| up to 0.5: sine to x^11 and cosine to x^12; what is left out is below 3e-14.
+void turn_part(Body& body, double angle_rad) {
+  const double s = angle_rad * angle_rad;
+  const double sine =
+      angle_rad *
+      (1 + s * (-1.0 / 6 +
+                s * (1.0 / 120 + s * (-1.0 / 5040 + s * (1.0 / 362880 + s * (-1.0 / 39916800))))));
+  const double cosine =
+      1 +
+      s * (-1.0 / 2 +
+           s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320 +
+                                                  s * (-1.0 / 3628800 + s * (1.0 / 479001600.))))));
+  const double c = body.cos * cosine - body.sin * sine;
+  const double n = body.cos * sine + body.sin * cosine;
+  // One step of Newton for 1 / sqrt(c^2 + n^2), which is within rounding of 1.
+  const double scale = 1.5 - 0.5 * (c * c + n * n);
+  body.cos = c * scale;
+  body.sin = n * scale;
+}
+
+/// A quantity that starts `distance` off its target and comes `step` nearer in each sub-step.
+struct Approach {
+  double sum;   ///< of its distances before each of the sub-steps
+  double left;  ///< its distance after them
+};
+
+Approach approach(double distance, double step, int sub_steps) {
+  const double ratio = distance / step;
+  const double off = ratio >= sub_steps ? sub_steps : std::floor(ratio) + 1;
+  return {.sum = off * distance - step * (off * (off - 1) / 2),
+          .left = std::max(0.0, distance - sub_steps * step)};
+}
+
+}  // namespace
+
+Body body_at(const Pose& pose) {
+  const SinCos heading = sin_cos(pose.theta);
+  return {.x = pose.x, .y = pose.y, .cos = heading.cos, .sin = heading.sin};
+}
+
+Pose pose_of(const Body& body) { return {body.x, body.y, atan2(body.sin, body.cos)}; }
+
+SetPoint set_point_of(const Command& command, const Body& body) {
+  const double speed = (command.left_mps + command.right_mps) / 2;
+  return {.vx = speed * body.cos,
+          .vy = speed * body.sin,
+          .spin = (command.right_mps - command.left_mps) / kWheelSeparation_m};
+}
+
+void turn(Body& body, double angle_rad) {
+  const double size = std::fabs(angle_rad);
+  if (size <= 0.5) {
+    turn_part(body, angle_rad);
+    return;
+  }
+  const int parts = static_cast<int>(size * 2) + 1;
+  for (int i = 0; i < parts; ++i) turn_part(body, angle_rad / parts);
+}
+
+void sub_step(Body& body, const SetPoint& set_point) {
+  body.x += kSubStep_s * body.vx;
+  body.y += kSubStep_s * body.vy;
+  turn(body, kSubStep_s * body.spin);
+  const double dx = set_point.vx - body.vx;
+  const double dy = set_point.vy - body.vy;
+  const double distance = std::sqrt(dx * dx + dy * dy);
+  if (distance <= kSpeedStep_mps) {
+    body.vx = set_point.vx;
+    body.vy = set_point.vy;
+  } else {
+    body.vx += dx / distance * kSpeedStep_mps;
+    body.vy += dy / distance * kSpeedStep_mps;
+  }
+  body.spin += std::clamp(set_point.spin - body.spin, -kSpinStep_radps, kSpinStep_radps);
+}
+
+void advance_freely(Body& body, const SetPoint& set_point, int sub_steps) {
+  const double span_s = sub_steps * kSubStep_s;
+  const double dx = set_point.vx - body.vx;
+  const double dy = set_point.vy - body.vy;
+  body.x += span_s * set_point.vx;
+  body.y += span_s * set_point.vy;
+  if (dx != 0 || dy != 0) {
+    const double distance = std::sqrt(dx * dx + dy * dy);
+    const Approach speed = approach(distance, kSpeedStep_mps, sub_steps);
+    const double lag = kSubStep_s * speed.sum / distance;
+    const double left = speed.left / distance;
+    body.x -= lag * dx;
+    body.y -= lag * dy;
+    body.vx = set_point.vx - left * dx;
+    body.vy = set_point.vy - left * dy;
+  }
+  const double dw = set_point.spin - body.spin;
+  double angle = span_s * set_point.spin;
+  if (dw != 0) {
+    const Approach spin = approach(std::fabs(dw), kSpinStep_radps, sub_steps);
+    angle -= kSubStep_s * std::copysign(spin.sum, dw);
+    body.spin = set_point.spin - std::copysign(spin.left, dw);
+  }
+  if (angle != 0) turn(body, angle);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,111 @@
+#include "sim/engine/internal/rays.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kHalfRoot = 0.70710678118654757;
+
+/// The eight rays lie on four lines through the centre: one ray ahead on the line, one back.
+struct Line {
+  double x;  ///< unit vector in the robot's frame
+  double y;
+  std::size_t ahead;  ///< index of the sensor
+  std::size_t back;
+};
+
+constexpr std::array<Line, 4> kLines = {Line{1, 0, 1, 5}, Line{0, 1, 7, 3},
+                                        Line{kHalfRoot, kHalfRoot, 0, 4},
+                                        Line{-kHalfRoot, kHalfRoot, 6, 2}};
+
+/// A pose of one square in the frame of another.
+struct Relative {
+  double x;
+  double y;
+  double cos;
+  double sin;
+};
+
+/// Distance from the ray's start to the square at `at`, for the ray along (ux, uy).
+double distance_to_square(double ux, double uy, const Relative& at) {
+  const double sx = ux * kRayStart_m - at.x;
+  const double sy = uy * kRayStart_m - at.y;
+  const double ox = at.cos * sx + at.sin * sy;
+  const double oy = at.cos * sy - at.sin * sx;
+  if (std::fabs(ox) < kHalfSide_m && std::fabs(oy) < kHalfSide_m) return kInfinity;
+  const double dx = at.cos * ux + at.sin * uy;
+  const double dy = at.cos * uy - at.sin * ux;
+  // Only the two faces that look against the ray can be met first.
+  double nearest = kInfinity;
+  if (dx != 0) {
+    const double t = (-std::copysign(kHalfSide_m, dx) - ox) / dx;
+    if (t >= 0 && std::fabs(oy + t * dy) <= kHalfSide_m) nearest = t;
+  }
+  if (dy != 0) {
+    const double t = (-std::copysign(kHalfSide_m, dy) - oy) / dy;
+    if (t >= 0 && t < nearest && std::fabs(ox + t * dx) <= kHalfSide_m) nearest = t;
+  }
+  return nearest;
+}
+
+}  // namespace
+
+void meet_walls(const Body& self, const Walls& walls, double range_m, RayDistances& distances) {
+  const double sight = kRayStart_m + range_m;
+  const double clear = walls.clear_radius_m - sight;
+  if (clear > 0 && self.x * self.x + self.y * self.y < clear * clear) return;
+  for (const WallPlane& wall : walls.planes) {
+    const double depth = wall.depth_of(self.x, self.y);
+    if (depth > sight || depth < 0) continue;
+    const double nx = wall.nx * self.cos + wall.ny * self.sin;
+    const double ny = wall.ny * self.cos - wall.nx * self.sin;
+    for (const Line& line : kLines) {
+      const double cosine = nx * line.x + ny * line.y;
+      if (depth > sight * std::fabs(cosine)) continue;
+      const double from_centre = cosine == 0 ? 0 : depth / cosine;  // its sign: ahead or back
+      if (!walls.convex) {
+        const double sideways = nx * line.y - ny * line.x;
+        const double along = wall.along(self.x, self.y) + from_centre * sideways;
+        if (along < 0 || along > wall.length_m) continue;
+      }
+      double& distance = distances[cosine > 0 ? line.ahead : line.back];
+      distance = std::min(distance, std::max(0.0, std::fabs(from_centre) - kRayStart_m));
+    }
+  }
+}
+
+void meet_robot(const Body& self, const Body& other, double range_m, RayDistances& distances) {
+  const double dx = other.x - self.x;
+  const double dy = other.y - self.y;
+  const Relative at = {.x = self.cos * dx + self.sin * dy,
+                       .y = self.cos * dy - self.sin * dx,
+                       .cos = self.cos * other.cos + self.sin * other.sin,
+                       .sin = self.cos * other.sin - self.sin * other.cos};
+  const double sight = sight_of_robots_m(range_m);
+  // Of the line through the centre, a ray takes the half that begins at its start.
+  constexpr double kBehind_m = kRayStart_m - kCornerRadius_m;
+  for (const Line& line : kLines) {
+    const double aside = line.x * at.y - line.y * at.x;
+    if (std::fabs(aside) > kCornerRadius_m) continue;
+    const double along = line.x * at.x + line.y * at.y;
+    if (along >= kBehind_m && along <= sight) {
+      double& distance = distances[line.ahead];
+      distance = std::min(distance, distance_to_square(line.x, line.y, at));
+    }
+    if (-along >= kBehind_m && -along <= sight) {
+      double& distance = distances[line.back];
+      distance = std::min(distance, distance_to_square(-line.x, -line.y, at));
+    }
+  }
+}
+
+double limited(double distance_m, double range_m) {
+  if (distance_m < kBlindZone_m) return -kInfinity;
+  return distance_m > range_m ? kInfinity : distance_m;
+}
+
+}  // namespace swarmsmith

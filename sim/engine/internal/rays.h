@@ -1,0 +1,36 @@
+#pragma once
+
+#include <array>
+
+#include "sim/control/reference_model.h"
+#include "sim/engine/internal/body.h"
+#include "sim/engine/internal/walls.h"
+
+namespace swarmsmith {
+
+/// The eight proximity rays start this far from the centre (rvr-automode facts, section 3.1).
+inline constexpr double kRayStart_m = 0.143;
+/// What is nearer reads -infinity.
+inline constexpr double kBlindZone_m = 0.05;
+
+/// Distances along the proximity directions from the ray's start to what it meets; +infinity where
+/// nothing was met. Physical distances: limits and noise come later.
+using RayDistances = std::array<double, kProximitySensors>;
+
+/// Shortens the rays of `self` that meet a wall within `range_m`; hits beyond it may be left out. A
+/// ray that starts behind the face of a wall reads 0.
+void meet_walls(const Body& self, const Walls& walls, double range_m, RayDistances& distances);
+
+/// The same for another robot's square. A ray that starts inside of it does not meet it (simulator
+/// facts, section 4.1).
+void meet_robot(const Body& self, const Body& other, double range_m, RayDistances& distances);
+
+/// Centres farther apart than this cannot matter to meet_robot.
+constexpr double sight_of_robots_m(double range_m) {
+  return kRayStart_m + range_m + kCornerRadius_m;
+}
+
+/// Readings as the sensor gives them: -infinity below the blind zone, +infinity beyond the range.
+double limited(double distance_m, double range_m);
+
+}  // namespace swarmsmith

@@ -1,0 +1,41 @@
+#include "sim/engine/internal/sensing.h"
+
+#include <cmath>
+#include <limits>
+
+#include "sim/engine/internal/robot_senses.h"
+
+namespace swarmsmith {
+
+RayDistances ray_distances(const World& world, int robot, double range_m) {
+  RayDistances distances;
+  distances.fill(std::numeric_limits<double>::infinity());
+  const Body& self = world.body(robot);
+  meet_walls(self, world.walls(), range_m, distances);
+  const double sight = sight_of_robots_m(range_m);
+  for (int other = 0; other < world.robots(); ++other) {
+    if (other == robot || world.distance2(robot, other) > sight * sight) continue;
+    meet_robot(self, world.body(other), range_m, distances);
+  }
+  return distances;
+}
+
+void find_neighbours(const World& world, int robot, std::vector<Neighbour>& found) {
+  found.clear();
+  const Body& self = world.body(robot);
+  for (int other = 0; other < world.robots(); ++other) {
+    const double distance2 = world.distance2(robot, other);
+    if (other == robot || distance2 >= kNeighbourRange_m * kNeighbourRange_m) continue;
+    const double distance = std::sqrt(distance2);
+    const double dx = world.body(other).x - self.x;
+    const double dy = world.body(other).y - self.y;
+    Neighbour neighbour{.distance_m = distance};
+    if (distance > 0) {
+      neighbour.direction_x = (self.cos * dx + self.sin * dy) / distance;
+      neighbour.direction_y = (self.cos * dy - self.sin * dx) / distance;
+    }
+    found.push_back(neighbour);
+  }
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "sim/engine/internal/body.h"
+#include "sim/engine/internal/contact_solver.h"
+#include "sim/engine/internal/reach.h"
+#include "sim/engine/internal/walls.h"
+#include "sim/mission/arena.h"
+#include "sim/mission/pose.h"
+
+namespace swarmsmith {
+
+/// Bodies, walls and the law of motion: what there is besides sensors and control software. Time
+/// counts in sub-steps of 10 ms.
+class World {
+ public:
+  World(const Arena& arena, std::span<const Pose> starts, ContactModel contacts);
+  World(const World&) = delete;
+  World& operator=(const World&) = delete;
+
+  int robots() const { return static_cast<int>(bodies_.size()); }
+  const Body& body(int robot) const { return bodies_[static_cast<std::size_t>(robot)]; }
+  const Walls& walls() const { return walls_; }
+  /// Square of the distance between two centres, now.
+  double distance2(int robot, int other) const {
+    return distances2_[static_cast<std::size_t>(robot) * bodies_.size() +
+                       static_cast<std::size_t>(other)];
+  }
+
+  /// From now on the robot's drive steers towards the command, along its present heading.
+  void command(int robot, const Command& command);
+
+  /// Moves all robots: free ones in closed form, islands through the contact solver.
+  void advance(int sub_steps);
+
+  /// How many sub-steps of robots went through the contact solver so far.
+  long solved_sub_steps() const { return solved_sub_steps_; }
+
+ private:
+  void advance_island(const Island& island, int sub_steps);
+  void measure_distances();
+
+  Walls walls_;
+  std::vector<Body> bodies_;
+  std::vector<SetPoint> set_points_;
+  std::vector<double> distances2_;
+  double speed_limit_mps_ = 0;  ///< what no body has exceeded so far
+  Reach reach_;
+  std::unique_ptr<ContactSolver> solver_;
+  std::vector<IslandMember> members_;
+  std::vector<WallPlane> near_walls_;
+  long solved_sub_steps_ = 0;
+};
+
+}  // namespace swarmsmith

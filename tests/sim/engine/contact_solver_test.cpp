@@ -1,0 +1,174 @@
+#include "sim/engine/internal/contact_solver.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "base/math.h"
+#include "base/rng.h"
+#include "sim/engine/internal/motion.h"
+
+namespace swarmsmith {
+namespace {
+
+/// The contract of the seam, for all who claim it. Box2D computes in single precision, which is
+/// what the tolerances leave room for.
+class Contacts : public testing::TestWithParam<ContactModel> {
+ protected:
+  /// Ten sub-steps at a time, the set-point renewed from the command as control cycles do.
+  void drive(std::vector<IslandMember>& island, const std::vector<Command>& commands, int ticks) {
+    for (int tick = 0; tick < ticks; ++tick) {
+      for (std::size_t i = 0; i < island.size(); ++i) {
+        island[i].set_point = set_point_of(commands[i], island[i].body);
+      }
+      solver_->advance(island, walls_.planes, 10);
+    }
+  }
+
+  Walls walls_ = walls_of(dodecagon_of_the_thesis());
+  std::unique_ptr<ContactSolver> solver_ = make_contact_solver(GetParam(), true);
+};
+
+INSTANTIATE_TEST_SUITE_P(All, Contacts, testing::Values(ContactModel::Exact, ContactModel::Box2d),
+                         [](const auto& info) {
+                           return info.param == ContactModel::Exact ? "Exact" : "Box2d";
+                         });
+
+TEST_P(Contacts, WithoutATouchMotionIsFree) {
+  Rng rng(1);
+  for (int i = 0; i < 300; ++i) {
+    std::vector<IslandMember> island(2);
+    island[0].body = body_at({-0.3, 0.2, rng.uniform(-kPi, kPi)});
+    island[1].body = body_at({0.3, 0.2, rng.uniform(-kPi, kPi)});
+    for (IslandMember& member : island) {
+      member.body.vx = rng.uniform(-0.3, 0.3);
+      member.body.spin = rng.uniform(-4, 4);
+      member.set_point = set_point_of({rng.uniform(-0.3, 0.3), 0.3}, member.body);
+    }
+    std::vector<IslandMember> free = island;
+    for (IslandMember& member : free) advance_freely(member.body, member.set_point, 10);
+    solver_->advance(island, walls_.planes, 10);
+    const double tolerance = GetParam() == ContactModel::Exact ? 1e-12 : 3e-6;
+    for (std::size_t m = 0; m < 2; ++m) {
+      EXPECT_NEAR(island[m].body.x, free[m].body.x, tolerance);
+      EXPECT_NEAR(island[m].body.y, free[m].body.y, tolerance);
+      EXPECT_NEAR(island[m].body.sin, free[m].body.sin, tolerance);
+      EXPECT_NEAR(island[m].body.vx, free[m].body.vx, tolerance);
+      EXPECT_NEAR(island[m].body.spin, free[m].body.spin, 10 * tolerance);
+    }
+  }
+}
+
+TEST_P(Contacts, AWallStopsARobotAtItsFace) {
+  std::vector<IslandMember> island = {{.body = body_at({0.9, 0, 0}), .set_point = {}}};
+  drive(island, {{0.3, 0.3}}, 30);
+  EXPECT_NEAR(island[0].body.x, 1.226 - kHalfSide_m, 0.003);
+  EXPECT_GE(island[0].body.x, 1.226 - kHalfSide_m - 0.0005);
+  EXPECT_NEAR(island[0].body.vx, 0, 1e-3);
+}
+
+TEST_P(Contacts, AgainstAWallARobotStillTurnsAndDrivesAway) {
+  std::vector<IslandMember> island = {{.body = body_at({1.08, 0, 0}), .set_point = {}}};
+  drive(island, {{0.3, 0.3}}, 10);
+  drive(island, {{-0.3, 0.3}}, 8);
+  drive(island, {{0.3, 0.3}}, 10);
+  EXPECT_LT(island[0].body.x, 1.0);
+}
+
+TEST_P(Contacts, EqualRobotsHeadOnStopEachOther) {
+  std::vector<IslandMember> island = {{.body = body_at({-0.3, 0, 0}), .set_point = {}},
+                                      {.body = body_at({0.3, 0, kPi}), .set_point = {}}};
+  drive(island, {{0.3, 0.3}, {0.3, 0.3}}, 20);
+  EXPECT_NEAR(island[1].body.x - island[0].body.x, kBodySide_m, 0.008);
+  EXPECT_NEAR(island[0].body.vx, 0, 1e-3);
+  EXPECT_NEAR(island[0].body.x, -island[1].body.x, 1e-5);
+}
+
+TEST_P(Contacts, ADriverPushesAnotherThatDoesNotHoldStill) {
+  // Both drives are equally strong, so a robot told to stand holds its place and one that goes the
+  // same way, slower, is pushed to a speed in between.
+  std::vector<IslandMember> island = {{.body = body_at({-0.3, 0, 0}), .set_point = {}},
+                                      {.body = body_at({0, 0, 0}), .set_point = {}}};
+  drive(island, {{0.3, 0.3}, {0.1, 0.1}}, 20);
+  EXPECT_NEAR(island[0].body.vx, island[1].body.vx, 0.01);
+  EXPECT_GT(island[1].body.vx, 0.09);
+  EXPECT_LT(island[1].body.vx, 0.31);
+}
+
+TEST_P(Contacts, WhatItGivesDoesNotDependOnEarlierCalls) {
+  const std::vector<IslandMember> start = {
+      {.body = body_at({-0.15, 0, 0.2}), .set_point = {0.3, 0.05, 0}},
+      {.body = body_at({0.15, 0.02, 2.9}), .set_point = {-0.3, 0.05, 2}}};
+  std::vector<IslandMember> first = start;
+  solver_->advance(first, walls_.planes, 10);
+  for (int other = 0; other < 5; ++other) {
+    std::vector<IslandMember> elsewhere = {
+        {.body = body_at({1.05, 0.01 * other, 0.4}), .set_point = {0.3, 0, 1}}};
+    solver_->advance(elsewhere, walls_.planes, 10);
+    std::vector<IslandMember> again = start;
+    solver_->advance(again, walls_.planes, 10);
+    EXPECT_EQ(first, again);
+    again = start;
+    make_contact_solver(GetParam(), true)->advance(again, walls_.planes, 10);
+    EXPECT_EQ(first, again);
+  }
+}
+
+TEST_P(Contacts, AThrongInTheMiddleNeitherSinksInNorFliesApart) {
+  Rng rng(5);
+  for (int run = 0; run < 20; ++run) {
+    std::vector<IslandMember> island;
+    for (int i = 0; i < 3; ++i) {
+      const double angle = 2 * kPi * i / 3 + rng.uniform(0, 0.5);
+      island.push_back({.body = body_at({0.35 * cos(angle), 0.35 * sin(angle), angle + kPi}),
+                        .set_point = {}});
+    }
+    for (int tick = 0; tick < 60; ++tick) {
+      std::vector<Command> commands(3, Command{0.3, 0.3});
+      if (rng.bernoulli(0.3)) commands[rng.below(3)] = {-0.3, 0.3};
+      drive(island, commands, 1);
+      for (std::size_t i = 0; i < 3; ++i) {
+        const Body& body = island[i].body;
+        EXPECT_LT(hypot(body.vx, body.vy), 0.7);
+        EXPECT_GT(gap_between(body, island[(i + 1) % 3].body), -0.025);
+      }
+    }
+  }
+}
+
+TEST(ContactSolvers, AgreeOnWhereALongPushAndASlideAlongAWallEnd) {
+  const Walls walls = walls_of(dodecagon_of_the_thesis());
+  std::array<std::vector<IslandMember>, 2> ends;
+  for (std::size_t solver = 0; solver < 2; ++solver) {
+    const auto contacts = solver == 0 ? make_exact_solver() : make_box2d_solver();
+    std::vector<IslandMember> island = {{.body = body_at({0.75, 0, 0.15}), .set_point = {}},
+                                        {.body = body_at({1.05, -0.01, 0.1}), .set_point = {}}};
+    for (int tick = 0; tick < 15; ++tick) {
+      island[0].set_point = set_point_of({0.3, 0.3}, island[0].body);
+      island[1].set_point = set_point_of({0.2, 0.25}, island[1].body);
+      contacts->advance(island, walls.planes, 10);
+    }
+    ends[solver] = island;
+  }
+  for (std::size_t i = 0; i < 2; ++i) {
+    EXPECT_NEAR(ends[0][i].body.x, ends[1][i].body.x, 0.02) << i;
+    EXPECT_NEAR(ends[0][i].body.y, ends[1][i].body.y, 0.02) << i;
+  }
+}
+
+TEST(ContactSolvers, AnArenaThatIsNotConvexGetsBox2d) {
+  // Box2D's answer, bit for bit, although the exact solver was asked for.
+  const std::vector<IslandMember> start = {
+      {.body = body_at({-0.14, 0, 0.2}), .set_point = {0.3, 0, 0}},
+      {.body = body_at({0.14, 0.02, 2.9}), .set_point = {-0.3, 0, 0}}};
+  std::vector<IslandMember> asked = start;
+  make_contact_solver(ContactModel::Exact, false)->advance(asked, {}, 10);
+  std::vector<IslandMember> box2d = start;
+  make_box2d_solver()->advance(box2d, {}, 10);
+  EXPECT_EQ(asked, box2d);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,141 @@
+#include "sim/engine/internal/reach.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "base/math.h"
+#include "base/rng.h"
+#include "sim/engine/internal/contact_solver.h"
+#include "sim/engine/internal/motion.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Robots with their set-points, and what the reach test says of them.
+struct Scene {
+  Walls walls = walls_of(dodecagon_of_the_thesis());
+  std::vector<IslandMember> robots;
+
+  std::vector<Island> islands(int sub_steps = 10) const {
+    std::vector<Body> bodies;
+    std::vector<SetPoint> set_points;
+    std::vector<double> distances2;
+    double speed_limit = 0;
+    for (const IslandMember& a : robots) {
+      bodies.push_back(a.body);
+      set_points.push_back(a.set_point);
+      speed_limit = std::max({speed_limit, hypot(a.body.vx, a.body.vy),
+                              hypot(a.set_point.vx, a.set_point.vy),
+                              std::fabs(a.set_point.spin) * kWheelSeparation_m / 2});
+      for (const IslandMember& b : robots) {
+        const double d = hypot(a.body.x - b.body.x, a.body.y - b.body.y);
+        distances2.push_back(d * d);
+      }
+    }
+    Reach reach(walls, static_cast<int>(robots.size()));
+    const auto found = reach.find({bodies, set_points, distances2, speed_limit}, sub_steps);
+    return {found.begin(), found.end()};
+  }
+};
+
+IslandMember standing(double x, double y, double theta = 0) {
+  return {.body = body_at({x, y, theta}), .set_point = {}};
+}
+
+TEST(Reach, RobotsThatStandApartAreFree) {
+  EXPECT_TRUE((Scene{.robots = {standing(0, 0), standing(0.4, 0), standing(-0.4, 0.1)}})
+                  .islands()
+                  .empty());
+}
+
+TEST(Reach, ARobotThatDrivesAtAnotherMakesAnIsland) {
+  Scene scene{.robots = {standing(0, 0), standing(0.8, 0), standing(0.31, 0)}};
+  EXPECT_TRUE(scene.islands().empty());
+  scene.robots[0].set_point.vx = 0.3;
+  const std::vector<Island> islands = scene.islands();
+  ASSERT_EQ(islands.size(), 1);
+  EXPECT_EQ(islands[0].robots, (std::vector<int>{0, 2}));
+  EXPECT_TRUE(islands[0].walls.empty());
+}
+
+TEST(Reach, ACornerThatCouldSwingRoundCounts) {
+  Scene scene{.robots = {standing(0, 0), standing(0.32, 0)}};
+  EXPECT_TRUE(scene.islands().empty());
+  scene.robots[0].set_point.spin = 4;
+  EXPECT_EQ(scene.islands().size(), 1);
+}
+
+TEST(Reach, WallsInReachAreNamed) {
+  Scene scene{.robots = {standing(1.06, 0), standing(0, 0), standing(0, -1.07)}};
+  EXPECT_TRUE(scene.islands().empty());
+  scene.robots[0].set_point.vx = 0.3;
+  const std::vector<Island> islands = scene.islands();
+  ASSERT_EQ(islands.size(), 1);
+  EXPECT_EQ(islands[0].robots, (std::vector<int>{0}));
+  ASSERT_EQ(islands[0].walls.size(), 1);
+  const WallPlane& wall = scene.walls.planes[static_cast<std::size_t>(islands[0].walls[0])];
+  EXPECT_NEAR(wall.nx, 1, 1e-12);
+}
+
+TEST(Reach, ARobotThatMayBePushedReachesAsFarAsItsPusherDrives) {
+  // 1 stands within the reach of 0; 2 is 25 mm beyond 1, which alone would stay where it is.
+  Scene scene{.robots = {standing(0, 0), standing(0.29, 0), standing(0.601, 0)}};
+  scene.robots[0].set_point.vx = 0.3;
+  const std::vector<Island> islands = scene.islands();
+  ASSERT_EQ(islands.size(), 1);
+  EXPECT_EQ(islands[0].robots, (std::vector<int>{0, 1, 2}));
+}
+
+TEST(Reach, FewerSubStepsReachLess) {
+  Scene scene{.robots = {standing(0, 0), standing(0.31, 0)}};
+  scene.robots[0].set_point.vx = 0.3;
+  EXPECT_EQ(scene.islands(10).size(), 1);
+  EXPECT_TRUE(scene.islands(5).empty());
+}
+
+/// A dense, restless swarm: commands change at random, so that robots keep running into each other.
+class ReachOnRandomRuns : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Seeds, ReachOnRandomRuns, testing::Range(1, 9));
+
+TEST_P(ReachOnRandomRuns, RobotsItCallsFreeMoveAsIfTheSolverRanEverywhere) {
+  Rng rng(static_cast<std::uint64_t>(GetParam()));
+  Scene scene;
+  for (int i = 0; i < 3; ++i) {
+    scene.robots.push_back(standing(0.4 * i - 0.4, 0.1 * i, rng.uniform(-kPi, kPi)));
+  }
+  const auto solver = make_exact_solver();
+  std::vector<Command> commands(3);
+  int called_free = 0;
+  for (int tick = 0; tick < 4000; ++tick) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const double pace = rng.bernoulli(0.1) ? 0.3 : 0;
+      if (rng.bernoulli(0.15)) {
+        commands[i] = rng.bernoulli(0.7) ? Command{0.3, 0.3 - pace} : Command{-0.3, 0.3};
+      }
+      scene.robots[i].set_point = set_point_of(commands[i], scene.robots[i].body);
+    }
+    const std::vector<Island> islands = scene.islands();
+    std::vector<IslandMember> solved = scene.robots;
+    solver->advance(solved, scene.walls.planes, 10);
+    for (int i = 0; i < 3; ++i) {
+      const bool in_island = std::any_of(islands.begin(), islands.end(), [&](const Island& island) {
+        return std::count(island.robots.begin(), island.robots.end(), i) > 0;
+      });
+      if (in_island) continue;
+      ++called_free;
+      const auto index = static_cast<std::size_t>(i);
+      Body free = scene.robots[index].body;
+      advance_freely(free, scene.robots[index].set_point, 10);
+      ASSERT_NEAR(free.x, solved[index].body.x, 1e-12) << "tick " << tick;
+      ASSERT_NEAR(free.y, solved[index].body.y, 1e-12) << "tick " << tick;
+      ASSERT_NEAR(free.sin, solved[index].body.sin, 1e-12) << "tick " << tick;
+    }
+    scene.robots = solved;
+  }
+  EXPECT_GT(called_free, 1000);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,176 @@
+#include "sim/engine/internal/robot_senses.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/math.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// Three robots in the arena of the thesis: 0 looks at 1 from 0.35 m, 2 is far off.
+struct Scene {
+  Arena arena = dodecagon_of_the_thesis();
+  std::vector<Pose> poses = {{0, 0, 0}, {0.5, 0, 0}, {0, -1, kPi}};
+  Profile profile;
+  World world{arena, poses, ContactModel::Exact};
+
+  RobotSenses senses(int robot, std::uint64_t seed = 1) const {
+    return RobotSenses(world, arena, profile, robot, Rng(seed));
+  }
+};
+
+TEST(RobotSenses, ReadWhatIsThere) {
+  const Scene scene;
+  RobotSenses senses = scene.senses(0);
+  senses.begin_cycle(1);
+  EXPECT_NEAR(senses.proximity()[1], 0.5 - 2 * kHalfSide_m, 1e-12);
+  for (const std::size_t i : {0, 2, 3, 4, 5, 6, 7}) EXPECT_EQ(senses.proximity()[i], kInfinity);
+  EXPECT_EQ(senses.ground_color(), (Rgb{127, 127, 127}));
+  ASSERT_EQ(senses.neighbours().size(), 1);
+  EXPECT_DOUBLE_EQ(senses.neighbours()[0].distance_m, 0.5);
+  EXPECT_DOUBLE_EQ(senses.neighbours()[0].direction_x, 1);
+}
+
+TEST(RobotSenses, TheDirectionOfANeighbourIsInTheRobotsFrame) {
+  const Scene scene;
+  RobotSenses senses = scene.senses(1);
+  senses.begin_cycle(1);
+  ASSERT_EQ(senses.neighbours().size(), 1);
+  EXPECT_DOUBLE_EQ(senses.neighbours()[0].direction_x, -1);
+  EXPECT_NEAR(senses.neighbours()[0].direction_y, 0, 1e-15);
+}
+
+TEST(RobotSenses, TheGroundSensorLooksAhead) {
+  Scene scene;
+  scene.arena.patches.push_back({Disc{{0.5, 0}, 0.46}, {0, 0, 0}});
+  RobotSenses senses = scene.senses(0);
+  senses.begin_cycle(1);
+  EXPECT_EQ(senses.ground_color(), (Rgb{0, 0, 0}));
+}
+
+TEST(RobotSenses, AReadingIsTheSameAllCycleAndAnotherInTheNext) {
+  Scene scene;
+  scene.profile.proximity_sd_m = 0.01;
+  RobotSenses senses = scene.senses(0);
+  senses.begin_cycle(1);
+  const double first = senses.proximity()[1];
+  EXPECT_EQ(senses.proximity()[1], first);
+  senses.begin_cycle(2);
+  EXPECT_NE(senses.proximity()[1], first);
+}
+
+TEST(RobotSenses, NoiseDoesNotDependOnWhatElseWasAsked) {
+  Scene scene;
+  scene.profile.proximity_sd_m = 0.01;
+  scene.profile.ground_color_sd = 5;
+  RobotSenses all = scene.senses(0);
+  RobotSenses few = scene.senses(0);
+  for (int cycle = 1; cycle <= 50; ++cycle) {
+    all.begin_cycle(cycle);
+    few.begin_cycle(cycle);
+    const Rgb color = all.ground_color();
+    const double distance = all.proximity()[1];
+    if (cycle % 7 == 0) {
+      EXPECT_EQ(few.ground_color(), color);
+    }
+    if (cycle % 11 == 0) {
+      EXPECT_EQ(few.proximity()[1], distance);
+    }
+  }
+}
+
+TEST(RobotSenses, NoiseDependsOnSeedAndRobot) {
+  Scene scene;
+  scene.profile.ground_color_sd = 50;
+  std::vector<Rgb> colors;
+  for (const int robot : {0, 1}) {
+    for (const std::uint64_t seed : {1U, 2U}) {
+      RobotSenses senses = scene.senses(robot, seed);
+      senses.begin_cycle(1);
+      for (const Rgb& other : colors) EXPECT_NE(senses.ground_color(), other);
+      colors.push_back(senses.ground_color());
+    }
+  }
+}
+
+TEST(RobotSenses, ProximityNoiseHasItsMoments) {
+  Scene scene;
+  scene.profile.proximity_sd_m = 0.01;
+  RobotSenses senses = scene.senses(0);
+  const double truth = 0.5 - 2 * kHalfSide_m;
+  constexpr int kCycles = 20'000;
+  double sum = 0;
+  double squares = 0;
+  for (int cycle = 1; cycle <= kCycles; ++cycle) {
+    senses.begin_cycle(cycle);
+    const double error = senses.proximity()[1] - truth;
+    sum += error;
+    squares += error * error;
+  }
+  EXPECT_NEAR(sum / kCycles, 0, 4 * 0.01 / std::sqrt(kCycles));
+  EXPECT_NEAR(std::sqrt(squares / kCycles), 0.01, 0.0003);
+}
+
+TEST(RobotSenses, LimitsHoldAfterTheNoise) {
+  Scene scene;
+  scene.profile.proximity_sd_m = 0.2;
+  RobotSenses senses = scene.senses(0);
+  int near = 0;
+  int far = 0;
+  for (int cycle = 1; cycle <= 1000; ++cycle) {
+    senses.begin_cycle(cycle);
+    const double reading = senses.proximity()[1];
+    near += reading == -kInfinity ? 1 : 0;
+    far += reading == kInfinity ? 1 : 0;
+    EXPECT_TRUE(std::isinf(reading) || (reading >= 0.05 && reading <= 0.4)) << reading;
+    EXPECT_EQ(senses.proximity()[5], kInfinity) << "no noise where nothing is";
+  }
+  EXPECT_NEAR(near / 1000.0, normal_cdf((0.05 - 0.214) / 0.2), 0.05);
+  EXPECT_NEAR(far / 1000.0, 1 - normal_cdf((0.4 - 0.214) / 0.2), 0.05);
+}
+
+TEST(RobotSenses, GroundNoiseHasItsMomentsOnEachChannelOfItsOwn) {
+  Scene scene;
+  scene.profile.ground_color_sd = 5;
+  RobotSenses senses = scene.senses(0);
+  constexpr int kCycles = 20'000;
+  double sum_r = 0;
+  double squares_g = 0;
+  double product = 0;
+  for (int cycle = 1; cycle <= kCycles; ++cycle) {
+    senses.begin_cycle(cycle);
+    const Rgb color = senses.ground_color();
+    sum_r += color.r - 127;
+    squares_g += (color.g - 127) * (color.g - 127);
+    product += (color.r - 127) * (color.b - 127);
+  }
+  EXPECT_NEAR(sum_r / kCycles, 0, 4 * 5 / std::sqrt(kCycles));
+  // Rounding adds a twelfth to the variance.
+  EXPECT_NEAR(squares_g / kCycles, 25 + 1.0 / 12, 1);
+  EXPECT_NEAR(product / kCycles / 25, 0, 0.03);
+}
+
+TEST(RobotSenses, GroundNoiseIsClampedToAByte) {
+  Scene scene;
+  scene.profile.ground_color_sd = 5;
+  scene.arena.floor = {0, 255, 0};
+  RobotSenses senses = scene.senses(0);
+  int black = 0;
+  for (int cycle = 1; cycle <= 1000; ++cycle) {
+    senses.begin_cycle(cycle);
+    const Rgb color = senses.ground_color();
+    EXPECT_LT(color.r, 40);
+    EXPECT_GT(color.g, 215);
+    black += color.r == 0 ? 1 : 0;
+  }
+  EXPECT_NEAR(black / 1000.0, normal_cdf(0.5 / 5), 0.06);
+}
+
+}  // namespace
+}  // namespace swarmsmith
