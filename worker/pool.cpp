@@ -79,9 +79,9 @@ std::vector<PackedKey> Pool::take_back() {
   return keys;
 }
 
-std::vector<PoolEvent> Pool::take_events(bool coming_again) {
+std::vector<PoolEvent> Pool::take_events() {
   const std::scoped_lock lock(mutex_);
-  owner_comes_ = coming_again;
+  owner_comes_ = results_ > 0;
   results_ = 0;
   return std::exchange(events_, {});
 }

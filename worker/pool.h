@@ -27,8 +27,8 @@ using PoolEvent = std::variant<ItemStarted, Evaluated>;
 class Pool {
  public:
   /// `wake` is called from the slots when the owner should call `take_events`: not for every item,
-  /// since waking it costs more than a short evaluation. Results wait `kMaxWaiting` at most, or
-  /// until few items are left; else the owner comes by itself after `expect` (see there).
+  /// since waking it costs more than a short evaluation; but in any case when `kMaxWaiting` results
+  /// wait, or the slots are about to run dry.
   Pool(int slots, EvaluatorFactory make_evaluator, std::function<void()> wake);
   /// Waits for running items.
   ~Pool();
@@ -40,9 +40,9 @@ class Pool {
   void run(std::vector<WorkItem> items);
   /// Items that were not started; they are not run any more.
   std::vector<PackedKey> take_back();
-  /// `coming_again`: the owner looks again within a few milliseconds, so that it need not be woken
-  /// for the first result.
-  std::vector<PoolEvent> take_events(bool coming_again);
+  /// After a call that gave results the owner comes again within a few milliseconds by itself, and
+  /// is not woken for the next result.
+  std::vector<PoolEvent> take_events();
 
   static constexpr std::size_t kMaxWaiting = 64;
 

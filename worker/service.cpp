@@ -14,6 +14,8 @@ using std::chrono::milliseconds;
 
 /// Time for the last words to leave the socket.
 constexpr milliseconds kLinger{500};
+/// While results come, the slots do not wake the loop for each.
+constexpr milliseconds kLookAgain{2};
 
 class Loop {
  public:
@@ -38,7 +40,8 @@ class Loop {
 
  private:
   milliseconds time_left() const {
-    const auto left = protocol_.next_deadline() - clock_.now();
+    Duration left = protocol_.next_deadline() - clock_.now();
+    if (busy_) left = std::min<Duration>(left, kLookAgain);
     // Rounded up: a poll of 0 ms would spin until the deadline.
     return std::clamp(std::chrono::ceil<milliseconds>(left), milliseconds{0}, milliseconds{1000});
   }
@@ -58,8 +61,7 @@ class Loop {
   }
 
   void take_events(TimePoint now) {
-    // While results trickle in, the loop comes by every 2 ms on its own.
-    std::vector<PoolEvent> events = pool_->take_events(busy_);
+    std::vector<PoolEvent> events = pool_->take_events();
     bool any_result = false;
     for (PoolEvent& event : events) {
       std::visit(Overloaded{[&](const ItemStarted& started) {

@@ -9,7 +9,8 @@ namespace swarmsmith {
 
 ProximityReadings RawReadings::proximity(double range_m) const {
   ProximityReadings readings;
-  for (std::size_t i = 0; i < readings.size(); ++i) readings[i] = limited(distances_m[i], range_m);
+  for (std::size_t i = 0; i < readings.size(); ++i)
+    readings[i] = limited(distances_m[i], range_m);
   return readings;
 }
 

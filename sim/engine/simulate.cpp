@@ -28,7 +28,8 @@ struct Agent {
   std::int64_t next_act = kPeriod;  ///< sub-step of its next control cycle
   std::int64_t cycle = 0;           ///< control cycles done
   Command command{};                ///< the last one computed
-  /// Commands on their way to the drive, oldest first, each with the cycle from which it acts.
+  Command acting{};                 ///< what the drive follows
+  /// Commands that still wait, oldest first, each with the cycle from which it acts.
   struct Pending {
     std::int64_t from_cycle;
     Command command;
@@ -62,7 +63,8 @@ class Run {
       const std::int64_t end = std::int64_t{instant} * kSubStepsPerInstant;
       while (now < end) {
         std::int64_t next = end;
-        for (const Agent& agent : agents_) next = std::min(next, agent.next_act);
+        for (const Agent& agent : agents_)
+          next = std::min(next, agent.next_act);
         world_.advance(static_cast<int>(next - now));
         now = next;
         for (int i = 0; i < world_.robots(); ++i) {
@@ -83,13 +85,17 @@ class Run {
     agent.next_act += kPeriod;
     agent.senses.begin_cycle(agent.cycle);
     agent.command = agent.control.step(agent.senses);
-    agent.pending.push_back({agent.cycle + kWait, agent.command});
-    while (agent.pending.size() > 1 && agent.pending[1].from_cycle <= agent.cycle) {
-      agent.pending.erase(agent.pending.begin());
+    if (kWait == 0) {
+      agent.acting = agent.command;
+    } else {
+      agent.pending.push_back({agent.cycle + kWait, agent.command});
+      while (!agent.pending.empty() && agent.pending.front().from_cycle <= agent.cycle) {
+        agent.acting = agent.pending.front().command;
+        agent.pending.erase(agent.pending.begin());
+      }
     }
     // Also an old command is renewed: its direction follows the heading, cycle by cycle.
-    const Agent::Pending& due = agent.pending.front();
-    if (due.from_cycle <= agent.cycle) world_.command(robot, due.command);
+    world_.command(robot, agent.acting);
   }
 
   void observe() {
@@ -104,9 +110,8 @@ class Run {
     records_.clear();
     for (int i = 0; i < world_.robots(); ++i) {
       const Agent& agent = agents_[static_cast<std::size_t>(i)];
-      records_.push_back({.pose = instant == 0
-                                      ? setup_.instance.starts[static_cast<std::size_t>(i)]
-                                      : pose_of(world_.body(i)),
+      records_.push_back({.pose = instant == 0 ? setup_.instance.starts[static_cast<std::size_t>(i)]
+                                               : pose_of(world_.body(i)),
                           .command = agent.command,
                           .state = agent.control.state()});
     }
@@ -117,8 +122,7 @@ class Run {
     Digest digest;
     for (int i = 0; i < world_.robots(); ++i) {
       const Body& body = world_.body(i);
-      for (const double value :
-           {body.x, body.y, body.cos, body.sin, body.vx, body.vy, body.spin}) {
+      for (const double value : {body.x, body.y, body.cos, body.sin, body.vx, body.vy, body.spin}) {
         digest.add(value);
       }
       digest.add(agents_[static_cast<std::size_t>(i)].control.state());

@@ -25,7 +25,7 @@ struct SimulationSetup {
 
 /// What one evaluation gives.
 struct SimulationResult {
-  double score = 0;              ///< larger is better
+  double score = 0;                ///< larger is better
   std::uint64_t state_digest = 0;  ///< of final poses, velocities and states: equal bits, equal run
 };
 

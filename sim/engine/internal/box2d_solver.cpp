@@ -6,10 +6,10 @@
 #include "base/math.h"
 #include "sim/engine/internal/contact_solver.h"
 
-// Box2D 2.4 in the original's terms (simulator facts, section 4.2): the drive is a friction joint to
-// a kinematic body that moves with the set-point; its order (solve velocities, then move) is made
-// ours (move, find contacts, solve velocities) by handing over poses one sub-step ahead; the skin
-// that it keeps round polygons is taken off their size. A world of its own for each call keeps
+// Box2D 2.4 in the original's terms (simulator facts, section 4.2): the drive is a friction joint
+// to a kinematic body that moves with the set-point; its order (solve velocities, then move) is
+// made ours (move, find contacts, solve velocities) by handing over poses one sub-step ahead; the
+// skin that it keeps round polygons is taken off their size. A world of its own for each call keeps
 // evaluations independent of each other: warm starts, the order of the tree and sleep die with it.
 
 namespace swarmsmith {
@@ -20,7 +20,9 @@ constexpr int kVelocityIterations = 10;
 /// The original tolerates 0.1 m of overlap, so positions are never pushed apart.
 constexpr int kPositionIterations = 0;
 
-b2Vec2 vector(double x, double y) { return {static_cast<float>(x), static_cast<float>(y)}; }
+b2Vec2 vector(double x, double y) {
+  return {static_cast<float>(x), static_cast<float>(y)};
+}
 
 b2Body* add_robot(b2World& world, const Body& body) {
   b2BodyDef definition;
@@ -67,7 +69,8 @@ void add_walls(b2World& world, std::span<const WallPlane> walls) {
     const double x = wall.from.x + kSkin_m * wall.nx;
     const double y = wall.from.y + kSkin_m * wall.ny;
     b2EdgeShape edge;
-    edge.SetTwoSided(vector(x, y), vector(x - wall.ny * wall.length_m, y + wall.nx * wall.length_m));
+    edge.SetTwoSided(vector(x, y),
+                     vector(x - wall.ny * wall.length_m, y + wall.nx * wall.length_m));
     b2FixtureDef fixture;
     fixture.shape = &edge;
     fixture.friction = static_cast<float>(kFriction);
@@ -116,7 +119,8 @@ class Box2dSolver final : public ContactSolver {
     for (int i = 0; i < sub_steps; ++i) {
       world.Step(static_cast<float>(kSubStep_s), kVelocityIterations, kPositionIterations);
     }
-    for (std::size_t i = 0; i < island.size(); ++i) island[i].body = taken_from(*robots_[i]);
+    for (std::size_t i = 0; i < island.size(); ++i)
+      island[i].body = taken_from(*robots_[i]);
   }
 
  private:

@@ -8,7 +8,24 @@
 namespace swarmsmith {
 namespace {
 
-/// |angle| up to 0.5: sine to x^11 and cosine to x^12; what is left out is below 3e-14.
+void rotate(Body& body, double cosine, double sine) {
+  const double c = body.cos * cosine - body.sin * sine;
+  const double s = body.cos * sine + body.sin * cosine;
+  // One step of Newton for 1 / sqrt(c^2 + s^2), which is within rounding of 1.
+  const double scale = 1.5 - 0.5 * (c * c + s * s);
+  body.cos = c * scale;
+  body.sin = s * scale;
+}
+
+/// |angle| up to 1/16, a sub-step's: sine to x^7, cosine to x^8; what is left out is below 4e-17.
+void turn_slightly(Body& body, double angle_rad) {
+  const double s = angle_rad * angle_rad;
+  const double sine = angle_rad * (1 + s * (-1.0 / 6 + s * (1.0 / 120 + s * (-1.0 / 5040))));
+  const double cosine = 1 + s * (-1.0 / 2 + s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320))));
+  rotate(body, cosine, sine);
+}
+
+/// |angle| up to 0.5: sine to x^11, cosine to x^12; what is left out is below 3e-14.
 void turn_part(Body& body, double angle_rad) {
   const double s = angle_rad * angle_rad;
   const double sine =
@@ -20,12 +37,7 @@ void turn_part(Body& body, double angle_rad) {
       s * (-1.0 / 2 +
            s * (1.0 / 24 + s * (-1.0 / 720 + s * (1.0 / 40320 +
                                                   s * (-1.0 / 3628800 + s * (1.0 / 479001600.))))));
-  const double c = body.cos * cosine - body.sin * sine;
-  const double n = body.cos * sine + body.sin * cosine;
-  // One step of Newton for 1 / sqrt(c^2 + n^2), which is within rounding of 1.
-  const double scale = 1.5 - 0.5 * (c * c + n * n);
-  body.cos = c * scale;
-  body.sin = n * scale;
+  rotate(body, cosine, sine);
 }
 
 /// A quantity that starts `distance` off its target and comes `step` nearer in each sub-step.
@@ -48,7 +60,9 @@ Body body_at(const Pose& pose) {
   return {.x = pose.x, .y = pose.y, .cos = heading.cos, .sin = heading.sin};
 }
 
-Pose pose_of(const Body& body) { return {body.x, body.y, atan2(body.sin, body.cos)}; }
+Pose pose_of(const Body& body) {
+  return {body.x, body.y, atan2(body.sin, body.cos)};
+}
 
 SetPoint set_point_of(const Command& command, const Body& body) {
   const double speed = (command.left_mps + command.right_mps) / 2;
@@ -59,12 +73,11 @@ SetPoint set_point_of(const Command& command, const Body& body) {
 
 void turn(Body& body, double angle_rad) {
   const double size = std::fabs(angle_rad);
-  if (size <= 0.5) {
-    turn_part(body, angle_rad);
-    return;
-  }
+  if (size <= 0.0625) return turn_slightly(body, angle_rad);
+  if (size <= 0.5) return turn_part(body, angle_rad);
   const int parts = static_cast<int>(size * 2) + 1;
-  for (int i = 0; i < parts; ++i) turn_part(body, angle_rad / parts);
+  for (int i = 0; i < parts; ++i)
+    turn_part(body, angle_rad / parts);
 }
 
 void sub_step(Body& body, const SetPoint& set_point) {
@@ -108,6 +121,13 @@ void advance_freely(Body& body, const SetPoint& set_point, int sub_steps) {
     body.spin = set_point.spin - std::copysign(spin.left, dw);
   }
   if (angle != 0) turn(body, angle);
+}
+
+double surface_speed(const Body& body, const SetPoint& set_point) {
+  const double speed2 = std::max(body.vx * body.vx + body.vy * body.vy,
+                                 set_point.vx * set_point.vx + set_point.vy * set_point.vy);
+  return std::sqrt(speed2) +
+         kCornerRadius_m * std::max(std::fabs(body.spin), std::fabs(set_point.spin));
 }
 
 }  // namespace swarmsmith

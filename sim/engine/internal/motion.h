@@ -17,4 +17,7 @@ void sub_step(Body& body, const SetPoint& set_point);
 /// to it within rounding.
 void advance_freely(Body& body, const SetPoint& set_point, int sub_steps);
 
+/// How fast any point of a body can be on its free way from its velocity to its set-point, m/s.
+double surface_speed(const Body& body, const SetPoint& set_point);
+
 }  // namespace swarmsmith

@@ -1,22 +1,10 @@
 #include "sim/engine/internal/reach.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "sim/engine/internal/motion.h"
 
 namespace swarmsmith {
-namespace {
-
-/// How fast any point of a body can be on the way from its velocity to its set-point.
-double surface_speed(const Body& body, const SetPoint& set_point) {
-  const double speed2 =
-      std::max(body.vx * body.vx + body.vy * body.vy,
-               set_point.vx * set_point.vx + set_point.vy * set_point.vy);
-  return std::sqrt(speed2) +
-         kCornerRadius_m * std::max(std::fabs(body.spin), std::fabs(set_point.spin));
-}
-
-}  // namespace
-
 Reach::Reach(const Walls& walls, int robots)
     : walls_(&walls),
       parent_(static_cast<std::size_t>(robots)),
@@ -33,7 +21,8 @@ std::span<const Island> Reach::find(const Swarm& swarm, int sub_steps) {
   if (!pairs && !any_wall_near(swarm, span_s)) return {};
   bound_motion(swarm, span_s);
   // A group that grew may be pushed further than its members drive, and reach more.
-  while (pairs && join_pairs(swarm)) widen_groups(span_s);
+  while (pairs && join_pairs(swarm))
+    widen_groups(span_s);
   gather(swarm);
   return {islands_.data(), count_};
 }
@@ -50,8 +39,7 @@ bool Reach::any_pair_near(const Swarm& swarm, double span_s) const {
 }
 
 bool Reach::any_wall_near(const Swarm& swarm, double span_s) const {
-  const double clear =
-      walls_->clear_radius_m - kCornerRadius_m - swarm.speed_limit_mps * span_s;
+  const double clear = walls_->clear_radius_m - kCornerRadius_m - swarm.speed_limit_mps * span_s;
   return std::any_of(swarm.bodies.begin(), swarm.bodies.end(), [&](const Body& body) {
     return clear <= 0 || body.x * body.x + body.y * body.y >= clear * clear;
   });
@@ -118,6 +106,21 @@ bool Reach::wall_in_reach(const Body& body, const WallPlane& wall, double margin
   return gap_to(body, wall) <= margin_m;
 }
 
+void Reach::add_walls(const Swarm& swarm, Island& island) const {
+  for (const int robot : island.robots) {
+    const auto i = static_cast<std::size_t>(robot);
+    const Body& body = swarm.bodies[i];
+    const double clear = walls_->clear_radius_m - kCornerRadius_m - margin_m_[i];
+    if (clear > 0 && body.x * body.x + body.y * body.y < clear * clear) continue;
+    for (std::size_t w = 0; w < walls_->planes.size(); ++w) {
+      if (!wall_in_reach(body, walls_->planes[w], margin_m_[i])) continue;
+      const int wall = static_cast<int>(w);
+      const auto place = std::lower_bound(island.walls.begin(), island.walls.end(), wall);
+      if (place == island.walls.end() || *place != wall) island.walls.insert(place, wall);
+    }
+  }
+}
+
 void Reach::gather(const Swarm& swarm) {
   const int n = static_cast<int>(parent_.size());
   for (int first = 0; first < n; ++first) {
@@ -128,15 +131,10 @@ void Reach::gather(const Swarm& swarm) {
     for (int i = first; i < n; ++i) {
       if (root(i) == first) island.robots.push_back(i);
     }
-    for (std::size_t w = 0; w < walls_->planes.size(); ++w) {
-      const bool near = std::any_of(island.robots.begin(), island.robots.end(), [&](int robot) {
-        const auto i = static_cast<std::size_t>(robot);
-        return wall_in_reach(swarm.bodies[i], walls_->planes[w], margin_m_[i]);
-      });
-      if (near) island.walls.push_back(static_cast<int>(w));
-    }
+    add_walls(swarm, island);
     if (island.robots.size() < 2 && island.walls.empty()) continue;
-    for (const int robot : island.robots) in_island_[static_cast<std::size_t>(robot)] = 1;
+    for (const int robot : island.robots)
+      in_island_[static_cast<std::size_t>(robot)] = 1;
     ++count_;
   }
 }

@@ -48,12 +48,13 @@ class Reach {
   bool join_pairs(const Swarm& swarm);
   void widen_groups(double span_s);
   void gather(const Swarm& swarm);
+  void add_walls(const Swarm& swarm, Island& island) const;
   bool wall_in_reach(const Body& body, const WallPlane& wall, double margin_m) const;
   int root(int robot) const;
 
   const Walls* walls_;
-  std::vector<int> parent_;       ///< union-find
-  std::vector<double> margin_m_;  ///< how far any point of the body can get
+  std::vector<int> parent_;        ///< union-find
+  std::vector<double> margin_m_;   ///< how far any point of the body can get
   std::vector<double> speed_mps_;  ///< how fast any point of the body can be
   std::vector<char> in_island_;
   std::vector<Island> islands_;

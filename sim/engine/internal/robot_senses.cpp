@@ -4,13 +4,17 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/engine/internal/normal_noise.h"
 #include "sim/engine/internal/sensing.h"
 
 namespace swarmsmith {
 namespace {
 
 /// The standard normal number with this index in the stream with this key.
-double normal_at(std::uint64_t key, std::uint64_t index) { return Rng(key + index).normal(); }
+double normal_at(std::uint64_t key, std::uint64_t index) {
+  Rng rng(key + index);
+  return NormalNoise::instance().draw(rng);
+}
 
 std::uint8_t noisy_channel(std::uint8_t value, double noise) {
   const double rounded = std::floor(value + noise + 0.5);
@@ -28,6 +32,7 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
       proximity_noise_(run.split("proximity", static_cast<std::uint64_t>(robot)).key()),
       ground_noise_(run.split("ground", static_cast<std::uint64_t>(robot)).key()) {
   neighbours_.reserve(static_cast<std::size_t>(world.robots()));
+  floor_ = floor_at(arena, floor_place_);
 }
 
 void RobotSenses::begin_cycle(std::int64_t cycle) {
@@ -45,7 +50,8 @@ const ProximityReadings& RobotSenses::proximity() {
     reading = limited(reading, range);
     if (profile_->proximity_sd_m == 0 || !std::isfinite(reading)) continue;
     const auto index = static_cast<std::uint64_t>(cycle_) * kProximitySensors + i;
-    reading = limited(reading + profile_->proximity_sd_m * normal_at(proximity_noise_, index), range);
+    reading =
+        limited(reading + profile_->proximity_sd_m * normal_at(proximity_noise_, index), range);
   }
   return proximity_;
 }
@@ -54,8 +60,13 @@ Rgb RobotSenses::ground_color() {
   if (has_ground_) return ground_;
   has_ground_ = true;
   const Body& body = world_->body(robot_);
-  ground_ = floor_at(*arena_, {body.x + kGroundSensorAhead_m * body.cos,
-                               body.y + kGroundSensorAhead_m * body.sin});
+  const Point place = {body.x + kGroundSensorAhead_m * body.cos,
+                       body.y + kGroundSensorAhead_m * body.sin};
+  if (place != floor_place_) {  // robots often stand
+    floor_place_ = place;
+    floor_ = floor_at(*arena_, place);
+  }
+  ground_ = floor_;
   const double sd = profile_->ground_color_sd;
   if (sd != 0) {
     const auto index = static_cast<std::uint64_t>(cycle_) * 3;

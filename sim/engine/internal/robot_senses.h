@@ -47,6 +47,8 @@ class RobotSenses final : public Senses {
   bool has_neighbours_ = false;
   ProximityReadings proximity_{};
   Rgb ground_;
+  Point floor_place_;  ///< where the floor was last looked up, and what colour it has there
+  Rgb floor_;
   std::vector<Neighbour> neighbours_;
 };
 

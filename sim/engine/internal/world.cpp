@@ -13,25 +13,26 @@ World::World(const Arena& arena, std::span<const Pose> starts, ContactModel cont
       distances2_(starts.size() * starts.size()),
       reach_(walls_, static_cast<int>(starts.size())),
       solver_(make_contact_solver(contacts, walls_.convex)) {
-  for (const Pose& start : starts) bodies_.push_back(body_at(start));
+  for (const Pose& start : starts)
+    bodies_.push_back(body_at(start));
   measure_distances();
 }
 
 void World::command(int robot, const Command& command) {
   const auto i = static_cast<std::size_t>(robot);
   set_points_[i] = set_point_of(command, bodies_[i]);
-  speed_limit_mps_ =
-      std::max(speed_limit_mps_, std::max(std::fabs(command.left_mps), std::fabs(command.right_mps)));
+  speed_limit_mps_ = std::max(speed_limit_mps_,
+                              std::max(std::fabs(command.left_mps), std::fabs(command.right_mps)));
 }
 
 void World::advance(int sub_steps) {
-  const std::span<const Island> islands =
-      reach_.find({.bodies = bodies_,
-                   .set_points = set_points_,
-                   .distances2 = distances2_,
-                   .speed_limit_mps = speed_limit_mps_},
-                  sub_steps);
-  for (const Island& island : islands) advance_island(island, sub_steps);
+  const std::span<const Island> islands = reach_.find({.bodies = bodies_,
+                                                       .set_points = set_points_,
+                                                       .distances2 = distances2_,
+                                                       .speed_limit_mps = speed_limit_mps_},
+                                                      sub_steps);
+  for (const Island& island : islands)
+    advance_island(island, sub_steps);
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     if (islands.empty() || reach_.is_free(static_cast<int>(i))) {
       advance_freely(bodies_[i], set_points_[i], sub_steps);

@@ -15,7 +15,7 @@ namespace {
 
 /// The contract of the seam, for all who claim it. Box2D computes in single precision, which is
 /// what the tolerances leave room for.
-class Contacts : public testing::TestWithParam<ContactModel> {
+class Solvers : public testing::TestWithParam<ContactModel> {
  protected:
   /// Ten sub-steps at a time, the set-point renewed from the command as control cycles do.
   void drive(std::vector<IslandMember>& island, const std::vector<Command>& commands, int ticks) {
@@ -31,12 +31,12 @@ class Contacts : public testing::TestWithParam<ContactModel> {
   std::unique_ptr<ContactSolver> solver_ = make_contact_solver(GetParam(), true);
 };
 
-INSTANTIATE_TEST_SUITE_P(All, Contacts, testing::Values(ContactModel::Exact, ContactModel::Box2d),
-                         [](const auto& info) {
-                           return info.param == ContactModel::Exact ? "Exact" : "Box2d";
+INSTANTIATE_TEST_SUITE_P(All, Solvers, testing::Values(ContactModel::Exact, ContactModel::Box2d),
+                         [](const auto& instance) {
+                           return instance.param == ContactModel::Exact ? "Exact" : "Box2d";
                          });
 
-TEST_P(Contacts, WithoutATouchMotionIsFree) {
+TEST_P(Solvers, WithoutATouchMotionIsFree) {
   Rng rng(1);
   for (int i = 0; i < 300; ++i) {
     std::vector<IslandMember> island(2);
@@ -48,7 +48,8 @@ TEST_P(Contacts, WithoutATouchMotionIsFree) {
       member.set_point = set_point_of({rng.uniform(-0.3, 0.3), 0.3}, member.body);
     }
     std::vector<IslandMember> free = island;
-    for (IslandMember& member : free) advance_freely(member.body, member.set_point, 10);
+    for (IslandMember& member : free)
+      advance_freely(member.body, member.set_point, 10);
     solver_->advance(island, walls_.planes, 10);
     const double tolerance = GetParam() == ContactModel::Exact ? 1e-12 : 3e-6;
     for (std::size_t m = 0; m < 2; ++m) {
@@ -61,7 +62,7 @@ TEST_P(Contacts, WithoutATouchMotionIsFree) {
   }
 }
 
-TEST_P(Contacts, AWallStopsARobotAtItsFace) {
+TEST_P(Solvers, AWallStopsARobotAtItsFace) {
   std::vector<IslandMember> island = {{.body = body_at({0.9, 0, 0}), .set_point = {}}};
   drive(island, {{0.3, 0.3}}, 30);
   EXPECT_NEAR(island[0].body.x, 1.226 - kHalfSide_m, 0.003);
@@ -69,7 +70,7 @@ TEST_P(Contacts, AWallStopsARobotAtItsFace) {
   EXPECT_NEAR(island[0].body.vx, 0, 1e-3);
 }
 
-TEST_P(Contacts, AgainstAWallARobotStillTurnsAndDrivesAway) {
+TEST_P(Solvers, AgainstAWallARobotStillTurnsAndDrivesAway) {
   std::vector<IslandMember> island = {{.body = body_at({1.08, 0, 0}), .set_point = {}}};
   drive(island, {{0.3, 0.3}}, 10);
   drive(island, {{-0.3, 0.3}}, 8);
@@ -77,7 +78,7 @@ TEST_P(Contacts, AgainstAWallARobotStillTurnsAndDrivesAway) {
   EXPECT_LT(island[0].body.x, 1.0);
 }
 
-TEST_P(Contacts, EqualRobotsHeadOnStopEachOther) {
+TEST_P(Solvers, EqualRobotsHeadOnStopEachOther) {
   std::vector<IslandMember> island = {{.body = body_at({-0.3, 0, 0}), .set_point = {}},
                                       {.body = body_at({0.3, 0, kPi}), .set_point = {}}};
   drive(island, {{0.3, 0.3}, {0.3, 0.3}}, 20);
@@ -86,7 +87,7 @@ TEST_P(Contacts, EqualRobotsHeadOnStopEachOther) {
   EXPECT_NEAR(island[0].body.x, -island[1].body.x, 1e-5);
 }
 
-TEST_P(Contacts, ADriverPushesAnotherThatDoesNotHoldStill) {
+TEST_P(Solvers, ADriverPushesAnotherThatDoesNotHoldStill) {
   // Both drives are equally strong, so a robot told to stand holds its place and one that goes the
   // same way, slower, is pushed to a speed in between.
   std::vector<IslandMember> island = {{.body = body_at({-0.3, 0, 0}), .set_point = {}},
@@ -97,7 +98,7 @@ TEST_P(Contacts, ADriverPushesAnotherThatDoesNotHoldStill) {
   EXPECT_LT(island[1].body.vx, 0.31);
 }
 
-TEST_P(Contacts, WhatItGivesDoesNotDependOnEarlierCalls) {
+TEST_P(Solvers, WhatItGivesDoesNotDependOnEarlierCalls) {
   const std::vector<IslandMember> start = {
       {.body = body_at({-0.15, 0, 0.2}), .set_point = {0.3, 0.05, 0}},
       {.body = body_at({0.15, 0.02, 2.9}), .set_point = {-0.3, 0.05, 2}}};
@@ -116,14 +117,14 @@ TEST_P(Contacts, WhatItGivesDoesNotDependOnEarlierCalls) {
   }
 }
 
-TEST_P(Contacts, AThrongInTheMiddleNeitherSinksInNorFliesApart) {
+TEST_P(Solvers, AThrongInTheMiddleNeitherSinksInNorFliesApart) {
   Rng rng(5);
   for (int run = 0; run < 20; ++run) {
     std::vector<IslandMember> island;
     for (int i = 0; i < 3; ++i) {
       const double angle = 2 * kPi * i / 3 + rng.uniform(0, 0.5);
-      island.push_back({.body = body_at({0.35 * cos(angle), 0.35 * sin(angle), angle + kPi}),
-                        .set_point = {}});
+      island.push_back(
+          {.body = body_at({0.35 * cos(angle), 0.35 * sin(angle), angle + kPi}), .set_point = {}});
     }
     for (int tick = 0; tick < 60; ++tick) {
       std::vector<Command> commands(3, Command{0.3, 0.3});

@@ -22,10 +22,14 @@ Body moving_body(Rng& rng) {
 /// A set-point as commands make it: some at rest, some met already.
 SetPoint target(Rng& rng, const Body& body) {
   switch (rng.below(4)) {
-    case 0: return {};
-    case 1: return {body.vx, body.vy, body.spin};
-    case 2: return {body.vx, body.vy, rng.uniform(-4.1, 4.1)};
-    default: return {rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), rng.uniform(-4.1, 4.1)};
+    case 0:
+      return {};
+    case 1:
+      return {body.vx, body.vy, body.spin};
+    case 2:
+      return {body.vx, body.vy, rng.uniform(-4.1, 4.1)};
+    default:
+      return {rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), rng.uniform(-4.1, 4.1)};
   }
 }
 
@@ -43,7 +47,8 @@ TEST(Motion, ClosedFormEqualsTheSubSteps) {
     const SetPoint set_point = target(rng, stepped);
     Body jumped = stepped;
     const int sub_steps = i % 2 == 0 ? 10 : static_cast<int>(1 + rng.below(20));
-    for (int k = 0; k < sub_steps; ++k) sub_step(stepped, set_point);
+    for (int k = 0; k < sub_steps; ++k)
+      sub_step(stepped, set_point);
     advance_freely(jumped, set_point, sub_steps);
     worst = std::max(worst, largest_difference(stepped, jumped));
   }
@@ -55,7 +60,8 @@ TEST(Motion, ClosedFormEqualsTheSubStepsWhenTheSetPointIsAWholeNumberOfStepsAway
     const SetPoint set_point = {steps * kSpeedStep_mps, 0, -steps * kSpinStep_radps};
     Body stepped;
     Body jumped;
-    for (int k = 0; k < 10; ++k) sub_step(stepped, set_point);
+    for (int k = 0; k < 10; ++k)
+      sub_step(stepped, set_point);
     advance_freely(jumped, set_point, 10);
     EXPECT_LT(largest_difference(stepped, jumped), 1e-14) << steps;
   }
@@ -84,7 +90,8 @@ TEST(Motion, TurnAgreesWithTheAngleAlsoBeyondARightOne) {
 TEST(Motion, HeadingStaysAUnitVector) {
   Rng rng(2);
   Body body;
-  for (int i = 0; i < 100'000; ++i) turn(body, rng.uniform(-0.5, 0.5));
+  for (int i = 0; i < 100'000; ++i)
+    turn(body, rng.uniform(-0.5, 0.5));
   EXPECT_NEAR(body.cos * body.cos + body.sin * body.sin, 1, 1e-15);
 }
 

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "base/math.h"
@@ -26,9 +27,9 @@ struct Scene {
     for (const IslandMember& a : robots) {
       bodies.push_back(a.body);
       set_points.push_back(a.set_point);
-      speed_limit = std::max({speed_limit, hypot(a.body.vx, a.body.vy),
-                              hypot(a.set_point.vx, a.set_point.vy),
-                              std::fabs(a.set_point.spin) * kWheelSeparation_m / 2});
+      speed_limit =
+          std::max({speed_limit, hypot(a.body.vx, a.body.vy), hypot(a.set_point.vx, a.set_point.vy),
+                    std::fabs(a.set_point.spin) * kWheelSeparation_m / 2});
       for (const IslandMember& b : robots) {
         const double d = hypot(a.body.x - b.body.x, a.body.y - b.body.y);
         distances2.push_back(d * d);
@@ -45,9 +46,8 @@ IslandMember standing(double x, double y, double theta = 0) {
 }
 
 TEST(Reach, RobotsThatStandApartAreFree) {
-  EXPECT_TRUE((Scene{.robots = {standing(0, 0), standing(0.4, 0), standing(-0.4, 0.1)}})
-                  .islands()
-                  .empty());
+  EXPECT_TRUE(
+      (Scene{.robots = {standing(0, 0), standing(0.4, 0), standing(-0.4, 0.1)}}).islands().empty());
 }
 
 TEST(Reach, ARobotThatDrivesAtAnotherMakesAnIsland) {

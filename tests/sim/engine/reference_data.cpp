@@ -1,25 +1,41 @@
 #include "tests/sim/engine/reference_data.h"
 
 #include <fstream>
+#include <iterator>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+
+#include "sim/mission/instance_csv.h"
 
 namespace swarmsmith {
 namespace {
 
 using Row = std::vector<std::string>;
 
-/// Rows of a comma-separated file without its header. No field of these files is quoted.
-std::vector<Row> rows_of(const std::string& file) {
+template <class T>
+T value_of(Expected<T> value) {
+  if (!value) throw std::runtime_error(to_string(value.error()));
+  return std::move(*value);
+}
+
+std::string text_of(const std::string& file) {
   std::ifstream in(SWARMSMITH_TEST_DATA "/argos/" + file);
   if (!in) throw std::runtime_error("no reference file " + file);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Rows of a comma-separated file without its header. No field of these files is quoted.
+std::vector<Row> rows_of(const std::string& file) {
+  std::istringstream in(text_of(file));
   std::vector<Row> rows;
   std::string line;
   std::getline(in, line);
   while (std::getline(in, line)) {
     std::istringstream fields(line);
     Row& row = rows.emplace_back();
-    for (std::string field; std::getline(fields, field, ',');) row.push_back(field);
+    for (std::string field; std::getline(fields, field, ',');)
+      row.push_back(field);
   }
   return rows;
 }
@@ -33,14 +49,9 @@ ReferenceScores scores_of(const std::string& file) {
   return scores;
 }
 
-Rgb color_of(const std::string& name) {
-  if (name == "green") return {0, 255, 0};
-  if (name == "red") return {255, 0, 0};
-  if (name == "yellow") return {255, 255, 0};
-  throw std::runtime_error("no patch colour " + name);
+std::uint8_t channel(const std::string& text) {
+  return static_cast<std::uint8_t>(std::stoi(text));
 }
-
-std::uint8_t channel(const std::string& text) { return static_cast<std::uint8_t>(std::stoi(text)); }
 
 }  // namespace
 
@@ -64,7 +75,8 @@ LoggedRun logged_run(const std::string& name) {
 
 std::vector<ReferenceMachine> reference_machines() {
   std::vector<ReferenceMachine> machines;
-  for (const Row& row : rows_of("argos-fsms.csv")) machines.push_back({row.at(0), "", row.at(1)});
+  for (const Row& row : rows_of("argos-fsms.csv"))
+    machines.push_back({row.at(0), "", row.at(1)});
   return machines;
 }
 
@@ -76,20 +88,20 @@ std::vector<ReferenceMachine> thesis_designs() {
   return machines;
 }
 
-ReferenceScores reference_scores() { return scores_of("argos-scores.csv"); }
+ReferenceScores reference_scores() {
+  return scores_of("argos-scores.csv");
+}
 
-ReferenceScores thesis_scores() { return scores_of("argos-thesis-scores.csv"); }
+ReferenceScores thesis_scores() {
+  return scores_of("argos-thesis-scores.csv");
+}
 
-std::vector<Instance> reference_instances(const std::string& mission) {
-  std::vector<Instance> instances(100);
-  for (const Row& row : rows_of("argos-starts.csv")) {
-    instances.at(std::stoul(row.at(0)) - 1)
-        .starts.push_back({std::stod(row[2]), std::stod(row[3]), std::stod(row[4])});
-  }
-  if (mission != "color_selection") return instances;
-  for (const Row& row : rows_of("argos-patches.csv")) {
-    const Rectangle place = {{std::stod(row.at(1)), std::stod(row[2])}, 0.30, 0.30};
-    instances.at(std::stoul(row[0]) - 1).patches.push_back({place, color_of(row.at(3))});
+std::vector<Instance> reference_instances(const Mission& mission) {
+  const ExplicitInstances given = {value_of(parse_starts_csv(text_of("argos-starts.csv"))),
+                                   value_of(parse_patches_csv(text_of("argos-patches.csv")))};
+  std::vector<Instance> instances;
+  for (int seed = 1; seed <= 100; ++seed) {
+    instances.push_back(value_of(instance_of(mission, seed, given)));
   }
   return instances;
 }

@@ -12,8 +12,8 @@ namespace swarmsmith {
 /// The original simulator's data in tests/golden/argos, as values. A missing or malformed file
 /// throws: a test cannot go on without it.
 
-/// One robot in one tick of a recorded run. Speeds in cm/s; proximity as recorded: inf beyond 0.4 m,
-/// -inf closer than 0.05 m, 0 for nothing within 2 m.
+/// One robot in one tick of a recorded run. Speeds in cm/s; proximity as recorded: inf beyond 0.4
+/// m, -inf closer than 0.05 m, 0 for nothing within 2 m.
 struct LoggedTick {
   Pose pose;
   double left_cmps = 0;
@@ -59,6 +59,6 @@ ReferenceScores reference_scores();  ///< of the twenty, seeds 1..100
 ReferenceScores thesis_scores();     ///< of the thirty, seeds 1..30
 
 /// The original's starting poses and colour patches of seeds 1..100: [0] is seed 1's.
-std::vector<Instance> reference_instances(const std::string& mission);
+std::vector<Instance> reference_instances(const Mission& mission);
 
 }  // namespace swarmsmith

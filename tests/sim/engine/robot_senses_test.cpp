@@ -30,7 +30,9 @@ TEST(RobotSenses, ReadWhatIsThere) {
   RobotSenses senses = scene.senses(0);
   senses.begin_cycle(1);
   EXPECT_NEAR(senses.proximity()[1], 0.5 - 2 * kHalfSide_m, 1e-12);
-  for (const std::size_t i : {0, 2, 3, 4, 5, 6, 7}) EXPECT_EQ(senses.proximity()[i], kInfinity);
+  for (std::size_t i = 0; i < kProximitySensors; ++i) {
+    EXPECT_TRUE(i == 1 || senses.proximity()[i] == kInfinity) << i;
+  }
   EXPECT_EQ(senses.ground_color(), (Rgb{127, 127, 127}));
   ASSERT_EQ(senses.neighbours().size(), 1);
   EXPECT_DOUBLE_EQ(senses.neighbours()[0].distance_m, 0.5);
@@ -93,7 +95,8 @@ TEST(RobotSenses, NoiseDependsOnSeedAndRobot) {
     for (const std::uint64_t seed : {1U, 2U}) {
       RobotSenses senses = scene.senses(robot, seed);
       senses.begin_cycle(1);
-      for (const Rgb& other : colors) EXPECT_NE(senses.ground_color(), other);
+      for (const Rgb& other : colors)
+        EXPECT_NE(senses.ground_color(), other);
       colors.push_back(senses.ground_color());
     }
   }

@@ -20,7 +20,7 @@ Arena room() {
 /// The room less its upper right quarter: a reflex corner in (1, 0.5).
 Arena bent_room() {
   Arena arena;
-  arena.walls = {{{0, 0}, {2, 0}},     {{2, 0}, {2, 0.5}}, {{2, 0.5}, {1, 0.5}},
+  arena.walls = {{{0, 0}, {2, 0}},   {{2, 0}, {2, 0.5}}, {{2, 0.5}, {1, 0.5}},
                  {{1, 0.5}, {1, 1}}, {{1, 1}, {0, 1}},   {{0, 1}, {0, 0}}};
   return arena;
 }

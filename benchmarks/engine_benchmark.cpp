@@ -1,0 +1,145 @@
+#include <benchmark/benchmark.h>
+#include <box2d/box2d.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "base/math.h"
+#include "sim/engine/simulate.h"
+#include "tests/sim/engine/reference_data.h"
+#include "tests/sim/engine/reference_runs.h"
+
+// What one evaluation costs: three robots, 120 s, 1200 control cycles, on one core. The counter
+// ms_each is CPU time per evaluation; the yardstick is a bare Box2D loop of the same world.
+
+namespace swarmsmith {
+namespace {
+
+/// A machine with the mission it is measured on.
+struct Subject {
+  Machine machine;
+  const ReferenceRuns* runs;
+};
+
+/// The missions with the original's instances, in the flavour and profile.
+std::map<std::string, ReferenceRuns> missions_in(const char* flavour, const char* profile) {
+  std::map<std::string, ReferenceRuns> missions;
+  for (const ReferenceMission& mission : kReferenceMissions) {
+    ReferenceRuns runs(mission.ours);
+    runs.flavour = find_flavour(flavour).value();
+    runs.profile = built_in_profile(profile).value();
+    missions.emplace(mission.theirs, runs);
+  }
+  return missions;
+}
+
+void report(benchmark::State& state, double evaluations) {
+  state.counters["ms_each"] = benchmark::Counter(
+      evaluations / 1000, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+}
+
+/// Each iteration runs all subjects on one seed.
+void run_all(benchmark::State& state, const std::vector<Subject>& subjects) {
+  int seed = 0;
+  double evaluations = 0;
+  for (auto _ : state) {
+    seed = seed % 100 + 1;
+    for (const Subject& subject : subjects) {
+      benchmark::DoNotOptimize(subject.runs->run(subject.machine, seed).score);
+    }
+    evaluations += static_cast<double>(subjects.size());
+  }
+  report(state, evaluations);
+}
+
+/// The thirty machines of the thesis on their missions; `only` keeps one mission's ten.
+void thesis_designs_on(benchmark::State& state, const char* flavour, const char* profile,
+                       ContactModel contacts, const char* only) {
+  std::map<std::string, ReferenceRuns> missions = missions_in(flavour, profile);
+  for (auto& [name, runs] : missions)
+    runs.profile.contacts = contacts;
+  std::vector<Subject> subjects;
+  for (const ReferenceMachine& design : thesis_designs()) {
+    const std::string mission = design.mission == "grid_exploration"  ? "grid"
+                                : design.mission == "color_selection" ? "color"
+                                                                      : design.mission;
+    if (*only != 0 && mission != only) continue;
+    const ReferenceRuns& runs = missions.at(mission);
+    subjects.push_back({machine_of(design.text, *runs.flavour), &runs});
+  }
+  run_all(state, subjects);
+}
+
+/// The twenty reference machines on all three missions.
+void reference_machines_on(benchmark::State& state, const char* flavour, const char* profile) {
+  const std::map<std::string, ReferenceRuns> missions = missions_in(flavour, profile);
+  std::vector<Subject> subjects;
+  for (const ReferenceMachine& machine : reference_machines()) {
+    for (const auto& [name, runs] : missions) {
+      subjects.push_back({machine_of(machine.text, *runs.flavour), &runs});
+    }
+  }
+  run_all(state, subjects);
+}
+
+constexpr const char* kAll = "";
+BENCHMARK_CAPTURE(thesis_designs_on, watermelon_argos3, "watermelon-argos3", "argos3",
+                  ContactModel::Exact, kAll);
+BENCHMARK_CAPTURE(thesis_designs_on, watermelon_argos3_aggregation, "watermelon-argos3", "argos3",
+                  ContactModel::Exact, "aggregation");
+BENCHMARK_CAPTURE(thesis_designs_on, watermelon_argos3_grid, "watermelon-argos3", "argos3",
+                  ContactModel::Exact, "grid");
+BENCHMARK_CAPTURE(thesis_designs_on, watermelon_argos3_color, "watermelon-argos3", "argos3",
+                  ContactModel::Exact, "color");
+BENCHMARK_CAPTURE(thesis_designs_on, watermelon_argos3_box2d, "watermelon-argos3", "argos3",
+                  ContactModel::Box2d, kAll);
+BENCHMARK_CAPTURE(thesis_designs_on, watermelon_rvr, "watermelon", "rvr", ContactModel::Exact,
+                  kAll);
+BENCHMARK_CAPTURE(reference_machines_on, watermelon_argos3, "watermelon-argos3", "argos3");
+
+/// The yardstick: the same bodies and walls, one step a cycle, no sensors, no control software; the
+/// robots drive in circles of 0.2 m, clear of each other, so that contacts cost nothing.
+void bare_box2d_loop(benchmark::State& state) {
+  static constexpr std::array<Pose, 3> kStarts = {Pose{0.7, -0.2, 0}, Pose{-0.35, 0.4, 0},
+                                                  Pose{-0.35, -0.8, 0}};
+  const Arena arena = dodecagon_of_the_thesis();
+  double evaluations = 0;
+  for (auto _ : state) {
+    b2World world(b2Vec2_zero);
+    b2BodyDef ground_definition;
+    b2Body* ground = world.CreateBody(&ground_definition);
+    for (const Wall& wall : arena.walls) {
+      b2EdgeShape edge;
+      edge.SetTwoSided({static_cast<float>(wall.from.x), static_cast<float>(wall.from.y)},
+                       {static_cast<float>(wall.to.x), static_cast<float>(wall.to.y)});
+      ground->CreateFixture(&edge, 0);
+    }
+    std::vector<b2Body*> robots;
+    for (const Pose& start : kStarts) {
+      b2BodyDef definition;
+      definition.type = b2_dynamicBody;
+      definition.position = {static_cast<float>(start.x), static_cast<float>(start.y)};
+      definition.angle = static_cast<float>(start.theta);
+      robots.push_back(world.CreateBody(&definition));
+      b2PolygonShape square;
+      square.SetAsBox(0.143F, 0.143F);
+      robots.back()->CreateFixture(&square, 24.45F);
+    }
+    for (int cycle = 0; cycle < 1200; ++cycle) {
+      for (b2Body* robot : robots) {
+        robot->SetLinearVelocity(0.3F * robot->GetWorldVector({1, 0}));
+        robot->SetAngularVelocity(1.5F);
+      }
+      world.Step(0.1F, 8, 3);
+    }
+    benchmark::DoNotOptimize(robots[0]->GetPosition());
+    ++evaluations;
+  }
+  report(state, evaluations);
+}
+BENCHMARK(bare_box2d_loop);
+
+}  // namespace
+}  // namespace swarmsmith
