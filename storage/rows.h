@@ -70,6 +70,7 @@ struct CandidateRow {
   CandidateId parent;           ///< whose model it was sampled from; none for initial ones
   std::string parameters;       ///< JSON object of the active parameters
   std::string machine;          ///< text of the grammar
+  std::string modules;          ///< JSON object, module name -> occurrences
   std::int64_t states = 0;
   std::int64_t transitions = 0;
 };

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,27 +19,39 @@ struct WriterNews {
   std::string trouble;          ///< why commits are being retried (disk full, ...); empty when well
 };
 
+struct StoreOptions {
+  std::chrono::milliseconds retry{
+      1000};  ///< how long to wait before a failed commit is tried again
+};
+
 /// The one writer of a store: a SQLite file in WAL mode, synchronous=FULL, with a thread of its own
-/// that takes whatever has queued up as one transaction (group commit). Holds the store's lock while
-/// it lives, so that there is never a second one. Rows that are already there are ignored, or
+/// that takes whatever has queued up as one transaction (group commit). Holds the store's lock
+/// while it lives, so that there is never a second one. Rows that are already there are ignored, or
 /// replaced where the row says that it holds absolute values: appending twice does no harm.
 class Store {
  public:
   /// Makes the store when the file does not exist, else opens and migrates it. Errors: Conflict
   /// (another process holds it: its pid and host; or another campaign's: the keys that differ),
   /// Corrupt (no SQLite file, truncated, damaged), Newer (schema of a later version), BadInput (a
-  /// network file system, no such folder, not writable).
+  /// network file system, no such folder, not writable), Unavailable (the disk refuses).
   static Expected<std::unique_ptr<Store>> open(const std::filesystem::path& path,
                                                const CampaignRow& campaign,
-                                               const std::vector<DesignRow>& designs);
+                                               const std::vector<DesignRow>& designs,
+                                               const StoreOptions& options = {});
+  /// Commits what is queued (if the disk still refuses, it is lost: nobody was told that it was
+  /// stored), folds the write-ahead log into the file and gives up the lock.
   virtual ~Store() = default;
 
   /// Queues the rows as one unit: a crash keeps all of them or none. Returns their ticket, counted
-  /// up from 1. Never blocks on the disk. Tickets commit in order.
+  /// up from 1. Never blocks on the disk; the queue has no bound, so the caller must stop making
+  /// rows while there is trouble. Tickets commit in order. Throws std::invalid_argument when a
+  /// number is NaN or infinite, and queues nothing then. An evaluation that is already there stays
+  /// as it is, with its first score; -0 is stored as 0.
   virtual std::uint64_t append(std::vector<Row> rows) = 0;
 
   /// `on_news` is called from the writer's thread after each commit and whenever commits begin to
-  /// fail (disk full: it retries every second until there is room) or work again.
+  /// fail (disk full: it retries every second until there is room) or work again; before flush()
+  /// returns. It must not call the store.
   virtual void set_listener(std::function<void(const WriterNews&)> on_news) = 0;
 
   /// Waits until everything appended so far is on disk.
@@ -51,23 +64,34 @@ class Store {
   virtual bool finished() = 0;
 };
 
-/// A read-only look at a store, for any process, also while a campaign runs.
+/// A read-only look at a store, for any process, also while a campaign runs. One thread. Each call
+/// sees the store as it is at that moment. Members throw std::runtime_error when the disk fails.
 class StoreReader {
  public:
+  /// Errors: NotFound, Corrupt, Newer, Unavailable (a folder in which SQLite cannot make its -shm
+  /// file, while a log waits there). A store of an older schema is read as it is.
   static Expected<std::unique_ptr<StoreReader>> open(const std::filesystem::path& path);
   virtual ~StoreReader() = default;
 
   virtual CampaignRow campaign() = 0;
   virtual std::vector<DesignRow> designs() = 0;
   virtual std::vector<StoredScore> scores() = 0;
-  /// One hash over every table that is part of the answer, row by row in key order.
+  /// One hash over every table that is part of the answer (answer.h), row by row in key order:
+  /// equal for two stores of one campaign, however they came about.
   virtual std::string digest() = 0;
+  /// The rows that the digest covers, in its order: states of designs, iterations, candidates,
+  /// pairs, evaluations, steps, eliminations, elites, totals.
+  virtual void each_answer_row(const std::function<void(const Row&)>& on_row) = 0;
+  std::vector<Row> answer_rows();
+  /// Whether the campaign's row says that it is finished.
+  virtual bool finished() = 0;
   /// SQLite's own integrity check and foreign keys: a sentence a fault, none when clean.
   virtual std::vector<std::string> integrity() = 0;
 
   /// Calls `on_row` with the cells of each row of a read-only statement (texts; null as nullopt),
-  /// after `on_columns` with the names. Stops after `row_limit` rows or `seconds`. A statement that
-  /// would write, or does not parse, is BadInput with SQLite's reason.
+  /// after `on_columns` with the names. Stops after so many rows or seconds, and says so by
+  /// `truncated`. A statement that would write, attach or change a setting, more than one
+  /// statement, or what does not parse, is BadInput with the reason.
   struct QueryLimits {
     std::int64_t rows = 1'000'000;
     double seconds = 60;
@@ -80,9 +104,10 @@ class StoreReader {
     std::int64_t rows = 0;
     bool truncated = false;
   };
-  virtual Expected<QueryEnd> query(const std::string& sql, const QueryLimits& limits,
-                                   const std::function<void(const std::vector<std::string>&)>& on_columns,
-                                   const std::function<void(const std::vector<Cell>&)>& on_row) = 0;
+  virtual Expected<QueryEnd> query(
+      const std::string& sql, const QueryLimits& limits,
+      const std::function<void(const std::vector<std::string>&)>& on_columns,
+      const std::function<void(const std::vector<Cell>&)>& on_row) = 0;
 };
 
 }  // namespace swarmsmith

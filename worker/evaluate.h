@@ -11,8 +11,4 @@ namespace swarmsmith {
 /// flavour that this program does not have.
 Expected<Evaluator> make_simulation(const std::string& scenario);
 
-/// Digest of a few short fixed simulations. A program with another compiler, library or engine
-/// whose scores could differ has another one: such workers are refused.
-std::string self_test_digest();
-
 }  // namespace swarmsmith

@@ -28,7 +28,7 @@ struct Evaluated {
   double score = 0;
   std::uint64_t state_digest = 0;
   std::int64_t wall_us = 0;
-  std::string failure;  ///< empty when there is a score
+  std::string failure{};  ///< empty when there is a score
 };
 
 /// Score and state digest of an item; an error or an exception is a failure with that text.

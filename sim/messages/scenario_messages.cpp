@@ -31,11 +31,13 @@ Expected<Profile> read(const pb::Profile& message) {
       return bad_input("a number of the profile is negative or not finite", "profile");
     }
   }
-  switch (message.contacts()) {
-    case pb::Profile::CONTACTS_EXACT: profile.contacts = ContactModel::Exact; return profile;
-    case pb::Profile::CONTACTS_BOX2D: profile.contacts = ContactModel::Box2d; return profile;
-    default: return bad_input("a contact model that this program does not know", "profile.contacts");
+  if (message.contacts() != pb::Profile::CONTACTS_EXACT &&
+      message.contacts() != pb::Profile::CONTACTS_BOX2D) {
+    return bad_input("a contact model that this program does not know", "profile.contacts");
   }
+  const bool exact = message.contacts() == pb::Profile::CONTACTS_EXACT;
+  profile.contacts = exact ? ContactModel::Exact : ContactModel::Box2d;
+  return profile;
 }
 
 }  // namespace

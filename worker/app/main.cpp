@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "base/log.h"
+#include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "worker/evaluate.h"
 #include "worker/service.h"

@@ -1,0 +1,130 @@
+#include "storage/internal/group_writer.h"
+
+#include <iterator>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/assert.h"
+#include "storage/internal/row_reader.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A constraint, a type or a misuse: the same rows would fail again and for ever, and it is our own
+/// logic that made them. All else is the disk's trouble, and passes.
+bool is_our_fault(const sqlite::SqliteError& error) {
+  const int code = error.primary_code();
+  return code == SQLITE_CONSTRAINT || code == SQLITE_MISMATCH || code == SQLITE_MISUSE ||
+         code == SQLITE_ERROR;
+}
+
+}  // namespace
+
+GroupWriter::GroupWriter(LockFile lock, sqlite::Connection connection, const StoreOptions& options)
+    : lock_(std::move(lock)),
+      connection_(std::move(connection)),
+      rows_(connection_),
+      retry_(options.retry),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
+
+GroupWriter::~GroupWriter() {
+  thread_.request_stop();
+  thread_.join();
+  // Only tidies up; whatever fails here, the log holds it and the next opening folds it in.
+  sqlite3_wal_checkpoint_v2(connection_.handle(), nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr,
+                            nullptr);
+}
+
+std::uint64_t GroupWriter::append(std::vector<Row> rows) {
+  for (const Row& row : rows)
+    require_finite(row);
+  std::uint64_t ticket = 0;
+  {
+    const std::lock_guard guard(mutex_);
+    ticket = ++last_ticket_;
+    queue_.push_back({ticket, std::move(rows)});
+  }
+  work_.notify_one();
+  return ticket;
+}
+
+void GroupWriter::set_listener(std::function<void(const WriterNews&)> on_news) {
+  const std::lock_guard guard(listener_mutex_);
+  listener_ = std::move(on_news);
+}
+
+void GroupWriter::flush() {
+  std::unique_lock guard(mutex_);
+  const std::uint64_t wanted = last_ticket_;
+  committed_changed_.wait(guard, [&] { return committed_ >= wanted; });
+}
+
+std::vector<StoredScore> GroupWriter::scores() {
+  const std::lock_guard guard(connection_mutex_);
+  return read_scores(connection_);
+}
+
+std::vector<StoredStep> GroupWriter::steps() {
+  const std::lock_guard guard(connection_mutex_);
+  return read_steps(connection_);
+}
+
+bool GroupWriter::finished() {
+  const std::lock_guard guard(connection_mutex_);
+  return is_finished(connection_);
+}
+
+void GroupWriter::run(const std::stop_token& stop) {
+  std::vector<Batch> group;
+  std::string trouble;
+  while (take_group(stop, group)) {
+    const std::string before = std::exchange(trouble, commit(group));
+    if (trouble.empty()) {
+      const std::uint64_t ticket = group.back().ticket;
+      group.clear();
+      tell({.committed = ticket, .trouble = {}});
+      const std::lock_guard guard(mutex_);
+      committed_ = ticket;
+      committed_changed_.notify_all();
+      continue;
+    }
+    if (trouble != before) tell({.committed = group.front().ticket - 1, .trouble = trouble});
+    if (stop.stop_requested()) return;
+    std::unique_lock guard(mutex_);
+    work_.wait_for(guard, stop, retry_, [] { return false; });
+  }
+}
+
+bool GroupWriter::take_group(const std::stop_token& stop, std::vector<Batch>& group) {
+  if (!group.empty()) return true;
+  std::unique_lock guard(mutex_);
+  work_.wait(guard, stop, [this] { return !queue_.empty(); });
+  std::swap(group, queue_);
+  return !group.empty();
+}
+
+std::string GroupWriter::commit(const std::vector<Batch>& group) {
+  const std::lock_guard guard(connection_mutex_);
+  try {
+    sqlite::Transaction transaction(connection_);
+    for (const Batch& batch : group) {
+      for (const Row& row : batch.rows)
+        rows_.write(row);
+    }
+    transaction.commit();
+    return {};
+  } catch (const sqlite::SqliteError& error) {
+    rows_.forget();
+    SWARMSMITH_ASSERT(!is_our_fault(error), error.what());
+    return fmt::format("the store cannot be written: {}; nothing is lost, trying again every {} ms",
+                       error.what(), retry_.count());
+  }
+}
+
+void GroupWriter::tell(const WriterNews& news) {
+  const std::lock_guard guard(listener_mutex_);
+  if (listener_) listener_(news);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "storage/internal/lock_file.h"
+#include "storage/internal/row_writer.h"
+#include "storage/internal/sqlite.h"
+#include "storage/store.h"
+
+namespace swarmsmith {
+
+/// The store behind Store::open: a queue of batches, and a thread that commits whatever has queued
+/// up as one transaction. The busier it is, the larger its groups, so that the price of an fsync is
+/// shared by more rows.
+class GroupWriter final : public Store {
+ public:
+  GroupWriter(LockFile lock, sqlite::Connection connection, const StoreOptions& options);
+  ~GroupWriter() override;
+
+  std::uint64_t append(std::vector<Row> rows) override;
+  void set_listener(std::function<void(const WriterNews&)> on_news) override;
+  void flush() override;
+  std::vector<StoredScore> scores() override;
+  std::vector<StoredStep> steps() override;
+  bool finished() override;
+
+ private:
+  struct Batch {
+    std::uint64_t ticket = 0;
+    std::vector<Row> rows;
+  };
+
+  void run(const std::stop_token& stop);
+  /// Fills an empty `group` from the queue, waiting for work; false when there will be none.
+  bool take_group(const std::stop_token& stop, std::vector<Batch>& group);
+  /// Why the group could not be committed; empty when it is on disk.
+  std::string commit(const std::vector<Batch>& group);
+  void tell(const WriterNews& news);
+
+  LockFile lock_;
+  std::mutex connection_mutex_;  ///< the writer's thread, and callers that read
+  sqlite::Connection connection_;
+  RowWriter rows_;
+  std::chrono::milliseconds retry_;
+
+  std::mutex mutex_;  ///< guards the next five
+  std::condition_variable_any work_;
+  std::condition_variable committed_changed_;
+  std::vector<Batch> queue_;
+  std::uint64_t last_ticket_ = 0;
+  std::uint64_t committed_ = 0;
+
+  std::mutex listener_mutex_;
+  std::function<void(const WriterNews&)> listener_;
+
+  std::jthread thread_;
+};
+
+}  // namespace swarmsmith

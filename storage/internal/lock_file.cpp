@@ -1,0 +1,89 @@
+#include "storage/internal/lock_file.h"
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace swarmsmith {
+namespace {
+
+std::string read_holder(int descriptor) {
+  std::array<char, 300> text{};
+  const ssize_t size = ::pread(descriptor, text.data(), text.size(), 0);
+  std::string holder(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+  while (!holder.empty() && holder.back() == '\n')
+    holder.pop_back();
+  return holder;
+}
+
+std::string host_name() {
+  std::array<char, 256> name{};
+  return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
+}
+
+/// Whether the path still names the file that was opened: its last holder may have removed it
+/// between our open and our lock.
+bool still_there(int descriptor, const std::filesystem::path& path) {
+  struct stat opened {};
+  struct stat named {};
+  return ::fstat(descriptor, &opened) == 0 && ::stat(path.c_str(), &named) == 0 &&
+         opened.st_ino == named.st_ino && opened.st_dev == named.st_dev;
+}
+
+}  // namespace
+
+Expected<LockFile> LockFile::acquire(const std::filesystem::path& store) {
+  const std::filesystem::path path = store.string() + ".lock";
+  while (true) {
+    const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
+    if (descriptor < 0) {
+      return bad_input(fmt::format("cannot make the lock file: {}; a store can only be written in "
+                                   "a folder where files can be made",
+                                   std::strerror(errno)),
+                       path.string());
+    }
+    if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+      const std::string holder = read_holder(descriptor);
+      ::close(descriptor);
+      return unexpected(ErrorKind::Conflict,
+                        fmt::format("another process is writing this store ({}); wait for it to "
+                                    "end or stop it, or read with a read-only command",
+                                    holder.empty() ? "it did not leave its name" : holder),
+                        store.string());
+    }
+    if (!still_there(descriptor, path)) {
+      ::close(descriptor);
+      continue;
+    }
+    const bool left_behind = !read_holder(descriptor).empty();
+    const std::string holder = fmt::format("pid={} host={}\n", ::getpid(), host_name());
+    // For people only: a disk so full that this fails must not stop us here.
+    if (::ftruncate(descriptor, 0) != 0 ||
+        ::pwrite(descriptor, holder.data(), holder.size(), 0) < 0) {
+      return LockFile(path, descriptor, true);
+    }
+    return LockFile(path, descriptor, left_behind);
+  }
+}
+
+LockFile::LockFile(LockFile&& other) noexcept
+    : path_(std::move(other.path_)),
+      descriptor_(std::exchange(other.descriptor_, -1)),
+      left_behind_(other.left_behind_),
+      suspect_(other.suspect_) {}
+
+LockFile::~LockFile() {
+  if (descriptor_ < 0) return;
+  if (!suspect_) ::unlink(path_.c_str());
+  ::close(descriptor_);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+
+#include "base/expected.h"
+
+namespace swarmsmith {
+
+/// The right to write a store: an flock on the file `<store>.lock`, which holds "pid=... host=..."
+/// for people. The kernel gives the lock back when the process dies, so that a file left behind is
+/// no obstacle; it only says that the last writer did not end well. Removed at the end, unless the
+/// store is suspect.
+class LockFile {
+ public:
+  /// Conflict when another process (or another store of this one) holds it, with its pid and host;
+  /// BadInput when the file cannot be made.
+  static Expected<LockFile> acquire(const std::filesystem::path& store);
+
+  LockFile(LockFile&& other) noexcept;
+  LockFile& operator=(LockFile&&) = delete;
+  ~LockFile();
+
+  /// The last holder died without giving the lock back.
+  bool left_behind() const { return left_behind_; }
+
+  /// While suspect, the file stays at the end, so that whoever comes next looks at the store, too.
+  void set_suspect(bool suspect) { suspect_ = suspect; }
+
+ private:
+  LockFile(std::filesystem::path path, int descriptor, bool left_behind)
+      : path_(std::move(path)), descriptor_(descriptor), left_behind_(left_behind) {}
+
+  std::filesystem::path path_;
+  int descriptor_;
+  bool left_behind_;
+  bool suspect_ = false;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,209 @@
+#include "storage/internal/row_reader.h"
+
+#include "base/assert.h"
+
+namespace swarmsmith {
+namespace {
+
+using sqlite::Statement;
+using OnRow = std::function<void(const Row&)>;
+
+CandidateId candidate_at(const Statement& row, int column) {
+  return {row.integer(column)};
+}
+DesignId design_at(const Statement& row, int column) {
+  return {row.integer(column)};
+}
+EvaluationKey key_at(const Statement& row, int column) {
+  return {candidate_at(row, column), static_cast<Purpose>(row.integer(column + 1)),
+          row.integer(column + 2)};
+}
+
+/// Runs `sql` and hands on what `make` makes of each row.
+template <class Make>
+void each(const sqlite::Connection& connection, const char* sql, const OnRow& on_row, Make make) {
+  Statement row(connection, sql);
+  while (row.step())
+    on_row(make(row));
+}
+
+DesignStateRow design_state(const Statement& row) {
+  return {.design = design_at(row, 0),
+          .state = static_cast<DesignState>(row.integer(1)),
+          .used = row.integer(2),
+          .iteration = row.integer(3),
+          .best = candidate_at(row, 4),
+          .best_mean = row.real(5),
+          .reason = row.text(6)};
+}
+
+IterationRow iteration(const Statement& row) {
+  return {.design = design_at(row, 0),
+          .number = row.integer(1),
+          .of = row.integer(2),
+          .budget = row.integer(3),
+          .configurations = row.integer(4),
+          .elites = row.integer(5),
+          .soft_restart = row.integer(6) != 0,
+          .model_digest = row.bits(7)};
+}
+
+CandidateRow candidate(const Statement& row) {
+  return {.id = candidate_at(row, 0),
+          .iteration = row.integer(1),
+          .parent = candidate_at(row, 2),
+          .parameters = row.text(3),
+          .machine = row.text(4),
+          .modules = row.text(5),
+          .states = row.integer(6),
+          .transitions = row.integer(7)};
+}
+
+PairRow pair(const Statement& row) {
+  return {.design = design_at(row, 0),
+          .purpose = static_cast<Purpose>(row.integer(1)),
+          .number = row.integer(2),
+          .instance = row.integer(3),
+          .seed = row.integer(4)};
+}
+
+EvaluationRow evaluation(const Statement& row) {
+  return {.key = key_at(row, 0),
+          .iteration = row.integer(3),
+          .status = static_cast<EvaluationStatus>(row.integer(4)),
+          .score = row.real(5),
+          .state_digest = row.bits(6),
+          .source = row.text(7),
+          .wall_us = row.integer(8),
+          .worker = row.integer(9),
+          .attempt = row.integer(10)};
+}
+
+RaceStepRow race_step(const Statement& row) {
+  const std::string marker = row.text(4);
+  return {.design = design_at(row, 0),
+          .step = row.integer(1),
+          .iteration = row.integer(2),
+          .pair = row.integer(3),
+          .marker = marker.empty() ? 'x' : marker.front(),
+          .evaluated = row.integer(5),
+          .alive_before = row.integer(6),
+          .alive_after = row.integer(7),
+          .best = candidate_at(row, 8),
+          .mean_best = row.real(9),
+          .used = row.integer(10),
+          .statistic = row.optional_real(11),
+          .p_value = row.optional_real(12),
+          .kendall_w = row.optional_real(13),
+          .spearman_rho = row.optional_real(14),
+          .qvar = row.optional_real(15),
+          .digest = row.bits(16)};
+}
+
+EliminationRow elimination(const Statement& row) {
+  return {.candidate = candidate_at(row, 0),
+          .iteration = row.integer(1),
+          .step = row.integer(2),
+          .rank_sum = row.real(3),
+          .reason = row.text(4)};
+}
+
+EliteRow elite(const Statement& row) {
+  return {.design = design_at(row, 0),
+          .iteration = row.integer(1),
+          .rank = row.integer(2),
+          .candidate = candidate_at(row, 3),
+          .mean = row.real(4),
+          .runs = row.integer(5)};
+}
+
+CandidateTotalsRow totals(const Statement& row) {
+  return {.candidate = candidate_at(row, 0),
+          .runs = row.integer(1),
+          .score_sum = row.real(2),
+          .score_squares = row.real(3)};
+}
+
+}  // namespace
+
+CampaignRow read_campaign(const sqlite::Connection& connection) {
+  Statement row(connection, "SELECT name, digest, deciding, file, seed FROM campaign");
+  SWARMSMITH_ASSERT(row.step(), "a store holds a campaign");
+  return {.name = row.text(0),
+          .digest = row.text(1),
+          .deciding = row.text(2),
+          .file = row.text(3),
+          .seed = row.integer(4)};
+}
+
+std::vector<DesignRow> read_designs(const sqlite::Connection& connection) {
+  std::vector<DesignRow> designs;
+  Statement row(connection,
+                "SELECT id, mission, method, repetition, seed, budget FROM design ORDER BY id");
+  while (row.step()) {
+    designs.push_back({.id = design_at(row, 0),
+                       .mission = row.text(1),
+                       .method = row.text(2),
+                       .repetition = row.integer(3),
+                       .seed = row.integer(4),
+                       .budget = row.integer(5)});
+  }
+  return designs;
+}
+
+std::vector<StoredScore> read_scores(const sqlite::Connection& connection) {
+  std::vector<StoredScore> scores;
+  Statement row(connection,
+                "SELECT candidate, purpose, pair, status, score, state_digest FROM evaluation"
+                " ORDER BY candidate, purpose, pair");
+  while (row.step()) {
+    scores.push_back({.key = key_at(row, 0),
+                      .status = static_cast<EvaluationStatus>(row.integer(3)),
+                      .score = row.real(4),
+                      .state_digest = row.bits(5)});
+  }
+  return scores;
+}
+
+std::vector<StoredStep> read_steps(const sqlite::Connection& connection) {
+  std::vector<StoredStep> steps;
+  Statement row(connection, "SELECT design, step, digest FROM race_step ORDER BY design, step");
+  while (row.step()) {
+    steps.push_back({.design = design_at(row, 0), .step = row.integer(1), .digest = row.bits(2)});
+  }
+  return steps;
+}
+
+bool is_finished(const sqlite::Connection& connection) {
+  return sqlite::text_of(connection, "SELECT state FROM campaign") == "finished";
+}
+
+void read_answer(const sqlite::Connection& connection, const OnRow& on_row) {
+  each(connection,
+       "SELECT id, state, used, iteration, best, best_mean, reason FROM design ORDER BY id", on_row,
+       design_state);
+  each(connection, "SELECT * FROM iteration ORDER BY design, number", on_row, iteration);
+  each(connection,
+       "SELECT id, iteration, parent, parameters, machine, modules, states, transitions"
+       " FROM candidate ORDER BY id",
+       on_row, candidate);
+  // A pair that only look-ahead has touched so far is not part of the answer.
+  each(connection,
+       "SELECT * FROM pair WHERE purpose = 2"
+       " OR purpose = 0 AND (design, number) IN (SELECT design, pair FROM race_step)"
+       " ORDER BY design, purpose, number",
+       on_row, pair);
+  each(connection,
+       "SELECT candidate, purpose, pair, iteration, status, score, state_digest,"
+       " (SELECT name FROM source WHERE id = evaluation.source), wall_us, worker, attempt FROM "
+       "evaluation"
+       " WHERE purpose = 2 OR purpose = 0 AND iteration IS NOT NULL"
+       " ORDER BY candidate, purpose, pair",
+       on_row, evaluation);
+  each(connection, "SELECT * FROM race_step ORDER BY design, step", on_row, race_step);
+  each(connection, "SELECT * FROM elimination ORDER BY candidate", on_row, elimination);
+  each(connection, "SELECT * FROM elite ORDER BY design, iteration, rank", on_row, elite);
+  each(connection, "SELECT * FROM candidate_totals ORDER BY candidate", on_row, totals);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,192 @@
+#include "storage/internal/row_writer.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "base/assert.h"
+#include "base/overloaded.h"
+#include "storage/answer.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr char kCandidate[] = "INSERT OR IGNORE INTO candidate VALUES (?,?,?,?,?,?,?,?)";
+constexpr char kPair[] = "INSERT OR IGNORE INTO pair VALUES (?,?,?,?,?)";
+// The first result stays, whatever comes later. Only a race that asks for what was computed ahead
+// may still write its iteration, if the bits agree.
+constexpr char kEvaluation[] =
+    "INSERT INTO evaluation VALUES (?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO UPDATE"
+    " SET iteration = excluded.iteration"
+    " WHERE evaluation.iteration IS NULL AND excluded.iteration IS NOT NULL"
+    " AND status = excluded.status AND score IS excluded.score"
+    " AND state_digest = excluded.state_digest";
+constexpr char kUnused[] =
+    "UPDATE evaluation SET iteration = NULL WHERE candidate = ? AND purpose = ? AND pair = ?";
+constexpr char kIteration[] = "INSERT OR IGNORE INTO iteration VALUES (?,?,?,?,?,?,?,?)";
+constexpr char kRaceStep[] =
+    "INSERT OR IGNORE INTO race_step VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
+constexpr char kElimination[] = "INSERT OR IGNORE INTO elimination VALUES (?,?,?,?,?)";
+constexpr char kElite[] = "INSERT OR IGNORE INTO elite VALUES (?,?,?,?,?,?)";
+constexpr char kTotals[] = "INSERT OR REPLACE INTO candidate_totals VALUES (?,?,?,?)";
+constexpr char kDesignState[] =
+    "UPDATE design SET state = ?2, used = ?3, iteration = ?4, best = ?5, best_mean = ?6,"
+    " reason = ?7 WHERE id = ?1";
+constexpr char kCampaignState[] =
+    "UPDATE campaign SET state = ?1, finished = CASE WHEN ?1 = 'finished' THEN"
+    " coalesce(finished, strftime('%Y-%m-%dT%H:%M:%fZ', 'now')) END";
+constexpr char kWorker[] =
+    "INSERT INTO worker (id, identity, host, pid, slots, build, state, done, failed)"
+    " VALUES (?,?,?,?,?,?,?,?,?) ON CONFLICT DO UPDATE SET identity = excluded.identity,"
+    " host = excluded.host, pid = excluded.pid, slots = excluded.slots, build = excluded.build,"
+    " state = excluded.state, done = excluded.done, failed = excluded.failed,"
+    " last_seen = excluded.last_seen";
+constexpr char kConflict[] =
+    "INSERT OR IGNORE INTO conflict (candidate, purpose, pair, kept_score, other_score,"
+    " other_state_digest, other_worker) VALUES (?,?,?,?,?,?,?)";
+constexpr char kEvent[] = "INSERT INTO event (severity, kind, text) VALUES (?,?,?)";
+
+std::optional<std::int64_t> unless_zero(std::int64_t value) {
+  return value == 0 ? std::nullopt : std::optional(value);
+}
+
+template <class Enum>
+std::int64_t number(Enum value) {
+  return static_cast<std::int64_t>(value);
+}
+
+void require(bool finite, const Row& row) {
+  if (!finite) throw std::invalid_argument("a number is not finite in " + describe(row));
+}
+
+}  // namespace
+
+RowWriter::RowWriter(sqlite::Connection& connection)
+    : candidate_(connection, kCandidate),
+      pair_(connection, kPair),
+      evaluation_(connection, kEvaluation),
+      unused_(connection, kUnused),
+      iteration_(connection, kIteration),
+      race_step_(connection, kRaceStep),
+      elimination_(connection, kElimination),
+      elite_(connection, kElite),
+      totals_(connection, kTotals),
+      design_state_(connection, kDesignState),
+      campaign_state_(connection, kCampaignState),
+      worker_(connection, kWorker),
+      conflict_(connection, kConflict),
+      event_(connection, kEvent),
+      new_source_(connection, "INSERT OR IGNORE INTO source (name) VALUES (?)"),
+      find_source_(connection, "SELECT id FROM source WHERE name = ?") {}
+
+void RowWriter::write(const Row& row) {
+  std::visit([this](const auto& alternative) { put(alternative); }, row);
+}
+
+void RowWriter::put(const CandidateRow& row) {
+  candidate_.run(row.id.value, row.iteration, unless_zero(row.parent.value), row.states,
+                 row.transitions, row.modules, row.machine, row.parameters);
+}
+
+void RowWriter::put(const PairRow& row) {
+  pair_.run(row.design.value, number(row.purpose), row.number, row.instance, row.seed);
+}
+
+void RowWriter::put(const EvaluationRow& row) {
+  const std::optional<double> score =
+      row.status == EvaluationStatus::Ok ? std::optional(row.score) : std::nullopt;
+  evaluation_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair,
+                  unless_zero(row.iteration), number(row.status), score, row.state_digest,
+                  source_id(row.source), row.wall_us, row.worker, row.attempt);
+}
+
+void RowWriter::put(const UnusedRow& row) {
+  unused_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair);
+}
+
+void RowWriter::put(const IterationRow& row) {
+  iteration_.run(row.design.value, row.number, row.of, row.budget, row.configurations, row.elites,
+                 row.soft_restart, row.model_digest);
+}
+
+void RowWriter::put(const RaceStepRow& row) {
+  race_step_.run(row.design.value, row.step, row.iteration, row.pair,
+                 std::string_view(&row.marker, 1), row.evaluated, row.alive_before, row.alive_after,
+                 unless_zero(row.best.value), row.mean_best, row.used, row.statistic, row.p_value,
+                 row.kendall_w, row.spearman_rho, row.qvar, row.digest);
+}
+
+void RowWriter::put(const EliminationRow& row) {
+  elimination_.run(row.candidate.value, row.iteration, row.step, row.rank_sum, row.reason);
+}
+
+void RowWriter::put(const EliteRow& row) {
+  elite_.run(row.design.value, row.iteration, row.rank, row.candidate.value, row.mean, row.runs);
+}
+
+void RowWriter::put(const CandidateTotalsRow& row) {
+  totals_.run(row.candidate.value, row.runs, row.score_sum, row.score_squares);
+}
+
+void RowWriter::put(const DesignStateRow& row) {
+  design_state_.run(row.design.value, number(row.state), row.used, row.iteration,
+                    unless_zero(row.best.value), row.best_mean, row.reason);
+}
+
+void RowWriter::put(const CampaignStateRow& row) {
+  campaign_state_.run(row.state);
+}
+
+void RowWriter::put(const WorkerRow& row) {
+  worker_.run(row.id, row.identity, row.host, row.pid, row.slots, row.build, row.state, row.done,
+              row.failed);
+}
+
+void RowWriter::put(const ConflictRow& row) {
+  conflict_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair, row.kept_score,
+                row.other_score, row.other_state_digest, row.other_worker);
+}
+
+void RowWriter::put(const EventRow& row) {
+  event_.run(row.severity, row.kind, row.text);
+}
+
+std::int64_t RowWriter::source_id(const std::string& name) {
+  const auto known = sources_.find(name);
+  if (known != sources_.end()) return known->second;
+  new_source_.run(name);
+  find_source_.bind(name);
+  SWARMSMITH_ASSERT(find_source_.step(), "a source that was inserted is there");
+  const std::int64_t id = find_source_.integer(0);
+  find_source_.reset();
+  sources_.emplace(name, id);
+  return id;
+}
+
+void require_finite(const Row& row) {
+  const auto nothing = [](const auto&) {};
+  std::visit(Overloaded{
+                 nothing,
+                 [&](const EvaluationRow& r) {
+                   require(r.status != EvaluationStatus::Ok || std::isfinite(r.score), row);
+                 },
+                 [&](const RaceStepRow& r) {
+                   require(std::isfinite(r.mean_best), row);
+                   for (const auto& value :
+                        {r.statistic, r.p_value, r.kendall_w, r.spearman_rho, r.qvar}) {
+                     require(!value || std::isfinite(*value), row);
+                   }
+                 },
+                 [&](const EliminationRow& r) { require(std::isfinite(r.rank_sum), row); },
+                 [&](const EliteRow& r) { require(std::isfinite(r.mean), row); },
+                 [&](const CandidateTotalsRow& r) {
+                   require(std::isfinite(r.score_sum) && std::isfinite(r.score_squares), row);
+                 },
+                 [&](const DesignStateRow& r) { require(std::isfinite(r.best_mean), row); },
+                 [&](const ConflictRow& r) {
+                   require(std::isfinite(r.kept_score) && std::isfinite(r.other_score), row);
+                 },
+             },
+             row);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,99 @@
+#include "storage/internal/schema.h"
+
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "embedded/kInitialSchema.h"
+#include "embedded/kViews.h"
+
+namespace swarmsmith {
+namespace {
+
+void drop_views(sqlite::Connection& connection) {
+  std::vector<std::string> names;
+  sqlite::Statement view(connection, "SELECT name FROM sqlite_schema WHERE type = 'view'");
+  while (view.step())
+    names.push_back(view.text(0));
+  for (const std::string& name : names)
+    connection.execute("DROP VIEW \"" + name + "\"");
+}
+
+void set_version(sqlite::Connection& connection, std::int64_t version) {
+  connection.execute(fmt::format("PRAGMA user_version = {}", version));
+}
+
+}  // namespace
+
+std::span<const Migration> migrations() {
+  return {};
+}
+
+void configure_writer(sqlite::Connection& connection) {
+  sqlite3_busy_timeout(connection.handle(), 5000);
+  // 8000 pages of 8 KiB: a checkpoint every 64 MB, so that its long fsync is rare.
+  connection.execute(
+      "PRAGMA page_size = 8192; PRAGMA journal_mode = WAL; PRAGMA synchronous = FULL;"
+      "PRAGMA foreign_keys = ON; PRAGMA trusted_schema = OFF; PRAGMA wal_autocheckpoint = 8000;"
+      "PRAGMA journal_size_limit = 268435456; PRAGMA cache_size = -65536");
+}
+
+void configure_reader(sqlite::Connection& connection) {
+  sqlite3_busy_timeout(connection.handle(), 5000);
+  connection.execute(
+      "PRAGMA query_only = ON; PRAGMA trusted_schema = OFF; PRAGMA cache_size = -65536");
+}
+
+void create_schema(sqlite::Connection& connection) {
+  connection.execute(kInitialSchema);
+  connection.execute(kViews);
+  connection.execute(fmt::format("PRAGMA application_id = {}", kApplicationId));
+  set_version(connection, kSchemaVersion);
+}
+
+bool is_blank(const sqlite::Connection& connection) {
+  return sqlite::integer_of(connection, "SELECT count(*) FROM sqlite_schema") == 0 &&
+         sqlite::integer_of(connection, "PRAGMA application_id") == 0 &&
+         sqlite::integer_of(connection, "PRAGMA user_version") == 0;
+}
+
+Expected<void> check_identity(const sqlite::Connection& connection,
+                              const std::filesystem::path& path) {
+  if (sqlite::integer_of(connection, "PRAGMA application_id") != kApplicationId) {
+    return unexpected(ErrorKind::Corrupt,
+                      "this is a SQLite database of another program, and no store; name another "
+                      "path",
+                      path.string());
+  }
+  const std::int64_t version = sqlite::integer_of(connection, "PRAGMA user_version");
+  if (version > kSchemaVersion) {
+    return unexpected(ErrorKind::Newer,
+                      fmt::format("the store has schema {}, and this program knows {} at most; use "
+                                  "the version of swarmsmith that wrote it, or a later one",
+                                  version, kSchemaVersion),
+                      path.string());
+  }
+  return {};
+}
+
+void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
+             std::span<const Migration> steps) {
+  const std::int64_t from = sqlite::integer_of(connection, "PRAGMA user_version");
+  if (steps.empty() || steps.back().to <= from) return;
+  // A copy of that name can only be an earlier, interrupted try: the store has not moved since.
+  const std::string copy = fmt::format("{}.before-v{}", path.string(), steps.back().to);
+  std::filesystem::remove(copy);
+  sqlite::Statement(connection, "VACUUM INTO ?").run(copy);
+  for (const Migration& step : steps) {
+    if (step.to <= from) continue;
+    sqlite::Transaction transaction(connection);
+    drop_views(connection);  // ALTER TABLE would stumble over them
+    step.apply(connection);
+    connection.execute(kViews);
+    set_version(connection, step.to);
+    transaction.commit();
+  }
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+
+#include "base/expected.h"
+#include "storage/internal/sqlite.h"
+
+namespace swarmsmith {
+
+/// "SwSm": marks a SQLite file as one of ours (PRAGMA application_id).
+inline constexpr std::int64_t kApplicationId = 0x5377536d;
+/// Version of tables and views (PRAGMA user_version). A change of either is a new version.
+inline constexpr std::int64_t kSchemaVersion = 1;
+
+/// The step from one version to the next; runs in a transaction of its own. Views need no step:
+/// they are made anew.
+struct Migration {
+  std::int64_t to = 0;
+  std::function<void(sqlite::Connection&)> apply;
+};
+
+/// Every step there is, from version 1 on, in order.
+std::span<const Migration> migrations();
+
+/// Settings of the connection that writes: WAL, synchronous=FULL, foreign keys. Page size and
+/// journal mode are kept in the file.
+void configure_writer(sqlite::Connection& connection);
+void configure_reader(sqlite::Connection& connection);
+
+/// Makes tables and views in an empty database; the caller holds a transaction.
+void create_schema(sqlite::Connection& connection);
+
+/// A database without a table that nobody has claimed: new, or left by a crash at its birth.
+bool is_blank(const sqlite::Connection& connection);
+
+/// Corrupt when the database belongs to another program, Newer when a later version made it.
+Expected<void> check_identity(const sqlite::Connection& connection,
+                              const std::filesystem::path& path);
+
+/// Brings the store to the newest version of `steps`, after a copy `<path>.before-v<version>`.
+/// Each step is one transaction: a crash leaves a store of the version before. Does nothing when
+/// the store is up to date.
+void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
+             std::span<const Migration> steps);
+
+}  // namespace swarmsmith

@@ -1,0 +1,232 @@
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+
+#include "storage/internal/file_checks.h"
+#include "storage/internal/schema.h"
+#include "storage/internal/sqlite.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+
+struct OpeningTest : testing::Test {
+  TemporaryFolder folder;
+  std::filesystem::path path = folder / "s.db";
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 2});
+
+  void make_store() {
+    auto store = open_store(path, campaign);
+    for (const auto& batch : campaign.batches) store->append(batch);
+  }
+  Error refusal() {
+    auto store = Store::open(path, campaign.campaign, campaign.designs);
+    EXPECT_FALSE(store);
+    return store ? Error{} : store.error();
+  }
+  Error reader_refusal() {
+    auto reader = StoreReader::open(path);
+    EXPECT_FALSE(reader);
+    return reader ? Error{} : reader.error();
+  }
+  void execute(const std::string& sql) {
+    sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE).execute(sql);
+  }
+  void overwrite(std::streamoff at, const std::string& bytes) {
+    std::fstream(path, std::ios::in | std::ios::out | std::ios::binary).seekp(at) << bytes;
+  }
+};
+
+TEST_F(OpeningTest, MakesAStoreInAnEmptyFileToo) {
+  std::ofstream(path).flush();
+  make_store();
+  EXPECT_TRUE(open_reader(path)->finished());
+}
+
+TEST_F(OpeningTest, RefusesAFileThatIsNoDatabase) {
+  std::ofstream(path) << "candidate,score\n" << std::string(500, '1');
+  EXPECT_EQ(refusal().kind, ErrorKind::Corrupt);
+  EXPECT_THAT(refusal().message, HasSubstr("no SQLite database"));
+  EXPECT_EQ(refusal().where, path.string());
+  EXPECT_EQ(reader_refusal().kind, ErrorKind::Corrupt);
+}
+
+TEST_F(OpeningTest, RefusesATruncatedStoreAndSaysHowMuchIsMissing) {
+  make_store();
+  const auto size = std::filesystem::file_size(path);
+  for (const auto left : {size - 8192, size / 2, std::uintmax_t{50}}) {
+    std::filesystem::resize_file(path, left);
+    EXPECT_EQ(refusal().kind, ErrorKind::Corrupt);
+    EXPECT_THAT(refusal().message, HasSubstr(fmt::format("truncated: it has {} bytes", left)));
+    EXPECT_EQ(reader_refusal().kind, ErrorKind::Corrupt);
+  }
+}
+
+TEST_F(OpeningTest, RefusesAnotherProgramsDatabaseAndLeavesItAlone) {
+  execute("CREATE TABLE photos (id INTEGER)");
+  const auto before = std::filesystem::file_size(path);
+  EXPECT_EQ(refusal().kind, ErrorKind::Corrupt);
+  EXPECT_THAT(refusal().message, HasSubstr("another program"));
+  EXPECT_EQ(std::filesystem::file_size(path), before);
+  EXPECT_EQ(reader_refusal().kind, ErrorKind::Corrupt);
+}
+
+TEST_F(OpeningTest, RefusesAStoreOfALaterVersion) {
+  make_store();
+  execute("PRAGMA user_version = 99");
+  EXPECT_EQ(refusal().kind, ErrorKind::Newer);
+  EXPECT_THAT(refusal().message, HasSubstr("schema 99"));
+  EXPECT_EQ(reader_refusal().kind, ErrorKind::Newer);
+}
+
+TEST_F(OpeningTest, RefusesAnotherCampaignAndNamesWhatDiffers) {
+  make_store();
+  campaign.campaign.digest = "0ther";
+  campaign.campaign.deciding = R"({"seed":1,"race":{"budget":2000},"flavour":"watermelon"})";
+  const Error error = refusal();
+  EXPECT_EQ(error.kind, ErrorKind::Conflict);
+  EXPECT_THAT(error.message, HasSubstr("race.budget is 100000 in the store and 2000 in the "
+                                       "campaign; flavour is nothing in the store and watermelon"));
+  EXPECT_THAT(error.message, testing::Not(HasSubstr("seed is")));
+}
+
+TEST_F(OpeningTest, NamesTenDifferencesAtMost) {
+  std::string keys;
+  for (int i = 0; i < 14; ++i) keys += fmt::format("{}\"key{}\":1", i == 0 ? "" : ",", i);
+  campaign.campaign.deciding = "{" + keys + "}";
+  make_store();
+  campaign.campaign.digest = "0ther";
+  campaign.campaign.deciding = "{}";
+  EXPECT_THAT(refusal().message, HasSubstr("and 4 more"));
+  EXPECT_THAT(refusal().message, testing::Not(HasSubstr("key13")));
+}
+
+TEST_F(OpeningTest, SaysThatAFolderIsMissingOrThatAStoreIsAFile) {
+  path = folder / "none" / "s.db";
+  EXPECT_THAT(refusal().message, HasSubstr("there is no folder"));
+  path = folder.path();
+  EXPECT_THAT(refusal().message, HasSubstr("a store is a file"));
+  path = folder / "none.db";
+  EXPECT_EQ(reader_refusal().kind, ErrorKind::NotFound);
+}
+
+TEST_F(OpeningTest, KnowsSharedFileSystemsFromLocalOnes) {
+  for (const long shared : {0x6969L, 0x517bL, 0xff534d42L, 0x0bd00bd0L, 0x65735546L}) {
+    EXPECT_TRUE(is_network_file_system(shared)) << shared;
+  }
+  for (const long local : {0xef53L, 0x58465342L, 0x9123683eL, 0x01021994L, 0x794c7630L}) {
+    EXPECT_FALSE(is_network_file_system(local)) << local;
+  }
+}
+
+TEST_F(OpeningTest, RefusesASecondWriterOfTheSameProcess) {
+  const auto first = open_store(path, campaign);
+  EXPECT_EQ(refusal().kind, ErrorKind::Conflict);
+  EXPECT_THAT(refusal().message, HasSubstr(fmt::format("pid={}", ::getpid())));
+}
+
+/// A child that does `work`, then writes a byte and waits to be killed.
+pid_t child_that_waits(const std::function<void()>& work) {
+  int ends[2];
+  EXPECT_EQ(::pipe(ends), 0);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    work();
+    (void)!::write(ends[1], "x", 1);
+    while (true) ::pause();
+  }
+  char byte = 0;
+  EXPECT_EQ(::read(ends[0], &byte, 1), 1);
+  ::close(ends[0]);
+  ::close(ends[1]);
+  return child;
+}
+
+void kill_and_wait(pid_t child) {
+  ::kill(child, SIGKILL);
+  ::waitpid(child, nullptr, 0);
+}
+
+TEST_F(OpeningTest, NamesTheProcessThatHoldsTheStoreAndOpensWhenItHasDied) {
+  std::unique_ptr<Store> held;
+  const pid_t child = child_that_waits([&] { held = open_store(path, campaign); });
+  EXPECT_EQ(refusal().kind, ErrorKind::Conflict);
+  EXPECT_THAT(refusal().message, HasSubstr(fmt::format("pid={} host=", child)));
+  kill_and_wait(child);
+  EXPECT_TRUE(std::filesystem::exists(path.string() + ".lock"));
+  EXPECT_NE(open_store(path, campaign), nullptr);
+  EXPECT_FALSE(std::filesystem::exists(path.string() + ".lock"));
+}
+
+TEST_F(OpeningTest, LooksAtEveryPageAfterAnUncleanEnd) {
+  make_store();
+  // A page in the middle; its kind, 0, is none that SQLite knows.
+  overwrite(8192 * 5, std::string(200, '\0'));
+  EXPECT_NE(open_store(path, campaign), nullptr) << "a clean end was not followed by a check";
+  std::ofstream(path.string() + ".lock") << "pid=1 host=x\n";
+  EXPECT_EQ(refusal().kind, ErrorKind::Corrupt);
+  EXPECT_THAT(refusal().message, HasSubstr("not closed properly")) << "forgotten at a second try";
+}
+
+TEST_F(OpeningTest, ReadsAStoreInAFolderThatMayNotBeWritten) {
+  if (::geteuid() != 0) GTEST_SKIP() << "needs root, to become somebody else";
+  make_store();
+  const std::string wanted = digest_of(path);
+  std::filesystem::remove(path.string() + "-wal");
+  std::filesystem::remove(path.string() + "-shm");
+  using std::filesystem::perms;
+  std::filesystem::permissions(folder.path(), perms::all & ~perms::group_write &
+                                                  ~perms::others_write);
+  const pid_t child = ::fork();
+  if (child == 0) {
+    if (::setuid(65534) != 0) ::_exit(2);
+    const auto reader = StoreReader::open(path);
+    if (!reader) fmt::print(stderr, "{}\n", to_string(reader.error()));
+    ::_exit(reader && (*reader)->digest() == wanted ? 0 : 1);
+  }
+  int status = -1;
+  ::waitpid(child, &status, 0);
+  EXPECT_EQ(status, 0);
+}
+
+TEST_F(OpeningTest, MigratesStepByStepAfterACopy) {
+  make_store();
+  sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
+  const std::vector<Migration> steps{
+      {2, [](sqlite::Connection& c) { c.execute("ALTER TABLE design ADD COLUMN note TEXT"); }},
+      {3, [](sqlite::Connection& c) { c.execute("UPDATE design SET note = 'moved'"); }},
+  };
+  migrate(connection, path, steps);
+  EXPECT_EQ(sqlite::integer_of(connection, "PRAGMA user_version"), 3);
+  EXPECT_EQ(sqlite::text_of(connection, "SELECT note FROM design"), "moved");
+  EXPECT_EQ(sqlite::text_of(connection, "SELECT state FROM v_designs"), "finished");
+  const sqlite::Connection copy(path.string() + ".before-v3", SQLITE_OPEN_READONLY);
+  EXPECT_EQ(sqlite::integer_of(copy, "PRAGMA user_version"), 1);
+  EXPECT_EQ(sqlite::text_of(copy, "PRAGMA integrity_check"), "ok");
+}
+
+TEST_F(OpeningTest, LeavesTheVersionBeforeWhenAMigrationFails) {
+  make_store();
+  const std::string before = digest_of(path);
+  {
+    sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
+    const std::vector<Migration> steps{{2, [](sqlite::Connection& c) {
+                                          c.execute("DELETE FROM evaluation");
+                                          c.execute("a mistake");
+                                        }}};
+    EXPECT_THROW(migrate(connection, path, steps), sqlite::SqliteError);
+    EXPECT_EQ(sqlite::integer_of(connection, "PRAGMA user_version"), 1);
+  }
+  EXPECT_EQ(digest_of(path), before);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,112 @@
+#include <gmock/gmock.h>
+
+#include "storage/internal/sqlite.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+using Cell = StoreReader::Cell;
+
+struct QueryTest : testing::Test {
+  TemporaryFolder folder;
+  std::filesystem::path path = folder / "s.db";
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 1});
+  std::unique_ptr<StoreReader> reader;
+  std::vector<std::string> columns;
+  std::vector<std::vector<Cell>> rows;
+
+  void SetUp() override {
+    {
+      auto store = open_store(path, campaign);
+      for (const auto& batch : campaign.batches) store->append(batch);
+    }
+    reader = open_reader(path);
+  }
+  Expected<StoreReader::QueryEnd> query(const std::string& sql,
+                                        const StoreReader::QueryLimits& limits = {}) {
+    rows.clear();
+    return reader->query(
+        sql, limits, [this](const auto& names) { columns = names; },
+        [this](const auto& cells) { rows.push_back(cells); });
+  }
+};
+
+TEST_F(QueryTest, GivesColumnsAndCellsWithTheirTypes) {
+  const auto end = query("SELECT 1 AS one, 0.1 AS tenth, 'it''s' AS text, NULL AS none;");
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->rows, 1);
+  EXPECT_FALSE(end->truncated);
+  EXPECT_THAT(columns, testing::ElementsAre("one", "tenth", "text", "none"));
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0][0].type, Cell::Type::Integer);
+  EXPECT_EQ(rows[0][1].text, "0.1");
+  EXPECT_EQ(rows[0][1].type, Cell::Type::Real);
+  EXPECT_EQ(rows[0][2].text, "it's");
+  EXPECT_EQ(rows[0][3].type, Cell::Type::Null);
+}
+
+TEST_F(QueryTest, TellsColumnsOfAnAnswerWithoutRows) {
+  ASSERT_TRUE(query("SELECT design, state FROM v_designs WHERE design = 99"));
+  EXPECT_THAT(columns, testing::ElementsAre("design", "state"));
+  EXPECT_TRUE(rows.empty());
+}
+
+TEST_F(QueryTest, RefusesWhateverIsNotReading) {
+  for (const std::string sql :
+       {"DELETE FROM evaluation", "INSERT INTO meta VALUES ('a', 'b')", "UPDATE design SET used = 0",
+        "CREATE TABLE t (a)", "CREATE TEMP TABLE t (a)", "DROP VIEW v_designs",
+        "ATTACH 'other.db' AS o", "DETACH main", "PRAGMA journal_mode = DELETE",
+        "PRAGMA query_only = OFF", "PRAGMA user_version = 3", "BEGIN", "SAVEPOINT a", "VACUUM",
+        "VACUUM INTO 'copy.db'", "ANALYZE", "REINDEX",
+        "SELECT load_extension('evil')", "PRAGMA wal_checkpoint"}) {
+    const auto end = query(sql);
+    ASSERT_FALSE(end) << sql;
+    EXPECT_EQ(end.error().kind, ErrorKind::BadInput);
+    EXPECT_FALSE(end.error().message.empty());
+  }
+}
+
+TEST_F(QueryTest, AllowsToAskForTheShapeOfTables) {
+  EXPECT_TRUE(query("PRAGMA table_info(design)"));
+  EXPECT_FALSE(rows.empty());
+  EXPECT_TRUE(query("PRAGMA user_version"));
+  EXPECT_TRUE(query("EXPLAIN QUERY PLAN SELECT * FROM v_designs"));
+}
+
+TEST_F(QueryTest, RefusesMistakesWithTheReasonOfSqlite) {
+  EXPECT_THAT(query("SELECT missing FROM v_designs").error().message,
+              testing::HasSubstr("no such column: missing"));
+  EXPECT_THAT(query("SELEC 1").error().message, testing::HasSubstr("syntax error"));
+  EXPECT_THAT(query("  ").error().message, testing::HasSubstr("empty"));
+  EXPECT_THAT(query("SELECT 1; SELECT 2").error().message, testing::HasSubstr("one statement"));
+}
+
+TEST_F(QueryTest, StopsAtTheLimitOfRows) {
+  const auto end = query("SELECT * FROM v_evaluations", {.rows = 3});
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->rows, 3);
+  EXPECT_TRUE(end->truncated);
+  EXPECT_FALSE(query("SELECT * FROM v_designs", {.rows = 1})->truncated);
+}
+
+TEST_F(QueryTest, StopsAtTheLimitOfTimeAlsoBeforeTheFirstRow) {
+  const auto end = query(
+      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n) SELECT count(*) FROM n",
+      {.seconds = 0.02});
+  ASSERT_TRUE(end);
+  EXPECT_EQ(end->rows, 0);
+  EXPECT_TRUE(end->truncated);
+  EXPECT_TRUE(query("SELECT 1")) << "the limit outlived its query";
+}
+
+TEST_F(QueryTest, FindsNoFaultInASoundStoreAndSaysWhatIsWrongInAnother) {
+  EXPECT_THAT(reader->integrity(), testing::IsEmpty());
+  sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE)
+      .execute("PRAGMA foreign_keys = OFF; DELETE FROM candidate WHERE id = 1");
+  EXPECT_THAT(reader->integrity(),
+              testing::Contains("a row of evaluation names a row of candidate that does not exist"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

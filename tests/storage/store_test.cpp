@@ -1,0 +1,229 @@
+#include "storage/store.h"
+
+#include <gmock/gmock.h>
+
+#include <bit>
+#include <cmath>
+#include <future>
+#include <limits>
+
+#include "storage/answer.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+struct StoreTest : testing::Test {
+  TemporaryFolder folder;
+  std::filesystem::path path = folder / "s.db";
+  SyntheticCampaign campaign = synthetic_campaign();
+
+  void write_all(const std::vector<std::vector<Row>>& batches) {
+    auto store = open_store(path, campaign);
+    for (const auto& batch : batches) store->append(batch);
+    store->flush();
+  }
+  /// A store with the campaign's first batch, which has the first candidates.
+  std::unique_ptr<Store> begun() {
+    auto store = open_store(path, campaign);
+    store->append(campaign.batches.front());
+    return store;
+  }
+  static EvaluationRow evaluation(double score) {
+    EvaluationRow row;
+    row.key = {.candidate = {1}, .purpose = Purpose::Race, .pair = 1};
+    row.iteration = 1;
+    row.score = score;
+    row.state_digest = 0xfedcba9876543210U;
+    row.source = "rvr";
+    return row;
+  }
+};
+
+TEST_F(StoreTest, GivesBackEveryRowOfTheAnswer) {
+  write_all(campaign.batches);
+  const std::vector<Row> stored = open_reader(path)->answer_rows();
+  const auto is_stored = [&](const Row& row) {
+    return std::any_of(stored.begin(), stored.end(),
+                       [&](const Row& other) { return same_answer(row, other); });
+  };
+  std::size_t expected = 0;
+  for (const auto& batch : campaign.batches) {
+    for (const Row& row : batch) {
+      const bool replaced_later = std::holds_alternative<CandidateTotalsRow>(row) ||
+                                  std::holds_alternative<DesignStateRow>(row);
+      if (!in_answer(row) || replaced_later) continue;
+      ++expected;
+      EXPECT_TRUE(is_stored(row)) << describe(row);
+    }
+  }
+  const auto absolute = std::count_if(stored.begin(), stored.end(), [](const Row& row) {
+    return std::holds_alternative<CandidateTotalsRow>(row) ||
+           std::holds_alternative<DesignStateRow>(row);
+  });
+  EXPECT_EQ(stored.size(), expected + static_cast<std::size_t>(absolute));
+}
+
+TEST_F(StoreTest, KeepsTheLastOfRowsWithAbsoluteValues) {
+  write_all(campaign.batches);
+  const auto rows = cells_of(*open_reader(path),
+                             "SELECT runs, score_sum FROM candidate_totals WHERE candidate = 1");
+  CandidateTotalsRow last;
+  for (const auto& batch : campaign.batches) {
+    for (const Row& row : batch) {
+      const auto* totals = std::get_if<CandidateTotalsRow>(&row);
+      if (totals != nullptr && totals->candidate.value == 1) last = *totals;
+    }
+  }
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(rows[0][0], std::to_string(last.runs));
+  EXPECT_EQ(std::stod(rows[0][1]), last.score_sum);
+}
+
+TEST_F(StoreTest, KeepsCampaignAndDesignsAsTheyWereGiven) {
+  write_all({});
+  const auto reader = open_reader(path);
+  EXPECT_EQ(reader->campaign().digest, campaign.campaign.digest);
+  EXPECT_EQ(reader->campaign().deciding, campaign.campaign.deciding);
+  EXPECT_EQ(reader->campaign().file, campaign.campaign.file);
+  ASSERT_EQ(reader->designs().size(), campaign.designs.size());
+  EXPECT_EQ(reader->designs()[1].mission, campaign.designs[1].mission);
+  EXPECT_EQ(reader->designs()[1].seed, campaign.designs[1].seed);
+}
+
+TEST_F(StoreTest, TakesTheSameRowsTwiceWithoutHarm) {
+  write_all(campaign.batches);
+  const std::string once = digest_of(path);
+  const auto evaluations = open_reader(path)->scores().size();
+  write_all(campaign.batches);
+  EXPECT_EQ(digest_of(path), once);
+  EXPECT_EQ(open_reader(path)->scores().size(), evaluations);
+}
+
+TEST_F(StoreTest, KeepsTheBitsOfScoresAndDigests) {
+  for (const double score : {0.1, -5e-324, 1.7976931348623157e308, 381000.0, 0x1.fffffp-30}) {
+    const TemporaryFolder own;
+    auto store = open_store(own / "s.db", campaign);
+    store->append(campaign.batches.front());
+    store->append({evaluation(score)});
+    store->flush();
+    const auto scores = store->scores();
+    ASSERT_EQ(scores.size(), 1U);
+    EXPECT_EQ(std::bit_cast<std::uint64_t>(scores[0].score), std::bit_cast<std::uint64_t>(score));
+    EXPECT_EQ(scores[0].state_digest, 0xfedcba9876543210U);
+  }
+}
+
+TEST_F(StoreTest, KeepsTheFirstOfTwoDifferentResults) {
+  auto store = begun();
+  store->append({evaluation(1.0)});
+  store->append({evaluation(2.0)});
+  EvaluationRow rejected = evaluation(0);
+  rejected.status = EvaluationStatus::Rejected;
+  store->append({rejected});
+  store->flush();
+  ASSERT_EQ(store->scores().size(), 1U);
+  EXPECT_EQ(store->scores()[0].score, 1.0);
+  EXPECT_EQ(store->scores()[0].status, EvaluationStatus::Ok);
+}
+
+TEST_F(StoreTest, LetsTheRaceTakeUpWhatWasComputedAheadOnlyWithTheSameBits) {
+  auto store = begun();
+  EvaluationRow ahead = evaluation(1.0);
+  ahead.iteration = 0;
+  store->append({ahead});
+  store->append({evaluation(2.0)});
+  store->flush();
+  EXPECT_EQ(cells_of(*open_reader(path), "SELECT iteration FROM evaluation")[0][0], "NULL");
+  store->append({evaluation(1.0)});
+  store->flush();
+  EXPECT_EQ(cells_of(*open_reader(path), "SELECT iteration FROM evaluation")[0][0], "1");
+}
+
+TEST_F(StoreTest, RefusesNumbersThatAreNotFinite) {
+  auto store = begun();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(store->append({evaluation(nan)}), std::invalid_argument);
+  EXPECT_THROW(store->append({evaluation(-infinity)}), std::invalid_argument);
+  CandidateTotalsRow totals{.candidate = {1}, .runs = 1, .score_sum = infinity};
+  EXPECT_THROW(store->append({totals}), std::invalid_argument);
+  RaceStepRow step;
+  step.p_value = nan;
+  EXPECT_THROW(store->append({step}), std::invalid_argument);
+  store->flush();
+  EXPECT_TRUE(store->scores().empty());
+}
+
+TEST_F(StoreTest, CountsTicketsFromOneAndTellsThemInOrderBeforeFlushReturns) {
+  auto store = open_store(path, campaign);
+  std::vector<std::uint64_t> told;
+  store->set_listener([&](const WriterNews& news) {
+    EXPECT_EQ(news.trouble, "");
+    told.push_back(news.committed);
+  });
+  std::uint64_t wanted = 0;
+  for (const auto& batch : campaign.batches) EXPECT_EQ(store->append(batch), ++wanted);
+  store->flush();
+  ASSERT_FALSE(told.empty());
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), wanted);
+}
+
+TEST_F(StoreTest, CommitsWhatIsQueuedWhenItEndsAndLeavesOneFile) {
+  {
+    auto store = open_store(path, campaign);
+    for (const auto& batch : campaign.batches) store->append(batch);
+  }
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+    names.push_back(entry.path().filename().string());
+  }
+  EXPECT_THAT(names, testing::ElementsAre("s.db"));
+  EXPECT_TRUE(open_reader(path)->finished());
+}
+
+TEST_F(StoreTest, IsReadByOthersWhileItIsWritten) {
+  auto store = begun();
+  store->flush();
+  const auto reader = open_reader(path);
+  EXPECT_TRUE(reader->scores().empty());
+  store->append({evaluation(1.0)});
+  store->flush();
+  EXPECT_EQ(reader->scores().size(), 1U);
+}
+
+TEST_F(StoreTest, GivesAResumedCampaignItsScoresAndSteps) {
+  write_all(campaign.batches);
+  auto store = open_store(path, campaign);
+  const auto scores = store->scores();
+  EXPECT_TRUE(std::is_sorted(scores.begin(), scores.end(),
+                             [](const auto& a, const auto& b) { return a.key < b.key; }));
+  EXPECT_EQ(scores.size(), open_reader(path)->scores().size());
+  EXPECT_EQ(store->steps().size(), 2U * 3U * 7U);
+  EXPECT_TRUE(store->finished());
+}
+
+TEST_F(StoreTest, KeepsWorkersConflictsAndEventsForPeople) {
+  auto store = begun();
+  WorkerRow worker;
+  worker.id = 1;
+  worker.host = "node3";
+  worker.state = "connected";
+  store->append({worker});
+  worker.state = "lost";
+  worker.done = 12;
+  store->append({worker, evaluation(1.0)});
+  const ConflictRow conflict{.key = evaluation(1).key, .kept_score = 1, .other_score = 2};
+  store->append({conflict, conflict});
+  store->append({EventRow{.severity = "warning", .kind = "worker lost", .text = "{}"}});
+  store->flush();
+  const auto reader = open_reader(path);
+  EXPECT_EQ(cells_of(*reader, "SELECT state, done FROM v_workers"),
+            (std::vector<std::vector<std::string>>{{"lost", "12"}}));
+  EXPECT_EQ(cells_of(*reader, "SELECT other_score FROM conflict").size(), 1U);
+  EXPECT_EQ(cells_of(*reader, "SELECT kind FROM event")[0][0], "worker lost");
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,238 @@
+#include "tests/support/synthetic_campaign.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "base/rng.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::size_t kElites = 3;
+
+/// Makes one design's rows, step by step.
+class SyntheticDesign {
+ public:
+  SyntheticDesign(const SyntheticSize& size, DesignId id, const Rng& rng,
+                  std::vector<std::vector<Row>>& out)
+      : size_(size), id_(id), rng_(rng), out_(out) {}
+
+  void make() {
+    for (iteration_ = 1; iteration_ <= size_.iterations; ++iteration_)
+      make_iteration();
+    test_winner();
+  }
+
+ private:
+  void make_iteration();
+  void make_step(std::int64_t of_iteration);
+  void drop_worst(std::vector<Row>& batch, std::size_t keep, const char* reason);
+  void name_elites();
+  void test_winner();
+  CandidateRow candidate();
+  EvaluationRow evaluation(EvaluationKey key, std::int64_t iteration);
+  double mean(CandidateId id) const {
+    const CandidateTotalsRow& t = totals_.at(id.value);
+    return t.score_sum / static_cast<double>(t.runs);
+  }
+
+  SyntheticSize size_;
+  DesignId id_;
+  Rng rng_;
+  std::vector<std::vector<Row>>& out_;
+  std::int64_t iteration_ = 0, made_ = 0, step_ = 0, pair_ = 0, used_ = 0;
+  std::vector<CandidateId> alive_;  ///< best first after a step
+  std::map<std::int64_t, CandidateTotalsRow> totals_;
+};
+
+CandidateRow SyntheticDesign::candidate() {
+  CandidateRow row;
+  row.id = candidate_id(id_, ++made_);
+  row.iteration = iteration_;
+  if (iteration_ > 1) row.parent = alive_.front();
+  row.states = rng_.uniform_int(1, 4);
+  row.machine = fmt::format("--nstates {}", row.states);
+  row.parameters = fmt::format("{{\"states\":{}", row.states);
+  const auto amount = [&] { return static_cast<double>(rng_.uniform_int(1, 99)) / 100.0; };
+  for (std::int64_t state = 0; state < row.states; ++state) {
+    row.machine += fmt::format(" --s{0} 0 --rwm{0} {1} --n{0} 2", state, rng_.uniform_int(1, 100));
+    row.parameters += fmt::format(",\"s{}.behaviour\":\"exploration\"", state);
+    row.parameters += fmt::format(",\"s{}.tau\":{}", state, rng_.uniform_int(1, 100));
+    for (int way = 0; way < 2; ++way) {
+      const double beta = amount();
+      row.machine += fmt::format(" --n{0}x{1} 0 --c{0}x{1} 5 --p{0}x{1} {2}", state, way, beta);
+      row.parameters += fmt::format(",\"s{}.t{}.beta\":{}", state, way, beta);
+      ++row.transitions;
+    }
+  }
+  row.parameters += "}";
+  row.modules =
+      fmt::format("{{\"exploration\":{},\"fixed_probability\":{}}}", row.states, row.transitions);
+  return row;
+}
+
+EvaluationRow SyntheticDesign::evaluation(EvaluationKey key, std::int64_t iteration) {
+  EvaluationRow row{.key = key, .iteration = iteration, .source = "rvr"};
+  const Rng own =
+      rng_.split("evaluation", static_cast<std::uint64_t>(key.candidate.value * 1000 + key.pair));
+  Rng draw = own;
+  row.state_digest = draw.next();
+  row.score = draw.uniform() < 0.5 ? draw.normal(3, 1) : static_cast<double>(draw.below(500));
+  if (draw.bernoulli(0.001)) {
+    row.status = EvaluationStatus::Rejected;
+    row.score = 0;
+  }
+  row.wall_us = draw.uniform_int(200, 900);
+  row.worker = draw.uniform_int(1, 4);
+  return row;
+}
+
+void SyntheticDesign::drop_worst(std::vector<Row>& batch, std::size_t keep, const char* reason) {
+  std::stable_sort(alive_.begin(), alive_.end(),
+                   [this](CandidateId a, CandidateId b) { return mean(a) > mean(b); });
+  for (std::size_t i = std::min(keep, alive_.size()); i < alive_.size(); ++i) {
+    batch.push_back(EliminationRow{.candidate = alive_[i],
+                                   .iteration = iteration_,
+                                   .step = step_,
+                                   .rank_sum = static_cast<double>(i) * 1.5,
+                                   .reason = reason});
+  }
+  alive_.resize(std::min(keep, alive_.size()));
+}
+
+void SyntheticDesign::make_step(std::int64_t of_iteration) {
+  ++step_;
+  ++pair_;
+  std::vector<Row> batch;
+  batch.push_back(PairRow{.design = id_,
+                          .purpose = Purpose::Race,
+                          .number = pair_,
+                          .instance = 1 + pair_ % 3,
+                          .seed = rng_.uniform_int(1, 2147483647)});
+  const auto before = static_cast<std::int64_t>(alive_.size());
+  for (const CandidateId id : alive_) {
+    const EvaluationRow row = evaluation({id, Purpose::Race, pair_}, iteration_);
+    CandidateTotalsRow& totals = totals_[id.value];
+    totals.candidate = id;
+    ++totals.runs;
+    totals.score_sum += row.score;
+    totals.score_squares += row.score * row.score;
+    batch.emplace_back(row);
+    batch.emplace_back(totals);
+  }
+  used_ += before;
+  const bool test = of_iteration >= size_.first_drop;
+  const auto keep =
+      static_cast<std::size_t>(std::ceil(static_cast<double>(before) * size_.survive));
+  drop_worst(batch, test ? std::max(keep, kElites) : alive_.size(), "test");
+  RaceStepRow step;
+  step.design = id_;
+  step.step = step_;
+  step.iteration = iteration_;
+  step.pair = pair_;
+  step.marker = test ? '-' : 'x';
+  step.evaluated = before;
+  step.alive_before = before;
+  step.alive_after = static_cast<std::int64_t>(alive_.size());
+  step.best = alive_.front();
+  step.mean_best = mean(alive_.front());
+  step.used = used_;
+  if (test) step.p_value = rng_.uniform();
+  step.digest = rng_.next();
+  batch.emplace_back(step);
+  out_.push_back(std::move(batch));
+}
+
+void SyntheticDesign::name_elites() {
+  std::vector<Row> batch;
+  drop_worst(batch, kElites, "not kept");
+  for (std::size_t i = 0; i < alive_.size(); ++i) {
+    batch.push_back(EliteRow{.design = id_,
+                             .iteration = iteration_,
+                             .rank = static_cast<std::int64_t>(i + 1),
+                             .candidate = alive_[i],
+                             .mean = mean(alive_[i]),
+                             .runs = totals_.at(alive_[i].value).runs});
+  }
+  batch.push_back(DesignStateRow{.design = id_,
+                                 .state = DesignState::Racing,
+                                 .used = used_,
+                                 .iteration = iteration_,
+                                 .best = alive_.front(),
+                                 .best_mean = mean(alive_.front()),
+                                 .reason = {}});
+  out_.push_back(std::move(batch));
+}
+
+void SyntheticDesign::make_iteration() {
+  std::vector<Row> batch;
+  batch.push_back(IterationRow{.design = id_,
+                               .number = iteration_,
+                               .of = size_.iterations,
+                               .budget = 1000,
+                               .configurations = size_.candidates,
+                               .elites = static_cast<std::int64_t>(alive_.size()),
+                               .model_digest = rng_.next()});
+  std::vector<CandidateId> made;
+  for (std::int64_t i = 0; i < size_.candidates; ++i) {
+    const CandidateRow row = candidate();
+    made.push_back(row.id);
+    batch.emplace_back(row);
+  }
+  alive_.insert(alive_.end(), made.begin(), made.end());
+  out_.push_back(std::move(batch));
+  for (std::int64_t step = 1; step <= size_.steps; ++step)
+    make_step(step);
+  name_elites();
+}
+
+void SyntheticDesign::test_winner() {
+  std::vector<Row> batch;
+  for (std::int64_t number = 1; number <= size_.tests; ++number) {
+    batch.push_back(PairRow{.design = id_,
+                            .purpose = Purpose::Test,
+                            .number = number,
+                            .instance = 1,
+                            .seed = rng_.uniform_int(1, 2147483647)});
+    batch.emplace_back(evaluation({alive_.front(), Purpose::Test, number}, 0));
+  }
+  batch.push_back(DesignStateRow{.design = id_,
+                                 .state = DesignState::Finished,
+                                 .used = used_,
+                                 .iteration = size_.iterations,
+                                 .best = alive_.front(),
+                                 .best_mean = mean(alive_.front()),
+                                 .reason = "budget used"});
+  out_.push_back(std::move(batch));
+}
+
+}  // namespace
+
+SyntheticCampaign synthetic_campaign(const SyntheticSize& size, std::uint64_t seed) {
+  SyntheticCampaign made;
+  made.campaign = {.name = "synthetic",
+                   .digest = fmt::format("{:032x}", seed),
+                   .deciding = fmt::format(R"({{"seed":{},"race":{{"budget":100000}}}})", seed),
+                   .file = "name = \"synthetic\"\n",
+                   .seed = static_cast<std::int64_t>(seed)};
+  const Rng rng(seed);
+  for (std::int64_t number = 1; number <= size.designs; ++number) {
+    const DesignId id{number};
+    made.designs.push_back({.id = id,
+                            .mission = number % 2 == 1 ? "aggregation" : "color_selection",
+                            .method = "watermelon",
+                            .repetition = (number + 1) / 2,
+                            .seed = number * 17,
+                            .budget = 100000});
+    SyntheticDesign(size, id, rng.split("design", static_cast<std::uint64_t>(number)), made.batches)
+        .make();
+  }
+  made.batches.push_back({CampaignStateRow{.state = "finished"}});
+  return made;
+}
+
+}  // namespace swarmsmith
