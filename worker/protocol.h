@@ -20,14 +20,14 @@ namespace swarmsmith {
 
 /// How a worker introduces itself.
 struct WorkerIdentity {
-  std::string id;  ///< 16 random bytes
-  std::string build;
+  std::string id{};  ///< 16 random bytes
+  std::string build{};
   int engine_version = 0;
-  std::string self_test;
+  std::string self_test{};
   int slots = 1;
-  std::string host;
+  std::string host{};
   std::int64_t pid = 0;
-  std::string job;
+  std::string job{};
 };
 
 struct WorkerOptions {
