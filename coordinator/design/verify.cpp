@@ -1,4 +1,4 @@
-#include "coordinator/verify.h"
+#include "coordinator/design/verify.h"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -9,8 +9,8 @@
 #include "base/overloaded.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
-#include "coordinator/campaign_runner.h"
-#include "coordinator/plans.h"
+#include "coordinator/design/campaign_runner.h"
+#include "coordinator/design/plans.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {

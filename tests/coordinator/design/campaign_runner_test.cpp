@@ -1,4 +1,4 @@
-#include "coordinator/campaign_runner.h"
+#include "coordinator/design/campaign_runner.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 #include "base/rng.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
-#include "coordinator/plans.h"
+#include "coordinator/design/plans.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {
