@@ -19,15 +19,6 @@ namespace {
 
 std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
 
-/// The parent of a new configuration: elites by rank, the best of E with weight E, the last with 1.
-std::size_t draw_parent(std::size_t elites, Rng& rng) {
-  auto ticket = static_cast<std::int64_t>(rng.below(elites * (elites + 1) / 2));
-  for (std::size_t rank = 0;; ++rank) {
-    ticket -= static_cast<std::int64_t>(elites - rank);
-    if (ticket < 0) return rank;
-  }
-}
-
 }  // namespace
 
 IteratedRace::State::State(ParameterSpace space_in, Scenario scenario_in,
@@ -171,7 +162,7 @@ Expected<std::vector<Candidate>> IteratedRace::State::sample_new(std::int64_t co
     const std::int64_t missing = count - static_cast<std::int64_t>(sampled.size());
     if (missing == 0) return sampled;
     for (std::int64_t i = 0; i < missing; ++i) {
-      const std::int64_t parent = elites[draw_parent(elites.size(), rng)].configuration;
+      const std::int64_t parent = elites[irace::draw_parent(elites.size(), rng)].configuration;
       auto configuration = models_.sample(parent, rng);
       if (!configuration) return Unexpected(configuration.error());
       if (forbidden_.contains(*configuration)) continue;

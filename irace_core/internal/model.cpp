@@ -95,6 +95,14 @@ double restart_sd(double sd, double initial, std::int64_t new_configurations,
                   initial * pow(1 / n, 1.0 / variable_parameters));
 }
 
+std::size_t draw_parent(std::size_t elites, Rng& rng) {
+  auto ticket = static_cast<std::int64_t>(rng.below(elites * (elites + 1) / 2));
+  for (std::size_t rank = 0;; ++rank) {
+    ticket -= static_cast<std::int64_t>(elites - rank);
+    if (ticket < 0) return rank;
+  }
+}
+
 void SamplingModels::prepare(std::size_t parameter, ParameterModel& model) const {
   const Domain& domain = (*space_)[parameter].domain;
   model.distribution.reset();

@@ -37,6 +37,9 @@ void restart_probabilities(std::span<double> probabilities);
 double restart_sd(double sd, double initial, std::int64_t new_configurations,
                   int variable_parameters);
 
+/// Which of E elites, best first from 0, becomes a parent: the best with weight E, the last with 1.
+std::size_t draw_parent(std::size_t elites, Rng& rng);
+
 /// Where values of one parameter are drawn from.
 struct ParameterModel {
   std::vector<double> probabilities;  ///< of a categorical parameter's values

@@ -68,6 +68,15 @@ std::vector<std::size_t> Race::to_run(const Progress& progress) const {
   return columns;
 }
 
+/// The canonical order within a task; that of the columns has the elites by rank.
+std::vector<std::size_t> Race::by_id(std::span<const std::size_t> columns) const {
+  std::vector<std::size_t> sorted(columns.begin(), columns.end());
+  std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
+    return contestants_[a].id < contestants_[b].id;
+  });
+  return sorted;
+}
+
 bool Race::is_test_point(std::size_t task) const {
   const auto t = static_cast<std::int64_t>(task);
   return t >= settings_.first_test && t % settings_.pairs_between_tests == 0;
@@ -124,7 +133,7 @@ void Race::plan() {
   while (ahead.task < settings_.pairs.size()) {
     const std::vector<std::size_t> columns = to_run(ahead);
     if (!columns.empty() && reason_to_stop(ahead, columns.size())) return;
-    for (const std::size_t c : columns) wanted_.push_back({ahead.task, c});
+    for (const std::size_t c : by_id(columns)) wanted_.push_back({ahead.task, c});
     pass(ahead, columns);
     if (!columns.empty() && is_test_point(ahead.task)) return;
   }
@@ -161,7 +170,7 @@ void Race::do_task(std::span<const std::size_t> ran, RaceStep& step) {
   step.task = static_cast<std::int64_t>(task) + 1;
   step.pair = settings_.pairs[task];
   step.alive_before = static_cast<std::int64_t>(alive_.size());
-  for (const std::size_t c : ran) step.evaluated.push_back(contestants_[c].id);
+  for (const std::size_t c : by_id(ran)) step.evaluated.push_back(contestants_[c].id);
   pass(progress_, ran);
   used_ = progress_.used;
   step.experiments_used = used_;

@@ -48,7 +48,7 @@ struct RaceRun {
 /// One elitist race (irace facts, 9), as ask and tell.
 ///
 /// Nothing is dropped between two tests, so that all runs up to the next test are asked for at once.
-/// Results are consumed in the order (task, column). After a rejection the runs of the rejected one
+/// Results are consumed in the order (task, id). After a rejection the runs of the rejected one
 /// on later tasks, and all runs that follow a stop, are void: neither counted nor used.
 class Race {
  public:
@@ -102,6 +102,7 @@ class Race {
   bool has_result(std::size_t column, std::size_t task) const;
   bool anybody_protected(const Progress& progress) const;
   std::vector<std::size_t> to_run(const Progress& progress) const;
+  std::vector<std::size_t> by_id(std::span<const std::size_t> columns) const;
   std::optional<std::string> reason_to_stop(const Progress& progress, std::size_t runs) const;
   bool elites_are_done(const Progress& progress) const;
   bool is_test_point(std::size_t task) const;

@@ -35,18 +35,15 @@ Decimal to_decimal(double value) {
   return decimal;
 }
 
-std::string fixed(const Decimal& decimal) {
-  const auto count = static_cast<int>(decimal.digits.size());
-  std::string text = decimal.negative ? "-" : "";
-  if (decimal.point <= 0) {
-    return text + "0." + std::string(static_cast<std::size_t>(-decimal.point), '0') +
-           decimal.digits;
-  }
-  if (decimal.point >= count) {
-    return text + decimal.digits + std::string(static_cast<std::size_t>(decimal.point - count), '0');
-  }
-  return text + decimal.digits.substr(0, static_cast<std::size_t>(decimal.point)) + "." +
-         decimal.digits.substr(static_cast<std::size_t>(decimal.point));
+/// Fixed notation with as many decimals as 15 significant digits need. Whole numbers show all their
+/// digits, also beyond the fifteenth.
+std::string fixed(double value, const Decimal& decimal) {
+  std::array<char, 800> buffer{};  // 309 digits before the point, 324 + 15 after it
+  const int decimals = std::max(0, static_cast<int>(decimal.digits.size()) - decimal.point);
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::fixed, decimals);
+  SWARMSMITH_ASSERT(end.ec == std::errc{}, "a number in fixed notation fits 800 characters");
+  return {buffer.data(), end.ptr};
 }
 
 std::string scientific(const Decimal& decimal) {
@@ -97,11 +94,11 @@ std::string to_text(const Scalar& value) {
   if (value.number == 0) return "0";
   if (std::isinf(value.number)) return value.number < 0 ? "-Inf" : "Inf";
   const Decimal decimal = to_decimal(value.number);
-  std::string plain = fixed(decimal);
+  std::string plain = fixed(value.number, decimal);
   std::string powers = scientific(decimal);
   return plain.size() <= powers.size() ? plain : powers;
 }
 
-std::string to_fixed_text(double value) { return value == 0 ? "0" : fixed(to_decimal(value)); }
+std::string to_fixed_text(double value) { return value == 0 ? "0" : fixed(value, to_decimal(value)); }
 
 }  // namespace swarmsmith

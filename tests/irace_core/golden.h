@@ -17,6 +17,11 @@ inline nlohmann::json golden(const std::string& file) {
   return nlohmann::json::parse(in);
 }
 
+/// One part of such a file, by value: the file itself is gone after the call.
+inline nlohmann::json golden(const std::string& file, const std::string& part) {
+  return golden(file).at(part);
+}
+
 /// R writes vectors of length one as plain values.
 template <class T>
 std::vector<T> as_vector(const nlohmann::json& json) {

@@ -1,4 +1,4 @@
-#include "coordinator/campaign_runner.h"
+#include "coordinator/design/campaign_runner.h"
 
 #include <algorithm>
 #include <utility>

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "coordinator/design_runner.h"
+#include "coordinator/design/design_runner.h"
 #include "coordinator/work_source.h"
 
 namespace swarmsmith {

@@ -63,7 +63,8 @@ class DesignRunner {
   DesignState state() const { return state_; }
   DesignId id() const { return plan_.row.id; }
   std::int64_t used() const { return used_; }
-  const DesignPlan& plan() const { return plan_; }
+  /// Stored scores that the race has not asked for (yet).
+  std::size_t unasked() const { return stored_.race_scores.size() + stored_.test_scores.size(); }
 
   static std::uint64_t key_of(std::int64_t candidate_number, std::int64_t pair) {
     return (static_cast<std::uint64_t>(candidate_number) << 32U) | static_cast<std::uint64_t>(pair);

@@ -1,4 +1,4 @@
-#include "coordinator/design_runner.h"
+#include "coordinator/design/design_runner.h"
 
 #include <limits>
 #include <utility>

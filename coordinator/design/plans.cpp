@@ -1,4 +1,4 @@
-#include "coordinator/plans.h"
+#include "coordinator/design/plans.h"
 
 #include <memory>
 #include <utility>

@@ -4,7 +4,7 @@
 
 #include "base/expected.h"
 #include "coordinator/campaign/campaign.h"
-#include "coordinator/design_runner.h"
+#include "coordinator/design/design_runner.h"
 
 namespace swarmsmith {
 

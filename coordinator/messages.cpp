@@ -1,0 +1,141 @@
+#include "coordinator/messages.h"
+
+#include "proto/wire.h"
+
+namespace swarmsmith {
+namespace {
+
+std::int64_t milliseconds(Duration duration) {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(duration).count();
+}
+
+pb::Reject::Reason reason_of(RejectReason reason) {
+  switch (reason) {
+    case RejectReason::Protocol: return pb::Reject::REASON_PROTOCOL;
+    case RejectReason::Build: return pb::Reject::REASON_BUILD;
+    case RejectReason::Limit: return pb::Reject::REASON_LIMIT;
+  }
+  return pb::Reject::REASON_UNSPECIFIED;
+}
+
+}  // namespace
+
+WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uint64_t scenario) {
+  WorkerHello out{.identity = hello.worker_id(),
+                  .incarnation = incarnation,
+                  .build = hello.build(),
+                  .engine_version = hello.engine_version(),
+                  .self_test = hello.self_test(),
+                  .slots = static_cast<int>(hello.slots()),
+                  .host = hello.host(),
+                  .pid = hello.pid(),
+                  .job = hello.job(),
+                  .same_scenario = hello.scenario() == scenario,
+                  .holds = {}};
+  out.holds.reserve(static_cast<std::size_t>(hello.holds_size()));
+  for (const pb::Key& key : hello.holds()) out.holds.push_back(*pack(key));
+  return out;
+}
+
+void results_of(const pb::Results& results, std::vector<WorkerResult>& out) {
+  out.clear();
+  for (const pb::Result& result : results.results()) {
+    out.push_back({.key = *pack(result.key()),
+                   .attempt = result.attempt(),
+                   .score = result.score() + 0.0,  // stores know one zero only
+                   .state_digest = result.state_digest(),
+                   .wall_us = result.wall_us(),
+                   .failure = result.failure()});
+  }
+}
+
+void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out) {
+  out.clear();
+  for (const pb::Running& running : heartbeat.running()) {
+    out.push_back({*pack(running.key()), running.elapsed_ms()});
+  }
+}
+
+std::vector<PackedKey> keys_of(const pb::Returned& returned) {
+  std::vector<PackedKey> keys;
+  for (const pb::Key& key : returned.keys()) keys.push_back(*pack(key));
+  return keys;
+}
+
+std::string frame_of(const SendWelcome& action, const CampaignFacts& facts,
+                     const SchedulerOptions& options) {
+  pb::ToWorker message;
+  message.set_incarnation(action.incarnation);
+  pb::Welcome& welcome = *message.mutable_welcome();
+  welcome.set_campaign_digest(facts.campaign_digest);
+  welcome.set_scenario(facts.scenario_digest);
+  welcome.set_heartbeat_ms(milliseconds(options.heartbeat));
+  welcome.set_dead_after_ms(milliseconds(options.dead_after));
+  welcome.set_resend_ms(milliseconds(options.resend));
+  welcome.set_max_credit(options.max_credit);
+  return encode(message);
+}
+
+std::string frame_of(const SendReject& action) {
+  pb::ToWorker message;
+  message.set_incarnation(action.incarnation);
+  message.mutable_reject()->set_reason(reason_of(action.reason));
+  message.mutable_reject()->set_sentence(action.sentence.substr(0, kMaxTextBytes));
+  return encode(message);
+}
+
+std::string frame_of(const SendTasks& action, const CampaignFacts& facts,
+                     google::protobuf::Arena& arena) {
+  auto& message = *google::protobuf::Arena::CreateMessage<pb::ToWorker>(&arena);
+  message.set_incarnation(action.incarnation);
+  pb::Tasks& tasks = *message.mutable_tasks();
+  tasks.set_scenario(facts.scenario_digest);
+  for (const SendTasks::Leased& leased : action.tasks) {
+    const Task& task = leased.task;
+    pb::Task& out = *tasks.add_tasks();
+    unpack(pack(task.key), *out.mutable_key());
+    out.set_attempt(leased.attempt);
+    out.set_mission(task.mission);
+    out.set_method(task.method);
+    out.set_instance(task.instance);
+    out.set_seed(task.seed);
+    out.set_machine(task.machine);
+  }
+  return encode(message);
+}
+
+std::string frame_of(const SendHeartbeat& action) {
+  pb::ToWorker message;
+  message.set_incarnation(action.incarnation);
+  message.mutable_heartbeat();
+  return encode(message);
+}
+
+std::string frame_of(const SendWhoAreYou&) {
+  pb::ToWorker message;
+  message.mutable_who_are_you();
+  return encode(message);
+}
+
+std::string frame_of(const SendDrain& action) {
+  pb::ToWorker message;
+  message.set_incarnation(action.incarnation);
+  message.mutable_drain();
+  return encode(message);
+}
+
+std::string acknowledgement_of(std::span<const PackedKey> keys, std::uint64_t incarnation) {
+  pb::ToWorker message;
+  message.set_incarnation(incarnation);
+  for (const PackedKey key : keys) unpack(key, *message.mutable_acknowledged()->add_keys());
+  return encode(message);
+}
+
+std::string scenario_reply_of(const CampaignFacts& facts, std::uint64_t incarnation) {
+  pb::ToWorker message;
+  message.set_incarnation(incarnation);
+  message.mutable_scenario()->set_scenario(facts.scenario);
+  return encode(message);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,39 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coordinator/scheduler_types.h"
+#include "proto/wire.pb.h"
+
+namespace swarmsmith {
+
+/// Messages of workers as the scheduler's plain values, and its actions as frames. Messages come
+/// from `decode_to_coordinator`, so their keys are valid and their numbers within limits.
+
+WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uint64_t scenario);
+void results_of(const pb::Results& results, std::vector<WorkerResult>& out);
+void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out);
+std::vector<PackedKey> keys_of(const pb::Returned& returned);
+
+/// What a worker is told about the campaign.
+struct CampaignFacts {
+  std::string campaign_digest;
+  std::string scenario;               ///< serialised
+  std::uint64_t scenario_digest = 0;
+};
+
+std::string frame_of(const SendWelcome& action, const CampaignFacts& facts,
+                     const SchedulerOptions& options);
+std::string frame_of(const SendReject& action);
+std::string frame_of(const SendTasks& action, const CampaignFacts& facts,
+                     google::protobuf::Arena& arena);
+std::string frame_of(const SendHeartbeat& action);
+std::string frame_of(const SendWhoAreYou& action);
+std::string frame_of(const SendDrain& action);
+/// One frame for at most kMaxItemsPerMessage keys.
+std::string acknowledgement_of(std::span<const PackedKey> keys, std::uint64_t incarnation);
+std::string scenario_reply_of(const CampaignFacts& facts, std::uint64_t incarnation);
+
+}  // namespace swarmsmith

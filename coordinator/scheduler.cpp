@@ -1,0 +1,365 @@
+#include "coordinator/scheduler.h"
+
+#include <algorithm>
+#include <unordered_set>
+
+#include "base/assert.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A worker sends this many results at most in a message, so what ran is among its first
+/// (slots + 64) leases.
+constexpr std::size_t kUnreported = 64;
+constexpr int kDeathsOfARejection = 3;
+constexpr int kFailuresOfARejection = 2;
+/// Silent losses are mostly the network's: tolerated much longer, and never a rejection.
+constexpr int kLossesUntilAlone = 2;
+constexpr int kLossesUntilStop = 12;
+
+std::string name_of(const EvaluationKey& key) {
+  return to_string(key.candidate) + " on pair " + std::to_string(key.pair);
+}
+
+double value_of(const DoneEntry& entry) { return std::bit_cast<double>(entry.score_bits); }
+
+}  // namespace
+
+Scheduler::Scheduler(SchedulerOptions options, std::span<const StoredScore> known)
+    : options_(std::move(options)), workers_(options_.first_worker) {
+  for (const StoredScore& score : known) {
+    done_.insert(pack(score.key), score.status, score.score, score.state_digest);
+  }
+}
+
+void Scheduler::add(std::vector<Task> tasks) {
+  for (Task& task : tasks) {
+    const bool is_new = leases_.add(std::move(task));
+    SWARMSMITH_ASSERT(is_new, "a task is wanted once");
+  }
+}
+
+std::vector<SchedulerAction> Scheduler::take_actions() { return std::exchange(actions_, {}); }
+
+const WorkerEntry* Scheduler::connected_worker(WorkerNumber number) {
+  const WorkerEntry* entry = workers_.of_number(number);
+  return entry != nullptr && entry->connected ? entry : nullptr;
+}
+
+void Scheduler::note(const char* severity, const char* kind,
+                     std::initializer_list<EventField> fields) {
+  actions_.emplace_back(Noted{{.severity = severity, .kind = kind, .text = event_text(fields)}});
+}
+
+void Scheduler::stop(const std::string& reason) {
+  held_ = true;
+  note("error", "campaign stopped", {{"reason", reason}});
+  actions_.emplace_back(StopCampaign{reason});
+}
+
+// --- who is there ---
+
+std::string Scheduler::objection_to(const WorkerHello& hello) const {
+  if (hello.engine_version != options_.engine_version) {
+    return "this campaign runs with version " + std::to_string(options_.engine_version) +
+           " of the simulator, the worker on " + hello.host + " has version " +
+           std::to_string(hello.engine_version) + ": install the same release on both sides";
+  }
+  if (!options_.self_test.empty() && hello.self_test != options_.self_test) {
+    return "the simulator's self test gives " + hello.self_test + " on " + hello.host +
+           " and should give " + options_.self_test +
+           ": another build or compiler; its scores would differ";
+  }
+  return {};
+}
+
+void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
+  WorkerEntry* entry = workers_.of_identity(hello.identity);
+  const WorkerEntry* holder = workers_.of_peer(peer);
+  if (holder != nullptr && holder != entry) return;
+  if (entry != nullptr && hello.incarnation <= entry->hello.incarnation) {
+    // Said twice: the welcome may have been lost. From elsewhere: a replay.
+    if (holder == entry && hello.incarnation == entry->hello.incarnation) {
+      actions_.emplace_back(SendWelcome{peer, hello.incarnation});
+    }
+    return;
+  }
+  const auto refuse = [&](RejectReason reason, const std::string& sentence) {
+    actions_.emplace_back(SendReject{peer, hello.incarnation, reason, sentence});
+    note("warning", "worker refused", {{"host", hello.host}, {"reason", sentence}});
+  };
+  if (const std::string objection = objection_to(hello); !objection.empty()) {
+    return refuse(RejectReason::Build, objection);
+  }
+  if (entry == nullptr && workers_.connected() >= options_.max_workers) {
+    return refuse(RejectReason::Limit, "there are " + std::to_string(workers_.connected()) +
+                                           " workers already, which is the limit");
+  }
+  if (options_.self_test.empty()) options_.self_test = hello.self_test;
+  if (entry == nullptr) entry = &workers_.add(hello.identity);
+  if (entry->connected) workers_.disconnect(*entry);
+  entry->hello = std::move(hello);
+  workers_.connect(*entry, peer, now);
+  take_back_charges(*entry);
+  adopt(*entry, now);
+  welcome(*entry, now);
+}
+
+void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
+  actions_.emplace_back(SendWelcome{entry.peer, entry.hello.incarnation});
+  entry.last_sent = now;
+  if (draining_) actions_.emplace_back(SendDrain{entry.peer, entry.hello.incarnation});
+  actions_.emplace_back(WorkerChanged{row_of(entry, "connected")});
+}
+
+/// The worker is alive: what its disappearance counted against did not kill it.
+void Scheduler::take_back_charges(WorkerEntry& entry) {
+  for (const PackedKey key : std::exchange(entry.charged, {})) {
+    TaskRecord* record = leases_.find(key);
+    if (record != nullptr && record->deaths > 0) --record->deaths;
+  }
+}
+
+/// Leases of the worker's last connection that it does not hold went astray; those that it holds
+/// and nobody else has are its own.
+void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
+  std::unordered_set<PackedKey> held;
+  if (entry.hello.same_scenario) held.insert(entry.hello.holds.begin(), entry.hello.holds.end());
+  const std::list<PackedKey>& before = leases_.leases_of(entry.number);
+  const std::vector<PackedKey> leased(before.rbegin(), before.rend());
+  for (const PackedKey key : leased) {
+    if (!held.contains(key)) leases_.requeue(*leases_.find(key));
+  }
+  if (held_ || draining_ || !entry.hello.same_scenario) return;
+  for (const PackedKey key : entry.hello.holds) {
+    TaskRecord* record = leases_.find(key);
+    // What must run alone is leased anew, when the worker has nothing else.
+    if (record == nullptr || record->lease || record->alone) continue;
+    leases_.grant(*record, entry.number, now);
+    record->lease->adopted = true;
+  }
+}
+
+WorkerEntry* Scheduler::heard(const Sender& sender, TimePoint now) {
+  WorkerEntry* entry = workers_.of_peer(sender.peer);
+  if (entry == nullptr) {
+    actions_.emplace_back(SendWhoAreYou{sender.peer});
+    return nullptr;
+  }
+  if (entry->hello.incarnation != sender.incarnation) return nullptr;
+  entry->last_heard = now;
+  return entry;
+}
+
+bool Scheduler::on_sign_of_life(const Sender& sender, TimePoint now) {
+  return heard(sender, now) != nullptr;
+}
+
+void Scheduler::on_credit(const Sender& sender, std::uint32_t tasks, TimePoint now) {
+  WorkerEntry* entry = heard(sender, now);
+  if (entry == nullptr || sender.sequence <= entry->last_sequence) return;
+  entry->last_sequence = sender.sequence;
+  entry->credit = std::min(tasks, options_.max_credit);
+}
+
+void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> keys, TimePoint now) {
+  const WorkerEntry* entry = heard(sender, now);
+  if (entry == nullptr) return;
+  for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+    TaskRecord* record = leases_.find(*key);
+    if (record == nullptr || !record->lease || record->lease->worker != entry->number) continue;
+    leases_.requeue(*record);
+    ++counters_.requeued;
+  }
+}
+
+void Scheduler::on_goodbye(const Sender& sender, TimePoint now) {
+  WorkerEntry* entry = heard(sender, now);
+  if (entry != nullptr) lose(*entry, Loss::Left, "left");
+}
+
+void Scheduler::on_unreachable(PeerId peer, TimePoint now) {
+  WorkerEntry* entry = workers_.of_peer(peer);
+  if (entry == nullptr) return;
+  const bool closed = now - entry->last_heard < options_.silence;
+  lose(*entry, closed ? Loss::Death : Loss::Silence, "lost");
+}
+
+void Scheduler::on_refused(PeerId peer, TimePoint) {
+  WorkerEntry* entry = workers_.of_peer(peer);
+  if (entry != nullptr) lose(*entry, Loss::Left, "refused");
+}
+
+void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
+  const std::list<PackedKey>& leases = leases_.leases_of(entry.number);
+  const std::vector<PackedKey> keys(leases.begin(), leases.end());
+  const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
+  workers_.disconnect(entry);
+  counters_.requeued += keys.size();
+  for (std::size_t i = keys.size(); i-- > 0;) {
+    TaskRecord& record = *leases_.find(keys[i]);
+    if (i < suspects) suspect(entry, record, loss);
+    leases_.requeue(record);
+    if (record.deaths >= kDeathsOfARejection) {
+      reject(record, entry.number, "its evaluation killed three worker processes");
+    }
+  }
+  actions_.emplace_back(WorkerChanged{row_of(entry, state)});
+  if (state == "left") return;
+  ++counters_.lost_workers;
+  note("warning", "worker lost",
+       {{"worker", entry.number},
+        {"host", entry.hello.host},
+        {"how", loss == Loss::Death ? "connection closed" : "silent"},
+        {"requeued", static_cast<std::int64_t>(keys.size())}});
+}
+
+void Scheduler::suspect(WorkerEntry& entry, TaskRecord& record, Loss loss) {
+  if (loss == Loss::Death) {
+    if (record.lease->alone) {
+      ++record.deaths;
+      entry.charged.push_back(pack(record.task.key));
+    }
+    record.alone = true;
+  } else if (loss == Loss::Silence) {
+    ++record.losses;
+    if (record.losses >= kLossesUntilAlone) record.alone = true;
+    if (record.lease->alone && record.losses >= kLossesUntilStop) {
+      stop("the evaluation of " + name_of(record.task.key) + " was lost with its worker " +
+           std::to_string(record.losses) + " times");
+    }
+  }
+}
+
+// --- what comes back ---
+
+void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> results,
+                           TimePoint now) {
+  WorkerEntry* entry = heard(sender, now);
+  if (entry == nullptr) return;
+  SendAcknowledged acknowledged{entry->peer, entry->hello.incarnation, {}};
+  for (const WorkerResult& result : results) {
+    if (result.failure.empty()) {
+      on_score(*entry, result);
+    } else {
+      on_failure(*entry, result, acknowledged);
+    }
+  }
+  if (!acknowledged.keys.empty()) actions_.emplace_back(std::move(acknowledged));
+}
+
+void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
+  if (const TaskRecord* record = leases_.find(result.key); record != nullptr) {
+    ++entry.done;
+    const auto spent_us = static_cast<double>(std::max<std::int64_t>(result.wall_us, 0));
+    estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
+    accept(result.key, {.key = record->task.key,
+                        .status = EvaluationStatus::Ok,
+                        .score = result.score,
+                        .state_digest = result.state_digest,
+                        .wall_us = result.wall_us,
+                        .worker = entry.number,
+                        .attempt = std::max<std::int64_t>(record->attempts, 1)});
+    return;
+  }
+  if (const DoneEntry* known = done_.find(result.key); known != nullptr) {
+    return repeat(entry, *known, result);
+  }
+  // Wanted later, perhaps: after a restart the race may not have come so far. Not acknowledged, so
+  // it comes again.
+  ++counters_.unknown;
+}
+
+void Scheduler::accept(PackedKey key, const Outcome& outcome) {
+  leases_.remove(key);
+  done_.insert(key, outcome.status, outcome.score, outcome.state_digest);
+  ++(outcome.status == EvaluationStatus::Ok ? counters_.done : counters_.rejected);
+  actions_.emplace_back(OutcomeAccepted{outcome});
+}
+
+void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
+                       const WorkerResult& result) {
+  ++counters_.duplicates;
+  actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
+  if (DoneTable::same(known, EvaluationStatus::Ok, result.score, result.state_digest)) return;
+  ++counters_.conflicts;
+  const EvaluationKey key = unpack(result.key);
+  actions_.emplace_back(ConflictFound{{.key = key,
+                                       .kept_score = value_of(known),
+                                       .other_score = result.score,
+                                       .other_state_digest = result.state_digest,
+                                       .other_worker = entry.number}});
+  note("error", "not deterministic",
+       {{"evaluation", name_of(key)}, {"worker", entry.number}, {"host", entry.hello.host}});
+}
+
+void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
+                           SendAcknowledged& acknowledged) {
+  // A failure is told once: for the lease under which it ran. Nothing is written, so the worker
+  // may forget it at once.
+  acknowledged.keys.push_back(result.key);
+  TaskRecord* record = leases_.find(result.key);
+  if (record == nullptr || !record->lease || record->lease->worker != entry.number) return;
+  if (!record->lease->adopted && record->lease->attempt != result.attempt) return;
+  ++entry.failed;
+  ++counters_.failed;
+  ++record->failures;
+  note("warning", "evaluation failed",
+       {{"evaluation", name_of(record->task.key)},
+        {"worker", entry.number},
+        {"reason", result.failure}});
+  record->avoid = entry.number;
+  if (record->failures >= kFailuresOfARejection) {
+    reject(*record, entry.number, result.failure);
+  } else {
+    leases_.requeue(*record);
+  }
+}
+
+void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
+                             std::span<const RunningReport> running, TimePoint now) {
+  WorkerEntry* entry = heard(sender, now);
+  if (entry == nullptr || sender.sequence <= entry->last_sequence) return;
+  entry->last_sequence = sender.sequence;
+  entry->credit = std::min(credit, options_.max_credit);
+  const auto limit_ms =
+      std::chrono::duration_cast<std::chrono::milliseconds>(options_.task_timeout).count();
+  for (const RunningReport& report : running) {
+    TaskRecord* record = leases_.find(report.key);
+    if (record == nullptr || !record->lease || record->lease->worker != entry->number) continue;
+    record->lease->renewed = now;
+    if (report.elapsed_ms > limit_ms) on_timeout(*entry, *record);
+  }
+}
+
+/// A time never becomes a score: another try elsewhere, then the end.
+void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
+  ++record.timeouts;
+  ++entry.failed;
+  ++counters_.failed;
+  note("warning", "evaluation timed out",
+       {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}});
+  record.avoid = entry.number;
+  leases_.requeue(record);
+  if (record.timeouts > options_.retries) {
+    stop("the evaluation of " + name_of(record.task.key) + " took longer than " +
+         std::to_string(std::chrono::duration_cast<std::chrono::seconds>(options_.task_timeout)
+                            .count()) +
+         " s in " + std::to_string(record.timeouts) + " attempts: raise task_timeout_s, or retries");
+  }
+}
+
+/// `record` is gone afterwards, unless the campaign stops.
+void Scheduler::reject(TaskRecord& record, WorkerNumber worker, const std::string& reason) {
+  const EvaluationKey key = record.task.key;
+  if (options_.stop_on_failure) {
+    return stop("the evaluation of " + name_of(key) + " failed: " + reason);
+  }
+  note("warning", "evaluation rejected", {{"evaluation", name_of(key)}, {"reason", reason}});
+  accept(pack(key), {.key = key,
+                     .status = EvaluationStatus::Rejected,
+                     .worker = worker,
+                     .attempt = std::max<std::int64_t>(record.attempts, 1)});
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,108 @@
+#pragma once
+
+#include <initializer_list>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "coordinator/done_table.h"
+#include "coordinator/event_text.h"
+#include "coordinator/lease_table.h"
+#include "coordinator/scheduler_types.h"
+#include "coordinator/worker_registry.h"
+#include "storage/rows.h"
+
+namespace swarmsmith {
+
+/// Who does what, when. Pure: events in with the time, actions out; no socket, no clock, no store.
+///
+/// Promise: every task that was added gets exactly one `OutcomeAccepted`, however often workers
+/// die, fall silent, answer twice or late, as long as some worker goes on. A task is evaluated at
+/// least once; the first outcome counts, since evaluations are pure. Later ones are compared with
+/// it bit by bit.
+///
+/// When a worker disappears nobody is blamed yet. Workers start tasks in the order of their leases
+/// and report 64 results at most at a time, so what ran is among the first (slots + 64) leases:
+/// after a death each of these is tried again *alone*, on a worker that has nothing else, and only
+/// a death there counts. Three such are a rejection.
+class Scheduler {
+ public:
+  /// `known` have an outcome that is on disk: their results are acknowledged when they come again.
+  Scheduler(SchedulerOptions options, std::span<const StoredScore> known);
+
+  void add(std::vector<Task> tasks);
+
+  void on_hello(PeerId peer, WorkerHello hello, TimePoint now);
+  void on_credit(const Sender& sender, std::uint32_t tasks, TimePoint now);
+  void on_results(const Sender& sender, std::span<const WorkerResult> results, TimePoint now);
+  void on_heartbeat(const Sender& sender, std::uint32_t credit,
+                    std::span<const RunningReport> running, TimePoint now);
+  void on_returned(const Sender& sender, std::span<const PackedKey> keys, TimePoint now);
+  void on_goodbye(const Sender& sender, TimePoint now);
+  /// Any other message: a sign of life. False, and a question, when the peer is not known.
+  bool on_sign_of_life(const Sender& sender, TimePoint now);
+  /// The transport says that the connection is no more.
+  void on_unreachable(PeerId peer, TimePoint now);
+  /// The peer sent rubbish and is not listened to any more.
+  void on_refused(PeerId peer, TimePoint now);
+  /// Heartbeats, silent workers, leases without progress; several times a second.
+  void on_tick(TimePoint now);
+
+  /// Leases what can be leased.
+  void dispatch(TimePoint now);
+  /// No leases from now on, or again.
+  void hold(bool held) { held_ = held; }
+  /// Sends every worker home.
+  void drain(TimePoint now);
+
+  std::vector<SchedulerAction> take_actions();
+
+  const LeaseTable& leases() const { return leases_; }
+  const WorkerRegistry& workers() const { return workers_; }
+  const SchedulerCounters& counters() const { return counters_; }
+  /// The connection of a worker that is there.
+  const WorkerEntry* connected_worker(WorkerNumber number);
+
+ private:
+  enum class Loss { Death, Silence, Left, Reconnected };
+
+  WorkerEntry* heard(const Sender& sender, TimePoint now);
+  std::string objection_to(const WorkerHello& hello) const;
+  void welcome(WorkerEntry& entry, TimePoint now);
+  void adopt(WorkerEntry& entry, TimePoint now);
+  void take_back_charges(WorkerEntry& entry);
+  void lose(WorkerEntry& entry, Loss loss, const std::string& state);
+  void suspect(WorkerEntry& entry, TaskRecord& record, Loss loss);
+
+  void on_score(WorkerEntry& entry, const WorkerResult& result);
+  void on_failure(WorkerEntry& entry, const WorkerResult& result, SendAcknowledged& acknowledged);
+  void on_timeout(WorkerEntry& entry, TaskRecord& record);
+  void accept(PackedKey key, const Outcome& outcome);
+  void repeat(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
+  void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason);
+  void stop(const std::string& reason);
+
+  void pardon(TimePoint now);
+  void expire(WorkerEntry& entry, TimePoint now);
+  void dispatch_alone(TimePoint now);
+  bool fill(WorkerEntry& entry, std::int64_t share, TimePoint now);
+  void send_tasks(WorkerEntry& entry, SendTasks& message, TimePoint now);
+  Duration lease_time() const;
+  void note(const char* severity, const char* kind, std::initializer_list<EventField> fields);
+
+  SchedulerOptions options_;
+  LeaseTable leases_;
+  WorkerRegistry workers_;
+  DoneTable done_;
+  SchedulerCounters counters_;
+  std::vector<SchedulerAction> actions_;
+  double estimate_us_ = 0;     ///< of an evaluation's time
+  WorkerNumber turn_ = 0;      ///< who was served last
+  TimePoint forgot_;
+  TimePoint ticked_;
+  bool held_ = false;
+  bool draining_ = false;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,154 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "base/clock.h"
+#include "coordinator/task.h"
+#include "coordinator/task_key.h"
+#include "proto/socket.h"
+
+namespace swarmsmith {
+
+/// What the scheduler sees of messages, and what it wants to be done: plain values.
+
+/// How a worker introduces itself.
+struct WorkerHello {
+  std::string identity;  ///< 16 bytes
+  std::uint64_t incarnation = 0;
+  std::string build;
+  int engine_version = 0;
+  std::string self_test;
+  int slots = 1;
+  std::string host;
+  std::int64_t pid = 0;
+  std::string job;
+  bool same_scenario = false;     ///< whether `holds` are of this campaign
+  std::vector<PackedKey> holds;
+};
+
+/// One evaluation as a worker reports it: a score, or the reason why there is none.
+struct WorkerResult {
+  PackedKey key = 0;
+  std::int64_t attempt = 0;
+  double score = 0;
+  std::uint64_t state_digest = 0;
+  std::int64_t wall_us = 0;
+  std::string failure;
+};
+
+struct RunningReport {
+  PackedKey key = 0;
+  std::int64_t elapsed_ms = 0;
+};
+
+/// Who sent a message, and as which of its messages.
+struct Sender {
+  PeerId peer = 0;
+  std::uint64_t incarnation = 0;
+  std::uint64_t sequence = 0;
+};
+
+enum class RejectReason { Protocol, Build, Limit };
+
+/// Actions. `incarnation` is that of the worker's last hello.
+struct SendWelcome {
+  PeerId peer = 0;
+  std::uint64_t incarnation = 0;
+};
+struct SendReject {
+  PeerId peer = 0;
+  std::uint64_t incarnation = 0;
+  RejectReason reason = RejectReason::Protocol;
+  std::string sentence;
+};
+struct SendTasks {
+  struct Leased {
+    Task task;
+    std::int64_t attempt = 0;
+  };
+  PeerId peer = 0;
+  std::uint64_t incarnation = 0;
+  std::vector<Leased> tasks;
+};
+/// The worker may forget these results: there is nothing to write for them.
+struct SendAcknowledged {
+  PeerId peer = 0;
+  std::uint64_t incarnation = 0;
+  std::vector<PackedKey> keys;
+};
+struct SendHeartbeat {
+  PeerId peer = 0;
+  std::uint64_t incarnation = 0;
+};
+struct SendWhoAreYou {
+  PeerId peer = 0;
+};
+struct SendDrain {
+  PeerId peer = 0;
+  std::uint64_t incarnation = 0;
+};
+/// The first outcome of a task.
+struct OutcomeAccepted {
+  Outcome outcome;
+};
+/// A result that was known before, with the same bits or others.
+struct OutcomeRepeated {
+  PackedKey key = 0;
+  std::int64_t worker = 0;
+};
+struct ConflictFound {
+  ConflictRow row;
+};
+struct WorkerChanged {
+  WorkerRow row;
+};
+struct Noted {
+  EventRow row;
+};
+/// The campaign cannot go on.
+struct StopCampaign {
+  std::string reason;
+};
+
+using SchedulerAction =
+    std::variant<SendWelcome, SendReject, SendTasks, SendAcknowledged, SendHeartbeat, SendWhoAreYou,
+                 SendDrain, OutcomeAccepted, OutcomeRepeated, ConflictFound, WorkerChanged, Noted,
+                 StopCampaign>;
+
+struct SchedulerOptions {
+  Duration heartbeat = std::chrono::seconds(1);
+  Duration dead_after = std::chrono::seconds(5);
+  Duration resend = std::chrono::seconds(10);
+  /// A lease without progress expires after max(lease_floor, lease_factor * running estimate).
+  Duration lease_floor = std::chrono::seconds(5);
+  int lease_factor = 20;
+  /// A connection that breaks sooner than this after the last sign of life was closed by the death
+  /// of its process; links die silently, and the transport needs 3 s to notice.
+  Duration silence = std::chrono::milliseconds(2500);
+  Duration task_timeout = std::chrono::seconds(30);
+  std::int64_t retries = 2;      ///< after time-outs, before the campaign stops
+  bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
+  std::uint32_t max_credit = 4096;
+  std::size_t max_workers = 10'000;
+  int engine_version = 0;
+  std::string self_test;         ///< empty: that of the first worker
+  std::int64_t first_worker = 1; ///< number of the first worker that comes
+};
+
+/// Numbers for people, counted since the start.
+struct SchedulerCounters {
+  std::uint64_t done = 0;
+  std::uint64_t rejected = 0;
+  std::uint64_t failed = 0;      ///< attempts without a score
+  std::uint64_t duplicates = 0;
+  std::uint64_t conflicts = 0;
+  std::uint64_t unknown = 0;     ///< results of tasks that nobody asked for
+  std::uint64_t expired = 0;
+  std::uint64_t requeued = 0;
+  std::uint64_t lost_workers = 0;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "coordinator/coordinator.h"
+#include "coordinator/live_status.h"
+#include "coordinator/work_source.h"
+#include "proto/socket.h"
+#include "storage/store.h"
+
+namespace swarmsmith {
+
+struct ServiceOptions {
+  CoordinatorOptions coordinator;
+  /// Loopback only, for now; port * takes a free one. Empty: "tcp://127.0.0.1:*".
+  std::string bind;
+  SocketOptions socket;
+  /// How long running evaluations are waited for when the campaign is interrupted.
+  Duration grace = std::chrono::seconds(5);
+};
+
+struct ServiceHooks {
+  /// Each unit of rows, just before it is appended to the store.
+  std::function<void(const std::vector<Row>&)> on_rows;
+  /// Ten times a second.
+  std::function<void(const LiveStatus&)> on_status;
+};
+
+struct ServiceEnd {
+  enum class How {
+    Finished,     ///< everything that was wanted is done and on disk
+    Interrupted,  ///< asked to stop; what was accepted is on disk
+    Stopped,      ///< the campaign cannot go on; `reason` says why
+  };
+  How how = How::Finished;
+  std::string reason;
+};
+
+/// A coordinator's loop: socket, clock and store around a Coordinator. One thread, that of `run`.
+class Service {
+ public:
+  /// Errors: BadInput (an address beyond loopback), Unavailable (the port is taken). `store` and
+  /// `source` must outlive the object; the store's listener is taken over.
+  static Expected<std::unique_ptr<Service>> open(ServiceOptions options, Store& store,
+                                                 WorkSource& source);
+  virtual ~Service() = default;
+
+  /// Where workers find it, with the real port.
+  virtual const std::string& endpoint() const = 0;
+
+  /// Until the campaign is over or `stop` is requested: then nothing more is leased, running
+  /// evaluations have the grace time, and the store is flushed. Call once.
+  virtual ServiceEnd run(const std::stop_token& stop, const ServiceHooks& hooks) = 0;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,88 @@
+#include "coordinator/worker_registry.h"
+
+#include "base/assert.h"
+
+namespace swarmsmith {
+namespace {
+
+std::string hexadecimal(const std::string& bytes) {
+  static constexpr char kDigits[] = "0123456789abcdef";
+  std::string out;
+  for (const char c : bytes) {
+    out += kDigits[static_cast<unsigned char>(c) >> 4U];
+    out += kDigits[static_cast<unsigned char>(c) & 15U];
+  }
+  return out;
+}
+
+}  // namespace
+
+WorkerEntry* WorkerRegistry::of_peer(PeerId peer) {
+  const auto at = by_peer_.find(peer);
+  return at == by_peer_.end() ? nullptr : of_number(at->second);
+}
+
+WorkerEntry* WorkerRegistry::of_identity(const std::string& identity) {
+  const auto at = by_identity_.find(identity);
+  return at == by_identity_.end() ? nullptr : of_number(at->second);
+}
+
+WorkerEntry* WorkerRegistry::of_number(WorkerNumber number) {
+  const auto at = entries_.find(number);
+  return at == entries_.end() ? nullptr : &at->second;
+}
+
+WorkerEntry& WorkerRegistry::add(const std::string& identity) {
+  SWARMSMITH_ASSERT(!by_identity_.contains(identity), "a worker is added once");
+  const WorkerNumber number = next_++;
+  by_identity_[identity] = number;
+  WorkerEntry& entry = entries_[number];
+  entry.number = number;
+  return entry;
+}
+
+void WorkerRegistry::connect(WorkerEntry& entry, PeerId peer, TimePoint now) {
+  SWARMSMITH_ASSERT(!entry.connected, "a worker has one connection");
+  entry.connected = true;
+  entry.peer = peer;
+  entry.last_sequence = 0;
+  entry.credit = 0;
+  entry.reserved = false;
+  entry.last_heard = now;
+  by_peer_[peer] = entry.number;
+  slots_ += entry.hello.slots;
+}
+
+void WorkerRegistry::disconnect(WorkerEntry& entry) {
+  SWARMSMITH_ASSERT(entry.connected, "who is disconnected was connected");
+  entry.connected = false;
+  entry.reserved = false;
+  by_peer_.erase(entry.peer);
+  slots_ -= entry.hello.slots;
+}
+
+void WorkerRegistry::forget_old(TimePoint now) {
+  for (auto at = entries_.begin(); at != entries_.end();) {
+    const WorkerEntry& entry = at->second;
+    if (!entry.connected && now - entry.last_heard > kMemory) {
+      by_identity_.erase(entry.hello.identity);
+      at = entries_.erase(at);
+    } else {
+      ++at;
+    }
+  }
+}
+
+WorkerRow row_of(const WorkerEntry& entry, const std::string& state) {
+  return {.id = entry.number,
+          .identity = hexadecimal(entry.hello.identity),
+          .host = entry.hello.host,
+          .pid = entry.hello.pid,
+          .slots = entry.hello.slots,
+          .build = entry.hello.build,
+          .state = state,
+          .done = entry.done,
+          .failed = entry.failed};
+}
+
+}  // namespace swarmsmith

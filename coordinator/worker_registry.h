@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "base/clock.h"
+#include "coordinator/lease_table.h"
+#include "coordinator/scheduler_types.h"
+
+namespace swarmsmith {
+
+/// A worker process that said hello. It keeps its number when it comes back.
+struct WorkerEntry {
+  WorkerNumber number = 0;
+  WorkerHello hello;             ///< the last one
+  bool connected = false;
+  PeerId peer = 0;               ///< while connected
+  std::uint64_t last_sequence = 0;
+  TimePoint last_heard;
+  TimePoint last_sent;
+  std::uint32_t credit = 0;      ///< tasks that it wants to hold
+  /// Nothing more goes to it until it is idle, and then one task that must run alone.
+  bool reserved = false;
+  std::int64_t done = 0;
+  std::int64_t failed = 0;
+  /// Tasks that its last disappearance counted against; it takes that back by coming again.
+  std::vector<PackedKey> charged;
+};
+
+/// Who is there. Entries of workers that left stay for `kMemory`, so that a late hello can be told
+/// from a new worker. All iteration is by number.
+class WorkerRegistry {
+ public:
+  static constexpr Duration kMemory = std::chrono::minutes(15);
+
+  explicit WorkerRegistry(WorkerNumber first = 1) : next_(first) {}
+
+  WorkerEntry* of_peer(PeerId peer);
+  WorkerEntry* of_identity(const std::string& identity);
+  WorkerEntry* of_number(WorkerNumber number);
+
+  /// A worker that was never seen; not yet connected.
+  WorkerEntry& add(const std::string& identity);
+  void connect(WorkerEntry& entry, PeerId peer, TimePoint now);
+  void disconnect(WorkerEntry& entry);
+  /// Forgets workers that are not connected and were not heard of for long.
+  void forget_old(TimePoint now);
+
+  std::size_t connected() const { return by_peer_.size(); }
+  std::int64_t slots() const { return slots_; }
+  std::map<WorkerNumber, WorkerEntry>& all() { return entries_; }
+  const std::map<WorkerNumber, WorkerEntry>& all() const { return entries_; }
+
+ private:
+  std::map<WorkerNumber, WorkerEntry> entries_;
+  std::unordered_map<PeerId, WorkerNumber> by_peer_;  ///< connected ones
+  std::unordered_map<std::string, WorkerNumber> by_identity_;
+  WorkerNumber next_;
+  std::int64_t slots_ = 0;
+};
+
+/// The row that says how a worker is: "connected", "lost", "left" or "refused".
+WorkerRow row_of(const WorkerEntry& entry, const std::string& state);
+
+}  // namespace swarmsmith

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "proto/wire.pb.h"
+
+namespace swarmsmith {
+
+/// An evaluation's key in one word, for hash maps: 41 bits of candidate, 20 of pair, 3 of purpose.
+/// Zero is no key, since candidates count from 1.
+using PackedKey = std::uint64_t;
+
+inline constexpr std::int64_t kMaxCandidate = (std::int64_t{1} << 41) - 1;
+inline constexpr std::int64_t kMaxPair = (std::int64_t{1} << 20) - 1;
+inline constexpr std::int32_t kMaxPurpose = 7;
+
+constexpr bool is_valid_key(std::int64_t candidate, std::int32_t purpose, std::int64_t pair) {
+  return candidate > 0 && candidate <= kMaxCandidate && purpose >= 0 && purpose <= kMaxPurpose &&
+         pair >= 0 && pair <= kMaxPair;
+}
+
+/// The caller has checked the key.
+constexpr PackedKey pack(std::int64_t candidate, std::int32_t purpose, std::int64_t pair) {
+  return static_cast<PackedKey>(candidate) << 23U | static_cast<PackedKey>(pair) << 3U |
+         static_cast<PackedKey>(purpose);
+}
+
+/// Nothing for a key that cannot be one.
+inline std::optional<PackedKey> pack(const pb::Key& key) {
+  if (!is_valid_key(key.candidate(), key.purpose(), key.pair())) return std::nullopt;
+  return pack(key.candidate(), key.purpose(), key.pair());
+}
+
+inline void unpack(PackedKey packed, pb::Key& key) {
+  key.set_candidate(static_cast<std::int64_t>(packed >> 23U));
+  key.set_pair(static_cast<std::int64_t>(packed >> 3U & 0xfffffU));
+  key.set_purpose(static_cast<std::int32_t>(packed & 7U));
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,154 @@
+#include "proto/wire.h"
+
+#include <cmath>
+
+#include "base/hash.h"
+#include "proto/key.h"
+
+namespace swarmsmith {
+namespace {
+
+void append_word(std::string& out, std::uint16_t word) {
+  out += static_cast<char>(word & 0xffU);
+  out += static_cast<char>(word >> 8U);
+}
+
+std::uint16_t word_at(std::string_view frame, std::size_t at) {
+  return static_cast<std::uint16_t>(static_cast<unsigned char>(frame[at]) |
+                                    static_cast<unsigned char>(frame[at + 1]) << 8U);
+}
+
+template <class Message>
+std::string encode_message(const Message& message) {
+  std::string out;
+  out.reserve(kFrameHeaderBytes + message.ByteSizeLong());
+  out += kFrameMagic;
+  append_word(out, kProtocolMajor);
+  append_word(out, kProtocolMinor);
+  message.AppendToString(&out);
+  return out;
+}
+
+Expected<std::string_view> payload_of(std::string_view frame) {
+  if (frame.size() < kFrameHeaderBytes || frame.size() > kMaxFrameBytes) {
+    return bad_input("a frame of " + std::to_string(frame.size()) + " bytes; wanted 8 to " +
+                         std::to_string(kMaxFrameBytes),
+                     "length");
+  }
+  if (frame.substr(0, kFrameMagic.size()) != kFrameMagic) {
+    return bad_input("a frame that does not begin with " + std::string(kFrameMagic), "magic");
+  }
+  const std::uint16_t major = word_at(frame, 4);
+  if (major != kProtocolMajor) {
+    return unexpected(ErrorKind::Conflict,
+                      "the peer speaks version " + std::to_string(major) +
+                          " of the protocol, this program version " +
+                          std::to_string(kProtocolMajor) + ": install the same release on both sides",
+                      "major version");
+  }
+  return frame.substr(kFrameHeaderBytes);
+}
+
+template <class Message>
+Expected<const Message*> parse(std::string_view frame, google::protobuf::Arena& arena) {
+  const Expected<std::string_view> payload = payload_of(frame);
+  if (!payload) return Unexpected(payload.error());
+  auto* message = google::protobuf::Arena::CreateMessage<Message>(&arena);
+  if (!message->ParseFromArray(payload->data(), static_cast<int>(payload->size()))) {
+    return bad_input("a frame that is no message of this protocol", "protobuf");
+  }
+  return message;
+}
+
+template <class Items, class IsFine>
+bool all(const Items& items, IsFine is_fine) {
+  if (items.size() > kMaxItemsPerMessage) return false;
+  for (const auto& item : items) {
+    if (!is_fine(item)) return false;
+  }
+  return true;
+}
+
+bool is_key(const pb::Key& key) { return pack(key).has_value(); }
+
+bool is_fine(const pb::Hello& hello) {
+  return hello.worker_id().size() == kWorkerIdBytes && hello.slots() >= 1 &&
+         hello.slots() <= kMaxSlots && hello.build().size() <= kMaxTextBytes &&
+         hello.self_test().size() <= kMaxTextBytes && hello.host().size() <= kMaxTextBytes &&
+         hello.job().size() <= kMaxTextBytes && all(hello.holds(), is_key);
+}
+
+bool is_result(const pb::Result& result) {
+  return is_key(result.key()) && result.failure().size() <= kMaxTextBytes &&
+         (!result.failure().empty() || std::isfinite(result.score()));
+}
+
+bool is_task(const pb::Task& task) {
+  return is_key(task.key()) && task.machine().size() <= kMaxMachineBytes;
+}
+
+bool is_fine(const pb::Heartbeat& heartbeat) {
+  return all(heartbeat.running(),
+             [](const pb::Running& running) { return is_key(running.key()) && running.elapsed_ms() >= 0; });
+}
+
+bool is_fine(const pb::ToCoordinator& message) {
+  switch (message.body_case()) {
+    case pb::ToCoordinator::kHello: return is_fine(message.hello());
+    case pb::ToCoordinator::kResults: return all(message.results().results(), is_result);
+    case pb::ToCoordinator::kHeartbeat: return is_fine(message.heartbeat());
+    case pb::ToCoordinator::kReturned: return all(message.returned().keys(), is_key);
+    case pb::ToCoordinator::kCredit:
+    case pb::ToCoordinator::kGoodbye:
+    case pb::ToCoordinator::kWantScenario:
+    case pb::ToCoordinator::BODY_NOT_SET: return true;
+  }
+  return true;
+}
+
+bool is_fine(const pb::ToWorker& message) {
+  switch (message.body_case()) {
+    case pb::ToWorker::kTasks: return all(message.tasks().tasks(), is_task);
+    case pb::ToWorker::kAcknowledged: return all(message.acknowledged().keys(), is_key);
+    case pb::ToWorker::kReject: return message.reject().sentence().size() <= kMaxTextBytes;
+    case pb::ToWorker::kHeartbeat: return is_fine(message.heartbeat());
+    case pb::ToWorker::kWelcome:
+    case pb::ToWorker::kScenario:
+    case pb::ToWorker::kDrain:
+    case pb::ToWorker::kWhoAreYou:
+    case pb::ToWorker::BODY_NOT_SET: return true;
+  }
+  return true;
+}
+
+template <class Message>
+Expected<const Message*> decode(std::string_view frame, google::protobuf::Arena& arena) {
+  Expected<const Message*> message = parse<Message>(frame, arena);
+  if (message && !is_fine(**message)) {
+    return bad_input("a message with a value outside of the protocol's limits", "limits");
+  }
+  return message;
+}
+
+}  // namespace
+
+std::string encode(const pb::ToCoordinator& message) { return encode_message(message); }
+std::string encode(const pb::ToWorker& message) { return encode_message(message); }
+
+Expected<const pb::ToCoordinator*> decode_to_coordinator(std::string_view frame,
+                                                         google::protobuf::Arena& arena) {
+  return decode<pb::ToCoordinator>(frame, arena);
+}
+
+Expected<const pb::ToWorker*> decode_to_worker(std::string_view frame,
+                                               google::protobuf::Arena& arena) {
+  return decode<pb::ToWorker>(frame, arena);
+}
+
+std::uint64_t digest_of_scenario(std::string_view bytes) {
+  Digest digest;
+  digest.add(bytes);
+  return digest.value64();
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,30 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expected.h"
+#include "sim/engine/profile.h"
+#include "sim/mission/mission.h"
+
+namespace swarmsmith {
+
+/// What a worker must know of a campaign besides a task.
+struct WorkerScenario {
+  std::string campaign_digest;
+  int engine_version = 0;
+  std::vector<Mission> missions;      ///< Task::mission is an index
+  std::vector<std::string> flavours;  ///< names, one a method; Task::method is an index
+  Profile profile;
+
+  friend bool operator==(const WorkerScenario&, const WorkerScenario&) = default;
+};
+
+/// The scenario as it travels. Equal scenarios give equal bytes.
+std::string to_bytes(const WorkerScenario& scenario);
+
+/// Errors: bytes that are no scenario, and what `from_message` refuses of a mission.
+Expected<WorkerScenario> scenario_from_bytes(std::string_view bytes);
+
+}  // namespace swarmsmith

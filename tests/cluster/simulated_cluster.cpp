@@ -1,0 +1,441 @@
+#include "tests/cluster/simulated_cluster.h"
+
+#include <algorithm>
+
+#include "base/overloaded.h"
+#include "proto/wire.h"
+
+namespace swarmsmith::cluster {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// How long a campaign may take after the last fault: several rounds of the longest time-outs.
+constexpr Duration kPatience = seconds(240);
+
+const char* const kScenario = "scenario";
+
+CoordinatorOptions coordinator_options() {
+  CoordinatorOptions options;
+  options.campaign_digest = "cluster";
+  options.scenario = kScenario;
+  return options;
+}
+
+/// 0.2 to 10 ms, a few of 400 ms; by the key alone.
+Duration time_of(PackedKey key) {
+  const std::uint64_t bits = mix64(key * 7919U);
+  if (bits % 40 == 0) return milliseconds(400);
+  return microseconds(200 + bits % 10'000);
+}
+
+}  // namespace
+
+Schedule schedule_of(std::uint64_t seed) {
+  Rng rng = Rng(seed).split("schedule");
+  const auto one_of = [&](std::initializer_list<double> values) {
+    return values.begin()[rng.below(values.size())];
+  };
+  const auto up_to = [&](std::int64_t n) { return static_cast<int>(rng.uniform_int(0, n)); };
+  Schedule schedule;
+  schedule.seed = seed;
+  schedule.faults = {.loss = one_of({0, 0, 0.01, 0.1, 0.3}),
+                     .doubled = one_of({0, 0, 0.05, 0.3}),
+                     .late = one_of({0, 0, 0.01, 0.1}),
+                     .cuts = up_to(3),
+                     .worker_crashes = up_to(3),
+                     .worker_drains = up_to(1),
+                     .coordinator_crashes = up_to(3),
+                     .pauses = up_to(2),
+                     .slow_commit = one_of({0, 0.05, 0.5}),
+                     .until = milliseconds(rng.uniform_int(100, 4000))};
+  schedule.campaign.seed = seed;
+  schedule.campaign.failing = rng.bernoulli(0.3);
+  schedule.campaign.killing = rng.bernoulli(0.3);
+  return schedule;
+}
+
+SimulatedCluster::SimulatedCluster(const Schedule& schedule)
+    : schedule_(schedule), rng_(Rng(schedule.seed).split("cluster")), workers_(kWorkers) {
+  faults_end_ = now_ + schedule_.faults.until;
+  for (Worker& worker : workers_) worker.slots = static_cast<int>(rng_.uniform_int(1, 3));
+  start_coordinator();
+  for (int i = 0; i < kWorkers; ++i) start_worker(i);
+  plan_faults();
+}
+
+std::string SimulatedCluster::run() {
+  const TimePoint limit = faults_end_ + kPatience;
+  bool over = false;
+  while (failure_.empty() && !queue_.empty()) {
+    Event event = queue_.top();
+    queue_.pop();
+    now_ = event.at;
+    event.what();
+    if (now_ < faults_end_ || coordinator_ == nullptr || !coordinator_->finished()) {
+      if (now_ > limit) fail("the campaign does not end");
+      continue;
+    }
+    if (!over && campaign_->dump() != undisturbed_dump(schedule_.campaign)) {
+      fail("another answer than without faults");
+    }
+    over = true;
+    if (workers_are_quiet()) break;
+    if (now_ > limit) fail("a worker keeps results that are on disk");
+  }
+  return failure_;
+}
+
+void SimulatedCluster::fail(const std::string& what) {
+  if (failure_.empty()) failure_ = what;
+}
+
+void SimulatedCluster::at(TimePoint when, std::function<void()> what) {
+  queue_.push({when, ++order_, std::move(what)});
+}
+
+SimulatedCluster::Process& SimulatedCluster::process(int index) {
+  return index == kCoordinator ? coordinator_process_
+                               : workers_[static_cast<std::size_t>(index)].process;
+}
+
+/// Happens only if the process still lives then, and waits while it is paused.
+void SimulatedCluster::on_process(int index, Duration delay, std::function<void()> what) {
+  const int life = process(index).life;
+  at(now_ + delay, [this, index, life, what = std::move(what)]() mutable {
+    const Process& it = process(index);
+    if (!it.alive || it.life != life) return;
+    if (now_ < it.paused_until) {
+      on_process(index, it.paused_until - now_, std::move(what));
+      return;
+    }
+    what();
+  });
+}
+
+Duration SimulatedCluster::between(Duration low, Duration high) {
+  return Duration(rng_.uniform_int(low.count(), high.count()));
+}
+
+void SimulatedCluster::plan_faults() {
+  const Faults& faults = schedule_.faults;
+  const auto sometimes = [&](int times, const std::function<void(int)>& what) {
+    for (int i = 0; i < times; ++i) {
+      const int worker = static_cast<int>(rng_.below(kWorkers));
+      at(now_ + between(Duration{0}, faults.until), [what, worker] { what(worker); });
+    }
+  };
+  sometimes(faults.worker_crashes, [this](int worker) { crash_worker(worker); });
+  sometimes(faults.coordinator_crashes, [this](int) { crash_coordinator(); });
+  sometimes(faults.worker_drains, [this](int worker) {
+    on_process(worker, Duration{0}, [this, worker] {
+      workers_[static_cast<std::size_t>(worker)].protocol->on_drain(now_);
+      settle_worker(worker);
+    });
+  });
+  sometimes(faults.pauses, [this](int worker) {
+    const int index = rng_.bernoulli(0.3) ? kCoordinator : worker;
+    process(index).paused_until = now_ + between(milliseconds(10), seconds(12));
+  });
+  sometimes(faults.cuts, [this](int worker) {
+    const TimePoint until = now_ + between(milliseconds(10), seconds(8));
+    const std::uint64_t ways = rng_.below(3);
+    if (ways != 0) process(worker).cut_in_until = until;
+    if (ways != 1) process(worker).cut_out_until = until;
+  });
+}
+
+// --- network ---
+
+void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string frame) {
+  const bool faulty = now_ < faults_end_;
+  const bool cut = now_ < process(from).cut_out_until || now_ < process(to).cut_in_until;
+  if (cut || (faulty && rng_.bernoulli(schedule_.faults.loss))) return;
+  const int copies = faulty && rng_.bernoulli(schedule_.faults.doubled) ? 2 : 1;
+  for (int i = 0; i < copies; ++i) {
+    const bool late = faulty && rng_.bernoulli(schedule_.faults.late);
+    const Duration delay = late ? between(milliseconds(1), seconds(4))
+                                : between(microseconds(30), microseconds(300));
+    on_process(to, delay, [this, from, to, connection, frame] {
+      const Connection& over = connections_.at(connection);
+      if (to == kCoordinator) {
+        if (over.coordinator_life != coordinator_process_.life) return;
+        coordinator_->on_frame(connection, frame, now_);
+        settle_coordinator();
+      } else {
+        Worker& worker = workers_[static_cast<std::size_t>(to)];
+        if (worker.connection != connection) return;
+        worker.protocol->on_frame(frame, now_);
+        settle_worker(to);
+      }
+      (void)from;
+    });
+  }
+}
+
+void SimulatedCluster::connect(int index) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  if (worker.connection != 0) connections_[worker.connection].open = false;
+  worker.connection = ++peers_;
+  connections_[worker.connection] = {.worker = index,
+                                     .worker_life = worker.process.life,
+                                     .coordinator_life = coordinator_process_.life,
+                                     .open = coordinator_process_.alive};
+  if (coordinator_process_.alive) return;
+  on_process(index, milliseconds(1), [this, index, connection = worker.connection] {
+    Worker& it = workers_[static_cast<std::size_t>(index)];
+    if (it.connection != connection) return;
+    it.protocol->on_connection_lost(now_);
+    settle_worker(index);
+  });
+}
+
+void SimulatedCluster::to_coordinator(int index, std::string frame) {
+  const PeerId connection = workers_[static_cast<std::size_t>(index)].connection;
+  if (connections_.at(connection).open) transmit(index, kCoordinator, connection, std::move(frame));
+}
+
+SendStatus SimulatedCluster::to_worker(PeerId peer, const std::string& frame) {
+  const Connection& connection = connections_.at(peer);
+  if (!connection.open) return SendStatus::Gone;
+  const Process& worker = process(connection.worker);
+  if (!worker.alive || worker.life != connection.worker_life) return SendStatus::Sent;  // silence
+  transmit(kCoordinator, connection.worker, peer, frame);
+  return SendStatus::Sent;
+}
+
+/// Acknowledged means durable; failures are told without a row.
+void SimulatedCluster::check_acknowledged(const std::string& frame) {
+  google::protobuf::Arena arena;
+  const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);
+  if (!message) return fail("the coordinator sent a frame that is malformed");
+  for (const pb::Key& key : (*message)->acknowledged().keys()) {
+    const PackedKey packed = *pack(key);
+    const bool fails =
+        truth_of(schedule_.campaign, unpack(packed)).kind == Truth::Kind::Fails;
+    if (!disk_.contains(packed) && !fails) fail("acknowledged what is not on disk");
+  }
+}
+
+// --- coordinator ---
+
+void SimulatedCluster::start_coordinator() {
+  Process& it = coordinator_process_;
+  ++it.life;
+  it.alive = true;
+  it.paused_until = {};
+  std::vector<StoredScore> known;
+  for (const auto& [key, score] : disk_) known.push_back(score);
+  campaign_ = std::make_unique<SyntheticCampaign>(schedule_.campaign, known);
+  coordinator_ = std::make_unique<Coordinator>(coordinator_options(), *campaign_, known);
+  tickets_ = 0;
+  uncommitted_.clear();
+  on_process(kCoordinator, Duration{0}, [this] { tick_coordinator(); });
+}
+
+void SimulatedCluster::crash_coordinator() {
+  if (!coordinator_process_.alive) return;
+  ++crashes_;
+  coordinator_process_.alive = false;
+  coordinator_.reset();
+  campaign_.reset();
+  uncommitted_.clear();
+  const bool noticed = rng_.bernoulli(0.7);
+  for (int i = 0; i < kWorkers; ++i) {
+    Worker& worker = workers_[static_cast<std::size_t>(i)];
+    if (worker.connection != 0) connections_[worker.connection].open = false;
+    if (!noticed) continue;
+    on_process(i, between(Duration{0}, milliseconds(5)), [this, i] {
+      workers_[static_cast<std::size_t>(i)].protocol->on_connection_lost(now_);
+      settle_worker(i);
+    });
+  }
+  at(now_ + between(milliseconds(1), seconds(2)), [this] { start_coordinator(); });
+}
+
+void SimulatedCluster::tick_coordinator() {
+  coordinator_->on_tick(now_);
+  settle_coordinator();
+  on_process(kCoordinator, milliseconds(100), [this] { tick_coordinator(); });
+}
+
+void SimulatedCluster::settle_coordinator() {
+  for (auto actions = coordinator_->take_actions(now_); !actions.empty();
+       actions = coordinator_->take_actions(now_)) {
+    for (CoordinatorAction& action : actions) {
+      std::visit(Overloaded{[&](const SendFrame& send) {
+                              check_acknowledged(send.frame);
+                              if (to_worker(send.peer, send.frame) == SendStatus::Gone) {
+                                coordinator_->on_unreachable(send.peer, now_);
+                              }
+                            },
+                            [&](AppendRows& rows) { append(std::move(rows.rows)); }},
+                 action);
+    }
+  }
+  check_leases();
+  if (!campaign_->complaint().empty()) fail(campaign_->complaint());
+  if (coordinator_->stopped()) fail("stopped: " + *coordinator_->stopped());
+}
+
+void SimulatedCluster::append(std::vector<Row> rows) {
+  uncommitted_.push_back({++tickets_, std::move(rows)});
+  coordinator_->on_appended(tickets_);
+  const bool slow = rng_.bernoulli(schedule_.faults.slow_commit);
+  const Duration delay = slow ? between(milliseconds(10), milliseconds(800))
+                              : between(microseconds(200), milliseconds(2));
+  last_commit_ = std::max(last_commit_, now_ + delay);
+  // The disk goes on while the process is paused, but its word is heard afterwards.
+  on_process(kCoordinator, last_commit_ - now_, [this] { commit(); });
+}
+
+void SimulatedCluster::commit() {
+  if (uncommitted_.empty()) return;
+  const Batch batch = std::move(uncommitted_.front());
+  uncommitted_.pop_front();
+  for (const Row& row : batch.rows) {
+    if (std::holds_alternative<ConflictRow>(row)) fail("two results with other bits");
+    const auto* evaluation = std::get_if<EvaluationRow>(&row);
+    if (evaluation == nullptr) continue;
+    const StoredScore score{evaluation->key, evaluation->status, evaluation->score,
+                            evaluation->state_digest};
+    if (!disk_.emplace(pack(evaluation->key), score).second) fail("two rows of one evaluation");
+  }
+  coordinator_->on_committed(batch.ticket);
+  settle_coordinator();
+}
+
+void SimulatedCluster::check_leases() {
+  const LeaseTable& leases = coordinator_->scheduler().leases();
+  std::size_t leased = 0;
+  for (const auto& [number, entry] : coordinator_->scheduler().workers().all()) {
+    const std::size_t held = leases.leases_of(number).size();
+    if (held > 0 && !entry.connected) fail("a lease of a worker that is not there");
+    leased += held;
+  }
+  if (leased != leases.leased()) fail("a lease that belongs to nobody");
+}
+
+// --- workers ---
+
+void SimulatedCluster::start_worker(int index) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  ++worker.process.life;
+  worker.process.alive = true;
+  worker.process.paused_until = {};
+  worker.waiting.clear();
+  worker.running = 0;
+  worker.connection = 0;
+  worker.tick_at = {};
+  std::string id(kWorkerIdBytes, static_cast<char>(index + 1));
+  id.back() = static_cast<char>(worker.process.life);
+  worker.protocol = std::make_unique<WorkerProtocol>(
+      WorkerIdentity{.id = id, .slots = worker.slots, .host = "here"}, WorkerOptions{},
+      rng_.split("jitter", order_));
+  worker.protocol->start(now_);
+  settle_worker(index);
+}
+
+void SimulatedCluster::crash_worker(int index) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  if (!worker.process.alive) return;
+  ++crashes_;
+  worker.process.alive = false;
+  const bool cut = now_ < worker.process.cut_out_until;
+  if (worker.connection != 0 && !cut) connections_[worker.connection].open = false;
+  at(now_ + between(milliseconds(1), milliseconds(500)), [this, index] { start_worker(index); });
+}
+
+void SimulatedCluster::settle_worker(int index) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  for (auto actions = worker.protocol->take_actions(); !actions.empty();
+       actions = worker.protocol->take_actions()) {
+    for (WorkerAction& action : actions) {
+      if (worker.process.alive) carry_out(index, action);
+    }
+  }
+  if (!worker.process.alive) return;
+  start_items(index);
+  schedule_tick(index);
+}
+
+void SimulatedCluster::carry_out(int index, WorkerAction& action) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  std::visit(
+      Overloaded{[&](OpenConnection) { connect(index); },
+                 [&](SendToCoordinator& send) { to_coordinator(index, std::move(send.frame)); },
+                 [&](const UseScenario& use) {
+                   if (use.scenario != kScenario) fail("another scenario");
+                 },
+                 [&](RunItems& run) {
+                   for (WorkItem& item : run.items) worker.waiting.push_back(std::move(item));
+                 },
+                 [&](TakeBack) {
+                   std::vector<PackedKey> keys;
+                   for (const WorkItem& item : worker.waiting) keys.push_back(item.key);
+                   worker.waiting.clear();
+                   worker.protocol->on_taken_back(keys, now_);
+                 },
+                 [&](DropItems) { worker.waiting.clear(); },
+                 [&](const Leave& leave) {
+                   if (leave.code != ExitCode::Done) fail("a worker left: " + leave.reason);
+                   worker.process.alive = false;
+                   connections_[worker.connection].open = false;
+                   at(now_ + milliseconds(200), [this, index] { start_worker(index); });
+                 }},
+      action);
+}
+
+void SimulatedCluster::start_items(int index) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  while (worker.running < worker.slots && !worker.waiting.empty()) {
+    const WorkItem item = std::move(worker.waiting.front());
+    worker.waiting.pop_front();
+    ++worker.running;
+    worker.protocol->on_started(item.key, now_);
+    on_process(index, time_of(item.key), [this, index, item] { finish_item(index, item); });
+  }
+}
+
+void SimulatedCluster::finish_item(int index, const WorkItem& item) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  const Truth truth = truth_of(schedule_.campaign, unpack(item.key));
+  if (truth.kind == Truth::Kind::Kills) return crash_worker(index);
+  --worker.running;
+  const bool fails = truth.kind == Truth::Kind::Fails;
+  worker.protocol->on_evaluated(
+      {.key = item.key,
+       .attempt = item.attempt,
+       .score = truth.score,
+       .state_digest = truth.state_digest,
+       .wall_us = std::chrono::duration_cast<microseconds>(time_of(item.key)).count(),
+       .failure = fails ? "planted" : ""},
+      now_);
+  settle_worker(index);
+}
+
+void SimulatedCluster::schedule_tick(int index) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  const TimePoint due = std::max(worker.protocol->next_deadline(), now_ + microseconds(100));
+  const bool pending = worker.tick_at > now_ && worker.tick_at <= due;
+  if (pending) return;
+  worker.tick_at = due;
+  on_process(index, due - now_, [this, index, due] {
+    Worker& it = workers_[static_cast<std::size_t>(index)];
+    if (it.tick_at != due) return;
+    it.tick_at = {};
+    it.protocol->on_tick(now_);
+    settle_worker(index);
+  });
+}
+
+bool SimulatedCluster::workers_are_quiet() const {
+  return std::ranges::all_of(workers_, [](const Worker& worker) {
+    return worker.process.alive && worker.protocol->active() &&
+           worker.protocol->unacknowledged() == 0;
+  });
+}
+
+}  // namespace swarmsmith::cluster

@@ -1,0 +1,82 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coordinator/task_key.h"
+#include "coordinator/work_source.h"
+
+namespace swarmsmith::cluster {
+
+/// What an evaluation does, in a campaign of the tests.
+struct Truth {
+  enum class Kind {
+    Score,
+    Fails,  ///< always says that there is no score
+    Kills,  ///< always kills its worker
+  };
+  Kind kind = Kind::Score;
+  double score = 0;
+  std::uint64_t state_digest = 0;
+};
+
+struct CampaignShape {
+  std::uint64_t seed = 1;
+  int designs = 2;
+  int candidates = 8;
+  int steps = 9;
+  bool failing = false;  ///< one evaluation of the first design fails
+  bool killing = false;  ///< one evaluation of the last design kills
+};
+
+/// The outcome of a task, a pure function of the campaign and the task's key.
+Truth truth_of(const CampaignShape& shape, const EvaluationKey& key);
+
+/// Races in small: each step evaluates the candidates that are left on one pair, then the worst by
+/// the sum of its scores so far is dropped, so that what is asked for next depends on every bit.
+/// Rejected candidates are dropped at once. Replays outcomes that are known.
+class SyntheticCampaign final : public WorkSource {
+ public:
+  SyntheticCampaign(const CampaignShape& shape, std::span<const StoredScore> known);
+
+  std::vector<Task> take_tasks() override;
+  void tell(const Outcome& outcome) override;
+  std::vector<Row> take_rows() override;
+  bool finished() const override;
+
+  /// Every step's survivors and every score that was used, as text with all bits.
+  std::string dump() const;
+  /// What was wrong with how it was used: told twice, or told what was never asked.
+  const std::string& complaint() const { return complaint_; }
+
+ private:
+  struct Race {
+    int step = 0;
+    std::vector<std::int64_t> alive;  ///< numbers of candidates
+    std::map<std::int64_t, double> sums;
+    std::map<std::int64_t, std::optional<double>> scores;  ///< of this step; none: rejected
+    std::string log;
+  };
+
+  EvaluationKey key_of(std::size_t design, std::int64_t candidate) const;
+  void ask(std::size_t design);
+  void put(std::size_t design, const EvaluationKey& key, EvaluationStatus status, double score);
+  void decide(std::size_t design);
+
+  CampaignShape shape_;
+  std::vector<Race> races_;
+  std::map<PackedKey, StoredScore> known_;
+  std::map<PackedKey, bool> asked_;  ///< whether it was told
+  std::vector<Task> tasks_;
+  std::vector<Row> rows_;
+  std::string complaint_;
+};
+
+/// The dump of a campaign that nothing disturbed.
+std::string undisturbed_dump(const CampaignShape& shape);
+
+}  // namespace swarmsmith::cluster

@@ -1,0 +1,100 @@
+// swarmsmith-worker: evaluates for one coordinator until it is sent home.
+
+#include <CLI/CLI.hpp>
+#include <atomic>
+#include <csignal>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <sys/prctl.h>
+#include <unistd.h>
+
+#include "base/log.h"
+#include "sim/engine/self_test.h"
+#include "sim/engine/simulate.h"
+#include "worker/evaluate.h"
+#include "worker/service.h"
+#include "worker/slots.h"
+
+namespace swarmsmith {
+namespace {
+
+// Signal handlers reach nothing else.
+std::atomic<bool> g_drain{false};
+Wakeup* g_wakeup = nullptr;
+
+void on_signal(int) {
+  if (g_drain.exchange(true)) std::_Exit(static_cast<int>(ExitCode::Interrupted));
+  if (g_wakeup != nullptr) g_wakeup->notify();
+}
+
+void handle_signals(Wakeup& wakeup) {
+  g_wakeup = &wakeup;
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigaction(SIGTERM, &action, nullptr);
+  sigaction(SIGINT, &action, nullptr);
+}
+
+/// The parent may have died before the wish was known: then it is another one by now.
+void die_with_parent(pid_t parent) {
+  prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (parent > 0 && getppid() != parent) std::_Exit(static_cast<int>(ExitCode::Interrupted));
+}
+
+struct Arguments {
+  std::string connect;
+  int slots = 0;
+  bool die_with_parent = false;
+  pid_t parent = 0;
+};
+
+int run(const Arguments& arguments) {
+  if (arguments.die_with_parent) die_with_parent(arguments.parent);
+  const int slots = arguments.slots > 0 ? arguments.slots : available_slots();
+  WorkerIdentity identity = identity_of_this_process(slots, SWARMSMITH_VERSION);
+  identity.engine_version = kEngineVersion;
+  identity.self_test = self_test_digest();
+  Wakeup wakeup;
+  handle_signals(wakeup);
+  Pool pool(slots, make_simulation, [&wakeup] { wakeup.notify(); });
+  log(LogLevel::Debug, "worker", "started",
+      {{"coordinator", arguments.connect}, {"slots", std::to_string(slots)}});
+  const WorkerEnd end =
+      serve({.endpoint = arguments.connect, .protocol = {}, .socket = {}}, identity, pool, wakeup,
+            g_drain);
+  const LogLevel level = end.code == ExitCode::Done ? LogLevel::Debug : LogLevel::Error;
+  log(level, "worker", "ended", {{"reason", end.reason}});
+  // Slots that still run have missed the grace time; nobody waits for them any more.
+  std::_Exit(static_cast<int>(end.code));
+}
+
+}  // namespace
+}  // namespace swarmsmith
+
+int main(int argc, char** argv) {
+  swarmsmith::Arguments arguments;
+  CLI::App app{"Evaluates control software for the coordinator of a campaign.\n"
+               "Exit codes: 0 drained, 2 usage, 5 no coordinator for ten minutes, 7 refused by the "
+               "coordinator\n(another build), 143 interrupted twice. SIGTERM drains."};
+  app.name("swarmsmith-worker");
+  app.add_option("--connect", arguments.connect, "Where the coordinator listens")
+      ->type_name("tcp://HOST:PORT")
+      ->required();
+  app.add_option("--slots", arguments.slots,
+                 "Evaluations at a time; default SLURM_CPUS_PER_TASK, then the CPUs it may use")
+      ->check(CLI::Range(1, static_cast<int>(swarmsmith::kMaxSlots)));
+  app.add_flag("--die-with-parent", arguments.die_with_parent,
+               "Be killed when the process that started this one ends");
+  app.add_option("--parent", arguments.parent, "Process id of that process")->group("");
+  app.set_version_flag("--version", SWARMSMITH_VERSION);
+  try {
+    app.parse(argc, argv);
+    return swarmsmith::run(arguments);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : static_cast<int>(swarmsmith::ExitCode::Usage);
+  } catch (const std::exception& error) {
+    swarmsmith::log(swarmsmith::LogLevel::Error, "worker", "failed", {{"reason", error.what()}});
+    return 1;
+  }
+}

@@ -1,0 +1,77 @@
+#include "worker/evaluate.h"
+
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "sim/control/flavour.h"
+#include "sim/control/machine_text.h"
+#include "sim/engine/simulate.h"
+#include "sim/messages/scenario_messages.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Candidates meet many pairs, so that their machines come again; bounded, since races go on.
+constexpr std::size_t kMaxMachines = 1024;
+
+class Simulation {
+ public:
+  Simulation(WorkerScenario scenario, std::vector<const Flavour*> flavours)
+      : scenario_(std::move(scenario)), flavours_(std::move(flavours)), machines_(flavours_.size()) {}
+
+  Expected<Measured> operator()(const WorkItem& item) {
+    if (item.mission >= scenario_.missions.size() || item.method >= flavours_.size()) {
+      return bad_input("a task for a mission or method that the scenario does not have");
+    }
+    const Mission& mission = scenario_.missions[item.mission];
+    const Flavour& flavour = *flavours_[item.method];
+    const Expected<const Machine*> machine = machine_of(item);
+    if (!machine) return Unexpected(machine.error());
+    const Expected<Instance> instance = instance_of(mission, item.seed);
+    if (!instance) return Unexpected(instance.error());
+    const SimulationResult result = simulate({.machine = **machine,
+                                              .flavour = flavour,
+                                              .profile = scenario_.profile,
+                                              .mission = mission,
+                                              .instance = *instance,
+                                              .seed = item.seed});
+    return Measured{result.score, result.state_digest};
+  }
+
+ private:
+  Expected<const Machine*> machine_of(const WorkItem& item) {
+    auto& known = machines_[item.method];
+    if (const auto at = known.find(item.machine); at != known.end()) return &at->second;
+    Expected<Machine> machine = parse_machine(item.machine, *flavours_[item.method]);
+    if (!machine) return Unexpected(machine.error());
+    if (known.size() >= kMaxMachines) known.clear();
+    return &known.emplace(item.machine, std::move(*machine)).first->second;
+  }
+
+  WorkerScenario scenario_;
+  std::vector<const Flavour*> flavours_;
+  std::vector<std::unordered_map<std::string, Machine>> machines_;  ///< by method and text
+};
+
+}  // namespace
+
+Expected<Evaluator> make_simulation(const std::string& scenario) {
+  Expected<WorkerScenario> read = scenario_from_bytes(scenario);
+  if (!read) return Unexpected(read.error());
+  if (read->engine_version != kEngineVersion) {
+    return unexpected(ErrorKind::Conflict,
+                      "the campaign wants version " + std::to_string(read->engine_version) +
+                          " of the simulator, this program has version " +
+                          std::to_string(kEngineVersion));
+  }
+  std::vector<const Flavour*> flavours;
+  for (const std::string& name : read->flavours) {
+    const Expected<const Flavour*> flavour = find_flavour(name);
+    if (!flavour) return Unexpected(flavour.error());
+    flavours.push_back(*flavour);
+  }
+  return Evaluator(Simulation(std::move(*read), std::move(flavours)));
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,125 @@
+#include "worker/pool.h"
+
+#include <chrono>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+namespace swarmsmith {
+namespace {
+
+/// An exception, an error and a score that is no number are all failures with a sentence.
+Evaluated evaluate(const Evaluator& evaluator, const WorkItem& item) {
+  Evaluated evaluated{.key = item.key, .attempt = item.attempt};
+  const auto begin = std::chrono::steady_clock::now();
+  try {
+    const Expected<Measured> measured = evaluator(item);
+    if (!measured) {
+      evaluated.failure = to_string(measured.error());
+    } else if (!std::isfinite(measured->score)) {
+      evaluated.failure = "the score is not finite";
+    } else {
+      evaluated.score = measured->score;
+      evaluated.state_digest = measured->state_digest;
+    }
+  } catch (const std::exception& error) {
+    evaluated.failure = error.what();
+  } catch (...) {
+    evaluated.failure = "an exception without a text";
+  }
+  const auto spent = std::chrono::steady_clock::now() - begin;
+  evaluated.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(spent).count();
+  return evaluated;
+}
+
+}  // namespace
+
+Pool::Pool(int slots, EvaluatorFactory make_evaluator, std::function<void()> wake)
+    : slots_(slots), make_evaluator_(std::move(make_evaluator)), wake_(std::move(wake)) {
+  for (int slot = 0; slot < slots_; ++slot) {
+    threads_.emplace_back([this, slot](const std::stop_token& stop) {
+      work(stop, static_cast<std::size_t>(slot));
+    });
+  }
+}
+
+Pool::~Pool() {
+  for (std::jthread& thread : threads_) thread.request_stop();
+}
+
+Expected<void> Pool::use(const std::string& scenario) {
+  auto next = std::make_shared<Generation>();
+  for (int slot = 0; slot < slots_; ++slot) {
+    Expected<Evaluator> evaluator = make_evaluator_(scenario);
+    if (!evaluator) return Unexpected(evaluator.error());
+    next->evaluators.push_back(std::move(*evaluator));
+  }
+  const std::scoped_lock lock(mutex_);
+  ++generation_;
+  current_ = std::move(next);
+  waiting_.clear();
+  events_.clear();
+  results_ = 0;
+  return {};
+}
+
+void Pool::run(std::vector<WorkItem> items) {
+  {
+    const std::scoped_lock lock(mutex_);
+    for (WorkItem& item : items) waiting_.push_back(std::move(item));
+  }
+  has_work_.notify_all();
+}
+
+std::vector<PackedKey> Pool::take_back() {
+  const std::scoped_lock lock(mutex_);
+  std::vector<PackedKey> keys;
+  for (const WorkItem& item : waiting_) keys.push_back(item.key);
+  waiting_.clear();
+  return keys;
+}
+
+std::vector<PoolEvent> Pool::take_events() {
+  const std::scoped_lock lock(mutex_);
+  owner_comes_ = results_ > 0;
+  results_ = 0;
+  return std::exchange(events_, {});
+}
+
+void Pool::work(const std::stop_token& stop, std::size_t slot) {
+  while (true) {
+    WorkItem item;
+    std::shared_ptr<Generation> generation;
+    std::uint64_t number = 0;
+    {
+      std::unique_lock lock(mutex_);
+      const bool has_item =
+          has_work_.wait(lock, stop, [this] { return !waiting_.empty() && current_ != nullptr; });
+      if (!has_item || stop.stop_requested()) return;
+      item = std::move(waiting_.front());
+      waiting_.pop_front();
+      ++running_;
+      generation = current_;
+      number = generation_;
+      events_.emplace_back(ItemStarted{item.key});
+    }
+    finish(number, evaluate(generation->evaluators[slot], item));
+  }
+}
+
+void Pool::finish(std::uint64_t generation, Evaluated evaluated) {
+  bool wake = false;
+  {
+    const std::scoped_lock lock(mutex_);
+    --running_;
+    if (generation != generation_) return;
+    events_.emplace_back(std::move(evaluated));
+    ++results_;
+    const bool first = results_ == 1 && !owner_comes_;
+    const bool dry = waiting_.size() + running_ <= static_cast<std::size_t>(slots_);
+    wake = first || dry || results_ == kMaxWaiting;
+  }
+  if (wake) wake_();
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,171 @@
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <variant>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/rng.h"
+#include "proto/wire.h"
+#include "worker/exit_code.h"
+#include "worker/work_item.h"
+
+namespace swarmsmith {
+
+/// How a worker introduces itself.
+struct WorkerIdentity {
+  std::string id{};  ///< 16 random bytes
+  std::string build{};
+  int engine_version = 0;
+  std::string self_test{};
+  int slots = 1;
+  std::string host{};
+  std::int64_t pid = 0;
+  std::string job{};
+};
+
+struct WorkerOptions {
+  Duration first_backoff = std::chrono::milliseconds(100);
+  Duration longest_backoff = std::chrono::seconds(10);
+  Duration welcome_timeout = std::chrono::seconds(5);
+  Duration give_up_after = std::chrono::minutes(10);
+  std::size_t results_per_message = 64;
+  Duration flush_after = std::chrono::milliseconds(2);
+  Duration work_ahead = std::chrono::milliseconds(20);
+  Duration grace = std::chrono::seconds(5);
+  /// Asks for nothing while it has more results than this that are not acknowledged.
+  std::size_t max_unacknowledged = 16'384;
+};
+
+/// Actions.
+struct OpenConnection {};
+struct SendToCoordinator {
+  std::string frame;
+};
+/// A scenario came; `on_bad_scenario` when it cannot be run.
+struct UseScenario {
+  std::string scenario;
+};
+struct RunItems {
+  std::vector<WorkItem> items;
+};
+/// Give back what is not started: `on_taken_back` with the keys.
+struct TakeBack {};
+/// Another campaign runs now: drop all items.
+struct DropItems {};
+/// The process is to end.
+struct Leave {
+  ExitCode code = ExitCode::Done;
+  std::string reason;
+};
+using WorkerAction = std::variant<OpenConnection, SendToCoordinator, UseScenario, RunItems,
+                                  TakeBack, DropItems, Leave>;
+
+/// A worker's side of the protocol. Pure: events in with the time, actions out.
+///
+///     waiting ──open──► greeting ──welcome──► active ──drain──► draining ──► left
+///        ▲                 │                    │
+///        └── no welcome ───┴── lost, silent ────┘
+///
+/// Results are kept until they are acknowledged, and sent again after a while and on every new
+/// connection. Items that are held go on while there is no connection.
+class WorkerProtocol {
+ public:
+  WorkerProtocol(WorkerIdentity identity, WorkerOptions options, Rng jitter);
+
+  void start(TimePoint now);
+  void on_frame(std::string_view frame, TimePoint now);
+  void on_connection_lost(TimePoint now);
+  void on_started(PackedKey key, TimePoint now);
+  void on_evaluated(Evaluated evaluated, TimePoint now);
+  void on_taken_back(std::span<const PackedKey> keys, TimePoint now);
+  void on_bad_scenario(const std::string& reason);
+  /// SIGTERM: finish what runs, give back the rest, say goodbye.
+  void on_drain(TimePoint now);
+  void on_tick(TimePoint now);
+
+  std::vector<WorkerAction> take_actions();
+  /// When `on_tick` has something to do at the latest.
+  TimePoint next_deadline() const;
+
+  bool active() const { return state_ == State::Active; }
+  bool left() const { return state_ == State::Left; }
+  std::size_t held() const { return held_.size(); }
+  std::size_t unacknowledged() const { return finished_.size(); }
+
+ private:
+  enum class State { Waiting, Greeting, Active, Left };
+
+  struct Held {
+    std::int64_t attempt = 0;
+    std::optional<TimePoint> started;
+  };
+  struct Finished {
+    Evaluated evaluated;
+    bool queued = false;  ///< in `unsent_`
+    TimePoint sent;
+  };
+
+  void greet(TimePoint now);
+  void lose(TimePoint now);
+  void leave(ExitCode code, const std::string& reason);
+  void handle(const pb::ToWorker& message, TimePoint now);
+  void on_welcome(const pb::Welcome& welcome, TimePoint now);
+  void on_reject(const pb::Reject& reject);
+  void on_tasks(const pb::Tasks& tasks, TimePoint now);
+  void on_scenario(const pb::ScenarioReply& reply, TimePoint now);
+  void be_ready(TimePoint now);
+  void queue_result(PackedKey key, Finished& finished, TimePoint now);
+  void flush(TimePoint now);
+  bool must_flush(TimePoint now) const;
+  void send_results(std::span<const PackedKey> keys, TimePoint now);
+  void resend(TimePoint now);
+  std::uint32_t credit() const;
+  void update_credit(TimePoint now);
+  void heartbeat(TimePoint now);
+  void finish_draining(TimePoint now);
+  void send(pb::ToCoordinator& message, TimePoint now);
+
+  WorkerIdentity identity_;
+  WorkerOptions options_;
+  Rng jitter_;
+  State state_ = State::Waiting;
+  std::vector<WorkerAction> actions_;
+  google::protobuf::Arena arena_;
+
+  // The connection.
+  std::uint64_t incarnation_ = 0;
+  std::uint64_t sequence_ = 0;
+  Duration backoff_;
+  TimePoint retry_;            ///< waiting: when to open
+  TimePoint greeted_;
+  TimePoint last_heard_;
+  TimePoint last_beat_;
+  TimePoint ticked_;
+  TimePoint alone_since_;      ///< without a welcome
+  Duration heartbeat_ = std::chrono::seconds(1);
+  Duration dead_after_ = std::chrono::seconds(5);
+  Duration resend_after_ = std::chrono::seconds(10);
+  std::uint32_t max_credit_ = kMaxItemsPerMessage;
+  std::uint32_t credit_sent_ = 0;
+
+  // The work.
+  std::uint64_t scenario_ = 0;  ///< digest of the campaign's scenario
+  bool has_scenario_ = false;
+  TimePoint asked_;             ///< for the scenario
+  double estimate_us_ = 0;      ///< of an evaluation's time
+  std::unordered_map<PackedKey, Held> held_;
+  std::unordered_map<PackedKey, Finished> finished_;  ///< until acknowledged
+  std::vector<PackedKey> unsent_;
+  TimePoint oldest_unsent_;
+  std::deque<std::pair<TimePoint, PackedKey>> sent_;  ///< in order of sending, stale ones too
+  std::optional<TimePoint> drain_until_;
+};
+
+}  // namespace swarmsmith

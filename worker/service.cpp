@@ -1,0 +1,130 @@
+#include "worker/service.h"
+
+#include <algorithm>
+#include <optional>
+#include <random>
+
+#include "base/log.h"
+#include "base/overloaded.h"
+
+namespace swarmsmith {
+namespace {
+
+using std::chrono::milliseconds;
+
+/// Time for the last words to leave the socket.
+constexpr milliseconds kLinger{500};
+/// While results come, the slots do not wake the loop for each.
+constexpr milliseconds kLookAgain{2};
+
+class Loop {
+ public:
+  Loop(const WorkerServiceOptions& options, const WorkerIdentity& identity, Pool& pool,
+       Wakeup& wakeup)
+      : socket_(options.endpoint, options.socket),
+        protocol_(identity, options.protocol, Rng(std::random_device{}())),
+        pool_(&pool),
+        wakeup_(&wakeup) {}
+
+  WorkerEnd run(const std::atomic<bool>& drain) {
+    protocol_.start(clock_.now());
+    carry_out();
+    while (!end_) {
+      socket_.wait(*wakeup_, time_left());
+      wakeup_->clear();
+      step(drain);
+    }
+    socket_.close(kLinger);
+    return *end_;
+  }
+
+ private:
+  milliseconds time_left() const {
+    Duration left = protocol_.next_deadline() - clock_.now();
+    if (busy_) left = std::min<Duration>(left, kLookAgain);
+    // Rounded up: a poll of 0 ms would spin until the deadline.
+    return std::clamp(std::chrono::ceil<milliseconds>(left), milliseconds{0}, milliseconds{1000});
+  }
+
+  void step(const std::atomic<bool>& drain) {
+    const TimePoint now = clock_.now();
+    std::string frame;
+    while (!end_ && socket_.receive(frame)) {
+      protocol_.on_frame(frame, now);
+      carry_out();
+    }
+    take_events(now);
+    if (socket_.lost()) protocol_.on_connection_lost(now);
+    if (drain.load()) protocol_.on_drain(now);
+    protocol_.on_tick(now);
+    carry_out();
+  }
+
+  void take_events(TimePoint now) {
+    std::vector<PoolEvent> events = pool_->take_events();
+    bool any_result = false;
+    for (PoolEvent& event : events) {
+      std::visit(Overloaded{[&](const ItemStarted& started) {
+                              protocol_.on_started(started.key, now);
+                            },
+                            [&](Evaluated& evaluated) {
+                              any_result = true;
+                              protocol_.on_evaluated(std::move(evaluated), now);
+                            }},
+                 event);
+    }
+    busy_ = any_result;
+    carry_out();
+  }
+
+  void carry_out() {
+    std::vector<WorkerAction> actions = protocol_.take_actions();
+    while (!actions.empty()) {
+      for (WorkerAction& action : actions) carry_out(action);
+      actions = protocol_.take_actions();
+    }
+  }
+
+  void carry_out(WorkerAction& action) {
+    std::visit(
+        Overloaded{[&](OpenConnection) { socket_.connect(); },
+                   [&](const SendToCoordinator& send) { this->send(send.frame); },
+                   [&](const UseScenario& use) {
+                     const Expected<void> used = pool_->use(use.scenario);
+                     if (!used) protocol_.on_bad_scenario(to_string(used.error()));
+                   },
+                   [&](RunItems& run) { pool_->run(std::move(run.items)); },
+                   [&](TakeBack) {
+                     take_events(clock_.now());
+                     protocol_.on_taken_back(pool_->take_back(), clock_.now());
+                   },
+                   [&](DropItems) { pool_->take_back(); },
+                   [&](Leave& leave) {
+                     if (!end_) end_ = WorkerEnd{leave.code, std::move(leave.reason)};
+                   }},
+        action);
+  }
+
+  void send(const std::string& frame) {
+    // A full queue is a coordinator that does not read; it will be found silent, and what matters
+    // is sent again.
+    if (socket_.send(frame) == SendStatus::Gone) protocol_.on_connection_lost(clock_.now());
+  }
+
+  SystemClock clock_;
+  ClientSocket socket_;
+  WorkerProtocol protocol_;
+  Pool* pool_;
+  Wakeup* wakeup_;
+  std::optional<WorkerEnd> end_;
+  bool busy_ = false;
+};
+
+}  // namespace
+
+WorkerEnd serve(const WorkerServiceOptions& options, const WorkerIdentity& identity, Pool& pool,
+                Wakeup& wakeup, const std::atomic<bool>& drain) {
+  return Loop(options, identity, pool, wakeup).run(drain);
+}
+
+}  // namespace swarmsmith

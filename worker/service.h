@@ -1,0 +1,32 @@
+#pragma once
+
+#include <atomic>
+#include <string>
+
+#include "proto/socket.h"
+#include "worker/pool.h"
+#include "worker/protocol.h"
+
+namespace swarmsmith {
+
+struct WorkerServiceOptions {
+  std::string endpoint;  ///< of the coordinator: tcp://host:port
+  WorkerOptions protocol;
+  SocketOptions socket;
+};
+
+/// How it ended, and why in a sentence.
+struct WorkerEnd {
+  ExitCode code = ExitCode::Done;
+  std::string reason;
+};
+
+/// A worker's loop: protocol, socket, clock and slots put together. Returns when the protocol says
+/// so. `drain` asks for it (SIGTERM); `wakeup` wakes the loop, and may be notified from a signal
+/// handler. Throws std::runtime_error when the operating system refuses something.
+///
+/// Items that still run when it ends are waited for, unless the process exits at once.
+WorkerEnd serve(const WorkerServiceOptions& options, const WorkerIdentity& identity, Pool& pool,
+                Wakeup& wakeup, const std::atomic<bool>& drain);
+
+}  // namespace swarmsmith

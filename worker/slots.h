@@ -1,0 +1,16 @@
+#pragma once
+
+#include <string>
+
+#include "worker/protocol.h"
+
+namespace swarmsmith {
+
+/// How many evaluations this process may run at a time: SLURM_CPUS_PER_TASK, else the CPUs that
+/// its affinity mask allows.
+int available_slots();
+
+/// Who this process is: host, pid, job of the batch system, and a random id.
+WorkerIdentity identity_of_this_process(int slots, std::string build);
+
+}  // namespace swarmsmith
