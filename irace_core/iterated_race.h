@@ -69,9 +69,9 @@ class IteratedRace {
   std::int64_t experiments_used() const;  ///< counted so far, those of the current race included
   std::int64_t budget() const;            ///< of the whole design
   std::int64_t remaining() const { return budget() - experiments_used(); }
-  std::int64_t iteration() const;    ///< of the current race
-  std::int64_t n_iterations() const; ///< as planned now
-  std::int64_t n_alive() const;      ///< in the current race
+  std::int64_t iteration() const;         ///< of the current race
+  std::int64_t n_iterations() const;      ///< as planned now
+  std::int64_t n_alive() const;           ///< in the current race
   std::int64_t n_configurations() const;  ///< ids given so far
 
  private:

@@ -54,7 +54,7 @@ struct RaceStep {
   std::int64_t alive_before = 0;
   std::int64_t alive_after = 0;
   std::int64_t best = 0;
-  double mean_best = 0;  ///< cost over the tasks so far
+  double mean_best = 0;               ///< cost over the tasks so far
   std::int64_t experiments_used = 0;  ///< in the whole design so far
   std::optional<double> statistic;    ///< Friedman's S, or Wilcoxon's V for two
   std::optional<double> p_value;
@@ -79,7 +79,7 @@ struct IterationEnded {
   std::int64_t iteration = 0;
   std::int64_t used = 0;
   std::int64_t remaining = 0;
-  std::string reason;  ///< why the race stopped
+  std::string reason;         ///< why the race stopped
   std::vector<Elite> elites;  ///< best first
 };
 

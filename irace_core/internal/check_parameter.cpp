@@ -11,8 +11,8 @@ namespace {
 
 bool is_name(std::string_view name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           c == '_' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.';
   });
 }
 
@@ -86,7 +86,8 @@ Expected<void> check_decimals(double bound, int digits, const std::string& name)
   const double tolerance = 1.5e-8 * std::max(1.0, std::fabs(bound));
   if (digits >= 15 || bound == 0) return {};
   double smallest = 1;
-  for (int i = 0; i < digits; ++i) smallest /= 10;
+  for (int i = 0; i < digits; ++i)
+    smallest /= 10;
   const bool vanishes = std::fabs(bound) < smallest * (1 - 1e-9);
   if (!vanishes && std::fabs(round_to_digits(bound, digits) - bound) <= tolerance) return {};
   return bad_input("the bound " + to_fixed_text(bound) + " needs more than " +

@@ -26,7 +26,7 @@ struct Candidate {
 
   Configuration configuration;
   std::int64_t parent = 0;
-  bool takes_part = true;  ///< false for forbidden initial ones
+  bool takes_part = true;       ///< false for forbidden initial ones
   std::vector<Result> results;  ///< in the order in which they came
 };
 

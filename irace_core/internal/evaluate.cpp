@@ -14,7 +14,9 @@ namespace {
 
 using Type = Scalar::Type;
 
-Scalar missing_logical() { return Scalar::missing_of(Type::Logical); }
+Scalar missing_logical() {
+  return Scalar::missing_of(Type::Logical);
+}
 
 /// R's as.numeric of a text: a decimal number with blanks around it, Inf, or missing.
 Scalar parse_number(std::string_view text) {
@@ -33,7 +35,8 @@ Scalar convert(const Scalar& value, Type type) {
   if (value.type == type) return value;
   if (value.missing) return Scalar::missing_of(type);
   switch (type) {
-    case Type::Text: return Scalar::of_text(to_text(value));
+    case Type::Text:
+      return Scalar::of_text(to_text(value));
     case Type::Logical:
       if (value.type == Type::Text) return missing_logical();
       return Scalar::logical(value.number != 0);
@@ -47,9 +50,15 @@ Scalar convert(const Scalar& value, Type type) {
   return {};
 }
 
-bool is_number(const Scalar& value) { return value.type != Type::Text; }
-bool is_false(const Scalar& value) { return !value.missing && value.number == 0; }
-bool is_true_logical(const Scalar& value) { return !value.missing && value.number != 0; }
+bool is_number(const Scalar& value) {
+  return value.type != Type::Text;
+}
+bool is_false(const Scalar& value) {
+  return !value.missing && value.number == 0;
+}
+bool is_true_logical(const Scalar& value) {
+  return !value.missing && value.number != 0;
+}
 
 Scalar logic(Operation operation, const Scalar& left, const Scalar& right) {
   const Scalar a = convert(left, Type::Logical);
@@ -180,10 +189,12 @@ Values elementwise(const Values& a, const Values& b, Function function) {
 /// c(): all elements in a row, in the type that can hold them all.
 Values combine(const std::vector<Values>& parts) {
   Type type = Type::Logical;
-  for (const Values& part : parts) type = std::max(type, part.type());
+  for (const Values& part : parts)
+    type = std::max(type, part.type());
   std::vector<Scalar> all;
   for (const Values& part : parts) {
-    for (std::size_t i = 0; i < part.size(); ++i) all.push_back(convert(part[i], type));
+    for (std::size_t i = 0; i < part.size(); ++i)
+      all.push_back(convert(part[i], type));
   }
   return Values(std::move(all));
 }
@@ -246,9 +257,8 @@ Values apply_operation(Operation operation, const std::vector<Values>& parts) {
   if (operation == Operation::Range) return range(parts[0], parts[1]);
   if (operation == Operation::IfElse) return choose(parts[0], parts[1], parts[2]);
   if (parts.size() == 1) {
-    return elementwise(parts[0], missing_logical(), [operation](const Scalar& x, const Scalar&) {
-      return unary(operation, x);
-    });
+    return elementwise(parts[0], missing_logical(),
+                       [operation](const Scalar& x, const Scalar&) { return unary(operation, x); });
   }
   return elementwise(parts[0], parts[1], [operation](const Scalar& x, const Scalar& y) {
     return binary(operation, x, y);
@@ -269,7 +279,8 @@ Values Expression::evaluate(std::span<const Scalar> parameters) const {
   }
   std::vector<Values> parts;
   parts.reserve(operands_.size());
-  for (const Expression& operand : operands_) parts.push_back(operand.evaluate(parameters));
+  for (const Expression& operand : operands_)
+    parts.push_back(operand.evaluate(parameters));
   return apply_operation(operation_, parts);
 }
 

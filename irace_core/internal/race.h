@@ -47,9 +47,9 @@ struct RaceRun {
 
 /// One elitist race (irace facts, 9), as ask and tell.
 ///
-/// Nothing is dropped between two tests, so that all runs up to the next test are asked for at once.
-/// Results are consumed in the order (task, id). After a rejection the runs of the rejected one
-/// on later tasks, and all runs that follow a stop, are void: neither counted nor used.
+/// Nothing is dropped between two tests, so that all runs up to the next test are asked for at
+/// once. Results are consumed in the order (task, id). After a rejection the runs of the rejected
+/// one on later tasks, and all runs that follow a stop, are void: neither counted nor used.
 class Race {
  public:
   /// Elites come first among the contestants.
