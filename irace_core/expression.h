@@ -46,7 +46,8 @@ class Values {
   std::vector<Scalar> many_;  ///< empty for length one
 };
 
-/// What a node of an expression does. `c()` and `%in%` as in R.
+/// What a node of an expression does, in groups: leaves; logic; comparisons and %in%; arithmetic;
+/// c() and conversions; functions. The groups' order is used.
 enum class Operation {
   Constant,
   Parameter,

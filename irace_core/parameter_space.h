@@ -121,8 +121,10 @@ class ParameterSpace {
   };
 
   ParameterSpace() = default;
+  /// Tabulates what can be, and notes what the other expressions read.
   void prepare_conditions();
   void mark_as_read(const Expression& expression);
+  /// Nothing when the condition mentions several parameters, a real or a wide integer.
   std::optional<ConditionTable> tabulate(const Expression& condition) const;
 
   std::vector<Parameter> parameters_;

@@ -18,6 +18,7 @@ struct ConfigurationSampled {
   Configuration configuration;
 };
 
+/// A race begins; the configurations that it sampled follow.
 struct IterationStarted {
   std::int64_t iteration = 0;
   std::int64_t n_iterations = 0;      ///< as planned now; not a limit unless it was asked for
@@ -35,6 +36,7 @@ enum class EliminationReason {
   Rejection,  ///< an infinite cost
 };
 
+/// A configuration that left the race.
 struct Elimination {
   std::int64_t configuration = 0;
   double rank_sum = 0;  ///< when it was dropped; 0 for a rejection
@@ -66,6 +68,7 @@ struct RaceStep {
   std::uint64_t digest = 0;  ///< of alive set, rank sums, statistic and generators
 };
 
+/// A survivor that the next race starts with.
 struct Elite {
   double rank = 0;
   std::int64_t configuration = 0;
@@ -75,6 +78,7 @@ struct Elite {
   friend bool operator==(const Elite&, const Elite&) = default;
 };
 
+/// A race is over and its elites are chosen.
 struct IterationEnded {
   std::int64_t iteration = 0;
   std::int64_t used = 0;
@@ -83,6 +87,7 @@ struct IterationEnded {
   std::vector<Elite> elites;  ///< best first
 };
 
+/// The last event of a design.
 struct RaceFinished {
   std::string reason;
   std::vector<Elite> elites;  ///< best first; empty after a failure

@@ -31,6 +31,7 @@ Scalar parse_number(std::string_view text) {
   return whole ? Scalar::real(value) : Scalar::missing_of(Type::Real);
 }
 
+/// R's coercion of one value to another type; what cannot be coerced is missing.
 Scalar convert(const Scalar& value, Type type) {
   if (value.type == type) return value;
   if (value.missing) return Scalar::missing_of(type);
@@ -60,6 +61,7 @@ bool is_true_logical(const Scalar& value) {
   return !value.missing && value.number != 0;
 }
 
+/// And, Or, Xor with three values: a known operand may decide alone.
 Scalar logic(Operation operation, const Scalar& left, const Scalar& right) {
   const Scalar a = convert(left, Type::Logical);
   const Scalar b = convert(right, Type::Logical);
@@ -81,6 +83,7 @@ int order(const Scalar& a, const Scalar& b) {
   return compare_texts(a.text, b.text);
 }
 
+/// == != < <= > >=; missing when either side is.
 Scalar compare(Operation operation, const Scalar& a, const Scalar& b) {
   if (a.missing || b.missing) return missing_logical();
   const int sign = order(a, b);
@@ -109,6 +112,7 @@ double power(double base, double exponent) {
   return base > 0 ? pow(base, exponent) : NAN;
 }
 
+/// + - * / ^ %% %/%: of integers an integer, but for / and ^; of texts missing.
 Scalar calculate(Operation operation, const Scalar& left, const Scalar& right) {
   if (left.missing || right.missing || !is_number(left) || !is_number(right)) {
     return Scalar::missing_of(Type::Real);
@@ -152,6 +156,7 @@ bool is_comparison(Operation operation) {
   return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
 }
 
+/// Any operation on one element of each side.
 Scalar binary(Operation operation, const Scalar& a, const Scalar& b) {
   if (is_logic(operation)) return logic(operation, a, b);
   if (is_comparison(operation)) return compare(operation, a, b);
@@ -199,6 +204,7 @@ Values combine(const std::vector<Values>& parts) {
   return Values(std::move(all));
 }
 
+/// min() and max() over all elements of all operands; one that is missing makes all missing.
 Values extreme(Operation operation, const std::vector<Values>& parts) {
   const Values all = combine(parts);
   Scalar best = all[0];
@@ -211,6 +217,7 @@ Values extreme(Operation operation, const std::vector<Values>& parts) {
   return best.type == Type::Logical ? convert(best, Type::Integer) : best;
 }
 
+/// from:to in steps of one, up or down; integers when `from` is whole.
 Values range(const Values& from, const Values& to) {
   constexpr double kLongest = 1e6;
   const Scalar first = convert(from[0], Type::Real);

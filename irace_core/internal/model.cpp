@@ -21,6 +21,7 @@ void normalise(std::span<double> probabilities) {
     p /= sum;
 }
 
+/// The last value takes what rounding leaves of the sum.
 std::size_t draw_choice(std::span<const double> probabilities, Rng& rng) {
   double left = rng.uniform();
   for (std::size_t i = 0; i + 1 < probabilities.size(); ++i) {
@@ -110,6 +111,8 @@ std::size_t draw_parent(std::size_t elites, Rng& rng) {
   }
 }
 
+/// Makes the distribution of a numeric or ordinal model anew, where it does not depend on the other
+/// values of a configuration.
 void SamplingModels::prepare(std::size_t parameter, ParameterModel& model) const {
   const Domain& domain = (*space_)[parameter].domain;
   model.distribution.reset();

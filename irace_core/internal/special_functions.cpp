@@ -94,6 +94,7 @@ double beta_fraction(double a, double b, double x, double y) {
   return exp(a * log(x) + b * log(y) - log_beta(a, b)) / (a * fraction.value());
 }
 
+/// Regularised incomplete beta function, from whichever side converges.
 double incomplete_beta(double a, double b, double x, double y) {
   if (x <= 0) return 0;
   if (y <= 0) return 1;

@@ -263,6 +263,49 @@ TEST(IteratedRace, ForbidsWhatWasRejected) {
   EXPECT_FALSE(race.failure().has_value());
 }
 
+TEST(IteratedRace, CountsNoRunsThatARejectionMadeVoid) {
+  auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  const auto events = run_to_end(race, [](const Configuration& c, const Experiment& wanted) {
+    const bool crashes = c[2] > 50 && wanted.pair % 2 == 0;
+    return crashes ? -std::numeric_limits<double>::infinity() : synthetic_cost(c, wanted);
+  });
+  std::set<std::int64_t> rejected;
+  std::int64_t counted = 0;
+  for (const RaceStep& step : only<RaceStep>(events)) {
+    for (const std::int64_t id : step.evaluated)
+      EXPECT_FALSE(rejected.contains(id));
+    counted += static_cast<std::int64_t>(step.evaluated.size());
+    for (const Elimination& dropped : step.eliminations) {
+      if (dropped.reason == EliminationReason::Rejection) rejected.insert(dropped.configuration);
+    }
+  }
+  EXPECT_FALSE(rejected.empty());
+  EXPECT_EQ(counted, race.experiments_used());
+}
+
+TEST(IteratedRace, TellsItsProgress) {
+  auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  EXPECT_EQ(race.iteration(), 1);
+  EXPECT_EQ(race.n_iterations(), 4);
+  EXPECT_EQ(race.experiments_used(), 0);
+  EXPECT_EQ(race.remaining(), 1500);
+  EXPECT_EQ(race.n_alive(), race.n_configurations());
+  const std::vector<double> costs(race.wanted().size(), 1);
+  race.tell(costs);
+  EXPECT_EQ(race.experiments_used(), static_cast<std::int64_t>(costs.size()));
+}
+
+TEST(IteratedRace, RacesEqualCostsToTheEnd) {
+  // Nothing can ever be told apart: the limit of tests without elimination ends each race.
+  const auto events =
+      run(small_scenario(), [](const Configuration&, const Experiment&) { return 1.0; });
+  for (const RaceStep& step : only<RaceStep>(events)) {
+    EXPECT_EQ(step.eliminations.size(), 0U);
+    EXPECT_FALSE(step.p_value.has_value());
+  }
+  EXPECT_FALSE(only<RaceFinished>(events).front().elites.empty());
+}
+
 TEST(IteratedRace, FailsWhenEverythingIsRejected) {
   auto race = IteratedRace::start(small_space(), small_scenario()).value();
   run_to_end(race, [](const Configuration&, const Experiment&) {

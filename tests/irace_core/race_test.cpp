@@ -150,6 +150,61 @@ TEST(Race, RejectsAtOnceAndVoidsLaterRunsOfTheBatch) {
   EXPECT_TRUE(race.is_rejected(1));
 }
 
+TEST(Race, IgnoresWhatVoidRunsCost) {
+  std::vector<std::uint64_t> digests[2];
+  for (const int version : {0, 1}) {
+    Race race(first_race(), newcomers(5));
+    while (!race.finished()) {
+      answer(race, [&](std::int64_t id, std::int64_t pair) {
+        if (id == 4 && pair >= 2) return pair == 2 ? kRejects : version * 1e6 - 1000.0;
+        return static_cast<double>((3 * id + 7 * pair) % 11);
+      });
+    }
+    for (const RaceStep& step : race.take_steps())
+      digests[version].push_back(step.digest);
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+}
+
+TEST(Race, TestsOnlyEverySecondPairWhenAskedTo) {
+  RaceSettings settings = first_race();
+  settings.first_test = 4;
+  settings.pairs_between_tests = 2;
+  settings.elitist_limit = 3;
+  Race race(settings, newcomers(4));
+  while (!race.finished()) {
+    answer(race,
+           [](std::int64_t id, std::int64_t pair) { return static_cast<double>((id + pair) % 4); });
+  }
+  std::string markers;
+  for (const RaceStep& step : race.take_steps())
+    markers += step.marker;
+  EXPECT_EQ(markers, "xxx=x=x=x=");
+}
+
+TEST(Race, DecidesBetweenTwoByTheirSigns) {
+  // Two configurations: one that is never worse wins at the first test.
+  Race race(first_race(), newcomers(2));
+  answer(race, by_id);
+  const std::vector<RaceStep> steps = race.take_steps();
+  EXPECT_EQ(steps.back().marker, '-');
+  EXPECT_EQ(steps.back().p_value, 0);
+  EXPECT_EQ(race.contestant(race.survivors().front().column).id, 1);
+}
+
+TEST(Race, StopsWhenThePairsRunOut) {
+  RaceSettings settings = first_race();
+  settings.pairs.resize(6);
+  settings.elitist_limit = 0;
+  Race race(settings, newcomers(4));
+  while (!race.finished()) {
+    answer(race,
+           [](std::int64_t id, std::int64_t pair) { return static_cast<double>((id + pair) % 4); });
+  }
+  EXPECT_EQ(race.stop_reason(), "no pairs left");
+  EXPECT_EQ(race.used(), 24);
+}
+
 TEST(Race, StopsWhereRejectionsLeaveTooFew) {
   RaceSettings settings = first_race();
   settings.min_survival = 2;
