@@ -161,7 +161,7 @@ std::string event_json(const Row& row) {
 
 std::string progress_json(const ProgressModel& model, const LiveStatus& live) {
   const auto left = static_cast<double>(model.budget() - model.used());
-  const bool known = live.rate_per_second > 0;
+  const bool known = live.evaluations_per_s > 0;
   return EventText("progress")
       .add("designs", model.designs())
       .add("designs_finished", model.finished())
@@ -171,9 +171,11 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live) {
       .add("slots", live.slots)
       .add("leased", live.leased)
       .add("done", live.done)
-      .add("rate", live.rate_per_second)
-      .add("eta_s", known ? std::optional(left / live.rate_per_second) : std::nullopt)
+      .add("rate", live.evaluations_per_s)
+      .add("eta_s", known ? std::optional(left / live.evaluations_per_s) : std::nullopt)
       .add("failed", live.failed)
+      .add("rejected", live.rejected)
+      .add("trouble", live.trouble)
       .str();
 }
 

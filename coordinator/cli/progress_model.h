@@ -6,19 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "coordinator/live_status.h"
 #include "storage/rows.h"
 
 namespace swarmsmith::cli {
-
-/// What the coordinator's memory knows of the fleet at a moment.
-struct LiveStatus {
-  std::int64_t workers = 0;
-  std::int64_t slots = 0;
-  std::int64_t leased = 0;     ///< evaluations that run now
-  std::int64_t done = 0;       ///< evaluations since this process began
-  double rate_per_second = 0;  ///< of late
-  std::int64_t failed = 0;     ///< evaluations that were given up
-};
 
 /// How far one design is.
 struct DesignProgress {

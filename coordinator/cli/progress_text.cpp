@@ -65,10 +65,10 @@ std::string second_half(const ProgressModel& model, const LiveStatus& live) {
             std::to_string(current->configurations);
   }
   if (current != nullptr && current->best) text += "  best " + score_text(current->best_mean);
-  text += "  " + std::to_string(std::llround(live.rate_per_second)) + " sim/s";
+  text += "  " + std::to_string(std::llround(live.evaluations_per_s)) + " sim/s";
   const auto left = static_cast<double>(model.budget() - model.used());
-  if (live.rate_per_second > 0 && left > 0) {
-    text += "  ETA " + duration_text(left / live.rate_per_second);
+  if (live.evaluations_per_s > 0 && left > 0) {
+    text += "  ETA " + duration_text(left / live.evaluations_per_s);
   }
   if (live.failed > 0) text += "  failed " + std::to_string(live.failed);
   if (live.workers == 0) text += "  no workers";
