@@ -54,6 +54,15 @@ TEST(Program, ExplainsEveryCommandOnStandardOutput) {
   }
 }
 
+TEST(Program, HasEveryCommandInItsManual) {
+  std::ifstream stream(std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "docs" / "command-line.md");
+  std::ostringstream manual;
+  manual << stream.rdbuf();
+  for (const Command& command : commands()) {
+    EXPECT_THAT(manual.str(), HasSubstr("## `" + std::string(command.name)));
+  }
+}
+
 TEST(Program, SaysItsVersionAsJson) {
   const json version = json::parse(run({"version", "--json"}).out);
   EXPECT_EQ(version["name"], "swarmsmith");
