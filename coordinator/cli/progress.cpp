@@ -77,6 +77,11 @@ void Progress::draw(const LiveStatus& live) {
 }
 
 void Progress::update(const LiveStatus& live, TimePoint now) {
+  if (live.trouble != trouble_) {
+    trouble_ = live.trouble;
+    // Even when quiet: nothing goes on until a person has helped.
+    if (!trouble_.empty()) add_line("warning: nothing can be stored: " + trouble_);
+  }
   if (form_ == Form::Silent) return;
   const TimePoint last = last_.value_or(begin_);
   const auto since = now - last;

@@ -51,6 +51,7 @@ class Progress {
   Form form_;
   bool race_lines_;
   std::string drawn_;  ///< the status line that stands on the terminal
+  std::string trouble_;
   std::optional<TimePoint> last_;
   std::int64_t lines_since_headline_ = 0;
 };

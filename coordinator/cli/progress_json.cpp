@@ -174,6 +174,8 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live) {
       .add("rate", live.evaluations_per_s)
       .add("eta_s", known ? std::optional(left / live.evaluations_per_s) : std::nullopt)
       .add("failed", live.failed)
+      .add("rejected", live.rejected)
+      .add("trouble", live.trouble)
       .str();
 }
 
