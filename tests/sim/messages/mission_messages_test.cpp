@@ -1,5 +1,6 @@
 #include "sim/messages/mission_messages.h"
 
+#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
 
