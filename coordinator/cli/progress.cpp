@@ -35,8 +35,11 @@ std::size_t Progress::terminal_width() {
 }
 
 void Progress::add(const Row& row, TimePoint now) {
+  const auto* state = std::get_if<DesignStateRow>(&row);
+  const bool news = state == nullptr || model_.design(state->design).state != state->state;
   model_.add(row);
-  if (form_ == Form::Silent) return;
+  // A race tells its state after each step; only its beginning and end are news.
+  if (form_ == Form::Silent || !news) return;
   if (form_ == Form::Json) {
     const std::string event = event_json(row);
     if (!event.empty()) output_.out << event << '\n' << std::flush;
@@ -47,10 +50,7 @@ void Progress::add(const Row& row, TimePoint now) {
 
 void Progress::write_row(const Row& row, TimePoint now) {
   if (const auto* state = std::get_if<DesignStateRow>(&row)) {
-    // A race tells its state after each iteration; only its beginning and end are news.
-    if (state->state != DesignState::Racing || race_lines_) {
-      add_line(state_line(*state, model_.design(state->design)));
-    }
+    add_line(state_line(*state, model_.design(state->design)));
   } else if (const auto* event = std::get_if<EventRow>(&row)) {
     if (event->severity != "info" || output_.verbose) add_line(event_line(*event));
   }
