@@ -18,7 +18,8 @@ void append_string(std::string& out, std::string_view text) {
       out += kDigits[byte >> 4U];
       out += kDigits[byte & 15U];
     } else {
-      out += c;
+      // Texts of other processes need not be UTF-8; JSON must be.
+      out += byte < 0x7f ? c : '?';
     }
   }
   out += '"';

@@ -163,8 +163,13 @@ void Scheduler::on_credit(const Sender& sender, std::uint32_t tasks, TimePoint n
 }
 
 void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> keys, TimePoint now) {
-  const WorkerEntry* entry = heard(sender, now);
+  WorkerEntry* entry = heard(sender, now);
   if (entry == nullptr) return;
+  // It wants none, then, even if its word about credit got lost: else they would go to and fro.
+  if (sender.sequence > entry->last_sequence) {
+    entry->last_sequence = sender.sequence;
+    entry->credit = 0;
+  }
   for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
     TaskRecord* record = leases_.find(*key);
     if (record == nullptr || !record->lease || record->lease->worker != entry->number) continue;

@@ -13,12 +13,15 @@ void Configuration::set(std::size_t parameter, double value) {
   values_[parameter] = value != value ? kInactive : value + 0.0;  // -0 + 0 is 0
 }
 
-void Configuration::deactivate(std::size_t parameter) { values_[parameter] = kInactive; }
+void Configuration::deactivate(std::size_t parameter) {
+  values_[parameter] = kInactive;
+}
 
 std::uint64_t Configuration::digest() const {
   Digest digest;
   digest.add(static_cast<std::uint64_t>(values_.size()));
-  for (const double value : values_) digest.add(value);
+  for (const double value : values_)
+    digest.add(value);
   return digest.value64();
 }
 

@@ -31,7 +31,8 @@ Arity arity(Operation operation) {
   constexpr std::size_t kAny = 1'000'000;
   switch (operation) {
     case Operation::Constant:
-    case Operation::Parameter: return {0, 0};
+    case Operation::Parameter:
+      return {0, 0};
     case Operation::Not:
     case Operation::Negate:
     case Operation::AsNumeric:
@@ -43,13 +44,17 @@ Arity arity(Operation operation) {
     case Operation::Truncate:
     case Operation::Abs:
     case Operation::SquareRoot:
-    case Operation::Exp: return {1, 1};
+    case Operation::Exp:
+      return {1, 1};
     case Operation::Round:
-    case Operation::Log: return {1, 2};
-    case Operation::IfElse: return {3, 3};
+    case Operation::Log:
+      return {1, 2};
+    case Operation::IfElse:
+      return {3, 3};
     case Operation::Combine:
     case Operation::Min:
-    case Operation::Max: return {1, kAny};
+    case Operation::Max:
+      return {1, kAny};
     case Operation::And:
     case Operation::Or:
     case Operation::Xor:
@@ -67,7 +72,8 @@ Arity arity(Operation operation) {
     case Operation::Power:
     case Operation::Modulo:
     case Operation::IntegerDivide:
-    case Operation::Range: return {2, 2};
+    case Operation::Range:
+      return {2, 2};
   }
   return {0, 0};
 }
@@ -121,7 +127,8 @@ void Expression::collect_names(std::vector<std::string>& names) const {
       std::find(names.begin(), names.end(), name_) == names.end()) {
     names.push_back(name_);
   }
-  for (const Expression& operand : operands_) operand.collect_names(names);
+  for (const Expression& operand : operands_)
+    operand.collect_names(names);
 }
 
 Expected<void> Expression::bind(std::span<const std::string> names) {

@@ -46,14 +46,47 @@ class Values {
   std::vector<Scalar> many_;  ///< empty for length one
 };
 
-/// What a node of an expression does. `c()` and `%in%` as in R.
+/// What a node of an expression does, in groups: leaves; logic; comparisons and %in%; arithmetic;
+/// c() and conversions; functions. The groups' order is used.
 enum class Operation {
-  Constant, Parameter,
-  Not, And, Or, Xor,
-  Equal, NotEqual, Less, LessEqual, Greater, GreaterEqual, In,
-  Add, Subtract, Multiply, Divide, Power, Modulo, IntegerDivide, Negate, Range,
-  Combine, AsNumeric, AsInteger, AsText, IsMissing, IfElse,
-  Min, Max, Round, Floor, Ceiling, Truncate, Abs, SquareRoot, Exp, Log,
+  Constant,
+  Parameter,
+  Not,
+  And,
+  Or,
+  Xor,
+  Equal,
+  NotEqual,
+  Less,
+  LessEqual,
+  Greater,
+  GreaterEqual,
+  In,
+  Add,
+  Subtract,
+  Multiply,
+  Divide,
+  Power,
+  Modulo,
+  IntegerDivide,
+  Negate,
+  Range,
+  Combine,
+  AsNumeric,
+  AsInteger,
+  AsText,
+  IsMissing,
+  IfElse,
+  Min,
+  Max,
+  Round,
+  Floor,
+  Ceiling,
+  Truncate,
+  Abs,
+  SquareRoot,
+  Exp,
+  Log,
 };
 
 /// How many operands an operation takes.

@@ -42,9 +42,15 @@ IteratedRace::IteratedRace(IteratedRace&&) noexcept = default;
 IteratedRace& IteratedRace::operator=(IteratedRace&&) noexcept = default;
 IteratedRace::~IteratedRace() = default;
 
-bool IteratedRace::finished() const { return state_->finished; }
-const std::optional<Error>& IteratedRace::failure() const { return state_->failure; }
-std::span<const Experiment> IteratedRace::wanted() const { return state_->wanted; }
+bool IteratedRace::finished() const {
+  return state_->finished;
+}
+const std::optional<Error>& IteratedRace::failure() const {
+  return state_->failure;
+}
+std::span<const Experiment> IteratedRace::wanted() const {
+  return state_->wanted;
+}
 
 void IteratedRace::tell(std::span<const double> costs) {
   if (costs.size() != state_->wanted.size()) {
@@ -57,23 +63,37 @@ void IteratedRace::tell(std::span<const double> costs) {
   state_->tell(costs);
 }
 
-std::vector<RaceEvent> IteratedRace::take_events() { return std::exchange(state_->events, {}); }
+std::vector<RaceEvent> IteratedRace::take_events() {
+  return std::exchange(state_->events, {});
+}
 
 const Configuration& IteratedRace::configuration(std::int64_t id) const {
   return state_->candidates.at(static_cast<std::size_t>(id - 1)).configuration;
 }
 
-const ParameterSpace& IteratedRace::space() const { return state_->space; }
-const Scenario& IteratedRace::scenario() const { return state_->scenario; }
-std::span<const Elite> IteratedRace::elites() const { return state_->elites; }
+const ParameterSpace& IteratedRace::space() const {
+  return state_->space;
+}
+const Scenario& IteratedRace::scenario() const {
+  return state_->scenario;
+}
+std::span<const Elite> IteratedRace::elites() const {
+  return state_->elites;
+}
 
 std::int64_t IteratedRace::experiments_used() const {
   return state_->used_before_race + (state_->race ? state_->race->used() : 0);
 }
 
-std::int64_t IteratedRace::budget() const { return state_->budget; }
-std::int64_t IteratedRace::iteration() const { return state_->iteration; }
-std::int64_t IteratedRace::n_iterations() const { return state_->iterations; }
+std::int64_t IteratedRace::budget() const {
+  return state_->budget;
+}
+std::int64_t IteratedRace::iteration() const {
+  return state_->iteration;
+}
+std::int64_t IteratedRace::n_iterations() const {
+  return state_->iterations;
+}
 
 std::int64_t IteratedRace::n_alive() const {
   return state_->race ? static_cast<std::int64_t>(state_->race->alive_count())

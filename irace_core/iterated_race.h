@@ -28,10 +28,18 @@ struct Experiment {
 /// Perspectives 3, 2016), as ask and tell: a pure function of space, scenario, initial
 /// configurations and costs. No clock, no threads, no input or output.
 ///
-/// The rules are those of irace 4.4; differences: docs/decisions. All randomness comes from streams
-/// split by name from the scenario's seed: "instances" (order and seeds of the pairs), "initial"
-/// (the first configurations), "sampling" by iteration (parents and values), "order" by iteration
-/// (past pairs).
+/// The rules are those of irace 4.4 with these differences, where irace's users would expect ours:
+/// - Ordinal values are drawn so that all can be drawn (irace 4 never draws the last one).
+/// - A dependent domain is evaluated only where its parameter is active.
+/// - The first configurations are independent uniform draws instead of Sobol points.
+/// - The cap of 1024 configurations a race is an option.
+/// - Runs of a rejected configuration on later tasks of a batch are void, so that the answer does
+///   not depend on how much was run at once.
+///
+/// All randomness comes from streams split by name from the scenario's seed: "instances" (order
+/// and seeds of the pairs, in rows), "initial" (the first configurations), "sampling" by iteration
+/// (parents and values, one configuration after the other, parameters in hierarchy order), "order"
+/// by iteration (past pairs).
 class IteratedRace {
  public:
   /// `initial` configurations take part in the first race, before sampled ones; they get the ids
@@ -69,9 +77,9 @@ class IteratedRace {
   std::int64_t experiments_used() const;  ///< counted so far, those of the current race included
   std::int64_t budget() const;            ///< of the whole design
   std::int64_t remaining() const { return budget() - experiments_used(); }
-  std::int64_t iteration() const;    ///< of the current race
-  std::int64_t n_iterations() const; ///< as planned now
-  std::int64_t n_alive() const;      ///< in the current race
+  std::int64_t iteration() const;         ///< of the current race
+  std::int64_t n_iterations() const;      ///< as planned now
+  std::int64_t n_alive() const;           ///< in the current race
   std::int64_t n_configurations() const;  ///< ids given so far
 
  private:

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "base/overloaded.h"
 #include "irace_core/internal/check_parameter.h"
 
 namespace swarmsmith {
@@ -14,10 +13,12 @@ namespace {
 std::vector<std::string> dependencies(const Parameter& parameter) {
   std::vector<std::string> names;
   const auto add = [&names](const Expression& expression) {
-    for (std::string& name : expression.names()) names.push_back(std::move(name));
+    for (std::string& name : expression.names())
+      names.push_back(std::move(name));
   };
   if (parameter.condition) add(*parameter.condition);
-  for (const Expression* bound : irace::bound_expressions(parameter.domain)) add(*bound);
+  for (const Expression* bound : irace::bound_expressions(parameter.domain))
+    add(*bound);
   return names;
 }
 
@@ -99,7 +100,55 @@ Expected<ParameterSpace> ParameterSpace::make(std::vector<Parameter> parameters,
   space.parameters_ = std::move(parameters);
   space.forbidden_ = std::move(forbidden);
   space.digits_ = digits;
+  space.prepare_conditions();
   return space;
+}
+
+void ParameterSpace::prepare_conditions() {
+  is_read_.assign(size(), false);
+  for (std::size_t i = 0; i < size(); ++i)
+    inactive_.push_back(scalar(i, std::nan("")));
+  for (const Parameter& parameter : parameters_) {
+    std::optional<ConditionTable>& table = tables_.emplace_back();
+    if (parameter.condition) {
+      table = tabulate(*parameter.condition);
+      if (!table) mark_as_read(*parameter.condition);
+    }
+    for (const Expression* bound : irace::bound_expressions(parameter.domain))
+      mark_as_read(*bound);
+  }
+  for (const Expression& clause : forbidden_)
+    mark_as_read(clause);
+}
+
+void ParameterSpace::mark_as_read(const Expression& expression) {
+  for (const std::string& name : expression.names())
+    is_read_[*index_of(name)] = true;
+}
+
+std::optional<ParameterSpace::ConditionTable> ParameterSpace::tabulate(
+    const Expression& condition) const {
+  constexpr double kMostValues = 1000;
+  const std::vector<std::string> names = condition.names();
+  if (names.size() != 1) return std::nullopt;
+  const std::size_t index = *index_of(names.front());
+  ConditionTable table{index, 0, {}, condition.is_true(inactive_)};
+  auto count = static_cast<double>(value_count(index));
+  if (is_numeric(index)) {
+    const Interval* domain = constant_interval(index);
+    const bool whole = std::holds_alternative<Integer>(parameters_[index].domain);
+    if (!whole || domain == nullptr || domain->upper - domain->lower >= kMostValues) {
+      return std::nullopt;
+    }
+    table.first = domain->lower;
+    count = domain->upper - domain->lower + 1;
+  }
+  std::vector<Scalar> values = inactive_;
+  for (double step = 0; step < count; ++step) {
+    values[index] = scalar(index, table.first + step);
+    table.holds.push_back(condition.is_true(values));
+  }
+  return table;
 }
 
 std::optional<std::size_t> ParameterSpace::index_of(std::string_view name) const {
@@ -109,7 +158,9 @@ std::optional<std::size_t> ParameterSpace::index_of(std::string_view name) const
   return std::nullopt;
 }
 
-std::size_t ParameterSpace::value_count(std::size_t index) const { return choices_[index].size(); }
+std::size_t ParameterSpace::value_count(std::size_t index) const {
+  return choices_[index].size();
+}
 
 Scalar ParameterSpace::scalar(std::size_t index, double value) const {
   if (!choices_[index].empty()) {
@@ -120,25 +171,23 @@ Scalar ParameterSpace::scalar(std::size_t index, double value) const {
   return whole ? Scalar::integer(value) : Scalar::real(value);
 }
 
-std::vector<Scalar> ParameterSpace::scalars(const Configuration& configuration) const {
-  std::vector<Scalar> values;
-  values.reserve(size());
-  for (std::size_t i = 0; i < size(); ++i) values.push_back(scalar(i, configuration[i]));
-  return values;
-}
-
-bool ParameterSpace::is_active(std::size_t index, std::span<const Scalar> values) const {
+bool ParameterSpace::is_active(std::size_t index, const Assignment& values) const {
   const std::optional<Expression>& condition = parameters_[index].condition;
-  return !condition || condition->is_true(values);
+  if (!condition) return true;
+  const std::optional<ConditionTable>& table = tables_[index];
+  if (!table) return condition->is_true(values.scalars());
+  const Configuration& known = values.configuration();
+  if (!known.is_active(table->parameter)) return table->holds_when_inactive;
+  return table->holds[static_cast<std::size_t>(known[table->parameter] - table->first)];
 }
 
 Expected<std::optional<Interval>> ParameterSpace::interval(std::size_t index,
-                                                           std::span<const Scalar> values) const {
+                                                           const Assignment& values) const {
   if (intervals_[index]) return intervals_[index];
   const auto evaluate = [&](const auto& domain) -> std::optional<Interval> {
     const auto number = [&](const Bound& bound) -> std::optional<double> {
       if (const double* constant = std::get_if<double>(&bound)) return *constant;
-      return std::get<Expression>(bound).to_number(values);
+      return std::get<Expression>(bound).to_number(values.scalars());
     };
     const std::optional<double> lower = number(domain.lower);
     const std::optional<double> upper = number(domain.upper);
@@ -160,9 +209,11 @@ Expected<std::optional<Interval>> ParameterSpace::interval(std::size_t index,
   return found;
 }
 
-bool ParameterSpace::is_forbidden(std::span<const Scalar> values) const {
+bool ParameterSpace::is_forbidden(const Configuration& configuration) const {
+  if (forbidden_.empty()) return false;
+  const Assignment values(*this, configuration);
   return std::any_of(forbidden_.begin(), forbidden_.end(),
-                     [&](const Expression& clause) { return clause.is_true(values); });
+                     [&](const Expression& clause) { return clause.is_true(values.scalars()); });
 }
 
 Expected<void> ParameterSpace::check(const Configuration& configuration) const {
@@ -170,39 +221,46 @@ Expected<void> ParameterSpace::check(const Configuration& configuration) const {
     return bad_input("a configuration has " + std::to_string(configuration.size()) +
                      " values, the space " + std::to_string(size()) + " parameters");
   }
-  for (std::size_t i = 0; i < size(); ++i) {
-    const double v = configuration[i];
-    const bool choice = !is_numeric(i);
-    const bool outside = choice && !(v >= 0 && v < static_cast<double>(value_count(i)));
-    if (configuration.is_active(i) && choice && (outside || v != std::floor(v))) {
-      return bad_input("there is no value number " + to_fixed_text(v), parameters_[i].name);
-    }
-  }
-  const std::vector<Scalar> values = scalars(configuration);
+  Assignment values(*this);
   for (const std::size_t i : order_) {
     const std::string& name = parameters_[i].name;
-    std::optional<Interval> domain = Interval{0, 0};
-    bool active = is_active(i, values);
-    if (active && is_numeric(i)) {
-      auto found = interval(i, values);
-      if (!found) return Unexpected(found.error());
-      domain = *found;
-      active = domain.has_value();
+    auto domain = Expected<std::optional<Interval>>(std::nullopt);
+    if (is_active(i, values)) {
+      domain = is_numeric(i) ? interval(i, values)
+                             : Interval{0, static_cast<double>(value_count(i)) - 1};
     }
-    if (active && !configuration.is_active(i)) return bad_input("is active and needs a value", name);
-    if (!active && configuration.is_active(i)) return bad_input("is inactive but has a value", name);
-    if (!active || !is_numeric(i)) continue;
+    if (!domain) return Unexpected(domain.error());
     const double v = configuration[i];
-    if (v < domain->lower || v > domain->upper) {
-      return bad_input(to_fixed_text(v) + " is not in its domain (" + to_fixed_text(domain->lower) +
-                           ", " + to_fixed_text(domain->upper) + ")",
+    if (!*domain && configuration.is_active(i))
+      return bad_input("is inactive but has a value", name);
+    if (!*domain) continue;
+    if (!configuration.is_active(i)) return bad_input("is active and needs a value", name);
+    if (v < (*domain)->lower || v > (*domain)->upper) {
+      return bad_input(to_fixed_text(v) + " is not in its domain (" +
+                           to_fixed_text((*domain)->lower) + ", " +
+                           to_fixed_text((*domain)->upper) + ")",
                        name);
     }
-    if (std::holds_alternative<Integer>(parameters_[i].domain) && v != std::floor(v)) {
+    if (!std::holds_alternative<Real>(parameters_[i].domain) && v != std::floor(v)) {
       return bad_input(to_fixed_text(v) + " is not a whole number", name);
     }
+    values.set(i, v);
   }
   return {};
+}
+
+Assignment::Assignment(const ParameterSpace& space)
+    : space_(&space), configuration_(space.size()), scalars_(space.inactive_) {}
+
+Assignment::Assignment(const ParameterSpace& space, const Configuration& configuration)
+    : Assignment(space) {
+  for (std::size_t i = 0; i < space.size(); ++i)
+    set(i, configuration[i]);
+}
+
+void Assignment::set(std::size_t parameter, double value) {
+  configuration_.set(parameter, value);
+  if (space_->is_read_[parameter]) scalars_[parameter] = space_->scalar(parameter, value);
 }
 
 }  // namespace swarmsmith

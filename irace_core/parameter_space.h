@@ -61,7 +61,10 @@ struct Interval {
   friend bool operator==(const Interval&, const Interval&) = default;
 };
 
-/// The parameters that are tuned, in declaration order, and what must not be tried: a checked value.
+class Assignment;
+
+/// The parameters that are tuned, in declaration order, and what must not be tried: a checked
+/// value.
 class ParameterSpace {
  public:
   /// Checks names, domains, unknown and circular references; `where` of an error is the parameter's
@@ -87,26 +90,42 @@ class ParameterSpace {
   /// Number of values of a categorical or ordinal parameter; 0 for numeric ones.
   std::size_t value_count(std::size_t index) const;
   bool is_numeric(std::size_t index) const { return value_count(index) == 0; }
-  bool has_dependent_domain(std::size_t index) const { return !intervals_[index].has_value(); }
+  /// The domain of a numeric parameter with constant bounds; null for a dependent domain.
+  const Interval* constant_interval(std::size_t index) const {
+    return intervals_[index] ? &*intervals_[index] : nullptr;
+  }
 
   /// The value as conditions see it: choices are texts, inactive is missing.
   Scalar scalar(std::size_t index, double value) const;
-  /// All values of a configuration as conditions see them.
-  std::vector<Scalar> scalars(const Configuration& configuration) const;
 
-  bool is_active(std::size_t index, std::span<const Scalar> values) const;
+  /// Whether a parameter's condition holds, given those before it in hierarchy order.
+  bool is_active(std::size_t index, const Assignment& values) const;
   /// The domain of a numeric parameter, which nothing has when a parameter in a bound is inactive.
   /// Lower above upper is an error that names the parameter.
-  Expected<std::optional<Interval>> interval(std::size_t index,
-                                             std::span<const Scalar> values) const;
-  bool is_forbidden(std::span<const Scalar> values) const;
+  Expected<std::optional<Interval>> interval(std::size_t index, const Assignment& values) const;
+  bool is_forbidden(const Configuration& configuration) const;
 
   /// Whether every active parameter has a value of its domain and every other has none. Forbidden
   /// clauses are not looked at.
   Expected<void> check(const Configuration& configuration) const;
 
  private:
+  friend class Assignment;
+
+  /// A condition on one choice or integer, worked out for each of its values.
+  struct ConditionTable {
+    std::size_t parameter;
+    double first;  ///< the value that the first entry belongs to
+    std::vector<bool> holds;
+    bool holds_when_inactive;
+  };
+
   ParameterSpace() = default;
+  /// Tabulates what can be, and notes what the other expressions read.
+  void prepare_conditions();
+  void mark_as_read(const Expression& expression);
+  /// Nothing when the condition mentions several parameters, a real or a wide integer.
+  std::optional<ConditionTable> tabulate(const Expression& condition) const;
 
   std::vector<Parameter> parameters_;
   std::vector<Expression> forbidden_;
@@ -117,6 +136,28 @@ class ParameterSpace {
   /// Constant domains of numeric parameters; those of choices are empty intervals.
   std::vector<std::optional<Interval>> intervals_;
   std::vector<std::vector<Scalar>> choices_;  ///< the values of categorical and ordinal parameters
+  std::vector<std::optional<ConditionTable>> tables_;
+  std::vector<bool> is_read_;     ///< by expressions that are not tabulated
+  std::vector<Scalar> inactive_;  ///< all parameters as conditions see them when none is active
+};
+
+/// A configuration that is filled parameter by parameter, together with its values as conditions
+/// see them.
+class Assignment {
+ public:
+  /// All inactive; `space` must outlive the assignment.
+  explicit Assignment(const ParameterSpace& space);
+  Assignment(const ParameterSpace& space, const Configuration& configuration);
+
+  void set(std::size_t parameter, double value);
+  const Configuration& configuration() const { return configuration_; }
+  /// By parameter. Up to date for those that some expression reads.
+  std::span<const Scalar> scalars() const { return scalars_; }
+
+ private:
+  const ParameterSpace* space_;
+  Configuration configuration_;
+  std::vector<Scalar> scalars_;
 };
 
 }  // namespace swarmsmith

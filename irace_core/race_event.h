@@ -18,6 +18,7 @@ struct ConfigurationSampled {
   Configuration configuration;
 };
 
+/// A race begins; the configurations that it sampled follow.
 struct IterationStarted {
   std::int64_t iteration = 0;
   std::int64_t n_iterations = 0;      ///< as planned now; not a limit unless it was asked for
@@ -35,6 +36,7 @@ enum class EliminationReason {
   Rejection,  ///< an infinite cost
 };
 
+/// A configuration that left the race.
 struct Elimination {
   std::int64_t configuration = 0;
   double rank_sum = 0;  ///< when it was dropped; 0 for a rejection
@@ -54,7 +56,7 @@ struct RaceStep {
   std::int64_t alive_before = 0;
   std::int64_t alive_after = 0;
   std::int64_t best = 0;
-  double mean_best = 0;  ///< cost over the tasks so far
+  double mean_best = 0;               ///< cost over the tasks so far
   std::int64_t experiments_used = 0;  ///< in the whole design so far
   std::optional<double> statistic;    ///< Friedman's S, or Wilcoxon's V for two
   std::optional<double> p_value;
@@ -66,6 +68,7 @@ struct RaceStep {
   std::uint64_t digest = 0;  ///< of alive set, rank sums, statistic and generators
 };
 
+/// A survivor that the next race starts with.
 struct Elite {
   double rank = 0;
   std::int64_t configuration = 0;
@@ -75,14 +78,16 @@ struct Elite {
   friend bool operator==(const Elite&, const Elite&) = default;
 };
 
+/// A race is over and its elites are chosen.
 struct IterationEnded {
   std::int64_t iteration = 0;
   std::int64_t used = 0;
   std::int64_t remaining = 0;
-  std::string reason;  ///< why the race stopped
+  std::string reason;         ///< why the race stopped
   std::vector<Elite> elites;  ///< best first
 };
 
+/// The last event of a design.
 struct RaceFinished {
   std::string reason;
   std::vector<Elite> elites;  ///< best first; empty after a failure

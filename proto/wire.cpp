@@ -1,6 +1,7 @@
 #include "proto/wire.h"
 
 #include <cmath>
+#include <google/protobuf/stubs/logging.h>
 
 #include "base/hash.h"
 #include "proto/key.h"
@@ -51,6 +52,8 @@ Expected<std::string_view> payload_of(std::string_view frame) {
 
 template <class Message>
 Expected<const Message*> parse(std::string_view frame, google::protobuf::Arena& arena) {
+  // What is wrong with a frame is told by value; the library would write it to standard error.
+  [[maybe_unused]] static auto* const kLoud = google::protobuf::SetLogHandler(nullptr);
   const Expected<std::string_view> payload = payload_of(frame);
   if (!payload) return Unexpected(payload.error());
   auto* message = google::protobuf::Arena::CreateMessage<Message>(&arena);

@@ -5,6 +5,35 @@
 namespace swarmsmith::cli {
 namespace {
 
+constexpr std::string_view kRunDetails = R"(Designs control software as the campaign file says, with workers of its own, and prints the result.
+Without a file it runs a demo: aggregation, 2,000 experiments, store demo.db. Every score is in the
+store as soon as it counts; Ctrl-C, kill -9, a power cut: the same command goes on where it was, and
+comes to the same answer. On a finished store it prints the result again.
+
+Examples:
+  swarmsmith run
+  swarmsmith run campaign.toml
+  swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db)";
+
+constexpr std::string_view kServeDetails = R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. In this version
+on this host only.
+
+Examples:
+  swarmsmith serve campaign.toml
+  swarmsmith serve campaign.toml --bind 127.0.0.1:5555)";
+
+constexpr std::string_view kWorkerDetails = R"(Evaluates for a coordinator until there is nothing more to do. SIGTERM lets it finish what it is
+at; it can come and go at any time. Starts the program swarmsmith-worker.
+
+Example:
+  swarmsmith worker --connect 127.0.0.1:5555 --slots 4)";
+
+constexpr std::string_view kVerifyDetails = R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
+budget and winner with what is stored; checks the file itself, too. Exit code 0 when all is clean.
+
+Example:
+  swarmsmith verify demo.db)";
+
 constexpr std::string_view kInitDetails = R"(Examples:
   swarmsmith init mine
   swarmsmith init mine --mission grid_exploration && swarmsmith run mine/campaign.toml)";
@@ -70,8 +99,11 @@ Example:
   swarmsmith digest demo.db)";
 
 constexpr std::array kCommands = {
+    Command{"run", "Run a campaign, or go on with it", kRunDetails, declare_run},
     Command{"init", "Write a commented campaign file", kInitDetails, declare_init},
     Command{"check", "Check a campaign file and show its plan", kCheckDetails, declare_check},
+    Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
+    Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
     Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},
     Command{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
             declare_ls},
@@ -80,6 +112,7 @@ constexpr std::array kCommands = {
     Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate},
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
+    Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
     Command{"version", "Print the version", "", declare_version},
 };
 

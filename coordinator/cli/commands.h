@@ -15,8 +15,11 @@ std::span<const Command> commands();
 using Run = std::function<ExitCode(Output&)>;
 
 /// docs/command-line.md tells what each does.
+Run declare_run(Options& options);
 Run declare_init(Options& options);
 Run declare_check(Options& options);
+Run declare_serve(Options& options);
+Run declare_worker(Options& options);
 Run declare_evaluate(Options& options);
 Run declare_status(Options& options);
 Run declare_ls(Options& options);
@@ -24,6 +27,7 @@ Run declare_show(Options& options);
 Run declare_query(Options& options);
 Run declare_export(Options& options);
 Run declare_digest(Options& options);
+Run declare_verify(Options& options);
 Run declare_version(Options& options);
 
 }  // namespace swarmsmith::cli

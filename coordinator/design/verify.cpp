@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <map>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "base/overloaded.h"
@@ -21,6 +22,9 @@ constexpr std::size_t kComplaintsPerDesign = 20;
 /// Rows of one design as texts. Those that hold a latest value are kept by what they describe.
 struct DesignAnswer {
   std::vector<std::string> rows;
+  /// Pairs of the race by number; those on which no step was held are no part of the answer.
+  std::map<std::int64_t, std::string> pairs;
+  std::set<std::int64_t> stepped;
   std::map<CandidateId, std::string> totals;
   std::optional<DesignStateRow> state;
   std::int64_t evaluations = 0;
@@ -53,8 +57,17 @@ void add(const Row& row, DesignAnswer& answer) {
     answer.totals[totals->candidate] = describe(row);
   } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
     if (evaluation->key.purpose == Purpose::Race) ++answer.evaluations;
+  } else if (const auto* pair = std::get_if<PairRow>(&row); pair && pair->purpose == Purpose::Race) {
+    answer.pairs.emplace(pair->number, describe(row));
   } else {
+    if (const auto* step = std::get_if<RaceStepRow>(&row)) answer.stepped.insert(step->pair);
     answer.rows.push_back(describe(row));
+  }
+}
+
+void add_stepped_pairs(DesignAnswer& answer) {
+  for (const auto& [number, row] : answer.pairs) {
+    if (answer.stepped.contains(number)) answer.rows.push_back(row);
   }
 }
 
@@ -107,6 +120,8 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   }
   DesignAnswer replayed;
   for (const Row& row : rows) add(row, replayed);
+  add_stepped_pairs(replayed);
+  add_stepped_pairs(stored);
   const bool finished = stored.state && stored.state->state == DesignState::Finished;
   if (finished && !tasks.empty()) {
     complaints.push_back(fmt::format("{}: the design is finished, but {} of its evaluations are "

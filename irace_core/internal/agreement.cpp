@@ -29,9 +29,11 @@ void QualityVariance::add_row(std::span<const Entry> row) {
   if (row.empty()) return;
   const auto k = static_cast<double>(row.size());
   double mean = 0;
-  for (const Entry& entry : row) mean += entry.cost / k;
+  for (const Entry& entry : row)
+    mean += entry.cost / k;
   double square = 0;
-  for (const Entry& entry : row) square += (entry.cost - mean) * (entry.cost - mean);
+  for (const Entry& entry : row)
+    square += (entry.cost - mean) * (entry.cost - mean);
   const double sd = std::sqrt(square / (k - 1));
   rows_ += 1;
   for (const Entry& entry : row) {
@@ -51,7 +53,8 @@ void QualityVariance::reset() {
 std::optional<double> QualityVariance::value(std::span<const std::size_t> columns) const {
   if (rows_ < 2 || columns.size() < 2) return std::nullopt;
   double sum = 0;
-  for (const std::size_t column : columns) sum += square_[column] / (rows_ - 1);
+  for (const std::size_t column : columns)
+    sum += square_[column] / (rows_ - 1);
   return sum / static_cast<double>(columns.size());
 }
 

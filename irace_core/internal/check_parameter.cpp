@@ -11,8 +11,8 @@ namespace {
 
 bool is_name(std::string_view name) {
   return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-           c == '_' || c == '.';
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.';
   });
 }
 
@@ -32,6 +32,7 @@ bool only_arithmetic(const Expression& expression) {
   return std::all_of(expression.operands().begin(), expression.operands().end(), only_arithmetic);
 }
 
+/// Binds one bound and checks what it mentions.
 Expected<void> bind_bound(Bound& bound, const std::string& owner,
                           std::span<const std::string> names, std::span<const Parameter> all) {
   Expression* expression = std::get_if<Expression>(&bound);
@@ -82,11 +83,13 @@ Expected<void> check_increasing(const std::vector<std::string>& values, const st
   return bad_input("the values of an ordinal parameter must increase", name);
 }
 
+/// A constant bound must survive rounding to the digits of the space, and must not vanish.
 Expected<void> check_decimals(double bound, int digits, const std::string& name) {
   const double tolerance = 1.5e-8 * std::max(1.0, std::fabs(bound));
   if (digits >= 15 || bound == 0) return {};
   double smallest = 1;
-  for (int i = 0; i < digits; ++i) smallest /= 10;
+  for (int i = 0; i < digits; ++i)
+    smallest /= 10;
   const bool vanishes = std::fabs(bound) < smallest * (1 - 1e-9);
   if (!vanishes && std::fabs(round_to_digits(bound, digits) - bound) <= tolerance) return {};
   return bad_input("the bound " + to_fixed_text(bound) + " needs more than " +

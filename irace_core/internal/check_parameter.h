@@ -20,9 +20,9 @@ std::span<const std::string> choice_values(const Domain& domain);
 /// it depends on other parameters.
 std::optional<Interval> constant_interval(const Domain& domain);
 
-/// Binds condition and bounds to `names`, and turns bounds that mention no parameter into constants.
-/// A bound may mention numeric parameters only, and use arithmetic only. `all` are the parameters
-/// by the order of `names`.
+/// Binds condition and bounds to `names`, and turns bounds that mention no parameter into
+/// constants. A bound may mention numeric parameters only, and use arithmetic only. `all` are the
+/// parameters by the order of `names`.
 Expected<void> bind_parameter(Parameter& parameter, std::span<const std::string> names,
                               std::span<const Parameter> all);
 

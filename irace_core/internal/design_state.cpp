@@ -17,7 +17,9 @@ using irace::RacePlan;
 
 namespace {
 
-std::int64_t ceil_divide(std::int64_t a, std::int64_t b) { return (a + b - 1) / b; }
+std::int64_t ceil_divide(std::int64_t a, std::int64_t b) {
+  return (a + b - 1) / b;
+}
 
 }  // namespace
 
@@ -55,7 +57,8 @@ Expected<void> IteratedRace::State::begin() {
   instances_.append(ceil_divide(budget, schedule_.min_survival()));
   if (auto begun = begin_race(); !begun) return begun;
   if (races_ == 0) {
-    return bad_input("not even one race can be run: " + std::get<RaceFinished>(events.back()).reason);
+    return bad_input("not even one race can be run: " +
+                     std::get<RaceFinished>(events.back()).reason);
   }
   return {};
 }
@@ -93,7 +96,8 @@ Expected<void> IteratedRace::State::begin_race() {
                            .elites = {},
                            .soft_restart = false,
                            .model_digest = 0};
-  for (const Elite& elite : elites) started.elites.push_back(elite.configuration);
+  for (const Elite& elite : elites)
+    started.elites.push_back(elite.configuration);
   // Sampling reports its configurations; the iteration is announced before them.
   const std::size_t place = events.size();
   auto contestants = races_ == 0 ? first_contestants(plan) : later_contestants(plan, started);
@@ -141,7 +145,8 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::later_contestants(
   if (!sampled) return Unexpected(sampled.error());
   if (scenario.soft_restart) {
     const std::vector<std::int64_t> restarted = lines_to_restart(*sampled);
-    for (const std::int64_t id : restarted) models_.restart(id, wanted_new);
+    for (const std::int64_t id : restarted)
+      models_.restart(id, wanted_new);
     if (!restarted.empty()) {
       started.soft_restart = true;
       sampled = sample_new(wanted_new, rng);
@@ -151,7 +156,8 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::later_contestants(
   started.model_digest = models_.digest();
   sampling_drawn_ = rng.drawn();
   std::vector<std::int64_t> ids = started.elites;
-  for (Candidate& fresh : *sampled) ids.push_back(add(std::move(fresh), plan.iteration));
+  for (Candidate& fresh : *sampled)
+    ids.push_back(add(std::move(fresh), plan.iteration));
   return ids;
 }
 
@@ -227,9 +233,9 @@ void IteratedRace::State::start_race(const RacePlan& plan,
                                .pairs = order_of_pairs(plan, past),
                                .new_pairs = plan.new_pairs,
                                .past_pairs = past};
-  const auto past_pairs = std::span(settings.pairs)
-                              .subspan(static_cast<std::size_t>(plan.new_pairs),
-                                       static_cast<std::size_t>(past));
+  const auto past_pairs =
+      std::span(settings.pairs)
+          .subspan(static_cast<std::size_t>(plan.new_pairs), static_cast<std::size_t>(past));
   std::vector<irace::Contestant> all;
   for (std::size_t i = 0; i < contestants.size(); ++i) {
     const bool is_elite = i < elites.size();
@@ -266,7 +272,8 @@ std::vector<double> IteratedRace::State::past_costs(std::int64_t id,
     by_pair[static_cast<std::size_t>(result.pair)] = result.cost;
   }
   std::vector<double> costs;
-  for (const std::int64_t pair : pairs) costs.push_back(by_pair[static_cast<std::size_t>(pair)]);
+  for (const std::int64_t pair : pairs)
+    costs.push_back(by_pair[static_cast<std::size_t>(pair)]);
   return costs;
 }
 
@@ -274,8 +281,8 @@ void IteratedRace::State::ask() {
   wanted.clear();
   for (const irace::RaceRun& run : race->wanted()) {
     const std::int64_t pair = race->pair_of(run.task);
-    wanted.push_back({race->contestant(run.column).id, pair, instances_[pair].instance,
-                      instances_[pair].seed});
+    wanted.push_back(
+        {race->contestant(run.column).id, pair, instances_[pair].instance, instances_[pair].seed});
   }
 }
 
@@ -327,7 +334,8 @@ void IteratedRace::State::choose_elites() {
     });
     if (is_copy) continue;
     double sum = 0;
-    for (const Candidate::Result& result : known.results) sum += result.cost;
+    for (const Candidate::Result& result : known.results)
+      sum += result.cost;
     const auto n = static_cast<std::int64_t>(known.results.size());
     elites.push_back({survivor.rank, id, sum / static_cast<double>(n), n});
   }

@@ -26,7 +26,7 @@ struct Candidate {
 
   Configuration configuration;
   std::int64_t parent = 0;
-  bool takes_part = true;  ///< false for forbidden initial ones
+  bool takes_part = true;       ///< false for forbidden initial ones
   std::vector<Result> results;  ///< in the order in which they came
 };
 
@@ -58,19 +58,29 @@ class IteratedRace::State {
   std::unique_ptr<irace::Race> race;
 
  private:
+  /// Plans, samples and starts the next race, or finishes when there is none.
   Expected<void> begin_race();
+  /// Given configurations, then uniform ones.
   Expected<std::vector<std::int64_t>> first_contestants(const irace::RacePlan& plan);
+  /// Elites by rank, then new ones from their models; sampled again after a soft restart.
   Expected<std::vector<std::int64_t>> later_contestants(const irace::RacePlan& plan,
                                                         IterationStarted& started);
+  /// Forbidden ones are replaced, up to 100 rounds.
   Expected<std::vector<Candidate>> sample_new(std::int64_t count, Rng& rng);
+  /// Elites whose models made configurations that are too alike; each once, ascending.
   std::vector<std::int64_t> lines_to_restart(const std::vector<Candidate>& sampled) const;
   std::vector<irace::EliteLine> elite_lines() const;
+  /// Gives the next id and reports the configuration.
   std::int64_t add(Candidate candidate, std::int64_t in_iteration);
   void start_race(const irace::RacePlan& plan, const std::vector<std::int64_t>& contestants);
   std::vector<std::int64_t> order_of_pairs(const irace::RacePlan& plan, std::int64_t past) const;
+  /// What an elite cost on these pairs, NaN where it was not tried.
   std::vector<double> past_costs(std::int64_t id, std::span<const std::int64_t> pairs) const;
+  /// Translates what the race wants into experiments.
   void ask();
+  /// Completes the race's steps by iteration, budget and generators.
   void report_steps();
+  /// Takes over results and rejections, and chooses the elites.
   void end_race();
   void choose_elites();
   void stop(std::string reason);

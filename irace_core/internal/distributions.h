@@ -19,10 +19,10 @@ class TruncatedNormal {
   double sd_;
   double lower_;
   double upper_;
-  bool mirrored_;       ///< computed in the lower tail, where probabilities keep their digits
-  double p_low_ = 0;    ///< of the mirrored and standardised ends
+  bool mirrored_;     ///< computed in the lower tail, where probabilities keep their digits
+  double p_low_ = 0;  ///< of the mirrored and standardised ends
   double p_high_ = 1;
-  double end_ = 0;      ///< the mirrored and standardised end next to the mean
+  double end_ = 0;  ///< the mirrored and standardised end next to the mean
 };
 
 }  // namespace swarmsmith::irace

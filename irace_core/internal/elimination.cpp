@@ -34,8 +34,8 @@ double approximate_p(double v, double n, double ties) {
 
 double exact_p(double v, int n) {
   const auto sum = static_cast<std::int64_t>(v);
-  const double tail = v > n * (n + 1) / 4.0 ? signed_rank_upper_tail(sum, n)
-                                            : signed_rank_lower_tail(sum, n);
+  const double tail =
+      v > n * (n + 1) / 4.0 ? signed_rank_upper_tail(sum, n) : signed_rank_lower_tail(sum, n);
   return std::min(1.0, 2 * tail);
 }
 
@@ -66,7 +66,8 @@ TestResult friedman_test(const RankTable& table, std::span<const std::size_t> co
   const double scatter = std::max(0.0, 2 * (n * table.squares() - square_sums) / dof);
   const double difference = quantiles(static_cast<std::int64_t>(dof)) * std::sqrt(scatter);
   double best = table.rank_sum(columns.front());
-  for (const std::size_t column : columns) best = std::min(best, table.rank_sum(column));
+  for (const std::size_t column : columns)
+    best = std::min(best, table.rank_sum(column));
   for (const std::size_t column : columns) {
     if (std::fabs(table.rank_sum(column) - best) > difference) result.dropped.push_back(column);
   }
@@ -89,7 +90,8 @@ PairedResult wilcoxon_test(std::span<const double> first, std::span<const double
   if (never_better) return {0, 0, true, false};
 
   std::vector<double> magnitudes;
-  for (const double difference : differences) magnitudes.push_back(std::fabs(difference));
+  for (const double difference : differences)
+    magnitudes.push_back(std::fabs(difference));
   const AverageRanks ranked = average_ranks(magnitudes);
   PairedResult result;
   for (std::size_t i = 0; i < differences.size(); ++i) {

@@ -14,7 +14,9 @@ namespace {
 
 using Type = Scalar::Type;
 
-Scalar missing_logical() { return Scalar::missing_of(Type::Logical); }
+Scalar missing_logical() {
+  return Scalar::missing_of(Type::Logical);
+}
 
 /// R's as.numeric of a text: a decimal number with blanks around it, Inf, or missing.
 Scalar parse_number(std::string_view text) {
@@ -29,11 +31,13 @@ Scalar parse_number(std::string_view text) {
   return whole ? Scalar::real(value) : Scalar::missing_of(Type::Real);
 }
 
+/// R's coercion of one value to another type; what cannot be coerced is missing.
 Scalar convert(const Scalar& value, Type type) {
   if (value.type == type) return value;
   if (value.missing) return Scalar::missing_of(type);
   switch (type) {
-    case Type::Text: return Scalar::of_text(to_text(value));
+    case Type::Text:
+      return Scalar::of_text(to_text(value));
     case Type::Logical:
       if (value.type == Type::Text) return missing_logical();
       return Scalar::logical(value.number != 0);
@@ -47,10 +51,17 @@ Scalar convert(const Scalar& value, Type type) {
   return {};
 }
 
-bool is_number(const Scalar& value) { return value.type != Type::Text; }
-bool is_false(const Scalar& value) { return !value.missing && value.number == 0; }
-bool is_true_logical(const Scalar& value) { return !value.missing && value.number != 0; }
+bool is_number(const Scalar& value) {
+  return value.type != Type::Text;
+}
+bool is_false(const Scalar& value) {
+  return !value.missing && value.number == 0;
+}
+bool is_true_logical(const Scalar& value) {
+  return !value.missing && value.number != 0;
+}
 
+/// And, Or, Xor with three values: a known operand may decide alone.
 Scalar logic(Operation operation, const Scalar& left, const Scalar& right) {
   const Scalar a = convert(left, Type::Logical);
   const Scalar b = convert(right, Type::Logical);
@@ -72,6 +83,7 @@ int order(const Scalar& a, const Scalar& b) {
   return compare_texts(a.text, b.text);
 }
 
+/// == != < <= > >=; missing when either side is.
 Scalar compare(Operation operation, const Scalar& a, const Scalar& b) {
   if (a.missing || b.missing) return missing_logical();
   const int sign = order(a, b);
@@ -100,6 +112,7 @@ double power(double base, double exponent) {
   return base > 0 ? pow(base, exponent) : NAN;
 }
 
+/// + - * / ^ %% %/%: of integers an integer, but for / and ^; of texts missing.
 Scalar calculate(Operation operation, const Scalar& left, const Scalar& right) {
   if (left.missing || right.missing || !is_number(left) || !is_number(right)) {
     return Scalar::missing_of(Type::Real);
@@ -143,6 +156,7 @@ bool is_comparison(Operation operation) {
   return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
 }
 
+/// Any operation on one element of each side.
 Scalar binary(Operation operation, const Scalar& a, const Scalar& b) {
   if (is_logic(operation)) return logic(operation, a, b);
   if (is_comparison(operation)) return compare(operation, a, b);
@@ -180,14 +194,17 @@ Values elementwise(const Values& a, const Values& b, Function function) {
 /// c(): all elements in a row, in the type that can hold them all.
 Values combine(const std::vector<Values>& parts) {
   Type type = Type::Logical;
-  for (const Values& part : parts) type = std::max(type, part.type());
+  for (const Values& part : parts)
+    type = std::max(type, part.type());
   std::vector<Scalar> all;
   for (const Values& part : parts) {
-    for (std::size_t i = 0; i < part.size(); ++i) all.push_back(convert(part[i], type));
+    for (std::size_t i = 0; i < part.size(); ++i)
+      all.push_back(convert(part[i], type));
   }
   return Values(std::move(all));
 }
 
+/// min() and max() over all elements of all operands; one that is missing makes all missing.
 Values extreme(Operation operation, const std::vector<Values>& parts) {
   const Values all = combine(parts);
   Scalar best = all[0];
@@ -200,6 +217,7 @@ Values extreme(Operation operation, const std::vector<Values>& parts) {
   return best.type == Type::Logical ? convert(best, Type::Integer) : best;
 }
 
+/// from:to in steps of one, up or down; integers when `from` is whole.
 Values range(const Values& from, const Values& to) {
   constexpr double kLongest = 1e6;
   const Scalar first = convert(from[0], Type::Real);
@@ -246,9 +264,8 @@ Values apply_operation(Operation operation, const std::vector<Values>& parts) {
   if (operation == Operation::Range) return range(parts[0], parts[1]);
   if (operation == Operation::IfElse) return choose(parts[0], parts[1], parts[2]);
   if (parts.size() == 1) {
-    return elementwise(parts[0], missing_logical(), [operation](const Scalar& x, const Scalar&) {
-      return unary(operation, x);
-    });
+    return elementwise(parts[0], missing_logical(),
+                       [operation](const Scalar& x, const Scalar&) { return unary(operation, x); });
   }
   return elementwise(parts[0], parts[1], [operation](const Scalar& x, const Scalar& y) {
     return binary(operation, x, y);
@@ -269,7 +286,8 @@ Values Expression::evaluate(std::span<const Scalar> parameters) const {
   }
   std::vector<Values> parts;
   parts.reserve(operands_.size());
-  for (const Expression& operand : operands_) parts.push_back(operand.evaluate(parameters));
+  for (const Expression& operand : operands_)
+    parts.push_back(operand.evaluate(parameters));
   return apply_operation(operation_, parts);
 }
 

@@ -15,10 +15,13 @@ constexpr double kNoSpread = 2.2e-16;
 
 void normalise(std::span<double> probabilities) {
   double sum = 0;
-  for (const double p : probabilities) sum += p;
-  for (double& p : probabilities) p /= sum;
+  for (const double p : probabilities)
+    sum += p;
+  for (double& p : probabilities)
+    p /= sum;
 }
 
+/// The last value takes what rounding leaves of the sum.
 std::size_t draw_choice(std::span<const double> probabilities, Rng& rng) {
   double left = rng.uniform();
   for (std::size_t i = 0; i + 1 < probabilities.size(); ++i) {
@@ -28,7 +31,9 @@ std::size_t draw_choice(std::span<const double> probabilities, Rng& rng) {
   return probabilities.size() - 1;
 }
 
-bool is_categorical(const Domain& domain) { return std::holds_alternative<Categorical>(domain); }
+bool is_categorical(const Domain& domain) {
+  return std::holds_alternative<Categorical>(domain);
+}
 
 /// The part of [0, 1] that a value of a logarithmic domain stands for.
 struct LogScale {
@@ -60,9 +65,9 @@ double initial_sd(const ParameterSpace& space, std::size_t parameter) {
   if (std::holds_alternative<Ordinal>(domain)) {
     return static_cast<double>(space.value_count(parameter) - 1) / 2;
   }
-  if (is_logarithmic(domain) || space.has_dependent_domain(parameter)) return 0.5;
-  const Interval interval = **space.interval(parameter, {});
-  return (interval.upper - interval.lower) / 2;
+  const Interval* interval = space.constant_interval(parameter);
+  if (is_logarithmic(domain) || interval == nullptr) return 0.5;
+  return (interval->upper - interval->lower) / 2;
 }
 
 UpdateStrength update_strength(std::int64_t iteration, std::int64_t iterations,
@@ -75,16 +80,19 @@ UpdateStrength update_strength(std::int64_t iteration, std::int64_t iterations,
 
 void update_probabilities(std::span<double> probabilities, std::size_t chosen,
                           const UpdateStrength& strength) {
-  for (double& p : probabilities) p *= 1 - strength.fraction;
+  for (double& p : probabilities)
+    p *= 1 - strength.fraction;
   probabilities[chosen] += strength.fraction;
   normalise(probabilities);
-  for (double& p : probabilities) p = std::min(p, strength.most);
+  for (double& p : probabilities)
+    p = std::min(p, strength.most);
   normalise(probabilities);
 }
 
 void restart_probabilities(std::span<double> probabilities) {
   const double largest = *std::max_element(probabilities.begin(), probabilities.end());
-  for (double& p : probabilities) p = 0.9 * p + 0.1 * largest;
+  for (double& p : probabilities)
+    p = 0.9 * p + 0.1 * largest;
   normalise(probabilities);
 }
 
@@ -103,20 +111,20 @@ std::size_t draw_parent(std::size_t elites, Rng& rng) {
   }
 }
 
+/// Makes the distribution of a numeric or ordinal model anew, where it does not depend on the other
+/// values of a configuration.
 void SamplingModels::prepare(std::size_t parameter, ParameterModel& model) const {
   const Domain& domain = (*space_)[parameter].domain;
   model.distribution.reset();
-  if (is_categorical(domain) || std::isnan(model.mean) || space_->has_dependent_domain(parameter)) {
-    return;
-  }
+  const Interval* interval = space_->constant_interval(parameter);
+  if (is_categorical(domain) || std::isnan(model.mean) || interval == nullptr) return;
   if (!space_->is_numeric(parameter)) {
     // Values are cells of width one, the mean is the middle of one.
     const auto count = static_cast<double>(space_->value_count(parameter));
     model.distribution = TruncatedNormal(model.mean + 0.5, model.sd, 0, count);
     return;
   }
-  model.distribution =
-      numeric_distribution(domain, model, model.sd, **space_->interval(parameter, {}));
+  model.distribution = numeric_distribution(domain, model, model.sd, *interval);
 }
 
 void SamplingModels::initialise(std::span<const EliteLine> elites) {
@@ -208,7 +216,8 @@ std::uint64_t SamplingModels::digest() const {
   for (const auto& [id, model] : models_) {
     digest.add(id);
     for (const ParameterModel& parameter : model) {
-      for (const double p : parameter.probabilities) digest.add(p);
+      for (const double p : parameter.probabilities)
+        digest.add(p);
       digest.add(parameter.sd);
       digest.add(std::isnan(parameter.mean) ? std::numeric_limits<double>::infinity()
                                             : parameter.mean);

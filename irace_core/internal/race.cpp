@@ -71,9 +71,8 @@ std::vector<std::size_t> Race::to_run(const Progress& progress) const {
 /// The canonical order within a task; that of the columns has the elites by rank.
 std::vector<std::size_t> Race::by_id(std::span<const std::size_t> columns) const {
   std::vector<std::size_t> sorted(columns.begin(), columns.end());
-  std::sort(sorted.begin(), sorted.end(), [&](std::size_t a, std::size_t b) {
-    return contestants_[a].id < contestants_[b].id;
-  });
+  std::sort(sorted.begin(), sorted.end(),
+            [&](std::size_t a, std::size_t b) { return contestants_[a].id < contestants_[b].id; });
   return sorted;
 }
 
@@ -133,7 +132,8 @@ void Race::plan() {
   while (ahead.task < settings_.pairs.size()) {
     const std::vector<std::size_t> columns = to_run(ahead);
     if (!columns.empty() && reason_to_stop(ahead, columns.size())) return;
-    for (const std::size_t c : by_id(columns)) wanted_.push_back({ahead.task, c});
+    for (const std::size_t c : by_id(columns))
+      wanted_.push_back({ahead.task, c});
     pass(ahead, columns);
     if (!columns.empty() && is_test_point(ahead.task)) return;
   }
@@ -170,7 +170,8 @@ void Race::do_task(std::span<const std::size_t> ran, RaceStep& step) {
   step.task = static_cast<std::int64_t>(task) + 1;
   step.pair = settings_.pairs[task];
   step.alive_before = static_cast<std::int64_t>(alive_.size());
-  for (const std::size_t c : by_id(ran)) step.evaluated.push_back(contestants_[c].id);
+  for (const std::size_t c : by_id(ran))
+    step.evaluated.push_back(contestants_[c].id);
   pass(progress_, ran);
   used_ = progress_.used;
   step.experiments_used = used_;
@@ -223,8 +224,7 @@ void Race::run_test(RaceStep& step) {
   for (const std::size_t c : worse) {
     if (progress_.protection[c] > 0) continue;
     dropped.push_back(c);
-    step.eliminations.push_back(
-        {contestants_[c].id, ranks_.rank_sum(c), EliminationReason::Test});
+    step.eliminations.push_back({contestants_[c].id, ranks_.rank_sum(c), EliminationReason::Test});
   }
   step.marker = !dropped.empty() ? '-' : (worse.empty() ? '=' : '!');
   if (!dropped.empty()) drop(dropped);
@@ -233,7 +233,8 @@ void Race::run_test(RaceStep& step) {
 std::vector<std::size_t> Race::worse_by_test(RaceStep& step) {
   const double alpha = 1 - settings_.confidence;
   switch (settings_.test_type) {
-    case TestType::FTest: break;
+    case TestType::FTest:
+      break;
   }
   if (alive_.size() > 2) {
     TestResult result = friedman_test(ranks_, alive_, alpha, quantiles_);
@@ -256,7 +257,8 @@ std::vector<std::size_t> Race::worse_by_test(RaceStep& step) {
 void Race::drop(const std::vector<std::size_t>& columns) {
   std::erase_if(alive_, [&](std::size_t c) { return contains(columns, c); });
   std::vector<bool> keeps(contestants_.size(), false);
-  for (const std::size_t c : alive_) keeps[c] = true;
+  for (const std::size_t c : alive_)
+    keeps[c] = true;
   ranks_.keep(keeps);
   find_uncovered();
   quality_.reset();
@@ -276,7 +278,8 @@ void Race::find_uncovered() {
     return std::any_of(alive_.begin(), alive_.end(),
                        [&](std::size_t c) { return has_result(c, task); });
   };
-  while (uncovered_ > 0 && anybody_has(uncovered_ - 1)) --uncovered_;
+  while (uncovered_ > 0 && anybody_has(uncovered_ - 1))
+    --uncovered_;
 }
 
 void Race::describe_best(RaceStep& step) const {
@@ -284,7 +287,8 @@ void Race::describe_best(RaceStep& step) const {
     return ranks_.rank_sum(a) < ranks_.rank_sum(b);
   });
   double sum = 0;
-  for (std::size_t task = 0; task < progress_.task; ++task) sum += costs_[best][task];
+  for (std::size_t task = 0; task < progress_.task; ++task)
+    sum += costs_[best][task];
   step.best = contestants_[best].id;
   step.mean_best = sum / static_cast<double>(progress_.task);
 }
@@ -307,7 +311,9 @@ std::uint64_t Race::digest(const RaceStep& step) const {
   return digest.value64();
 }
 
-std::vector<RaceStep> Race::take_steps() { return std::exchange(steps_, {}); }
+std::vector<RaceStep> Race::take_steps() {
+  return std::exchange(steps_, {});
+}
 
 std::vector<Race::Result> Race::results(std::size_t column) const {
   const std::vector<double>& past = contestants_[column].past;
@@ -339,7 +345,8 @@ std::vector<Race::Survivor> Race::survivors() const {
   }
   const std::vector<double> overall = overall_ranks(table);
   std::vector<Survivor> survivors;
-  for (std::size_t i = 0; i < columns.size(); ++i) survivors.push_back({columns[i], overall[i]});
+  for (std::size_t i = 0; i < columns.size(); ++i)
+    survivors.push_back({columns[i], overall[i]});
   std::stable_sort(survivors.begin(), survivors.end(),
                    [](const Survivor& a, const Survivor& b) { return a.rank < b.rank; });
   return survivors;

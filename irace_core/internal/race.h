@@ -47,9 +47,9 @@ struct RaceRun {
 
 /// One elitist race (irace facts, 9), as ask and tell.
 ///
-/// Nothing is dropped between two tests, so that all runs up to the next test are asked for at once.
-/// Results are consumed in the order (task, id). After a rejection the runs of the rejected one
-/// on later tasks, and all runs that follow a stop, are void: neither counted nor used.
+/// Nothing is dropped between two tests, so that all runs up to the next test are asked for at
+/// once. Results are consumed in the order (task, id). After a rejection the runs of the rejected
+/// one on later tasks, and all runs that follow a stop, are void: neither counted nor used.
 class Race {
  public:
   /// Elites come first among the contestants.
@@ -99,21 +99,30 @@ class Race {
     std::vector<std::int64_t> results;     ///< by column: pairs with a result
   };
 
+  /// Known from before or run in this race.
   bool has_result(std::size_t column, std::size_t task) const;
   bool anybody_protected(const Progress& progress) const;
+  /// Columns that are alive and have no result on the next task (rule 9.3.1).
   std::vector<std::size_t> to_run(const Progress& progress) const;
   std::vector<std::size_t> by_id(std::span<const std::size_t> columns) const;
+  /// Rule 9.3.2, before a task on which `runs` would be run.
   std::optional<std::string> reason_to_stop(const Progress& progress, std::size_t runs) const;
   bool elites_are_done(const Progress& progress) const;
+  /// Whether a test follows the first `task` tasks.
   bool is_test_point(std::size_t task) const;
   void pass(Progress& progress, std::span<const std::size_t> ran) const;
 
   void plan();
+  /// Rules 9.3.3 to 9.3.10 for the next task, whose results are in place.
   void do_task(std::span<const std::size_t> ran, RaceStep& step);
+  /// Whether anybody was rejected.
   bool reject_infinite(std::span<const std::size_t> ran, RaceStep& step);
+  /// The task's costs of all who are alive enter the rank sums.
   void add_ranked_row(std::size_t task);
   void run_test(RaceStep& step);
+  /// Whom the test would drop, protected ones included; ascending.
   std::vector<std::size_t> worse_by_test(RaceStep& step);
+  /// Takes columns out of the race and out of all sums.
   void drop(const std::vector<std::size_t>& columns);
   void find_uncovered();
   void describe_best(RaceStep& step) const;

@@ -24,7 +24,8 @@ std::vector<double> group_ranks(const std::vector<std::vector<double>>& costs,
     if (entries.size() == group.size()) table.add_row(std::move(entries));
   }
   std::vector<double> ranks;
-  for (std::size_t i = 0; i < group.size(); ++i) ranks.push_back(table.rank_sum(i));
+  for (std::size_t i = 0; i < group.size(); ++i)
+    ranks.push_back(table.rank_sum(i));
   return ranks;
 }
 
@@ -41,7 +42,8 @@ std::vector<double> overall_ranks(const std::vector<std::vector<double>>& costs)
   double shift = 0;
   for (const auto& [known, group] : groups) {
     const std::vector<double> within = group_ranks(costs, group);
-    for (std::size_t i = 0; i < group.size(); ++i) ranks[group[i]] = shift + within[i];
+    for (std::size_t i = 0; i < group.size(); ++i)
+      ranks[group[i]] = shift + within[i];
     shift += *std::max_element(within.begin(), within.end());
   }
   return ranks;

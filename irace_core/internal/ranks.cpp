@@ -14,7 +14,8 @@ void for_each_group(std::span<const Entry> sorted, Function group) {
   std::size_t first = 0;
   while (first < sorted.size()) {
     std::size_t last = first + 1;
-    while (last < sorted.size() && sorted[last].cost == sorted[first].cost) ++last;
+    while (last < sorted.size() && sorted[last].cost == sorted[first].cost)
+      ++last;
     group(first, last, 0.5 * static_cast<double>(first + 1 + last));
     first = last;
   }
@@ -56,7 +57,8 @@ void RankTable::keep(const std::vector<bool>& keeps) {
 
 void RankTable::add_ranks(std::span<const Entry> sorted) {
   for_each_group(sorted, [&](std::size_t first, std::size_t last, double rank) {
-    for (std::size_t i = first; i < last; ++i) sums_[sorted[i].column] += rank;
+    for (std::size_t i = first; i < last; ++i)
+      sums_[sorted[i].column] += rank;
     squares_ += static_cast<double>(last - first) * rank * rank;
     ties_ += tie_term(last - first);
   });
@@ -71,7 +73,8 @@ AverageRanks average_ranks(std::span<const double> values) {
   AverageRanks result;
   result.ranks.resize(values.size());
   for_each_group(row, [&](std::size_t first, std::size_t last, double rank) {
-    for (std::size_t i = first; i < last; ++i) result.ranks[row[i].column] = rank;
+    for (std::size_t i = first; i < last; ++i)
+      result.ranks[row[i].column] = rank;
     result.ties += tie_term(last - first);
   });
   return result;

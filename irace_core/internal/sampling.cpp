@@ -12,8 +12,8 @@ namespace {
 
 /// One batch of uniform configurations without duplicates and forbidden ones.
 Expected<std::vector<Configuration>> sample_batch(const ParameterSpace& space,
-                                                  const ForbiddenList& forbidden,
-                                                  std::int64_t size, Rng& rng) {
+                                                  const ForbiddenList& forbidden, std::int64_t size,
+                                                  Rng& rng) {
   std::vector<Configuration> batch;
   std::set<std::uint64_t> seen;  // digests of 64 bits: equal ones are compared in full
   for (std::int64_t i = 0; i < size; ++i) {
@@ -34,7 +34,9 @@ bool is_logarithmic(const Domain& domain) {
   return false;
 }
 
-bool is_whole(const Domain& domain) { return std::holds_alternative<Integer>(domain); }
+bool is_whole(const Domain& domain) {
+  return std::holds_alternative<Integer>(domain);
+}
 
 double to_domain(const ParameterSpace& space, std::size_t parameter, const Interval& domain,
                  double drawn) {
@@ -51,8 +53,7 @@ double quantile_value(const ParameterSpace& space, std::size_t parameter, const 
     const auto count = static_cast<double>(space.value_count(parameter));
     return std::min(count - 1, std::floor(p * count));
   }
-  const double upper =
-      is_whole(space[parameter].domain) ? domain.upper + 1 : domain.upper;
+  const double upper = is_whole(space[parameter].domain) ? domain.upper + 1 : domain.upper;
   double value = p * (upper - domain.lower) + domain.lower;
   if (is_logarithmic(space[parameter].domain)) {
     const double low = log(domain.lower);
@@ -75,7 +76,7 @@ bool ForbiddenList::contains(const Configuration& configuration) const {
     }
     if (same) return true;
   }
-  return !space_->forbidden().empty() && space_->is_forbidden(space_->scalars(configuration));
+  return space_->is_forbidden(configuration);
 }
 
 Expected<std::vector<Configuration>> sample_initial(const ParameterSpace& space,
@@ -94,7 +95,8 @@ Expected<std::vector<Configuration>> sample_initial(const ParameterSpace& space,
     if (!batch) return batch;
   }
   if (batch->empty()) {
-    return bad_input("no configuration that is not forbidden was found: the constraints are too strict");
+    return bad_input(
+        "no configuration that is not forbidden was found: the constraints are too strict");
   }
   if (static_cast<std::int64_t>(batch->size()) > wanted) {
     batch->resize(static_cast<std::size_t>(wanted));

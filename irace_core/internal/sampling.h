@@ -28,8 +28,7 @@ bool is_whole(const Domain& domain);
 /// is empty.
 template <class Draw>
 Expected<Configuration> sample_configuration(const ParameterSpace& space, Draw draw) {
-  Configuration configuration(space.size());
-  std::vector<Scalar> values = space.scalars(configuration);
+  Assignment values(space);
   for (const std::size_t parameter : space.hierarchy_order()) {
     if (!space.is_active(parameter, values)) continue;
     std::optional<Interval> domain = Interval{0, 0};
@@ -39,11 +38,9 @@ Expected<Configuration> sample_configuration(const ParameterSpace& space, Draw d
       if (!*found) continue;
       domain = *found;
     }
-    const double value = space.is_fixed(parameter) ? 0 : draw(parameter, *domain);
-    configuration.set(parameter, value);
-    values[parameter] = space.scalar(parameter, value);
+    values.set(parameter, space.is_fixed(parameter) ? 0 : draw(parameter, *domain));
   }
-  return configuration;
+  return values.configuration();
 }
 
 /// Every parameter uniform in its domain.

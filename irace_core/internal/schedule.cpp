@@ -97,7 +97,8 @@ std::variant<RacePlan, NoMoreRaces> Schedule::next(std::int64_t remaining, std::
       }
     }
     if (size <= min_survival_) {
-      return NoMoreRaces{"not enough budget to race more than the minimum number of configurations"};
+      return NoMoreRaces{
+          "not enough budget to race more than the minimum number of configurations"};
     }
     if (raced_ && size <= elites) return NoMoreRaces{"not enough budget for a new configuration"};
     const std::int64_t new_pairs = raced_ ? new_pairs_ : 0;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include "base/hash.h"
@@ -18,7 +19,7 @@ struct Prepared {
 Prepared prepare(const ParameterSpace& space, const Configuration& configuration) {
   Prepared prepared;
   Digest choices;
-  std::vector<Scalar> values;
+  std::optional<Assignment> values;  // only needed for dependent domains
   for (std::size_t i = 0; i < space.size(); ++i) {
     if (space.is_fixed(i)) continue;
     choices.add(std::int32_t{configuration.is_active(i)});
@@ -27,8 +28,9 @@ Prepared prepare(const ParameterSpace& space, const Configuration& configuration
       choices.add(configuration[i]);
       continue;
     }
-    if (values.empty() && space.has_dependent_domain(i)) values = space.scalars(configuration);
-    const Interval domain = **space.interval(i, values);
+    const Interval* constant = space.constant_interval(i);
+    if (constant == nullptr && !values) values.emplace(space, configuration);
+    const Interval domain = constant != nullptr ? *constant : **space.interval(i, *values);
     const double width = domain.upper - domain.lower;
     prepared.positions.push_back(width > 0 ? (configuration[i] - domain.lower) / width : 0);
   }

@@ -17,10 +17,10 @@ constexpr double kPrecision = 1e-16;
 /// below that the recurrence from x + 1 to x.
 double stirling_rest(double x) {
   double rest = 0;
-  for (; x < 15; x += 1) rest += (x + 0.5) * log((x + 1) / x) - 1;
+  for (; x < 15; x += 1)
+    rest += (x + 0.5) * log((x + 1) / x) - 1;
   const double s = 1 / (x * x);
-  return rest +
-         (1.0 / 12 - s * (1.0 / 360 - s * (1.0 / 1260 - s * (1.0 / 1680 - s / 1188)))) / x;
+  return rest + (1.0 / 12 - s * (1.0 / 360 - s * (1.0 / 1260 - s * (1.0 / 1680 - s / 1188)))) / x;
 }
 
 /// x^a e^-x / Gamma(a), without the cancellation of its three large logarithms.
@@ -73,6 +73,15 @@ double gamma_fraction(double a, double x) {
   return gamma_factor(a, x) / fraction.value();
 }
 
+/// ln (Gamma(a) Gamma(b) / Gamma(a+b)), without the cancellation of large logarithms.
+double log_beta(double a, double b) {
+  const double large = std::fmax(a, b);
+  const double small = std::fmin(a, b);
+  const double ratio = (large - 0.5) * log((large + small) / large) + small * log(large + small) -
+                       small + stirling_rest(large + small) - stirling_rest(large);
+  return log_gamma(small) - ratio;
+}
+
 /// Regularised incomplete beta function by its continued fraction, which converges fast for
 /// x < (a+1)/(a+b+2). `y` is 1 - x.
 double beta_fraction(double a, double b, double x, double y) {
@@ -82,11 +91,10 @@ double beta_fraction(double a, double b, double x, double y) {
     if (m > 0 && !fraction.add(m * (b - m) * x / ((a2m - 1) * a2m), 1)) break;
     if (!fraction.add(-(a + m) * (a + b + m) * x / (a2m * (a2m + 1)), 1)) break;
   }
-  const double log_factor =
-      log_gamma(a + b) - log_gamma(a) - log_gamma(b) + a * log(x) + b * log(y);
-  return exp(log_factor) / (a * fraction.value());
+  return exp(a * log(x) + b * log(y) - log_beta(a, b)) / (a * fraction.value());
 }
 
+/// Regularised incomplete beta function, from whichever side converges.
 double incomplete_beta(double a, double b, double x, double y) {
   if (x <= 0) return 0;
   if (y <= 0) return 1;
@@ -111,12 +119,15 @@ std::vector<double> rank_sum_counts(int n) {
   for (int rank = 1; rank <= n; ++rank) {
     const auto step = static_cast<std::size_t>(rank);
     counts.resize(counts.size() + step, 0);
-    for (std::size_t sum = counts.size(); sum-- > step;) counts[sum] += counts[sum - step];
+    for (std::size_t sum = counts.size(); sum-- > step;)
+      counts[sum] += counts[sum - step];
   }
   return counts;
 }
 
-double two_to_the(int n) { return static_cast<double>(std::uint64_t{1} << static_cast<unsigned>(n)); }
+double two_to_the(int n) {
+  return static_cast<double>(std::uint64_t{1} << static_cast<unsigned>(n));
+}
 
 }  // namespace
 
@@ -141,10 +152,9 @@ double student_t_upper_quantile(double upper_tail, double dof) {
   SWARMSMITH_ASSERT(upper_tail > 0 && upper_tail < 0.5 && dof >= 1, "a tail and a sample");
   const double z = -normal_quantile(upper_tail);
   // Where the expansion is exact to double precision it is the answer.
-  if (dof >= 2000 && z < 5) return expanded_t_quantile(z, dof);
+  if (dof >= 1000 && z < 5) return expanded_t_quantile(z, dof);
   // Newton on the logarithm of the tail in ln t: nearly a straight line, for thin and thick tails.
-  const double log_constant =
-      log_gamma((dof + 1) / 2) - log_gamma(dof / 2) - 0.5 * log(dof * kPi);
+  const double log_constant = -log_beta(dof / 2, 0.5) - 0.5 * log(dof);
   double t = dof < 3 ? 1 / (kPi * upper_tail) : std::fmax(expanded_t_quantile(z, dof), z);
   for (int i = 0; i < 100; ++i) {
     const double tail = 0.5 * student_t_two_sided_tail(t, dof);
@@ -157,7 +167,7 @@ double student_t_upper_quantile(double upper_tail, double dof) {
 }
 
 double StudentQuantiles::operator()(std::int64_t dof) {
-  constexpr std::int64_t kKept = 2000;
+  constexpr std::int64_t kKept = 1000;
   if (dof >= kKept) return student_t_upper_quantile(upper_tail_, static_cast<double>(dof));
   if (known_.empty()) known_.resize(kKept);
   double& quantile = known_[static_cast<std::size_t>(dof)];

@@ -14,8 +14,8 @@ double chi_square_upper_tail(double x, double dof);
 /// P(|T| >= t) for Student's t; `dof` > 0, t >= 0.
 double student_t_two_sided_tail(double t, double dof);
 
-/// The t > 0 with P(T > t) = upper_tail, for 0 < upper_tail < 1/2 and dof >= 1. Relative error about
-/// 1e-12.
+/// The t > 0 with P(T > t) = upper_tail, for 0 < upper_tail < 1/2 and dof >= 1. Relative error
+/// about 1e-12.
 double student_t_upper_quantile(double upper_tail, double dof);
 
 /// Quantiles of one fixed tail for many degrees of freedom; the small ones, which come again and

@@ -30,7 +30,8 @@ Decimal to_decimal(double value) {
   for (const char c : text.substr(0, exponent_at)) {
     if (c != '.') decimal.digits += c;
   }
-  while (decimal.digits.size() > 1 && decimal.digits.back() == '0') decimal.digits.pop_back();
+  while (decimal.digits.size() > 1 && decimal.digits.back() == '0')
+    decimal.digits.pop_back();
   decimal.point = std::atoi(std::string(text.substr(exponent_at + 1)).c_str()) + 1;
   return decimal;
 }
@@ -86,10 +87,14 @@ int compare_texts(std::string_view a, std::string_view b) {
 std::string to_text(const Scalar& value) {
   if (value.missing) return "NA";
   switch (value.type) {
-    case Scalar::Type::Text: return value.text;
-    case Scalar::Type::Logical: return value.number != 0 ? "TRUE" : "FALSE";
-    case Scalar::Type::Integer: return to_fixed_text(value.number);
-    case Scalar::Type::Real: break;
+    case Scalar::Type::Text:
+      return value.text;
+    case Scalar::Type::Logical:
+      return value.number != 0 ? "TRUE" : "FALSE";
+    case Scalar::Type::Integer:
+      return to_fixed_text(value.number);
+    case Scalar::Type::Real:
+      break;
   }
   if (value.number == 0) return "0";
   if (std::isinf(value.number)) return value.number < 0 ? "-Inf" : "Inf";
@@ -99,6 +104,8 @@ std::string to_text(const Scalar& value) {
   return plain.size() <= powers.size() ? plain : powers;
 }
 
-std::string to_fixed_text(double value) { return value == 0 ? "0" : fixed(value, to_decimal(value)); }
+std::string to_fixed_text(double value) {
+  return value == 0 ? "0" : fixed(value, to_decimal(value));
+}
 
 }  // namespace swarmsmith

@@ -8,7 +8,7 @@ namespace swarmsmith::cluster {
 namespace {
 
 constexpr std::uint64_t kShards = 8;
-constexpr std::uint64_t kSchedulesOfAShard = 300;
+constexpr std::uint64_t kSchedulesOfAShard = 1000;
 
 class Schedules : public ::testing::TestWithParam<std::uint64_t> {};
 

@@ -119,6 +119,7 @@ class SimulatedCluster {
   void append(std::vector<Row> rows);
   void commit();
   void check_leases();
+  void check_answer();
 
   // Workers.
   void start_worker(int index);

@@ -33,7 +33,8 @@ inline std::vector<RaceEvent> run_to_end(IteratedRace& race, const Cost& cost) {
       costs.push_back(cost(race.configuration(wanted.configuration), wanted));
     }
     race.tell(costs);
-    for (RaceEvent& event : race.take_events()) events.push_back(std::move(event));
+    for (RaceEvent& event : race.take_events())
+      events.push_back(std::move(event));
   }
   return events;
 }

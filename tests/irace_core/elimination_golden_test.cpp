@@ -30,7 +30,8 @@ struct Case {
     columns.resize(alive.size());
     std::iota(columns.begin(), columns.end(), std::size_t{0});
     table = RankTable(alive.size());
-    for (const auto& row : costs) table.add_row(entries(row));
+    for (const auto& row : costs)
+      table.add_row(entries(row));
   }
 
   std::vector<Entry> entries(const std::vector<double>& row) const {
@@ -43,7 +44,8 @@ struct Case {
 
   std::vector<double> column(std::size_t i) const {
     std::vector<double> values;
-    for (const auto& row : costs) values.push_back(row[alive[i]]);
+    for (const auto& row : costs)
+      values.push_back(row[alive[i]]);
     return values;
   }
 
@@ -70,7 +72,8 @@ Decision decide(const Case& given, double confidence) {
   } else {
     StudentQuantiles quantiles(alpha / 2);
     const TestResult result = friedman_test(given.table, given.columns, alpha, quantiles);
-    for (const std::size_t column : result.dropped) drops[column] = true;
+    for (const std::size_t column : result.dropped)
+      drops[column] = true;
     p_value = result.p_value;
   }
   std::vector<int> survivors;
@@ -111,7 +114,8 @@ TEST(EliminationGolden, RanksAndFindsTheBestAsIraceDoes) {
     SCOPED_TRACE("case " + json["id"].dump());
     const Case given(json);
     std::vector<double> sums;
-    for (const std::size_t column : given.columns) sums.push_back(given.table.rank_sum(column));
+    for (const std::size_t column : given.columns)
+      sums.push_back(given.table.rank_sum(column));
     EXPECT_EQ(sums, as_vector<double>(json["friedman_ranks"]));
     const auto best = std::min_element(sums.begin(), sums.end()) - sums.begin();
     EXPECT_EQ(best + 1, json["best_friedman"]);
@@ -126,7 +130,8 @@ TEST(EliminationGolden, ReportsTheAgreementThatIraceReports) {
     SCOPED_TRACE("case " + json["id"].dump());
     const Case given(json);
     QualityVariance quality(given.columns.size());
-    for (const auto& row : given.costs) quality.add_row(given.entries(row));
+    for (const auto& row : given.costs)
+      quality.add_row(given.entries(row));
     EXPECT_NEAR(kendall_w(given.table, given.columns).value(), json["kendall_w"], 1e-12);
     EXPECT_NEAR(spearman_rho(given.table, given.columns).value(), json["spearman_rho"], 1e-12);
     EXPECT_NEAR(quality.value(given.columns).value(), json["qvar"], 1e-12);

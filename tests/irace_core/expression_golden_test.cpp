@@ -15,11 +15,15 @@ using enum Operation;
 Expression list(std::vector<Expression> values) {
   return Expression::call(Combine, std::move(values));
 }
-Expression truth(bool value) { return Expression::logical(value); }
+Expression truth(bool value) {
+  return Expression::logical(value);
+}
 Expression power(Expression a, Expression b) {
   return call(Power, std::move(a), std::move(b));
 }
-Expression negative(double value) { return call(Negate, number(value)); }
+Expression negative(double value) {
+  return call(Negate, number(value));
+}
 
 /// The trees of the golden expressions, by their text.
 std::map<std::string, Expression> trees_of_logic() {
@@ -31,12 +35,12 @@ std::map<std::string, Expression> trees_of_logic() {
       {"z > 1", call(Greater, name("z"), number(1))},
       {"!is.na(z) & z > 1",
        call(And, call(Not, call(IsMissing, name("z"))), call(Greater, name("z"), number(1)))},
-      {"!(i == 5) | r < 1", call(Or, call(Not, call(Equal, name("i"), number(5))),
-                                 call(Less, name("r"), number(1)))},
-      {"! i == 5 & r < 1", call(And, call(Not, call(Equal, name("i"), number(5))),
-                                call(Less, name("r"), number(1)))},
-      {"i >= 5 & i <= 5", call(And, call(GreaterEqual, name("i"), number(5)),
-                               call(LessEqual, name("i"), number(5)))},
+      {"!(i == 5) | r < 1",
+       call(Or, call(Not, call(Equal, name("i"), number(5))), call(Less, name("r"), number(1)))},
+      {"! i == 5 & r < 1",
+       call(And, call(Not, call(Equal, name("i"), number(5))), call(Less, name("r"), number(1)))},
+      {"i >= 5 & i <= 5",
+       call(And, call(GreaterEqual, name("i"), number(5)), call(LessEqual, name("i"), number(5)))},
       {"(i > 3) & !(s == \"y\")",
        call(And, call(Greater, name("i"), number(3)), call(Not, equals("s", "y")))},
       {"s != \"x\"", call(NotEqual, name("s"), text("x"))},
@@ -71,9 +75,8 @@ std::map<std::string, Expression> trees_of_texts() {
       {"100000 == \"1e+05\"", call(Equal, number(100000), text("1e+05"))},
       {"a == TRUE", call(Equal, name("a"), truth(true))},
       {"\"apple\" < \"Banana\"", call(Less, text("apple"), text("Banana"))},
-      {"i %in% c(1, 5) & s %in% \"x\"",
-       call(And, call(In, name("i"), list({number(1), number(5)})),
-            call(In, name("s"), text("x")))},
+      {"i %in% c(1, 5) & s %in% \"x\"", call(And, call(In, name("i"), list({number(1), number(5)})),
+                                             call(In, name("s"), text("x")))},
   };
 }
 
@@ -82,8 +85,7 @@ std::map<std::string, Expression> trees_of_arithmetic() {
       {"i %% 2 == 1", call(Equal, call(Modulo, name("i"), number(2)), number(1))},
       {"i %/% 2 == 2", call(Equal, call(IntegerDivide, name("i"), number(2)), number(2))},
       {"-i^2 == -25", call(Equal, call(Negate, power(name("i"), number(2))), negative(25))},
-      {"2^3^2 == 512",
-       call(Equal, power(number(2), power(number(3), number(2))), number(512))},
+      {"2^3^2 == 512", call(Equal, power(number(2), power(number(3), number(2))), number(512))},
       {"-7 %% 3 == 2", call(Equal, call(Modulo, negative(7), number(3)), number(2))},
       {"-7 %/% 3 == -3", call(Equal, call(IntegerDivide, negative(7), number(3)), negative(3))},
       {"min(i, 10) == 5", call(Equal, call(Min, name("i"), number(10)), number(5))},
@@ -142,7 +144,8 @@ TEST(ExpressionGolden, ValuesAreThoseOfR) {
     nlohmann::json ours = to_json(values[0]);
     if (values.size() > 1) {
       ours = nlohmann::json::array();
-      for (std::size_t i = 0; i < values.size(); ++i) ours.push_back(to_json(values[i]));
+      for (std::size_t i = 0; i < values.size(); ++i)
+        ours.push_back(to_json(values[i]));
     }
     EXPECT_EQ(ours, given["value"]);
     EXPECT_EQ(found->second.is_true(environment.values), given["active"]);

@@ -43,7 +43,8 @@ inline std::vector<std::vector<double>> as_matrix(const nlohmann::json& json, do
       values.push_back(number_or(row, missing));
       continue;
     }
-    for (const auto& value : row) values.push_back(number_or(value, missing));
+    for (const auto& value : row)
+      values.push_back(number_or(value, missing));
   }
   return rows;
 }

@@ -19,9 +19,12 @@ using testing::number_or;
 /// The pairs in the order of irace without shuffling: new, past, unused.
 std::vector<std::int64_t> order_of_pairs(std::int64_t next, std::int64_t fresh, std::int64_t all) {
   std::vector<std::int64_t> order;
-  for (std::int64_t pair = next; pair < next + fresh; ++pair) order.push_back(pair);
-  for (std::int64_t pair = 1; pair < next; ++pair) order.push_back(pair);
-  for (std::int64_t pair = next + fresh; pair <= all; ++pair) order.push_back(pair);
+  for (std::int64_t pair = next; pair < next + fresh; ++pair)
+    order.push_back(pair);
+  for (std::int64_t pair = 1; pair < next; ++pair)
+    order.push_back(pair);
+  for (std::int64_t pair = next + fresh; pair <= all; ++pair)
+    order.push_back(pair);
   return order;
 }
 
@@ -46,7 +49,8 @@ Race make_race(const nlohmann::json& trace, std::int64_t pairs) {
   if (next > 1) {
     const auto past = as_matrix(trace["elite_data"], kNotEvaluated);
     for (std::size_t elite = 0; elite < trace["n_elites"]; ++elite) {
-      for (const auto& row : past) contestants[elite].past.push_back(row[elite]);
+      for (const auto& row : past)
+        contestants[elite].past.push_back(row[elite]);
     }
   }
   return Race(std::move(settings), std::move(contestants));
@@ -57,8 +61,8 @@ void run(Race& race, const std::vector<std::vector<double>>& costs) {
   while (!race.finished()) {
     std::vector<double> answers;
     for (const RaceRun& wanted : race.wanted()) {
-      answers.push_back(costs[static_cast<std::size_t>(race.pair_of(wanted.task) - 1)]
-                             [wanted.column]);
+      answers.push_back(
+          costs[static_cast<std::size_t>(race.pair_of(wanted.task) - 1)][wanted.column]);
     }
     race.tell(answers);
   }
@@ -116,8 +120,8 @@ void expect_same_end(const Race& race, const nlohmann::json& trace) {
     if (race.is_rejected(column)) rejected.push_back(race.contestant(column).id);
   }
   const bool any = trace.contains("rejected_ids");
-  EXPECT_EQ(rejected, any ? as_vector<std::int64_t>(trace["rejected_ids"])
-                          : std::vector<std::int64_t>{});
+  EXPECT_EQ(rejected,
+            any ? as_vector<std::int64_t>(trace["rejected_ids"]) : std::vector<std::int64_t>{});
 }
 
 TEST(RaceGolden, TakesTheStepsThatIraceTakes) {

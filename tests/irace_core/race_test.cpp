@@ -17,7 +17,8 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 /// A first race of `ids.size()` new configurations on 40 pairs.
 RaceSettings first_race() {
   RaceSettings settings{.min_survival = 1, .max_experiments = 1000, .pairs = {}};
-  for (std::int64_t pair = 1; pair <= 40; ++pair) settings.pairs.push_back(pair);
+  for (std::int64_t pair = 1; pair <= 40; ++pair)
+    settings.pairs.push_back(pair);
   return settings;
 }
 
@@ -32,7 +33,8 @@ RaceSettings later_race() {
 
 std::vector<Contestant> newcomers(std::int64_t count) {
   std::vector<Contestant> contestants;
-  for (std::int64_t id = 1; id <= count; ++id) contestants.push_back({id, {}});
+  for (std::int64_t id = 1; id <= count; ++id)
+    contestants.push_back({id, {}});
   return contestants;
 }
 
@@ -68,9 +70,8 @@ TEST(Race, DropsTheWorseAtTheFirstTest) {
   EXPECT_EQ(steps[4].marker, '-');
   EXPECT_NEAR(steps[4].statistic.value(), 10, 1e-12);
   EXPECT_NEAR(steps[4].p_value.value(), std::exp(-5.0), 1e-12);
-  EXPECT_THAT(steps[4].eliminations,
-              ElementsAre(Elimination{2, 10, EliminationReason::Test},
-                          Elimination{3, 15, EliminationReason::Test}));
+  EXPECT_THAT(steps[4].eliminations, ElementsAre(Elimination{2, 10, EliminationReason::Test},
+                                                 Elimination{3, 15, EliminationReason::Test}));
   EXPECT_EQ(steps[4].best, 1);
   EXPECT_TRUE(race.finished());  // one is alive, one survives
   EXPECT_EQ(race.used(), 15);
@@ -92,7 +93,8 @@ TEST(Race, KeepsElitesUntilTheyAreSeenOnNewInstances) {
     EXPECT_NE(elimination.configuration, 1);
   }
   EXPECT_EQ(race.wanted().front().task, 3U);
-  for (const RaceRun& run : race.wanted()) EXPECT_NE(run.column, 0U) << "knows that pair";
+  for (const RaceRun& run : race.wanted())
+    EXPECT_NE(run.column, 0U) << "knows that pair";
 }
 
 TEST(Race, MarksATestThatWouldOnlyHaveDroppedProtectedOnes) {
@@ -124,10 +126,12 @@ TEST(Race, PassesOverPairsThatEverybodyAliveKnows) {
   std::vector<RaceStep> steps = race.take_steps();
   while (!race.finished()) {
     answer(race, by_id);
-    for (RaceStep& step : race.take_steps()) steps.push_back(std::move(step));
+    for (RaceStep& step : race.take_steps())
+      steps.push_back(std::move(step));
   }
   std::string markers;
-  for (const RaceStep& step : steps) markers += step.marker;
+  for (const RaceStep& step : steps)
+    markers += step.marker;
   EXPECT_NE(markers.find('.'), std::string::npos) << markers;
   EXPECT_EQ(steps.back().alive_after, 2);
 }
@@ -139,12 +143,66 @@ TEST(Race, RejectsAtOnceAndVoidsLaterRunsOfTheBatch) {
     return id == 2 && pair == 2 ? -kRejects : by_id(id, pair);
   });
   const std::vector<RaceStep> steps = race.take_steps();
-  EXPECT_THAT(steps[1].eliminations,
-              ElementsAre(Elimination{2, 0, EliminationReason::Rejection}));
+  EXPECT_THAT(steps[1].eliminations, ElementsAre(Elimination{2, 0, EliminationReason::Rejection}));
   EXPECT_THAT(steps[1].evaluated, ElementsAre(1, 2, 3, 4));
   EXPECT_THAT(steps[2].evaluated, ElementsAre(1, 3, 4));
   EXPECT_EQ(race.used(), 17);  // 4 + 4 + 3 + 3 + 3
   EXPECT_TRUE(race.is_rejected(1));
+}
+
+TEST(Race, IgnoresWhatVoidRunsCost) {
+  std::vector<std::uint64_t> digests[2];
+  for (const int version : {0, 1}) {
+    Race race(first_race(), newcomers(5));
+    while (!race.finished()) {
+      answer(race, [&](std::int64_t id, std::int64_t pair) {
+        if (id == 4 && pair >= 2) return pair == 2 ? kRejects : version * 1e6 - 1000.0;
+        return static_cast<double>((3 * id + 7 * pair) % 11);
+      });
+    }
+    for (const RaceStep& step : race.take_steps())
+      digests[version].push_back(step.digest);
+  }
+  EXPECT_EQ(digests[0], digests[1]);
+}
+
+TEST(Race, TestsOnlyEverySecondPairWhenAskedTo) {
+  RaceSettings settings = first_race();
+  settings.first_test = 4;
+  settings.pairs_between_tests = 2;
+  settings.elitist_limit = 3;
+  Race race(settings, newcomers(4));
+  while (!race.finished()) {
+    answer(race,
+           [](std::int64_t id, std::int64_t pair) { return static_cast<double>((id + pair) % 4); });
+  }
+  std::string markers;
+  for (const RaceStep& step : race.take_steps())
+    markers += step.marker;
+  EXPECT_EQ(markers, "xxx=x=x=x=");
+}
+
+TEST(Race, DecidesBetweenTwoByTheirSigns) {
+  // Two configurations: one that is never worse wins at the first test.
+  Race race(first_race(), newcomers(2));
+  answer(race, by_id);
+  const std::vector<RaceStep> steps = race.take_steps();
+  EXPECT_EQ(steps.back().marker, '-');
+  EXPECT_EQ(steps.back().p_value, 0);
+  EXPECT_EQ(race.contestant(race.survivors().front().column).id, 1);
+}
+
+TEST(Race, StopsWhenThePairsRunOut) {
+  RaceSettings settings = first_race();
+  settings.pairs.resize(6);
+  settings.elitist_limit = 0;
+  Race race(settings, newcomers(4));
+  while (!race.finished()) {
+    answer(race,
+           [](std::int64_t id, std::int64_t pair) { return static_cast<double>((id + pair) % 4); });
+  }
+  EXPECT_EQ(race.stop_reason(), "no pairs left");
+  EXPECT_EQ(race.used(), 24);
 }
 
 TEST(Race, StopsWhereRejectionsLeaveTooFew) {
@@ -172,7 +230,8 @@ TEST(Race, EndsAfterTestsThatDropNobody) {
   const auto alternating = [](std::int64_t id, std::int64_t pair) {
     return static_cast<double>((id + pair) % 4);  // a Latin square: nobody is better
   };
-  while (!race.finished()) answer(race, alternating);
+  while (!race.finished())
+    answer(race, alternating);
   EXPECT_EQ(race.take_steps().size(), 7U);  // first test on 5, then two in vain on 6 and 7
   EXPECT_EQ(race.used(), 28);
 }
@@ -183,9 +242,8 @@ TEST(Race, EndsBeforeATestThatItCannotPay) {
   settings.max_experiments = 25;
   Race race(settings, newcomers(4));
   while (!race.finished()) {
-    answer(race, [](std::int64_t id, std::int64_t pair) {
-      return static_cast<double>((id + pair) % 4);
-    });
+    answer(race,
+           [](std::int64_t id, std::int64_t pair) { return static_cast<double>((id + pair) % 4); });
   }
   EXPECT_EQ(race.used(), 24);
 }
@@ -194,13 +252,16 @@ TEST(Race, ReportsResultsOfThisRaceOnly) {
   RaceSettings settings = later_race();
   settings.elitist_limit = 1;
   Race race(settings, {{1, {1, kUnknown, 1}}, {2, {}}, {3, {}}});
-  while (!race.finished()) answer(race, by_id);
+  while (!race.finished())
+    answer(race, by_id);
   std::vector<std::int64_t> pairs;
-  for (const Race::Result& result : race.results(0)) pairs.push_back(result.pair);
+  for (const Race::Result& result : race.results(0))
+    pairs.push_back(result.pair);
   ASSERT_GE(pairs.size(), 2U);
   EXPECT_EQ(pairs[0], 4);
   EXPECT_EQ(pairs[1], 2);
-  for (const std::int64_t pair : pairs) EXPECT_TRUE(pair != 1 && pair != 3) << pair;
+  for (const std::int64_t pair : pairs)
+    EXPECT_TRUE(pair != 1 && pair != 3) << pair;
 }
 
 }  // namespace

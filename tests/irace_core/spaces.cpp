@@ -16,8 +16,8 @@ void add_transition(std::vector<Parameter>& parameters, const std::string& i, in
   const Expression last_target =
       call(Operation::Max, number(0), call(Operation::Subtract, name("NumStates"), number(2)));
   parameters.push_back({"N" + ij, "--n" + ij + " ", Integer{0.0, last_target}, exists});
-  parameters.push_back({condition, "--c" + ij + " ",
-                        Categorical{{"0", "1", "2", "3", "4", "5", "6"}}, exists});
+  parameters.push_back(
+      {condition, "--c" + ij + " ", Categorical{{"0", "1", "2", "3", "4", "5", "6"}}, exists});
   parameters.push_back(active_when(
       make_real("P" + ij, 0, 1),
       Expression::in(name(condition), {text("0"), text("1"), text("2"), text("5"), text("6")})));
@@ -42,7 +42,8 @@ ParameterSpace automode_space() {
     parameters.push_back(active_when(make_real("REP" + i, 1, 5), behaves("3")));
     parameters.push_back(active_when(make_integer("NumConnections" + i, 1, 4),
                                      more_than("NumStates", state == 0 ? 1 : state)));
-    for (int j = 0; j < 4; ++j) add_transition(parameters, i, j);
+    for (int j = 0; j < 4; ++j)
+      add_transition(parameters, i, j);
   }
   return space_of(std::move(parameters), {}, 2);
 }

@@ -9,14 +9,23 @@
 namespace swarmsmith::testing {
 
 /// Shorthand for building trees in tests.
-inline Expression name(std::string parameter) { return Expression::parameter(std::move(parameter)); }
-inline Expression number(double value) { return Expression::number(value); }
-inline Expression text(std::string value) { return Expression::text(std::move(value)); }
+inline Expression name(std::string parameter) {
+  return Expression::parameter(std::move(parameter));
+}
+inline Expression number(double value) {
+  return Expression::number(value);
+}
+inline Expression text(std::string value) {
+  return Expression::text(std::move(value));
+}
 inline Expression call(Operation operation, Expression a) {
   return Expression::call(operation, {std::move(a)});
 }
 inline Expression call(Operation operation, Expression a, Expression b) {
   return Expression::call(operation, {std::move(a), std::move(b)});
+}
+inline Expression negate_of(double value) {
+  return call(Operation::Negate, number(value));
 }
 inline Expression call(Operation operation, Expression a, Expression b, Expression c) {
   return Expression::call(operation, {std::move(a), std::move(b), std::move(c)});

@@ -1,0 +1,123 @@
+#include "proto/wire.h"
+
+#include <gtest/gtest.h>
+#include <limits>
+
+#include "base/rng.h"
+
+namespace swarmsmith {
+namespace {
+
+using google::protobuf::Arena;
+
+pb::ToWorker some_tasks(int count) {
+  pb::ToWorker message;
+  message.set_sequence(7);
+  for (int i = 0; i < count; ++i) {
+    pb::Task& task = *message.mutable_tasks()->add_tasks();
+    task.mutable_key()->set_candidate(i + 1);
+    task.mutable_key()->set_pair(3);
+    task.set_machine("--nstates 1 --s0 1");
+  }
+  return message;
+}
+
+pb::ToCoordinator one_result(double score) {
+  pb::ToCoordinator message;
+  pb::Result& result = *message.mutable_results()->add_results();
+  result.mutable_key()->set_candidate(1);
+  result.set_score(score);
+  return message;
+}
+
+std::string fault_of(const std::string& frame) {
+  Arena arena;
+  const auto message = decode_to_coordinator(frame, arena);
+  return message ? "" : message.error().where;
+}
+
+TEST(Wire, GivesBackWhatWasSent) {
+  Arena arena;
+  const pb::ToWorker sent = some_tasks(64);
+  const auto received = decode_to_worker(encode(sent), arena);
+  ASSERT_TRUE(received);
+  EXPECT_EQ((*received)->SerializeAsString(), sent.SerializeAsString());
+}
+
+TEST(Wire, NamesThePartThatIsWrong) {
+  const std::string fine = encode(one_result(1.5));
+  EXPECT_EQ(fault_of(fine), "");
+  EXPECT_EQ(fault_of(""), "length");
+  EXPECT_EQ(fault_of(fine.substr(0, 7)), "length");
+  EXPECT_EQ(fault_of(std::string(kMaxFrameBytes + 1, 'x')), "length");
+  EXPECT_EQ(fault_of("GET / HTTP/1.1"), "magic");
+  EXPECT_EQ(fault_of(fine.substr(0, fine.size() - 1)), "protobuf");
+}
+
+TEST(Wire, TellsAnotherMajorVersionFromRubbish) {
+  std::string frame = encode(one_result(1));
+  frame[4] = static_cast<char>(kProtocolMajor + 1);
+  Arena arena;
+  const auto message = decode_to_coordinator(frame, arena);
+  ASSERT_FALSE(message);
+  EXPECT_EQ(message.error().kind, ErrorKind::Conflict);
+  EXPECT_NE(message.error().message.find("version 2"), std::string::npos);
+}
+
+TEST(Wire, TakesAnotherMinorVersion) {
+  std::string frame = encode(one_result(1));
+  frame[6] = 99;
+  EXPECT_EQ(fault_of(frame), "");
+}
+
+TEST(Wire, TakesABodyThatItDoesNotKnow) {
+  std::string frame = encode(pb::ToCoordinator());
+  frame += std::string("\xfa\x07\x01x", 4);  // field 127, one byte
+  Arena arena;
+  const auto message = decode_to_coordinator(frame, arena);
+  ASSERT_TRUE(message);
+  EXPECT_EQ((*message)->body_case(), pb::ToCoordinator::BODY_NOT_SET);
+}
+
+TEST(Wire, RefusesScoresThatAreNoNumbersUnlessTheyFailed) {
+  EXPECT_EQ(fault_of(encode(one_result(std::numeric_limits<double>::quiet_NaN()))), "limits");
+  EXPECT_EQ(fault_of(encode(one_result(std::numeric_limits<double>::infinity()))), "limits");
+  pb::ToCoordinator failed = one_result(std::numeric_limits<double>::quiet_NaN());
+  failed.mutable_results()->mutable_results(0)->set_failure("no score");
+  EXPECT_EQ(fault_of(encode(failed)), "");
+}
+
+TEST(Wire, RefusesMoreItemsThanAMessageMayHave) {
+  Arena arena;
+  EXPECT_TRUE(decode_to_worker(encode(some_tasks(kMaxItemsPerMessage)), arena));
+  const auto message = decode_to_worker(encode(some_tasks(kMaxItemsPerMessage + 1)), arena);
+  ASSERT_FALSE(message);
+  EXPECT_EQ(message.error().where, "limits");
+}
+
+TEST(Wire, RefusesAHelloWithoutAName) {
+  pb::ToCoordinator message;
+  message.mutable_hello()->set_slots(1);
+  EXPECT_EQ(fault_of(encode(message)), "limits");
+  message.mutable_hello()->set_worker_id(std::string(kWorkerIdBytes, 'a'));
+  EXPECT_EQ(fault_of(encode(message)), "");
+  message.mutable_hello()->set_slots(kMaxSlots + 1);
+  EXPECT_EQ(fault_of(encode(message)), "limits");
+}
+
+TEST(Wire, SurvivesEveryDamageToAFrame) {
+  Rng rng(1);
+  const std::string fine = encode(some_tasks(3));
+  for (int i = 0; i < 20'000; ++i) {
+    std::string frame = fine.substr(0, rng.below(fine.size() + 1));
+    for (std::uint64_t hits = rng.below(4); hits > 0 && !frame.empty(); --hits) {
+      frame[rng.below(frame.size())] = static_cast<char>(rng.below(256));
+    }
+    Arena arena;
+    (void)decode_to_coordinator(frame, arena);
+    (void)decode_to_worker(frame, arena);
+  }
+}
+
+}  // namespace
+}  // namespace swarmsmith

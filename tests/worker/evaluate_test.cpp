@@ -1,0 +1,78 @@
+#include "worker/evaluate.h"
+
+#include <gtest/gtest.h>
+
+#include "sim/control/machine_text.h"
+#include "sim/engine/self_test.h"
+#include "sim/engine/simulate.h"
+#include "sim/messages/scenario_messages.h"
+
+namespace swarmsmith {
+namespace {
+
+const char* const kMachine = "--nstates 1 --s0 0 --rwm0 20";
+
+WorkerScenario short_aggregation() {
+  WorkerScenario scenario{.campaign_digest = "d",
+                          .engine_version = kEngineVersion,
+                          .missions = {*built_in_mission("aggregation")},
+                          .flavours = {"watermelon"},
+                          .profile = *built_in_profile("rvr")};
+  scenario.missions[0].cycles = 50;
+  return scenario;
+}
+
+WorkItem item(std::int64_t seed, const std::string& machine = kMachine) {
+  WorkItem it;
+  it.key = 8;
+  it.seed = seed;
+  it.machine = machine;
+  return it;
+}
+
+TEST(Evaluate, GivesWhatTheSimulatorGives) {
+  const WorkerScenario scenario = short_aggregation();
+  const Expected<Evaluator> evaluator = make_simulation(to_bytes(scenario));
+  ASSERT_TRUE(evaluator);
+  const Machine machine = *parse_machine(kMachine, watermelon());
+  for (std::int64_t seed = 1; seed <= 5; ++seed) {
+    const Instance instance = *instance_of(scenario.missions[0], seed);
+    const SimulationResult wanted = simulate({.machine = machine,
+                                              .flavour = watermelon(),
+                                              .profile = scenario.profile,
+                                              .mission = scenario.missions[0],
+                                              .instance = instance,
+                                              .seed = seed});
+    const Expected<Measured> measured = (*evaluator)(item(seed));
+    ASSERT_TRUE(measured);
+    EXPECT_EQ(measured->score, wanted.score);
+    EXPECT_EQ(measured->state_digest, wanted.state_digest);
+  }
+}
+
+TEST(Evaluate, FailsWithASentence) {
+  const Expected<Evaluator> evaluator = make_simulation(to_bytes(short_aggregation()));
+  ASSERT_TRUE(evaluator);
+  EXPECT_FALSE((*evaluator)(item(1, "--nstates nonsense")));
+  WorkItem strange = item(1);
+  strange.mission = 5;
+  EXPECT_FALSE((*evaluator)(strange));
+}
+
+TEST(Evaluate, RefusesScenariosThatItCannotRun) {
+  EXPECT_FALSE(make_simulation("rubbish"));
+  WorkerScenario scenario = short_aggregation();
+  scenario.flavours = {"vinegar"};
+  EXPECT_FALSE(make_simulation(to_bytes(scenario)));
+  scenario = short_aggregation();
+  scenario.engine_version = kEngineVersion + 1;
+  EXPECT_FALSE(make_simulation(to_bytes(scenario)));
+}
+
+TEST(Evaluate, TheSelfTestRuns) {
+  EXPECT_EQ(self_test_digest().size(), 32U);
+  EXPECT_EQ(self_test_digest(), self_test_digest());
+}
+
+}  // namespace
+}  // namespace swarmsmith

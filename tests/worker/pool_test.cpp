@@ -1,0 +1,103 @@
+#include "worker/pool.h"
+
+#include <atomic>
+#include <gtest/gtest.h>
+#include <limits>
+#include <map>
+#include <semaphore>
+#include <set>
+#include <stdexcept>
+
+namespace swarmsmith {
+namespace {
+
+/// Does what the item's machine says.
+Expected<Evaluator> make_obedient(const std::string& scenario) {
+  if (scenario == "bad") return bad_input("a bad scenario");
+  return Evaluator([](const WorkItem& item) -> Expected<Measured> {
+    if (item.machine == "throw") throw std::runtime_error("thrown");
+    if (item.machine == "error") return bad_input("an error");
+    if (item.machine == "nan") return Measured{std::numeric_limits<double>::quiet_NaN(), 0};
+    return Measured{static_cast<double>(item.seed) * 2, 9};
+  });
+}
+
+std::vector<WorkItem> items(int count, const std::string& machine = "") {
+  std::vector<WorkItem> made;
+  for (int i = 1; i <= count; ++i) {
+    WorkItem item;
+    item.key = static_cast<PackedKey>(i);
+    item.seed = i;
+    item.machine = machine;
+    made.push_back(item);
+  }
+  return made;
+}
+
+class Pools : public ::testing::Test {
+ protected:
+  std::map<PackedKey, Evaluated> wait_for(Pool& pool, std::size_t count) {
+    std::map<PackedKey, Evaluated> results;
+    while (results.size() < count) {
+      if (!woken.try_acquire_for(std::chrono::milliseconds(2)) && ++tries > 10'000) break;
+      for (PoolEvent& event : pool.take_events()) {
+        if (auto* result = std::get_if<Evaluated>(&event)) results[result->key] = *result;
+      }
+    }
+    return results;
+  }
+
+  std::counting_semaphore<> woken{0};
+  int tries = 0;
+};
+
+TEST_F(Pools, EvaluateEveryItem) {
+  Pool pool(3, make_obedient, [this] { woken.release(); });
+  ASSERT_TRUE(pool.use("fine"));
+  pool.run(items(500));
+  const auto results = wait_for(pool, 500);
+  ASSERT_EQ(results.size(), 500U);
+  EXPECT_EQ(results.at(250).score, 500);
+  EXPECT_EQ(results.at(250).failure, "");
+}
+
+TEST_F(Pools, TurnTroubleIntoFailures) {
+  Pool pool(1, make_obedient, [this] { woken.release(); });
+  ASSERT_TRUE(pool.use("fine"));
+  for (const auto& [machine, text] : std::map<std::string, std::string>{
+           {"throw", "thrown"}, {"error", "an error"}, {"nan", "the score is not finite"}}) {
+    pool.run(items(1, machine));
+    EXPECT_EQ(wait_for(pool, 1).at(1).failure, text);
+  }
+}
+
+TEST_F(Pools, GiveBackWhatIsNotStarted) {
+  std::binary_semaphore started{0};
+  std::binary_semaphore go{0};
+  Pool pool(
+      1,
+      [&](const std::string&) -> Expected<Evaluator> {
+        return Evaluator([&](const WorkItem&) -> Expected<Measured> {
+          started.release();
+          go.acquire();
+          return Measured{1, 1};
+        });
+      },
+      [this] { woken.release(); });
+  ASSERT_TRUE(pool.use("fine"));
+  pool.run(items(5));
+  started.acquire();
+  EXPECT_EQ(pool.take_back(), (std::vector<PackedKey>{2, 3, 4, 5}));
+  go.release();
+  EXPECT_EQ(wait_for(pool, 1).size(), 1U);
+}
+
+TEST_F(Pools, SayWhyAScenarioCannotBeUsed) {
+  Pool pool(1, make_obedient, [] {});
+  const Expected<void> used = pool.use("bad");
+  ASSERT_FALSE(used);
+  EXPECT_EQ(used.error().message, "a bad scenario");
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,295 @@
+#include "worker/protocol.h"
+
+#include <gtest/gtest.h>
+
+namespace swarmsmith {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// A worker of one slot, and a coordinator played by hand.
+class Protocol : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    protocol.start(now);
+    take();
+  }
+
+  /// Runs the actions so far; messages are kept.
+  void take() {
+    said.clear();
+    for (WorkerAction& action : protocol.take_actions()) {
+      if (auto* send = std::get_if<SendToCoordinator>(&action)) {
+        google::protobuf::Arena arena;
+        const auto message = decode_to_coordinator(send->frame, arena);
+        ASSERT_TRUE(message);
+        said.push_back(**message);
+        incarnation = (*message)->incarnation();
+      }
+      if (auto* run = std::get_if<RunItems>(&action)) {
+        for (WorkItem& item : run->items) given.push_back(item.key);
+      }
+      if (std::holds_alternative<OpenConnection>(action)) ++connections;
+      if (std::holds_alternative<TakeBack>(action)) asked_back = true;
+      if (auto* leave = std::get_if<Leave>(&action)) left = *leave;
+    }
+  }
+
+  void hear(pb::ToWorker message) {
+    if (message.incarnation() == 0) message.set_incarnation(incarnation);
+    protocol.on_frame(encode(message), now);
+    take();
+  }
+
+  void pass(Duration time) {
+    now += time;
+    protocol.on_tick(now);
+    take();
+  }
+
+  void be_welcome() {
+    pb::ToWorker welcome;
+    welcome.mutable_welcome()->set_scenario(digest_of_scenario("scenario"));
+    welcome.mutable_welcome()->set_max_credit(4096);
+    hear(welcome);
+    pb::ToWorker scenario;
+    scenario.mutable_scenario()->set_scenario("scenario");
+    hear(scenario);
+  }
+
+  void get_tasks(int first, int count, int attempt = 1) {
+    pb::ToWorker message;
+    message.mutable_tasks()->set_scenario(digest_of_scenario("scenario"));
+    for (int i = first; i < first + count; ++i) {
+      pb::Task& task = *message.mutable_tasks()->add_tasks();
+      task.mutable_key()->set_candidate(i);
+      task.set_attempt(attempt);
+    }
+    hear(message);
+  }
+
+  static PackedKey key(int i) { return pack(i, 0, 0); }
+
+  void finish(int i, const std::string& failure = "") {
+    protocol.on_evaluated({.key = key(i), .score = 1.5, .wall_us = 300, .failure = failure}, now);
+    take();
+  }
+
+  void acknowledge(int i) {
+    pb::ToWorker message;
+    unpack(key(i), *message.mutable_acknowledged()->add_keys());
+    hear(message);
+  }
+
+  int results_said() const {
+    int count = 0;
+    for (const auto& message : said) count += message.results().results_size();
+    return count;
+  }
+  bool said_body(pb::ToCoordinator::BodyCase body) const {
+    for (const auto& message : said) {
+      if (message.body_case() == body) return true;
+    }
+    return false;
+  }
+
+  TimePoint now{seconds(100)};
+  WorkerProtocol protocol{{.id = std::string(kWorkerIdBytes, 'w')}, {}, Rng(1)};
+  std::vector<pb::ToCoordinator> said;
+  std::vector<PackedKey> given;
+  std::uint64_t incarnation = 0;
+  int connections = 0;
+  bool asked_back = false;
+  std::optional<Leave> left;
+};
+
+TEST_F(Protocol, SaysHelloThenAsksForTheScenarioThenForWork) {
+  EXPECT_EQ(connections, 1);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].body_case(), pb::ToCoordinator::kHello);
+  be_welcome();
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].credit().tasks(), 2U);
+}
+
+TEST_F(Protocol, AsksForMoreWhenEvaluationsAreShort) {
+  be_welcome();
+  get_tasks(1, 2);
+  finish(1);
+  pass(seconds(1));
+  ASSERT_TRUE(said_body(pb::ToCoordinator::kHeartbeat));
+  // 2 a slot, and 20 ms of 0.3 ms each.
+  for (const auto& message : said) {
+    if (message.has_heartbeat()) {
+      EXPECT_EQ(message.heartbeat().credit(), 68U);
+    }
+  }
+}
+
+TEST_F(Protocol, GathersResultsWhileThereIsWork) {
+  be_welcome();
+  get_tasks(1, 10);
+  finish(1);
+  EXPECT_EQ(results_said(), 0);
+  pass(milliseconds(2));
+  EXPECT_EQ(results_said(), 1);
+  for (int i = 2; i <= 8; ++i) finish(i);
+  EXPECT_EQ(results_said(), 0);
+  finish(9);  // one left: the slot would run dry
+  EXPECT_EQ(results_said(), 8);
+}
+
+TEST_F(Protocol, SendsAgainWhatIsNotAcknowledged) {
+  be_welcome();
+  get_tasks(1, 1);
+  finish(1);
+  EXPECT_EQ(results_said(), 1);
+  for (int i = 0; i < 9; ++i) {
+    pb::ToWorker beat;
+    beat.mutable_heartbeat();
+    hear(beat);
+    pass(seconds(1));
+    EXPECT_EQ(results_said(), 0);
+  }
+  pass(seconds(1));
+  EXPECT_EQ(results_said(), 1);
+  acknowledge(1);
+  EXPECT_EQ(protocol.unacknowledged(), 0U);
+}
+
+TEST_F(Protocol, ComesBackWithWhatItHolds) {
+  be_welcome();
+  get_tasks(1, 3);
+  finish(1);
+  protocol.on_connection_lost(now);
+  pass(seconds(1));
+  EXPECT_EQ(connections, 2);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].incarnation(), 2U);
+  EXPECT_EQ(said[0].hello().holds_size(), 2);
+  pb::ToWorker welcome;
+  welcome.mutable_welcome()->set_scenario(digest_of_scenario("scenario"));
+  welcome.mutable_welcome()->set_max_credit(4096);
+  hear(welcome);
+  EXPECT_EQ(results_said(), 1);
+  EXPECT_TRUE(said_body(pb::ToCoordinator::kCredit));
+}
+
+TEST_F(Protocol, DropsEverythingWhenAnotherCampaignRuns) {
+  be_welcome();
+  get_tasks(1, 3);
+  finish(1);
+  protocol.on_connection_lost(now);
+  pass(seconds(1));
+  pb::ToWorker welcome;
+  welcome.mutable_welcome()->set_scenario(1);
+  hear(welcome);
+  EXPECT_EQ(protocol.held(), 0U);
+  EXPECT_EQ(protocol.unacknowledged(), 0U);
+  EXPECT_TRUE(said_body(pb::ToCoordinator::kWantScenario));
+}
+
+TEST_F(Protocol, NoticesASilentCoordinator) {
+  be_welcome();
+  for (int i = 0; i < 6; ++i) pass(seconds(1));
+  EXPECT_FALSE(protocol.active());
+  for (int i = 0; i < 3; ++i) pass(seconds(1));
+  EXPECT_GE(connections, 2);
+}
+
+TEST_F(Protocol, GivesUpAfterTenMinutes) {
+  for (int i = 0; i < 700 && !left; ++i) pass(seconds(1));
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->code, ExitCode::Unreachable);
+}
+
+TEST_F(Protocol, LeavesWithItsOwnCodeWhenItIsRefused) {
+  pb::ToWorker reject;
+  reject.mutable_reject()->set_sentence("another build");
+  hear(reject);
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->code, ExitCode::Refused);
+  EXPECT_EQ(left->reason, "another build");
+}
+
+TEST_F(Protocol, LeavesWhenTheCoordinatorSpeaksAnotherVersion) {
+  std::string frame = encode(pb::ToWorker());
+  frame[4] = 9;
+  protocol.on_frame(frame, now);
+  take();
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->code, ExitCode::Refused);
+}
+
+TEST_F(Protocol, DrainsByGivingBackAndWaitingForTheDisk) {
+  be_welcome();
+  get_tasks(1, 3);
+  protocol.on_drain(now);
+  take();
+  EXPECT_TRUE(asked_back);
+  const std::vector<PackedKey> waiting{key(2), key(3)};
+  protocol.on_taken_back(waiting, now);
+  take();
+  EXPECT_TRUE(said_body(pb::ToCoordinator::kReturned));
+  finish(1);
+  EXPECT_EQ(results_said(), 1);
+  EXPECT_FALSE(left);
+  acknowledge(1);
+  pass(milliseconds(1));
+  EXPECT_TRUE(said_body(pb::ToCoordinator::kGoodbye));
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->code, ExitCode::Done);
+}
+
+TEST_F(Protocol, DrainsNoLongerThanTheGraceTime) {
+  be_welcome();
+  get_tasks(1, 1);
+  protocol.on_drain(now);
+  pass(seconds(1));
+  EXPECT_FALSE(left);
+  pass(seconds(1));
+  pass(seconds(1));
+  pass(seconds(2));
+  EXPECT_TRUE(left);
+}
+
+TEST_F(Protocol, RunsATaskOnceHoweverOftenItComes) {
+  be_welcome();
+  get_tasks(1, 2);
+  get_tasks(1, 2);
+  EXPECT_EQ(given.size(), 2U);
+  finish(1);
+  get_tasks(1, 1);
+  EXPECT_EQ(given.size(), 2U);
+}
+
+TEST_F(Protocol, TriesAgainWhatFailedBefore) {
+  be_welcome();
+  get_tasks(1, 1, 1);
+  finish(1, "no luck");
+  get_tasks(1, 1, 2);
+  EXPECT_EQ(given.size(), 2U);
+}
+
+TEST_F(Protocol, SaysHelloAgainWhenItIsNotKnown) {
+  be_welcome();
+  pb::ToWorker who;
+  who.mutable_who_are_you();
+  hear(who);
+  ASSERT_EQ(said.size(), 1U);
+  EXPECT_EQ(said[0].body_case(), pb::ToCoordinator::kHello);
+  EXPECT_EQ(said[0].incarnation(), 2U);
+  EXPECT_EQ(connections, 1);
+}
+
+TEST_F(Protocol, IgnoresRubbish) {
+  be_welcome();
+  protocol.on_frame("rubbish", now);
+  protocol.on_frame("", now);
+  take();
+  EXPECT_TRUE(protocol.active());
+}
+
+}  // namespace
+}  // namespace swarmsmith
