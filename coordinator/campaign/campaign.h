@@ -64,7 +64,7 @@ struct Campaign {
   std::string bind;                           ///< empty: a free port on loopback
   double task_timeout_s = 30;
   std::int64_t retries = 2;
-  bool stop_on_failure = false;               ///< else an evaluation that fails for good is a rejection
+  bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
 };
 
 }  // namespace swarmsmith

@@ -14,10 +14,12 @@
 namespace swarmsmith {
 namespace {
 
+/// Of the files that this program reads; raised when an old file would mean something else.
 constexpr std::int64_t kFormat = 1;
 constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kLargestPort = 65'535;
 
+/// A file of a later format is refused before its unknown keys confuse anybody.
 void read_format(TableReader& root) {
   const auto format = root.integer("format", {1, 1'000'000});
   if (!root.has("format")) {
@@ -38,6 +40,7 @@ std::string name_from(const std::filesystem::path& file) {
   return name.empty() ? "campaign" : name;
 }
 
+/// [campaign], and the defaults that come from the file's own name.
 void read_identity(TableReader& root, Campaign& campaign, const std::filesystem::path& file) {
   campaign.store = std::filesystem::path(file).replace_extension(".db");
   campaign.name = name_from(file);
@@ -57,6 +60,7 @@ void read_identity(TableReader& root, Campaign& campaign, const std::filesystem:
   table->finish();
 }
 
+/// [simulator]: who evaluates.
 void read_simulator(TableReader& root, Campaign& campaign) {
   static const std::vector<std::string> kKinds = {"builtin"};
   static const std::vector<std::string> kKindsNotYet = {"argos", "command"};
@@ -87,15 +91,18 @@ bool is_address(const std::string& text) {
   return std::stol(port) <= kLargestPort;
 }
 
+/// The `bind` of a table, checked for its form; whether it can be bound shows when it is.
 std::optional<std::string> read_bind(TableReader& table) {
   const auto bind = table.text("bind");
   if (!bind || is_address(*bind)) return bind;
-  table.complain("bind", "`bind` must be an address with a port, such as \"127.0.0.1:5555\"; this "
-                         "is \"" +
-                             *bind + "\"");
+  table.complain("bind",
+                 "`bind` must be an address with a port, such as \"127.0.0.1:5555\"; this "
+                 "is \"" +
+                     *bind + "\"");
   return std::nullopt;
 }
 
+/// `local` is the one key with two types.
 void read_local(TableReader& table, Campaign& campaign) {
   const Node* node = table.take("local");
   if (node == nullptr) return;
@@ -104,10 +111,12 @@ void read_local(TableReader& table, Campaign& campaign) {
     campaign.local_workers = table.integer("local", {0, 10'000});
     return;
   }
-  table.complain("local", "`local` must be \"auto\" (as many slots as cores) or a number of "
-                          "workers");
+  table.complain("local",
+                 "`local` must be \"auto\" (as many slots as cores) or a number of "
+                 "workers");
 }
 
+/// [workers]: nothing here decides the answer.
 void read_workers(TableReader& root, Campaign& campaign) {
   auto table = root.table("workers");
   if (!table) return;
@@ -120,6 +129,7 @@ void read_workers(TableReader& root, Campaign& campaign) {
   table->finish();
 }
 
+/// [dashboard] is checked, so that files can have it, and not kept.
 void read_dashboard(TableReader& root) {
   auto table = root.table("dashboard");
   if (!table) return;
@@ -138,9 +148,11 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
   return std::nullopt;
 }
 
+/// What only the whole campaign shows; asked when all else is right, since it needs all of it.
 void complain_about_races(TableReader& root, Campaign& campaign) {
   auto race = root.table("race");
-  for (const Error& error : check_budget(campaign)) race->complain("max_experiments", error.message);
+  for (const Error& error : check_budget(campaign))
+    race->complain("max_experiments", error.message);
 }
 
 }  // namespace
@@ -181,8 +193,8 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
 CampaignOrErrors read_campaign(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream || std::filesystem::is_directory(file)) {
-    Error error{ErrorKind::NotFound,
-                "there is no such campaign file; `swarmsmith init` writes one", file.string()};
+    Error error{ErrorKind::NotFound, "there is no such campaign file; `swarmsmith init` writes one",
+                file.string()};
     return tl::unexpected(std::vector<Error>{std::move(error)});
   }
   std::ostringstream text;

@@ -16,6 +16,7 @@ std::int64_t design_seed(std::uint64_t campaign_seed, std::int64_t id) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(rng.next() >> 1U));
 }
 
+/// In the digest's order, so that a person can compare two campaigns line by line.
 std::string deciding_json(const Deciding& entries) {
   std::string text = "{";
   for (const auto& [key, value] : entries) {

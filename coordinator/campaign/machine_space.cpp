@@ -22,17 +22,21 @@ std::vector<const ModuleSpec*> chosen(const std::vector<ModuleSpec>& table,
   return modules;
 }
 
+/// A choice among modules, by name.
 Categorical ids_of(const std::vector<const ModuleSpec*>& modules) {
   Categorical domain;
-  for (const ModuleSpec* module : modules) domain.values.emplace_back(id_of(module->module));
+  for (const ModuleSpec* module : modules)
+    domain.values.emplace_back(id_of(module->module));
   return domain;
 }
 
+/// The condition `parameter > value`.
 Expression more_than(const std::string& parameter, int value) {
   return Expression::call(Operation::Greater,
                           {Expression::parameter(parameter), Expression::integer(value)});
 }
 
+/// A parameter's value, or `otherwise` where it is left out or inactive.
 double value_or(const Configuration& configuration, std::size_t index, double otherwise) {
   if (index == kNone || !configuration.is_active(index)) return otherwise;
   return configuration[index];
@@ -57,10 +61,13 @@ class MachineSpace::Builder {
         behaviours_(chosen(flavour.behaviours, method.behaviours)),
         conditions_(chosen(flavour.conditions, method.conditions)) {}
 
+  /// All states, in the order of the original's file: NumStates first.
   void build() {
     const auto max_states = static_cast<int>(method_.max_states);
-    if (max_states > 1) state_count_ = add("NumStates", "nstates", Integer{1.0, double(max_states)});
-    for (int i = 0; i < max_states; ++i) add_state(i);
+    if (max_states > 1)
+      state_count_ = add("NumStates", "nstates", Integer{1.0, double(max_states)});
+    for (int i = 0; i < max_states; ++i)
+      add_state(i);
   }
 
   std::vector<Parameter> parameters;
@@ -68,6 +75,7 @@ class MachineSpace::Builder {
   std::size_t state_count_ = kNone;
 
  private:
+  /// Adds one parameter; returns where it is.
   std::size_t add(std::string name, const std::string& token, Domain domain,
                   std::optional<Expression> condition = std::nullopt) {
     parameters.push_back(
@@ -81,6 +89,7 @@ class MachineSpace::Builder {
     return more_than("NumStates", i);
   }
 
+  /// State i: its behaviour, the behaviour's parameters, its transitions.
   void add_state(int i) {
     const std::string suffix = std::to_string(i);
     StateSlot& state = states_.emplace_back();
@@ -94,9 +103,11 @@ class MachineSpace::Builder {
                                    Integer{1.0, double(method_.max_transitions)},
                                    more_than("NumStates", std::max(i, 1)));
     }
-    for (int j = 0; j < method_.max_transitions; ++j) add_transition(state, i, j);
+    for (int j = 0; j < method_.max_transitions; ++j)
+      add_transition(state, i, j);
   }
 
+  /// Transition j of state i: target, condition, the condition's parameters.
   void add_transition(StateSlot& state, int i, int j) {
     const std::string suffix = std::to_string(i) + "x" + std::to_string(j);
     const Expression active = method_.max_transitions > 1
@@ -130,14 +141,14 @@ class MachineSpace::Builder {
           slot.parameters.push_back(static_cast<std::size_t>(known - parameters.begin()));
           continue;
         }
-        slot.parameters.push_back(add(name, parameter.token + suffix,
-                                      domain_of(*module, parameter),
+        slot.parameters.push_back(add(name, parameter.token + suffix, domain_of(*module, parameter),
                                       users_chosen(modules, name_of(*module, parameter), chooser)));
       }
     }
     return slots;
   }
 
+  /// The parameter's name without state and transition.
   std::string name_of(const ModuleSpec& module, const ParameterSpec& parameter) const {
     const SearchRange own{parameter.low, parameter.high};
     if (range_of(method_, module.module, parameter) == own) return parameter.symbol;
@@ -157,6 +168,7 @@ class MachineSpace::Builder {
     return users > 1;
   }
 
+  /// What is searched: the flavour's own range or the method's.
   Domain domain_of(const ModuleSpec& module, const ParameterSpec& parameter) const {
     const SearchRange range = range_of(method_, module.module, parameter);
     if (parameter.type == ParameterSpec::Type::Real) return Real{range.lower, range.upper};
@@ -252,10 +264,12 @@ std::vector<std::pair<std::string, int>> module_counts(const Machine& machine) {
   std::map<Module, int> counts;
   for (const State& state : machine.states) {
     ++counts[module_of(state.behaviour)];
-    for (const Transition& transition : state.transitions) ++counts[module_of(transition.condition)];
+    for (const Transition& transition : state.transitions)
+      ++counts[module_of(transition.condition)];
   }
   std::vector<std::pair<std::string, int>> named;
-  for (const auto& [module, count] : counts) named.emplace_back(id_of(module), count);
+  for (const auto& [module, count] : counts)
+    named.emplace_back(id_of(module), count);
   return named;
 }
 
@@ -270,7 +284,8 @@ std::string modules_json(const Machine& machine) {
 
 int transition_count(const Machine& machine) {
   std::size_t count = 0;
-  for (const State& state : machine.states) count += state.transitions.size();
+  for (const State& state : machine.states)
+    count += state.transitions.size();
   return static_cast<int>(count);
 }
 

@@ -18,8 +18,8 @@ namespace swarmsmith {
 /// The parameter space of a method: the machines that its flavour's modules can be put together to
 /// (rvr-automode facts, section 6.4; 149 parameters for everything that `watermelon` has). Names,
 /// switches, ranges and order are those of AutoMoDe's irace files, but modules are values by name
-/// (`black_floor`, not 0), so that a number never leaves the flavour's table. A parameter that could
-/// have one value alone is left out.
+/// (`black_floor`, not 0), so that a number never leaves the flavour's table. A parameter that
+/// could have one value alone is left out.
 class MachineSpace {
  public:
   /// `digits`: decimals of reals. Fails when a range cannot be kept with these digits.

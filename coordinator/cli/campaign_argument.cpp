@@ -7,7 +7,8 @@ namespace swarmsmith::cli {
 std::optional<Campaign> read_or_complain(const std::string& file, Output& output) {
   auto campaign = read_campaign(file);
   if (campaign) return std::move(*campaign);
-  for (const Error& error : campaign.error()) print_error(output, error);
+  for (const Error& error : campaign.error())
+    print_error(output, error);
   return std::nullopt;
 }
 

@@ -17,6 +17,7 @@ using SteadyClock = std::chrono::steady_clock;
 
 /// Measured on stores of 100k evaluations: what an evaluation, its candidate and step take.
 constexpr double kBytesPerEvaluation = 100;
+/// For all missions and methods together.
 constexpr double kMeasured_s = 0.5;
 /// Racing, storing and messages.
 constexpr double kOverhead_s = 30e-6;
@@ -66,8 +67,8 @@ double measure(const Campaign& campaign, const Method& method, const Mission& mi
 /// The published program sees black only at a grey level that noise never leaves alone.
 void warn_about_black(const Campaign& campaign, std::vector<std::string>& warnings) {
   for (const Method& method : campaign.methods) {
-    const bool has_black = std::ranges::find(method.conditions, "black_floor") !=
-                           method.conditions.end();
+    const bool has_black =
+        std::ranges::find(method.conditions, "black_floor") != method.conditions.end();
     const Flavour& flavour = **find_flavour(method.flavour);
     const bool narrow = flavour.floor.black.high < 1000;
     if (!has_black || !narrow || campaign.profile.ground_color_sd == 0) continue;

@@ -5,7 +5,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-constexpr std::string_view kTemplate = R"(# A campaign of Swarmsmith. Every key: docs/campaign-file.md
+constexpr std::string_view kTemplate =
+    R"(# A campaign of Swarmsmith. Every key: docs/campaign-file.md
 #   swarmsmith check campaign.toml    what it will cost
 #   swarmsmith run campaign.toml      runs it; kill it at any time, the same command goes on
 format = 1

@@ -9,6 +9,7 @@
 namespace swarmsmith::cli {
 namespace {
 
+/// `aggregation, grid_exploration x watermelon`
 std::string names_of(const Campaign& campaign) {
   std::string text;
   for (const CampaignMission& mission : campaign.missions) {
@@ -27,6 +28,7 @@ std::string decimals(double value, const char* format) {
   return {buffer, static_cast<std::size_t>(size)};
 }
 
+/// The plan for people.
 void write_text(Output& output, const Campaign& campaign, const CampaignPlan& plan) {
   const std::string megabytes = decimals(plan.disk_bytes / 1e6, "%.1f");
   output.out << "campaign     " << campaign.name << "\n"
@@ -44,6 +46,7 @@ void write_text(Output& output, const Campaign& campaign, const CampaignPlan& pl
              << "digest       " << campaign_digest(campaign) << "\n";
 }
 
+/// The plan for programs.
 void write_json(Output& output, const Campaign& campaign, const CampaignPlan& plan) {
   std::string warnings;
   for (const std::string& warning : plan.warnings) {

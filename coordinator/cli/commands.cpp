@@ -38,14 +38,16 @@ constexpr std::string_view kInitDetails = R"(Examples:
   swarmsmith init mine
   swarmsmith init mine --mission grid_exploration && swarmsmith run mine/campaign.toml)";
 
-constexpr std::string_view kCheckDetails = R"(Reads the file, prints all that is wrong with it (exit code 2), or the plan. Simulates for about half
+constexpr std::string_view kCheckDetails =
+    R"(Reads the file, prints all that is wrong with it (exit code 2), or the plan. Simulates for about half
 a second to say how long the campaign will take on this machine.
 
 Examples:
   swarmsmith check campaign.toml
   swarmsmith check campaign.toml --json)";
 
-constexpr std::string_view kEvaluateDetails = R"(Simulates the machine once for each seed, in this process. A larger score is better, in every mission.
+constexpr std::string_view kEvaluateDetails =
+    R"(Simulates the machine once for each seed, in this process. A larger score is better, in every mission.
 With --json one line a run: {"seed":1,"score":2}.
 
 Examples:
@@ -61,7 +63,8 @@ Examples:
   swarmsmith status demo.db
   SWARMSMITH_STORE=demo.db swarmsmith status --watch)";
 
-constexpr std::string_view kLsDetails = R"(Conditions and order are SQL over the columns, which --json shows all of.
+constexpr std::string_view kLsDetails =
+    R"(Conditions and order are SQL over the columns, which --json shows all of.
 
 Examples:
   swarmsmith ls designs demo.db
@@ -72,7 +75,8 @@ constexpr std::string_view kShowDetails = R"(Examples:
   swarmsmith show d1 demo.db
   swarmsmith show c812 demo.db --json)";
 
-constexpr std::string_view kQueryDetails = R"(Without a statement it lists the views, which are the store's public schema (docs/storage.md).
+constexpr std::string_view kQueryDetails =
+    R"(Without a statement it lists the views, which are the store's public schema (docs/storage.md).
 Statements may only read. Ids are numbers here: design 3, candidate 812.
 
 Examples:
@@ -80,13 +84,15 @@ Examples:
   swarmsmith query demo.db "SELECT * FROM v_leaderboard"
   swarmsmith query demo.db "SELECT seed, score FROM v_design_scores" --csv > scores.csv)";
 
-constexpr std::string_view kExportDetails = R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
+constexpr std::string_view kExportDetails =
+    R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
 
 Examples:
   swarmsmith export demo.db -o best.fsm
   swarmsmith export demo.db --what elites --format json)";
 
-constexpr std::string_view kDigestDetails = R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
+constexpr std::string_view kDigestDetails =
+    R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
 number of workers and the history of crashes.
 
 Example:
@@ -112,6 +118,8 @@ constexpr std::array kCommands = {
 
 }  // namespace
 
-std::span<const Command> commands() { return kCommands; }
+std::span<const Command> commands() {
+  return kCommands;
+}
 
 }  // namespace swarmsmith::cli

@@ -11,8 +11,10 @@ namespace swarmsmith::cli {
 /// function, a line here, an entry in commands.cpp, a section in docs/command-line.md.
 std::span<const Command> commands();
 
+/// What remains of a command once its words are read.
 using Run = std::function<ExitCode(Output&)>;
 
+/// docs/command-line.md tells what each does.
 Run declare_run(Options& options);
 Run declare_init(Options& options);
 Run declare_check(Options& options);

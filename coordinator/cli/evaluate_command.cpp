@@ -42,6 +42,7 @@ std::string first_of(const std::string& a, const std::string& b, const std::stri
   return b.empty() ? c : b;
 }
 
+/// A candidate's own mission may have been changed by its file; the flag names a built-in one.
 Expected<Mission> mission_of(const Arguments& arguments, const NamedMachine& named) {
   if (!arguments.mission.empty()) {
     if (named.mission && named.mission->mission.name == arguments.mission) {
@@ -50,10 +51,12 @@ Expected<Mission> mission_of(const Arguments& arguments, const NamedMachine& nam
     return built_in_mission(arguments.mission);
   }
   if (named.mission) return named.mission->mission;
-  return bad_input("on which mission? Add --mission aggregation, grid_exploration or "
-                   "color_selection");
+  return bad_input(
+      "on which mission? Add --mission aggregation, grid_exploration or "
+      "color_selection");
 }
 
+/// The tables, where they are named.
 Expected<void> read_instances(const Arguments& arguments, Plan& plan, Output& output) {
   if (!arguments.starts.empty()) {
     auto starts = read_starts(arguments.starts);
@@ -63,7 +66,8 @@ Expected<void> read_instances(const Arguments& arguments, Plan& plan, Output& ou
   }
   if (arguments.patches.empty()) return {};
   if (plan.mission.shuffled.places.empty()) {
-    print_note(output, "mission " + plan.mission.name + " shuffles no patches: --patches is not used");
+    print_note(output,
+               "mission " + plan.mission.name + " shuffles no patches: --patches is not used");
     return {};
   }
   auto patches = read_patches(arguments.patches, plan.mission);
@@ -73,6 +77,7 @@ Expected<void> read_instances(const Arguments& arguments, Plan& plan, Output& ou
   return {};
 }
 
+/// Everything that the command line says, read and checked.
 Expected<Plan> make_plan(const Arguments& arguments, Output& output) {
   Plan plan;
   const auto named = find_machine(arguments.machine, arguments.store);
@@ -96,6 +101,7 @@ Expected<Plan> make_plan(const Arguments& arguments, Output& output) {
   return plan;
 }
 
+/// What of the instance no table gives is drawn from the seed.
 Expected<Instance> instance_for(const Plan& plan, std::int64_t seed) {
   const auto robots = static_cast<std::size_t>(plan.mission.robots);
   Instance instance;
@@ -125,6 +131,7 @@ Expected<Instance> instance_for(const Plan& plan, std::int64_t seed) {
   return drawn;
 }
 
+/// For people: mean and interval.
 void write_summary(Output& output, const std::vector<double>& scores) {
   const MeanInterval summary = mean_interval(scores);
   const auto shown = [](double value) {

@@ -17,11 +17,13 @@ struct Arguments {
 
 /// Machines with what a person wants to know of each; `selected` gives (design, candidate).
 std::string statement(const std::string& what) {
-  std::string selected = "SELECT design, best_candidate AS candidate FROM v_designs "
-                         "WHERE best_candidate IS NOT NULL";
+  std::string selected =
+      "SELECT design, best_candidate AS candidate FROM v_designs "
+      "WHERE best_candidate IS NOT NULL";
   if (what == "elites") {
-    selected = "SELECT design, candidate FROM v_convergence AS e WHERE iteration = "
-               "(SELECT max(iteration) FROM v_convergence AS l WHERE l.design = e.design)";
+    selected =
+        "SELECT design, candidate FROM v_convergence AS e WHERE iteration = "
+        "(SELECT max(iteration) FROM v_convergence AS l WHERE l.design = e.design)";
   }
   if (what == "all") selected = "SELECT design, candidate FROM v_candidates";
   return "SELECT s.design, d.mission, d.method, d.repetition, s.candidate, c.iteration, c.mean, "
@@ -31,8 +33,19 @@ std::string statement(const std::string& what) {
          "JOIN v_candidates AS c ON c.candidate = s.candidate ORDER BY s.design, s.candidate";
 }
 
-enum Column { kDesign, kMission, kMethod, kRepetition, kCandidate, kIteration, kMean, kRuns, kText,
-              kParameters, kModules };
+enum Column {
+  kDesign,
+  kMission,
+  kMethod,
+  kRepetition,
+  kCandidate,
+  kIteration,
+  kMean,
+  kRuns,
+  kText,
+  kParameters,
+  kModules
+};
 
 /// A comment line with where the machine comes from, then its text.
 std::string as_fsm_config(const Rows& rows) {
@@ -48,6 +61,7 @@ std::string as_fsm_config(const Rows& rows) {
   return text;
 }
 
+/// With parameters and modules, which are JSON already.
 std::string as_json(const Rows& rows) {
   std::string text = "{\"machines\":[";
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
@@ -83,8 +97,8 @@ ExitCode run(const Arguments& arguments, Output& output) {
   stream << text;
   stream.close();
   if (stream) return ExitCode::Done;
-  return fail(output, ExitCode::Failed, Error{ErrorKind::Unavailable, "cannot be written",
-                                              arguments.file});
+  return fail(output, ExitCode::Failed,
+              Error{ErrorKind::Unavailable, "cannot be written", arguments.file});
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 namespace swarmsmith::cli {
 namespace {
 
+/// No quotes: names and numbers need none.
 std::vector<std::string_view> cells_of(std::string_view line) {
   if (line.ends_with('\r')) line.remove_suffix(1);
   std::vector<std::string_view> cells;
@@ -49,7 +50,8 @@ Expected<std::vector<std::size_t>> find_columns(std::string_view headline,
   std::vector<std::size_t> found;
   for (const std::string& column : wanted) {
     std::size_t at = 0;
-    while (at < names.size() && names[at] != column) ++at;
+    while (at < names.size() && names[at] != column)
+      ++at;
     if (at == names.size()) {
       return bad_input("there is no column `" + column + "`; wanted are: " + joined(wanted), where);
     }
@@ -136,7 +138,8 @@ Expected<std::map<std::int64_t, std::vector<Patch>>> read_patches(const std::fil
         }
         const Rectangle* place = place_at(mission, {*x, *y});
         if (place == nullptr) {
-          return bad_input("mission " + mission.name + " has no place for a patch there", line.where);
+          return bad_input("mission " + mission.name + " has no place for a patch there",
+                           line.where);
         }
         patches[*seed].push_back({*place, *color});
         return {};

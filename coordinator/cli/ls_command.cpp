@@ -45,6 +45,7 @@ struct Arguments {
   std::optional<std::int64_t> limit;
 };
 
+/// The person's own words go into the statement: it may only read.
 std::string statement(const Kind& kind, const Arguments& arguments, bool all_columns) {
   std::string sql = "SELECT " + (all_columns ? "*" : std::string(kind.columns)) + " FROM " +
                     std::string(kind.from);
@@ -77,7 +78,8 @@ ExitCode run(const Arguments& arguments, Output& output) {
 Run declare_ls(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   std::vector<std::string> kinds;
-  for (const Kind& kind : kKinds) kinds.emplace_back(kind.name);
+  for (const Kind& kind : kKinds)
+    kinds.emplace_back(kind.name);
   options.choice("KIND", arguments->kind, kinds, "What to list", Options::Need::Required);
   arguments->store.declare(options);
   options.text("--where", arguments->where, "Condition in SQL, such as \"mean > 2.5\"");

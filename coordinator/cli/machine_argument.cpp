@@ -8,23 +8,27 @@
 namespace swarmsmith::cli {
 namespace {
 
+/// Without blanks at both ends.
 std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
+/// c and digits; a file of such a name is written ./c12.
 bool is_candidate(const std::string& word) {
   return word.size() > 1 && word.size() < 19 && word.front() == 'c' &&
          word.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
+/// Comments and line breaks are what `export` and people put in.
 Expected<NamedMachine> machine_of_file(const std::string& file) {
   std::ifstream stream(file);
   if (!stream) {
-    return bad_input("this is no machine: neither a text that begins with --nstates, nor a file, "
-                     "nor a candidate such as c812",
-                     file);
+    return bad_input(
+        "this is no machine: neither a text that begins with --nstates, nor a file, "
+        "nor a candidate such as c812",
+        file);
   }
   std::string machine;
   std::string line;
@@ -41,13 +45,15 @@ Expected<NamedMachine> machine_of_file(const std::string& file) {
   return NamedMachine{machine, std::nullopt, "", ""};
 }
 
+/// The store's own campaign says on what the candidate was tried.
 Expected<NamedMachine> machine_of_store(const std::string& id, const StoreArgument& argument) {
   const auto store = argument.open();
   if (!store) return Unexpected(store.error());
-  const auto rows = select(**store, "SELECT c.fsm_config, d.mission, d.method FROM v_candidates AS "
-                                    "c JOIN v_designs AS d ON d.design = c.design "
-                                    "WHERE c.candidate = " +
-                                        id.substr(1));
+  const auto rows = select(**store,
+                           "SELECT c.fsm_config, d.mission, d.method FROM v_candidates AS "
+                           "c JOIN v_designs AS d ON d.design = c.design "
+                           "WHERE c.candidate = " +
+                               id.substr(1));
   if (!rows) return Unexpected(rows.error());
   if (rows->cells.empty()) {
     return unexpected(ErrorKind::NotFound, "the store has no candidate " + id);

@@ -11,10 +11,10 @@ namespace swarmsmith::cli {
 
 /// A machine as a person names it, found.
 struct NamedMachine {
-  std::string text;                         ///< of the grammar
-  std::optional<CampaignMission> mission;   ///< of a candidate: its design's
-  std::string flavour;                      ///< of a candidate, else empty
-  std::string profile;                      ///< of a candidate, else empty
+  std::string text;                        ///< of the grammar
+  std::optional<CampaignMission> mission;  ///< of a candidate: its design's
+  std::string flavour;                     ///< of a candidate, else empty
+  std::string profile;                     ///< of a candidate, else empty
 };
 
 /// `word` is the machine's text, a file that holds one (lines that begin with # are comments), or

@@ -7,6 +7,7 @@
 namespace swarmsmith::cli {
 namespace {
 
+/// The first word of a machine's text.
 bool begins_machine(std::string_view word) {
   return word.starts_with("--nstates") || word.starts_with("--fsm-config");
 }

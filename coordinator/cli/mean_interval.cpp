@@ -24,10 +24,12 @@ double student_quantile(std::size_t degrees) {
 MeanInterval mean_interval(std::span<const double> values) {
   const auto n = static_cast<double>(values.size());
   MeanInterval summary;
-  for (const double value : values) summary.mean += value / n;
+  for (const double value : values)
+    summary.mean += value / n;
   if (values.size() < 2) return summary;
   double squares = 0;
-  for (const double value : values) squares += (value - summary.mean) * (value - summary.mean);
+  for (const double value : values)
+    squares += (value - summary.mean) * (value - summary.mean);
   const double sd = std::sqrt(squares / (n - 1));
   summary.half_width = student_quantile(values.size() - 1) * sd / std::sqrt(n);
   return summary;

@@ -10,10 +10,12 @@
 namespace swarmsmith::cli {
 namespace {
 
+/// CLI11 lists what is required in the usage line.
 void need_it(CLI::Option* option, Options::Need need) {
   if (need == Options::Need::Required) option->required();
 }
 
+/// What `swarmsmith --help` writes.
 std::string overview() {
   std::string text =
       "Designs control software for robot swarms.\n\nUsage: swarmsmith COMMAND [OPTIONS]\n\n"
@@ -28,6 +30,7 @@ std::string overview() {
          "Begin with `swarmsmith run` (a demo) or `swarmsmith init`.\n";
 }
 
+/// The command of that name, or null.
 const Command* find_command(const std::string& name) {
   for (const Command& command : commands()) {
     if (command.name == name) return &command;
@@ -35,18 +38,22 @@ const Command* find_command(const std::string& name) {
   return nullptr;
 }
 
+/// With the name that was probably meant.
 ExitCode unknown_command(const std::string& name, Output& output) {
   std::vector<std::string> names;
-  for (const Command& command : commands()) names.emplace_back(command.name);
+  for (const Command& command : commands())
+    names.emplace_back(command.name);
   return fail(output, ExitCode::Usage,
               "there is no command `" + name + "`" + did_you_mean(name, names) +
                   "; `swarmsmith --help` lists all");
 }
 
+/// Long names only: short ones are too near to each other to be suggested.
 std::vector<std::string> option_names(const CLI::App& app) {
   std::vector<std::string> names;
   for (const CLI::Option* option : app.get_options()) {
-    for (const std::string& name : option->get_lnames()) names.push_back("--" + name);
+    for (const std::string& name : option->get_lnames())
+      names.push_back("--" + name);
   }
   return names;
 }
@@ -70,6 +77,7 @@ ExitCode complain_about_extras(const CLI::App& app, const Command& command,
                   did_you_mean(word, option_names(app)) + help);
 }
 
+/// Flags that every command has.
 void declare_common(CLI::App& app, Output& output, bool& no_color) {
   app.add_flag("--json", output.json, "Write the answer as JSON");
   app.add_flag("-q,--quiet", output.quiet, "Write nothing but answers and errors");
@@ -77,6 +85,7 @@ void declare_common(CLI::App& app, Output& output, bool& no_color) {
   app.add_flag("--no-color", no_color, "Write without colours, as NO_COLOR=1 does");
 }
 
+/// One command has a parser of its own, made when it is asked for.
 ExitCode run_command(const Command& command, std::vector<std::string> arguments, Output& output) {
   CLI::App app{std::string(command.summary), "swarmsmith " + std::string(command.name)};
   app.allow_extras();
@@ -93,9 +102,9 @@ ExitCode run_command(const Command& command, std::vector<std::string> arguments,
     output.out << app.help();
     return ExitCode::Done;
   } catch (const CLI::ParseError& error) {
-    return fail(output, ExitCode::Usage,
-                std::string(error.what()) + "; see `swarmsmith " + std::string(command.name) +
-                    " --help`");
+    return fail(
+        output, ExitCode::Usage,
+        std::string(error.what()) + "; see `swarmsmith " + std::string(command.name) + " --help`");
   }
   if (!app.remaining().empty()) {
     return complain_about_extras(app, command, app.remaining(), output);

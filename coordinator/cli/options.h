@@ -24,18 +24,21 @@ class Options {
 
   enum class Need { Optional, Required };
 
+  /// A word that is there or not.
   void flag(const std::string& names, bool& value, const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& help,
             Need need = Need::Optional);
   /// All further words.
   void words(const std::string& name, std::vector<std::string>& values, const std::string& help,
              Need need = Need::Optional);
+  /// One of `choices`, which the help lists.
   void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
               const std::string& help, Need need = Need::Optional);
   struct Range {
     std::int64_t least;
     std::int64_t most;
   };
+  /// Nothing stays nothing when the option is not there.
   void integer(const std::string& names, std::optional<std::int64_t>& value, Range range,
                const std::string& help);
 

@@ -17,7 +17,7 @@ struct Output {
   bool json = false;
   bool quiet = false;
   bool verbose = false;
-  bool color = false;         ///< only for `err`, and only on a terminal without NO_COLOR
+  bool color = false;  ///< only for `err`, and only on a terminal without NO_COLOR
   bool err_is_terminal = false;
   bool out_is_terminal = false;
 };
@@ -27,6 +27,7 @@ Output standard_output();
 
 /// "swarmsmith: where: what was found and what to do", one line an error.
 void print_error(Output& output, const Error& error);
+/// What a person may like to know; not when quiet.
 void print_note(Output& output, std::string_view text);
 
 /// Prints the error and returns what to exit with: `usage` for a wrong command line or file.

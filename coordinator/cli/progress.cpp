@@ -11,6 +11,7 @@
 namespace swarmsmith::cli {
 namespace {
 
+/// How often each form tells of the state without being asked.
 constexpr auto kRedrawEvery = std::chrono::milliseconds(100);
 constexpr auto kPlainEvery = std::chrono::seconds(30);
 constexpr auto kEventEvery = std::chrono::seconds(1);
@@ -48,6 +49,7 @@ void Progress::add(const Row& row, TimePoint now) {
   write_row(row, now);
 }
 
+/// Lines for people. A row that is not told of here changes the status line.
 void Progress::write_row(const Row& row, TimePoint now) {
   if (const auto* state = std::get_if<DesignStateRow>(&row)) {
     add_line(state_line(*state, model_.design(state->design)));
@@ -71,6 +73,7 @@ void Progress::add_line(const std::string& line) {
   output_.err << line << '\n' << drawn_ << std::flush;
 }
 
+/// Instead of the line that stands there.
 void Progress::draw(const LiveStatus& live) {
   drawn_ = status_line(model_, live, width_());
   output_.err << kClearLine << drawn_ << std::flush;

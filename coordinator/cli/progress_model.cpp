@@ -7,15 +7,16 @@ namespace {
 
 /// A finished design has used what it will use; what its budget had left does not count.
 std::int64_t share_of(const DesignProgress& progress) {
-  const bool over = progress.state == DesignState::Finished ||
-                    progress.state == DesignState::Testing;
+  const bool over =
+      progress.state == DesignState::Finished || progress.state == DesignState::Testing;
   return over ? progress.design.budget : progress.used;
 }
 
 }  // namespace
 
 ProgressModel::ProgressModel(std::span<const DesignRow> designs) {
-  for (const DesignRow& row : designs) designs_[row.id].design = row;
+  for (const DesignRow& row : designs)
+    designs_[row.id].design = row;
 }
 
 void ProgressModel::add(const Row& row) {
@@ -49,19 +50,22 @@ void ProgressModel::add_state(const DesignStateRow& row) {
 
 std::int64_t ProgressModel::finished() const {
   std::int64_t count = 0;
-  for (const auto& [id, progress] : designs_) count += progress.state == DesignState::Finished;
+  for (const auto& [id, progress] : designs_)
+    count += progress.state == DesignState::Finished;
   return count;
 }
 
 std::int64_t ProgressModel::used() const {
   std::int64_t sum = 0;
-  for (const auto& [id, progress] : designs_) sum += share_of(progress);
+  for (const auto& [id, progress] : designs_)
+    sum += share_of(progress);
   return sum;
 }
 
 std::int64_t ProgressModel::budget() const {
   std::int64_t sum = 0;
-  for (const auto& [id, progress] : designs_) sum += progress.design.budget;
+  for (const auto& [id, progress] : designs_)
+    sum += progress.design.budget;
   return sum;
 }
 

@@ -33,7 +33,9 @@ class ProgressModel {
 
   const DesignProgress& design(DesignId id) const { return designs_.at(id); }
   std::int64_t designs() const { return static_cast<std::int64_t>(designs_.size()); }
+  /// Designs that need nothing more.
   std::int64_t finished() const;
+  /// Of `budget`; a design whose race is over counts with all of its own.
   std::int64_t used() const;
   std::int64_t budget() const;
   /// The first design that is not finished, else the last one: what the status line tells about.

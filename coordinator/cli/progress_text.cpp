@@ -14,14 +14,17 @@ namespace {
 /// Scores from 0.01 to 1,000,000 come with enough digits and without exponents.
 std::string score_text(double score) {
   char buffer[64];
-  const int size = std::snprintf(buffer, sizeof buffer, std::abs(score) < 1000 ? "%.4g" : "%.0f", score);
+  const int size =
+      std::snprintf(buffer, sizeof buffer, std::abs(score) < 1000 ? "%.4g" : "%.0f", score);
   return {buffer, static_cast<std::size_t>(size)};
 }
 
+/// Padded on the left.
 std::string right(const std::string& text, std::size_t width) {
   return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
 }
 
+/// Statistics are not there before the first test; irace writes NA.
 std::string optional_text(const std::optional<double>& value, const char* format) {
   if (!value) return "NA";
   char buffer[64];
@@ -29,6 +32,7 @@ std::string optional_text(const std::optional<double>& value, const char* format
   return {buffer, static_cast<std::size_t>(size)};
 }
 
+/// Hours may have more than two digits.
 std::string clock_text(double seconds) {
   const auto whole = static_cast<long long>(seconds);
   char buffer[64];
@@ -37,17 +41,19 @@ std::string clock_text(double seconds) {
   return {buffer, static_cast<std::size_t>(size)};
 }
 
+/// How much of the whole budget is used.
 std::string bar(std::int64_t used, std::int64_t budget) {
   constexpr std::int64_t kCells = 20;
-  const std::int64_t filled = budget > 0 ? std::clamp<std::int64_t>(used * kCells / budget, 0, kCells) : 0;
+  const std::int64_t filled =
+      budget > 0 ? std::clamp<std::int64_t>(used * kCells / budget, 0, kCells) : 0;
   return "[" + std::string(static_cast<std::size_t>(filled), '#') +
          std::string(static_cast<std::size_t>(kCells - filled), '-') + "]";
 }
 
 /// What both status lines say before and after the bar.
 std::string first_half(const ProgressModel& model) {
-  std::string text = "designs " + std::to_string(model.finished()) + "/" +
-                     std::to_string(model.designs());
+  std::string text =
+      "designs " + std::to_string(model.finished()) + "/" + std::to_string(model.designs());
   const DesignProgress* current = model.current();
   if (current != nullptr && current->iteration > 0) {
     text += "  " + to_string(current->design.id) + " iteration " +
@@ -57,12 +63,13 @@ std::string first_half(const ProgressModel& model) {
   return text;
 }
 
+/// Numbers, the most important first.
 std::string second_half(const ProgressModel& model, const LiveStatus& live) {
   std::string text = grouped(model.used()) + "/" + grouped(model.budget());
   const DesignProgress* current = model.current();
   if (current != nullptr && current->configurations > 0) {
-    text += "  alive " + std::to_string(current->alive) + "/" +
-            std::to_string(current->configurations);
+    text +=
+        "  alive " + std::to_string(current->alive) + "/" + std::to_string(current->configurations);
   }
   if (current != nullptr && current->best) text += "  best " + score_text(current->best_mean);
   text += "  " + std::to_string(std::llround(live.evaluations_per_s)) + " sim/s";

@@ -21,11 +21,16 @@ std::string plain_status(const ProgressModel& model, const LiveStatus& live);
 std::string race_headline();
 std::string race_line(const RaceStepRow& step, double elapsed_s);
 
+/// A race begins: its size and budget.
 std::string iteration_line(const IterationRow& iteration, const DesignProgress& progress);
+/// One of those that a race kept.
 std::string elite_line(const EliteRow& elite);
+/// A design's state changed.
 std::string state_line(const DesignStateRow& state, const DesignProgress& progress);
+/// Something happened that a person may want to know.
 std::string event_line(const EventRow& event);
 
+/// As stores and events call it.
 std::string_view name_of(DesignState state);
 
 /// The row as one event, {"v":1,"event":"race_step",...}; empty for rows that are none

@@ -28,7 +28,8 @@ std::string take_sql(Arguments& arguments) {
     words.erase(words.begin());
   }
   std::string sql;
-  for (const std::string& word : words) sql += (sql.empty() ? "" : " ") + word;
+  for (const std::string& word : words)
+    sql += (sql.empty() ? "" : " ") + word;
   return sql;
 }
 

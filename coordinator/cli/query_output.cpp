@@ -21,18 +21,24 @@ std::string shown(const Cell& cell) {
   if (cell.type == Type::Null) return "-";
   if (cell.type != Type::Real) return cell.text;
   char buffer[32];
-  const int size = std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(cell.text.c_str(), nullptr));
+  const int size =
+      std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(cell.text.c_str(), nullptr));
   return {buffer, static_cast<std::size_t>(size)};
 }
 
-bool is_number(const Cell& cell) { return cell.type == Type::Integer || cell.type == Type::Real; }
+/// Numbers stand on the right of their column.
+bool is_number(const Cell& cell) {
+  return cell.type == Type::Integer || cell.type == Type::Real;
+}
 
+/// Pads by characters, not bytes.
 void append_padded(std::string& line, const std::string& text, std::size_t width, bool right) {
   const std::size_t used = width_of(text);
   const std::string padding(width > used ? width - used : 0, ' ');
   line += right ? padding + text : text + padding;
 }
 
+/// Null is an empty field.
 std::string csv_field(const Cell& cell) {
   if (cell.text.find_first_of(",\"\r\n") == std::string::npos) return cell.text;
   std::string field = "\"";
@@ -43,6 +49,7 @@ std::string csv_field(const Cell& cell) {
   return field + "\"";
 }
 
+/// Numbers in full precision.
 std::string json_value(const Cell& cell) {
   switch (cell.type) {
     case Type::Null:

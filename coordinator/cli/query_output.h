@@ -29,10 +29,13 @@ Expected<Rows> select(StoreReader& store, const std::string& sql,
 /// `parent` and `best_candidate` get a c.
 void letter_ids(Rows& rows);
 
+/// Aligned columns below a headline, numbers on the right, six digits of reals.
 std::string rows_as_text(const Rows& rows);
+/// RFC 4180 with a headline; null is empty; full precision.
 std::string rows_as_csv(const Rows& rows);
 /// The "rows" array alone.
 std::string rows_as_json(const Rows& rows);
+/// One row as an object.
 std::string row_as_json(const Rows& rows, std::size_t row);
 
 void write_rows(Output& output, const Rows& rows, Form form);

@@ -10,6 +10,7 @@ namespace {
 constexpr std::int64_t kLargestSeed = 2'147'483'647;
 constexpr std::size_t kMostSeeds = 10'000'000;
 
+/// The range of irace's seeds.
 std::optional<std::int64_t> parse_seed(std::string_view text) {
   std::int64_t seed = 0;
   const char* end = text.data() + text.size();
@@ -37,7 +38,8 @@ Expected<std::vector<std::int64_t>> parse_seeds(std::string_view text) {
     if (static_cast<std::size_t>(*last - *first) + seeds.size() >= kMostSeeds) {
       return bad_input("more than ten million seeds are too many", "--seeds");
     }
-    for (std::int64_t seed = *first; seed <= *last; ++seed) seeds.push_back(seed);
+    for (std::int64_t seed = *first; seed <= *last; ++seed)
+      seeds.push_back(seed);
     if (part.size() == rest.size()) return seeds;
     rest.remove_prefix(part.size() + 1);
   }

@@ -22,13 +22,15 @@ struct Part {
 /// Statements that show a thing, the first of which has one row if it exists.
 std::vector<Part> parts_of_design(const std::string& number) {
   return {{"design", "SELECT * FROM v_designs WHERE design = " + number},
-          {"elites", "SELECT iteration, rank, candidate, mean, n, experiments_used "
-                     "FROM v_convergence WHERE design = " +
-                         number + " ORDER BY iteration, rank"},
-          {"test", "SELECT candidate, source, count(score) AS runs, avg(score) AS mean, "
-                   "min(score) AS lowest, max(score) AS highest FROM v_design_scores "
-                   "WHERE design = " +
-                       number + " GROUP BY candidate, source"}};
+          {"elites",
+           "SELECT iteration, rank, candidate, mean, n, experiments_used "
+           "FROM v_convergence WHERE design = " +
+               number + " ORDER BY iteration, rank"},
+          {"test",
+           "SELECT candidate, source, count(score) AS runs, avg(score) AS mean, "
+           "min(score) AS lowest, max(score) AS highest FROM v_design_scores "
+           "WHERE design = " +
+               number + " GROUP BY candidate, source"}};
 }
 
 std::vector<Part> parts_of_candidate(const std::string& number) {
@@ -40,10 +42,11 @@ std::vector<Part> parts_of_candidate(const std::string& number) {
                " UNION ALL SELECT c.candidate, c.parent, c.iteration, c.mean, depth + 1 "
                "FROM line JOIN v_candidates AS c ON c.candidate = line.parent) "
                "SELECT candidate, parent, iteration, mean FROM line WHERE depth > 0"},
-          {"scores", "SELECT purpose, source, count(score) AS runs, avg(score) AS mean, "
-                     "min(score) AS lowest, max(score) AS highest FROM v_evaluations "
-                     "WHERE candidate = " +
-                         number + " GROUP BY purpose, source"}};
+          {"scores",
+           "SELECT purpose, source, count(score) AS runs, avg(score) AS mean, "
+           "min(score) AS lowest, max(score) AS highest FROM v_evaluations "
+           "WHERE candidate = " +
+               number + " GROUP BY purpose, source"}};
 }
 
 std::vector<Part> parts_of_evaluation(const std::string& id) {
@@ -70,7 +73,8 @@ std::vector<Part> parts_of(const std::string& id) {
 /// One row as "name  value" lines.
 std::string as_lines(const Rows& rows) {
   std::size_t width = 0;
-  for (const std::string& column : rows.columns) width = std::max(width, column.size());
+  for (const std::string& column : rows.columns)
+    width = std::max(width, column.size());
   std::string text;
   for (std::size_t column = 0; column < rows.columns.size(); ++column) {
     const auto& cell = rows.cells.front()[column];
@@ -81,6 +85,7 @@ std::string as_lines(const Rows& rows) {
   return text;
 }
 
+/// The thing itself as lines, the rest as tables.
 void write_text(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
   output.out << as_lines(rows.front());
   for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -89,6 +94,7 @@ void write_text(Output& output, const std::vector<Part>& parts, const std::vecto
   }
 }
 
+/// One object, a key a part.
 void write_json(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
   output.out << "{" << json_text(parts.front().name) << ":" << row_as_json(rows.front(), 0);
   for (std::size_t i = 1; i < parts.size(); ++i) {
@@ -111,8 +117,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
     auto rows = select(**store, part.sql);
     if (!rows) return fail(output, ExitCode::Store, rows.error());
     if (shown.empty() && rows->cells.empty()) {
-      return fail(output, ExitCode::NoSuchId,
-                  "the store has no " + part.name + " " + arguments.id);
+      return fail(output, ExitCode::NoSuchId, "the store has no " + part.name + " " + arguments.id);
     }
     letter_ids(*rows);
     shown.push_back(std::move(*rows));

@@ -37,6 +37,7 @@ struct Status {
   }
 };
 
+/// All parts of one answer; a campaign that runs may move on between them.
 Expected<Status> read_status(StoreReader& store) {
   Status status;
   const std::pair<const char*, Rows*> parts[] = {{kCampaign, &status.campaign},
@@ -53,6 +54,7 @@ Expected<Status> read_status(StoreReader& store) {
   return status;
 }
 
+/// One line of the campaign, then its designs, then who works.
 void write_text(Output& output, const Status& status) {
   output.out << "campaign " << status.of_campaign("name") << "  " << status.of_campaign("state")
              << "  designs " << status.of_campaign("designs_finished") << "/"

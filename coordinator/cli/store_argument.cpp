@@ -14,8 +14,9 @@ Expected<std::string> StoreArgument::path() const {
   if (!option.empty()) return option;
   const char* variable = std::getenv("SWARMSMITH_STORE");
   if (variable != nullptr && *variable != '\0') return std::string(variable);
-  return bad_input("which store? Name its file, for instance `--store demo.db`, or set "
-                   "SWARMSMITH_STORE");
+  return bad_input(
+      "which store? Name its file, for instance `--store demo.db`, or set "
+      "SWARMSMITH_STORE");
 }
 
 Expected<std::unique_ptr<StoreReader>> StoreArgument::open() const {

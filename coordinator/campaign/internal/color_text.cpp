@@ -7,6 +7,7 @@
 
 namespace swarmsmith {
 
+/// Names first: there is no name that begins with #.
 std::optional<Rgb> parse_color(std::string_view text) {
   if (text == "grey") return parse_color("gray");
   if (const auto named = color_from_name(text)) return named;
@@ -34,7 +35,8 @@ std::string color_text(Rgb color) {
 
 std::string known_colors() {
   std::string text;
-  for (const NamedColor& named : kNamedColors) text += std::string(named.name) + ", ";
+  for (const NamedColor& named : kNamedColors)
+    text += std::string(named.name) + ", ";
   return text + "\"#rrggbb\"";
 }
 

@@ -7,11 +7,13 @@
 namespace swarmsmith {
 namespace {
 
+/// The parser counts lines and columns from 1, as editors do.
 Place place_of(const toml::source_region& region) {
   return {static_cast<std::uint32_t>(region.begin.line),
           static_cast<std::uint32_t>(region.begin.column)};
 }
 
+/// Copies the parser's tree.
 Node converted(const toml::node& node) {
   const Place place = place_of(node.source());
   if (const auto* flag = node.as_boolean()) return {flag->get(), place};
@@ -20,7 +22,8 @@ Node converted(const toml::node& node) {
   if (const auto* text = node.as_string()) return {text->get(), place};
   if (const auto* array = node.as_array()) {
     Array items;
-    for (const toml::node& item : *array) items.items.push_back(converted(item));
+    for (const toml::node& item : *array)
+      items.items.push_back(converted(item));
     return {std::move(items), place};
   }
   if (const auto* table = node.as_table()) {

@@ -16,10 +16,12 @@ double need(TableReader& table, std::string_view key, Limits<double> limits) {
   return table.number(key, limits).value_or(limits.most);
 }
 
+/// Where the middle of a spot is.
 Point read_centre(TableReader& table) {
   return {need(table, "x", kCoordinate), need(table, "y", kCoordinate)};
 }
 
+/// A square has a `side`, a rectangle `width` and `height`.
 Rectangle read_rectangle(TableReader& table, bool square) {
   Rectangle shape{.centre = read_centre(table), .width_m = 0, .height_m = 0};
   shape.width_m = need(table, square ? "side" : "width", kSize);
@@ -27,6 +29,7 @@ Rectangle read_rectangle(TableReader& table, bool square) {
   return shape;
 }
 
+/// One entry of `spots`.
 std::optional<Patch> read_spot(TableReader& table) {
   static const std::vector<std::string> kShapes = {"circle", "square", "rectangle"};
   const auto shape = table.choice("shape", kShapes);
@@ -44,6 +47,7 @@ std::optional<Patch> read_spot(TableReader& table) {
   return patch;
 }
 
+/// The table `shuffled`: which colours, on which places.
 ShuffledPatches read_shuffled(TableReader& table) {
   ShuffledPatches shuffled;
   for (TableReader& place : table.tables("places")) {
@@ -62,7 +66,8 @@ ShuffledPatches read_shuffled(TableReader& table) {
     table.complain("colors", table.name() + " needs `colors`, such as { red = 4 }");
   }
   if (patches > shuffled.places.size()) {
-    table.complain("colors", "`colors` asks for " + std::to_string(patches) + " patches, `places` has " +
+    table.complain("colors", "`colors` asks for " + std::to_string(patches) +
+                                 " patches, `places` has " +
                                  std::to_string(shuffled.places.size()));
   }
   table.finish();
@@ -111,10 +116,12 @@ std::vector<std::pair<std::string, Rgb>> read_color_keys(TableReader& table) {
     }
   }
   std::vector<std::pair<std::string, Rgb>> keys;
-  for (auto& [name, key] : by_name) keys.push_back(std::move(key));
+  for (auto& [name, key] : by_name)
+    keys.push_back(std::move(key));
   return keys;
 }
 
+/// Spots replace those of the preset, since one cannot take away what is not named.
 bool read_arena(TableReader& table, CampaignMission& mission) {
   Mission& built = mission.mission;
   static const std::vector<std::string> kNotYet = {"square", "circle", "rectangle", "polygon",

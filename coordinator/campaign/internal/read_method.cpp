@@ -13,10 +13,12 @@ namespace {
 
 std::vector<std::string> ids_of(const std::vector<ModuleSpec>& table) {
   std::vector<std::string> ids;
-  for (const ModuleSpec& spec : table) ids.emplace_back(id_of(spec.module));
+  for (const ModuleSpec& spec : table)
+    ids.emplace_back(id_of(spec.module));
   return ids;
 }
 
+/// Null, after a complaint, when the flavour is unknown: then its modules cannot be checked.
 const Flavour* read_flavour(TableReader& table, Method& method) {
   static const std::vector<std::string> kKnown = {watermelon().name, watermelon_argos3().name};
   static const std::vector<std::string> kNotYet = {"chocolate", "vanilla"};
@@ -53,6 +55,7 @@ std::vector<std::string> read_modules(TableReader& table, std::string_view key,
   return chosen;
 }
 
+/// The flavour's entry of a module by its id, or null.
 const ModuleSpec* find_module(const Flavour& flavour, const std::string& id) {
   const auto module = module_from_id(id);
   return module ? flavour.find(*module) : nullptr;
@@ -71,8 +74,9 @@ std::optional<RangeOverride> read_range(TableReader& entry, const ModuleSpec& mo
   }
   if (entry.has("digits")) {
     entry.take("digits");
-    entry.complain("digits", "digits for one parameter are not there yet; `digits` in [race] holds "
-                             "for all reals");
+    entry.complain("digits",
+                   "digits for one parameter are not there yet; `digits` in [race] holds "
+                   "for all reals");
   }
   const auto range = entry.interval(type);
   if (!entry.has(type) && !entry.has(other)) {
@@ -94,6 +98,7 @@ std::optional<RangeOverride> read_range(TableReader& entry, const ModuleSpec& mo
                        range->most};
 }
 
+/// All ranges of one module: `exploration.tau = ...`.
 void read_module_ranges(TableReader& table, const ModuleSpec& module, Method& method) {
   std::vector<std::string> known;
   for (const ParameterSpec& parameter : module.parameters) {
@@ -101,8 +106,9 @@ void read_module_ranges(TableReader& table, const ModuleSpec& module, Method& me
     if (!table.has(parameter.name)) continue;
     if (parameter.type == ParameterSpec::Type::Label) {
       table.take(parameter.name);
-      table.complain(parameter.name, "a label is one of the flavour's colours; a choice among them "
-                                     "is not there yet");
+      table.complain(parameter.name,
+                     "a label is one of the flavour's colours; a choice among them "
+                     "is not there yet");
       continue;
     }
     auto entry = table.table(parameter.name);
@@ -118,6 +124,7 @@ void read_module_ranges(TableReader& table, const ModuleSpec& module, Method& me
   }
 }
 
+/// [method.parameters]: only for modules that the method uses.
 void read_ranges(TableReader& table, const Flavour& flavour, Method& method) {
   std::vector<std::string> used = method.behaviours;
   used.insert(used.end(), method.conditions.begin(), method.conditions.end());
@@ -132,6 +139,7 @@ void read_ranges(TableReader& table, const Flavour& flavour, Method& method) {
   }
 }
 
+/// One [[method]]; `taken` are the names of those before it.
 Method read_method(TableReader& table, const std::vector<std::string>& taken) {
   Method method;
   method.name = table.text("name").value_or("");
@@ -145,7 +153,8 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken) {
     method.conditions = read_modules(table, "conditions", flavour->conditions, flavour->name);
     if (auto ranges = table.table("parameters")) read_ranges(*ranges, *flavour, method);
   } else {
-    for (const std::string_view key : {"behaviours", "conditions", "parameters"}) table.take(key);
+    for (const std::string_view key : {"behaviours", "conditions", "parameters"})
+      table.take(key);
   }
   table.finish();
   return method;
@@ -161,8 +170,9 @@ std::vector<Method> read_methods(TableReader& root) {
     names.push_back(methods.back().name);
   }
   if (!root.has("method")) {
-    root.complain("method", "the file has no [[method]]; the shortest is [[method]] with name = "
-                            "\"watermelon\"");
+    root.complain("method",
+                  "the file has no [[method]]; the shortest is [[method]] with name = "
+                  "\"watermelon\"");
   }
   return methods;
 }

@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr double kLongest_s = 86'400;
+/// Enough to find a swarm that fits only now and then.
 constexpr int kPlacementTrials = 20;
 
 const std::vector<std::string> kPresets = {"aggregation", "grid_exploration", "color_selection"};
@@ -22,16 +23,19 @@ const std::vector<std::string> kPresets = {"aggregation", "grid_exploration", "c
 void read_fixed_keys(TableReader& score) {
   score.choice("at", std::vector<std::string>{"end"});
   if (score.boolean("maximize") == false) {
-    score.complain("maximize", "scores are always maximised; give what is unwanted a negative "
-                               "reward instead of `maximize = false`");
+    score.complain("maximize",
+                   "scores are always maximised; give what is unwanted a negative "
+                   "reward instead of `maximize = false`");
   }
 }
 
+/// Thesis eq. 6.1.
 RobotsOn read_robots_on(TableReader& score) {
   read_fixed_keys(score);
   return {.color = read_color(score, "color").value_or(Rgb{})};
 }
 
+/// Thesis eq. 6.2.
 Coverage read_coverage(TableReader& score) {
   if (score.boolean("maximize") == false) score.complain("maximize", "scores are always maximised");
   Coverage coverage;
@@ -42,14 +46,16 @@ Coverage read_coverage(TableReader& score) {
   return coverage;
 }
 
+/// Thesis eq. 6.3.
 ColorReward read_color_reward(TableReader& score) {
   read_fixed_keys(score);
   ColorReward rule;
   auto rewards = score.table("rewards");
   if (!rewards) {
     if (!score.has("rewards")) {
-      score.complain("rewards", "the score color_reward needs `rewards`, such as { red = 1, "
-                                "yellow = 2 }");
+      score.complain("rewards",
+                     "the score color_reward needs `rewards`, such as { red = 1, "
+                     "yellow = 2 }");
     }
     return rule;
   }
@@ -61,6 +67,7 @@ ColorReward read_color_reward(TableReader& score) {
   return rule;
 }
 
+/// [mission.score] replaces the preset's.
 void read_score(TableReader& score, Mission& mission) {
   static const std::vector<std::string> kKinds = {"robots_on", "coverage", "color_reward"};
   static const std::vector<std::string> kNotYet = {"external"};
@@ -77,6 +84,7 @@ void read_score(TableReader& score, Mission& mission) {
   score.finish();
 }
 
+/// How the starts of training pairs are drawn.
 void read_training(TableReader& instances, CampaignMission& mission) {
   auto training = instances.table("training");
   if (!training) return;
@@ -86,6 +94,7 @@ void read_training(TableReader& instances, CampaignMission& mission) {
   training->finish();
 }
 
+/// [mission.instances]: what designs are tried on, and then judged on.
 void read_instances(TableReader& instances, CampaignMission& mission) {
   read_training(instances, mission);
   if (auto test = instances.table("test")) {
@@ -112,10 +121,10 @@ Mission read_base(TableReader& table, const std::string& name) {
       preset = kPresets.front();
     }
   } else if (!built_in && !table.has("score")) {
-    table.complain("name", "mission \"" + name + "\" is not built in" +
-                               did_you_mean(name, kPresets) +
-                               ", so it needs a `preset` or a [mission.score]; built in are: " +
-                               joined(kPresets));
+    table.complain(
+        "name",
+        "mission \"" + name + "\" is not built in" + did_you_mean(name, kPresets) +
+            ", so it needs a `preset` or a [mission.score]; built in are: " + joined(kPresets));
   }
   if (!preset.empty()) {
     if (auto mission = built_in_mission(preset)) return std::move(*mission);
@@ -123,6 +132,7 @@ Mission read_base(TableReader& table, const std::string& name) {
   return {.name = name, .arena = dodecagon_of_the_thesis(), .shuffled = {}, .rule = RobotsOn{}};
 }
 
+/// People say seconds, the engine counts control cycles.
 void read_duration(TableReader& table, Mission& mission) {
   const auto duration = table.seconds("duration", {kControlPeriod_s, kLongest_s});
   if (!duration) return;
@@ -143,6 +153,7 @@ void check_room(TableReader& table, const Mission& mission) {
   }
 }
 
+/// One [[mission]]; `taken` are the names of those before it.
 CampaignMission read_mission(TableReader& table, const std::vector<std::string>& taken) {
   CampaignMission mission;
   const std::string name = table.text("name").value_or("");
@@ -173,8 +184,9 @@ bool check_name(TableReader& reader, const std::string& name,
     return false;
   }
   if (name.empty() || name.find_first_not_of(kLetters) != std::string::npos) {
-    reader.complain("name", "a name consists of letters, digits, `_`, `-` and `.`, and is not "
-                            "empty");
+    reader.complain("name",
+                    "a name consists of letters, digits, `_`, `-` and `.`, and is not "
+                    "empty");
     return false;
   }
   if (std::ranges::find(taken, name) != taken.end()) {
@@ -192,8 +204,9 @@ std::vector<CampaignMission> read_missions(TableReader& root) {
     names.push_back(missions.back().mission.name);
   }
   if (!root.has("mission")) {
-    root.complain("mission", "the file has no [[mission]]; the shortest is [[mission]] with name = "
-                             "\"aggregation\"");
+    root.complain("mission",
+                  "the file has no [[mission]]; the shortest is [[mission]] with name = "
+                  "\"aggregation\"");
   }
   return missions;
 }

@@ -9,16 +9,29 @@ namespace {
 
 /// Options of irace that this version knows of and lacks. (Those that say how programs are called,
 /// or how many at a time, have no meaning here at all.)
-const std::vector<std::string> kNotYet = {
-    "max_time",       "budget_estimation", "min_measurable_time", "capping",
-    "capping_type",   "bound_type",        "bound_max",           "bound_digits",
-    "bound_par",      "bound_as_timeout",  "postselection",       "deterministic",
-    "block_size",     "test_nb_elites",    "test_iteration_elites", "configurations_file",
-    "repair_configuration"};
+const std::vector<std::string> kNotYet = {"max_time",
+                                          "budget_estimation",
+                                          "min_measurable_time",
+                                          "capping",
+                                          "capping_type",
+                                          "bound_type",
+                                          "bound_max",
+                                          "bound_digits",
+                                          "bound_par",
+                                          "bound_as_timeout",
+                                          "postselection",
+                                          "deterministic",
+                                          "block_size",
+                                          "test_nb_elites",
+                                          "test_iteration_elites",
+                                          "configurations_file",
+                                          "repair_configuration"};
 
+/// The tests that irace has, those that are here first.
 const std::vector<std::string> kTests = {"F-test"};
 const std::vector<std::string> kTestsNotYet = {"t-test", "t-test-holm", "t-test-bonferroni"};
 
+/// All options that are one number or one flag.
 void read_numbers(TableReader& race, Scenario& scenario) {
   for (const IntegerOption& option : kIntegerOptions) {
     const auto value = race.integer(option.key, {option.least, kLargestOption});
@@ -40,8 +53,9 @@ void read_race(TableReader& root, Scenario& scenario, std::int64_t& digits) {
   auto race = root.table("race");
   if (!race) {
     if (!root.has("race")) {
-      root.complain("race", "the file has no [race]; it needs at least `max_experiments`, the "
-                            "number of experiments that each design may use");
+      root.complain("race",
+                    "the file has no [race]; it needs at least `max_experiments`, the "
+                    "number of experiments that each design may use");
     }
     return;
   }
@@ -52,8 +66,9 @@ void read_race(TableReader& root, Scenario& scenario, std::int64_t& digits) {
     race->complain("elitist", "elitist = false is not there yet; races are elitist");
   }
   if (!race->has("max_experiments")) {
-    race->complain("max_experiments", "[race] needs `max_experiments`, the number of experiments "
-                                      "that each design may use");
+    race->complain("max_experiments",
+                   "[race] needs `max_experiments`, the number of experiments "
+                   "that each design may use");
   }
   race->finish(kNotYet);
   if (const auto checked = check(scenario); !checked && race->has(checked.error().where)) {

@@ -11,35 +11,42 @@
 namespace swarmsmith {
 namespace {
 
+/// The items' texts, separated by commas.
 template <class Items, class Text>
 std::string list_of(const Items& items, const Text& text_of) {
   std::string text;
-  for (const auto& item : items) text += (text.empty() ? "" : ", ") + text_of(item);
+  for (const auto& item : items)
+    text += (text.empty() ? "" : ", ") + text_of(item);
   return text;
 }
 
+/// A TOML array of texts.
 std::string array_of(const std::vector<std::string>& texts) {
   return "[" + list_of(texts, [](const std::string& text) { return quoted_text(text); }) + "]";
 }
 
-std::string flag_text(bool flag) { return flag ? "true" : "false"; }
+std::string flag_text(bool flag) {
+  return flag ? "true" : "false";
+}
 
+/// The keys of a place; squares are written as rectangles, too.
 std::string rectangle_text(const Rectangle& shape) {
   return "x = " + number_text(shape.centre.x) + ", y = " + number_text(shape.centre.y) +
          ", width = " + number_text(shape.width_m) + ", height = " + number_text(shape.height_m);
 }
 
+/// An inline table of `spots`.
 std::string spot_text(const Patch& patch) {
-  const std::string shape = std::visit(
-      Overloaded{[](const Disc& disc) {
-                   return "shape = \"circle\", x = " + number_text(disc.centre.x) +
-                          ", y = " + number_text(disc.centre.y) +
-                          ", diameter = " + number_text(2 * disc.radius_m);
-                 },
-                 [](const Rectangle& rectangle) {
-                   return "shape = \"rectangle\", " + rectangle_text(rectangle);
-                 }},
-      patch.shape);
+  const std::string shape =
+      std::visit(Overloaded{[](const Disc& disc) {
+                              return "shape = \"circle\", x = " + number_text(disc.centre.x) +
+                                     ", y = " + number_text(disc.centre.y) +
+                                     ", diameter = " + number_text(2 * disc.radius_m);
+                            },
+                            [](const Rectangle& rectangle) {
+                              return "shape = \"rectangle\", " + rectangle_text(rectangle);
+                            }},
+                 patch.shape);
   return "{ " + shape + ", color = " + quoted_text(color_text(patch.color)) + " }";
 }
 
@@ -49,16 +56,17 @@ std::string color_key(Rgb color) {
   return text.front() == '#' ? quoted_text(text) : text;
 }
 
+/// The inline table `shuffled`.
 std::string shuffled_text(const ShuffledPatches& shuffled) {
   const std::string colors = list_of(shuffled.shares, [](const ShuffledPatches::Share& share) {
     return color_key(share.color) + " = " + std::to_string(share.count);
   });
-  const std::string places = list_of(shuffled.places, [](const Rectangle& place) {
-    return "{ " + rectangle_text(place) + " }";
-  });
+  const std::string places = list_of(
+      shuffled.places, [](const Rectangle& place) { return "{ " + rectangle_text(place) + " }"; });
   return "{ colors = { " + colors + " }, places = [" + places + "] }";
 }
 
+/// The inline table `rewards`, in the rule's own order.
 std::string rewards_text(const ColorReward& rule) {
   return "{ " +
          list_of(rule.rewards,
@@ -68,23 +76,25 @@ std::string rewards_text(const ColorReward& rule) {
          " }";
 }
 
+/// [mission.score]
 std::vector<SectionLine> score_lines(const ScoreRule& rule) {
   return std::visit(
-      Overloaded{[](const RobotsOn& robots) -> std::vector<SectionLine> {
-                   return {{"kind", "\"robots_on\""},
-                           {"color", quoted_text(color_text(robots.color))}};
-                 },
-                 [](const Coverage& coverage) -> std::vector<SectionLine> {
-                   return {{"kind", "\"coverage\""},
-                           {"tiles", std::to_string(coverage.tiles)},
-                           {"side", number_text(coverage.side_m)}};
-                 },
-                 [](const ColorReward& reward) -> std::vector<SectionLine> {
-                   return {{"kind", "\"color_reward\""}, {"rewards", rewards_text(reward)}};
-                 }},
+      Overloaded{
+          [](const RobotsOn& robots) -> std::vector<SectionLine> {
+            return {{"kind", "\"robots_on\""}, {"color", quoted_text(color_text(robots.color))}};
+          },
+          [](const Coverage& coverage) -> std::vector<SectionLine> {
+            return {{"kind", "\"coverage\""},
+                    {"tiles", std::to_string(coverage.tiles)},
+                    {"side", number_text(coverage.side_m)}};
+          },
+          [](const ColorReward& reward) -> std::vector<SectionLine> {
+            return {{"kind", "\"color_reward\""}, {"rewards", rewards_text(reward)}};
+          }},
       rule);
 }
 
+/// [mission.arena]; without an area the walls are the thesis' own.
 std::vector<SectionLine> arena_lines(const CampaignMission& campaign_mission) {
   const Mission& mission = campaign_mission.mission;
   std::vector<SectionLine> lines = {{"shape", "\"dodecagon\""}};
@@ -97,6 +107,7 @@ std::vector<SectionLine> arena_lines(const CampaignMission& campaign_mission) {
   return lines;
 }
 
+/// A mission is told whole: its preset may change in a later version, its stored text must not.
 void add_mission(const CampaignMission& campaign_mission, std::vector<Section>& sections) {
   const Mission& mission = campaign_mission.mission;
   const std::string prefix = "mission." + mission.name + ".";
@@ -118,6 +129,7 @@ void add_mission(const CampaignMission& campaign_mission, std::vector<Section>& 
                        {"test", "{ count = " + count + " }"}}});
 }
 
+/// A method with the modules that it uses, by name.
 void add_method(const Method& method, std::vector<Section>& sections) {
   const std::string prefix = "method." + method.name + ".";
   sections.push_back({"[[method]]",
@@ -138,13 +150,14 @@ void add_method(const Method& method, std::vector<Section>& sections) {
       if (parameter.name != range.parameter) continue;
       if (parameter.type == ParameterSpec::Type::Integer) type = "int";
     }
-    parameters.lines.push_back({range.module + "." + range.parameter,
-                                "{ " + type + " = [" + number_text(range.lower) + ", " +
-                                    number_text(range.upper) + "] }"});
+    parameters.lines.push_back(
+        {range.module + "." + range.parameter, "{ " + type + " = [" + number_text(range.lower) +
+                                                   ", " + number_text(range.upper) + "] }"});
   }
   sections.push_back(std::move(parameters));
 }
 
+/// [race] with every option, also those that have their defaults.
 Section race_section(const Campaign& campaign) {
   const Scenario& race = campaign.race;
   Section section{"[race]", "race.", {}};
@@ -184,8 +197,10 @@ std::vector<Section> sections_of(const Campaign& campaign) {
                       {{"name", quoted_text(campaign.name), false},
                        {"seed", std::to_string(campaign.seed)},
                        {"repetitions", std::to_string(campaign.repetitions)}}});
-  for (const CampaignMission& mission : campaign.missions) add_mission(mission, sections);
-  for (const Method& method : campaign.methods) add_method(method, sections);
+  for (const CampaignMission& mission : campaign.missions)
+    add_mission(mission, sections);
+  for (const Method& method : campaign.methods)
+    add_method(method, sections);
   sections.push_back(race_section(campaign));
   sections.push_back({"[simulator]",
                       "simulator.",

@@ -12,7 +12,10 @@
 namespace swarmsmith {
 namespace {
 
-const Table& entries_of(const Node& node) { return std::get<Table>(node.value); }
+/// Readers are only made for tables.
+const Table& entries_of(const Node& node) {
+  return std::get<Table>(node.value);
+}
 
 struct Unit {
   std::string_view name;
@@ -26,13 +29,15 @@ std::optional<double> parse_seconds(std::string_view text) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc()) return std::nullopt;
   std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
-  while (!unit.empty() && unit.front() == ' ') unit.remove_prefix(1);
+  while (!unit.empty() && unit.front() == ' ')
+    unit.remove_prefix(1);
   for (const Unit& known : kUnits) {
     if (unit == known.name) return value * known.seconds;
   }
   return std::nullopt;
 }
 
+/// Integers and reals are both numbers to people.
 std::optional<double> as_number(const Node& node) {
   if (const auto* real = std::get_if<double>(&node.value)) return *real;
   if (const auto* whole = std::get_if<std::int64_t>(&node.value)) {
@@ -41,6 +46,7 @@ std::optional<double> as_number(const Node& node) {
   return std::nullopt;
 }
 
+/// Both ends belong to the range.
 template <class Number>
 bool within(Number value, Limits<Number> limits) {
   return value >= limits.least && value <= limits.most;
@@ -74,7 +80,8 @@ std::vector<Error> Complaints::take() {
     return std::tuple(place.line == 0, place.line, place.column);
   });
   std::vector<Error> errors;
-  for (auto& [place, error] : complaints_) errors.push_back(std::move(error));
+  for (auto& [place, error] : complaints_)
+    errors.push_back(std::move(error));
   complaints_.clear();
   return errors;
 }
@@ -107,6 +114,7 @@ void TableReader::complain(std::string_view key, std::string message) {
   complaints_->add(place_of(key), std::move(message));
 }
 
+/// A value of another type than the key wants.
 void TableReader::complain_type(const Node& node, std::string_view key, std::string_view wanted) {
   complaints_->add(node.place, "`" + std::string(key) + "` must be " + std::string(wanted) +
                                    ", this is " + std::string(type_name(node)));

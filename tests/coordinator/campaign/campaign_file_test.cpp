@@ -91,9 +91,9 @@ robots = 2
 }
 
 TEST(CampaignFile, TakesAPresetAndChangesIt) {
-  const Campaign campaign = parsed(FileText{
-      .mission = "name = \"long\"\npreset = \"grid_exploration\"\nduration = \"10 min\"\n"}
-                                       .text());
+  const Campaign campaign = parsed(
+      FileText{.mission = "name = \"long\"\npreset = \"grid_exploration\"\nduration = \"10 min\"\n"}
+          .text());
   Mission wanted = *built_in_mission("grid_exploration");
   wanted.name = "long";
   wanted.cycles = 6000;
@@ -126,9 +126,8 @@ TEST(CampaignFile, ReadsRangesOfParameters) {
   attraction.alpha = { real = [1.5, 5] }
 )"}
                                        .text());
-  EXPECT_THAT(campaign.methods[0].ranges,
-              ElementsAre(RangeOverride{"attraction", "alpha", 1.5, 5},
-                          RangeOverride{"exploration", "tau", 1, 50}));
+  EXPECT_THAT(campaign.methods[0].ranges, ElementsAre(RangeOverride{"attraction", "alpha", 1.5, 5},
+                                                      RangeOverride{"exploration", "tau", 1, 50}));
 }
 
 TEST(CampaignFile, OfABudgetThatFlagsMadeTooSmallNamesTheSmallestThatWorks) {

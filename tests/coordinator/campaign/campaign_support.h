@@ -25,12 +25,15 @@ struct FileText {
   }
 };
 
-inline CampaignOrErrors parse(const std::string& text) { return parse_campaign(text, "in/x.toml"); }
+inline CampaignOrErrors parse(const std::string& text) {
+  return parse_campaign(text, "in/x.toml");
+}
 
 inline Campaign parsed(const std::string& text) {
   auto campaign = parse(text);
   if (campaign) return *campaign;
-  for (const Error& error : campaign.error()) ADD_FAILURE() << to_string(error);
+  for (const Error& error : campaign.error())
+    ADD_FAILURE() << to_string(error);
   return {};
 }
 
@@ -39,7 +42,8 @@ inline std::vector<std::string> complaints(const std::string& text) {
   std::vector<std::string> lines;
   const auto campaign = parse(text);
   if (campaign) return lines;
-  for (const Error& error : campaign.error()) lines.push_back(to_string(error));
+  for (const Error& error : campaign.error())
+    lines.push_back(to_string(error));
   return lines;
 }
 

@@ -16,15 +16,17 @@ using testing::Pair;
 using testing::SizeIs;
 
 const FileText kRich{.campaign = "seed = 9\nrepetitions = 2\n",
-                     .mission = "name = \"color_selection\"\n[[mission]]\n"
-                                "name = \"grid_exploration\"\nduration = \"12.3 s\"\n[[mission]]\n"
-                                "name = \"shelter\"\narena = { area = 4.91, floor = \"#010203\", "
-                                "spots = [ { shape = \"circle\", x = 0.1, y = 0, diameter = 0.7, "
-                                "color = \"black\" } ] }\n"
-                                "score = { kind = \"robots_on\", color = \"black\" }\n",
-                     .method = "name = \"a\"\n[[method]]\nname = \"b\"\n"
-                               "flavour = \"watermelon-argos3\"\nmax_states = 3\n"
-                               "parameters.neighbour_count.eta = { real = [0.25, 10] }\n",
+                     .mission =
+                         "name = \"color_selection\"\n[[mission]]\n"
+                         "name = \"grid_exploration\"\nduration = \"12.3 s\"\n[[mission]]\n"
+                         "name = \"shelter\"\narena = { area = 4.91, floor = \"#010203\", "
+                         "spots = [ { shape = \"circle\", x = 0.1, y = 0, diameter = 0.7, "
+                         "color = \"black\" } ] }\n"
+                         "score = { kind = \"robots_on\", color = \"black\" }\n",
+                     .method =
+                         "name = \"a\"\n[[method]]\nname = \"b\"\n"
+                         "flavour = \"watermelon-argos3\"\nmax_states = 3\n"
+                         "parameters.neighbour_count.eta = { real = [0.25, 10] }\n",
                      .race = "max_experiments = 5000\nmin_experiments = 100\nconfidence = 0.9\n"};
 
 TEST(NormalisedText, ReadsBackToTheSameCampaign) {
@@ -50,13 +52,16 @@ TEST(NormalisedText, OfEachBuiltInMissionReadsBackToIt) {
   }
 }
 
-std::string digest_of(const FileText& file) { return campaign_digest(parsed(file.text())); }
+std::string digest_of(const FileText& file) {
+  return campaign_digest(parsed(file.text()));
+}
 
 TEST(CampaignDigest, DoesNotCoverStoreNameWorkersAndAddresses) {
   const FileText other{.campaign = "name = \"other\"\nstore = \"/tmp/other.db\"\n",
-                       .rest = "[workers]\nlocal = 7\nbind = \"127.0.0.1:7777\"\n"
-                               "timeout = \"9 s\"\nretries = 0\non_failure = \"stop\"\n"
-                               "[dashboard]\nbind = \"127.0.0.1:1\"\n"};
+                       .rest =
+                           "[workers]\nlocal = 7\nbind = \"127.0.0.1:7777\"\n"
+                           "timeout = \"9 s\"\nretries = 0\non_failure = \"stop\"\n"
+                           "[dashboard]\nbind = \"127.0.0.1:1\"\n"};
   EXPECT_EQ(digest_of(other), digest_of({}));
 }
 
@@ -93,7 +98,8 @@ TEST(CampaignDigest, CoversEverythingThatDecides) {
       {.rest = "[simulator]\nprofile = \"argos3\"\n"},
   };
   std::set<std::string> digests;
-  for (const FileText& file : files) digests.insert(digest_of(file));
+  for (const FileText& file : files)
+    digests.insert(digest_of(file));
   EXPECT_THAT(digests, SizeIs(files.size()));
 }
 
@@ -106,11 +112,11 @@ TEST(Deciding, ReadsLikeTheFile) {
 }
 
 TEST(DesignRows, GoByMissionThenMethodThenRepetition) {
-  const Campaign campaign =
-      parsed(FileText{.campaign = "repetitions = 2\n",
-                      .mission = "name = \"aggregation\"\n[[mission]]\nname = \"color_selection\"\n",
-                      .method = "name = \"b\"\n[[method]]\nname = \"a\"\n"}
-                 .text());
+  const Campaign campaign = parsed(
+      FileText{.campaign = "repetitions = 2\n",
+               .mission = "name = \"aggregation\"\n[[mission]]\nname = \"color_selection\"\n",
+               .method = "name = \"b\"\n[[method]]\nname = \"a\"\n"}
+          .text());
   std::vector<std::string> designs;
   for (const DesignRow& row : design_rows(campaign)) {
     designs.push_back(to_string(row.id) + " " + row.mission + " " + row.method + " " +
@@ -127,9 +133,11 @@ TEST(DesignRows, GoByMissionThenMethodThenRepetition) {
 TEST(DesignRows, GiveEveryDesignASeedThatFollowsFromTheCampaigns) {
   Campaign campaign = parsed(FileText{.campaign = "repetitions = 3\n"}.text());
   std::set<std::int64_t> seeds;
-  for (const DesignRow& row : design_rows(campaign)) seeds.insert(row.seed);
+  for (const DesignRow& row : design_rows(campaign))
+    seeds.insert(row.seed);
   campaign.seed = 2;
-  for (const DesignRow& row : design_rows(campaign)) seeds.insert(row.seed);
+  for (const DesignRow& row : design_rows(campaign))
+    seeds.insert(row.seed);
   EXPECT_THAT(seeds, SizeIs(6));
 }
 

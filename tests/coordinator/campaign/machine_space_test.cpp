@@ -26,7 +26,8 @@ MachineSpace space_of(const Method& method, int digits = 2) {
 
 std::vector<std::string> names_of(const ParameterSpace& space) {
   std::vector<std::string> names;
-  for (const Parameter& parameter : space.parameters()) names.push_back(parameter.name);
+  for (const Parameter& parameter : space.parameters())
+    names.push_back(parameter.name);
   return names;
 }
 
@@ -42,10 +43,10 @@ Configuration random_configuration(const ParameterSpace& space, Rng& rng) {
     }
     const Interval interval = space.interval(i, values)->value();
     const bool whole = std::holds_alternative<Integer>(space[i].domain);
-    configuration.set(i, whole ? static_cast<double>(rng.uniform_int(
-                                     static_cast<std::int64_t>(interval.lower),
-                                     static_cast<std::int64_t>(interval.upper)))
-                               : std::round(rng.uniform(interval.lower, interval.upper) * 100) / 100);
+    configuration.set(
+        i, whole ? static_cast<double>(rng.uniform_int(static_cast<std::int64_t>(interval.lower),
+                                                       static_cast<std::int64_t>(interval.upper)))
+                 : std::round(rng.uniform(interval.lower, interval.upper) * 100) / 100);
   }
   return configuration;
 }
@@ -84,7 +85,8 @@ TEST_P(Flavours, UseEachActiveParameterOnceInTheMachine) {
   for (int i = 0; i < 200; ++i) {
     const Configuration configuration = random_configuration(machines.parameters(), rng);
     std::size_t active = 0;
-    for (std::size_t p = 0; p < configuration.size(); ++p) active += configuration.is_active(p);
+    for (std::size_t p = 0; p < configuration.size(); ++p)
+      active += configuration.is_active(p);
     // Each switch of the text is one active parameter of the space.
     const std::string text = print_machine(machines.to_machine(configuration), flavour);
     std::size_t switches = 0;
@@ -122,8 +124,7 @@ TEST(MachineSpace, ReadsTransitionTargetsAmongTheOtherStates) {
   set("L1x0", 2);
   ASSERT_TRUE(space.check(configuration));
   const Machine machine = machines.to_machine(configuration);
-  EXPECT_EQ(machine.states[0].transitions,
-            (std::vector<Transition>{{BlackFloor{1}, 1}}));
+  EXPECT_EQ(machine.states[0].transitions, (std::vector<Transition>{{BlackFloor{1}, 1}}));
   EXPECT_EQ(machine.states[1].transitions,
             (std::vector<Transition>{{ColorDetection{0.25, ColorLabel::Red}, 0}}));
   EXPECT_EQ(parameters_json(space, configuration),
@@ -159,11 +160,12 @@ TEST(MachineSpace, OfOneStateHasNoTransitions) {
 }
 
 TEST(MachineSpace, GivesAModuleWithARangeOfItsOwnAParameterOfItsOwn) {
-  const MachineSpace machines = space_of(
-      method_of("watermelon", "max_states = 2\nmax_transitions = 1\n"
-                              "conditions = [\"black_floor\", \"gray_floor\", \"white_floor\"]\n"
-                              "parameters.gray_floor.beta = { real = [0.5, 1] }\n"
-                              "parameters.exploration.tau = { int = [1, 50] }\n"));
+  const MachineSpace machines =
+      space_of(method_of("watermelon",
+                         "max_states = 2\nmax_transitions = 1\n"
+                         "conditions = [\"black_floor\", \"gray_floor\", \"white_floor\"]\n"
+                         "parameters.gray_floor.beta = { real = [0.5, 1] }\n"
+                         "parameters.exploration.tau = { int = [1, 50] }\n"));
   const ParameterSpace& space = machines.parameters();
   ASSERT_TRUE(space.index_of("P_gray_floor0x0"));
   ASSERT_TRUE(space.index_of("P0x0"));

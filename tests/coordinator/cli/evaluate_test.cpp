@@ -19,7 +19,8 @@ using testing::HasSubstr;
 std::vector<json> lines_of(const std::string& text) {
   std::vector<json> lines;
   std::istringstream stream(text);
-  for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(json::parse(line));
   return lines;
 }
 
@@ -89,9 +90,10 @@ TEST(Evaluate, TakesStartsFromATable) {
   const TemporaryFolder folder;
   write_file(folder / "starts.csv",
              "seed,robot,x,y,theta\n5,0,0.1,0.2,0\n5,1,-0.6,0,1\n5,2,0.6,0.6,7\n");
-  const std::vector<std::string> command = {"evaluate", kStopText, "--mission", "aggregation",
-                                            "--starts", (folder / "starts.csv").string(),
-                                            "--json", "--seeds"};
+  const std::vector<std::string> command = {"evaluate",  kStopText,
+                                            "--mission", "aggregation",
+                                            "--starts",  (folder / "starts.csv").string(),
+                                            "--json",    "--seeds"};
   auto seeds = command;
   seeds.emplace_back("5");
   EXPECT_EQ(run(seeds).out, "{\"seed\":5,\"score\":1}\n");
@@ -108,10 +110,12 @@ TEST(Evaluate, TakesPatchesFromATable) {
              "seed,robot,x,y,theta\n1,0,0.75,0.25,0\n1,1,-0.25,-0.25,0\n1,2,0.25,0.75,0\n");
   write_file(folder / "patches.csv",
              "seed,x,y,color\n1,0.75,0.25,yellow\n1,-0.25,-0.25,red\n1,0.25,0.75,green\n");
-  std::vector<std::string> command = {
-      "evaluate", kStopText, "--mission", "color_selection", "--starts",
-      (folder / "starts.csv").string(), "--patches", (folder / "patches.csv").string(), "--json",
-      "--seeds", "1"};
+  std::vector<std::string> command = {"evaluate",  kStopText,
+                                      "--mission", "color_selection",
+                                      "--starts",  (folder / "starts.csv").string(),
+                                      "--patches", (folder / "patches.csv").string(),
+                                      "--json",    "--seeds",
+                                      "1"};
   EXPECT_EQ(run(command).out, "{\"seed\":1,\"score\":3}\n");
   write_file(folder / "patches.csv", "seed,x,y,color\n1,0.7,0.25,yellow\n");
   const Ran ran = run(command);

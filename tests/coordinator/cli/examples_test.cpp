@@ -9,7 +9,8 @@ Campaign example(const std::string& name) {
   const auto file = std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "examples" / (name + ".toml");
   auto campaign = read_campaign(file);
   if (campaign) return *campaign;
-  for (const Error& error : campaign.error()) ADD_FAILURE() << to_string(error);
+  for (const Error& error : campaign.error())
+    ADD_FAILURE() << to_string(error);
   return {};
 }
 

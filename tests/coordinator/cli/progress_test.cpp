@@ -52,7 +52,8 @@ LiveStatus fleet() {
 
 ProgressModel model_after(const std::vector<Row>& rows) {
   ProgressModel model(kDesigns);
-  for (const Row& row : rows) model.add(row);
+  for (const Row& row : rows)
+    model.add(row);
   return model;
 }
 
@@ -68,9 +69,8 @@ TEST(StatusLine, IsCutToTheTerminal) {
 }
 
 TEST(StatusLine, CountsTheWholeBudgetOfAFinishedDesign) {
-  const ProgressModel model = model_after(
-      {DesignStateRow{.design = {1}, .state = DesignState::Finished, .used = 49'990, .best = {},
-                      .reason = {}}});
+  const ProgressModel model = model_after({DesignStateRow{
+      .design = {1}, .state = DesignState::Finished, .used = 49'990, .best = {}, .reason = {}}});
   EXPECT_EQ(model.used(), 50'000);
   EXPECT_EQ(model.finished(), 1);
   EXPECT_EQ(model.current()->design.id, DesignId{2});
@@ -179,8 +179,9 @@ TEST(ProgressInALog, TellsEveryHalfMinuteAndWhenADesignEnds) {
   printer.add(kStep);
   EXPECT_EQ(printer.err(), "");
   printer.add(kFinished);
-  EXPECT_EQ(printer.err(), "d1 aggregation m repetition 1 finished  used 50 000/50 000  best c812 "
-                           "2.75  (budget exhausted)\n");
+  EXPECT_EQ(printer.err(),
+            "d1 aggregation m repetition 1 finished  used 50 000/50 000  best c812 "
+            "2.75  (budget exhausted)\n");
   printer.pass(seconds(31));
   printer.update();
   EXPECT_THAT(printer.err(), HasSubstr("workers 2  slots 3/4\n"));
@@ -191,10 +192,11 @@ TEST(ProgressInALog, TellsOfTheRaceWhenItShallSayMore) {
   output.verbose = true;
   Printer printer(output);
   printer.add(kIteration);
-  EXPECT_EQ(printer.err(), "d1 aggregation m iteration 5 of about 10: 58 configurations (4 "
-                           "elites), budget 9 000\n");
-  printer.add(EliteRow{.design = {1}, .iteration = 5, .rank = 1, .candidate = {812}, .mean = 2.5,
-                       .runs = 20});
+  EXPECT_EQ(printer.err(),
+            "d1 aggregation m iteration 5 of about 10: 58 configurations (4 "
+            "elites), budget 9 000\n");
+  printer.add(EliteRow{
+      .design = {1}, .iteration = 5, .rank = 1, .candidate = {812}, .mean = 2.5, .runs = 20});
   EXPECT_EQ(printer.err(), "d1 elite 1: c812  mean 2.5 over 20 runs\n");
 }
 
