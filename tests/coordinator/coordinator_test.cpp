@@ -33,7 +33,8 @@ class Coordinators : public ::testing::Test {
         google::protobuf::Arena arena;
         heard.push_back(**decode_to_worker(send->frame, arena));
       } else {
-        for (Row& row : std::get<AppendRows>(action).rows) rows.push_back(std::move(row));
+        for (Row& row : std::get<AppendRows>(action).rows)
+          rows.push_back(std::move(row));
         coordinator.on_appended(++ticket);
       }
     }
@@ -57,12 +58,14 @@ class Coordinators : public ::testing::Test {
   }
   int acknowledged() const {
     int count = 0;
-    for (const pb::ToWorker& message : heard) count += message.acknowledged().keys_size();
+    for (const pb::ToWorker& message : heard)
+      count += message.acknowledged().keys_size();
     return count;
   }
   int count(pb::ToWorker::BodyCase body) const {
     int found = 0;
-    for (const pb::ToWorker& message : heard) found += message.body_case() == body;
+    for (const pb::ToWorker& message : heard)
+      found += message.body_case() == body;
     return found;
   }
 
@@ -121,7 +124,8 @@ TEST_F(Coordinators, SendTheScenario) {
 
 TEST_F(Coordinators, RefuseAPeerThatSendsRubbish) {
   hello();
-  for (int i = 0; i < 10; ++i) coordinator.on_frame(9, "rubbish", now);
+  for (int i = 0; i < 10; ++i)
+    coordinator.on_frame(9, "rubbish", now);
   EXPECT_EQ(coordinator.malformed().at("length"), 10U);
   heard.clear();
   hello(9);

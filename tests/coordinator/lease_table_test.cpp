@@ -24,7 +24,8 @@ class Leases : public ::testing::Test {
 };
 
 TEST_F(Leases, GoOutInOrderAndComeBackToTheFront) {
-  for (std::int64_t i = 1; i <= 4; ++i) EXPECT_TRUE(table.add(task(i)));
+  for (std::int64_t i = 1; i <= 4; ++i)
+    EXPECT_TRUE(table.add(task(i)));
   EXPECT_EQ(lease(7), 1);
   EXPECT_EQ(lease(7), 2);
   table.requeue(record(1));
@@ -72,7 +73,8 @@ TEST_F(Leases, KeepWhatRunsAloneApart) {
 }
 
 TEST_F(Leases, AreListedByWorkerOldestFirst) {
-  for (std::int64_t i = 1; i <= 3; ++i) table.add(task(i));
+  for (std::int64_t i = 1; i <= 3; ++i)
+    table.add(task(i));
   lease(7);
   lease(8);
   lease(7);

@@ -1,9 +1,9 @@
 // Real worker processes with the real simulator.
 
-#include <atomic>
-#include <csignal>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
+#include <atomic>
+#include <csignal>
 #include <thread>
 
 #include "coordinator/local_workers.h"
@@ -21,9 +21,8 @@ class Flat final : public WorkSource {
  public:
   explicit Flat(std::int64_t count) : left_(count) {
     for (std::int64_t i = 1; i <= count; ++i) {
-      tasks_.push_back({.key = {{i}, Purpose::Race, 1},
-                        .seed = i,
-                        .machine = "--nstates 1 --s0 0 --rwm0 20"});
+      tasks_.push_back(
+          {.key = {{i}, Purpose::Race, 1}, .seed = i, .machine = "--nstates 1 --s0 0 --rwm0 20"});
     }
   }
   std::vector<Task> take_tasks() override { return std::exchange(tasks_, {}); }

@@ -169,7 +169,7 @@ TEST_F(Schedulers, RefuseAnotherEngine) {
 
 TEST_F(Schedulers, IgnoreAnOldHello) {
   hello(1, 1, 3);
-  hello(9, 1, 2);
+  hello(21, 1, 2);  // the same worker over another connection
   EXPECT_EQ(all<SendWelcome>().size(), 1U);
 }
 
@@ -183,7 +183,8 @@ TEST_F(Schedulers, GiveTheTasksOfASilentWorkerToOthers) {
   credit(1, 2);
   want(1, 4);
   EXPECT_EQ(given[1].size(), 2U);
-  for (int i = 0; i < 6; ++i) pass(seconds(1));
+  for (int i = 0; i < 6; ++i)
+    pass(seconds(1));
   EXPECT_EQ(scheduler.workers().connected(), 0U);
   hello(2);
   credit(2, 100);

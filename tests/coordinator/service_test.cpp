@@ -1,7 +1,7 @@
 #include "coordinator/service.h"
 
-#include <atomic>
 #include <gtest/gtest.h>
+#include <atomic>
 #include <thread>
 
 #include "base/rng.h"
@@ -118,7 +118,8 @@ TEST_F(Services, KeepHonestWorkersUnaffectedByBadPeers) {
       bad.back()->connect();
       for (int j = 0; j < 40; ++j) {
         std::string garbage(rng.below(200), '\0');
-        for (char& c : garbage) c = static_cast<char>(rng.below(256));
+        for (char& c : garbage)
+          c = static_cast<char>(rng.below(256));
         bad.back()->send(garbage);
         bad.back()->send("SWRM" + garbage);
         bad.back()->send(encode(replayed));
@@ -136,9 +137,7 @@ TEST_F(Services, KeepHonestWorkersUnaffectedByBadPeers) {
 TEST_F(Services, RefuseAWorkerOfAnotherBuild) {
   open();
   std::jthread loop = run();
-  {
-    const std::jthread one = worker("other", 99);
-  }
+  { const std::jthread one = worker("other", 99); }
   EXPECT_EQ(last_end.code, ExitCode::Refused);
   EXPECT_NE(last_end.reason.find("version 99"), std::string::npos);
   loop.request_stop();
