@@ -9,4 +9,8 @@ struct Overloaded : Callables... {
   using Callables::operator()...;
 };
 
+/// GCC does without; clang 14 does not.
+template <class... Callables>
+Overloaded(Callables...) -> Overloaded<Callables...>;
+
 }  // namespace swarmsmith

@@ -60,6 +60,8 @@ class Store {
   /// Every evaluation that is stored, for replay; read before the first append.
   virtual std::vector<StoredScore> scores() = 0;
   virtual std::vector<StoredStep> steps() = 0;
+  /// How far each design is, in the order of their ids.
+  virtual std::vector<DesignStateRow> design_states() = 0;
   /// Whether the campaign's row says that it is finished.
   virtual bool finished() = 0;
 };

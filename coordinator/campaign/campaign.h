@@ -16,7 +16,11 @@ namespace swarmsmith {
 /// A mission and how its designs are judged.
 struct CampaignMission {
   Mission mission;
+  /// Of the regular dodecagon that its walls are; none: the walls of the thesis' program.
+  std::optional<double> area_m2;
   std::int64_t test_count = 100;  ///< fresh seeds on which each winner is scored after its race
+
+  friend bool operator==(const CampaignMission&, const CampaignMission&) = default;
 };
 
 /// A parameter's range that differs from the flavour's own.
@@ -51,6 +55,7 @@ struct Campaign {
   std::vector<Method> methods;
   /// Race options; number of instances and seed are set per design.
   Scenario race;
+  std::int64_t digits = 2;  ///< decimals of the real parameters
   Profile profile;
 
   // Outside the digest: other values neither stop a resume nor change the answer.

@@ -12,7 +12,8 @@ namespace {
 
 /// 1 at `near` and below, 0 at `far` and beyond, linear between.
 double ramp(double value, double near, double far) {
-  return std::clamp((far - value) / (far - near), 0.0, 1.0);
+  if (value >= far) return 0;  // the common case, without a division
+  return value <= near ? 1 : (far - value) / (far - near);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 #include <array>
+#include <string>
 
-#include "sim/mission/colors.h"
 #include "sim/mission/mission.h"
 
 // The built-in missions: thesis 6.3 to 6.5, with the geometry of rvr-automode facts, sections 7 and

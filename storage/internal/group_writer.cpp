@@ -70,6 +70,11 @@ std::vector<StoredStep> GroupWriter::steps() {
   return read_steps(connection_);
 }
 
+std::vector<DesignStateRow> GroupWriter::design_states() {
+  const std::lock_guard guard(connection_mutex_);
+  return read_design_states(connection_);
+}
+
 bool GroupWriter::finished() {
   const std::lock_guard guard(connection_mutex_);
   return is_finished(connection_);

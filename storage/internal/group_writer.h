@@ -28,6 +28,7 @@ class GroupWriter final : public Store {
   void flush() override;
   std::vector<StoredScore> scores() override;
   std::vector<StoredStep> steps() override;
+  std::vector<DesignStateRow> design_states() override;
   bool finished() override;
 
  private:

@@ -35,6 +35,10 @@ int only_reading(void*, int action, const char* first, const char* second, const
     case SQLITE_FUNCTION:
     case SQLITE_RECURSIVE:
       return SQLITE_OK;
+    case SQLITE_UPDATE:
+      // What SQLite asks when it sets up pragma_table_info(); nothing is written, and nothing could
+      // be: the file is open for reading only.
+      return std::string_view(first) == "sqlite_master" ? SQLITE_OK : SQLITE_DENY;
     case SQLITE_PRAGMA:
       return may_ask(first, second != nullptr) ? SQLITE_OK : SQLITE_DENY;
     default:

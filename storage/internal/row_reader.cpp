@@ -27,6 +27,9 @@ void each(const sqlite::Connection& connection, const char* sql, const OnRow& on
     on_row(make(row));
 }
 
+constexpr const char* kDesignStates =
+    "SELECT id, state, used, iteration, best, best_mean, reason FROM design ORDER BY id";
+
 DesignStateRow design_state(const Statement& row) {
   return {.design = design_at(row, 0),
           .state = static_cast<DesignState>(row.integer(1)),
@@ -174,14 +177,19 @@ std::vector<StoredStep> read_steps(const sqlite::Connection& connection) {
   return steps;
 }
 
+std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection) {
+  std::vector<DesignStateRow> states;
+  Statement row(connection, kDesignStates);
+  while (row.step()) states.push_back(design_state(row));
+  return states;
+}
+
 bool is_finished(const sqlite::Connection& connection) {
   return sqlite::text_of(connection, "SELECT state FROM campaign") == "finished";
 }
 
 void read_answer(const sqlite::Connection& connection, const OnRow& on_row) {
-  each(connection,
-       "SELECT id, state, used, iteration, best, best_mean, reason FROM design ORDER BY id", on_row,
-       design_state);
+  each(connection, kDesignStates, on_row, design_state);
   each(connection, "SELECT * FROM iteration ORDER BY design, number", on_row, iteration);
   each(connection,
        "SELECT id, iteration, parent, parameters, machine, modules, states, transitions"

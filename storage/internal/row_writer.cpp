@@ -27,7 +27,9 @@ constexpr char kRaceStep[] =
     "INSERT OR IGNORE INTO race_step VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
 constexpr char kElimination[] = "INSERT OR IGNORE INTO elimination VALUES (?,?,?,?,?)";
 constexpr char kElite[] = "INSERT OR IGNORE INTO elite VALUES (?,?,?,?,?,?)";
-constexpr char kTotals[] = "INSERT OR REPLACE INTO candidate_totals VALUES (?,?,?,?)";
+constexpr char kTotals[] =
+    "INSERT INTO candidate_totals VALUES (?,?,?,?) ON CONFLICT DO UPDATE SET runs = excluded.runs,"
+    " score_sum = excluded.score_sum, score_squares = excluded.score_squares";
 constexpr char kDesignState[] =
     "UPDATE design SET state = ?2, used = ?3, iteration = ?4, best = ?5, best_mean = ?6,"
     " reason = ?7 WHERE id = ?1";
@@ -92,8 +94,7 @@ void RowWriter::put(const PairRow& row) {
 }
 
 void RowWriter::put(const EvaluationRow& row) {
-  const std::optional<double> score =
-      row.status == EvaluationStatus::Ok ? std::optional(row.score) : std::nullopt;
+  const double* score = row.status == EvaluationStatus::Ok ? &row.score : nullptr;
   evaluation_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair,
                   unless_zero(row.iteration), number(row.status), score, row.state_digest,
                   source_id(row.source), row.wall_us, row.worker, row.attempt);

@@ -87,6 +87,9 @@ class Statement {
   void bind_one(int at, double value) { check(sqlite3_bind_double(handle_.get(), at, value)); }
   void bind_one(int at, std::string_view value);
   void bind_one(int at, std::nullopt_t) { check(sqlite3_bind_null(handle_.get(), at)); }
+  void bind_one(int at, const double* value) {  // none: NULL
+    value != nullptr ? bind_one(at, *value) : bind_one(at, std::nullopt);
+  }
   template <class T>
   void bind_one(int at, const std::optional<T>& value) {
     value ? bind_one(at, *value) : bind_one(at, std::nullopt);

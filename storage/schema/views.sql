@@ -95,11 +95,12 @@ WITH racer (design, iteration, candidate) AS (
   WHERE x.step IS NULL OR x.step >= s.step
 )
 SELECT t.design, t.iteration, t.step, t.pair, p.instance, p.seed, t.candidate, t.score,
-       CASE WHEN t.score IS NOT NULL THEN
-         rank() OVER (PARTITION BY t.design, t.step ORDER BY t.score DESC NULLS LAST)
-         + (count(*) OVER (PARTITION BY t.design, t.step, t.score) - 1) / 2.0 END AS rank
+       CASE WHEN t.score IS NOT NULL THEN rank() OVER peers + (count(*) OVER peers - 1) / 2.0 END
+         AS rank
 FROM tried AS t
-LEFT JOIN pair AS p ON p.design = t.design AND p.purpose = 0 AND p.number = t.pair;
+LEFT JOIN pair AS p ON p.design = t.design AND p.purpose = 0 AND p.number = t.pair
+WINDOW peers AS (PARTITION BY t.design, t.step ORDER BY t.score DESC
+                 RANGE BETWEEN CURRENT ROW AND CURRENT ROW);
 
 CREATE VIEW v_parameters AS
 SELECT c.id AS candidate, (c.id - 1) / 1000000 + 1 AS design, c.iteration,

@@ -1,8 +1,8 @@
 #include "storage/answer.h"
 
-#include <cmath>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <cmath>
 
 namespace swarmsmith {
 namespace {

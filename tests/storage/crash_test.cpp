@@ -29,9 +29,9 @@ std::vector<std::vector<Row>> marked(std::vector<std::vector<Row>> batches) {
 
 /// How many marks from 1 on there are without a hole; what comes after a hole would be a loss.
 std::uint64_t marks_in_order(StoreReader& reader, const std::string& kind = "mark") {
-  const auto marks = cells_of(
-      reader, "SELECT DISTINCT CAST(text AS INTEGER) FROM event WHERE kind = '" + kind +
-                  "' ORDER BY 1");
+  const auto marks =
+      cells_of(reader, "SELECT DISTINCT CAST(text AS INTEGER) FROM event WHERE kind = '" + kind +
+                           "' ORDER BY 1");
   for (std::size_t i = 0; i < marks.size(); ++i) {
     EXPECT_EQ(marks[i][0], std::to_string(i + 1)) << "a batch is missing";
   }
@@ -146,7 +146,8 @@ TEST_F(CrashTest, APowerCutAtAnyMomentLosesNothingThatWasAcknowledged) {
     auto store = open_store(path, campaign);
     ASSERT_NE(store, nullptr) << "cut at change " << n;
     EXPECT_GE(marks_in_order(*open_reader(path)), acknowledged) << "cut at change " << n;
-    for (const auto& batch : batches) store->append(batch);
+    for (const auto& batch : batches)
+      store->append(batch);
     store.reset();
     EXPECT_EQ(digest_of(path), wanted) << "cut at change " << n;
     EXPECT_TRUE(open_reader(path)->integrity().empty());
@@ -172,9 +173,8 @@ TEST_F(CrashTest, AFullDiskIsToldAndWhatIsLeftWhenTheStoreEndsIsWhatWasTold) {
                                      const SyntheticCampaign& campaign, int round, int to) {
   auto store = Store::open(path, campaign.campaign, campaign.designs);
   if (!store) ::_exit(1);
-  (*store)->set_listener([to](const WriterNews& news) {
-    (void)!::write(to, &news.committed, sizeof news.committed);
-  });
+  (*store)->set_listener(
+      [to](const WriterNews& news) { (void)!::write(to, &news.committed, sizeof news.committed); });
   for (std::uint64_t ticket = 1;; ++ticket) {
     std::vector<Row> batch = campaign.batches[ticket % campaign.batches.size()];
     if (ticket == 1) batch = campaign.batches.front();
@@ -204,14 +204,16 @@ TEST_F(CrashTest, AKilledWriterHasLostNothingThatItAcknowledged) {
     }
     ::kill(child, SIGKILL);
     ::waitpid(child, nullptr, 0);
-    while (::read(ends[0], &acknowledged, sizeof acknowledged) == 8) continue;
+    while (::read(ends[0], &acknowledged, sizeof acknowledged) == 8)
+      continue;
     ::close(ends[0]);
     const auto reader = open_reader(path);
     EXPECT_GE(marks_in_order(*reader, fmt::format("round {}", round)), acknowledged);
     EXPECT_TRUE(reader->integrity().empty());
   }
   auto store = open_store(path, campaign);
-  for (const auto& batch : campaign.batches) store->append(batch);
+  for (const auto& batch : campaign.batches)
+    store->append(batch);
   store.reset();
   EXPECT_EQ(digest_of(path), wanted);
 }

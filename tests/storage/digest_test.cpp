@@ -68,7 +68,8 @@ TEST(Digest, LeavesOutWhatIsNoPartOfTheAnswer) {
   EvaluationRow row;
   row.source = "a source that is named first";
   std::vector<Row> extra;
-  for (const Purpose purpose : {Purpose::Race, Purpose::LookAhead, Purpose::Audit, Purpose::Score}) {
+  for (const Purpose purpose :
+       {Purpose::Race, Purpose::LookAhead, Purpose::Audit, Purpose::Score}) {
     row.key = {.candidate = {1}, .purpose = purpose, .pair = 999};
     extra.emplace_back(row);
   }
@@ -133,7 +134,8 @@ TEST(Digest, ChangesWithEveryPartOfTheAnswer) {
     Batches batches = campaign.batches;
     bool done = false;
     for (auto& batch : batches) {
-      for (Row& row : batch) done = done || each.alter(row);
+      for (Row& row : batch)
+        done = done || each.alter(row);
     }
     ASSERT_TRUE(done) << each.what;
     EXPECT_NE(digest_after(campaign, batches), wanted) << each.what;

@@ -37,7 +37,8 @@ inline std::string digest_after(const SyntheticCampaign& campaign,
   const TemporaryFolder folder;
   {
     auto store = open_store(folder / "s.db", campaign);
-    for (const auto& batch : batches) store->append(batch);
+    for (const auto& batch : batches)
+      store->append(batch);
   }
   return digest_of(folder / "s.db");
 }

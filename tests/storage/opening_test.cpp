@@ -25,7 +25,8 @@ struct OpeningTest : testing::Test {
 
   void make_store() {
     auto store = open_store(path, campaign);
-    for (const auto& batch : campaign.batches) store->append(batch);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
   }
   Error refusal() {
     auto store = Store::open(path, campaign.campaign, campaign.designs);
@@ -100,7 +101,8 @@ TEST_F(OpeningTest, RefusesAnotherCampaignAndNamesWhatDiffers) {
 
 TEST_F(OpeningTest, NamesTenDifferencesAtMost) {
   std::string keys;
-  for (int i = 0; i < 14; ++i) keys += fmt::format("{}\"key{}\":1", i == 0 ? "" : ",", i);
+  for (int i = 0; i < 14; ++i)
+    keys += fmt::format("{}\"key{}\":1", i == 0 ? "" : ",", i);
   campaign.campaign.deciding = "{" + keys + "}";
   make_store();
   campaign.campaign.digest = "0ther";
@@ -141,7 +143,8 @@ pid_t child_that_waits(const std::function<void()>& work) {
   if (child == 0) {
     work();
     (void)!::write(ends[1], "x", 1);
-    while (true) ::pause();
+    while (true)
+      ::pause();
   }
   char byte = 0;
   EXPECT_EQ(::read(ends[0], &byte, 1), 1);
@@ -183,8 +186,8 @@ TEST_F(OpeningTest, ReadsAStoreInAFolderThatMayNotBeWritten) {
   std::filesystem::remove(path.string() + "-wal");
   std::filesystem::remove(path.string() + "-shm");
   using std::filesystem::perms;
-  std::filesystem::permissions(folder.path(), perms::all & ~perms::group_write &
-                                                  ~perms::others_write);
+  std::filesystem::permissions(folder.path(),
+                               perms::all & ~perms::group_write & ~perms::others_write);
   const pid_t child = ::fork();
   if (child == 0) {
     if (::setuid(65534) != 0) ::_exit(2);

@@ -19,7 +19,8 @@ struct QueryTest : testing::Test {
   void SetUp() override {
     {
       auto store = open_store(path, campaign);
-      for (const auto& batch : campaign.batches) store->append(batch);
+      for (const auto& batch : campaign.batches)
+        store->append(batch);
     }
     reader = open_reader(path);
   }
@@ -53,13 +54,27 @@ TEST_F(QueryTest, TellsColumnsOfAnAnswerWithoutRows) {
 }
 
 TEST_F(QueryTest, RefusesWhateverIsNotReading) {
-  for (const std::string sql :
-       {"DELETE FROM evaluation", "INSERT INTO meta VALUES ('a', 'b')", "UPDATE design SET used = 0",
-        "CREATE TABLE t (a)", "CREATE TEMP TABLE t (a)", "DROP VIEW v_designs",
-        "ATTACH 'other.db' AS o", "DETACH main", "PRAGMA journal_mode = DELETE",
-        "PRAGMA query_only = OFF", "PRAGMA user_version = 3", "BEGIN", "SAVEPOINT a", "VACUUM",
-        "VACUUM INTO 'copy.db'", "ANALYZE", "REINDEX",
-        "SELECT load_extension('evil')", "PRAGMA wal_checkpoint"}) {
+  for (const std::string sql : {"DELETE FROM evaluation",
+                                "INSERT INTO meta VALUES ('a', 'b')",
+                                "UPDATE design SET used = 0",
+                                "CREATE TABLE t (a)",
+                                "CREATE TEMP TABLE t (a)",
+                                "DROP VIEW v_designs",
+                                "ATTACH 'other.db' AS o",
+                                "DETACH main",
+                                "PRAGMA journal_mode = DELETE",
+                                "PRAGMA query_only = OFF",
+                                "PRAGMA user_version = 3",
+                                "BEGIN",
+                                "SAVEPOINT a",
+                                "VACUUM",
+                                "VACUUM INTO 'copy.db'",
+                                "ANALYZE",
+                                "REINDEX",
+                                "SELECT load_extension('evil')",
+                                "PRAGMA wal_checkpoint",
+                                "PRAGMA writable_schema = ON",
+                                "UPDATE sqlite_schema SET sql = ''"}) {
     const auto end = query(sql);
     ASSERT_FALSE(end) << sql;
     EXPECT_EQ(end.error().kind, ErrorKind::BadInput);
@@ -104,8 +119,9 @@ TEST_F(QueryTest, FindsNoFaultInASoundStoreAndSaysWhatIsWrongInAnother) {
   EXPECT_THAT(reader->integrity(), testing::IsEmpty());
   sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE)
       .execute("PRAGMA foreign_keys = OFF; DELETE FROM candidate WHERE id = 1");
-  EXPECT_THAT(reader->integrity(),
-              testing::Contains("a row of evaluation names a row of candidate that does not exist"));
+  EXPECT_THAT(
+      reader->integrity(),
+      testing::Contains("a row of evaluation names a row of candidate that does not exist"));
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct StoreTest : testing::Test {
 
   void write_all(const std::vector<std::vector<Row>>& batches) {
     auto store = open_store(path, campaign);
-    for (const auto& batch : batches) store->append(batch);
+    for (const auto& batch : batches)
+      store->append(batch);
     store->flush();
   }
   /// A store with the campaign's first batch, which has the first candidates.
@@ -163,7 +164,8 @@ TEST_F(StoreTest, CountsTicketsFromOneAndTellsThemInOrderBeforeFlushReturns) {
     told.push_back(news.committed);
   });
   std::uint64_t wanted = 0;
-  for (const auto& batch : campaign.batches) EXPECT_EQ(store->append(batch), ++wanted);
+  for (const auto& batch : campaign.batches)
+    EXPECT_EQ(store->append(batch), ++wanted);
   store->flush();
   ASSERT_FALSE(told.empty());
   EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
@@ -173,7 +175,8 @@ TEST_F(StoreTest, CountsTicketsFromOneAndTellsThemInOrderBeforeFlushReturns) {
 TEST_F(StoreTest, CommitsWhatIsQueuedWhenItEndsAndLeavesOneFile) {
   {
     auto store = open_store(path, campaign);
-    for (const auto& batch : campaign.batches) store->append(batch);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
   }
   std::vector<std::string> names;
   for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {

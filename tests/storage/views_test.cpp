@@ -29,15 +29,13 @@ const std::map<std::string, std::string> kColumns{
     {"v_evaluations",
      "id design candidate purpose pair instance seed iteration status score wall_ms worker attempt "
      "source used state_digest"},
-    {"v_failures",
-     "id design candidate purpose pair instance seed iteration attempt worker host"},
+    {"v_failures", "id design candidate purpose pair instance seed iteration attempt worker host"},
     {"v_leaderboard",
      "mission rank design method repetition candidate test_mean test_runs race_mean"},
     {"v_module_frequency", "mission method module avg_occurrences occurrence_rate"},
     {"v_parameters", "candidate design iteration parameter value"},
     {"v_race_matrix", "design iteration step pair instance seed candidate score rank"},
-    {"v_workers",
-     "worker identity host pid slots build state done failed first_seen last_seen"},
+    {"v_workers", "worker identity host pid slots build state done failed first_seen last_seen"},
 };
 
 /// Two designs of one mission, worked out by hand: three candidates on two pairs.
@@ -110,7 +108,8 @@ struct ViewsTest : testing::Test {
     const SyntheticCampaign campaign = by_hand();
     {
       auto store = open_store(folder / "s.db", campaign);
-      for (const auto& batch : campaign.batches) store->append(batch);
+      for (const auto& batch : campaign.batches)
+        store->append(batch);
     }
     reader = open_reader(folder / "s.db");
   }
@@ -138,11 +137,11 @@ TEST_F(ViewsTest, ShowDesignsWithNamesForNumbers) {
 }
 
 TEST_F(ViewsTest, ShowCandidatesWithTheirMeansAndWhenTheyWereDropped) {
-  EXPECT_THAT(all("SELECT candidate, number, runs, mean, eliminated_at FROM v_candidates"
-                  " WHERE design = 2"),
-              ElementsAre(Cells{"1000001", "1", "2", "5", "NULL"},
-                          Cells{"1000002", "2", "2", "4.5", "NULL"},
-                          Cells{"1000003", "3", "1", "1", "1"}));
+  EXPECT_THAT(
+      all("SELECT candidate, number, runs, mean, eliminated_at FROM v_candidates"
+          " WHERE design = 2"),
+      ElementsAre(Cells{"1000001", "1", "2", "5", "NULL"},
+                  Cells{"1000002", "2", "2", "4.5", "NULL"}, Cells{"1000003", "3", "1", "1", "1"}));
   EXPECT_THAT(all("SELECT candidate, step, reason FROM v_eliminations WHERE design = 1"),
               ElementsAre(Cells{"3", "1", "test"}));
 }

@@ -18,8 +18,12 @@ struct File {
   sqlite3_file* real() { return reinterpret_cast<sqlite3_file*>(this + 1); }
 };
 
-File& of(sqlite3_file* file) { return *reinterpret_cast<File*>(file); }
-FaultyDisk& disk_of(sqlite3_vfs* vfs) { return *static_cast<FaultyDisk*>(vfs->pAppData); }
+File& of(sqlite3_file* file) {
+  return *reinterpret_cast<File*>(file);
+}
+FaultyDisk& disk_of(sqlite3_vfs* vfs) {
+  return *static_cast<FaultyDisk*>(vfs->pAppData);
+}
 
 int close(sqlite3_file* file) {
   delete of(file).path;
@@ -71,16 +75,32 @@ int shm_map(sqlite3_file* file, int page, int size, int extend, void volatile** 
 int shm_lock(sqlite3_file* file, int offset, int count, int flags) {
   return of(file).real()->pMethods->xShmLock(of(file).real(), offset, count, flags);
 }
-void shm_barrier(sqlite3_file* file) { of(file).real()->pMethods->xShmBarrier(of(file).real()); }
+void shm_barrier(sqlite3_file* file) {
+  of(file).real()->pMethods->xShmBarrier(of(file).real());
+}
 int shm_unmap(sqlite3_file* file, int remove) {
   return of(file).real()->pMethods->xShmUnmap(of(file).real(), remove);
 }
 
-constexpr sqlite3_io_methods kMethods{
-    2,          close,   read,      write,     truncate,     sync,
-    file_size,  lock,    unlock,    check_reserved_lock,     file_control,
-    sector_size, device, shm_map,   shm_lock,  shm_barrier,  shm_unmap,
-    nullptr,    nullptr};
+constexpr sqlite3_io_methods kMethods{2,
+                                      close,
+                                      read,
+                                      write,
+                                      truncate,
+                                      sync,
+                                      file_size,
+                                      lock,
+                                      unlock,
+                                      check_reserved_lock,
+                                      file_control,
+                                      sector_size,
+                                      device,
+                                      shm_map,
+                                      shm_lock,
+                                      shm_barrier,
+                                      shm_unmap,
+                                      nullptr,
+                                      nullptr};
 
 int open(sqlite3_vfs* vfs, const char* name, sqlite3_file* file, int flags, int* out_flags) {
   auto& opened = *new (file) File;
@@ -139,8 +159,8 @@ void FaultyDisk::cut_power_at(std::int64_t n) {
 int FaultyDisk::next_change() {
   const std::lock_guard guard(mutex_);
   ++changes_;
-  const bool fails = code_ != SQLITE_OK && changes_ >= first_failure_ &&
-                     changes_ < first_failure_ + failures_;
+  const bool fails =
+      code_ != SQLITE_OK && changes_ >= first_failure_ && changes_ < first_failure_ + failures_;
   off_ = off_ || (fails && cut_);
   return fails ? code_ : SQLITE_OK;
 }
@@ -163,7 +183,8 @@ void FaultyDisk::truncated(const std::string& path, std::int64_t size) {
 void FaultyDisk::synced(const std::string& path) {
   const std::lock_guard guard(mutex_);
   Image& image = images_[path];
-  for (const Change& change : image.pending) apply(image.synced, change);
+  for (const Change& change : image.pending)
+    apply(image.synced, change);
   image.pending.clear();
 }
 
@@ -186,7 +207,8 @@ void FaultyDisk::restart(Rng& rng) {
     for (Change& change : image.pending) {
       if (rng.bernoulli(0.5)) continue;
       // Only some of the sectors may have arrived.
-      if (!change.truncation && rng.bernoulli(0.3)) change.bytes.resize(rng.below(17) * 512 % (change.bytes.size() + 1));
+      if (!change.truncation && rng.bernoulli(0.3))
+        change.bytes.resize(rng.below(17) * 512 % (change.bytes.size() + 1));
       apply(image.synced, change);
     }
     std::ofstream(path, std::ios::binary | std::ios::trunc) << image.synced;

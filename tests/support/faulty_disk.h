@@ -1,9 +1,9 @@
 #pragma once
 
+#include <sqlite3.h>
 #include <cstdint>
 #include <map>
 #include <mutex>
-#include <sqlite3.h>
 #include <string>
 #include <vector>
 

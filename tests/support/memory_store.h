@@ -23,6 +23,7 @@ class MemoryStore final : public Store {
   void flush() override { tell(); }
   std::vector<StoredScore> scores() override { return known; }
   std::vector<StoredStep> steps() override { return {}; }
+  std::vector<DesignStateRow> design_states() override { return {}; }
   bool finished() override { return false; }
 
   /// The disk is full, or has room again when empty.

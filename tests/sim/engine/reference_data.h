@@ -2,6 +2,7 @@
 
 #include <array>
 #include <map>
+#include <ostream>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,9 @@ inline constexpr std::array<const char*, 3> kLoggedRuns = {"aggregation-hA6-seed
 struct ReferenceMission {
   const char* ours;
   const char* theirs;
+
+  /// The name that tests show.
+  friend void PrintTo(const ReferenceMission& mission, std::ostream* out) { *out << mission.ours; }
 };
 inline constexpr std::array<ReferenceMission, 3> kReferenceMissions = {
     ReferenceMission{"aggregation", "aggregation"}, ReferenceMission{"grid_exploration", "grid"},

@@ -70,6 +70,8 @@ TEST_P(LoggedRuns, FreeMotionPredictsEachTickFromItsCommands) {
     }
   }
   RecordProperty("judged", judged);
+  RecordProperty("worst_m", testing::PrintToString(worst_m));
+  RecordProperty("worst_rad", testing::PrintToString(worst_rad));
   EXPECT_GT(judged, 3000);
   EXPECT_LT(worst_m, 2e-5);
   EXPECT_LT(worst_rad, 2e-5);
@@ -142,6 +144,7 @@ TEST(ClosedLoop, AMachineWithoutRandomDrawsFollowsTheOriginalForAllTwelveHundred
                   logged[static_cast<std::size_t>(cycle)][i].left_cmps, 0.01);
     }
   });
+  RecordProperty("worst_m", testing::PrintToString(worst_m));
   EXPECT_LT(worst_m, 2e-5);
 }
 

@@ -1,4 +1,4 @@
-// storage_benchmark [FILE]: what a store costs. Fills one with a synthetic campaign of 100,000
+// storage_benchmark [FILE]: what a store costs. Fills one with a synthetic campaign of 95,000
 // experiments as fast as it takes them, and prints CPU and wall time a row, the size, and how long
 // each documented view takes. The file stays when it is named.
 

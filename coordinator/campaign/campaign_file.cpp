@@ -1,0 +1,209 @@
+#include "coordinator/campaign/campaign_file.h"
+
+#include <cctype>
+#include <fstream>
+#include <limits>
+#include <sstream>
+
+#include "coordinator/campaign/internal/read_method.h"
+#include "coordinator/campaign/internal/read_mission.h"
+#include "coordinator/campaign/internal/table_reader.h"
+#include "coordinator/campaign/machine_space.h"
+#include "irace_core/iterated_race.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::int64_t kFormat = 1;
+constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kLargestPort = 65'535;
+
+void read_format(TableReader& root) {
+  const auto format = root.integer("format", {1, 1'000'000});
+  if (!root.has("format")) {
+    root.complain("format", "the file begins with its format: format = 1");
+  } else if (format && *format != kFormat) {
+    root.complain("format", "format " + std::to_string(*format) +
+                                " is newer than this program, which reads format 1");
+  }
+}
+
+/// The file's name without folder and ending, letters that no name has replaced.
+std::string name_from(const std::filesystem::path& file) {
+  std::string name = file.stem().string();
+  for (char& letter : name) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(letter)) != 0;
+    if (!plain && letter != '-' && letter != '.') letter = '_';
+  }
+  return name.empty() ? "campaign" : name;
+}
+
+void read_identity(TableReader& root, Campaign& campaign, const std::filesystem::path& file) {
+  campaign.store = std::filesystem::path(file).replace_extension(".db");
+  campaign.name = name_from(file);
+  auto table = root.table("campaign");
+  if (!table) return;
+  if (const auto name = table->text("name"); name && check_name(*table, *name, {})) {
+    campaign.name = *name;
+  }
+  if (const auto seed = table->integer("seed", {0, kLargestSeed})) {
+    campaign.seed = static_cast<std::uint64_t>(*seed);
+  }
+  campaign.repetitions = table->integer("repetitions", {1, 100'000}).value_or(1);
+  if (const auto store = table->text("store")) {
+    if (store->empty()) table->complain("store", "`store` is empty");
+    campaign.store = file.parent_path() / *store;
+  }
+  table->finish();
+}
+
+void read_simulator(TableReader& root, Campaign& campaign) {
+  static const std::vector<std::string> kKinds = {"builtin"};
+  static const std::vector<std::string> kKindsNotYet = {"argos", "command"};
+  static const std::vector<std::string> kProfiles = {"rvr", "argos3"};
+  static const std::vector<std::string> kProfilesNotYet = {"pseudo-reality"};
+  std::string profile = kProfiles.front();
+  if (auto table = root.table("simulator")) {
+    table->choice("kind", kKinds, kKindsNotYet);
+    const auto named = table->text("profile");
+    if (named && named->ends_with(".toml")) {
+      table->complain("profile", "a profile in a file of its own is not there yet");
+    } else if (named) {
+      profile = table->choice("profile", kProfiles, kProfilesNotYet).value_or(profile);
+    }
+    static const std::vector<std::string> kKeysNotYet = {"command"};
+    table->finish(kKeysNotYet);
+  }
+  if (auto built_in = built_in_profile(profile)) campaign.profile = *built_in;
+}
+
+/// "127.0.0.1:5555", "[::1]:5555"; port 0 is any free one.
+bool is_address(const std::string& text) {
+  const std::size_t colon = text.rfind(':');
+  if (colon == std::string::npos || colon == 0) return false;
+  const std::string port = text.substr(colon + 1);
+  if (port.empty() || port.size() > 5) return false;
+  if (port.find_first_not_of("0123456789") != std::string::npos) return false;
+  return std::stol(port) <= kLargestPort;
+}
+
+std::optional<std::string> read_bind(TableReader& table) {
+  const auto bind = table.text("bind");
+  if (!bind || is_address(*bind)) return bind;
+  table.complain("bind", "`bind` must be an address with a port, such as \"127.0.0.1:5555\"; this "
+                         "is \"" +
+                             *bind + "\"");
+  return std::nullopt;
+}
+
+void read_local(TableReader& table, Campaign& campaign) {
+  const Node* node = table.take("local");
+  if (node == nullptr) return;
+  if (const auto* text = std::get_if<std::string>(&node->value); text && *text == "auto") return;
+  if (std::holds_alternative<std::int64_t>(node->value)) {
+    campaign.local_workers = table.integer("local", {0, 10'000});
+    return;
+  }
+  table.complain("local", "`local` must be \"auto\" (as many slots as cores) or a number of "
+                          "workers");
+}
+
+void read_workers(TableReader& root, Campaign& campaign) {
+  auto table = root.table("workers");
+  if (!table) return;
+  read_local(*table, campaign);
+  campaign.bind = read_bind(*table).value_or(campaign.bind);
+  campaign.task_timeout_s = table->seconds("timeout", {0.1, 1e6}).value_or(campaign.task_timeout_s);
+  campaign.retries = table->integer("retries", {0, 1000}).value_or(campaign.retries);
+  static const std::vector<std::string> kOnFailure = {"reject", "stop"};
+  campaign.stop_on_failure = table->choice("on_failure", kOnFailure) == "stop";
+  table->finish();
+}
+
+void read_dashboard(TableReader& root) {
+  auto table = root.table("dashboard");
+  if (!table) return;
+  read_bind(*table);
+  table->finish();
+}
+
+/// Why the method's race cannot run, if so.
+std::optional<Error> check_race(const Campaign& campaign, const Method& method) {
+  const auto flavour = find_flavour(method.flavour);
+  if (!flavour) return flavour.error();
+  auto space = MachineSpace::make(method, **flavour, static_cast<int>(campaign.digits));
+  if (!space) return space.error();
+  const auto race = IteratedRace::start(space->parameters(), campaign.race);
+  if (!race) return race.error();
+  return std::nullopt;
+}
+
+void complain_about_races(TableReader& root, Campaign& campaign) {
+  auto race = root.table("race");
+  for (const Error& error : check_budget(campaign)) race->complain("max_experiments", error.message);
+}
+
+}  // namespace
+
+std::vector<Error> check_budget(const Campaign& campaign) {
+  std::vector<Error> errors;
+  for (const Method& method : campaign.methods) {
+    auto error = check_race(campaign, method);
+    if (!error) continue;
+    const std::string where = error->where.empty() ? "" : error->where + ": ";
+    error->message = "method \"" + method.name + "\": " + where + error->message;
+    error->where.clear();
+    errors.push_back(std::move(*error));
+  }
+  return errors;
+}
+
+CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::path& file) {
+  const auto document = parse_document(text, file.string());
+  if (!document) return tl::unexpected(std::vector<Error>{document.error()});
+  Complaints complaints(file.string());
+  TableReader root(*document, "", complaints);
+  Campaign campaign;
+  read_format(root);
+  read_identity(root, campaign, file);
+  campaign.missions = read_missions(root);
+  campaign.methods = read_methods(root);
+  read_race(root, campaign.race, campaign.digits);
+  read_simulator(root, campaign);
+  read_workers(root, campaign);
+  read_dashboard(root);
+  root.finish();
+  if (complaints.empty()) complain_about_races(root, campaign);
+  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  return campaign;
+}
+
+CampaignOrErrors read_campaign(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream || std::filesystem::is_directory(file)) {
+    Error error{ErrorKind::NotFound,
+                "there is no such campaign file; `swarmsmith init` writes one", file.string()};
+    return tl::unexpected(std::vector<Error>{std::move(error)});
+  }
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return parse_campaign(text.str(), file);
+}
+
+Campaign demo_campaign() {
+  constexpr std::string_view kText = R"(format = 1
+[campaign]
+name = "demo"
+store = "demo.db"
+[[mission]]
+name = "aggregation"
+[[method]]
+name = "watermelon"
+[race]
+max_experiments = 2_000
+)";
+  auto campaign = parse_campaign(kText, "demo.toml");
+  return std::move(campaign.value());
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,65 @@
+#include "coordinator/campaign/campaign_rows.h"
+
+#include <algorithm>
+
+#include "base/hash.h"
+#include "base/rng.h"
+#include "coordinator/campaign/campaign_text.h"
+#include "coordinator/campaign/internal/sections.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Positive, and within what SQLite and TOML call an integer.
+std::int64_t design_seed(std::uint64_t campaign_seed, std::int64_t id) {
+  Rng rng = Rng(campaign_seed).split("design", static_cast<std::uint64_t>(id));
+  return std::max<std::int64_t>(1, static_cast<std::int64_t>(rng.next() >> 1U));
+}
+
+std::string deciding_json(const Deciding& entries) {
+  std::string text = "{";
+  for (const auto& [key, value] : entries) {
+    if (text.size() > 1) text += ",";
+    text += quoted_text(key) + ":" + quoted_text(value);
+  }
+  return text + "}";
+}
+
+}  // namespace
+
+std::string campaign_digest(const Campaign& campaign) {
+  Digest digest;
+  for (const auto& [key, value] : deciding(campaign)) {
+    digest.add(key);
+    digest.add(value);
+  }
+  return digest.hex();
+}
+
+CampaignRow campaign_row(const Campaign& campaign) {
+  return {.name = campaign.name,
+          .digest = campaign_digest(campaign),
+          .deciding = deciding_json(deciding(campaign)),
+          .file = normalised_text(campaign),
+          .seed = static_cast<std::int64_t>(campaign.seed)};
+}
+
+std::vector<DesignRow> design_rows(const Campaign& campaign) {
+  std::vector<DesignRow> rows;
+  for (const CampaignMission& mission : campaign.missions) {
+    for (const Method& method : campaign.methods) {
+      for (std::int64_t repetition = 1; repetition <= campaign.repetitions; ++repetition) {
+        const auto id = static_cast<std::int64_t>(rows.size()) + 1;
+        rows.push_back({.id = {id},
+                        .mission = mission.mission.name,
+                        .method = method.name,
+                        .repetition = repetition,
+                        .seed = design_seed(campaign.seed, id),
+                        .budget = campaign.race.max_experiments});
+      }
+    }
+  }
+  return rows;
+}
+
+}  // namespace swarmsmith

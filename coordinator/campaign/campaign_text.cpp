@@ -1,0 +1,28 @@
+#include "coordinator/campaign/campaign_text.h"
+
+#include "coordinator/campaign/internal/sections.h"
+#include "sim/engine/simulate.h"
+
+namespace swarmsmith {
+
+std::string normalised_text(const Campaign& campaign) {
+  std::string text;
+  for (const Section& section : sections_of(campaign)) {
+    if (!section.header.empty()) text += "\n" + section.header + "\n";
+    for (const SectionLine& line : section.lines) text += line.key + " = " + line.value + "\n";
+  }
+  return text;
+}
+
+Deciding deciding(const Campaign& campaign) {
+  Deciding entries;
+  for (const Section& section : sections_of(campaign)) {
+    for (const SectionLine& line : section.lines) {
+      if (line.decides) entries.emplace_back(section.prefix + line.key, line.value);
+    }
+  }
+  entries.emplace_back("engine.version", std::to_string(kEngineVersion));
+  return entries;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coordinator/campaign/campaign.h"
+
+namespace swarmsmith {
+
+/// The campaign as a complete campaign file: nothing left to defaults and presets, always in the
+/// same order, so that reading it gives the same campaign again, with any later version's presets.
+/// Kept in the store. Where workers run is left out, where the store is as well.
+std::string normalised_text(const Campaign& campaign);
+
+/// Exactly what decides the campaign's answer, as (key, value) in a fixed order: missions, methods,
+/// profile, race options, seed, budget, repetitions, version of the engine. Keys read like
+/// `mission.aggregation.robots`.
+using Deciding = std::vector<std::pair<std::string, std::string>>;
+Deciding deciding(const Campaign& campaign);
+
+}  // namespace swarmsmith

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "sim/control/reference_model.h"
+
+namespace swarmsmith {
+
+/// A colour's name, `grey` for `gray`, or "#rrggbb".
+std::optional<Rgb> parse_color(std::string_view text);
+
+/// The name when the colour has one, else "#rrggbb".
+std::string color_text(Rgb color);
+
+/// What may be written for a colour, for sentences.
+std::string known_colors();
+
+}  // namespace swarmsmith

@@ -1,0 +1,170 @@
+#include "coordinator/campaign/internal/read_method.h"
+
+#include <algorithm>
+#include <optional>
+
+#include "base/suggestion.h"
+#include "coordinator/campaign/internal/read_mission.h"
+#include "sim/control/flavour.h"
+#include "sim/control/machine.h"
+
+namespace swarmsmith {
+namespace {
+
+std::vector<std::string> ids_of(const std::vector<ModuleSpec>& table) {
+  std::vector<std::string> ids;
+  for (const ModuleSpec& spec : table) ids.emplace_back(id_of(spec.module));
+  return ids;
+}
+
+const Flavour* read_flavour(TableReader& table, Method& method) {
+  static const std::vector<std::string> kKnown = {watermelon().name, watermelon_argos3().name};
+  static const std::vector<std::string> kNotYet = {"chocolate", "vanilla"};
+  const auto name = table.choice("flavour", kKnown, kNotYet);
+  if (!name && table.has("flavour")) return nullptr;
+  method.flavour = name.value_or(method.flavour);
+  return *find_flavour(method.flavour);
+}
+
+/// The modules that the key names, out of one of the flavour's tables and in its order, so that the
+/// order in the file decides nothing; all of the table without the key.
+std::vector<std::string> read_modules(TableReader& table, std::string_view key,
+                                      const std::vector<ModuleSpec>& known,
+                                      const std::string& flavour) {
+  const std::vector<std::string> ids = ids_of(known);
+  const auto named = table.texts(key);
+  if (!named) return ids;
+  for (std::size_t i = 0; i < named->size(); ++i) {
+    const std::string& name = (*named)[i];
+    if (std::ranges::find(ids, name) == ids.end()) {
+      table.complain(key, "flavour " + flavour + " has no " + std::string(key.substr(0, 9)) + " `" +
+                              name + "`" + did_you_mean(name, ids) + "; it has: " + joined(ids));
+    }
+    const auto before = named->begin() + static_cast<std::ptrdiff_t>(i);
+    if (std::find(named->begin(), before, name) != before) {
+      table.complain(key, "`" + std::string(key) + "` names `" + name + "` twice");
+    }
+  }
+  if (named->empty()) table.complain(key, "`" + std::string(key) + "` is empty");
+  std::vector<std::string> chosen;
+  for (const std::string& id : ids) {
+    if (std::ranges::find(*named, id) != named->end()) chosen.push_back(id);
+  }
+  return chosen;
+}
+
+const ModuleSpec* find_module(const Flavour& flavour, const std::string& id) {
+  const auto module = module_from_id(id);
+  return module ? flavour.find(*module) : nullptr;
+}
+
+/// One range, `{ int = [1, 100] }` or `{ real = [1, 5] }`.
+std::optional<RangeOverride> read_range(TableReader& entry, const ModuleSpec& module,
+                                        const ParameterSpec& parameter) {
+  const bool real = parameter.type == ParameterSpec::Type::Real;
+  const std::string type = real ? "real" : "int";
+  const std::string other = real ? "int" : "real";
+  const std::string name = std::string(id_of(module.module)) + "." + parameter.name;
+  if (entry.has(other)) {
+    entry.take(other);
+    entry.complain(other, name + " is no " + other + " parameter; write { " + type + " = [...] }");
+  }
+  if (entry.has("digits")) {
+    entry.take("digits");
+    entry.complain("digits", "digits for one parameter are not there yet; `digits` in [race] holds "
+                             "for all reals");
+  }
+  const auto range = entry.interval(type);
+  if (!entry.has(type) && !entry.has(other)) {
+    entry.complain(type, name + " needs a range: { " + type + " = [lowest, highest] }");
+  }
+  entry.finish();
+  if (!range) return std::nullopt;
+  for (const double bound : {range->least, range->most}) {
+    if (const auto complaint = complaint_about(parameter, bound)) {
+      entry.complain(type, name + ": " + *complaint + ", this is " + number_text(bound));
+      return std::nullopt;
+    }
+  }
+  if (range->least >= range->most) {
+    entry.complain(type, name + ": the range's lower end must be below its upper end");
+    return std::nullopt;
+  }
+  return RangeOverride{std::string(id_of(module.module)), parameter.name, range->least,
+                       range->most};
+}
+
+void read_module_ranges(TableReader& table, const ModuleSpec& module, Method& method) {
+  std::vector<std::string> known;
+  for (const ParameterSpec& parameter : module.parameters) {
+    known.push_back(parameter.name);
+    if (!table.has(parameter.name)) continue;
+    if (parameter.type == ParameterSpec::Type::Label) {
+      table.take(parameter.name);
+      table.complain(parameter.name, "a label is one of the flavour's colours; a choice among them "
+                                     "is not there yet");
+      continue;
+    }
+    auto entry = table.table(parameter.name);
+    if (!entry) continue;
+    if (auto range = read_range(*entry, module, parameter)) {
+      method.ranges.push_back(std::move(*range));
+    }
+  }
+  for (const auto& [key, node] : table.take_all()) {
+    table.complain(key, std::string(id_of(module.module)) + " has no parameter `" + key + "`" +
+                            did_you_mean(key, known) +
+                            (known.empty() ? "" : "; it has: " + joined(known)));
+  }
+}
+
+void read_ranges(TableReader& table, const Flavour& flavour, Method& method) {
+  std::vector<std::string> used = method.behaviours;
+  used.insert(used.end(), method.conditions.begin(), method.conditions.end());
+  for (const auto& [id, node] : table.take_all()) {
+    const ModuleSpec* module = find_module(flavour, id);
+    if (module == nullptr || std::ranges::find(used, id) == used.end()) {
+      table.complain(id, "the method has no module `" + id + "`" + did_you_mean(id, used) +
+                             "; it has: " + joined(used));
+      continue;
+    }
+    if (auto ranges = table.table(id)) read_module_ranges(*ranges, *module, method);
+  }
+}
+
+Method read_method(TableReader& table, const std::vector<std::string>& taken) {
+  Method method;
+  method.name = table.text("name").value_or("");
+  if (!check_name(table, method.name, taken)) method.name.clear();
+  const Flavour* flavour = read_flavour(table, method);
+  method.max_states = table.integer("max_states", {1, kMaxStates}).value_or(kMaxStates);
+  method.max_transitions =
+      table.integer("max_transitions", {1, kMaxTransitions}).value_or(kMaxTransitions);
+  if (flavour != nullptr) {
+    method.behaviours = read_modules(table, "behaviours", flavour->behaviours, flavour->name);
+    method.conditions = read_modules(table, "conditions", flavour->conditions, flavour->name);
+    if (auto ranges = table.table("parameters")) read_ranges(*ranges, *flavour, method);
+  } else {
+    for (const std::string_view key : {"behaviours", "conditions", "parameters"}) table.take(key);
+  }
+  table.finish();
+  return method;
+}
+
+}  // namespace
+
+std::vector<Method> read_methods(TableReader& root) {
+  std::vector<Method> methods;
+  std::vector<std::string> names;
+  for (TableReader& table : root.tables("method")) {
+    methods.push_back(read_method(table, names));
+    names.push_back(methods.back().name);
+  }
+  if (!root.has("method")) {
+    root.complain("method", "the file has no [[method]]; the shortest is [[method]] with name = "
+                            "\"watermelon\"");
+  }
+  return methods;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,14 @@
+#include "coordinator/cli/campaign_argument.h"
+
+#include "coordinator/campaign/campaign_file.h"
+
+namespace swarmsmith::cli {
+
+std::optional<Campaign> read_or_complain(const std::string& file, Output& output) {
+  auto campaign = read_campaign(file);
+  if (campaign) return std::move(*campaign);
+  for (const Error& error : campaign.error()) print_error(output, error);
+  return std::nullopt;
+}
+
+}  // namespace swarmsmith::cli

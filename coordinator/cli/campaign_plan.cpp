@@ -1,0 +1,126 @@
+#include "coordinator/cli/campaign_plan.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <variant>
+
+#include "coordinator/campaign/machine_space.h"
+#include "irace_core/iterated_race.h"
+#include "sim/engine/simulate.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// Measured on stores of 100k evaluations: what an evaluation, its candidate and step take.
+constexpr double kBytesPerEvaluation = 100;
+constexpr double kMeasured_s = 0.5;
+/// Racing, storing and messages.
+constexpr double kOverhead_s = 30e-6;
+
+/// Machines as a first race would try them.
+std::vector<Machine> some_machines(const Campaign& campaign, const Method& method) {
+  constexpr std::size_t kMachines = 50;
+  std::vector<Machine> machines;
+  const Flavour& flavour = **find_flavour(method.flavour);
+  auto space = MachineSpace::make(method, flavour, static_cast<int>(campaign.digits));
+  if (!space) return machines;
+  auto race = IteratedRace::start(space->parameters(), campaign.race);
+  if (!race) return machines;
+  for (const RaceEvent& event : race->take_events()) {
+    const auto* sampled = std::get_if<ConfigurationSampled>(&event);
+    if (sampled == nullptr) continue;
+    machines.push_back(space->to_machine(sampled->configuration));
+    if (machines.size() == kMachines) break;
+  }
+  return machines;
+}
+
+/// Mean seconds of an evaluation of the method on the mission, by as many as fit into `budget_s`.
+double measure(const Campaign& campaign, const Method& method, const Mission& mission,
+               double budget_s) {
+  const Flavour& flavour = **find_flavour(method.flavour);
+  const std::vector<Machine> machines = some_machines(campaign, method);
+  const auto begin = SteadyClock::now();
+  double elapsed_s = 0;
+  std::int64_t runs = 0;
+  for (std::int64_t seed = 1; !machines.empty() && (runs == 0 || elapsed_s < budget_s); ++seed) {
+    const Machine& machine = machines[static_cast<std::size_t>(seed) % machines.size()];
+    const auto instance = instance_of(mission, seed);
+    if (!instance) continue;
+    simulate({.machine = machine,
+              .flavour = flavour,
+              .profile = campaign.profile,
+              .mission = mission,
+              .instance = *instance,
+              .seed = seed});
+    ++runs;
+    elapsed_s = std::chrono::duration<double>(SteadyClock::now() - begin).count();
+  }
+  return runs == 0 ? 0 : elapsed_s / static_cast<double>(runs);
+}
+
+/// The published program sees black only at a grey level that noise never leaves alone.
+void warn_about_black(const Campaign& campaign, std::vector<std::string>& warnings) {
+  for (const Method& method : campaign.methods) {
+    const bool has_black = std::ranges::find(method.conditions, "black_floor") !=
+                           method.conditions.end();
+    const Flavour& flavour = **find_flavour(method.flavour);
+    const bool narrow = flavour.floor.black.high < 1000;
+    if (!has_black || !narrow || campaign.profile.ground_color_sd == 0) continue;
+    warnings.push_back("method \"" + method.name + "\": flavour " + method.flavour +
+                       " takes only a pure black for black, so that with the ground noise of "
+                       "profile " +
+                       campaign.profile.name + " black_floor hardly ever holds");
+  }
+}
+
+}  // namespace
+
+CampaignPlan plan_of(const Campaign& campaign) {
+  CampaignPlan plan;
+  const auto methods = static_cast<std::int64_t>(campaign.methods.size());
+  const auto missions = static_cast<std::int64_t>(campaign.missions.size());
+  plan.designs = missions * methods * campaign.repetitions;
+  plan.experiments = plan.designs * campaign.race.max_experiments;
+  for (const CampaignMission& mission : campaign.missions) {
+    plan.tests += mission.test_count * methods * campaign.repetitions;
+  }
+  const auto cores = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
+  plan.slots = std::max<std::int64_t>(1, campaign.local_workers.value_or(cores));
+  const auto pairs = static_cast<double>(missions * methods);
+  for (const CampaignMission& mission : campaign.missions) {
+    for (const Method& method : campaign.methods) {
+      plan.evaluation_s += measure(campaign, method, mission.mission, kMeasured_s / pairs) / pairs;
+    }
+  }
+  const auto evaluations = static_cast<double>(plan.experiments + plan.tests);
+  const auto busy = static_cast<double>(std::min(plan.slots, cores));
+  plan.time_s = evaluations * (plan.evaluation_s + kOverhead_s) / busy;
+  plan.disk_bytes = evaluations * kBytesPerEvaluation;
+  warn_about_black(campaign, plan.warnings);
+  return plan;
+}
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::llround(std::max(0.0, seconds)));
+  const auto two = [](std::int64_t n) { return (n < 10 ? "0" : "") + std::to_string(n); };
+  if (whole < 60) return std::to_string(whole) + "s";
+  if (whole < 3600) return std::to_string(whole / 60) + "m" + two(whole % 60) + "s";
+  return std::to_string(whole / 3600) + "h" + two(whole / 60 % 60) + "m";
+}
+
+std::string grouped(std::int64_t number) {
+  std::string text = std::to_string(number);
+  const std::size_t first = number < 0 ? 1 : 0;
+  for (std::size_t at = text.size(); at > first + 3;) {
+    at -= 3;
+    text.insert(at, " ");
+  }
+  return text;
+}
+
+}  // namespace swarmsmith::cli

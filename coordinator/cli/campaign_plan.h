@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "coordinator/campaign/campaign.h"
+
+namespace swarmsmith::cli {
+
+/// What a campaign will cost, as far as it can be said before it runs.
+struct CampaignPlan {
+  std::int64_t designs = 0;
+  std::int64_t experiments = 0;      ///< of all races, at most
+  std::int64_t tests = 0;            ///< evaluations of winners, outside the budgets
+  std::int64_t slots = 1;
+  double evaluation_s = 0;           ///< mean over machines and missions, measured here on one core
+  double time_s = 0;
+  double disk_bytes = 0;
+  std::vector<std::string> warnings; ///< what runs, but hardly as wanted
+};
+
+/// Measures some simulations of random machines (for about half a second) and adds up.
+CampaignPlan plan_of(const Campaign& campaign);
+
+/// "1h02m", "3m20s", "12s".
+std::string duration_text(double seconds);
+
+/// 1234567 as "1 234 567".
+std::string grouped(std::int64_t number);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,100 @@
+#include "coordinator/cli/campaign_result.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <map>
+#include <vector>
+
+#include "coordinator/cli/mean_interval.h"
+#include "coordinator/cli/query_output.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using Cell = StoreReader::Cell;
+
+constexpr const char* kResult =
+    "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.used, "
+    "d.best_candidate AS candidate, d.best_mean AS race_mean, c.fsm_config "
+    "FROM v_designs AS d LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate "
+    "ORDER BY d.design";
+constexpr const char* kTests = "SELECT design, score FROM v_design_scores";
+
+Expected<std::map<std::string, std::vector<double>>> tests_by_design(StoreReader& store) {
+  const auto rows = select(store, kTests);
+  if (!rows) return Unexpected(rows.error());
+  std::map<std::string, std::vector<double>> scores;
+  for (const auto& cells : rows->cells) {
+    scores[cells[0].text].push_back(std::strtod(cells[1].text.c_str(), nullptr));
+  }
+  return scores;
+}
+
+Cell number_cell(double value) { return {Cell::Type::Real, json_number(value)}; }
+
+/// Puts test_mean, test_95 (half-width of the interval) and test_runs before the last column.
+void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tests) {
+  for (const char* name : {"test_mean", "test_95", "test_runs"}) {
+    rows.columns.insert(rows.columns.end() - 1, name);
+  }
+  for (auto& cells : rows.cells) {
+    std::vector<Cell> added(3);
+    if (const auto found = tests.find(cells[0].text); found != tests.end()) {
+      const MeanInterval interval = mean_interval(found->second);
+      added = {number_cell(interval.mean), number_cell(interval.half_width),
+               {Cell::Type::Integer, std::to_string(found->second.size())}};
+    }
+    cells.insert(cells.end() - 1, added.begin(), added.end());
+  }
+}
+
+std::string four_digits(const std::string& text) {
+  char buffer[32];
+  const int size = std::snprintf(buffer, sizeof buffer, "%.4g", std::strtod(text.c_str(), nullptr));
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+/// One paragraph a design: what it is, how good its machine is, the machine.
+void write_text(Output& output, const Rows& rows) {
+  for (const auto& cells : rows.cells) {
+    output.out << cells[0].text << "  " << cells[1].text << ", " << cells[2].text
+               << ", repetition " << cells[3].text << ": " << cells[4].text << " after "
+               << cells[5].text << " experiments\n";
+    if (cells[6].type == Cell::Type::Null) continue;
+    output.out << "  best " << cells[6].text << ", mean score " << four_digits(cells[7].text)
+               << " in the race";
+    if (cells[8].type != Cell::Type::Null) {
+      output.out << ", " << four_digits(cells[8].text) << " +- " << four_digits(cells[9].text)
+                 << " (95 %) on " << cells[10].text << " fresh seeds";
+    }
+    output.out << "\n  " << cells[11].text << "\n";
+  }
+}
+
+}  // namespace
+
+ExitCode write_result(Output& output, StoreReader& store) {
+  auto rows = select(store, kResult);
+  if (!rows) return fail(output, ExitCode::Store, rows.error());
+  const auto tests = tests_by_design(store);
+  if (!tests) return fail(output, ExitCode::Store, tests.error());
+  add_tests(*rows, *tests);
+  letter_ids(*rows);
+  if (output.json) {
+    output.out << "{\"v\":1,\"event\":\"done\",\"designs\":" << rows_as_json(*rows) << "}\n";
+  } else {
+    write_text(output, *rows);
+  }
+  return ExitCode::Done;
+}
+
+void print_next_steps(Output& output, const std::string& store) {
+  if (output.quiet) return;
+  output.err << "\nEverything is in " << store << ". How to go on:\n"
+             << "  swarmsmith ls elites " << store << "\n"
+             << "  swarmsmith export " << store << " -o best.fsm\n"
+             << "  swarmsmith query " << store << "\n"
+             << "  swarmsmith init mine, to design for a mission of your own\n";
+}
+
+}  // namespace swarmsmith::cli

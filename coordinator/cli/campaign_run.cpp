@@ -1,0 +1,230 @@
+#include "coordinator/cli/campaign_run.h"
+
+#include <algorithm>
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <stop_token>
+#include <unistd.h>
+#include <utility>
+
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/cli/campaign_argument.h"
+#include "coordinator/cli/campaign_result.h"
+#include "coordinator/cli/progress.h"
+#include "coordinator/cli/store_argument.h"
+#include "coordinator/design/campaign_runner.h"
+#include "coordinator/design/plans.h"
+#include "coordinator/local_workers.h"
+#include "coordinator/service.h"
+#include "sim/engine/self_test.h"
+#include "sim/engine/simulate.h"
+#include "sim/messages/scenario_messages.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+// Set by the handler, read by the loop.
+volatile std::sig_atomic_t g_signal = 0;
+
+void on_signal(int signal) {
+  if (g_signal != 0) _exit(128 + signal);
+  g_signal = signal;
+}
+
+void catch_signals() {
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGINT, &action, nullptr);
+  sigaction(SIGTERM, &action, nullptr);
+}
+
+WorkerScenario scenario_of(const Campaign& campaign) {
+  WorkerScenario scenario{.campaign_digest = campaign_digest(campaign),
+                          .engine_version = kEngineVersion,
+                          .profile = campaign.profile};
+  for (const CampaignMission& mission : campaign.missions) {
+    scenario.missions.push_back(mission.mission);
+  }
+  for (const Method& method : campaign.methods) scenario.flavours.push_back(method.flavour);
+  return scenario;
+}
+
+ServiceOptions service_options(const Campaign& campaign, const RunOptions& options) {
+  ServiceOptions service;
+  service.coordinator.campaign_digest = campaign_digest(campaign);
+  service.coordinator.scenario = to_bytes(scenario_of(campaign));
+  SchedulerOptions& scheduler = service.coordinator.scheduler;
+  scheduler.engine_version = kEngineVersion;
+  scheduler.self_test = self_test_digest();
+  scheduler.task_timeout = std::chrono::duration_cast<Duration>(
+      std::chrono::duration<double>(campaign.task_timeout_s));
+  scheduler.retries = campaign.retries;
+  scheduler.stop_on_failure = campaign.stop_on_failure;
+  if (!options.bind.empty()) service.bind = "tcp://" + options.bind;
+  return service;
+}
+
+/// Local worker processes as `--workers` and the file have them: a number of processes, or one with
+/// as many slots as there are cores.
+int local_processes(const Campaign& campaign, const RunOptions& options) {
+  return static_cast<int>(options.workers.value_or(campaign.local_workers.value_or(1)));
+}
+
+ExitCode show_result(Output& output, const Campaign& campaign) {
+  const auto reader = StoreReader::open(campaign.store);
+  if (!reader) return fail(output, exit_code_of_store(reader.error()), reader.error());
+  const ExitCode written = write_result(output, **reader);
+  if (!output.json) print_next_steps(output, campaign.store.string());
+  return written;
+}
+
+/// A campaign that is being run: everything that must live while the service does.
+class CampaignRun {
+ public:
+  CampaignRun(Output& output, const Campaign& campaign, const RunOptions& options, Store& store)
+      : output_(output),
+        campaign_(campaign),
+        options_(options),
+        store_(store),
+        designs_(design_rows(campaign)),
+        progress_(output, designs_, clock_.now()) {}
+
+  ExitCode run() {
+    auto plans = plans_of(campaign_);
+    if (!plans) return fail(output_, ExitCode::Usage, plans.error());
+    CampaignRunner runner = replay(std::move(*plans));
+    if (runner.error()) return fail_of(*runner.error());
+    auto service = Service::open(service_options(campaign_, options_), store_, runner);
+    if (!service) return fail(output_, exit_code_of(service.error()), service.error());
+    if (options_.announce) announce((*service)->endpoint());
+    const int processes = local_processes(campaign_, options_);
+    if (processes == 0) return serve(**service, runner, nullptr);
+    auto workers = LocalWorkers::start(
+        {.endpoint = (*service)->endpoint(), .processes = processes});
+    if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
+    return serve(**service, runner, &*workers);
+  }
+
+ private:
+  CampaignRunner replay(std::vector<DesignPlan> plans) {
+    std::vector<DesignId> finished;
+    for (const DesignStateRow& state : store_.design_states()) {
+      progress_.restore(state);
+      if (state.state == DesignState::Finished) finished.push_back(state.design);
+    }
+    const auto scores = store_.scores();
+    if (!scores.empty()) {
+      print_note(output_, "going on with " + std::to_string(scores.size()) +
+                              " evaluations that are in " + campaign_.store.string());
+    }
+    return CampaignRunner(std::move(plans), by_design(scores, store_.steps(), finished), finished);
+  }
+
+  ExitCode serve(Service& service, const CampaignRunner& runner, LocalWorkers* workers) {
+    catch_signals();
+    std::stop_source stop;
+    std::string worker_trouble;
+    const ServiceHooks hooks{
+        .on_rows =
+            [&](const std::vector<Row>& rows) {
+              for (const Row& row : rows) progress_.add(row, clock_.now());
+            },
+        .on_status =
+            [&](const LiveStatus& live) {
+              last_ = live;
+              progress_.update(live, clock_.now());
+              if (workers != nullptr && worker_trouble.empty()) {
+                worker_trouble = workers->tend(clock_.now());
+              }
+              if (g_signal != 0 || runner.error() || !worker_trouble.empty()) stop.request_stop();
+            },
+    };
+    const ServiceEnd end = service.run(stop.get_token(), hooks);
+    if (workers != nullptr) workers->stop(std::chrono::seconds(2));
+    progress_.finish(last_);
+    if (runner.error()) return fail_of(*runner.error());
+    if (!worker_trouble.empty()) return fail(output_, ExitCode::Unreachable, worker_trouble);
+    return exit_code_of(end);
+  }
+
+  ExitCode exit_code_of(const ServiceEnd& end) {
+    switch (end.how) {
+      case ServiceEnd::How::Finished: return ExitCode::Done;
+      case ServiceEnd::How::Stopped:
+        print_resume();
+        return fail(output_, ExitCode::OverFailureLimit, end.reason);
+      case ServiceEnd::How::Interrupted: break;
+    }
+    print_resume();
+    return g_signal == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted;
+  }
+
+  static ExitCode exit_code_of(const Error& error) {
+    return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Unreachable;
+  }
+
+  ExitCode fail_of(const Error& error) {
+    return fail(output_, error.kind == ErrorKind::Corrupt ? ExitCode::Store : ExitCode::Failed,
+                error);
+  }
+
+  void announce(const std::string& endpoint) {
+    const std::string address = endpoint.substr(endpoint.find("//") + 2);
+    print_note(output_, "waiting for workers: swarmsmith worker --connect " + address);
+  }
+
+  void print_resume() {
+    print_note(output_, "everything so far is in " + campaign_.store.string() +
+                            "; the same command goes on from there");
+  }
+
+  Output& output_;
+  const Campaign& campaign_;
+  const RunOptions& options_;
+  Store& store_;
+  SystemClock clock_;
+  std::vector<DesignRow> designs_;
+  Progress progress_;
+  LiveStatus last_;
+};
+
+}  // namespace
+
+void CampaignFlags::declare(Options& options, Options::Need file_needed) {
+  options.text("FILE", file, "Campaign file", file_needed);
+  options.integer("--budget", budget, {1, 1'000'000'000}, "Experiments of each design");
+  options.integer("--seed", seed, {0, INT64_MAX}, "Seed that everything derives from");
+  options.text("--store", store, "Where the results go");
+}
+
+std::optional<Campaign> CampaignFlags::read(Output& output) const {
+  std::optional<Campaign> campaign =
+      file.empty() ? demo_campaign() : read_or_complain(file, output);
+  if (!campaign) return std::nullopt;
+  if (budget) campaign->race.max_experiments = *budget;
+  if (seed) campaign->seed = static_cast<std::uint64_t>(*seed);
+  if (const char* variable = std::getenv("SWARMSMITH_STORE"); variable != nullptr) {
+    campaign->store = variable;
+  }
+  if (!store.empty()) campaign->store = store;
+  const std::vector<Error> complaints = check_budget(*campaign);
+  for (const Error& complaint : complaints) print_error(output, complaint);
+  if (!complaints.empty()) return std::nullopt;
+  return campaign;
+}
+
+ExitCode run_campaign(Output& output, const Campaign& campaign, const RunOptions& options) {
+  auto store = Store::open(campaign.store, campaign_row(campaign), design_rows(campaign));
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  if (!(*store)->finished()) {
+    const ExitCode ended = CampaignRun(output, campaign, options, **store).run();
+    if (ended != ExitCode::Done) return ended;
+  }
+  store->reset();
+  return show_result(output, campaign);
+}
+
+}  // namespace swarmsmith::cli

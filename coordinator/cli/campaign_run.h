@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "coordinator/campaign/campaign.h"
+#include "coordinator/cli/options.h"
+
+namespace swarmsmith::cli {
+
+/// What of a campaign file the command line may change; flags win over the environment
+/// (SWARMSMITH_STORE), which wins over the file.
+struct CampaignFlags {
+  std::string file;
+  std::optional<std::int64_t> budget;
+  std::optional<std::int64_t> seed;
+  std::string store;
+
+  /// Declares FILE, --budget, --seed and --store.
+  void declare(Options& options, Options::Need file_needed);
+  /// The campaign with the flags in it, or nothing after having said what is wrong. Without a file
+  /// it is the demo campaign.
+  std::optional<Campaign> read(Output& output) const;
+};
+
+/// Who evaluates, and where workers from elsewhere find the coordinator.
+struct RunOptions {
+  /// Worker processes that this one starts; none: the campaign's number, 0: none at all.
+  std::optional<std::int64_t> workers;
+  std::string bind;  ///< host:port; empty: a free port on loopback
+  bool announce = false;
+};
+
+/// Runs the campaign to its end, going on where its store stands, and prints its result. SIGINT and
+/// SIGTERM end it so that the same command goes on later; a second one ends it at once.
+ExitCode run_campaign(Output& output, const Campaign& campaign, const RunOptions& options);
+
+}  // namespace swarmsmith::cli

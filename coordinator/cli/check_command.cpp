@@ -1,0 +1,82 @@
+#include <cstdio>
+#include <memory>
+
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/cli/campaign_argument.h"
+#include "coordinator/cli/campaign_plan.h"
+#include "coordinator/cli/commands.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+std::string names_of(const Campaign& campaign) {
+  std::string text;
+  for (const CampaignMission& mission : campaign.missions) {
+    text += (text.empty() ? "" : ", ") + mission.mission.name;
+  }
+  text += " x ";
+  for (const Method& method : campaign.methods) {
+    text += (text.ends_with("x ") ? "" : ", ") + method.name;
+  }
+  return text;
+}
+
+std::string decimals(double value, const char* format) {
+  char buffer[32];
+  const int size = std::snprintf(buffer, sizeof buffer, format, value);
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+void write_text(Output& output, const Campaign& campaign, const CampaignPlan& plan) {
+  const std::string megabytes = decimals(plan.disk_bytes / 1e6, "%.1f");
+  output.out << "campaign     " << campaign.name << "\n"
+             << "store        " << campaign.store.string() << "\n"
+             << "designs      " << plan.designs << " = " << names_of(campaign) << " x "
+             << campaign.repetitions << " repetitions\n"
+             << "experiments  " << grouped(plan.experiments) << " (at most "
+             << grouped(campaign.race.max_experiments) << " a design), and " << grouped(plan.tests)
+             << " tests of winners\n"
+             << "evaluation   " << decimals(plan.evaluation_s * 1e3, "%.3g")
+             << " ms on one core of this machine\n"
+             << "time         about " << duration_text(plan.time_s) << " on " << plan.slots
+             << (plan.slots == 1 ? " slot\n" : " slots\n") << "disk         about " << megabytes
+             << " MB\n"
+             << "digest       " << campaign_digest(campaign) << "\n";
+}
+
+void write_json(Output& output, const Campaign& campaign, const CampaignPlan& plan) {
+  std::string warnings;
+  for (const std::string& warning : plan.warnings) {
+    warnings += (warnings.empty() ? "" : ",") + json_text(warning);
+  }
+  output.out << "{\"campaign\":" << json_text(campaign.name)
+             << ",\"store\":" << json_text(campaign.store.string())
+             << ",\"digest\":" << json_text(campaign_digest(campaign))
+             << ",\"designs\":" << plan.designs << ",\"experiments\":" << plan.experiments
+             << ",\"tests\":" << plan.tests << ",\"slots\":" << plan.slots
+             << ",\"evaluation_ms\":" << json_number(plan.evaluation_s * 1e3)
+             << ",\"time_s\":" << json_number(plan.time_s)
+             << ",\"disk_bytes\":" << json_number(plan.disk_bytes) << ",\"warnings\":[" << warnings
+             << "]}\n";
+}
+
+ExitCode run(const std::string& file, Output& output) {
+  const auto campaign = read_or_complain(file, output);
+  if (!campaign) return ExitCode::Usage;
+  const CampaignPlan plan = plan_of(*campaign);
+  for (const std::string& warning : plan.warnings) {
+    print_note(output, "warning: " + file + ": " + warning);
+  }
+  output.json ? write_json(output, *campaign, plan) : write_text(output, *campaign, plan);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_check(Options& options) {
+  auto file = std::make_shared<std::string>();
+  options.text("FILE", *file, "The campaign file", Options::Need::Required);
+  return [file](Output& output) { return run(*file, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,117 @@
+#include "coordinator/cli/commands.h"
+
+#include <array>
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::string_view kRunDetails = R"(Designs control software as the campaign file says, with workers of its own, and prints the result.
+Without a file it runs a demo: aggregation, 2,000 experiments, store demo.db. Every score is in the
+store as soon as it counts; Ctrl-C, kill -9, a power cut: the same command goes on where it was, and
+comes to the same answer. On a finished store it prints the result again.
+
+Examples:
+  swarmsmith run
+  swarmsmith run campaign.toml
+  swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db)";
+
+constexpr std::string_view kServeDetails = R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. In this version
+on this host only.
+
+Examples:
+  swarmsmith serve campaign.toml
+  swarmsmith serve campaign.toml --bind 127.0.0.1:5555)";
+
+constexpr std::string_view kWorkerDetails = R"(Evaluates for a coordinator until there is nothing more to do. SIGTERM lets it finish what it is
+at; it can come and go at any time. Starts the program swarmsmith-worker.
+
+Example:
+  swarmsmith worker --connect 127.0.0.1:5555 --slots 4)";
+
+constexpr std::string_view kVerifyDetails = R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
+budget and winner with what is stored; checks the file itself, too. Exit code 0 when all is clean.
+
+Example:
+  swarmsmith verify demo.db)";
+
+constexpr std::string_view kInitDetails = R"(Examples:
+  swarmsmith init mine
+  swarmsmith init mine --mission grid_exploration && swarmsmith run mine/campaign.toml)";
+
+constexpr std::string_view kCheckDetails = R"(Reads the file, prints all that is wrong with it (exit code 2), or the plan. Simulates for about half
+a second to say how long the campaign will take on this machine.
+
+Examples:
+  swarmsmith check campaign.toml
+  swarmsmith check campaign.toml --json)";
+
+constexpr std::string_view kEvaluateDetails = R"(Simulates the machine once for each seed, in this process. A larger score is better, in every mission.
+With --json one line a run: {"seed":1,"score":2}.
+
+Examples:
+  swarmsmith evaluate c812 --store demo.db --seeds 1-100
+  swarmsmith evaluate best.fsm --mission aggregation
+  swarmsmith evaluate --nstates 1 --s0 0 --rwm0 10 --mission grid_exploration --json
+  swarmsmith evaluate --flavour watermelon-argos3 --profile argos3 --mission color_selection \
+      --seeds 1-100 --starts starts.csv --patches patches.csv machine.fsm)";
+
+constexpr std::string_view kStatusDetails = R"(Reads the store, also while a campaign runs.
+
+Examples:
+  swarmsmith status demo.db
+  SWARMSMITH_STORE=demo.db swarmsmith status --watch)";
+
+constexpr std::string_view kLsDetails = R"(Conditions and order are SQL over the columns, which --json shows all of.
+
+Examples:
+  swarmsmith ls designs demo.db
+  swarmsmith ls candidates demo.db --where "n_states = 2 AND mean > 2.5" --sort "mean DESC" --limit 10
+  swarmsmith ls evaluations demo.db --where "status <> 'ok'" --json)";
+
+constexpr std::string_view kShowDetails = R"(Examples:
+  swarmsmith show d1 demo.db
+  swarmsmith show c812 demo.db --json)";
+
+constexpr std::string_view kQueryDetails = R"(Without a statement it lists the views, which are the store's public schema (docs/storage.md).
+Statements may only read. Ids are numbers here: design 3, candidate 812.
+
+Examples:
+  swarmsmith query demo.db
+  swarmsmith query demo.db "SELECT * FROM v_leaderboard"
+  swarmsmith query demo.db "SELECT seed, score FROM v_design_scores" --csv > scores.csv)";
+
+constexpr std::string_view kExportDetails = R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
+
+Examples:
+  swarmsmith export demo.db -o best.fsm
+  swarmsmith export demo.db --what elites --format json)";
+
+constexpr std::string_view kDigestDetails = R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
+number of workers and the history of crashes.
+
+Example:
+  swarmsmith digest demo.db)";
+
+constexpr std::array kCommands = {
+    Command{"run", "Run a campaign, or go on with it", kRunDetails, declare_run},
+    Command{"init", "Write a commented campaign file", kInitDetails, declare_init},
+    Command{"check", "Check a campaign file and show its plan", kCheckDetails, declare_check},
+    Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
+    Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
+    Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},
+    Command{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
+            declare_ls},
+    Command{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
+    Command{"query", "Ask a store in SQL", kQueryDetails, declare_query},
+    Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate},
+    Command{"export", "Write machines out of a store", kExportDetails, declare_export},
+    Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
+    Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
+    Command{"version", "Print the version", "", declare_version},
+};
+
+}  // namespace
+
+std::span<const Command> commands() { return kCommands; }
+
+}  // namespace swarmsmith::cli

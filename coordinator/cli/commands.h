@@ -1,0 +1,31 @@
+#pragma once
+
+#include <functional>
+#include <span>
+
+#include "coordinator/cli/options.h"
+
+namespace swarmsmith::cli {
+
+/// All commands, in the order of the help. A new one: a file of its own with its `declare_`
+/// function, a line here, an entry in commands.cpp, a section in docs/command-line.md.
+std::span<const Command> commands();
+
+using Run = std::function<ExitCode(Output&)>;
+
+Run declare_run(Options& options);
+Run declare_init(Options& options);
+Run declare_check(Options& options);
+Run declare_serve(Options& options);
+Run declare_worker(Options& options);
+Run declare_evaluate(Options& options);
+Run declare_status(Options& options);
+Run declare_ls(Options& options);
+Run declare_show(Options& options);
+Run declare_query(Options& options);
+Run declare_export(Options& options);
+Run declare_digest(Options& options);
+Run declare_verify(Options& options);
+Run declare_version(Options& options);
+
+}  // namespace swarmsmith::cli

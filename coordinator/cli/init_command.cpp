@@ -1,0 +1,56 @@
+#include <filesystem>
+#include <fstream>
+#include <memory>
+
+#include "coordinator/cli/campaign_template.h"
+#include "coordinator/cli/commands.h"
+#include "sim/control/flavour.h"
+#include "sim/mission/mission.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct Arguments {
+  std::string folder = ".";
+  std::string mission = "aggregation";
+  std::string flavour = "watermelon";
+};
+
+ExitCode run(const Arguments& arguments, Output& output) {
+  const auto file = std::filesystem::path(arguments.folder) / "campaign.toml";
+  std::error_code trouble;
+  std::filesystem::create_directories(arguments.folder, trouble);
+  if (std::filesystem::exists(file)) {
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput, "is there already; name another folder", file.string()});
+  }
+  std::ofstream stream(file, std::ios::binary);
+  stream << campaign_template(arguments.mission, arguments.flavour);
+  stream.close();
+  if (!stream) {
+    return fail(output, ExitCode::Failed,
+                Error{ErrorKind::Unavailable, "cannot be written", file.string()});
+  }
+  if (output.json) {
+    output.out << "{\"file\":" << json_text(file.string()) << "}\n";
+  } else {
+    output.out << file.string() << "\n";
+    print_note(output, "`swarmsmith check " + file.string() + "` shows the plan, `swarmsmith run " +
+                           file.string() + "` runs it.");
+  }
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_init(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  options.text("DIR", arguments->folder, "Folder of the new campaign.toml (default: this one)");
+  options.choice("--mission", arguments->mission,
+                 {"aggregation", "grid_exploration", "color_selection"}, "Mission to design for");
+  options.choice("--flavour", arguments->flavour, {"watermelon", "watermelon-argos3"},
+                 "Flavour of the modules");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

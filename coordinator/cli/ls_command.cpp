@@ -1,0 +1,90 @@
+#include <array>
+#include <memory>
+
+#include "base/suggestion.h"
+#include "coordinator/cli/commands.h"
+#include "coordinator/cli/query_output.h"
+#include "coordinator/cli/store_argument.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// What can be listed: rows of a view, with the columns that fit on a screen and all of them.
+struct Kind {
+  std::string_view name;
+  std::string_view from;
+  std::string_view columns;
+  std::string_view order;
+};
+
+constexpr std::array<Kind, 5> kKinds = {{
+    {"designs", "v_designs",
+     "design, mission, method, repetition, state, iteration, used, budget, best_candidate, "
+     "best_mean",
+     "design"},
+    {"candidates", "v_candidates",
+     "candidate, design, iteration, parent, n_states, n_transitions, runs, mean, eliminated_in",
+     "candidate"},
+    {"evaluations", "v_evaluations",
+     "id, design, candidate, purpose, pair, seed, iteration, status, score, wall_ms, worker",
+     "candidate, purpose, pair"},
+    {"elites",
+     "(SELECT e.*, c.n_states, c.n_transitions, c.fsm_config FROM v_convergence AS e "
+     "JOIN v_candidates AS c ON c.candidate = e.candidate WHERE e.iteration = "
+     "(SELECT max(iteration) FROM v_convergence AS l WHERE l.design = e.design))",
+     "design, iteration, rank, candidate, mean, n, n_states, n_transitions", "design, rank"},
+    {"workers", "v_workers", "worker, host, pid, slots, state, done, failed, first_seen, last_seen",
+     "worker"},
+}};
+
+struct Arguments {
+  std::string kind;
+  StoreArgument store;
+  std::string where;
+  std::string sort;
+  std::optional<std::int64_t> limit;
+};
+
+std::string statement(const Kind& kind, const Arguments& arguments, bool all_columns) {
+  std::string sql = "SELECT " + (all_columns ? "*" : std::string(kind.columns)) + " FROM " +
+                    std::string(kind.from);
+  if (!arguments.where.empty()) sql += " WHERE " + arguments.where;
+  sql += " ORDER BY " + (arguments.sort.empty() ? std::string(kind.order) : arguments.sort);
+  return sql;
+}
+
+ExitCode run(const Arguments& arguments, Output& output) {
+  constexpr std::int64_t kShown = 100;
+  constexpr std::int64_t kAll = 1'000'000'000;
+  const Kind* kind = nullptr;
+  for (const Kind& known : kKinds) {
+    if (known.name == arguments.kind) kind = &known;
+  }
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const std::int64_t limit = arguments.limit.value_or(output.json ? 0 : kShown);
+  auto rows = select(**store, statement(*kind, arguments, output.json),
+                     {.rows = limit == 0 ? kAll : limit});
+  if (!rows) return fail(output, ExitCode::Usage, rows.error());
+  letter_ids(*rows);
+  write_rows(output, *rows, output.json ? Form::Json : Form::Text);
+  if (rows->truncated) print_note(output, "`--limit 0` shows all");
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_ls(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  std::vector<std::string> kinds;
+  for (const Kind& kind : kKinds) kinds.emplace_back(kind.name);
+  options.choice("KIND", arguments->kind, kinds, "What to list", Options::Need::Required);
+  arguments->store.declare(options);
+  options.text("--where", arguments->where, "Condition in SQL, such as \"mean > 2.5\"");
+  options.text("--sort", arguments->sort, "Columns to sort by, such as \"mean DESC\"");
+  options.integer("--limit", arguments->limit, {0, 1'000'000'000},
+                  "At most so many rows; 0 for all (default 100, all with --json)");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,78 @@
+#include "coordinator/cli/machine_argument.h"
+
+#include <fstream>
+
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/cli/query_output.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+std::string trimmed(const std::string& text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string::npos) return "";
+  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+}
+
+bool is_candidate(const std::string& word) {
+  return word.size() > 1 && word.size() < 19 && word.front() == 'c' &&
+         word.find_first_not_of("0123456789", 1) == std::string::npos;
+}
+
+Expected<NamedMachine> machine_of_file(const std::string& file) {
+  std::ifstream stream(file);
+  if (!stream) {
+    return bad_input("this is no machine: neither a text that begins with --nstates, nor a file, "
+                     "nor a candidate such as c812",
+                     file);
+  }
+  std::string machine;
+  std::string line;
+  for (int number = 1; std::getline(stream, line); ++number) {
+    line = trimmed(line);
+    if (line.empty() || line.front() == '#') continue;
+    const bool begins = line.starts_with("--nstates") || line.starts_with("--fsm-config");
+    if (begins && !machine.empty()) {
+      return bad_input("the file holds more than one machine", file + ":" + std::to_string(number));
+    }
+    machine += (machine.empty() ? "" : " ") + line;
+  }
+  if (machine.empty()) return bad_input("the file holds no machine", file);
+  return NamedMachine{machine, std::nullopt, "", ""};
+}
+
+Expected<NamedMachine> machine_of_store(const std::string& id, const StoreArgument& argument) {
+  const auto store = argument.open();
+  if (!store) return Unexpected(store.error());
+  const auto rows = select(**store, "SELECT c.fsm_config, d.mission, d.method FROM v_candidates AS "
+                                    "c JOIN v_designs AS d ON d.design = c.design "
+                                    "WHERE c.candidate = " +
+                                        id.substr(1));
+  if (!rows) return Unexpected(rows.error());
+  if (rows->cells.empty()) {
+    return unexpected(ErrorKind::NotFound, "the store has no candidate " + id);
+  }
+  const auto& cells = rows->cells.front();
+  NamedMachine machine{cells[0].text, std::nullopt, "", ""};
+  const auto campaign = parse_campaign((*store)->campaign().file, "campaign.toml");
+  if (!campaign) return machine;  // of another method, imported: flags must say it
+  machine.profile = campaign->profile.name;
+  for (const CampaignMission& mission : campaign->missions) {
+    if (mission.mission.name == cells[1].text) machine.mission = mission;
+  }
+  for (const Method& method : campaign->methods) {
+    if (method.name == cells[2].text) machine.flavour = method.flavour;
+  }
+  return machine;
+}
+
+}  // namespace
+
+Expected<NamedMachine> find_machine(const std::string& word, const StoreArgument& store) {
+  const std::string text = trimmed(word);
+  if (text.starts_with("--")) return NamedMachine{text, std::nullopt, "", ""};
+  if (is_candidate(text)) return machine_of_store(text, store);
+  return machine_of_file(text);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "coordinator/cli/exit_code.h"
+#include "coordinator/cli/output.h"
+
+namespace CLI {
+class App;
+}
+
+namespace swarmsmith::cli {
+
+/// What a command reads from its arguments. Names are "--budget", "-o,--output" or, for a word
+/// without dashes, "FILE". The referenced values must live until the command has run.
+class Options {
+ public:
+  explicit Options(CLI::App& app) : app_(&app) {}
+
+  enum class Need { Optional, Required };
+
+  void flag(const std::string& names, bool& value, const std::string& help);
+  void text(const std::string& names, std::string& value, const std::string& help,
+            Need need = Need::Optional);
+  /// All further words.
+  void words(const std::string& name, std::vector<std::string>& values, const std::string& help,
+             Need need = Need::Optional);
+  void choice(const std::string& names, std::string& value, const std::vector<std::string>& choices,
+              const std::string& help, Need need = Need::Optional);
+  struct Range {
+    std::int64_t least;
+    std::int64_t most;
+  };
+  void integer(const std::string& names, std::optional<std::int64_t>& value, Range range,
+               const std::string& help);
+
+ private:
+  CLI::App* app_;
+};
+
+/// One command of the program.
+struct Command {
+  std::string_view name;
+  std::string_view summary;  ///< one line
+  std::string_view details;  ///< examples and what else a person needs, below the options
+  /// Declares the command's options and returns what runs when they were read.
+  std::function<ExitCode(Output&)> (*declare)(Options& options);
+};
+
+/// Runs the program with the words after its name. Output goes to `output`, whose flags (`--json`,
+/// `--quiet`, `-v`, `--no-color`) are read first. Wrong usage is explained on the error stream.
+ExitCode run_program(const std::vector<std::string>& arguments, Output& output);
+
+}  // namespace swarmsmith::cli

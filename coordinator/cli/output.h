@@ -1,0 +1,41 @@
+#pragma once
+
+#include <ostream>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "base/expected.h"
+#include "coordinator/cli/exit_code.h"
+
+namespace swarmsmith::cli {
+
+/// Where a command writes, and how: answers to `out`, all else to `err`.
+struct Output {
+  std::ostream& out;
+  std::ostream& err;
+  bool json = false;
+  bool quiet = false;
+  bool verbose = false;
+  bool color = false;         ///< only for `err`, and only on a terminal without NO_COLOR
+  bool err_is_terminal = false;
+  bool out_is_terminal = false;
+};
+
+/// Streams of this process; asks the environment about terminals and colour.
+Output standard_output();
+
+/// "swarmsmith: where: what was found and what to do", one line an error.
+void print_error(Output& output, const Error& error);
+void print_note(Output& output, std::string_view text);
+
+/// Prints the error and returns what to exit with: `usage` for a wrong command line or file.
+ExitCode fail(Output& output, ExitCode code, const std::string& message);
+ExitCode fail(Output& output, ExitCode code, const Error& error);
+
+/// A text as a JSON string, in quotes.
+std::string json_text(std::string_view text);
+/// A number in the shortest form that reads back to the same value; null for what JSON lacks.
+std::string json_number(double value);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,59 @@
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "base/clock.h"
+#include "coordinator/cli/output.h"
+#include "coordinator/cli/progress_model.h"
+
+namespace swarmsmith::cli {
+
+/// Tells a person or a program how a campaign goes, from the rows that it makes.
+///
+/// On a terminal: a status line that is redrawn, above it the lines of the races. Elsewhere: a line
+/// every 30 s and one at each change of a design's state; with `-v` the lines of the races, too.
+/// With --json: events on standard output, one a line. With --quiet: nothing but errors.
+///
+/// Not thread-safe: rows and updates come from one thread.
+class Progress {
+ public:
+  /// `width` gives the columns of the terminal; asked again for each line.
+  Progress(Output& output, std::span<const DesignRow> designs, TimePoint begin,
+           std::function<std::size_t()> width = terminal_width);
+
+  /// How far a design was when the campaign goes on from its store; prints nothing.
+  void restore(const DesignStateRow& row) { model_.add(row); }
+  /// A row that became due, in order.
+  void add(const Row& row, TimePoint now);
+  /// Call often; redraws at most ten times a second.
+  void update(const LiveStatus& live, TimePoint now);
+  /// Writes the last status and leaves the line.
+  void finish(const LiveStatus& live);
+
+  const ProgressModel& model() const { return model_; }
+
+  static std::size_t terminal_width();
+
+ private:
+  enum class Form { Silent, Json, Terminal, Plain };
+
+  void add_line(const std::string& line);
+  void write_row(const Row& row, TimePoint now);
+  void draw(const LiveStatus& live);
+
+  Output& output_;
+  ProgressModel model_;
+  TimePoint begin_;
+  std::function<std::size_t()> width_;
+  Form form_;
+  bool race_lines_;
+  std::string drawn_;  ///< the status line that stands on the terminal
+  std::string trouble_;
+  std::optional<TimePoint> last_;
+  std::int64_t lines_since_headline_ = 0;
+};
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coordinator/live_status.h"
+#include "storage/rows.h"
+
+namespace swarmsmith::cli {
+
+/// How far one design is.
+struct DesignProgress {
+  DesignRow design;
+  DesignState state = DesignState::Waiting;
+  std::int64_t iteration = 0;
+  std::int64_t iterations = 0;  ///< as planned when the iteration began
+  std::int64_t configurations = 0;
+  std::int64_t alive = 0;
+  std::int64_t used = 0;
+  CandidateId best;
+  double best_mean = 0;
+};
+
+/// How far a campaign is, kept up from its rows. Pure.
+class ProgressModel {
+ public:
+  explicit ProgressModel(std::span<const DesignRow> designs);
+
+  void add(const Row& row);
+
+  const DesignProgress& design(DesignId id) const { return designs_.at(id); }
+  std::int64_t designs() const { return static_cast<std::int64_t>(designs_.size()); }
+  std::int64_t finished() const;
+  std::int64_t used() const;
+  std::int64_t budget() const;
+  /// The first design that is not finished, else the last one: what the status line tells about.
+  const DesignProgress* current() const;
+
+ private:
+  void add_state(const DesignStateRow& row);
+
+  std::map<DesignId, DesignProgress> designs_;
+};
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,146 @@
+#include "coordinator/cli/progress_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+
+#include "coordinator/cli/campaign_plan.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// Scores from 0.01 to 1,000,000 come with enough digits and without exponents.
+std::string score_text(double score) {
+  char buffer[64];
+  const int size = std::snprintf(buffer, sizeof buffer, std::abs(score) < 1000 ? "%.4g" : "%.0f", score);
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+std::string right(const std::string& text, std::size_t width) {
+  return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
+}
+
+std::string optional_text(const std::optional<double>& value, const char* format) {
+  if (!value) return "NA";
+  char buffer[64];
+  const int size = std::snprintf(buffer, sizeof buffer, format, *value);
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long long>(seconds);
+  char buffer[64];
+  const int size = std::snprintf(buffer, sizeof buffer, "%02lld:%02lld:%02lld", whole / 3600,
+                                 whole / 60 % 60, whole % 60);
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+std::string bar(std::int64_t used, std::int64_t budget) {
+  constexpr std::int64_t kCells = 20;
+  const std::int64_t filled = budget > 0 ? std::clamp<std::int64_t>(used * kCells / budget, 0, kCells) : 0;
+  return "[" + std::string(static_cast<std::size_t>(filled), '#') +
+         std::string(static_cast<std::size_t>(kCells - filled), '-') + "]";
+}
+
+/// What both status lines say before and after the bar.
+std::string first_half(const ProgressModel& model) {
+  std::string text = "designs " + std::to_string(model.finished()) + "/" +
+                     std::to_string(model.designs());
+  const DesignProgress* current = model.current();
+  if (current != nullptr && current->iteration > 0) {
+    text += "  " + to_string(current->design.id) + " iteration " +
+            std::to_string(current->iteration) + "/~" +
+            std::to_string(std::max(current->iterations, current->iteration));
+  }
+  return text;
+}
+
+std::string second_half(const ProgressModel& model, const LiveStatus& live) {
+  std::string text = grouped(model.used()) + "/" + grouped(model.budget());
+  const DesignProgress* current = model.current();
+  if (current != nullptr && current->configurations > 0) {
+    text += "  alive " + std::to_string(current->alive) + "/" +
+            std::to_string(current->configurations);
+  }
+  if (current != nullptr && current->best) text += "  best " + score_text(current->best_mean);
+  text += "  " + std::to_string(std::llround(live.evaluations_per_s)) + " sim/s";
+  const auto left = static_cast<double>(model.budget() - model.used());
+  if (live.evaluations_per_s > 0 && left > 0) {
+    text += "  ETA " + duration_text(left / live.evaluations_per_s);
+  }
+  if (live.failed > 0) text += "  failed " + std::to_string(live.failed);
+  if (live.workers == 0) text += "  no workers";
+  return text;
+}
+
+}  // namespace
+
+std::string_view name_of(DesignState state) {
+  static constexpr std::array<std::string_view, 5> kNames = {"waiting", "racing", "testing",
+                                                             "finished", "stopped"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+std::string status_line(const ProgressModel& model, const LiveStatus& live, std::size_t width) {
+  std::string line = first_half(model) + "  " + bar(model.used(), model.budget()) + "  " +
+                     second_half(model, live);
+  // Whatever is least needed stands last.
+  if (line.size() > width) line.resize(width);
+  return line;
+}
+
+std::string plain_status(const ProgressModel& model, const LiveStatus& live) {
+  return first_half(model) + "  " + second_half(model, live) + "  workers " +
+         std::to_string(live.workers) + "  slots " + std::to_string(live.leased) + "/" +
+         std::to_string(live.slots);
+}
+
+std::string race_headline() {
+  return "design | |       pair|      alive|       best|       mean best| exp so far|  W time|  rho"
+         "|KenW|  Qvar|";
+}
+
+std::string race_line(const RaceStepRow& step, double elapsed_s) {
+  return right(to_string(step.design), 6) + " |" + step.marker + "|" +
+         right(std::to_string(step.pair), 11) + "|" + right(std::to_string(step.alive_after), 11) +
+         "|" + right(to_string(step.best), 11) + "|" + right(score_text(step.mean_best), 16) + "|" +
+         right(std::to_string(step.used), 11) + "|" + clock_text(elapsed_s) + "|" +
+         right(optional_text(step.spearman_rho, "%+.2f"), 5) + "|" +
+         right(optional_text(step.kendall_w, "%.2f"), 4) + "|" +
+         right(optional_text(step.qvar, "%.4f"), 6) + "|";
+}
+
+std::string iteration_line(const IterationRow& iteration, const DesignProgress& progress) {
+  return to_string(iteration.design) + " " + progress.design.mission + " " +
+         progress.design.method + " iteration " + std::to_string(iteration.number) + " of about " +
+         std::to_string(iteration.of) + ": " + std::to_string(iteration.configurations) +
+         " configurations (" + std::to_string(iteration.elites) + " elites), budget " +
+         grouped(iteration.budget) + (iteration.soft_restart ? ", soft restart" : "");
+}
+
+std::string elite_line(const EliteRow& elite) {
+  return to_string(elite.design) + " elite " + std::to_string(elite.rank) + ": " +
+         to_string(elite.candidate) + "  mean " + score_text(elite.mean) + " over " +
+         std::to_string(elite.runs) + " runs";
+}
+
+std::string state_line(const DesignStateRow& state, const DesignProgress& progress) {
+  std::string text = to_string(state.design) + " " + progress.design.mission + " " +
+                     progress.design.method + " repetition " +
+                     std::to_string(progress.design.repetition) + " " +
+                     std::string(name_of(state.state)) + "  used " + grouped(state.used) + "/" +
+                     grouped(progress.design.budget);
+  if (state.best) {
+    text += "  best " + to_string(state.best) + " " + score_text(state.best_mean);
+  }
+  if (!state.reason.empty()) text += "  (" + state.reason + ")";
+  return text;
+}
+
+std::string event_line(const EventRow& event) {
+  return event.severity + ": " + event.kind + (event.text.empty() ? "" : " " + event.text);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coordinator/cli/progress_model.h"
+
+namespace swarmsmith::cli {
+
+/// Lines about a campaign for people, and events for programs. All pure.
+
+/// The line that is redrawn on a terminal, cut to `width` columns:
+///   design 3/10  iteration 5/~10  [####------]  52 418/100 000  alive 17/58  best 2.71
+///   412 sim/s  ETA 1m55s  failed 3
+std::string status_line(const ProgressModel& model, const LiveStatus& live, std::size_t width);
+
+/// The same facts for logs, without the bar.
+std::string plain_status(const ProgressModel& model, const LiveStatus& live);
+
+/// The table of a race as irace prints it, with the design in front and scores instead of costs.
+std::string race_headline();
+std::string race_line(const RaceStepRow& step, double elapsed_s);
+
+std::string iteration_line(const IterationRow& iteration, const DesignProgress& progress);
+std::string elite_line(const EliteRow& elite);
+std::string state_line(const DesignStateRow& state, const DesignProgress& progress);
+std::string event_line(const EventRow& event);
+
+std::string_view name_of(DesignState state);
+
+/// The row as one event, {"v":1,"event":"race_step",...}; empty for rows that are none
+/// (candidates, pairs, single evaluations, totals).
+std::string event_json(const Row& row);
+/// {"v":1,"event":"progress",...}
+std::string progress_json(const ProgressModel& model, const LiveStatus& live);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,175 @@
+#include "coordinator/cli/query_output.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cstdio>
+
+namespace swarmsmith::cli {
+namespace {
+
+using Cell = StoreReader::Cell;
+using Type = StoreReader::Cell::Type;
+
+/// Bytes that begin a character, so that UTF-8 is padded right.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::ranges::count_if(text, [](char letter) { return (letter & '\xc0') != '\x80'; }));
+}
+
+/// For people six significant digits of a real are enough.
+std::string shown(const Cell& cell) {
+  if (cell.type == Type::Null) return "-";
+  if (cell.type != Type::Real) return cell.text;
+  char buffer[32];
+  const int size = std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(cell.text.c_str(), nullptr));
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+bool is_number(const Cell& cell) { return cell.type == Type::Integer || cell.type == Type::Real; }
+
+void append_padded(std::string& line, const std::string& text, std::size_t width, bool right) {
+  const std::size_t used = width_of(text);
+  const std::string padding(width > used ? width - used : 0, ' ');
+  line += right ? padding + text : text + padding;
+}
+
+std::string csv_field(const Cell& cell) {
+  if (cell.text.find_first_of(",\"\r\n") == std::string::npos) return cell.text;
+  std::string field = "\"";
+  for (const char letter : cell.text) {
+    field += letter;
+    if (letter == '"') field += '"';
+  }
+  return field + "\"";
+}
+
+std::string json_value(const Cell& cell) {
+  switch (cell.type) {
+    case Type::Null:
+      return "null";
+    case Type::Integer:
+      return cell.text;
+    case Type::Real:
+      return json_number(std::strtod(cell.text.c_str(), nullptr));
+    case Type::Text:
+      break;
+  }
+  return json_text(cell.text);
+}
+
+char letter_of(const std::string& column) {
+  if (column == "design") return 'd';
+  if (column == "candidate" || column == "parent" || column == "best_candidate") return 'c';
+  return '\0';
+}
+
+}  // namespace
+
+Expected<Rows> select(StoreReader& store, const std::string& sql,
+                      const StoreReader::QueryLimits& limits) {
+  Rows rows;
+  const auto end = store.query(
+      sql, limits, [&](const std::vector<std::string>& columns) { rows.columns = columns; },
+      [&](const std::vector<Cell>& cells) { rows.cells.push_back(cells); });
+  if (!end) return Unexpected(end.error());
+  rows.truncated = end->truncated;
+  return rows;
+}
+
+void letter_ids(Rows& rows) {
+  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
+    const char letter = letter_of(rows.columns[column]);
+    if (letter == '\0') continue;
+    for (auto& cells : rows.cells) {
+      Cell& cell = cells[column];
+      if (cell.type == Type::Integer) cell = {Type::Text, letter + cell.text};
+    }
+  }
+}
+
+std::string rows_as_text(const Rows& rows) {
+  std::vector<std::size_t> widths;
+  std::vector<bool> right;
+  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
+    widths.push_back(width_of(rows.columns[column]));
+    right.push_back(!rows.cells.empty() && is_number(rows.cells.front()[column]));
+    for (const auto& cells : rows.cells) {
+      widths[column] = std::max(widths[column], width_of(shown(cells[column])));
+    }
+  }
+  std::string text;
+  const auto add_line = [&](const auto& text_of) {
+    std::string line;
+    for (std::size_t column = 0; column < rows.columns.size(); ++column) {
+      if (column > 0) line += "  ";
+      append_padded(line, text_of(column), widths[column], right[column]);
+    }
+    line.erase(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  };
+  add_line([&](std::size_t column) { return rows.columns[column]; });
+  for (const auto& cells : rows.cells) {
+    add_line([&](std::size_t column) { return shown(cells[column]); });
+  }
+  return text;
+}
+
+std::string rows_as_csv(const Rows& rows) {
+  std::string text;
+  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
+    if (column > 0) text += ",";
+    text += csv_field({Type::Text, rows.columns[column]});
+  }
+  text += "\r\n";
+  for (const auto& cells : rows.cells) {
+    for (std::size_t column = 0; column < cells.size(); ++column) {
+      if (column > 0) text += ",";
+      text += csv_field(cells[column]);
+    }
+    text += "\r\n";
+  }
+  return text;
+}
+
+std::string row_as_json(const Rows& rows, std::size_t row) {
+  std::string text = "{";
+  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
+    if (column > 0) text += ",";
+    text += json_text(rows.columns[column]) + ":" + json_value(rows.cells[row][column]);
+  }
+  return text + "}";
+}
+
+std::string rows_as_json(const Rows& rows) {
+  std::string text = "[";
+  for (std::size_t row = 0; row < rows.cells.size(); ++row) {
+    if (row > 0) text += ",";
+    text += row_as_json(rows, row);
+  }
+  return text + "]";
+}
+
+void write_rows(Output& output, const Rows& rows, Form form) {
+  switch (form) {
+    case Form::Text:
+      output.out << rows_as_text(rows);
+      break;
+    case Form::Csv:
+      output.out << rows_as_csv(rows);
+      break;
+    case Form::Json: {
+      std::string columns;
+      for (const std::string& column : rows.columns) {
+        columns += (columns.empty() ? "" : ",") + json_text(column);
+      }
+      output.out << "{\"columns\":[" << columns << "],\"rows\":" << rows_as_json(rows)
+                 << ",\"truncated\":" << (rows.truncated ? "true" : "false") << "}\n";
+      break;
+    }
+  }
+  if (rows.truncated) {
+    print_note(output, "only the first " + std::to_string(rows.cells.size()) + " rows are shown");
+  }
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "coordinator/cli/output.h"
+#include "storage/store.h"
+
+namespace swarmsmith::cli {
+
+/// How rows are written: aligned columns for people, RFC 4180, or one JSON object
+/// {"columns":[...],"rows":[{...}],"truncated":false}.
+enum class Form { Text, Csv, Json };
+
+/// Rows of a query, held.
+struct Rows {
+  std::vector<std::string> columns;
+  std::vector<std::vector<StoreReader::Cell>> cells;
+  bool truncated = false;
+};
+
+/// Runs the statement and keeps its rows.
+Expected<Rows> select(StoreReader& store, const std::string& sql,
+                      const StoreReader::QueryLimits& limits = {});
+
+/// Columns whose values are ids get the letter of their kind: design 3 becomes d3; `candidate`,
+/// `parent` and `best_candidate` get a c.
+void letter_ids(Rows& rows);
+
+std::string rows_as_text(const Rows& rows);
+std::string rows_as_csv(const Rows& rows);
+/// The "rows" array alone.
+std::string rows_as_json(const Rows& rows);
+std::string row_as_json(const Rows& rows, std::size_t row);
+
+void write_rows(Output& output, const Rows& rows, Form form);
+
+}  // namespace swarmsmith::cli

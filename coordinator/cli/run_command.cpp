@@ -1,0 +1,27 @@
+#include <memory>
+
+#include "coordinator/cli/campaign_run.h"
+#include "coordinator/cli/commands.h"
+
+namespace swarmsmith::cli {
+
+Run declare_run(Options& options) {
+  struct Arguments {
+    CampaignFlags campaign;
+    std::optional<std::int64_t> workers;
+    bool no_dashboard = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  arguments->campaign.declare(options, Options::Need::Optional);
+  options.integer("--workers", arguments->workers, {1, 1000},
+                  "Local worker processes; they share the cores");
+  options.flag("--no-dashboard", arguments->no_dashboard,
+               "Accepted; this version has no dashboard to leave out");
+  return [arguments](Output& output) {
+    const auto campaign = arguments->campaign.read(output);
+    if (!campaign) return ExitCode::Usage;
+    return run_campaign(output, *campaign, {.workers = arguments->workers, .bind = campaign->bind});
+  };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,25 @@
+#include <memory>
+
+#include "coordinator/cli/campaign_run.h"
+#include "coordinator/cli/commands.h"
+
+namespace swarmsmith::cli {
+
+Run declare_serve(Options& options) {
+  struct Arguments {
+    CampaignFlags campaign;
+    std::string bind;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  arguments->campaign.declare(options, Options::Need::Required);
+  options.text("--bind", arguments->bind, "Address and port for workers (default 127.0.0.1:5555)");
+  return [arguments](Output& output) {
+    const auto campaign = arguments->campaign.read(output);
+    if (!campaign) return ExitCode::Usage;
+    RunOptions run{.workers = 0, .bind = arguments->bind, .announce = true};
+    if (run.bind.empty()) run.bind = campaign->bind.empty() ? "127.0.0.1:5555" : campaign->bind;
+    return run_campaign(output, *campaign, run);
+  };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,133 @@
+#include <charconv>
+#include <memory>
+
+#include "coordinator/cli/commands.h"
+#include "coordinator/cli/query_output.h"
+#include "coordinator/cli/store_argument.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct Arguments {
+  std::string id;
+  StoreArgument store;
+};
+
+/// A part of what is shown: its name in JSON and as a headline, and its rows.
+struct Part {
+  std::string name;
+  std::string sql;
+};
+
+/// Statements that show a thing, the first of which has one row if it exists.
+std::vector<Part> parts_of_design(const std::string& number) {
+  return {{"design", "SELECT * FROM v_designs WHERE design = " + number},
+          {"elites", "SELECT iteration, rank, candidate, mean, n, experiments_used "
+                     "FROM v_convergence WHERE design = " +
+                         number + " ORDER BY iteration, rank"},
+          {"test", "SELECT candidate, source, count(score) AS runs, avg(score) AS mean, "
+                   "min(score) AS lowest, max(score) AS highest FROM v_design_scores "
+                   "WHERE design = " +
+                       number + " GROUP BY candidate, source"}};
+}
+
+std::vector<Part> parts_of_candidate(const std::string& number) {
+  return {{"candidate", "SELECT * FROM v_candidates WHERE candidate = " + number},
+          {"ancestry",
+           "WITH RECURSIVE line (candidate, parent, iteration, mean, depth) AS ("
+           "SELECT candidate, parent, iteration, mean, 0 FROM v_candidates WHERE candidate = " +
+               number +
+               " UNION ALL SELECT c.candidate, c.parent, c.iteration, c.mean, depth + 1 "
+               "FROM line JOIN v_candidates AS c ON c.candidate = line.parent) "
+               "SELECT candidate, parent, iteration, mean FROM line WHERE depth > 0"},
+          {"scores", "SELECT purpose, source, count(score) AS runs, avg(score) AS mean, "
+                     "min(score) AS lowest, max(score) AS highest FROM v_evaluations "
+                     "WHERE candidate = " +
+                         number + " GROUP BY purpose, source"}};
+}
+
+std::vector<Part> parts_of_evaluation(const std::string& id) {
+  // e<candidate * 100,000 + pair>, a letter of the purpose behind it: the candidate makes it quick.
+  const std::string digits = id.substr(1, id.find_last_of("0123456789"));
+  return {{"evaluation", "SELECT * FROM v_evaluations WHERE candidate = " + digits +
+                             " / 100000 AND id = '" + id + "'"}};
+}
+
+/// The parts, or none when the text is no id.
+std::vector<Part> parts_of(const std::string& id) {
+  if (id.size() < 2) return {};
+  const char purpose = id.front() == 'e' ? id.back() : '0';
+  const bool lettered = std::string_view("ltas").find(purpose) != std::string_view::npos;
+  const std::string number = id.substr(1, id.size() - (lettered ? 2 : 1));
+  if (number.empty() || number.size() > 18) return {};
+  if (number.find_first_not_of("0123456789") != std::string::npos) return {};
+  if (id.front() == 'd') return parts_of_design(number);
+  if (id.front() == 'c') return parts_of_candidate(number);
+  if (id.front() == 'e') return parts_of_evaluation(id);
+  return {};
+}
+
+/// One row as "name  value" lines.
+std::string as_lines(const Rows& rows) {
+  std::size_t width = 0;
+  for (const std::string& column : rows.columns) width = std::max(width, column.size());
+  std::string text;
+  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
+    const auto& cell = rows.cells.front()[column];
+    if (cell.type == StoreReader::Cell::Type::Null || cell.text.empty()) continue;
+    const std::string& name = rows.columns[column];
+    text += name + std::string(width - name.size() + 2, ' ') + cell.text + "\n";
+  }
+  return text;
+}
+
+void write_text(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
+  output.out << as_lines(rows.front());
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    if (rows[i].cells.empty()) continue;
+    output.out << "\n" << parts[i].name << "\n" << rows_as_text(rows[i]);
+  }
+}
+
+void write_json(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
+  output.out << "{" << json_text(parts.front().name) << ":" << row_as_json(rows.front(), 0);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    output.out << "," << json_text(parts[i].name) << ":" << rows_as_json(rows[i]);
+  }
+  output.out << "}\n";
+}
+
+ExitCode run(const Arguments& arguments, Output& output) {
+  const std::vector<Part> parts = parts_of(arguments.id);
+  if (parts.empty()) {
+    return fail(output, ExitCode::Usage,
+                "\"" + arguments.id + "\" is no id; ids look like d3 (design), c812 (candidate), " +
+                    "e81200007 (evaluation)");
+  }
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  std::vector<Rows> shown;
+  for (const Part& part : parts) {
+    auto rows = select(**store, part.sql);
+    if (!rows) return fail(output, ExitCode::Store, rows.error());
+    if (shown.empty() && rows->cells.empty()) {
+      return fail(output, ExitCode::NoSuchId,
+                  "the store has no " + part.name + " " + arguments.id);
+    }
+    letter_ids(*rows);
+    shown.push_back(std::move(*rows));
+  }
+  output.json ? write_json(output, parts, shown) : write_text(output, parts, shown);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_show(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  options.text("ID", arguments->id, "d3, c812 or e81200007", Options::Need::Required);
+  arguments->store.declare(options);
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,28 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/expected.h"
+#include "coordinator/cli/options.h"
+#include "storage/store.h"
+
+namespace swarmsmith::cli {
+
+/// The store that a command reads: the word STORE, else `--store`, else SWARMSMITH_STORE.
+struct StoreArgument {
+  std::string word;
+  std::string option;
+
+  /// Declares both. Without `with_word` only the option.
+  void declare(Options& options, bool with_word = true);
+  /// Where the store is, or a sentence that says how to name it.
+  Expected<std::string> path() const;
+  /// Opens it; every error means exit code 3, except one of `path`.
+  Expected<std::unique_ptr<StoreReader>> open() const;
+};
+
+/// What to exit with after an error of `open`.
+ExitCode exit_code_of_store(const Error& error);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,41 @@
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <unistd.h>
+
+#include "coordinator/cli/commands.h"
+#include "coordinator/local_workers.h"
+
+namespace swarmsmith::cli {
+
+Run declare_worker(Options& options) {
+  struct Arguments {
+    std::string connect;
+    std::optional<std::int64_t> slots;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  options.text("--connect", arguments->connect, "Address and port of the coordinator",
+               Options::Need::Required);
+  options.integer("--slots", arguments->slots, {1, 1024},
+                  "Evaluations at the same time (default: SLURM_CPUS_PER_TASK, else the CPUs that "
+                  "this process may use)");
+  return [arguments](Output& output) {
+    const auto program = find_worker_program();
+    if (!program) return fail(output, ExitCode::Unreachable, program.error());
+    const bool has_scheme = arguments->connect.find("://") != std::string::npos;
+    std::vector<std::string> words{program->string(), "--connect",
+                                   (has_scheme ? "" : "tcp://") + arguments->connect};
+    if (arguments->slots) {
+      words.emplace_back("--slots");
+      words.push_back(std::to_string(*arguments->slots));
+    }
+    std::vector<char*> pointers;
+    for (std::string& word : words) pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    execv(pointers.front(), pointers.data());
+    return fail(output, ExitCode::Unreachable,
+                program->string() + " cannot be started: " + std::strerror(errno));
+  };
+}
+
+}  // namespace swarmsmith::cli

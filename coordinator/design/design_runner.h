@@ -1,0 +1,124 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <set>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "base/expected.h"
+#include "coordinator/task.h"
+#include "irace_core/iterated_race.h"
+#include "storage/rows.h"
+
+namespace swarmsmith {
+
+/// What a configuration of the race means outside of it.
+struct CandidateText {
+  std::string parameters;  ///< JSON object of the active parameters
+  std::string machine;     ///< text of the grammar, as workers get it
+  std::string modules;     ///< JSON object, module name -> occurrences
+  std::int64_t states = 0;
+  std::int64_t transitions = 0;
+};
+
+/// One design, ready to run.
+struct DesignPlan {
+  DesignRow row;
+  std::uint32_t mission = 0;  ///< index into the campaign's missions
+  std::uint32_t method = 0;   ///< index into the campaign's methods
+  ParameterSpace space;
+  Scenario scenario;          ///< with the design's seed and budget
+  std::function<CandidateText(const Configuration&)> describe;
+  std::int64_t test_count = 0;  ///< fresh seeds for the winner
+  std::string source;           ///< the simulator profile's name
+};
+
+/// What a store knows of one design, for replay.
+struct StoredDesign {
+  /// By candidate number and pair, see `DesignRunner::key_of`.
+  std::unordered_map<std::uint64_t, StoredScore> race_scores;
+  std::unordered_map<std::uint64_t, StoredScore> test_scores;
+  /// Digest of step n at index n - 1.
+  std::vector<std::uint64_t> step_digests;
+};
+
+/// One iterated race and the test of its winner: gives tasks, takes outcomes, gives rows. A pure
+/// state machine. Starts by replaying what the store knows: known scores are not asked for again,
+/// and the rows that led to the last stored step are not given again.
+class DesignRunner {
+ public:
+  /// Fails when the scenario does not fit the space (budget too small: the smallest that works).
+  static Expected<DesignRunner> start(DesignPlan plan, StoredDesign stored);
+
+  /// Appends the tasks that became wanted to `tasks`, in canonical order, and the rows that became
+  /// due to `rows`. An error: the replay came to another step than the store has, so that the store
+  /// was written by another engine or is damaged.
+  Expected<void> advance(std::vector<Task>& tasks, std::vector<Row>& rows);
+
+  /// A wanted task's outcome; its row goes to `rows`. Call `advance` after one or more of these.
+  void tell(const Outcome& outcome, std::vector<Row>& rows);
+
+  DesignState state() const { return state_; }
+  DesignId id() const { return plan_.row.id; }
+  std::int64_t used() const { return used_; }
+  /// Stored scores that the race has not asked for (yet).
+  std::size_t unasked() const { return stored_.race_scores.size() + stored_.test_scores.size(); }
+
+  static std::uint64_t key_of(std::int64_t candidate_number, std::int64_t pair) {
+    return (static_cast<std::uint64_t>(candidate_number) << 32U) | static_cast<std::uint64_t>(pair);
+  }
+
+ private:
+  struct Totals {
+    std::int64_t runs = 0;
+    double score_sum = 0;
+    double score_squares = 0;
+  };
+
+  DesignRunner(DesignPlan plan, StoredDesign stored, IteratedRace race);
+
+  /// To the tests of the winner; or to an end without one, when every configuration was rejected.
+  void finish_race(std::vector<Task>& tasks, std::vector<Row>& rows);
+  void want_batch(std::vector<Task>& tasks, std::vector<Row>& rows);
+  void want_tests(std::vector<Task>& tasks, std::vector<Row>& rows);
+  /// Takes the experiment's score from the store, or makes a task of it.
+  void want(std::size_t position, const EvaluationKey& key, const Experiment& experiment,
+            std::vector<Task>& tasks);
+  Expected<void> record_events(std::vector<Row>& rows);
+  Expected<void> record_step(const RaceStep& step, std::vector<Row>& rows);
+  void record_consumed(const RaceStep& step, std::vector<Row>& rows);
+  void record_unused(std::size_t until, std::vector<Row>& rows);
+  void record_candidate(const ConfigurationSampled& sampled, std::vector<Row>& rows);
+  void record_iteration_start(const IterationStarted& started, std::vector<Row>& rows);
+  void record_iteration_end(const IterationEnded& ended, std::vector<Row>& rows);
+  void record_state(std::vector<Row>& rows);
+  /// Rows of the race go through here: those that led to the last stored step are on disk.
+  void record(Row row, std::vector<Row>& rows) const;
+  CandidateId candidate(std::int64_t number) const { return candidate_id(plan_.row.id, number); }
+
+  DesignPlan plan_;
+  StoredDesign stored_;
+  IteratedRace race_;
+  DesignState state_ = DesignState::Waiting;
+
+  /// What is waited for, in the race's order: a batch of the race, or the tests.
+  std::vector<Experiment> batch_;
+  std::vector<double> costs_;
+  std::unordered_map<std::uint64_t, std::size_t> awaited_;  ///< position by key
+  std::size_t consumed_ = 0;  ///< of the last batch, by the race's steps
+  std::int64_t pairs_known_ = 0;
+
+  std::vector<std::string> machines_;  ///< by candidate number - 1
+  std::vector<Totals> totals_;         ///< by candidate number - 1
+  std::set<std::int64_t> alive_;       ///< numbers, in the current iteration
+  std::size_t steps_ = 0;              ///< of the race, seen so far
+  std::int64_t iteration_ = 0;
+  std::int64_t used_ = 0;
+  std::int64_t best_ = 0;              ///< number of the best so far, the winner at the end
+  double best_mean_ = 0;
+  std::string reason_;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,174 @@
+#include "coordinator/design/verify.h"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <optional>
+#include <set>
+#include <utility>
+
+#include "base/overloaded.h"
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/design/campaign_runner.h"
+#include "coordinator/design/plans.h"
+#include "storage/answer.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::size_t kComplaintsPerDesign = 20;
+
+/// Rows of one design as texts. Those that hold a latest value are kept by what they describe.
+struct DesignAnswer {
+  std::vector<std::string> rows;
+  /// Pairs of the race by number; those on which no step was held are no part of the answer.
+  std::map<std::int64_t, std::string> pairs;
+  std::set<std::int64_t> stepped;
+  std::map<CandidateId, std::string> totals;
+  std::optional<DesignStateRow> state;
+  std::int64_t evaluations = 0;
+};
+
+std::optional<DesignId> design_of(const Row& row) {
+  return std::visit(
+      Overloaded{[](const CandidateRow& r) { return std::optional(design_of(r.id)); },
+                 [](const PairRow& r) { return std::optional(r.design); },
+                 [](const EvaluationRow& r) { return std::optional(design_of(r.key.candidate)); },
+                 [](const UnusedRow&) { return std::optional<DesignId>(); },
+                 [](const IterationRow& r) { return std::optional(r.design); },
+                 [](const RaceStepRow& r) { return std::optional(r.design); },
+                 [](const EliminationRow& r) { return std::optional(design_of(r.candidate)); },
+                 [](const EliteRow& r) { return std::optional(r.design); },
+                 [](const CandidateTotalsRow& r) { return std::optional(design_of(r.candidate)); },
+                 [](const DesignStateRow& r) { return std::optional(r.design); },
+                 [](const CampaignStateRow&) { return std::optional<DesignId>(); },
+                 [](const WorkerRow&) { return std::optional<DesignId>(); },
+                 [](const ConflictRow&) { return std::optional<DesignId>(); },
+                 [](const EventRow&) { return std::optional<DesignId>(); }},
+      row);
+}
+
+void add(const Row& row, DesignAnswer& answer) {
+  if (!in_answer(row)) return;
+  if (const auto* state = std::get_if<DesignStateRow>(&row)) {
+    answer.state = *state;
+  } else if (const auto* totals = std::get_if<CandidateTotalsRow>(&row)) {
+    answer.totals[totals->candidate] = describe(row);
+  } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
+    if (evaluation->key.purpose == Purpose::Race) ++answer.evaluations;
+  } else if (const auto* pair = std::get_if<PairRow>(&row); pair && pair->purpose == Purpose::Race) {
+    answer.pairs.emplace(pair->number, describe(row));
+  } else {
+    if (const auto* step = std::get_if<RaceStepRow>(&row)) answer.stepped.insert(step->pair);
+    answer.rows.push_back(describe(row));
+  }
+}
+
+void add_stepped_pairs(DesignAnswer& answer) {
+  for (const auto& [number, row] : answer.pairs) {
+    if (answer.stepped.contains(number)) answer.rows.push_back(row);
+  }
+}
+
+/// What stands in `some` and not in `all`, at most so many; both get sorted.
+std::vector<std::string> missing_from(std::vector<std::string>& all,
+                                      std::vector<std::string>& some) {
+  std::ranges::sort(all);
+  std::ranges::sort(some);
+  std::vector<std::string> missing;
+  std::ranges::set_difference(some, all, std::back_inserter(missing));
+  if (missing.size() > kComplaintsPerDesign) missing.resize(kComplaintsPerDesign);
+  return missing;
+}
+
+void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::string& name,
+                      std::vector<std::string>& complaints) {
+  for (const std::string& row : missing_from(stored.rows, replayed.rows)) {
+    complaints.push_back(fmt::format("{}: the scores give a row that the store lacks: {}", name, row));
+  }
+  for (const auto& [candidate, row] : replayed.totals) {
+    const auto found = stored.totals.find(candidate);
+    if (found != stored.totals.end() && found->second == row) continue;
+    complaints.push_back(fmt::format("{}: the store's sums of {} are not those of its scores: {}",
+                                     name, to_string(candidate), row));
+    if (complaints.size() > kComplaintsPerDesign) break;
+  }
+  if (!replayed.state || !same_answer(*stored.state, *replayed.state)) {
+    complaints.push_back(fmt::format(
+        "{}: the store ends with {}, its scores with {}", name, describe(*stored.state),
+        replayed.state ? describe(*replayed.state) : std::string("nothing")));
+  } else if (stored.evaluations != replayed.state->used) {
+    complaints.push_back(fmt::format("{}: {} evaluations are stored as used by the race, which used {}",
+                                     name, stored.evaluations, replayed.state->used));
+  }
+}
+
+void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
+                   std::vector<std::string>& complaints) {
+  const std::string name = to_string(plan.row.id);
+  auto runner = DesignRunner::start(std::move(plan), std::move(scores));
+  if (!runner) {
+    complaints.push_back(fmt::format("{}: {}", name, to_string(runner.error())));
+    return;
+  }
+  std::vector<Task> tasks;
+  std::vector<Row> rows;
+  if (auto advanced = runner->advance(tasks, rows); !advanced) {
+    complaints.push_back(fmt::format("{}: {}", name, to_string(advanced.error())));
+    return;
+  }
+  DesignAnswer replayed;
+  for (const Row& row : rows) add(row, replayed);
+  add_stepped_pairs(replayed);
+  add_stepped_pairs(stored);
+  const bool finished = stored.state && stored.state->state == DesignState::Finished;
+  if (finished && !tasks.empty()) {
+    complaints.push_back(fmt::format("{}: the design is finished, but {} of its evaluations are "
+                                     "missing, the first is {}",
+                                     name, tasks.size(), to_string(tasks.front().key)));
+  }
+  for (const std::string& row : missing_from(replayed.rows, stored.rows)) {
+    complaints.push_back(fmt::format("{}: the store has a row that its scores do not give: {}", name, row));
+  }
+  if (runner->unasked() > 0) {
+    complaints.push_back(fmt::format("{}: {} stored evaluations were never asked for by the race",
+                                     name, runner->unasked()));
+  }
+  if (finished) compare_finished(stored, replayed, name, complaints);
+}
+
+}  // namespace
+
+Verification verify(StoreReader& store, std::vector<DesignPlan> plans) {
+  Verification result{.complaints = store.integrity()};
+  std::map<DesignId, DesignAnswer> stored;
+  store.each_answer_row([&](const Row& row) {
+    if (const auto id = design_of(row)) add(row, stored[*id]);
+  });
+  const std::vector<StoredScore> all = store.scores();
+  result.evaluations = static_cast<std::int64_t>(all.size());
+  auto scores = by_design(all, {}, {});
+  for (DesignPlan& plan : plans) {
+    const DesignId id = plan.row.id;
+    DesignAnswer& answer = stored[id];
+    ++result.designs;
+    if (answer.state && answer.state->state == DesignState::Finished) ++result.finished;
+    verify_design(std::move(plan), std::move(scores[id]), answer, result.complaints);
+  }
+  return result;
+}
+
+Expected<std::vector<DesignPlan>> plans_of(StoreReader& store) {
+  const CampaignRow row = store.campaign();
+  const auto campaign = parse_campaign(row.file, "the store's campaign file");
+  if (!campaign) return Unexpected(campaign.error().front());
+  if (campaign_digest(*campaign) != row.digest) {
+    return unexpected(ErrorKind::Conflict,
+                      "the store was written by another version of the engine (or its campaign was "
+                      "changed by hand), so this program cannot play its races again");
+  }
+  return plans_of(*campaign);
+}
+
+}  // namespace swarmsmith

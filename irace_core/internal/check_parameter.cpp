@@ -1,0 +1,190 @@
+#include "irace_core/internal/check_parameter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/overloaded.h"
+#include "irace_core/internal/rounding.h"
+
+namespace swarmsmith::irace {
+namespace {
+
+bool is_name(std::string_view name) {
+  return !name.empty() && std::all_of(name.begin(), name.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' ||
+           c == '.';
+  });
+}
+
+bool is_numeric_domain(const Domain& domain) {
+  return std::holds_alternative<Integer>(domain) || std::holds_alternative<Real>(domain);
+}
+
+/// Bounds may use + - * / %% min max round floor ceiling trunc.
+bool only_arithmetic(const Expression& expression) {
+  constexpr Operation kAllowed[] = {Operation::Constant, Operation::Parameter, Operation::Add,
+                                    Operation::Subtract, Operation::Multiply,  Operation::Divide,
+                                    Operation::Modulo,   Operation::Negate,    Operation::Min,
+                                    Operation::Max,      Operation::Round,     Operation::Floor,
+                                    Operation::Ceiling,  Operation::Truncate};
+  const auto* end = std::end(kAllowed);
+  if (std::find(std::begin(kAllowed), end, expression.operation()) == end) return false;
+  return std::all_of(expression.operands().begin(), expression.operands().end(), only_arithmetic);
+}
+
+/// Binds one bound and checks what it mentions.
+Expected<void> bind_bound(Bound& bound, const std::string& owner,
+                          std::span<const std::string> names, std::span<const Parameter> all) {
+  Expression* expression = std::get_if<Expression>(&bound);
+  if (expression == nullptr) return {};
+  if (auto bound_names = expression->bind(names); !bound_names) {
+    return bad_input(bound_names.error().message, owner);
+  }
+  const std::vector<std::string> mentioned = expression->names();
+  if (mentioned.empty()) {
+    const std::optional<double> value = expression->to_number({});
+    if (!value) return bad_input("a bound is not a number", owner);
+    bound = *value;
+    return {};
+  }
+  if (!only_arithmetic(*expression)) {
+    return bad_input("a bound may use + - * / %% min max round floor ceiling trunc", owner);
+  }
+  for (const std::string& name : mentioned) {
+    const auto at = std::find(names.begin(), names.end(), name) - names.begin();
+    if (!is_numeric_domain(all[static_cast<std::size_t>(at)].domain)) {
+      return bad_input("a bound depends on '" + name + "', which is not numeric", owner);
+    }
+  }
+  return {};
+}
+
+Expected<void> check_choices(const std::vector<std::string>& values, const std::string& name) {
+  if (values.empty()) return bad_input("the domain is empty", name);
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::find(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(i), values[i]) !=
+        values.begin() + static_cast<std::ptrdiff_t>(i)) {
+      return bad_input("the value '" + values[i] + "' occurs twice", name);
+    }
+  }
+  return {};
+}
+
+/// Ordinal values that are all numbers must increase.
+Expected<void> check_increasing(const std::vector<std::string>& values, const std::string& name) {
+  std::vector<double> numbers;
+  for (const std::string& value : values) {
+    const std::optional<double> number =
+        Expression::call(Operation::AsNumeric, {Expression::text(value)}).to_number({});
+    if (!number) return {};
+    numbers.push_back(*number);
+  }
+  if (std::is_sorted(numbers.begin(), numbers.end())) return {};
+  return bad_input("the values of an ordinal parameter must increase", name);
+}
+
+/// A constant bound must survive rounding to the digits of the space, and must not vanish.
+Expected<void> check_decimals(double bound, int digits, const std::string& name) {
+  const double tolerance = 1.5e-8 * std::max(1.0, std::fabs(bound));
+  if (digits >= 15 || bound == 0) return {};
+  double smallest = 1;
+  for (int i = 0; i < digits; ++i)
+    smallest /= 10;
+  const bool vanishes = std::fabs(bound) < smallest * (1 - 1e-9);
+  if (!vanishes && std::fabs(round_to_digits(bound, digits) - bound) <= tolerance) return {};
+  return bad_input("the bound " + to_fixed_text(bound) + " needs more than " +
+                       std::to_string(digits) + " digits",
+                   name);
+}
+
+template <class Numeric>
+Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
+                             const std::string& name) {
+  const double* lower = std::get_if<double>(&domain.lower);
+  const double* upper = std::get_if<double>(&domain.upper);
+  if (domain.log && (lower == nullptr || upper == nullptr)) {
+    return bad_input("a logarithmic domain must not depend on other parameters", name);
+  }
+  for (const double* bound : {lower, upper}) {
+    if (bound == nullptr) continue;
+    if (!std::isfinite(*bound)) return bad_input("a bound is not finite", name);
+    if (domain.log && *bound <= 0) return bad_input("a logarithmic bound must be positive", name);
+    if (whole && *bound != std::floor(*bound)) {
+      return bad_input("the bound " + to_fixed_text(*bound) + " is not a whole number", name);
+    }
+    if (whole) continue;
+    if (auto checked = check_decimals(*bound, digits, name); !checked) return checked;
+  }
+  if (lower != nullptr && upper != nullptr && *lower >= *upper) {
+    return bad_input("the lower bound must be below the upper one", name);
+  }
+  return {};
+}
+
+}  // namespace
+
+std::vector<const Expression*> bound_expressions(const Domain& domain) {
+  std::vector<const Expression*> expressions;
+  const auto add = [&expressions](const auto& numeric) {
+    for (const Bound* bound : {&numeric.lower, &numeric.upper}) {
+      if (const auto* expression = std::get_if<Expression>(bound)) {
+        expressions.push_back(expression);
+      }
+    }
+  };
+  if (const auto* whole = std::get_if<Integer>(&domain)) add(*whole);
+  if (const auto* real = std::get_if<Real>(&domain)) add(*real);
+  return expressions;
+}
+
+std::span<const std::string> choice_values(const Domain& domain) {
+  if (const auto* categorical = std::get_if<Categorical>(&domain)) return categorical->values;
+  if (const auto* ordinal = std::get_if<Ordinal>(&domain)) return ordinal->values;
+  return {};
+}
+
+std::optional<Interval> constant_interval(const Domain& domain) {
+  if (!bound_expressions(domain).empty()) return std::nullopt;
+  const auto interval = [](const auto& numeric) {
+    return Interval{std::get<double>(numeric.lower), std::get<double>(numeric.upper)};
+  };
+  if (const auto* whole = std::get_if<Integer>(&domain)) return interval(*whole);
+  if (const auto* real = std::get_if<Real>(&domain)) return interval(*real);
+  return Interval{0, 0};
+}
+
+Expected<void> bind_parameter(Parameter& parameter, std::span<const std::string> names,
+                              std::span<const Parameter> all) {
+  if (parameter.condition) {
+    if (auto bound = parameter.condition->bind(names); !bound) {
+      return bad_input(bound.error().message, parameter.name);
+    }
+  }
+  const auto bind_both = [&](auto& domain) -> Expected<void> {
+    if (auto bound = bind_bound(domain.lower, parameter.name, names, all); !bound) return bound;
+    return bind_bound(domain.upper, parameter.name, names, all);
+  };
+  if (auto* whole = std::get_if<Integer>(&parameter.domain)) return bind_both(*whole);
+  if (auto* real = std::get_if<Real>(&parameter.domain)) return bind_both(*real);
+  return {};
+}
+
+Expected<void> check_parameter(const Parameter& parameter, int digits) {
+  const std::string& name = parameter.name;
+  if (!is_name(name)) {
+    return bad_input("a name consists of letters, digits, '_' and '.'", name);
+  }
+  return std::visit(
+      Overloaded{
+          [&](const Categorical& domain) { return check_choices(domain.values, name); },
+          [&](const Ordinal& domain) -> Expected<void> {
+            if (auto checked = check_choices(domain.values, name); !checked) return checked;
+            return check_increasing(domain.values, name);
+          },
+          [&](const Integer& domain) { return check_numeric(domain, true, digits, name); },
+          [&](const Real& domain) { return check_numeric(domain, false, digits, name); },
+      },
+      parameter.domain);
+}
+
+}  // namespace swarmsmith::irace

@@ -1,0 +1,319 @@
+// Evaluation of expressions: R's vectors, coercions and three-valued logic.
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "base/assert.h"
+#include "base/math.h"
+#include "irace_core/expression.h"
+#include "irace_core/internal/rounding.h"
+
+namespace swarmsmith {
+namespace {
+
+using Type = Scalar::Type;
+
+Scalar missing_logical() {
+  return Scalar::missing_of(Type::Logical);
+}
+
+/// R's as.numeric of a text: a decimal number with blanks around it, Inf, or missing.
+Scalar parse_number(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\n\r";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return Scalar::missing_of(Type::Real);
+  text = text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+  if (text.front() == '+') text.remove_prefix(1);
+  double value = 0;
+  const auto parsed = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool whole = parsed.ec == std::errc{} && parsed.ptr == text.data() + text.size();
+  return whole ? Scalar::real(value) : Scalar::missing_of(Type::Real);
+}
+
+/// R's coercion of one value to another type; what cannot be coerced is missing.
+Scalar convert(const Scalar& value, Type type) {
+  if (value.type == type) return value;
+  if (value.missing) return Scalar::missing_of(type);
+  switch (type) {
+    case Type::Text:
+      return Scalar::of_text(to_text(value));
+    case Type::Logical:
+      if (value.type == Type::Text) return missing_logical();
+      return Scalar::logical(value.number != 0);
+    case Type::Real:
+      return value.type == Type::Text ? parse_number(value.text) : Scalar::real(value.number);
+    case Type::Integer: {
+      const Scalar number = convert(value, Type::Real);
+      return number.missing ? Scalar::missing_of(type) : Scalar::integer(std::trunc(number.number));
+    }
+  }
+  return {};
+}
+
+bool is_number(const Scalar& value) {
+  return value.type != Type::Text;
+}
+bool is_false(const Scalar& value) {
+  return !value.missing && value.number == 0;
+}
+bool is_true_logical(const Scalar& value) {
+  return !value.missing && value.number != 0;
+}
+
+/// And, Or, Xor with three values: a known operand may decide alone.
+Scalar logic(Operation operation, const Scalar& left, const Scalar& right) {
+  const Scalar a = convert(left, Type::Logical);
+  const Scalar b = convert(right, Type::Logical);
+  if (operation == Operation::And) {
+    if (is_false(a) || is_false(b)) return Scalar::logical(false);
+  } else if (operation == Operation::Or) {
+    if (is_true_logical(a) || is_true_logical(b)) return Scalar::logical(true);
+  }
+  if (a.missing || b.missing) return missing_logical();
+  if (operation == Operation::Xor) return Scalar::logical(a.number != b.number);
+  return Scalar::logical(operation == Operation::And);
+}
+
+/// Sign of a - b, for two present values; a text among them makes both texts.
+int order(const Scalar& a, const Scalar& b) {
+  if (is_number(a) && is_number(b)) return a.number < b.number ? -1 : a.number > b.number;
+  if (is_number(a)) return compare_texts(to_text(a), b.text);
+  if (is_number(b)) return compare_texts(a.text, to_text(b));
+  return compare_texts(a.text, b.text);
+}
+
+/// == != < <= > >=; missing when either side is.
+Scalar compare(Operation operation, const Scalar& a, const Scalar& b) {
+  if (a.missing || b.missing) return missing_logical();
+  const int sign = order(a, b);
+  bool holds = sign >= 0;  // GreaterEqual
+  if (operation == Operation::Equal) holds = sign == 0;
+  if (operation == Operation::NotEqual) holds = sign != 0;
+  if (operation == Operation::Less) holds = sign < 0;
+  if (operation == Operation::LessEqual) holds = sign <= 0;
+  if (operation == Operation::Greater) holds = sign > 0;
+  return Scalar::logical(holds);
+}
+
+/// By squaring for whole exponents, so that powers of small integers are exact.
+double power(double base, double exponent) {
+  if (base == 1 || exponent == 0) return 1;
+  if (exponent == std::floor(exponent) && std::fabs(exponent) <= 1'000'000) {
+    double result = 1;
+    double square = base;
+    for (auto n = static_cast<std::uint64_t>(std::fabs(exponent)); n > 0; n /= 2) {
+      if (n % 2 == 1) result *= square;
+      square *= square;
+    }
+    return exponent < 0 ? 1 / result : result;
+  }
+  if (base == 0) return exponent > 0 ? 0 : HUGE_VAL;
+  return base > 0 ? pow(base, exponent) : NAN;
+}
+
+/// + - * / ^ %% %/%: of integers an integer, but for / and ^; of texts missing.
+Scalar calculate(Operation operation, const Scalar& left, const Scalar& right) {
+  if (left.missing || right.missing || !is_number(left) || !is_number(right)) {
+    return Scalar::missing_of(Type::Real);
+  }
+  const bool whole = left.type != Type::Real && right.type != Type::Real;
+  const double a = left.number;
+  const double b = right.number;
+  const auto typed = [whole](double value) {
+    return whole ? Scalar::integer(value) : Scalar::real(value);
+  };
+  if (operation == Operation::Add) return typed(a + b);
+  if (operation == Operation::Subtract) return typed(a - b);
+  if (operation == Operation::Multiply) return typed(a * b);
+  if (operation == Operation::Divide) return Scalar::real(a / b);
+  if (operation == Operation::Power) return Scalar::real(power(a, b));
+  if (operation == Operation::Modulo) return typed(b == 0 ? NAN : a - std::floor(a / b) * b);
+  return typed(std::floor(a / b));  // IntegerDivide
+}
+
+/// The functions of one number; `digits` only for Round.
+Scalar transform(Operation operation, const Scalar& x, double digits) {
+  if (x.missing || !is_number(x)) return Scalar::missing_of(Type::Real);
+  const double v = x.number;
+  const bool whole = x.type != Type::Real;
+  if (operation == Operation::Negate) return whole ? Scalar::integer(-v) : Scalar::real(-v);
+  if (operation == Operation::Abs) return {x.type, false, std::fabs(v), {}};
+  if (operation == Operation::Floor) return Scalar::real(std::floor(v));
+  if (operation == Operation::Ceiling) return Scalar::real(std::ceil(v));
+  if (operation == Operation::Truncate) return Scalar::real(std::trunc(v));
+  if (operation == Operation::SquareRoot) return Scalar::real(std::sqrt(v));
+  if (operation == Operation::Exp) return Scalar::real(exp(v));
+  if (operation == Operation::Log) return Scalar::real(log(v));
+  const int decimals = static_cast<int>(std::clamp(digits, 0.0, 15.0));
+  return Scalar::real(irace::round_to_digits(v, decimals));  // Round
+}
+
+bool is_logic(Operation operation) {
+  return operation >= Operation::And && operation <= Operation::Xor;
+}
+bool is_comparison(Operation operation) {
+  return operation >= Operation::Equal && operation <= Operation::GreaterEqual;
+}
+
+/// Any operation on one element of each side.
+Scalar binary(Operation operation, const Scalar& a, const Scalar& b) {
+  if (is_logic(operation)) return logic(operation, a, b);
+  if (is_comparison(operation)) return compare(operation, a, b);
+  if (operation == Operation::Round) return transform(operation, a, b.missing ? 0 : b.number);
+  if (operation == Operation::Log) {  // to the base b
+    return calculate(Operation::Divide, transform(operation, a, 0), transform(operation, b, 0));
+  }
+  return calculate(operation, a, b);
+}
+
+Scalar unary(Operation operation, const Scalar& x) {
+  if (operation == Operation::Not) {
+    const Scalar value = convert(x, Type::Logical);
+    return value.missing ? value : Scalar::logical(value.number == 0);
+  }
+  if (operation == Operation::AsNumeric) return convert(x, Type::Real);
+  if (operation == Operation::AsInteger) return convert(x, Type::Integer);
+  if (operation == Operation::AsText) return convert(x, Type::Text);
+  if (operation == Operation::IsMissing) return Scalar::logical(x.missing);
+  return transform(operation, x, 0);
+}
+
+/// Applies `function` to the elements of both, the shorter one repeated.
+template <class Function>
+Values elementwise(const Values& a, const Values& b, Function function) {
+  const std::size_t size = std::max(a.size(), b.size());
+  if (size == 1) return function(a[0], b[0]);
+  std::vector<Scalar> result;
+  for (std::size_t i = 0; i < size; ++i) {
+    result.push_back(function(a[i % a.size()], b[i % b.size()]));
+  }
+  return Values(std::move(result));
+}
+
+/// c(): all elements in a row, in the type that can hold them all.
+Values combine(const std::vector<Values>& parts) {
+  Type type = Type::Logical;
+  for (const Values& part : parts)
+    type = std::max(type, part.type());
+  std::vector<Scalar> all;
+  for (const Values& part : parts) {
+    for (std::size_t i = 0; i < part.size(); ++i)
+      all.push_back(convert(part[i], type));
+  }
+  return Values(std::move(all));
+}
+
+/// min() and max() over all elements of all operands; one that is missing makes all missing.
+Values extreme(Operation operation, const std::vector<Values>& parts) {
+  const Values all = combine(parts);
+  Scalar best = all[0];
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (all[i].missing) return Scalar::missing_of(all.type());
+    const int sign = order(all[i], best);
+    if (operation == Operation::Min ? sign < 0 : sign > 0) best = all[i];
+  }
+  // The extreme of logicals is a number.
+  return best.type == Type::Logical ? convert(best, Type::Integer) : best;
+}
+
+/// from:to in steps of one, up or down; integers when `from` is whole.
+Values range(const Values& from, const Values& to) {
+  constexpr double kLongest = 1e6;
+  const Scalar first = convert(from[0], Type::Real);
+  const Scalar last = convert(to[0], Type::Real);
+  if (first.missing || last.missing || std::fabs(first.number - last.number) > kLongest) {
+    return Scalar::missing_of(Type::Integer);
+  }
+  const double step = first.number <= last.number ? 1 : -1;
+  const auto steps = static_cast<int>(std::floor(std::fabs(last.number - first.number) + 1e-10));
+  const bool whole = first.number == std::floor(first.number);
+  std::vector<Scalar> result;
+  for (int i = 0; i <= steps; ++i) {
+    const double value = first.number + step * i;
+    result.push_back(whole ? Scalar::integer(value) : Scalar::real(value));
+  }
+  return Values(std::move(result));
+}
+
+/// Whether x occurs: missing only matches missing, and a text on either side makes both texts.
+bool matches(const Scalar& x, const Scalar& candidate) {
+  if (x.missing || candidate.missing) return x.missing && candidate.missing;
+  if (x.type == Type::Text && candidate.type == Type::Text) return x.text == candidate.text;
+  return order(x, candidate) == 0;
+}
+
+/// ifelse(): element by element, `yes` and `no` repeated as needed.
+Values choose(const Values& tests, const Values& yes, const Values& no) {
+  std::vector<Scalar> result;
+  for (std::size_t i = 0; i < tests.size(); ++i) {
+    const Scalar test = convert(tests[i], Type::Logical);
+    if (test.missing) {
+      result.push_back(missing_logical());
+    } else {
+      result.push_back(test.number != 0 ? yes[i % yes.size()] : no[i % no.size()]);
+    }
+  }
+  return Values(std::move(result));
+}
+
+/// Every operation but Constant, Parameter and In, on evaluated operands.
+Values apply_operation(Operation operation, const std::vector<Values>& parts) {
+  if (operation == Operation::Combine) return combine(parts);
+  if (operation == Operation::Min || operation == Operation::Max) return extreme(operation, parts);
+  if (operation == Operation::Range) return range(parts[0], parts[1]);
+  if (operation == Operation::IfElse) return choose(parts[0], parts[1], parts[2]);
+  if (parts.size() == 1) {
+    return elementwise(parts[0], missing_logical(),
+                       [operation](const Scalar& x, const Scalar&) { return unary(operation, x); });
+  }
+  return elementwise(parts[0], parts[1], [operation](const Scalar& x, const Scalar& y) {
+    return binary(operation, x, y);
+  });
+}
+
+}  // namespace
+
+Values Expression::evaluate(std::span<const Scalar> parameters) const {
+  if (const Scalar* value = single(parameters)) return *value;
+  if (operation_ == Operation::In) return evaluate_in(parameters);
+  if (operands_.size() == 2) {
+    const Scalar* a = operands_[0].single(parameters);
+    const Scalar* b = operands_[1].single(parameters);
+    if (a != nullptr && b != nullptr && operation_ < Operation::Range) {
+      return binary(operation_, *a, *b);
+    }
+  }
+  std::vector<Values> parts;
+  parts.reserve(operands_.size());
+  for (const Expression& operand : operands_)
+    parts.push_back(operand.evaluate(parameters));
+  return apply_operation(operation_, parts);
+}
+
+const Scalar* Expression::single(std::span<const Scalar> parameters) const {
+  if (operation_ == Operation::Constant) return &constant_;
+  if (operation_ != Operation::Parameter) return nullptr;
+  SWARMSMITH_ASSERT(index_ >= 0, "an expression is bound before it is evaluated");
+  return &parameters[static_cast<std::size_t>(index_)];
+}
+
+Values Expression::evaluate_in(std::span<const Scalar> parameters) const {
+  const Scalar* x = operands_[0].single(parameters);
+  if (x != nullptr && operands_[1].is_list_of_constants_) {
+    for (const Expression& value : operands_[1].operands_) {
+      if (matches(*x, value.constant_)) return Scalar::logical(true);
+    }
+    return Scalar::logical(false);
+  }
+  const Values table = operands_[1].evaluate(parameters);
+  return elementwise(operands_[0].evaluate(parameters), missing_logical(),
+                     [&table](const Scalar& element, const Scalar&) {
+                       for (std::size_t i = 0; i < table.size(); ++i) {
+                         if (matches(element, table[i])) return Scalar::logical(true);
+                       }
+                       return Scalar::logical(false);
+                     });
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,152 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "irace_core/internal/agreement.h"
+#include "irace_core/internal/elimination.h"
+#include "irace_core/internal/ranks.h"
+#include "irace_core/race_event.h"
+#include "irace_core/scenario.h"
+
+namespace swarmsmith::irace {
+
+/// What one race is asked to do.
+struct RaceSettings {
+  TestType test_type = TestType::FTest;
+  std::int64_t first_test = 5;           ///< T_f, in pairs
+  std::int64_t pairs_between_tests = 1;  ///< T_e
+  std::int64_t elitist_limit = 2;
+  double confidence = 0.95;
+  std::int64_t min_survival = 1;
+  std::int64_t max_experiments = 0;
+  /// Pairs in the order of the tasks: `new_pairs` that nobody has seen, `past_pairs` that some
+  /// elites have seen, then unused ones.
+  std::vector<std::int64_t> pairs;
+  std::int64_t new_pairs = 0;
+  std::int64_t past_pairs = 0;
+};
+
+/// A configuration that takes part. `past` holds what an elite cost on the past pairs, in the order
+/// of the tasks, NaN where it was not tried; empty for a new one.
+struct Contestant {
+  std::int64_t id;
+  std::vector<double> past;
+};
+
+/// One experiment that the race asks for.
+struct RaceRun {
+  std::size_t task;    ///< 0-based
+  std::size_t column;  ///< position among the contestants
+
+  friend bool operator==(const RaceRun&, const RaceRun&) = default;
+};
+
+/// One elitist race (irace facts, 9), as ask and tell.
+///
+/// Nothing is dropped between two tests, so that all runs up to the next test are asked for at
+/// once. Results are consumed in the order (task, id). After a rejection the runs of the rejected
+/// one on later tasks, and all runs that follow a stop, are void: neither counted nor used.
+class Race {
+ public:
+  /// Elites come first among the contestants.
+  Race(RaceSettings settings, std::vector<Contestant> contestants);
+
+  bool finished() const { return stop_.has_value(); }
+  /// Why it stopped, in words.
+  const std::string& stop_reason() const { return *stop_; }
+  /// All contestants were rejected: there is no result.
+  bool nobody_left() const { return alive_.empty(); }
+
+  std::span<const RaceRun> wanted() const { return wanted_; }
+  /// Costs of all wanted runs, in their order; infinite ones reject. Adds to the steps.
+  void tell(std::span<const double> costs);
+  /// The tasks since the last call; ids are filled in, iteration and generators are the caller's.
+  std::vector<RaceStep> take_steps();
+
+  std::int64_t used() const { return used_; }
+  std::size_t alive_count() const { return alive_.size(); }
+  const Contestant& contestant(std::size_t column) const { return contestants_[column]; }
+  std::int64_t pair_of(std::size_t task) const { return settings_.pairs[task]; }
+  std::size_t size() const { return contestants_.size(); }
+
+  /// A cost that this race has measured.
+  struct Result {
+    std::int64_t pair;
+    double cost;
+  };
+  /// All results of a contestant that were run in this race, in the order of the tasks.
+  std::vector<Result> results(std::size_t column) const;
+  bool is_rejected(std::size_t column) const { return rejected_[column]; }
+
+  /// A survivor and its overall rank.
+  struct Survivor {
+    std::size_t column;
+    double rank;
+  };
+  /// Who is left at the end, best first.
+  std::vector<Survivor> survivors() const;
+
+ private:
+  /// What the rules look at that changes from task to task while nobody is dropped.
+  struct Progress {
+    std::size_t task = 0;  ///< tasks that are done
+    std::int64_t used = 0;
+    std::vector<std::int64_t> protection;  ///< by column: known pairs still to come
+    std::vector<std::int64_t> results;     ///< by column: pairs with a result
+  };
+
+  /// Known from before or run in this race.
+  bool has_result(std::size_t column, std::size_t task) const;
+  bool anybody_protected(const Progress& progress) const;
+  /// Columns that are alive and have no result on the next task (rule 9.3.1).
+  std::vector<std::size_t> to_run(const Progress& progress) const;
+  std::vector<std::size_t> by_id(std::span<const std::size_t> columns) const;
+  /// Rule 9.3.2, before a task on which `runs` would be run.
+  std::optional<std::string> reason_to_stop(const Progress& progress, std::size_t runs) const;
+  bool elites_are_done(const Progress& progress) const;
+  /// Whether a test follows the first `task` tasks.
+  bool is_test_point(std::size_t task) const;
+  void pass(Progress& progress, std::span<const std::size_t> ran) const;
+
+  void plan();
+  /// Rules 9.3.3 to 9.3.10 for the next task, whose results are in place.
+  void do_task(std::span<const std::size_t> ran, RaceStep& step);
+  /// Whether anybody was rejected.
+  bool reject_infinite(std::span<const std::size_t> ran, RaceStep& step);
+  /// The task's costs of all who are alive enter the rank sums.
+  void add_ranked_row(std::size_t task);
+  void run_test(RaceStep& step);
+  /// Whom the test would drop, protected ones included; ascending.
+  std::vector<std::size_t> worse_by_test(RaceStep& step);
+  /// Takes columns out of the race and out of all sums.
+  void drop(const std::vector<std::size_t>& columns);
+  void find_uncovered();
+  void describe_best(RaceStep& step) const;
+  void describe_agreement(RaceStep& step) const;
+  std::uint64_t digest(const RaceStep& step) const;
+
+  RaceSettings settings_;
+  std::vector<Contestant> contestants_;
+  std::vector<std::vector<double>> costs_;  ///< by column, then task
+  std::vector<bool> rejected_;
+  std::vector<std::size_t> alive_;  ///< columns, ascending
+  Progress progress_;
+  std::int64_t used_ = 0;
+  std::int64_t tests_without_drop_ = 0;
+  /// Number of leading tasks of which the last has no result yet of anybody alive.
+  std::size_t uncovered_ = 0;
+
+  RankTable ranks_;
+  QualityVariance quality_;
+  StudentQuantiles quantiles_;
+
+  std::vector<RaceRun> wanted_;
+  std::vector<RaceStep> steps_;
+  std::optional<std::string> stop_;
+};
+
+}  // namespace swarmsmith::irace

@@ -1,0 +1,112 @@
+#include "irace_core/internal/schedule.h"
+
+#include <algorithm>
+#include <bit>
+
+#include "base/assert.h"
+
+namespace swarmsmith::irace {
+
+std::int64_t default_count(int variable_parameters) {
+  SWARMSMITH_ASSERT(variable_parameters >= 1, "something varies");
+  // floor(log2 d) is the place of the highest bit.
+  return 1 + static_cast<std::int64_t>(std::bit_width(static_cast<unsigned>(variable_parameters)));
+}
+
+std::int64_t race_size(const RaceSizeQuestion& q) {
+  const std::int64_t te = q.pairs_between_tests;
+  const std::int64_t pairs = (q.old_pairs + q.new_pairs + te - 1) / te * te;
+  const std::int64_t cost = std::max(q.mu + te * std::min<std::int64_t>(5, q.iteration), pairs);
+  return std::min(q.most, (q.budget + q.elites * q.old_pairs) / cost);
+}
+
+std::int64_t minimum_budget(const MinimumBudgetQuestion& q) {
+  const std::int64_t te = q.pairs_between_tests;
+  const std::int64_t base = (q.min_survival + 1) * q.iterations;
+  const std::int64_t step = std::max(te, q.new_pairs);
+  if (q.iterations > 5) return base * (q.mu + te + (q.iterations - 5) * q.new_pairs + 5 * step);
+  return base * (q.mu + te + (q.iterations - 1) * step);
+}
+
+Schedule::Schedule(const Scenario& scenario, int variable_parameters, std::int64_t block_size)
+    : scenario_(scenario),
+      pairs_between_tests_(scenario.each_test * block_size),
+      mu_(std::max(scenario.mu, scenario.first_test * block_size)),
+      new_pairs_(scenario.elitist_new_instances * block_size),
+      iterations_(scenario.nb_iterations > 0 ? scenario.nb_iterations
+                                             : default_count(variable_parameters)),
+      min_survival_(scenario.min_nb_survival > 0 ? scenario.min_nb_survival
+                                                 : default_count(variable_parameters)) {}
+
+std::int64_t Schedule::minimum_budget() const {
+  return irace::minimum_budget({.iterations = iterations_,
+                                .min_survival = min_survival_,
+                                .mu = mu_,
+                                .pairs_between_tests = pairs_between_tests_,
+                                .new_pairs = new_pairs_});
+}
+
+std::int64_t Schedule::total_budget() const {
+  if (!scenario_.min_experiments) return scenario_.max_experiments;
+  return std::max(*scenario_.min_experiments, minimum_budget());
+}
+
+std::int64_t Schedule::iteration_budget(std::int64_t remaining) const {
+  if (scenario_.nb_experiments_per_iteration > 0) return scenario_.nb_experiments_per_iteration;
+  return remaining / (iterations_ - iteration_ + 1);
+}
+
+std::int64_t Schedule::size_with_shortage_rules(std::int64_t budget, std::int64_t elites,
+                                                std::int64_t old_pairs) {
+  RaceSizeQuestion question{.budget = budget,
+                            .iteration = iteration_,
+                            .mu = mu_,
+                            .pairs_between_tests = pairs_between_tests_,
+                            .elites = raced_ ? elites : 0,
+                            .old_pairs = raced_ ? old_pairs : 0,
+                            .new_pairs = raced_ ? new_pairs_ : 0,
+                            .most = scenario_.max_configurations_per_race};
+  std::int64_t size = race_size(question);
+  if (size > min_survival_) return size;
+  new_pairs_ = 0;
+  question.new_pairs = 0;
+  size = race_size(question);
+  if (size > min_survival_) return size;
+  question.iteration = 1;
+  question.mu = 1;
+  return race_size(question);
+}
+
+std::variant<RacePlan, NoMoreRaces> Schedule::next(std::int64_t remaining, std::int64_t elites,
+                                                   std::int64_t old_pairs) {
+  for (;; ++iteration_) {
+    if (remaining <= 0) return NoMoreRaces{"budget exhausted"};
+    if (iteration_ > iterations_) {
+      if (scenario_.nb_iterations > 0) return NoMoreRaces{"limit of iterations"};
+      iterations_ = iteration_;
+    }
+    const std::int64_t budget = iteration_budget(remaining);
+    std::int64_t size = size_with_shortage_rules(budget, elites, old_pairs);
+    if (scenario_.nb_configurations > 0) {
+      if (scenario_.nb_configurations <= size) {
+        size = scenario_.nb_configurations;
+      } else if (budget < remaining) {
+        continue;  // leave the budget to the next iteration
+      } else {
+        return NoMoreRaces{"not enough budget for the number of configurations asked for"};
+      }
+    }
+    if (size <= min_survival_) {
+      return NoMoreRaces{
+          "not enough budget to race more than the minimum number of configurations"};
+    }
+    if (raced_ && size <= elites) return NoMoreRaces{"not enough budget for a new configuration"};
+    const std::int64_t new_pairs = raced_ ? new_pairs_ : 0;
+    const std::int64_t needed = (size - elites) * mu_ + elites * std::min(new_pairs, mu_);
+    if (needed > budget) return NoMoreRaces{"not enough budget for the first test of a race"};
+    raced_ = true;
+    return RacePlan{iteration_++, iterations_, budget, size, new_pairs};
+  }
+}
+
+}  // namespace swarmsmith::irace

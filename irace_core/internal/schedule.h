@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <variant>
+
+#include "irace_core/scenario.h"
+
+namespace swarmsmith::irace {
+
+/// floor(2 + log2 d): default number of iterations and of survivors for d variable parameters.
+std::int64_t default_count(int variable_parameters);
+
+/// How many configurations a race with `budget` experiments gets (irace facts, 3.3), without the
+/// shortage rules.
+struct RaceSizeQuestion {
+  std::int64_t budget;
+  std::int64_t iteration;
+  std::int64_t mu;
+  std::int64_t pairs_between_tests;  ///< T_e = each_test * block size
+  std::int64_t elites = 0;
+  std::int64_t old_pairs = 0;
+  std::int64_t new_pairs = 0;
+  std::int64_t most = 1024;
+};
+std::int64_t race_size(const RaceSizeQuestion& question);
+
+/// The smallest budget that works (irace facts, 3.4).
+struct MinimumBudgetQuestion {
+  std::int64_t iterations;
+  std::int64_t min_survival;
+  std::int64_t mu;
+  std::int64_t pairs_between_tests;
+  std::int64_t new_pairs;
+};
+std::int64_t minimum_budget(const MinimumBudgetQuestion& question);
+
+/// What comes next: a race ...
+struct RacePlan {
+  std::int64_t iteration;
+  std::int64_t iterations;  ///< as many as are planned now
+  std::int64_t budget;
+  std::int64_t configurations;  ///< elites included
+  std::int64_t new_pairs;       ///< 0 in the first race
+};
+
+/// ... or the end, with the reason in words.
+struct NoMoreRaces {
+  std::string reason;
+};
+
+/// Plans the races of an elitist run, one after the other (irace facts, 3.1 to 3.5).
+class Schedule {
+ public:
+  Schedule(const Scenario& scenario, int variable_parameters, std::int64_t block_size = 1);
+
+  std::int64_t iterations() const { return iterations_; }
+  std::int64_t min_survival() const { return min_survival_; }
+  std::int64_t minimum_budget() const;
+  /// The budget that the scenario asks for, raised by its min_experiments.
+  std::int64_t total_budget() const;
+
+  /// The plan of the next race, given what is left and what the races so far have made: the
+  /// elites, and how many pairs were seen. Each call that returns a race counts as an iteration.
+  std::variant<RacePlan, NoMoreRaces> next(std::int64_t remaining, std::int64_t elites,
+                                           std::int64_t old_pairs);
+
+ private:
+  std::int64_t iteration_budget(std::int64_t remaining) const;
+  std::int64_t size_with_shortage_rules(std::int64_t budget, std::int64_t elites,
+                                        std::int64_t old_pairs);
+
+  Scenario scenario_;
+  std::int64_t pairs_between_tests_;
+  std::int64_t mu_;
+  std::int64_t new_pairs_;  ///< a shortage sets it to 0 for good
+  std::int64_t iterations_;
+  std::int64_t min_survival_;
+  std::int64_t iteration_ = 1;
+  bool raced_ = false;
+};
+
+}  // namespace swarmsmith::irace

@@ -1,0 +1,78 @@
+#include "irace_core/internal/similarity.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/hash.h"
+
+namespace swarmsmith::irace {
+namespace {
+
+/// A configuration prepared for comparing: what must agree as one number, numbers in their domain.
+struct Prepared {
+  std::uint64_t choices;          ///< digest of all choices and of which parameters are active
+  std::vector<double> positions;  ///< of active numeric parameters, as multiples of their width
+};
+
+Prepared prepare(const ParameterSpace& space, const Configuration& configuration) {
+  Prepared prepared;
+  Digest choices;
+  std::optional<Assignment> values;  // only needed for dependent domains
+  for (std::size_t i = 0; i < space.size(); ++i) {
+    if (space.is_fixed(i)) continue;
+    choices.add(std::int32_t{configuration.is_active(i)});
+    if (!configuration.is_active(i)) continue;
+    if (!space.is_numeric(i)) {
+      choices.add(configuration[i]);
+      continue;
+    }
+    const Interval* constant = space.constant_interval(i);
+    if (constant == nullptr && !values) values.emplace(space, configuration);
+    const Interval domain = constant != nullptr ? *constant : **space.interval(i, *values);
+    const double width = domain.upper - domain.lower;
+    prepared.positions.push_back(width > 0 ? (configuration[i] - domain.lower) / width : 0);
+  }
+  prepared.choices = choices.value64();
+  return prepared;
+}
+
+/// Rounding of the positions must not decide at the threshold itself.
+bool near(const Prepared& a, const Prepared& b, double threshold) {
+  constexpr double kRounding = 1e-15;
+  for (std::size_t i = 0; i < a.positions.size(); ++i) {
+    if (std::fabs(a.positions[i] - b.positions[i]) > threshold + kRounding) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::size_t> similar_configurations(
+    const ParameterSpace& space, const std::vector<const Configuration*>& configurations,
+    double threshold) {
+  std::vector<Prepared> prepared;
+  std::vector<std::pair<std::uint64_t, std::size_t>> order;
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    prepared.push_back(prepare(space, *configurations[i]));
+    order.emplace_back(prepared.back().choices, i);
+  }
+  std::sort(order.begin(), order.end());
+  std::vector<bool> similar(configurations.size(), false);
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    for (std::size_t j = i + 1; j < order.size() && order[j].first == order[i].first; ++j) {
+      const auto [a, b] = std::pair(order[i].second, order[j].second);
+      if ((similar[a] && similar[b]) || !near(prepared[a], prepared[b], threshold)) continue;
+      similar[a] = true;
+      similar[b] = true;
+    }
+  }
+  std::vector<std::size_t> positions;
+  for (std::size_t i = 0; i < similar.size(); ++i) {
+    if (similar[i]) positions.push_back(i);
+  }
+  return positions;
+}
+
+}  // namespace swarmsmith::irace

@@ -1,0 +1,107 @@
+#include "irace_core/iterated_race.h"
+
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
+#include "irace_core/internal/design_state.h"
+
+namespace swarmsmith {
+namespace {
+
+Expected<void> check_initial(const ParameterSpace& space,
+                             const std::vector<Configuration>& initial) {
+  for (std::size_t i = 0; i < initial.size(); ++i) {
+    const std::string number = "initial configuration " + std::to_string(i + 1);
+    if (auto checked = space.check(initial[i]); !checked) {
+      const std::string where = checked.error().where;
+      return bad_input(checked.error().message, where.empty() ? number : number + ", " + where);
+    }
+    for (std::size_t j = 0; j < i; ++j) {
+      if (initial[i] == initial[j]) {
+        return bad_input("is the same as number " + std::to_string(j + 1), number);
+      }
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<IteratedRace> IteratedRace::start(ParameterSpace space, Scenario scenario,
+                                           std::vector<Configuration> initial) {
+  if (auto checked = check(scenario); !checked) return Unexpected(checked.error());
+  if (auto checked = check_initial(space, initial); !checked) return Unexpected(checked.error());
+  auto state = std::make_unique<State>(std::move(space), scenario, std::move(initial));
+  if (auto begun = state->begin(); !begun) return Unexpected(begun.error());
+  return IteratedRace(std::move(state));
+}
+
+IteratedRace::IteratedRace(std::unique_ptr<State> state) : state_(std::move(state)) {}
+IteratedRace::IteratedRace(IteratedRace&&) noexcept = default;
+IteratedRace& IteratedRace::operator=(IteratedRace&&) noexcept = default;
+IteratedRace::~IteratedRace() = default;
+
+bool IteratedRace::finished() const {
+  return state_->finished;
+}
+const std::optional<Error>& IteratedRace::failure() const {
+  return state_->failure;
+}
+std::span<const Experiment> IteratedRace::wanted() const {
+  return state_->wanted;
+}
+
+void IteratedRace::tell(std::span<const double> costs) {
+  if (costs.size() != state_->wanted.size()) {
+    throw std::invalid_argument("got " + std::to_string(costs.size()) + " costs for " +
+                                std::to_string(state_->wanted.size()) + " wanted experiments");
+  }
+  for (const double cost : costs) {
+    if (std::isnan(cost)) throw std::invalid_argument("a cost is not a number");
+  }
+  state_->tell(costs);
+}
+
+std::vector<RaceEvent> IteratedRace::take_events() {
+  return std::exchange(state_->events, {});
+}
+
+const Configuration& IteratedRace::configuration(std::int64_t id) const {
+  return state_->candidates.at(static_cast<std::size_t>(id - 1)).configuration;
+}
+
+const ParameterSpace& IteratedRace::space() const {
+  return state_->space;
+}
+const Scenario& IteratedRace::scenario() const {
+  return state_->scenario;
+}
+std::span<const Elite> IteratedRace::elites() const {
+  return state_->elites;
+}
+
+std::int64_t IteratedRace::experiments_used() const {
+  return state_->used_before_race + (state_->race ? state_->race->used() : 0);
+}
+
+std::int64_t IteratedRace::budget() const {
+  return state_->budget;
+}
+std::int64_t IteratedRace::iteration() const {
+  return state_->iteration;
+}
+std::int64_t IteratedRace::n_iterations() const {
+  return state_->iterations;
+}
+
+std::int64_t IteratedRace::n_alive() const {
+  return state_->race ? static_cast<std::int64_t>(state_->race->alive_count())
+                      : static_cast<std::int64_t>(state_->elites.size());
+}
+
+std::int64_t IteratedRace::n_configurations() const {
+  return static_cast<std::int64_t>(state_->candidates.size());
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,93 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/expected.h"
+#include "irace_core/parameter_space.h"
+#include "irace_core/race_event.h"
+#include "irace_core/scenario.h"
+
+namespace swarmsmith {
+
+/// (configuration, instance, seed): the unit of the budget. All ids start at 1; `pair` is the row
+/// of the list of (instance, seed) pairs, which all configurations share.
+struct Experiment {
+  std::int64_t configuration = 0;
+  std::int64_t pair = 0;
+  std::int64_t instance = 0;
+  std::int64_t seed = 0;
+
+  friend bool operator==(const Experiment&, const Experiment&) = default;
+};
+
+/// Elitist iterated racing (Lopez-Ibanez et al., "The irace package", Operations Research
+/// Perspectives 3, 2016), as ask and tell: a pure function of space, scenario, initial
+/// configurations and costs. No clock, no threads, no input or output.
+///
+/// The rules are those of irace 4.4 with these differences, where irace's users would expect ours:
+/// - Ordinal values are drawn so that all can be drawn (irace 4 never draws the last one).
+/// - A dependent domain is evaluated only where its parameter is active.
+/// - The first configurations are independent uniform draws instead of Sobol points.
+/// - The cap of 1024 configurations a race is an option.
+/// - Runs of a rejected configuration on later tasks of a batch are void, so that the answer does
+///   not depend on how much was run at once.
+///
+/// All randomness comes from streams split by name from the scenario's seed: "instances" (order
+/// and seeds of the pairs, in rows), "initial" (the first configurations), "sampling" by iteration
+/// (parents and values, one configuration after the other, parameters in hierarchy order), "order"
+/// by iteration (past pairs).
+class IteratedRace {
+ public:
+  /// `initial` configurations take part in the first race, before sampled ones; they get the ids
+  /// from 1 in their order, and forbidden ones take no part. A budget that is too small is an error
+  /// that says the smallest one that works.
+  static Expected<IteratedRace> start(ParameterSpace space, Scenario scenario,
+                                      std::vector<Configuration> initial = {});
+
+  IteratedRace(IteratedRace&&) noexcept;
+  IteratedRace& operator=(IteratedRace&&) noexcept;
+  ~IteratedRace();
+
+  bool finished() const;
+  /// Why there is no result: every configuration was rejected, a dependent domain was empty, or
+  /// nothing that is not forbidden could be sampled. Only once finished.
+  const std::optional<Error>& failure() const;
+
+  /// Everything that the race certainly needs before its next test, in canonical order (task, then
+  /// configuration); empty once finished. Valid until the next tell().
+  std::span<const Experiment> wanted() const;
+  /// Costs of all wanted() in the same order, smaller is better. An infinite cost rejects the
+  /// configuration; what was wanted of it on later tasks is then neither counted nor used. Throws
+  /// std::invalid_argument for NaN or a wrong number of costs.
+  void tell(std::span<const double> costs);
+  /// What happened since the last call, in order.
+  std::vector<RaceEvent> take_events();
+
+  /// A configuration by its id; throws std::out_of_range for an id that never was.
+  const Configuration& configuration(std::int64_t id) const;
+  const ParameterSpace& space() const;
+  const Scenario& scenario() const;
+
+  /// Elites of the last iteration that ended, best first.
+  std::span<const Elite> elites() const;
+  std::int64_t experiments_used() const;  ///< counted so far, those of the current race included
+  std::int64_t budget() const;            ///< of the whole design
+  std::int64_t remaining() const { return budget() - experiments_used(); }
+  std::int64_t iteration() const;         ///< of the current race
+  std::int64_t n_iterations() const;      ///< as planned now
+  std::int64_t n_alive() const;           ///< in the current race
+  std::int64_t n_configurations() const;  ///< ids given so far
+
+ private:
+  class State;
+
+  explicit IteratedRace(std::unique_ptr<State> state);
+
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace swarmsmith

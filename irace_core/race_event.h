@@ -1,0 +1,99 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "irace_core/configuration.h"
+
+namespace swarmsmith {
+
+/// A configuration that was made. Ids start at 1 and grow.
+struct ConfigurationSampled {
+  std::int64_t id = 0;
+  std::int64_t parent = 0;     ///< the elite whose model it was drawn from; 0 for none
+  std::int64_t iteration = 0;  ///< 0 for those that were given
+  Configuration configuration;
+};
+
+/// A race begins; the configurations that it sampled follow.
+struct IterationStarted {
+  std::int64_t iteration = 0;
+  std::int64_t n_iterations = 0;      ///< as planned now; not a limit unless it was asked for
+  std::int64_t remaining = 0;         ///< experiments of the whole design that are left
+  std::int64_t budget = 0;            ///< of them for this iteration
+  std::int64_t n_configurations = 0;  ///< in the race, elites included
+  std::int64_t new_pairs = 0;         ///< pairs that come first since nobody has seen them
+  std::vector<std::int64_t> elites;
+  bool soft_restart = false;
+  std::uint64_t model_digest = 0;  ///< of the models that were sampled from; 0 in the first race
+};
+
+enum class EliminationReason {
+  Test,       ///< worse by the statistical test
+  Rejection,  ///< an infinite cost
+};
+
+/// A configuration that left the race.
+struct Elimination {
+  std::int64_t configuration = 0;
+  double rank_sum = 0;  ///< when it was dropped; 0 for a rejection
+  EliminationReason reason = EliminationReason::Test;
+
+  friend bool operator==(const Elimination&, const Elimination&) = default;
+};
+
+/// One task of a race: one pair, tried by all who are alive and have not seen it.
+struct RaceStep {
+  std::int64_t iteration = 0;
+  std::int64_t task = 0;  ///< from 1 in each race
+  std::int64_t pair = 0;
+  /// x no test, = nobody dropped, - some dropped, ! only protected elites would have been, . nobody
+  /// had to be run
+  char marker = 'x';
+  std::int64_t alive_before = 0;
+  std::int64_t alive_after = 0;
+  std::int64_t best = 0;
+  double mean_best = 0;               ///< cost over the tasks so far
+  std::int64_t experiments_used = 0;  ///< in the whole design so far
+  std::optional<double> statistic;    ///< Friedman's S, or Wilcoxon's V for two
+  std::optional<double> p_value;
+  std::optional<double> kendall_w;
+  std::optional<double> spearman_rho;
+  std::optional<double> qvar;
+  std::vector<std::int64_t> evaluated;  ///< configurations that were run, in order
+  std::vector<Elimination> eliminations;
+  std::uint64_t digest = 0;  ///< of alive set, rank sums, statistic and generators
+};
+
+/// A survivor that the next race starts with.
+struct Elite {
+  double rank = 0;
+  std::int64_t configuration = 0;
+  double mean = 0;     ///< cost over all its pairs
+  std::int64_t n = 0;  ///< how many pairs
+
+  friend bool operator==(const Elite&, const Elite&) = default;
+};
+
+/// A race is over and its elites are chosen.
+struct IterationEnded {
+  std::int64_t iteration = 0;
+  std::int64_t used = 0;
+  std::int64_t remaining = 0;
+  std::string reason;         ///< why the race stopped
+  std::vector<Elite> elites;  ///< best first
+};
+
+/// The last event of a design.
+struct RaceFinished {
+  std::string reason;
+  std::vector<Elite> elites;  ///< best first; empty after a failure
+};
+
+using RaceEvent =
+    std::variant<ConfigurationSampled, IterationStarted, RaceStep, IterationEnded, RaceFinished>;
+
+}  // namespace swarmsmith

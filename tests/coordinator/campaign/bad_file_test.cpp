@@ -1,0 +1,183 @@
+#include <gmock/gmock.h>
+
+#include "tests/coordinator/campaign/campaign_support.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// A text with one mistake, and the sentence for it with its place.
+struct Mistake {
+  const char* name;
+  FileText file;
+  const char* complaint;
+};
+
+void PrintTo(const Mistake& mistake, std::ostream* out) { *out << mistake.name; }
+
+class BadFile : public testing::TestWithParam<Mistake> {};
+
+TEST_P(BadFile, GetsItsSentenceWithLineAndColumn) {
+  EXPECT_THAT(complaints(GetParam().file.text()), ElementsAre(HasSubstr(GetParam().complaint)));
+}
+
+const Mistake kMistakes[] = {
+    {"Typo", {.campaign = "sead = 3\n"},
+     "in/x.toml:3:1: [campaign] has no key `sead` (did you mean \"seed\"?)"},
+    {"TypeOfSeed", {.campaign = "seed = \"3\"\n"},
+     "in/x.toml:3:8: `seed` must be an integer, this is a text"},
+    {"NegativeSeed", {.campaign = "seed = -1\n"}, "in/x.toml:3:8: `seed` must be at least 0"},
+    {"NoRepetitions", {.campaign = "repetitions = 0\n"},
+     "in/x.toml:3:15: `repetitions` must be from 1 to 100000, this is 0"},
+    {"NameWithBlanks", {.campaign = "name = \"a b\"\n"}, "in/x.toml:3:8: a name consists of"},
+    {"UnknownMission", {.mission = "name = \"agregation\"\n"},
+     "in/x.toml:4:8: mission \"agregation\" is not built in (did you mean \"aggregation\"?)"},
+    {"UnknownPreset", {.mission = "name = \"x\"\npreset = \"grid\"\n"},
+     "in/x.toml:5:10: there is no preset \"grid\""},
+    {"PresetInAFile", {.mission = "name = \"x\"\npreset = \"x.toml\"\n"},
+     "in/x.toml:5:10: a preset in a file of its own is not there yet"},
+    {"DurationWithoutUnit", {.mission = "name = \"aggregation\"\nduration = \"120\"\n"},
+     "in/x.toml:5:12: `duration` must be a time with its unit"},
+    {"DurationAsNumber", {.mission = "name = \"aggregation\"\nduration = 120\n"},
+     "in/x.toml:5:12: `duration` must be a text in quotes, this is an integer"},
+    {"DurationBetweenCycles", {.mission = "name = \"aggregation\"\nduration = \"0.25 s\"\n"},
+     "in/x.toml:5:12: `duration` must be a multiple of the control period"},
+    {"NoRobots", {.mission = "name = \"aggregation\"\nrobots = 0\n"},
+     "in/x.toml:5:10: `robots` must be from 1 to 100"},
+    {"RobotsWithoutRoom", {.mission = "name = \"aggregation\"\nrobots = 90\n"},
+     "in/x.toml:5:10: mission \"aggregation\": "},
+    {"ArenaTooSmall", {.mission = "name = \"aggregation\"\narena = { area = 0.25 }\n"},
+     "in/x.toml:3:1: mission \"aggregation\": "},
+    {"OtherShape", {.mission = "name = \"aggregation\"\narena = { shape = \"square\" }\n"},
+     "in/x.toml:5:19: shape = \"square\" is not there yet"},
+    {"Obstacles", {.mission = "name = \"aggregation\"\narena = { obstacles = [] }\n"},
+     "in/x.toml:5:11: `obstacles` in [mission.arena] is not there yet"},
+    {"UnknownColour", {.mission = "name = \"aggregation\"\narena = { floor = \"pink\" }\n"},
+     "in/x.toml:5:19: there is no colour \"pink\"; known are: black, gray"},
+    {"SpotWithoutSize",
+     {.mission = "name = \"aggregation\"\narena = { spots = [ { shape = \"circle\", x = 0, y = 0, "
+                 "color = \"red\" } ] }\n"},
+     "in/x.toml:5:21: [[mission.arena.spots]] needs `diameter`"},
+    {"OtherScore", {.mission = "name = \"x\"\nscore = { kind = \"external\" }\n"},
+     "in/x.toml:5:18: kind = \"external\" is not there yet"},
+    {"UnknownScore", {.mission = "name = \"x\"\nscore = { kind = \"robot_on\" }\n"},
+     "in/x.toml:5:18: `kind` cannot be \"robot_on\" (did you mean \"robots_on\"?)"},
+    {"RewardsMissing", {.mission = "name = \"x\"\nscore = { kind = \"color_reward\" }\n"},
+     "in/x.toml:5:9: the score color_reward needs `rewards`"},
+    {"Minimise",
+     {.mission = "name = \"x\"\nscore = { kind = \"robots_on\", color = \"black\", maximize = false "
+                 "}\n"},
+     "scores are always maximised"},
+    {"TestCount", {.mission = "name = \"aggregation\"\ninstances = { test = { count = -1 } }\n"},
+     "in/x.toml:5:32: `count` must be from 0 to 99999"},
+    {"UnknownFlavour", {.method = "name = \"m\"\nflavour = \"watermellon\"\n"},
+     "in/x.toml:7:11: `flavour` cannot be \"watermellon\" (did you mean \"watermelon\"?)"},
+    {"FlavourNotYet", {.method = "name = \"m\"\nflavour = \"chocolate\"\n"},
+     "in/x.toml:7:11: flavour = \"chocolate\" is not there yet"},
+    {"UnknownModule", {.method = "name = \"m\"\nbehaviours = [\"explore\", \"stop\"]\n"},
+     "in/x.toml:7:14: flavour watermelon has no behaviour `explore`"},
+    {"ModuleTwice", {.method = "name = \"m\"\nbehaviours = [\"stop\", \"stop\"]\n"},
+     "in/x.toml:7:14: `behaviours` names `stop` twice"},
+    {"NoModules", {.method = "name = \"m\"\nconditions = []\n"},
+     "in/x.toml:7:14: `conditions` is empty"},
+    {"TooManyStates", {.method = "name = \"m\"\nmax_states = 5\n"},
+     "in/x.toml:7:14: `max_states` must be from 1 to 4, this is 5"},
+    {"RangeOfUnknownModule", {.method = "name = \"m\"\nparameters.explration.tau.int = [1, 2]\n"},
+     "the method has no module `explration` (did you mean \"exploration\"?)"},
+    {"RangeOfUnknownParameter", {.method = "name = \"m\"\nparameters.exploration.tua.int = [1, 2]\n"},
+     "exploration has no parameter `tua` (did you mean \"tau\"?)"},
+    {"RangeOfOtherType",
+     {.method = "name = \"m\"\nparameters.exploration.tau = { real = [1, 2] }\n"},
+     "in/x.toml:7:39: exploration.tau is no real parameter; write { int = [...] }"},
+    {"RangeUpsideDown", {.method = "name = \"m\"\nparameters.exploration.tau = { int = [9, 2] }\n"},
+     "in/x.toml:7:38: exploration.tau: the range's lower end must be below its upper end"},
+    {"RangeTooWide", {.method = "name = \"m\"\nparameters.exploration.tau = { int = [0, 2] }\n"},
+     "in/x.toml:7:38: exploration.tau: tau must be at least 1"},
+    {"RangeOfALabel", {.method = "name = \"m\"\nparameters.color_detection.label.int = [0, 2]\n"},
+     "a label is one of the flavour's colours"},
+    {"NoBudget", {.race = ""}, "[race] needs `max_experiments`"},
+    {"BudgetTooSmall", {.race = "max_experiments = 200\n"}, "1350"},
+    {"TestNotYet", {.race = "max_experiments = 2000\ntest_type = \"t-test\"\n"},
+     "in/x.toml:9:13: test_type = \"t-test\" is not there yet"},
+    {"OptionNotYet", {.race = "max_experiments = 2000\ncapping = true\n"},
+     "in/x.toml:9:1: `capping` in [race] is not there yet"},
+    {"NotElitist", {.race = "max_experiments = 2000\nelitist = false\n"},
+     "in/x.toml:9:11: elitist = false is not there yet"},
+    {"Confidence", {.race = "max_experiments = 2000\nconfidence = 1.5\n"},
+     "in/x.toml:9:14: `confidence` must be from 0 to 1, this is 1.5"},
+    {"FirstTest", {.race = "max_experiments = 2000\neach_test = 2\nfirst_test = 5\n"},
+     "in/x.toml:10:14: `first_test` must be a multiple of each_test"},
+    {"OtherSimulator", {.rest = "[simulator]\nkind = \"command\"\n"},
+     "in/x.toml:10:8: kind = \"command\" is not there yet"},
+    {"UnknownProfile", {.rest = "[simulator]\nprofile = \"rvx\"\n"},
+     "in/x.toml:10:11: `profile` cannot be \"rvx\" (did you mean \"rvr\"?)"},
+    {"ProfileNotYet", {.rest = "[simulator]\nprofile = \"pseudo-reality\"\n"},
+     "in/x.toml:10:11: profile = \"pseudo-reality\" is not there yet"},
+    {"LocalWorkers", {.rest = "[workers]\nlocal = \"all\"\n"},
+     "in/x.toml:10:9: `local` must be \"auto\""},
+    {"Address", {.rest = "[workers]\nbind = \"127.0.0.1\"\n"},
+     "in/x.toml:10:8: `bind` must be an address with a port"},
+    {"WorstRank", {.rest = "[workers]\non_failure = \"worst_rank\"\n"},
+     "in/x.toml:10:14: `on_failure` cannot be \"worst_rank\"; it is one of: reject, stop"},
+    {"DashboardAddress", {.rest = "[dashboard]\nbind = \"localhost:99999\"\n"},
+     "in/x.toml:10:8: `bind` must be an address with a port"},
+    {"UnknownTable", {.rest = "[worker]\nlocal = 1\n"},
+     "in/x.toml:9:2: the file has no key `worker` (did you mean \"workers\"?)"},
+};
+
+INSTANTIATE_TEST_SUITE_P(Mistakes, BadFile, testing::ValuesIn(kMistakes),
+                         [](const auto& mistake) { return mistake.param.name; });
+
+TEST(CampaignFile, NeedsItsFormatFirst) {
+  EXPECT_THAT(complaints("[[mission]]\nname = \"aggregation\"\n[[method]]\nname = \"w\"\n"
+                         "[race]\nmax_experiments = 2000\n"),
+              ElementsAre(HasSubstr("the file begins with its format: format = 1")));
+}
+
+TEST(CampaignFile, OfALaterFormatIsRefused) {
+  std::string text = FileText{}.text();
+  text.replace(text.find('1'), 1, "2");
+  EXPECT_THAT(complaints(text), ElementsAre("in/x.toml:1:10: format 2 is newer than this program, "
+                                            "which reads format 1"));
+}
+
+TEST(CampaignFile, ThatIsNoTomlSaysWhere) {
+  EXPECT_THAT(complaints("format = 1\n[campaign\n"), ElementsAre(HasSubstr("in/x.toml:2:10: ")));
+}
+
+TEST(CampaignFile, ReportsEveryComplaintAtOnceInTheOrderOfTheFile) {
+  const FileText file{.campaign = "sead = 1\n",
+                      .mission = "name = \"aggregation\"\nrobots = \"3\"\n",
+                      .race = "max_experiments = 2000\nconfidence = 2\n"};
+  EXPECT_THAT(complaints(file.text()),
+              ElementsAre(HasSubstr("in/x.toml:3:1:"), HasSubstr("in/x.toml:6:10:"),
+                          HasSubstr("in/x.toml:11:14:")));
+}
+
+TEST(CampaignFile, WithoutMissionMethodAndRaceSaysSo) {
+  EXPECT_THAT(complaints("format = 1\n"),
+              ElementsAre(HasSubstr("[[mission]]"), HasSubstr("[[method]]"), HasSubstr("[race]")));
+}
+
+TEST(CampaignFile, RefusesTwoMissionsOfOneName) {
+  const FileText file{.mission = "name = \"aggregation\"\n[[mission]]\nname = \"aggregation\"\n"};
+  EXPECT_THAT(complaints(file.text()),
+              ElementsAre(HasSubstr("in/x.toml:6:8: two")));
+}
+
+TEST(CampaignFile, ThatIsNotThereIsNotFound) {
+  const auto campaign = read_campaign("/nonexistent/x.toml");
+  ASSERT_FALSE(campaign);
+  EXPECT_EQ(campaign.error().front().kind, ErrorKind::NotFound);
+  EXPECT_EQ(campaign.error().front().where, "/nonexistent/x.toml");
+}
+
+TEST(CampaignFile, WithABudgetThatFitsHasNoComplaints) {
+  EXPECT_THAT(complaints(FileText{}.text()), IsEmpty());
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,152 @@
+#include "coordinator/campaign/campaign_file.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/coordinator/campaign/campaign_support.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::SizeIs;
+
+TEST(CampaignFile, OfTheShortestKindTakesEverythingElseFromDefaults) {
+  const Campaign campaign = parsed(FileText{}.text());
+  EXPECT_EQ(campaign.name, "x");
+  EXPECT_EQ(campaign.store, "in/x.db");
+  EXPECT_EQ(campaign.repetitions, 1);
+  ASSERT_THAT(campaign.missions, SizeIs(1));
+  EXPECT_EQ(campaign.missions[0].mission, *built_in_mission("aggregation"));
+  ASSERT_THAT(campaign.methods, SizeIs(1));
+  EXPECT_EQ(campaign.methods[0].flavour, "watermelon");
+  EXPECT_THAT(campaign.methods[0].behaviours,
+              ElementsAre("exploration", "stop", "attraction", "repulsion"));
+  EXPECT_THAT(campaign.methods[0].conditions, SizeIs(7));
+  EXPECT_EQ(campaign.race.max_experiments, 2000);
+  EXPECT_EQ(campaign.race.first_test, 5);
+  EXPECT_EQ(campaign.profile.name, "rvr");
+  EXPECT_EQ(campaign.local_workers, std::nullopt);
+}
+
+TEST(CampaignFile, ReadsTheKeysOfEverySection) {
+  const Campaign campaign = parsed(FileText{
+      .campaign = "name = \"trial\"\nseed = 1234\nrepetitions = 10\nstore = \"sub/y.db\"\n",
+      .race = "max_experiments = 100_000\nconfidence = 0.9\nmu = 7\nsoft_restart = false\n"
+              "test_type = \"F-test\"\nelitist = true\ndigits = 3\nelitist_limit = 0\n",
+      .rest = "[simulator]\nkind = \"builtin\"\nprofile = \"argos3\"\n"
+              "[workers]\nlocal = 2\nbind = \"127.0.0.1:5555\"\ntimeout = \"2 min\"\nretries = 5\n"
+              "on_failure = \"stop\"\n[dashboard]\nbind = \"127.0.0.1:8347\"\n"}
+                                       .text());
+  EXPECT_EQ(campaign.name, "trial");
+  EXPECT_EQ(campaign.seed, 1234U);
+  EXPECT_EQ(campaign.repetitions, 10);
+  EXPECT_EQ(campaign.store, "in/sub/y.db");
+  EXPECT_EQ(campaign.race.max_experiments, 100'000);
+  EXPECT_EQ(campaign.race.confidence, 0.9);
+  EXPECT_EQ(campaign.race.mu, 7);
+  EXPECT_FALSE(campaign.race.soft_restart);
+  EXPECT_EQ(campaign.race.elitist_limit, 0);
+  EXPECT_EQ(campaign.digits, 3);
+  EXPECT_EQ(campaign.profile.name, "argos3");
+  EXPECT_EQ(campaign.local_workers, 2);
+  EXPECT_EQ(campaign.bind, "127.0.0.1:5555");
+  EXPECT_EQ(campaign.task_timeout_s, 120);
+  EXPECT_EQ(campaign.retries, 5);
+  EXPECT_TRUE(campaign.stop_on_failure);
+}
+
+TEST(CampaignFile, ReadsAMissionOfItsOwn) {
+  const Campaign campaign = parsed(FileText{.mission = R"(name = "shelter"
+duration = "60.5 s"
+robots = 2
+  [mission.arena]
+  shape = "dodecagon"
+  area  = 4.91
+  floor = "white"
+  spots = [ { shape = "circle", x = 0.1, y = -0.2, diameter = 0.6, color = "#102030" },
+            { shape = "square", x = 0, y = 0.5, side = 0.3, color = "red" } ]
+  [mission.score]
+  kind     = "robots_on"
+  color    = "red"
+  at       = "end"
+  maximize = true
+  [mission.instances]
+  training = { placement = "uniform" }
+  test     = { count = 20 }
+)"}
+                                       .text());
+  ASSERT_THAT(campaign.missions, SizeIs(1));
+  const Mission& mission = campaign.missions[0].mission;
+  EXPECT_EQ(mission.name, "shelter");
+  EXPECT_EQ(mission.cycles, 605);
+  EXPECT_EQ(mission.robots, 2);
+  EXPECT_NEAR(area_of(mission.arena), 4.91, 1e-9);
+  EXPECT_EQ(mission.arena.floor, (Rgb{255, 255, 255}));
+  EXPECT_THAT(mission.arena.patches,
+              ElementsAre(Patch{Disc{{0.1, -0.2}, 0.3}, {0x10, 0x20, 0x30}},
+                          Patch{Rectangle{{0, 0.5}, 0.3, 0.3}, {255, 0, 0}}));
+  EXPECT_EQ(mission.rule, ScoreRule(RobotsOn{{255, 0, 0}}));
+  EXPECT_EQ(campaign.missions[0].test_count, 20);
+  EXPECT_NEAR(mission.placement_radius_m, 1.2 * 1.2357 / 1.226, 1e-4);
+}
+
+TEST(CampaignFile, TakesAPresetAndChangesIt) {
+  const Campaign campaign = parsed(FileText{
+      .mission = "name = \"long\"\npreset = \"grid_exploration\"\nduration = \"10 min\"\n"}
+                                       .text());
+  Mission wanted = *built_in_mission("grid_exploration");
+  wanted.name = "long";
+  wanted.cycles = 6000;
+  EXPECT_EQ(campaign.missions[0].mission, wanted);
+}
+
+TEST(CampaignFile, OrdersRewardsByColourWhateverTheOrderAndSpelling) {
+  const auto rule = [](const std::string& rewards) {
+    const std::string score = "score = { kind = \"color_reward\", rewards = " + rewards + " }\n";
+    return parsed(FileText{.mission = "name = \"x\"\n" + score}.text()).missions[0].mission.rule;
+  };
+  const ScoreRule wanted = ColorReward{{{{127, 127, 127}, 0.5}, {{255, 255, 0}, 2}}};
+  EXPECT_EQ(rule("{ yellow = 2, gray = 0.5 }"), wanted);
+  EXPECT_EQ(rule("{ grey = 0.5, \"#ffff00\" = 2 }"), wanted);
+}
+
+TEST(CampaignFile, OrdersModulesAsTheFlavourDoes) {
+  const Campaign campaign =
+      parsed(FileText{.method = "name = \"m\"\nbehaviours = [\"stop\", \"exploration\"]\n"
+                                "conditions = [\"fixed_probability\", \"black_floor\"]\n"}
+                 .text());
+  EXPECT_THAT(campaign.methods[0].behaviours, ElementsAre("exploration", "stop"));
+  EXPECT_THAT(campaign.methods[0].conditions, ElementsAre("black_floor", "fixed_probability"));
+}
+
+TEST(CampaignFile, ReadsRangesOfParameters) {
+  const Campaign campaign = parsed(FileText{.method = R"(name = "m"
+  [method.parameters]
+  exploration.tau  = { int  = [1, 50] }
+  attraction.alpha = { real = [1.5, 5] }
+)"}
+                                       .text());
+  EXPECT_THAT(campaign.methods[0].ranges,
+              ElementsAre(RangeOverride{"attraction", "alpha", 1.5, 5},
+                          RangeOverride{"exploration", "tau", 1, 50}));
+}
+
+TEST(CampaignFile, OfABudgetThatFlagsMadeTooSmallNamesTheSmallestThatWorks) {
+  Campaign campaign = parsed(FileText{}.text());
+  EXPECT_TRUE(check_budget(campaign).empty());
+  campaign.race.max_experiments = 1349;
+  const auto errors = check_budget(campaign);
+  ASSERT_THAT(errors, SizeIs(1));
+  EXPECT_THAT(errors[0].message, testing::HasSubstr("1350"));
+}
+
+TEST(CampaignFile, OfTheDemoIsShort) {
+  const Campaign demo = demo_campaign();
+  EXPECT_EQ(demo.name, "demo");
+  EXPECT_EQ(demo.store, "demo.db");
+  EXPECT_EQ(demo.race.max_experiments, 2000);
+  EXPECT_EQ(demo.missions[0].mission.name, "aggregation");
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "coordinator/campaign/campaign_file.h"
+
+namespace swarmsmith {
+
+/// The shortest campaign file, with room for what a test adds: more [campaign] keys, more
+/// [[mission]] keys, and so on.
+struct FileText {
+  std::string campaign = {};
+  std::string mission = "name = \"aggregation\"\n";
+  std::string method = "name = \"watermelon\"\n";
+  std::string race = "max_experiments = 2_000\n";
+  std::string rest = {};
+
+  std::string text() const {
+    return "format = 1\n[campaign]\n" + campaign + "[[mission]]\n" + mission + "[[method]]\n" +
+           method + "[race]\n" + race + rest;
+  }
+};
+
+inline CampaignOrErrors parse(const std::string& text) { return parse_campaign(text, "in/x.toml"); }
+
+inline Campaign parsed(const std::string& text) {
+  auto campaign = parse(text);
+  if (campaign) return *campaign;
+  for (const Error& error : campaign.error()) ADD_FAILURE() << to_string(error);
+  return {};
+}
+
+/// The errors as lines "file:line:column: sentence".
+inline std::vector<std::string> complaints(const std::string& text) {
+  std::vector<std::string> lines;
+  const auto campaign = parse(text);
+  if (campaign) return lines;
+  for (const Error& error : campaign.error()) lines.push_back(to_string(error));
+  return lines;
+}
+
+}  // namespace swarmsmith

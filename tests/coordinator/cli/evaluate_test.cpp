@@ -1,0 +1,183 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "coordinator/cli/machine_words.h"
+#include "coordinator/cli/mean_interval.h"
+#include "coordinator/cli/seeds.h"
+#include "sim/control/machine_text.h"
+#include "sim/engine/simulate.h"
+#include "tests/coordinator/cli/cli_support.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<json> lines_of(const std::string& text) {
+  std::vector<json> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) lines.push_back(json::parse(line));
+  return lines;
+}
+
+/// What the engine itself says of kExploreText on a built-in mission.
+double score_of(const std::string& mission_name, std::int64_t seed) {
+  const Mission mission = *built_in_mission(mission_name);
+  const Machine machine = *parse_machine(kExploreText, watermelon());
+  const Instance instance = *instance_of(mission, seed);
+  return simulate({.machine = machine,
+                   .flavour = watermelon(),
+                   .profile = *built_in_profile("rvr"),
+                   .mission = mission,
+                   .instance = instance,
+                   .seed = seed})
+      .score;
+}
+
+TEST(Evaluate, GivesOneJsonLineARunWithSeedAndScore) {
+  const Ran ran = run({"evaluate", kExploreText, "--flavour", "watermelon", "--profile", "rvr",
+                       "--mission", "grid_exploration", "--seeds", "4-5", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto lines = lines_of(ran.out);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0], (json{{"seed", 4}, {"score", score_of("grid_exploration", 4)}}));
+  EXPECT_EQ(lines[1]["score"], score_of("grid_exploration", 5));
+  EXPECT_LT(lines[0]["score"], 0);
+}
+
+TEST(Evaluate, TakesAMachineAsSeveralWordsBeforeAfterAndBehindDashes) {
+  const std::string wanted =
+      run({"evaluate", kExploreText, "--mission", "aggregation", "--seeds", "1-3"}).out;
+  const std::vector<std::string> rest = {"--mission", "aggregation", "--seeds", "1-3"};
+  const std::vector<std::string> machine = {"--nstates", "1", "--s0", "0", "--rwm0", "10"};
+  const auto in_order = [](std::vector<std::string> first, const std::vector<std::string>& then) {
+    first.insert(first.begin(), "evaluate");
+    first.insert(first.end(), then.begin(), then.end());
+    return first;
+  };
+  EXPECT_EQ(run(in_order(machine, rest)).out, wanted);
+  EXPECT_EQ(run(in_order(rest, machine)).out, wanted);
+  std::vector<std::string> dashed = machine;
+  dashed.insert(dashed.begin(), "--");
+  EXPECT_EQ(run(in_order(rest, dashed)).out, wanted);
+  std::vector<std::string> config = machine;
+  config.insert(config.begin(), "--fsm-config");
+  EXPECT_EQ(run(in_order(rest, config)).out, wanted);
+}
+
+TEST(Evaluate, TakesAMachineFromAFileWithComments) {
+  const TemporaryFolder folder;
+  write_file(folder / "best.fsm", "# d1 c1\n\n--fsm-config " + kExploreText + "\n");
+  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--mission", "aggregation"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("seed 10  score "));
+  EXPECT_THAT(ran.out, HasSubstr("95 % interval"));
+}
+
+TEST(Evaluate, RefusesAFileWithSeveralMachines) {
+  const TemporaryFolder folder;
+  write_file(folder / "two.fsm", kExploreText + "\n" + kStopText + "\n");
+  const Ran ran = run({"evaluate", (folder / "two.fsm").string(), "--mission", "aggregation"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("two.fsm:2: the file holds more than one machine"));
+}
+
+TEST(Evaluate, TakesStartsFromATable) {
+  const TemporaryFolder folder;
+  write_file(folder / "starts.csv",
+             "seed,robot,x,y,theta\n5,0,0.1,0.2,0\n5,1,-0.6,0,1\n5,2,0.6,0.6,7\n");
+  const std::vector<std::string> command = {"evaluate", kStopText, "--mission", "aggregation",
+                                            "--starts", (folder / "starts.csv").string(),
+                                            "--json", "--seeds"};
+  auto seeds = command;
+  seeds.emplace_back("5");
+  EXPECT_EQ(run(seeds).out, "{\"seed\":5,\"score\":1}\n");
+  seeds.back() = "5-6";
+  const Ran missing = run(seeds);
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_EQ(missing.out, "");
+  EXPECT_THAT(missing.err, HasSubstr("--starts: there are no 3 starting poses for seed 6"));
+}
+
+TEST(Evaluate, TakesPatchesFromATable) {
+  const TemporaryFolder folder;
+  write_file(folder / "starts.csv",
+             "seed,robot,x,y,theta\n1,0,0.75,0.25,0\n1,1,-0.25,-0.25,0\n1,2,0.25,0.75,0\n");
+  write_file(folder / "patches.csv",
+             "seed,x,y,color\n1,0.75,0.25,yellow\n1,-0.25,-0.25,red\n1,0.25,0.75,green\n");
+  std::vector<std::string> command = {
+      "evaluate", kStopText, "--mission", "color_selection", "--starts",
+      (folder / "starts.csv").string(), "--patches", (folder / "patches.csv").string(), "--json",
+      "--seeds", "1"};
+  EXPECT_EQ(run(command).out, "{\"seed\":1,\"score\":3}\n");
+  write_file(folder / "patches.csv", "seed,x,y,color\n1,0.7,0.25,yellow\n");
+  const Ran ran = run(command);
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("patches.csv:2: mission color_selection has no place"));
+}
+
+struct Misuse {
+  std::vector<std::string> words;
+  const char* sentence;
+};
+
+TEST(Evaluate, ExplainsWhatIsWrongWithItsArguments) {
+  const Misuse misuses[] = {
+      {{kStopText}, "--mission: on which mission?"},
+      {{kStopText, "--mission", "gird"}, "--mission: there is no mission `gird`"},
+      {{kStopText, "--mission", "aggregation", "--flavour", "melon"}, "--flavour: there is no"},
+      {{kStopText, "--mission", "aggregation", "--profile", "x"}, "--profile: "},
+      {{kStopText, "--mission", "aggregation", "--seeds", "3-1"}, "--seeds: seeds are written"},
+      {{"--nstates 1 --s0 9", "--mission", "aggregation"}, "MACHINE, token"},
+      {{"nothing.fsm", "--mission", "aggregation"}, "nothing.fsm: this is no machine"},
+      {{"c1", "--mission", "aggregation"}, "which store?"},
+  };
+  for (const Misuse& misuse : misuses) {
+    std::vector<std::string> words = misuse.words;
+    words.insert(words.begin(), "evaluate");
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 2) << misuse.sentence;
+    EXPECT_THAT(ran.err, HasSubstr(misuse.sentence));
+  }
+}
+
+using EvaluateFromStore = WithStore;
+
+TEST_F(EvaluateFromStore, TakesFlavourProfileAndMissionFromTheCandidatesCampaign) {
+  const Ran ran = run({"evaluate", "c1", "--store", store_, "--seeds", "1-2", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(lines_of(ran.out)[1]["score"], score_of("aggregation", 2));
+}
+
+TEST_F(EvaluateFromStore, ExitsWithFourForACandidateThatIsNotThere) {
+  EXPECT_EQ(run({"evaluate", "c99", "--store", store_}).code, 4);
+  EXPECT_EQ(run({"evaluate", "c1", "--store", store_ + "x"}).code, 3);
+}
+
+TEST(MachineWords, LeaveOtherWordsAlone) {
+  const std::vector<std::string> words = {"best.fsm", "--seeds", "1-3"};
+  EXPECT_EQ(with_machine_as_one_word(words), words);
+  EXPECT_THAT(with_machine_as_one_word({"--nstates", "1", "--s0", "1", "--seeds", "2", "--store"}),
+              ElementsAre(" --nstates 1 --s0 1", "--seeds", "2", "--store"));
+}
+
+TEST(Seeds, AreRangesAndLists) {
+  EXPECT_THAT(*parse_seeds("1,4,7-9"), ElementsAre(1, 4, 7, 8, 9));
+  for (const char* wrong : {"", "0", "1-", "-3", "a", "2147483648", "1,,2", "1-99999999999"}) {
+    EXPECT_FALSE(parse_seeds(wrong)) << wrong;
+  }
+}
+
+TEST(MeanInterval, IsStudents) {
+  const std::vector<double> values = {1, 2, 3, 4, 5};
+  const MeanInterval summary = mean_interval(values);
+  EXPECT_DOUBLE_EQ(summary.mean, 3);
+  // R: t.test(1:5)$conf.int is 1.036757 to 4.963243.
+  EXPECT_NEAR(summary.half_width, 1.963243, 0.01);
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

@@ -1,0 +1,123 @@
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "coordinator/cli/commands.h"
+#include "tests/coordinator/cli/cli_support.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Program, WithoutACommandExplainsItselfAndExitsWithTwo) {
+  const Ran ran = run({});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.out, IsEmpty());
+  EXPECT_THAT(ran.err, HasSubstr("Commands:"));
+}
+
+TEST(Program, SuggestsTheCommandThatWasMeant) {
+  const Ran ran = run({"evalute"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("there is no command `evalute` (did you mean \"evaluate\"?)"));
+}
+
+TEST(Program, SuggestsTheOptionThatWasMeant) {
+  const Ran ran = run({"evaluate", "x", "--misson", "aggregation"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("`evaluate` has no option `--misson` (did you mean "
+                                 "\"--mission\"?)"));
+}
+
+TEST(Program, RefusesAWordTooMany) {
+  const Ran ran = run({"version", "now"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("`now` is one word too many"));
+}
+
+TEST(Program, NamesWhatIsMissing) {
+  const Ran ran = run({"check"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("FILE is required"));
+}
+
+TEST(Program, ExplainsEveryCommandOnStandardOutput) {
+  for (const Command& command : commands()) {
+    const Ran ran = run({std::string(command.name), "--help"});
+    EXPECT_EQ(ran.code, 0) << command.name;
+    EXPECT_THAT(ran.out, HasSubstr(std::string(command.summary)));
+    EXPECT_THAT(ran.out, HasSubstr(std::string(command.details)));
+    EXPECT_THAT(ran.out, HasSubstr("--json"));
+  }
+}
+
+TEST(Program, HasEveryCommandInItsManual) {
+  std::ifstream stream(std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "docs" / "command-line.md");
+  std::ostringstream manual;
+  manual << stream.rdbuf();
+  for (const Command& command : commands()) {
+    EXPECT_THAT(manual.str(), HasSubstr("## `" + std::string(command.name)));
+  }
+}
+
+TEST(Program, SaysItsVersionAsJson) {
+  const json version = json::parse(run({"version", "--json"}).out);
+  EXPECT_EQ(version["name"], "swarmsmith");
+  EXPECT_TRUE(version["engine"].is_number_integer());
+}
+
+TEST(Init, WritesAFileThatCheckAccepts) {
+  const TemporaryFolder folder;
+  const std::string inside = (folder / "mine").string();
+  for (const char* mission : {"aggregation", "grid_exploration", "color_selection"}) {
+    const std::string place = inside + mission;
+    EXPECT_EQ(run({"init", place, "--mission", mission}).code, 0);
+    const auto campaign = read_campaign(place + "/campaign.toml");
+    ASSERT_TRUE(campaign) << to_string(campaign.error().front());
+    EXPECT_EQ(campaign->missions[0].mission.name, mission);
+  }
+}
+
+TEST(Init, NeverOverwrites) {
+  const TemporaryFolder folder;
+  write_file(folder / "campaign.toml", "mine");
+  const Ran ran = run({"init", folder.path().string()});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("is there already"));
+}
+
+TEST(Check, ShowsThePlanAsJson) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run({"init", folder.path().string()}).code, 0);
+  const Ran ran = run({"check", (folder / "campaign.toml").string(), "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const json plan = json::parse(ran.out);
+  EXPECT_EQ(plan["designs"], 1);
+  EXPECT_EQ(plan["experiments"], 10'000);
+  EXPECT_EQ(plan["tests"], 100);
+  EXPECT_GT(plan["evaluation_ms"], 0);
+}
+
+TEST(Check, PrintsAllThatIsWrongAndExitsWithTwo) {
+  const TemporaryFolder folder;
+  write_file(folder / "x.toml", "format = 1\nseed = 3\n");
+  const Ran ran = run({"check", (folder / "x.toml").string()});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.out, IsEmpty());
+  EXPECT_THAT(ran.err, HasSubstr("x.toml:2:1: the file has no key `seed`"));
+  EXPECT_THAT(ran.err, HasSubstr("no [[mission]]"));
+}
+
+TEST(Check, WarnsOfAFlavourThatNoiseBlinds) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run({"init", folder.path().string(), "--flavour", "watermelon-argos3"}).code, 0);
+  const Ran ran = run({"check", (folder / "campaign.toml").string()});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.err, HasSubstr("black_floor hardly ever holds"));
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

@@ -1,0 +1,115 @@
+"""Starting the real programs from tests. Each test has a temporary folder of its own."""
+import json
+import os
+import pathlib
+import signal
+import subprocess
+import tempfile
+import unittest
+
+BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
+SWARMSMITH = str(BIN / "swarmsmith")
+
+CAMPAIGN = """\
+format = 1
+
+[campaign]
+name = "survival"
+seed = {seed}
+store = "unused.db"
+
+[[mission]]
+name = "aggregation"
+  [mission.instances]
+  test = {{ count = {tests} }}
+
+[[method]]
+name = "argos3"
+flavour = "watermelon-argos3"
+
+[race]
+max_experiments = {budget}
+
+[simulator]
+profile = "argos3"
+"""
+
+
+def call(*arguments, timeout=300, cwd=None):
+    """Runs swarmsmith to its end; returns the finished process with its output as text."""
+    return subprocess.run([SWARMSMITH, *map(str, arguments)], capture_output=True, text=True,
+                          timeout=timeout, cwd=cwd)
+
+
+def start(*arguments, cwd=None):
+    """Starts swarmsmith in a process group of its own, output thrown away."""
+    return subprocess.Popen([SWARMSMITH, *map(str, arguments)], stdout=subprocess.DEVNULL,
+                            stderr=subprocess.DEVNULL, start_new_session=True, cwd=cwd)
+
+
+def children_of(pid):
+    """Process ids of the worker processes that `pid` has started and that are alive."""
+    try:
+        text = pathlib.Path(f"/proc/{pid}/task/{pid}/children").read_text()
+    except (FileNotFoundError, ProcessLookupError):
+        return []
+    workers = []
+    for child in map(int, text.split()):
+        try:
+            if pathlib.Path(f"/proc/{child}/comm").read_text().startswith("swarmsmith-work"):
+                workers.append(child)
+        except (FileNotFoundError, ProcessLookupError):
+            pass
+    return workers
+
+
+def send(pid, what):
+    try:
+        os.kill(pid, what)
+    except ProcessLookupError:
+        pass
+
+
+class ProgramTest(unittest.TestCase):
+    """A test with a folder, a campaign file in it, and the checks that they share."""
+
+    budget = 1000
+    seed = 7
+    tests = 20
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="swarmsmith-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        self.file = self.folder / "campaign.toml"
+        self.file.write_text(
+            CAMPAIGN.format(seed=self.seed, budget=self.budget, tests=self.tests))
+
+    def run_campaign(self, store, *arguments, timeout=300):
+        return call("run", self.file, "--store", store, "--no-dashboard", *arguments,
+                    timeout=timeout)
+
+    def start_campaign(self, store, *arguments):
+        process = start("run", self.file, "--store", store, "--no-dashboard", *arguments)
+        self.addCleanup(self._end, process)
+        return process
+
+    @staticmethod
+    def _end(process):
+        if process.poll() is None:
+            send(-process.pid, signal.SIGKILL)
+        process.wait()
+
+    def digest(self, store):
+        done = call("digest", store)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.strip()
+
+    def assert_clean(self, store):
+        done = call("verify", store)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def query(self, store, sql):
+        done = call("query", store, sql, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)

@@ -1,0 +1,380 @@
+#include "irace_core/iterated_race.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <set>
+#include <stdexcept>
+
+#include "tests/irace_core/costs.h"
+#include "tests/irace_core/spaces.h"
+
+namespace swarmsmith {
+namespace {
+
+using namespace swarmsmith::testing;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+ParameterSpace small_space() {
+  return space_of({make_categorical("kind", {"a", "b", "c"}), make_real("x", 0, 10),
+                   make_integer("n", 1, 100, true), make_ordinal("size", {"s", "m", "l"}),
+                   active_when(make_real("y", -1, 1), equals("kind", "b"))});
+}
+
+Scenario small_scenario(std::uint64_t seed = 1) {
+  Scenario scenario;
+  scenario.max_experiments = 1500;
+  scenario.n_instances = 7;
+  scenario.seed = seed;
+  return scenario;
+}
+
+std::vector<RaceEvent> run(const Scenario& scenario, const Cost& cost = synthetic_cost) {
+  auto race = IteratedRace::start(small_space(), scenario);
+  EXPECT_TRUE(race.has_value());
+  return run_to_end(*race, cost);
+}
+
+std::vector<std::uint64_t> digests(const std::vector<RaceEvent>& events) {
+  std::vector<std::uint64_t> found;
+  for (const RaceStep& step : only<RaceStep>(events))
+    found.push_back(step.digest);
+  return found;
+}
+
+TEST(IteratedRace, SameSeedGivesTheSameRaceBitForBit) {
+  EXPECT_EQ(digests(run(small_scenario(5))), digests(run(small_scenario(5))));
+  EXPECT_NE(digests(run(small_scenario(5))), digests(run(small_scenario(6))));
+}
+
+TEST(IteratedRace, DecisionsAreFixed) {
+  // A change here changes every campaign that was ever recorded.
+  const auto events = run(small_scenario(5));
+  Digest all;
+  for (const std::uint64_t digest : digests(events))
+    all.add(digest);
+  EXPECT_EQ(all.value64(), 6834764683246221259U);
+  EXPECT_EQ(only<RaceFinished>(events).front().elites.front().configuration, 229);
+}
+
+TEST(IteratedRace, ImprovesOnItsFirstConfigurations) {
+  const auto events = run(small_scenario());
+  const auto ends = only<IterationEnded>(events);
+  ASSERT_GE(ends.size(), 3U);
+  EXPECT_LT(ends.back().elites.front().mean, ends.front().elites.front().mean);
+}
+
+TEST(IteratedRace, StaysWithinItsBudget) {
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    const auto events = run(small_scenario(seed));
+    std::int64_t used = 0;
+    for (const IterationEnded& end : only<IterationEnded>(events)) {
+      used += end.used;
+      EXPECT_EQ(end.remaining, 1500 - used);
+    }
+    EXPECT_LE(used, 1500) << "seed " << seed;
+    EXPECT_EQ(only<RaceFinished>(events).size(), 1U);
+  }
+}
+
+TEST(IteratedRace, CountsWhatItReports) {
+  const auto events = run(small_scenario());
+  std::int64_t evaluated = 0;
+  for (const RaceStep& step : only<RaceStep>(events)) {
+    evaluated += static_cast<std::int64_t>(step.evaluated.size());
+    EXPECT_EQ(step.experiments_used, evaluated);
+  }
+}
+
+TEST(IteratedRace, NeverAsksTwiceForOneConfigurationOnOnePair) {
+  auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  std::set<std::pair<std::int64_t, std::int64_t>> seen;
+  while (!race.finished()) {
+    std::vector<double> costs;
+    for (const Experiment& wanted : race.wanted()) {
+      EXPECT_TRUE(seen.emplace(wanted.configuration, wanted.pair).second);
+      costs.push_back(synthetic_cost(race.configuration(wanted.configuration), wanted));
+    }
+    race.tell(costs);
+  }
+}
+
+TEST(IteratedRace, GivesAllConfigurationsTheSameSeedOnAPair) {
+  std::map<std::int64_t, Experiment> by_pair;
+  run(small_scenario(), [&](const Configuration& configuration, const Experiment& wanted) {
+    const auto [known, added] = by_pair.emplace(wanted.pair, wanted);
+    EXPECT_EQ(known->second.seed, wanted.seed);
+    EXPECT_EQ(known->second.instance, wanted.instance);
+    EXPECT_TRUE(wanted.instance >= 1 && wanted.instance <= 7);
+    EXPECT_TRUE(wanted.seed >= 1 && wanted.seed <= 2147483647);
+    return synthetic_cost(configuration, wanted);
+  });
+  // Each repetition of the list has every instance once.
+  std::set<std::int64_t> first_seven;
+  for (std::int64_t pair = 1; pair <= 7; ++pair)
+    first_seven.insert(by_pair.at(pair).instance);
+  EXPECT_EQ(first_seven.size(), 7U);
+}
+
+TEST(IteratedRace, WantsExperimentsInCanonicalOrder) {
+  auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  while (!race.finished()) {
+    std::set<std::int64_t> finished_pairs;
+    const auto wanted = race.wanted();
+    for (std::size_t i = 1; i < wanted.size(); ++i) {
+      if (wanted[i].pair == wanted[i - 1].pair) {
+        EXPECT_LT(wanted[i - 1].configuration, wanted[i].configuration);
+      } else {
+        EXPECT_TRUE(finished_pairs.insert(wanted[i - 1].pair).second);
+      }
+    }
+    std::vector<double> costs;
+    for (const Experiment& experiment : wanted) {
+      costs.push_back(synthetic_cost(race.configuration(experiment.configuration), experiment));
+    }
+    race.tell(costs);
+  }
+}
+
+TEST(IteratedRace, DropsNoEliteThatHasSeenMoreThanItsRivals) {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    std::map<std::int64_t, std::set<std::int64_t>> pairs;  // by configuration
+    std::map<std::int64_t, std::int64_t> known_before;     // of the elites, in this iteration
+    for (const RaceEvent& event : run(small_scenario(seed))) {
+      if (const auto* started = std::get_if<IterationStarted>(&event)) {
+        known_before.clear();
+        for (const std::int64_t elite : started->elites) {
+          known_before[elite] = static_cast<std::int64_t>(pairs[elite].size());
+        }
+      }
+      const auto* step = std::get_if<RaceStep>(&event);
+      if (step == nullptr) continue;
+      for (const std::int64_t id : step->evaluated)
+        pairs[id].insert(step->pair);
+      for (const Elimination& dropped : step->eliminations) {
+        if (!known_before.contains(dropped.configuration)) continue;
+        EXPECT_GE(step->task, known_before[dropped.configuration]) << "seed " << seed;
+        EXPECT_GE(pairs[step->best].size(), pairs[dropped.configuration].size());
+      }
+    }
+  }
+}
+
+TEST(IteratedRace, SamplesOnlyValidConfigurations) {
+  const ParameterSpace space = small_space();
+  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(run(small_scenario()))) {
+    EXPECT_TRUE(space.check(sampled.configuration).has_value()) << sampled.id;
+    EXPECT_EQ(sampled.configuration.is_active(4), sampled.configuration[0] == 1);
+  }
+}
+
+TEST(IteratedRace, NumbersConfigurationsFromOneWithoutGaps) {
+  std::int64_t last = 0;
+  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(run(small_scenario()))) {
+    EXPECT_EQ(sampled.id, ++last);
+    EXPECT_LT(sampled.parent, sampled.id);
+    EXPECT_EQ(sampled.parent == 0, sampled.iteration == 1);
+  }
+}
+
+TEST(IteratedRace, AvoidsForbiddenConfigurations) {
+  const Expression clause =
+      call(Operation::And, equals("kind", "a"), call(Operation::Less, name("x"), number(8)));
+  ParameterSpace space =
+      space_of({make_categorical("kind", {"a", "b"}), make_real("x", 0, 10)}, {clause});
+  Scenario scenario = small_scenario();
+  auto race = IteratedRace::start(space, scenario).value();
+  for (const auto& sampled : only<ConfigurationSampled>(run_to_end(race, synthetic_cost))) {
+    EXPECT_FALSE(space.is_forbidden(sampled.configuration));
+  }
+}
+
+TEST(IteratedRace, TakesGivenConfigurationsFirst) {
+  const ParameterSpace space = small_space();
+  Configuration given(space.size());
+  for (const auto& [index, value] : {std::pair{0, 0.0}, {1, 2.5}, {2, 10.0}, {3, 1.0}}) {
+    given.set(static_cast<std::size_t>(index), value);
+  }
+  auto race = IteratedRace::start(space, small_scenario(), {given}).value();
+  EXPECT_EQ(race.configuration(1), given);
+  EXPECT_EQ(race.wanted().front().configuration, 1);
+  EXPECT_EQ(only<ConfigurationSampled>(race.take_events()).front().iteration, 0);
+}
+
+TEST(IteratedRace, RefusesGivenConfigurationsThatAreNotInTheSpace) {
+  Configuration given(5);
+  const auto race = IteratedRace::start(small_space(), small_scenario(), {given});
+  ASSERT_FALSE(race.has_value());
+  EXPECT_THAT(to_string(race.error()), HasSubstr("initial configuration 1, kind"));
+}
+
+TEST(IteratedRace, SaysTheSmallestBudgetThatWorks) {
+  Scenario scenario = small_scenario();
+  scenario.max_experiments = 10;
+  const auto refused = IteratedRace::start(small_space(), scenario);
+  ASSERT_FALSE(refused.has_value());
+  EXPECT_THAT(refused.error().message, HasSubstr("180"));
+  scenario.max_experiments = 179;
+  EXPECT_FALSE(IteratedRace::start(small_space(), scenario).has_value());
+  scenario.max_experiments = 180;
+  EXPECT_TRUE(IteratedRace::start(small_space(), scenario).has_value());
+}
+
+TEST(IteratedRace, RaisesTheBudgetToMinExperiments) {
+  Scenario scenario = small_scenario();
+  scenario.max_experiments = 10;
+  scenario.min_experiments = 10;
+  EXPECT_EQ(IteratedRace::start(small_space(), scenario).value().budget(), 180);
+}
+
+TEST(IteratedRace, ForbidsWhatWasRejected) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  // Rejected for good: category b, so that whole combinations with b die again and again.
+  std::set<std::uint64_t> rejected;
+  const ParameterSpace space = space_of(
+      {make_categorical("kind", {"a", "b"}), make_integer("n", 1, 40), make_integer("k", 1, 3)});
+  Scenario scenario = small_scenario();
+  auto race = IteratedRace::start(space, scenario).value();
+  const auto events = run_to_end(race, [&](const Configuration& c, const Experiment& wanted) {
+    if (c[0] == 1) return kInfinity;
+    return synthetic_cost(c, wanted);
+  });
+  for (const RaceEvent& event : events) {
+    if (const auto* sampled = std::get_if<ConfigurationSampled>(&event)) {
+      EXPECT_FALSE(sampled->iteration > 1 && rejected.contains(sampled->configuration.digest()));
+    }
+    if (const auto* step = std::get_if<RaceStep>(&event)) {
+      for (const Elimination& dropped : step->eliminations) {
+        if (dropped.reason != EliminationReason::Rejection) continue;
+        rejected.insert(race.configuration(dropped.configuration).digest());
+      }
+    }
+    if (const auto* end = std::get_if<IterationEnded>(&event)) {
+      for (const Elite& elite : end->elites) {
+        EXPECT_EQ(race.configuration(elite.configuration)[0], 0);
+      }
+    }
+  }
+  EXPECT_FALSE(rejected.empty());
+  EXPECT_FALSE(race.failure().has_value());
+}
+
+TEST(IteratedRace, CountsNoRunsThatARejectionMadeVoid) {
+  auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  const auto events = run_to_end(race, [](const Configuration& c, const Experiment& wanted) {
+    const bool crashes = c[2] > 50 && wanted.pair % 2 == 0;
+    return crashes ? -std::numeric_limits<double>::infinity() : synthetic_cost(c, wanted);
+  });
+  std::set<std::int64_t> rejected;
+  std::int64_t counted = 0;
+  for (const RaceStep& step : only<RaceStep>(events)) {
+    for (const std::int64_t id : step.evaluated)
+      EXPECT_FALSE(rejected.contains(id));
+    counted += static_cast<std::int64_t>(step.evaluated.size());
+    for (const Elimination& dropped : step.eliminations) {
+      if (dropped.reason == EliminationReason::Rejection) rejected.insert(dropped.configuration);
+    }
+  }
+  EXPECT_FALSE(rejected.empty());
+  EXPECT_EQ(counted, race.experiments_used());
+}
+
+TEST(IteratedRace, TellsItsProgress) {
+  auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  EXPECT_EQ(race.iteration(), 1);
+  EXPECT_EQ(race.n_iterations(), 4);
+  EXPECT_EQ(race.experiments_used(), 0);
+  EXPECT_EQ(race.remaining(), 1500);
+  EXPECT_EQ(race.n_alive(), race.n_configurations());
+  const std::vector<double> costs(race.wanted().size(), 1);
+  race.tell(costs);
+  EXPECT_EQ(race.experiments_used(), static_cast<std::int64_t>(costs.size()));
+}
+
+TEST(IteratedRace, RacesEqualCostsToTheEnd) {
+  // Nothing can ever be told apart: the limit of tests without elimination ends each race.
+  const auto events =
+      run(small_scenario(), [](const Configuration&, const Experiment&) { return 1.0; });
+  for (const RaceStep& step : only<RaceStep>(events)) {
+    EXPECT_EQ(step.eliminations.size(), 0U);
+    EXPECT_FALSE(step.p_value.has_value());
+  }
+  EXPECT_FALSE(only<RaceFinished>(events).front().elites.empty());
+}
+
+TEST(IteratedRace, FailsWhenEverythingIsRejected) {
+  auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  run_to_end(race, [](const Configuration&, const Experiment&) {
+    return std::numeric_limits<double>::infinity();
+  });
+  ASSERT_TRUE(race.failure().has_value());
+  EXPECT_THAT(race.failure()->message, HasSubstr("rejected"));
+  EXPECT_THAT(race.elites(), IsEmpty());
+}
+
+TEST(IteratedRace, RefusesCostsThatBreakTheContract) {
+  auto race = IteratedRace::start(small_space(), small_scenario()).value();
+  std::vector<double> costs(race.wanted().size(), 1);
+  costs.back() = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(race.tell(costs), std::invalid_argument);
+  costs.pop_back();
+  EXPECT_THROW(race.tell(costs), std::invalid_argument);
+  EXPECT_THROW(race.configuration(0), std::out_of_range);
+}
+
+TEST(IteratedRace, KeepsEachEliteOnce) {
+  const auto events = run(small_scenario());
+  for (const IterationEnded& end : only<IterationEnded>(events)) {
+    std::set<std::int64_t> ids;
+    double last_rank = 0;
+    for (const Elite& elite : end.elites) {
+      EXPECT_TRUE(ids.insert(elite.configuration).second);
+      EXPECT_GE(elite.rank, last_rank);
+      last_rank = elite.rank;
+    }
+  }
+}
+
+TEST(IteratedRace, RestartsSoftlyWhenConfigurationsAreAlike) {
+  // A space of eight points is exhausted at once.
+  const ParameterSpace space = space_of({make_categorical("kind", {"a", "b", "c", "d"}),
+                                         make_categorical("more", {"a", "b", "c", "d"})});
+  Scenario scenario = small_scenario();
+  scenario.max_experiments = 600;
+  auto race = IteratedRace::start(space, scenario).value();
+  const auto starts = only<IterationStarted>(run_to_end(race, synthetic_cost));
+  ASSERT_GE(starts.size(), 2U);
+  EXPECT_FALSE(starts.front().soft_restart);
+  EXPECT_TRUE(starts[1].soft_restart);
+}
+
+TEST(IteratedRace, ReportsAnEmptyDependentDomainWithItsParameter) {
+  std::vector<Parameter> parameters{make_integer("n", 1, 9)};
+  parameters.push_back({"m", "", Integer{4.0, name("n")}, {}});
+  const auto race = IteratedRace::start(space_of(std::move(parameters)), small_scenario());
+  ASSERT_FALSE(race.has_value());
+  EXPECT_EQ(race.error().where, "m");
+}
+
+TEST(IteratedRace, HonoursTheCapOnConfigurations) {
+  Scenario scenario = small_scenario();
+  scenario.max_configurations_per_race = 12;
+  for (const IterationStarted& start : only<IterationStarted>(run(scenario))) {
+    EXPECT_LE(start.n_configurations, 12);
+  }
+}
+
+TEST(IteratedRace, StopsAtTheIterationsThatWereAskedFor) {
+  Scenario scenario = small_scenario();
+  scenario.nb_iterations = 2;
+  const auto events = run(scenario);
+  EXPECT_EQ(only<IterationStarted>(events).size(), 2U);
+  EXPECT_EQ(only<RaceFinished>(events).front().reason, "limit of iterations");
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,168 @@
+#include "sim/mission/score.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+
+#include "base/rng.h"
+#include "sim/mission/mission.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Scorer of a built-in mission on its instance of seed 1.
+Scorer scorer_of(const std::string& name) {
+  const Mission mission = built_in_mission(name).value();
+  return Scorer(mission.rule, arena_of(mission, instance_of(mission, 1).value()));
+}
+
+double score_after(Scorer scorer, const std::vector<std::vector<Point>>& instants) {
+  for (const std::vector<Point>& robots : instants)
+    scorer.observe(robots);
+  return scorer.score();
+}
+
+std::vector<std::vector<Point>> random_walks(int instants) {
+  Rng rng(2);
+  std::vector<std::vector<Point>> walks;
+  for (int i = 0; i < instants; ++i) {
+    std::vector<Point>& robots = walks.emplace_back();
+    for (int r = 0; r < 3; ++r)
+      robots.push_back({rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2)});
+  }
+  return walks;
+}
+
+// --- What holds for the score of every mission ---------------------------------------------------
+
+class EveryMission : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(EveryMission, ScoresNothingAsZero) {
+  EXPECT_EQ(scorer_of(GetParam()).score(), 0);
+}
+
+TEST_P(EveryMission, DoesNotDependOnTheOrderOfTheRobots) {
+  const auto walks = random_walks(200);
+  auto turned = walks;
+  for (std::size_t i = 0; i < turned.size(); ++i) {
+    std::rotate(turned[i].begin(), turned[i].begin() + 1 + static_cast<int>(i % 2),
+                turned[i].end());
+  }
+  EXPECT_EQ(score_after(scorer_of(GetParam()), walks), score_after(scorer_of(GetParam()), turned));
+}
+
+TEST_P(EveryMission, CanBeAskedAtAnyInstantAndGoOn) {
+  const auto walks = random_walks(100);
+  Scorer asked = scorer_of(GetParam());
+  for (const auto& robots : walks) {
+    asked.observe(robots);
+    EXPECT_EQ(asked.score(), asked.score());
+  }
+  EXPECT_EQ(asked.score(), score_after(scorer_of(GetParam()), walks));
+}
+
+TEST_P(EveryMission, BearsAnEmptyArenaAndRobotsFarAway) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double infinity = std::numeric_limits<double>::infinity();
+  Scorer scorer = scorer_of(GetParam());
+  scorer.observe({});
+  for (const Point point : {Point{1e300, -1e300}, Point{infinity, 0}, Point{nan, nan},
+                            Point{-1.250006, 0}, Point{1.25, 1.26}}) {
+    scorer.observe(std::vector<Point>{point});
+  }
+  EXPECT_LE(scorer.score(), 0);
+}
+
+TEST_P(EveryMission, GivesACopyALifeOfItsOwn) {
+  const auto walks = random_walks(50);
+  Scorer scorer = scorer_of(GetParam());
+  scorer.observe(walks[0]);
+  const double before = scorer.score();
+  Scorer copy = scorer;
+  for (const auto& robots : walks)
+    copy.observe(robots);
+  EXPECT_EQ(scorer.score(), before);
+}
+
+INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryMission,
+                         ::testing::Values("aggregation", "grid_exploration", "color_selection"));
+
+// --- Aggregation ---------------------------------------------------------------------------------
+
+TEST(RobotsOn, CountsThoseOnTheColorAtTheEnd) {
+  const Scorer scorer = scorer_of("aggregation");
+  EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.5, 0}, {0.51, 0}}}), 2);
+  EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.1, 0}, {0.2, 0}}, {{1, 0}, {1, 0}, {0, 0.2}}}), 1);
+}
+
+// --- Grid exploration ----------------------------------------------------------------------------
+
+TEST(Coverage, ThreeRobotsThatStandOnTilesOfTheirOwnCost697818) {
+  const std::vector<Point> robots = {{-0.9, 0.1}, {0.1, 0.1}, {0.6, -0.4}};
+  EXPECT_EQ(score_after(scorer_of("grid_exploration"), {1200, robots}), -697818);
+}
+
+TEST(Coverage, TwoRobotsOnOneTileCountOnce) {
+  const std::vector<Point> robots = {{0.05, 0.1}, {0.1, 0.1}, {0.6, -0.4}};
+  EXPECT_EQ(score_after(scorer_of("grid_exploration"), {1200, robots}), -7194.0 * 98);
+}
+
+/// The definition, counter by counter (rvr-automode facts, section 8).
+double cost_by_counters(const std::vector<std::vector<Point>>& instants, int tiles, double side_m) {
+  std::vector<int> counters(static_cast<std::size_t>(tiles * tiles));
+  double total = 0;
+  for (const auto& robots : instants) {
+    for (const Point robot : robots) {
+      const int column = static_cast<int>(std::floor(tiles * (robot.x / side_m + 0.5)));
+      const int row = static_cast<int>(std::floor(tiles * (robot.y / side_m + 0.5)));
+      counters[static_cast<std::size_t>(row * tiles + column)] = 0;
+    }
+    for (int& counter : counters)
+      total += counter++;
+  }
+  return total / (tiles * tiles);
+}
+
+TEST(Coverage, AgreesWithAHundredCounters) {
+  const auto walks = random_walks(1200);
+  EXPECT_NEAR(score_after(scorer_of("grid_exploration"), walks),
+              -cost_by_counters(walks, 10, 2.50001), 1e-9);
+  const Scorer coarse(Coverage{.tiles = 3, .side_m = 3}, Arena{.walls = {}, .patches = {}});
+  EXPECT_NEAR(score_after(coarse, walks), -cost_by_counters(walks, 3, 3), 1e-9);
+}
+
+TEST(Coverage, WorkedOutByHandOnFourTiles) {
+  // Ages at the instants 1, 2, 3. Visited at 1: 0 1 2. Visited at 2: 0 0 1. Never: 0 1 2 twice.
+  const Scorer scorer(Coverage{.tiles = 2, .side_m = 2}, Arena{.walls = {}, .patches = {}});
+  EXPECT_EQ(score_after(scorer, {{{-0.5, -0.5}}, {{0.5, -0.5}}, {}}), -(3 + 1 + 3 + 3) / 4.0);
+}
+
+TEST(Coverage, NeedsTilesAndASide) {
+  const Arena arena{.walls = {}, .patches = {}};
+  EXPECT_THROW(Scorer(Coverage{.tiles = 0, .side_m = 1}, arena), std::invalid_argument);
+  EXPECT_THROW(Scorer(Coverage{.tiles = 2, .side_m = 0}, arena), std::invalid_argument);
+}
+
+// --- Colour selection ----------------------------------------------------------------------------
+
+TEST(ColorReward, SumsTheRewardsOfTheColorsUnderTheRobots) {
+  const Mission mission = built_in_mission("color_selection").value();
+  const Instance instance{.starts = {},
+                          .patches = {{Rectangle{{0.25, 0.25}, 0.30, 0.30}, {0, 255, 0}},
+                                      {Rectangle{{-0.25, 0.25}, 0.30, 0.30}, {255, 0, 0}},
+                                      {Rectangle{{-0.25, -0.25}, 0.30, 0.30}, {255, 255, 0}}}};
+  const Scorer scorer(mission.rule, arena_of(mission, instance));
+  const Point green{0.3, 0.3};
+  const Point red{-0.3, 0.3};
+  const Point yellow{-0.3, -0.3};
+  EXPECT_EQ(score_after(scorer, {{green, red, yellow}}), 3);
+  EXPECT_EQ(score_after(scorer, {{yellow, yellow, yellow}}), 6);
+  EXPECT_EQ(score_after(scorer, {{{0, 0}, {1, 1}, green}}), 0);
+  EXPECT_EQ(score_after(scorer, {{yellow, yellow, yellow}, {red, green, {0, 0}}}), 1);
+}
+
+}  // namespace
+}  // namespace swarmsmith
