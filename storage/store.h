@@ -62,6 +62,8 @@ class Store {
   virtual std::vector<StoredStep> steps() = 0;
   /// How far each design is, in the order of their ids.
   virtual std::vector<DesignStateRow> design_states() = 0;
+  /// The number for the next worker that comes, after all that ever came.
+  virtual std::int64_t next_worker() = 0;
   /// Whether the campaign's row says that it is finished.
   virtual bool finished() = 0;
 };

@@ -97,7 +97,9 @@ class CampaignRun {
     if (!plans) return fail(output_, ExitCode::Usage, plans.error());
     CampaignRunner runner = replay(std::move(*plans));
     if (runner.error()) return fail_of(*runner.error());
-    auto service = Service::open(service_options(campaign_, options_), store_, runner);
+    ServiceOptions service_for = service_options(campaign_, options_);
+    service_for.coordinator.scheduler.first_worker = store_.next_worker();
+    auto service = Service::open(std::move(service_for), store_, runner);
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
     if (options_.announce) announce((*service)->endpoint());
     const int processes = local_processes(campaign_, options_);

@@ -184,6 +184,11 @@ std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connect
   return states;
 }
 
+std::int64_t read_next_worker(const sqlite::Connection& connection) {
+  Statement row(connection, "SELECT coalesce(max(id), 0) + 1 FROM worker");
+  return row.step() ? row.integer(0) : 1;
+}
+
 bool is_finished(const sqlite::Connection& connection) {
   return sqlite::text_of(connection, "SELECT state FROM campaign") == "finished";
 }

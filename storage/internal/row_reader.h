@@ -15,6 +15,7 @@ std::vector<DesignRow> read_designs(const sqlite::Connection& connection);
 std::vector<StoredScore> read_scores(const sqlite::Connection& connection);
 std::vector<StoredStep> read_steps(const sqlite::Connection& connection);
 std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection);
+std::int64_t read_next_worker(const sqlite::Connection& connection);
 /// Whether the campaign's row says that it is finished.
 bool is_finished(const sqlite::Connection& connection);
 

@@ -35,7 +35,7 @@ std::vector<std::string> names_of(const ParameterSpace& space) {
 Configuration random_configuration(const ParameterSpace& space, Rng& rng) {
   Configuration configuration(space.size());
   for (const std::size_t i : space.hierarchy_order()) {
-    const auto values = space.scalars(configuration);
+    const Assignment values(space, configuration);
     if (!space.is_active(i, values)) continue;
     if (!space.is_numeric(i)) {
       configuration.set(i, static_cast<double>(rng.below(space.value_count(i))));
