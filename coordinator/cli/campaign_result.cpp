@@ -41,7 +41,9 @@ void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tes
     std::vector<Cell> added(3);
     if (const auto found = tests.find(cells[0].text); found != tests.end()) {
       const MeanInterval interval = mean_interval(found->second);
-      added = {number_cell(interval.mean), number_cell(interval.half_width),
+      // One value has no interval.
+      const bool several = found->second.size() > 1;
+      added = {number_cell(interval.mean), several ? number_cell(interval.half_width) : Cell{},
                {Cell::Type::Integer, std::to_string(found->second.size())}};
     }
     cells.insert(cells.end() - 1, added.begin(), added.end());
@@ -64,8 +66,11 @@ void write_text(Output& output, const Rows& rows) {
     output.out << "  best " << cells[6].text << ", mean score " << four_digits(cells[7].text)
                << " in the race";
     if (cells[8].type != Cell::Type::Null) {
-      output.out << ", " << four_digits(cells[8].text) << " +- " << four_digits(cells[9].text)
-                 << " (95 %) on " << cells[10].text << " fresh seeds";
+      output.out << ", " << four_digits(cells[8].text);
+      if (cells[9].type != Cell::Type::Null) {
+        output.out << " +- " << four_digits(cells[9].text) << " (95 %)";
+      }
+      output.out << " on " << cells[10].text << " fresh seeds";
     }
     output.out << "\n  " << cells[11].text << "\n";
   }

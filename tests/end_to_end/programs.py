@@ -112,4 +112,4 @@ class ProgramTest(unittest.TestCase):
     def query(self, store, sql):
         done = call("query", store, sql, "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
-        return json.loads(done.stdout)
+        return json.loads(done.stdout)["rows"]

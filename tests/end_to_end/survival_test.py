@@ -74,7 +74,7 @@ class Survival(ProgramTest):
         from programs import call
         import json
         done = call("query", store, "select count(*) as n from evaluation", "--json")
-        return json.loads(done.stdout)[0]["n"] if done.returncode == 0 else 0
+        return json.loads(done.stdout)["rows"][0]["n"] if done.returncode == 0 else 0
 
     def test_a_stopped_worker_is_waited_for_or_replaced(self):
         store = self.folder / "stopped.db"
