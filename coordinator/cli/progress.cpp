@@ -35,9 +35,15 @@ std::size_t Progress::terminal_width() {
   return known ? size.ws_col - 1U : 79U;
 }
 
+bool Progress::repeats_state(const Row& row) const {
+  const auto* state = std::get_if<DesignStateRow>(&row);
+  return state != nullptr && model_.design(state->design).state == state->state;
+}
+
 void Progress::add(const Row& row, TimePoint now) {
+  const bool news = !repeats_state(row);
   model_.add(row);
-  if (form_ == Form::Silent) return;
+  if (form_ == Form::Silent || !news) return;
   if (form_ == Form::Json) {
     const std::string event = event_json(row);
     if (!event.empty()) output_.out << event << '\n' << std::flush;
@@ -49,10 +55,7 @@ void Progress::add(const Row& row, TimePoint now) {
 /// Lines for people. A row that is not told of here changes the status line.
 void Progress::write_row(const Row& row, TimePoint now) {
   if (const auto* state = std::get_if<DesignStateRow>(&row)) {
-    // A race tells its state after each iteration; only its beginning and end are news.
-    if (state->state != DesignState::Racing || race_lines_) {
-      add_line(state_line(*state, model_.design(state->design)));
-    }
+    add_line(state_line(*state, model_.design(state->design)));
   } else if (const auto* event = std::get_if<EventRow>(&row)) {
     if (event->severity != "info" || output_.verbose) add_line(event_line(*event));
   }
