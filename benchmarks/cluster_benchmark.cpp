@@ -3,6 +3,8 @@
 //
 //   cluster_benchmark [EVALUATIONS [WORKERS [WORK_US]]]
 
+#include <sys/resource.h>
+#include <unistd.h>
 #include <atomic>
 #include <chrono>
 #include <cstdio>
@@ -11,8 +13,6 @@
 #include <ctime>
 #include <filesystem>
 #include <string>
-#include <sys/resource.h>
-#include <unistd.h>
 #include <vector>
 
 #include "base/hash.h"
@@ -141,11 +141,12 @@ int measure(std::int64_t evaluations, int workers, const std::string& work_us) {
   const double main_us = 1e6 * (cpu_of_thread() - thread_before) / static_cast<double>(evaluations);
   const double all_us =
       1e6 * (cpu_of_process() - process_before) / static_cast<double>(evaluations);
-  std::printf("%lld evaluations of %s us, %d workers: %.0f/s; coordinator CPU %.2f us each, "
-              "%.2f of it in the main thread%s\n",
-              static_cast<long long>(evaluations), work_us.c_str(), workers,
-              static_cast<double>(evaluations) / wall.count(), all_us, main_us,
-              end.how == ServiceEnd::How::Finished ? "" : " (NOT FINISHED)");
+  std::printf(
+      "%lld evaluations of %s us, %d workers: %.0f/s; coordinator CPU %.2f us each, "
+      "%.2f of it in the main thread%s\n",
+      static_cast<long long>(evaluations), work_us.c_str(), workers,
+      static_cast<double>(evaluations) / wall.count(), all_us, main_us,
+      end.how == ServiceEnd::How::Finished ? "" : " (NOT FINISHED)");
   service->reset();
   store->reset();
   std::filesystem::remove_all(folder);

@@ -57,10 +57,10 @@ void Coordinator::on_malformed(PeerId peer, const Error& error, TimePoint now) {
   Fault& fault = faults_[peer];
   if (++fault.count < options_.malformed_limit) return;
   fault.refused_until = now + options_.refuse_for;
-  own_rows_.emplace_back(EventRow{.severity = "warning",
-                                  .kind = "peer refused",
-                                  .text = event_text({{"frames", std::int64_t{fault.count}},
-                                                      {"last", error.message}})});
+  own_rows_.emplace_back(EventRow{
+      .severity = "warning",
+      .kind = "peer refused",
+      .text = event_text({{"frames", std::int64_t{fault.count}}, {"last", error.message}})});
   scheduler_.on_refused(peer, now);
 }
 
@@ -88,7 +88,9 @@ void Coordinator::on_message(PeerId peer, const pb::ToCoordinator& message, Time
     case pb::ToCoordinator::kCredit:
       scheduler_.on_credit(sender, message.credit().tasks(), now);
       return;
-    case pb::ToCoordinator::kResults: on_results(sender, message.results(), now); return;
+    case pb::ToCoordinator::kResults:
+      on_results(sender, message.results(), now);
+      return;
     case pb::ToCoordinator::kHeartbeat:
       running_of(message.heartbeat(), running_);
       scheduler_.on_heartbeat(sender, message.heartbeat().credit(), running_, now);
@@ -96,13 +98,17 @@ void Coordinator::on_message(PeerId peer, const pb::ToCoordinator& message, Time
     case pb::ToCoordinator::kReturned:
       scheduler_.on_returned(sender, keys_of(message.returned()), now);
       return;
-    case pb::ToCoordinator::kGoodbye: scheduler_.on_goodbye(sender, now); return;
+    case pb::ToCoordinator::kGoodbye:
+      scheduler_.on_goodbye(sender, now);
+      return;
     case pb::ToCoordinator::kWantScenario:
       if (scheduler_.on_sign_of_life(sender, now)) {
         send(peer, scenario_reply_of(facts_, sender.incarnation));
       }
       return;
-    case pb::ToCoordinator::BODY_NOT_SET: scheduler_.on_sign_of_life(sender, now); return;
+    case pb::ToCoordinator::BODY_NOT_SET:
+      scheduler_.on_sign_of_life(sender, now);
+      return;
   }
 }
 
@@ -122,7 +128,9 @@ void Coordinator::on_unreachable(PeerId peer, TimePoint now) {
   scheduler_.on_unreachable(peer, now);
 }
 
-void Coordinator::on_tick(TimePoint now) { scheduler_.on_tick(now); }
+void Coordinator::on_tick(TimePoint now) {
+  scheduler_.on_tick(now);
+}
 
 // --- actions ---
 
@@ -184,7 +192,8 @@ void Coordinator::acknowledge(const std::map<WorkerNumber, std::vector<PackedKey
 
 bool Coordinator::progress() {
   std::vector<SchedulerAction> actions = scheduler_.take_actions();
-  for (SchedulerAction& action : actions) carry_out(action);
+  for (SchedulerAction& action : actions)
+    carry_out(action);
   std::vector<Task> tasks = source_->take_tasks();
   const bool more = !actions.empty() || !tasks.empty();
   if (!tasks.empty()) scheduler_.add(std::move(tasks));
@@ -231,7 +240,8 @@ void Coordinator::on_committed(std::uint64_t ticket) {
       const auto at = waiting_.find(key);
       if (at == waiting_.end()) continue;
       keys[at->second.first].push_back(key);
-      for (const WorkerNumber other : at->second.others) keys[other].push_back(key);
+      for (const WorkerNumber other : at->second.others)
+        keys[other].push_back(key);
       waiting_.erase(at);
     }
     appended_.pop_front();

@@ -21,7 +21,7 @@ namespace swarmsmith {
 struct CoordinatorOptions {
   SchedulerOptions scheduler;
   std::string campaign_digest;
-  std::string scenario;         ///< serialised pb::Scenario; opaque here
+  std::string scenario;  ///< serialised pb::Scenario; opaque here
   /// A peer whose frames were wrong this often is not listened to for `refuse_for`.
   int malformed_limit = 10;
   Duration refuse_for = std::chrono::seconds(60);

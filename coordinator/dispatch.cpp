@@ -45,7 +45,8 @@ void Scheduler::pardon(TimePoint now) {
   for (auto& [number, entry] : workers_.all()) {
     if (!entry.connected) continue;
     entry.last_heard = now;
-    for (const PackedKey key : leases_.leases_of(number)) leases_.find(key)->lease->renewed = now;
+    for (const PackedKey key : leases_.leases_of(number))
+      leases_.find(key)->lease->renewed = now;
   }
 }
 
@@ -125,8 +126,7 @@ bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
     entry.reserved = false;
   }
   const auto held = static_cast<std::int64_t>(leases_.leases_of(entry.number).size());
-  std::int64_t room =
-      std::min<std::int64_t>(entry.credit, share * entry.hello.slots) - held;
+  std::int64_t room = std::min<std::int64_t>(entry.credit, share * entry.hello.slots) - held;
   if (room <= 0) return true;
   const bool elsewhere = workers_.connected() > 1;
   SendTasks message{entry.peer, entry.hello.incarnation, {}};

@@ -20,7 +20,8 @@ DoneEntry entry_of(PackedKey key, EvaluationStatus status, double score,
 std::size_t DoneTable::place_of(PackedKey key) const {
   const std::size_t mask = entries_.size() - 1;
   std::size_t at = static_cast<std::size_t>(mix64(key)) & mask;
-  while (entries_[at].key != 0 && entries_[at].key != key) at = (at + 1) & mask;
+  while (entries_[at].key != 0 && entries_[at].key != key)
+    at = (at + 1) & mask;
   return at;
 }
 

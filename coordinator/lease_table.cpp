@@ -70,7 +70,9 @@ TaskRecord* LeaseTable::next(WorkerNumber worker, bool skip_avoided) {
   return nullptr;
 }
 
-TaskRecord* LeaseTable::next_alone() { return front_of(alone_); }
+TaskRecord* LeaseTable::next_alone() {
+  return front_of(alone_);
+}
 
 void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now) {
   SWARMSMITH_ASSERT(!record.lease, "a task that is granted has no lease");

@@ -21,9 +21,9 @@ struct Lease {
   WorkerNumber worker = 0;
   std::int64_t attempt = 0;
   TimePoint granted;
-  TimePoint renewed;       ///< when the worker last said that it runs
-  bool adopted = false;    ///< the worker had it already when it came back
-  bool alone = false;      ///< the worker has nothing else
+  TimePoint renewed;     ///< when the worker last said that it runs
+  bool adopted = false;  ///< the worker had it already when it came back
+  bool alone = false;    ///< the worker has nothing else
 };
 
 /// A task on its way to its first outcome, and what went wrong so far.
@@ -31,9 +31,9 @@ struct TaskRecord {
   Task task;
   std::optional<Lease> lease;
   std::int64_t attempts = 0;
-  int failures = 0;        ///< workers said that there is no score
-  int deaths = 0;          ///< worker processes that died while it ran alone
-  int losses = 0;          ///< workers that fell silent while it may have run
+  int failures = 0;  ///< workers said that there is no score
+  int deaths = 0;    ///< worker processes that died while it ran alone
+  int losses = 0;    ///< workers that fell silent while it may have run
   int timeouts = 0;
   WorkerNumber avoid = 0;  ///< try elsewhere, if there is an elsewhere
   bool alone = false;      ///< it may have killed a worker: nothing else may run beside it

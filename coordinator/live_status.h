@@ -9,18 +9,18 @@ namespace swarmsmith {
 struct LiveStatus {
   std::int64_t workers = 0;
   std::int64_t slots = 0;
-  std::int64_t ready = 0;    ///< tasks that wait for a slot
+  std::int64_t ready = 0;  ///< tasks that wait for a slot
   std::int64_t leased = 0;
-  std::int64_t done = 0;     ///< outcomes since the start of this process
+  std::int64_t done = 0;  ///< outcomes since the start of this process
   std::int64_t rejected = 0;
-  std::int64_t failed = 0;   ///< attempts without a score
+  std::int64_t failed = 0;  ///< attempts without a score
   std::int64_t requeued = 0;
   std::int64_t duplicates = 0;
   std::int64_t conflicts = 0;
   std::int64_t malformed = 0;
   std::int64_t uncommitted = 0;  ///< outcomes that are not on disk yet
   double evaluations_per_s = 0;  ///< over the last seconds
-  std::string trouble;       ///< why nothing can be written; empty when well
+  std::string trouble;           ///< why nothing can be written; empty when well
 };
 
 }  // namespace swarmsmith

@@ -1,15 +1,15 @@
 #include "coordinator/local_workers.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <csignal>
-#include <cstdlib>
-#include <cstring>
 #include <poll.h>
 #include <sched.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
+#include <algorithm>
+#include <cerrno>
+#include <csignal>
+#include <cstdlib>
+#include <cstring>
 #include <utility>
 
 namespace swarmsmith {
@@ -22,7 +22,9 @@ constexpr Duration kEndGrace = std::chrono::seconds(2);
 /// swarmsmith-worker's exit code for a coordinator that does not want it.
 constexpr int kRefused = 7;
 
-TimePoint now_of_system() { return SystemClock().now(); }
+TimePoint now_of_system() {
+  return SystemClock().now();
+}
 
 int available_cpus() {
   cpu_set_t mask;
@@ -57,12 +59,10 @@ Expected<LocalWorkers> LocalWorkers::start(const LocalWorkersOptions& options) {
     program = std::move(*found);
   }
   const int processes = std::max(1, options.processes);
-  const int slots =
-      options.slots > 0 ? options.slots : std::max(1, available_cpus() / processes);
-  workers.command_ = {program.string(),      "--connect",
-                      options.endpoint,      "--slots",
-                      std::to_string(slots), "--die-with-parent",
-                      "--parent",            std::to_string(getpid())};
+  const int slots = options.slots > 0 ? options.slots : std::max(1, available_cpus() / processes);
+  workers.command_ = {
+      program.string(),      "--connect",         options.endpoint, "--slots",
+      std::to_string(slots), "--die-with-parent", "--parent",       std::to_string(getpid())};
   workers.command_.insert(workers.command_.end(), options.arguments.begin(),
                           options.arguments.end());
   workers.children_.resize(static_cast<std::size_t>(processes));
@@ -78,14 +78,17 @@ LocalWorkers::LocalWorkers(LocalWorkers&& other) noexcept
       children_(std::exchange(other.children_, {})),
       trouble_(std::move(other.trouble_)) {}
 
-LocalWorkers::~LocalWorkers() { stop(kEndGrace); }
+LocalWorkers::~LocalWorkers() {
+  stop(kEndGrace);
+}
 
 /// The worker itself asks to die with its parent, and checks that the parent is still the one that
 /// it was told: so no moment is left in which it could be orphaned. Note that the kernel means the
 /// parent *thread*, which is why one thread does all of this.
 Expected<void> LocalWorkers::launch(Child& child, TimePoint now) {
   std::vector<char*> arguments;
-  for (std::string& word : command_) arguments.push_back(word.data());
+  for (std::string& word : command_)
+    arguments.push_back(word.data());
   arguments.push_back(nullptr);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -108,8 +111,8 @@ Expected<void> LocalWorkers::launch(Child& child, TimePoint now) {
 void LocalWorkers::on_ended(Child& child, int status, TimePoint now) {
   child.pid = 0;
   if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused) {
-    trouble_ = "the coordinator refuses its own workers (" + command_.front() +
-               " is of another build)";
+    trouble_ =
+        "the coordinator refuses its own workers (" + command_.front() + " is of another build)";
   }
   const bool lived = now - child.started >= kShortLife;
   child.pause = lived ? Duration{} : std::clamp(2 * child.pause, kFirstPause, kLongestPause);

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <sys/types.h>
 #include <filesystem>
 #include <string>
-#include <sys/types.h>
 #include <vector>
 
 #include "base/clock.h"
@@ -11,10 +11,10 @@
 namespace swarmsmith {
 
 struct LocalWorkersOptions {
-  std::string endpoint;           ///< of the coordinator
+  std::string endpoint;  ///< of the coordinator
   int processes = 1;
-  int slots = 0;                  ///< of each process; 0: as many as CPUs, shared among the processes
-  std::filesystem::path program;  ///< empty: `find_worker_program`
+  int slots = 0;  ///< of each process; 0: as many as CPUs, shared among the processes
+  std::filesystem::path program;       ///< empty: `find_worker_program`
   std::vector<std::string> arguments;  ///< more of them, for the program
 };
 

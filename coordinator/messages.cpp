@@ -11,9 +11,12 @@ std::int64_t milliseconds(Duration duration) {
 
 pb::Reject::Reason reason_of(RejectReason reason) {
   switch (reason) {
-    case RejectReason::Protocol: return pb::Reject::REASON_PROTOCOL;
-    case RejectReason::Build: return pb::Reject::REASON_BUILD;
-    case RejectReason::Limit: return pb::Reject::REASON_LIMIT;
+    case RejectReason::Protocol:
+      return pb::Reject::REASON_PROTOCOL;
+    case RejectReason::Build:
+      return pb::Reject::REASON_BUILD;
+    case RejectReason::Limit:
+      return pb::Reject::REASON_LIMIT;
   }
   return pb::Reject::REASON_UNSPECIFIED;
 }
@@ -33,7 +36,8 @@ WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uin
                   .same_scenario = hello.scenario() == scenario,
                   .holds = {}};
   out.holds.reserve(static_cast<std::size_t>(hello.holds_size()));
-  for (const pb::Key& key : hello.holds()) out.holds.push_back(*pack(key));
+  for (const pb::Key& key : hello.holds())
+    out.holds.push_back(*pack(key));
   return out;
 }
 
@@ -58,7 +62,8 @@ void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out)
 
 std::vector<PackedKey> keys_of(const pb::Returned& returned) {
   std::vector<PackedKey> keys;
-  for (const pb::Key& key : returned.keys()) keys.push_back(*pack(key));
+  for (const pb::Key& key : returned.keys())
+    keys.push_back(*pack(key));
   return keys;
 }
 
@@ -127,7 +132,8 @@ std::string frame_of(const SendDrain& action) {
 std::string acknowledgement_of(std::span<const PackedKey> keys, std::uint64_t incarnation) {
   pb::ToWorker message;
   message.set_incarnation(incarnation);
-  for (const PackedKey key : keys) unpack(key, *message.mutable_acknowledged()->add_keys());
+  for (const PackedKey key : keys)
+    unpack(key, *message.mutable_acknowledged()->add_keys());
   return encode(message);
 }
 

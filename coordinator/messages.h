@@ -20,7 +20,7 @@ std::vector<PackedKey> keys_of(const pb::Returned& returned);
 /// What a worker is told about the campaign.
 struct CampaignFacts {
   std::string campaign_digest;
-  std::string scenario;               ///< serialised
+  std::string scenario;  ///< serialised
   std::uint64_t scenario_digest = 0;
 };
 

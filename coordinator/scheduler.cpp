@@ -21,7 +21,9 @@ std::string name_of(const EvaluationKey& key) {
   return to_string(key.candidate) + " on pair " + std::to_string(key.pair);
 }
 
-double value_of(const DoneEntry& entry) { return std::bit_cast<double>(entry.score_bits); }
+double value_of(const DoneEntry& entry) {
+  return std::bit_cast<double>(entry.score_bits);
+}
 
 }  // namespace
 
@@ -39,7 +41,9 @@ void Scheduler::add(std::vector<Task> tasks) {
   }
 }
 
-std::vector<SchedulerAction> Scheduler::take_actions() { return std::exchange(actions_, {}); }
+std::vector<SchedulerAction> Scheduler::take_actions() {
+  return std::exchange(actions_, {});
+}
 
 const WorkerEntry* Scheduler::connected_worker(WorkerNumber number) {
   const WorkerEntry* entry = workers_.of_number(number);
@@ -348,9 +352,10 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
   leases_.requeue(record);
   if (record.timeouts > options_.retries) {
     stop("the evaluation of " + name_of(record.task.key) + " took longer than " +
-         std::to_string(std::chrono::duration_cast<std::chrono::seconds>(options_.task_timeout)
-                            .count()) +
-         " s in " + std::to_string(record.timeouts) + " attempts: raise task_timeout_s, or retries");
+         std::to_string(
+             std::chrono::duration_cast<std::chrono::seconds>(options_.task_timeout).count()) +
+         " s in " + std::to_string(record.timeouts) +
+         " attempts: raise task_timeout_s, or retries");
   }
 }
 

@@ -97,8 +97,8 @@ class Scheduler {
   DoneTable done_;
   SchedulerCounters counters_;
   std::vector<SchedulerAction> actions_;
-  double estimate_us_ = 0;     ///< of an evaluation's time
-  WorkerNumber turn_ = 0;      ///< who was served last
+  double estimate_us_ = 0;  ///< of an evaluation's time
+  WorkerNumber turn_ = 0;   ///< who was served last
   TimePoint forgot_;
   TimePoint ticked_;
   bool held_ = false;

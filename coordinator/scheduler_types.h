@@ -25,7 +25,7 @@ struct WorkerHello {
   std::string host;
   std::int64_t pid = 0;
   std::string job;
-  bool same_scenario = false;     ///< whether `holds` are of this campaign
+  bool same_scenario = false;  ///< whether `holds` are of this campaign
   std::vector<PackedKey> holds;
 };
 
@@ -134,18 +134,18 @@ struct SchedulerOptions {
   std::uint32_t max_credit = 4096;
   std::size_t max_workers = 10'000;
   int engine_version = 0;
-  std::string self_test;         ///< empty: that of the first worker
-  std::int64_t first_worker = 1; ///< number of the first worker that comes
+  std::string self_test;          ///< empty: that of the first worker
+  std::int64_t first_worker = 1;  ///< number of the first worker that comes
 };
 
 /// Numbers for people, counted since the start.
 struct SchedulerCounters {
   std::uint64_t done = 0;
   std::uint64_t rejected = 0;
-  std::uint64_t failed = 0;      ///< attempts without a score
+  std::uint64_t failed = 0;  ///< attempts without a score
   std::uint64_t duplicates = 0;
   std::uint64_t conflicts = 0;
-  std::uint64_t unknown = 0;     ///< results of tasks that nobody asked for
+  std::uint64_t unknown = 0;  ///< results of tasks that nobody asked for
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;
   std::uint64_t lost_workers = 0;

@@ -56,7 +56,8 @@ class Rate {
  public:
   double update(TimePoint now, std::int64_t done) {
     points_.emplace_back(now, done);
-    while (points_.size() > 2 && now - points_.front().first > kRateWindow) points_.pop_front();
+    while (points_.size() > 2 && now - points_.front().first > kRateWindow)
+      points_.pop_front();
     const double seconds = std::chrono::duration<double>(now - points_.front().first).count();
     return seconds > 0 ? static_cast<double>(done - points_.front().second) / seconds : 0;
   }
@@ -162,10 +163,13 @@ class Loop final : public Service {
 
   void send(const SendFrame& send, TimePoint now) {
     switch (socket_->send(send.peer, send.frame)) {
-      case SendStatus::Sent: return;
+      case SendStatus::Sent:
+        return;
       case SendStatus::Gone:
       // Reads too slowly for a thousand messages: as good as gone; it will say hello again.
-      case SendStatus::Full: coordinator_.on_unreachable(send.peer, now); return;
+      case SendStatus::Full:
+        coordinator_.on_unreachable(send.peer, now);
+        return;
     }
   }
 
@@ -240,8 +244,7 @@ Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options, Store& 
   }
   // The last words of a campaign send its workers home.
   options.socket.linger = milliseconds{200};
-  Expected<std::unique_ptr<ServerSocket>> socket =
-      ServerSocket::bind(options.bind, options.socket);
+  Expected<std::unique_ptr<ServerSocket>> socket = ServerSocket::bind(options.bind, options.socket);
   if (!socket) return Unexpected(socket.error());
   const std::vector<StoredScore> known = store.scores();
   return std::make_unique<Loop>(std::move(options), std::move(*socket), store, source, known);

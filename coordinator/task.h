@@ -14,7 +14,7 @@ struct Task {
   std::uint32_t method = 0;   ///< index into the scenario's methods
   std::int64_t instance = 0;
   std::int64_t seed = 0;
-  std::string machine;        ///< text of the grammar
+  std::string machine;  ///< text of the grammar
 };
 
 /// How a task ended, as a worker reported it.
@@ -24,7 +24,7 @@ struct Outcome {
   double score = 0;
   std::uint64_t state_digest = 0;
   std::int64_t wall_us = 0;
-  std::int64_t worker = 0;   ///< WorkerRow::id
+  std::int64_t worker = 0;  ///< WorkerRow::id
   std::int64_t attempt = 1;
 };
 

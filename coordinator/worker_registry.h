@@ -17,13 +17,13 @@ namespace swarmsmith {
 /// A worker process that said hello. It keeps its number when it comes back.
 struct WorkerEntry {
   WorkerNumber number = 0;
-  WorkerHello hello;             ///< the last one
+  WorkerHello hello;  ///< the last one
   bool connected = false;
-  PeerId peer = 0;               ///< while connected
+  PeerId peer = 0;  ///< while connected
   std::uint64_t last_sequence = 0;
   TimePoint last_heard;
   TimePoint last_sent;
-  std::uint32_t credit = 0;      ///< tasks that it wants to hold
+  std::uint32_t credit = 0;  ///< tasks that it wants to hold
   /// Nothing more goes to it until it is idle, and then one task that must run alone.
   bool reserved = false;
   std::int64_t done = 0;

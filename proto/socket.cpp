@@ -27,7 +27,9 @@ RoutingId routing_id_of(PeerId peer) {
           static_cast<unsigned char>(peer >> 8U), static_cast<unsigned char>(peer)};
 }
 
-int milliseconds(std::chrono::milliseconds duration) { return static_cast<int>(duration.count()); }
+int milliseconds(std::chrono::milliseconds duration) {
+  return static_cast<int>(duration.count());
+}
 
 void apply(const SocketOptions& options, zmq::socket_t& socket) {
   socket.set(zmq::sockopt::linger, milliseconds(options.linger));
@@ -86,7 +88,9 @@ Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& en
   return std::unique_ptr<ServerSocket>(new ServerSocket(std::move(impl)));
 }
 
-const std::string& ServerSocket::endpoint() const { return impl_->endpoint; }
+const std::string& ServerSocket::endpoint() const {
+  return impl_->endpoint;
+}
 
 SendStatus ServerSocket::send(PeerId peer, std::string_view frame) {
   const RoutingId name = routing_id_of(peer);
@@ -144,7 +148,9 @@ ClientSocket::ClientSocket(std::string endpoint, const SocketOptions& options)
   impl_->options = options;
 }
 
-ClientSocket::~ClientSocket() { impl_->drop(impl_->options.linger); }
+ClientSocket::~ClientSocket() {
+  impl_->drop(impl_->options.linger);
+}
 
 void ClientSocket::connect() {
   impl_->drop(std::chrono::milliseconds{0});
@@ -165,7 +171,9 @@ void ClientSocket::connect() {
   impl_->socket.connect(impl_->endpoint);
 }
 
-void ClientSocket::close(std::chrono::milliseconds linger) { impl_->drop(linger); }
+void ClientSocket::close(std::chrono::milliseconds linger) {
+  impl_->drop(linger);
+}
 
 SendStatus ClientSocket::send(std::string_view frame) {
   if (!impl_->socket) return SendStatus::Gone;
@@ -177,7 +185,8 @@ bool ClientSocket::receive(std::string& frame) {
   zmq::message_t message;
   if (!impl_->socket.recv(message, zmq::recv_flags::dontwait)) return false;
   const bool single = !message.more();
-  while (message.more()) (void)impl_->socket.recv(message, zmq::recv_flags::dontwait);
+  while (message.more())
+    (void)impl_->socket.recv(message, zmq::recv_flags::dontwait);
   frame = single ? message.to_string() : std::string();
   return true;
 }
@@ -187,7 +196,8 @@ bool ClientSocket::lost() {
   bool lost = false;
   zmq::message_t event;
   // Any event that is watched means that there is no connection; an event has two frames.
-  while (impl_->monitor.recv(event, zmq::recv_flags::dontwait)) lost = true;
+  while (impl_->monitor.recv(event, zmq::recv_flags::dontwait))
+    lost = true;
   return lost;
 }
 

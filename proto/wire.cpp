@@ -1,7 +1,7 @@
 #include "proto/wire.h"
 
-#include <cmath>
 #include <google/protobuf/stubs/logging.h>
+#include <cmath>
 
 #include "base/hash.h"
 #include "proto/key.h"
@@ -44,7 +44,8 @@ Expected<std::string_view> payload_of(std::string_view frame) {
     return unexpected(ErrorKind::Conflict,
                       "the peer speaks version " + std::to_string(major) +
                           " of the protocol, this program version " +
-                          std::to_string(kProtocolMajor) + ": install the same release on both sides",
+                          std::to_string(kProtocolMajor) +
+                          ": install the same release on both sides",
                       "major version");
   }
   return frame.substr(kFrameHeaderBytes);
@@ -72,7 +73,9 @@ bool all(const Items& items, IsFine is_fine) {
   return true;
 }
 
-bool is_key(const pb::Key& key) { return pack(key).has_value(); }
+bool is_key(const pb::Key& key) {
+  return pack(key).has_value();
+}
 
 bool is_fine(const pb::Hello& hello) {
   return hello.worker_id().size() == kWorkerIdBytes && hello.slots() >= 1 &&
@@ -91,35 +94,46 @@ bool is_task(const pb::Task& task) {
 }
 
 bool is_fine(const pb::Heartbeat& heartbeat) {
-  return all(heartbeat.running(),
-             [](const pb::Running& running) { return is_key(running.key()) && running.elapsed_ms() >= 0; });
+  return all(heartbeat.running(), [](const pb::Running& running) {
+    return is_key(running.key()) && running.elapsed_ms() >= 0;
+  });
 }
 
 bool is_fine(const pb::ToCoordinator& message) {
   switch (message.body_case()) {
-    case pb::ToCoordinator::kHello: return is_fine(message.hello());
-    case pb::ToCoordinator::kResults: return all(message.results().results(), is_result);
-    case pb::ToCoordinator::kHeartbeat: return is_fine(message.heartbeat());
-    case pb::ToCoordinator::kReturned: return all(message.returned().keys(), is_key);
+    case pb::ToCoordinator::kHello:
+      return is_fine(message.hello());
+    case pb::ToCoordinator::kResults:
+      return all(message.results().results(), is_result);
+    case pb::ToCoordinator::kHeartbeat:
+      return is_fine(message.heartbeat());
+    case pb::ToCoordinator::kReturned:
+      return all(message.returned().keys(), is_key);
     case pb::ToCoordinator::kCredit:
     case pb::ToCoordinator::kGoodbye:
     case pb::ToCoordinator::kWantScenario:
-    case pb::ToCoordinator::BODY_NOT_SET: return true;
+    case pb::ToCoordinator::BODY_NOT_SET:
+      return true;
   }
   return true;
 }
 
 bool is_fine(const pb::ToWorker& message) {
   switch (message.body_case()) {
-    case pb::ToWorker::kTasks: return all(message.tasks().tasks(), is_task);
-    case pb::ToWorker::kAcknowledged: return all(message.acknowledged().keys(), is_key);
-    case pb::ToWorker::kReject: return message.reject().sentence().size() <= kMaxTextBytes;
-    case pb::ToWorker::kHeartbeat: return is_fine(message.heartbeat());
+    case pb::ToWorker::kTasks:
+      return all(message.tasks().tasks(), is_task);
+    case pb::ToWorker::kAcknowledged:
+      return all(message.acknowledged().keys(), is_key);
+    case pb::ToWorker::kReject:
+      return message.reject().sentence().size() <= kMaxTextBytes;
+    case pb::ToWorker::kHeartbeat:
+      return is_fine(message.heartbeat());
     case pb::ToWorker::kWelcome:
     case pb::ToWorker::kScenario:
     case pb::ToWorker::kDrain:
     case pb::ToWorker::kWhoAreYou:
-    case pb::ToWorker::BODY_NOT_SET: return true;
+    case pb::ToWorker::BODY_NOT_SET:
+      return true;
   }
   return true;
 }
@@ -135,8 +149,12 @@ Expected<const Message*> decode(std::string_view frame, google::protobuf::Arena&
 
 }  // namespace
 
-std::string encode(const pb::ToCoordinator& message) { return encode_message(message); }
-std::string encode(const pb::ToWorker& message) { return encode_message(message); }
+std::string encode(const pb::ToCoordinator& message) {
+  return encode_message(message);
+}
+std::string encode(const pb::ToWorker& message) {
+  return encode_message(message);
+}
 
 Expected<const pb::ToCoordinator*> decode_to_coordinator(std::string_view frame,
                                                          google::protobuf::Arena& arena) {

@@ -1,8 +1,8 @@
 #pragma once
 
+#include <google/protobuf/arena.h>
 #include <cstddef>
 #include <cstdint>
-#include <google/protobuf/arena.h>
 #include <string>
 #include <string_view>
 

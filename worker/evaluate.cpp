@@ -18,7 +18,9 @@ constexpr std::size_t kMaxMachines = 1024;
 class Simulation {
  public:
   Simulation(WorkerScenario scenario, std::vector<const Flavour*> flavours)
-      : scenario_(std::move(scenario)), flavours_(std::move(flavours)), machines_(flavours_.size()) {}
+      : scenario_(std::move(scenario)),
+        flavours_(std::move(flavours)),
+        machines_(flavours_.size()) {}
 
   Expected<Measured> operator()(const WorkItem& item) {
     if (item.mission >= scenario_.missions.size() || item.method >= flavours_.size()) {
@@ -60,10 +62,10 @@ Expected<Evaluator> make_simulation(const std::string& scenario) {
   Expected<WorkerScenario> read = scenario_from_bytes(scenario);
   if (!read) return Unexpected(read.error());
   if (read->engine_version != kEngineVersion) {
-    return unexpected(ErrorKind::Conflict,
-                      "the campaign wants version " + std::to_string(read->engine_version) +
-                          " of the simulator, this program has version " +
-                          std::to_string(kEngineVersion));
+    return unexpected(ErrorKind::Conflict, "the campaign wants version " +
+                                               std::to_string(read->engine_version) +
+                                               " of the simulator, this program has version " +
+                                               std::to_string(kEngineVersion));
   }
   std::vector<const Flavour*> flavours;
   for (const std::string& name : read->flavours) {

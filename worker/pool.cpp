@@ -37,14 +37,14 @@ Evaluated evaluate(const Evaluator& evaluator, const WorkItem& item) {
 Pool::Pool(int slots, EvaluatorFactory make_evaluator, std::function<void()> wake)
     : slots_(slots), make_evaluator_(std::move(make_evaluator)), wake_(std::move(wake)) {
   for (int slot = 0; slot < slots_; ++slot) {
-    threads_.emplace_back([this, slot](const std::stop_token& stop) {
-      work(stop, static_cast<std::size_t>(slot));
-    });
+    threads_.emplace_back(
+        [this, slot](const std::stop_token& stop) { work(stop, static_cast<std::size_t>(slot)); });
   }
 }
 
 Pool::~Pool() {
-  for (std::jthread& thread : threads_) thread.request_stop();
+  for (std::jthread& thread : threads_)
+    thread.request_stop();
 }
 
 Expected<void> Pool::use(const std::string& scenario) {
@@ -66,7 +66,8 @@ Expected<void> Pool::use(const std::string& scenario) {
 void Pool::run(std::vector<WorkItem> items) {
   {
     const std::scoped_lock lock(mutex_);
-    for (WorkItem& item : items) waiting_.push_back(std::move(item));
+    for (WorkItem& item : items)
+      waiting_.push_back(std::move(item));
   }
   has_work_.notify_all();
 }
@@ -74,7 +75,8 @@ void Pool::run(std::vector<WorkItem> items) {
 std::vector<PackedKey> Pool::take_back() {
   const std::scoped_lock lock(mutex_);
   std::vector<PackedKey> keys;
-  for (const WorkItem& item : waiting_) keys.push_back(item.key);
+  for (const WorkItem& item : waiting_)
+    keys.push_back(item.key);
   waiting_.clear();
   return keys;
 }

@@ -8,7 +8,9 @@ namespace {
 
 constexpr Duration kAskAgain = std::chrono::seconds(1);
 
-std::string clipped(const std::string& text) { return text.substr(0, kMaxTextBytes); }
+std::string clipped(const std::string& text) {
+  return text.substr(0, kMaxTextBytes);
+}
 
 }  // namespace
 
@@ -18,7 +20,9 @@ WorkerProtocol::WorkerProtocol(WorkerIdentity identity, WorkerOptions options, R
       jitter_(jitter),
       backoff_(options_.first_backoff) {}
 
-std::vector<WorkerAction> WorkerProtocol::take_actions() { return std::exchange(actions_, {}); }
+std::vector<WorkerAction> WorkerProtocol::take_actions() {
+  return std::exchange(actions_, {});
+}
 
 void WorkerProtocol::start(TimePoint now) {
   alone_since_ = now;
@@ -69,7 +73,8 @@ void WorkerProtocol::lose(TimePoint now) {
   state_ = State::Waiting;
   // Jitter, so that a thousand workers do not come back in step.
   const double factor = jitter_.uniform(0.5, 1.5);
-  retry_ = now + Duration(static_cast<std::int64_t>(factor * static_cast<double>(backoff_.count())));
+  retry_ =
+      now + Duration(static_cast<std::int64_t>(factor * static_cast<double>(backoff_.count())));
   backoff_ = std::min(2 * backoff_, options_.longest_backoff);
   if (drain_until_) leave(ExitCode::Done, "drained without a connection");
 }
@@ -106,7 +111,8 @@ void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
       if (current) on_tasks(message.tasks(), now);
       return;
     case pb::ToWorker::kAcknowledged:
-      for (const pb::Key& key : message.acknowledged().keys()) finished_.erase(*pack(key));
+      for (const pb::Key& key : message.acknowledged().keys())
+        finished_.erase(*pack(key));
       return;
     case pb::ToWorker::kScenario:
       if (current) on_scenario(message.scenario(), now);
@@ -118,7 +124,8 @@ void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
       if (state_ == State::Active) greet(now);
       return;
     case pb::ToWorker::kHeartbeat:
-    case pb::ToWorker::BODY_NOT_SET: return;
+    case pb::ToWorker::BODY_NOT_SET:
+      return;
   }
 }
 
@@ -173,7 +180,8 @@ void WorkerProtocol::on_bad_scenario(const std::string& reason) {
 
 /// Connected, with a scenario: what the coordinator may not have is sent, and work asked for.
 void WorkerProtocol::be_ready(TimePoint now) {
-  for (auto& [key, finished] : finished_) queue_result(key, finished, now);
+  for (auto& [key, finished] : finished_)
+    queue_result(key, finished, now);
   flush(now);
   update_credit(now);
 }
@@ -293,8 +301,8 @@ void WorkerProtocol::resend(TimePoint now) {
 void WorkerProtocol::on_taken_back(std::span<const PackedKey> keys, TimePoint now) {
   for (std::size_t at = 0; at < keys.size(); at += kMaxItemsPerMessage) {
     pb::ToCoordinator message;
-    for (const PackedKey key : keys.subspan(at, std::min<std::size_t>(kMaxItemsPerMessage,
-                                                                      keys.size() - at))) {
+    for (const PackedKey key :
+         keys.subspan(at, std::min<std::size_t>(kMaxItemsPerMessage, keys.size() - at))) {
       held_.erase(key);
       unpack(key, *message.mutable_returned()->add_keys());
     }
@@ -306,10 +314,8 @@ void WorkerProtocol::on_taken_back(std::span<const PackedKey> keys, TimePoint no
 /// Two tasks a slot, and what `work_ahead` amounts to.
 std::uint32_t WorkerProtocol::credit() const {
   if (drain_until_ || !has_scenario_ || finished_.size() > options_.max_unacknowledged) return 0;
-  const double ahead_us =
-      std::chrono::duration<double, std::micro>(options_.work_ahead).count();
-  const double a_slot =
-      2.0 + (estimate_us_ > 0 ? std::min(ahead_us / estimate_us_, 1e6) : 0.0);
+  const double ahead_us = std::chrono::duration<double, std::micro>(options_.work_ahead).count();
+  const double a_slot = 2.0 + (estimate_us_ > 0 ? std::min(ahead_us / estimate_us_, 1e6) : 0.0);
   return static_cast<std::uint32_t>(
       std::min(a_slot * identity_.slots, static_cast<double>(max_credit_)));
 }
@@ -361,7 +367,8 @@ void WorkerProtocol::finish_draining(TimePoint now) {
   const bool late = now >= *drain_until_;
   if (!late && !(held_.empty() && finished_.empty())) return;
   std::vector<PackedKey> rest;
-  for (const auto& [key, held] : held_) rest.push_back(key);
+  for (const auto& [key, held] : held_)
+    rest.push_back(key);
   held_.clear();
   drain_until_.reset();
   if (!rest.empty()) on_taken_back(rest, now);
@@ -378,7 +385,8 @@ void WorkerProtocol::on_tick(TimePoint now) {
   if (now - ticked_ > dead_after_ / 2) last_heard_ = now;
   ticked_ = now;
   switch (state_) {
-    case State::Left: return;
+    case State::Left:
+      return;
     case State::Waiting:
       if (now - alone_since_ > options_.give_up_after) {
         leave(ExitCode::Unreachable, "no coordinator for too long");
@@ -389,7 +397,8 @@ void WorkerProtocol::on_tick(TimePoint now) {
     case State::Greeting:
       if (now - greeted_ > options_.welcome_timeout) lose(now);
       return;
-    case State::Active: break;
+    case State::Active:
+      break;
   }
   if (now - last_heard_ > dead_after_) return lose(now);
   if (!has_scenario_ && now - asked_ >= kAskAgain) {
@@ -407,10 +416,14 @@ void WorkerProtocol::on_tick(TimePoint now) {
 
 TimePoint WorkerProtocol::next_deadline() const {
   switch (state_) {
-    case State::Left: return ticked_;
-    case State::Waiting: return retry_;
-    case State::Greeting: return greeted_ + options_.welcome_timeout;
-    case State::Active: break;
+    case State::Left:
+      return ticked_;
+    case State::Waiting:
+      return retry_;
+    case State::Greeting:
+      return greeted_ + options_.welcome_timeout;
+    case State::Active:
+      break;
   }
   TimePoint next = last_beat_ + heartbeat_;
   if (!unsent_.empty()) next = std::min(next, oldest_unsent_ + options_.flush_after);

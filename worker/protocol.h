@@ -143,12 +143,12 @@ class WorkerProtocol {
   std::uint64_t incarnation_ = 0;
   std::uint64_t sequence_ = 0;
   Duration backoff_;
-  TimePoint retry_;            ///< waiting: when to open
+  TimePoint retry_;  ///< waiting: when to open
   TimePoint greeted_;
   TimePoint last_heard_;
   TimePoint last_beat_;
   TimePoint ticked_;
-  TimePoint alone_since_;      ///< without a welcome
+  TimePoint alone_since_;  ///< without a welcome
   Duration heartbeat_ = std::chrono::seconds(1);
   Duration dead_after_ = std::chrono::seconds(5);
   Duration resend_after_ = std::chrono::seconds(10);
@@ -158,8 +158,8 @@ class WorkerProtocol {
   // The work.
   std::uint64_t scenario_ = 0;  ///< digest of the campaign's scenario
   bool has_scenario_ = false;
-  TimePoint asked_;             ///< for the scenario
-  double estimate_us_ = 0;      ///< of an evaluation's time
+  TimePoint asked_;         ///< for the scenario
+  double estimate_us_ = 0;  ///< of an evaluation's time
   std::unordered_map<PackedKey, Held> held_;
   std::unordered_map<PackedKey, Finished> finished_;  ///< until acknowledged
   std::vector<PackedKey> unsent_;

@@ -64,14 +64,13 @@ class Loop {
     std::vector<PoolEvent> events = pool_->take_events();
     bool any_result = false;
     for (PoolEvent& event : events) {
-      std::visit(Overloaded{[&](const ItemStarted& started) {
-                              protocol_.on_started(started.key, now);
-                            },
-                            [&](Evaluated& evaluated) {
-                              any_result = true;
-                              protocol_.on_evaluated(std::move(evaluated), now);
-                            }},
-                 event);
+      std::visit(
+          Overloaded{[&](const ItemStarted& started) { protocol_.on_started(started.key, now); },
+                     [&](Evaluated& evaluated) {
+                       any_result = true;
+                       protocol_.on_evaluated(std::move(evaluated), now);
+                     }},
+          event);
     }
     busy_ = any_result;
     carry_out();
@@ -80,29 +79,29 @@ class Loop {
   void carry_out() {
     std::vector<WorkerAction> actions = protocol_.take_actions();
     while (!actions.empty()) {
-      for (WorkerAction& action : actions) carry_out(action);
+      for (WorkerAction& action : actions)
+        carry_out(action);
       actions = protocol_.take_actions();
     }
   }
 
   void carry_out(WorkerAction& action) {
-    std::visit(
-        Overloaded{[&](OpenConnection) { socket_.connect(); },
-                   [&](const SendToCoordinator& send) { this->send(send.frame); },
-                   [&](const UseScenario& use) {
-                     const Expected<void> used = pool_->use(use.scenario);
-                     if (!used) protocol_.on_bad_scenario(to_string(used.error()));
-                   },
-                   [&](RunItems& run) { pool_->run(std::move(run.items)); },
-                   [&](TakeBack) {
-                     take_events(clock_.now());
-                     protocol_.on_taken_back(pool_->take_back(), clock_.now());
-                   },
-                   [&](DropItems) { pool_->take_back(); },
-                   [&](Leave& leave) {
-                     if (!end_) end_ = WorkerEnd{leave.code, std::move(leave.reason)};
-                   }},
-        action);
+    std::visit(Overloaded{[&](OpenConnection) { socket_.connect(); },
+                          [&](const SendToCoordinator& send) { this->send(send.frame); },
+                          [&](const UseScenario& use) {
+                            const Expected<void> used = pool_->use(use.scenario);
+                            if (!used) protocol_.on_bad_scenario(to_string(used.error()));
+                          },
+                          [&](RunItems& run) { pool_->run(std::move(run.items)); },
+                          [&](TakeBack) {
+                            take_events(clock_.now());
+                            protocol_.on_taken_back(pool_->take_back(), clock_.now());
+                          },
+                          [&](DropItems) { pool_->take_back(); },
+                          [&](Leave& leave) {
+                            if (!end_) end_ = WorkerEnd{leave.code, std::move(leave.reason)};
+                          }},
+               action);
   }
 
   void send(const std::string& frame) {

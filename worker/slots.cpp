@@ -1,13 +1,13 @@
 #include "worker/slots.h"
 
+#include <sched.h>
+#include <unistd.h>
 #include <algorithm>
 #include <charconv>
 #include <climits>
 #include <cstdlib>
 #include <random>
-#include <sched.h>
 #include <string_view>
-#include <unistd.h>
 
 namespace swarmsmith {
 namespace {
@@ -23,7 +23,9 @@ int number_in(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? number : 0;
 }
 
-int in_limits(int slots) { return std::clamp(slots, 1, static_cast<int>(kMaxSlots)); }
+int in_limits(int slots) {
+  return std::clamp(slots, 1, static_cast<int>(kMaxSlots));
+}
 
 }  // namespace
 
@@ -41,7 +43,8 @@ WorkerIdentity identity_of_this_process(int slots, std::string build) {
   // A name, not a draw of the campaign: it has to differ between processes.
   std::random_device device;
   std::string id;
-  for (std::size_t i = 0; i < kWorkerIdBytes; ++i) id += static_cast<char>(device() & 0xffU);
+  for (std::size_t i = 0; i < kWorkerIdBytes; ++i)
+    id += static_cast<char>(device() & 0xffU);
   std::string host(HOST_NAME_MAX + 1, '\0');
   if (gethostname(host.data(), host.size()) != 0) host = "unknown";
   host.resize(host.find_first_of('\0') == std::string::npos ? host.size() : host.find('\0'));

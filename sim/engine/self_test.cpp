@@ -1,5 +1,6 @@
 #include "sim/engine/self_test.h"
 
+#include "base/assert.h"
 #include "base/hash.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
@@ -7,20 +8,21 @@
 namespace swarmsmith {
 
 std::string self_test_digest() {
-  // Explores, and turns to attraction when it sees neighbours: treads, rays, contacts and draws.
+  // Explores, joins neighbours, stops on black: treads, rays, contacts, floor and draws.
   static constexpr const char* kMachine =
-      "--nstates 2 --s0 0 --rwm0 20 --n0 1 --n0x0 0 --c0x0 3 --w0x0 5 --p0x0 3 "
-      "--s1 4 --att1 3 --n1 1 --n1x0 0 --c1x0 5 --p1x0 0.3";
+      "--nstates 3 --s0 0 --rwm0 30 --n0 2 --n0x0 0 --c0x0 3 --p0x0 1 --w0x0 5 --n0x1 1 --c0x1 0 "
+      "--p0x1 1 --s1 2 --att1 5 --n1 2 --n1x0 0 --c1x0 5 --p1x0 0.05 --n1x1 1 --c1x1 0 --p1x1 1 "
+      "--s2 1 --n2 1 --n2x0 0 --c2x0 1 --p2x0 0.5";
   Digest digest;
   for (const char* name : {"aggregation", "grid_exploration", "color_selection"}) {
     for (const char* profile_name : {"rvr", "argos3"}) {
       Expected<Mission> mission = built_in_mission(name);
       const Expected<Profile> profile = built_in_profile(profile_name);
       const Expected<Machine> machine = parse_machine(kMachine, watermelon());
-      if (!mission || !profile || !machine) return "broken";
+      SWARMSMITH_ASSERT(mission && profile && machine, "the self test uses what is built in");
       mission->cycles = 200;
       const Expected<Instance> instance = instance_of(*mission, 1);
-      if (!instance) return "broken";
+      SWARMSMITH_ASSERT(instance.has_value(), "three robots fit into the arena");
       const SimulationResult result = simulate({.machine = *machine,
                                                 .flavour = watermelon(),
                                                 .profile = *profile,

@@ -35,11 +35,10 @@ void write(const Rectangle& rectangle, pb::Rectangle& out) {
 }
 
 void write(const Patch& patch, pb::Patch& out) {
-  std::visit(Overloaded{[&](const Disc& disc) { write(disc, *out.mutable_disc()); },
-                        [&](const Rectangle& rectangle) {
-                          write(rectangle, *out.mutable_rectangle());
-                        }},
-             patch.shape);
+  std::visit(
+      Overloaded{[&](const Disc& disc) { write(disc, *out.mutable_disc()); },
+                 [&](const Rectangle& rectangle) { write(rectangle, *out.mutable_rectangle()); }},
+      patch.shape);
   write(patch.color, *out.mutable_color());
 }
 
@@ -50,11 +49,13 @@ void write(const Arena& arena, pb::Arena& out) {
     write(wall.to, *to.mutable_to());
   }
   write(arena.floor, *out.mutable_floor());
-  for (const Patch& patch : arena.patches) write(patch, *out.add_patches());
+  for (const Patch& patch : arena.patches)
+    write(patch, *out.add_patches());
 }
 
 void write(const ShuffledPatches& shuffled, pb::ShuffledPatches& out) {
-  for (const Rectangle& place : shuffled.places) write(place, *out.add_places());
+  for (const Rectangle& place : shuffled.places)
+    write(place, *out.add_places());
   for (const ShuffledPatches::Share& share : shuffled.shares) {
     pb::ShuffledPatches::Share& to = *out.add_shares();
     write(share.color, *to.mutable_color());
@@ -122,8 +123,12 @@ class Reader {
         patch.shape = Disc{point(message.disc().centre(), field + ".centre"),
                            number(message.disc().radius_m(), field + ".radius")};
         break;
-      case pb::Patch::kRectangle: patch.shape = rectangle(message.rectangle(), field); break;
-      case pb::Patch::SHAPE_NOT_SET: complain(field, "a patch without a shape"); break;
+      case pb::Patch::kRectangle:
+        patch.shape = rectangle(message.rectangle(), field);
+        break;
+      case pb::Patch::SHAPE_NOT_SET:
+        complain(field, "a patch without a shape");
+        break;
     }
     return patch;
   }
@@ -167,7 +172,9 @@ class Reader {
         }
         return rewards;
       }
-      case pb::ScoreRule::RULE_NOT_SET: complain("rule", "a mission without a score rule"); break;
+      case pb::ScoreRule::RULE_NOT_SET:
+        complain("rule", "a mission without a score rule");
+        break;
     }
     return RobotsOn{};
   }

@@ -14,8 +14,12 @@ void write(const Profile& profile, pb::Profile& out) {
   out.set_proximity_sd_m(profile.proximity_sd_m);
   out.set_ground_color_sd(profile.ground_color_sd);
   switch (profile.contacts) {
-    case ContactModel::Exact: out.set_contacts(pb::Profile::CONTACTS_EXACT); break;
-    case ContactModel::Box2d: out.set_contacts(pb::Profile::CONTACTS_BOX2D); break;
+    case ContactModel::Exact:
+      out.set_contacts(pb::Profile::CONTACTS_EXACT);
+      break;
+    case ContactModel::Box2d:
+      out.set_contacts(pb::Profile::CONTACTS_BOX2D);
+      break;
   }
 }
 
@@ -46,8 +50,10 @@ std::string to_bytes(const WorkerScenario& scenario) {
   pb::Scenario message;
   message.set_campaign_digest(scenario.campaign_digest);
   message.set_engine_version(scenario.engine_version);
-  for (const Mission& mission : scenario.missions) to_message(mission, *message.add_missions());
-  for (const std::string& flavour : scenario.flavours) message.add_methods()->set_flavour(flavour);
+  for (const Mission& mission : scenario.missions)
+    to_message(mission, *message.add_missions());
+  for (const std::string& flavour : scenario.flavours)
+    message.add_methods()->set_flavour(flavour);
   write(scenario.profile, *message.mutable_profile());
   return message.SerializeAsString();
 }
@@ -68,7 +74,8 @@ Expected<WorkerScenario> scenario_from_bytes(std::string_view bytes) {
     }
     scenario.missions.push_back(std::move(*mission));
   }
-  for (const pb::Method& method : message.methods()) scenario.flavours.push_back(method.flavour());
+  for (const pb::Method& method : message.methods())
+    scenario.flavours.push_back(method.flavour());
   Expected<Profile> profile = read(message.profile());
   if (!profile) return Unexpected(profile.error());
   scenario.profile = std::move(*profile);

@@ -63,9 +63,11 @@ Schedule schedule_of(std::uint64_t seed) {
 SimulatedCluster::SimulatedCluster(const Schedule& schedule)
     : schedule_(schedule), rng_(Rng(schedule.seed).split("cluster")), workers_(kWorkers) {
   faults_end_ = now_ + schedule_.faults.until;
-  for (Worker& worker : workers_) worker.slots = static_cast<int>(rng_.uniform_int(1, 3));
+  for (Worker& worker : workers_)
+    worker.slots = static_cast<int>(rng_.uniform_int(1, 3));
   start_coordinator();
-  for (int i = 0; i < kWorkers; ++i) start_worker(i);
+  for (int i = 0; i < kWorkers; ++i)
+    start_worker(i);
   plan_faults();
 }
 
@@ -94,7 +96,8 @@ void SimulatedCluster::check_answer() {
   const std::string wanted = undisturbed_dump(schedule_.campaign);
   if (campaign_->dump() != wanted) fail("another answer than without faults");
   std::vector<StoredScore> stored;
-  for (const auto& [key, score] : disk_) stored.push_back(score);
+  for (const auto& [key, score] : disk_)
+    stored.push_back(score);
   const SyntheticCampaign replayed(schedule_.campaign, stored);
   if (!replayed.finished() || replayed.dump() != wanted) fail("another answer on disk");
 }
@@ -167,8 +170,8 @@ void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string
   const int copies = faulty && rng_.bernoulli(schedule_.faults.doubled) ? 2 : 1;
   for (int i = 0; i < copies; ++i) {
     const bool late = faulty && rng_.bernoulli(schedule_.faults.late);
-    const Duration delay = late ? between(milliseconds(1), seconds(4))
-                                : between(microseconds(30), microseconds(300));
+    const Duration delay =
+        late ? between(milliseconds(1), seconds(4)) : between(microseconds(30), microseconds(300));
     on_process(to, delay, [this, from, to, connection, frame] {
       const Connection& over = connections_.at(connection);
       if (to == kCoordinator) {
@@ -224,8 +227,7 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
   if (!message) return fail("the coordinator sent a frame that is malformed");
   for (const pb::Key& key : (*message)->acknowledged().keys()) {
     const PackedKey packed = *pack(key);
-    const bool fails =
-        truth_of(schedule_.campaign, unpack(packed)).kind == Truth::Kind::Fails;
+    const bool fails = truth_of(schedule_.campaign, unpack(packed)).kind == Truth::Kind::Fails;
     if (!disk_.contains(packed) && !fails) fail("acknowledged what is not on disk");
   }
 }
@@ -238,7 +240,8 @@ void SimulatedCluster::start_coordinator() {
   it.alive = true;
   it.paused_until = {};
   std::vector<StoredScore> known;
-  for (const auto& [key, score] : disk_) known.push_back(score);
+  for (const auto& [key, score] : disk_)
+    known.push_back(score);
   campaign_ = std::make_unique<SyntheticCampaign>(schedule_.campaign, known);
   coordinator_ = std::make_unique<Coordinator>(coordinator_options(), *campaign_, known);
   tickets_ = 0;
@@ -381,11 +384,13 @@ void SimulatedCluster::carry_out(int index, WorkerAction& action) {
                    if (use.scenario != kScenario) fail("another scenario");
                  },
                  [&](RunItems& run) {
-                   for (WorkItem& item : run.items) worker.waiting.push_back(std::move(item));
+                   for (WorkItem& item : run.items)
+                     worker.waiting.push_back(std::move(item));
                  },
                  [&](TakeBack) {
                    std::vector<PackedKey> keys;
-                   for (const WorkItem& item : worker.waiting) keys.push_back(item.key);
+                   for (const WorkItem& item : worker.waiting)
+                     keys.push_back(item.key);
                    worker.waiting.clear();
                    worker.protocol->on_taken_back(keys, now_);
                  },

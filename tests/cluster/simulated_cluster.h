@@ -21,15 +21,15 @@ namespace swarmsmith::cluster {
 /// What goes wrong in a schedule, and how often. Everything stops at `until`, after which the
 /// campaign must end.
 struct Faults {
-  double loss = 0;             ///< probability, a message
+  double loss = 0;  ///< probability, a message
   double doubled = 0;
-  double late = 0;             ///< delayed by seconds, so that later ones overtake
-  int cuts = 0;                ///< of one worker's link, one or both ways
+  double late = 0;  ///< delayed by seconds, so that later ones overtake
+  int cuts = 0;     ///< of one worker's link, one or both ways
   int worker_crashes = 0;
   int worker_drains = 0;
   int coordinator_crashes = 0;
-  int pauses = 0;              ///< of a process that lives on
-  double slow_commit = 0;      ///< probability, a commit
+  int pauses = 0;          ///< of a process that lives on
+  double slow_commit = 0;  ///< probability, a commit
   Duration until = std::chrono::seconds(0);
 };
 

@@ -22,12 +22,13 @@ Truth truth_of(const CampaignShape& shape, const EvaluationKey& key) {
           .state_digest = mix64(bits)};
 }
 
-SyntheticCampaign::SyntheticCampaign(const CampaignShape& shape,
-                                     std::span<const StoredScore> known)
+SyntheticCampaign::SyntheticCampaign(const CampaignShape& shape, std::span<const StoredScore> known)
     : shape_(shape), races_(static_cast<std::size_t>(shape.designs)) {
-  for (const StoredScore& score : known) known_[pack(score.key)] = score;
+  for (const StoredScore& score : known)
+    known_[pack(score.key)] = score;
   for (std::size_t design = 0; design < races_.size(); ++design) {
-    for (int i = 1; i <= shape_.candidates; ++i) races_[design].alive.push_back(i);
+    for (int i = 1; i <= shape_.candidates; ++i)
+      races_[design].alive.push_back(i);
     ask(design);
   }
 }
@@ -44,7 +45,8 @@ void SyntheticCampaign::ask(std::size_t design) {
   ++race.step;
   race.scores.clear();
   std::vector<EvaluationKey> keys;
-  for (const std::int64_t candidate : race.alive) keys.push_back(key_of(design, candidate));
+  for (const std::int64_t candidate : race.alive)
+    keys.push_back(key_of(design, candidate));
   for (const EvaluationKey& key : keys) {
     const auto known = known_.find(pack(key));
     if (known != known_.end()) {
@@ -111,8 +113,12 @@ void SyntheticCampaign::decide(std::size_t design) {
   ask(design);
 }
 
-std::vector<Task> SyntheticCampaign::take_tasks() { return std::exchange(tasks_, {}); }
-std::vector<Row> SyntheticCampaign::take_rows() { return std::exchange(rows_, {}); }
+std::vector<Task> SyntheticCampaign::take_tasks() {
+  return std::exchange(tasks_, {});
+}
+std::vector<Row> SyntheticCampaign::take_rows() {
+  return std::exchange(rows_, {});
+}
 
 bool SyntheticCampaign::finished() const {
   return std::ranges::all_of(races_, [&](const Race& race) {
@@ -122,7 +128,8 @@ bool SyntheticCampaign::finished() const {
 
 std::string SyntheticCampaign::dump() const {
   std::string out;
-  for (const Race& race : races_) out += "race\n" + race.log;
+  for (const Race& race : races_)
+    out += "race\n" + race.log;
   return out;
 }
 

@@ -1,7 +1,7 @@
 #include "proto/socket.h"
 
-#include <functional>
 #include <gtest/gtest.h>
+#include <functional>
 
 #include "proto/wire.h"
 

@@ -11,7 +11,8 @@ namespace swarmsmith {
 class MemoryStore final : public Store {
  public:
   std::uint64_t append(std::vector<Row> rows) override {
-    for (Row& row : rows) all.push_back(std::move(row));
+    for (Row& row : rows)
+      all.push_back(std::move(row));
     ++appended_;
     if (trouble_.empty()) tell();
     return appended_;

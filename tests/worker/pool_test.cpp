@@ -1,7 +1,7 @@
 #include "worker/pool.h"
 
-#include <atomic>
 #include <gtest/gtest.h>
+#include <atomic>
 #include <limits>
 #include <map>
 #include <semaphore>

@@ -28,7 +28,8 @@ class Protocol : public ::testing::Test {
         incarnation = (*message)->incarnation();
       }
       if (auto* run = std::get_if<RunItems>(&action)) {
-        for (WorkItem& item : run->items) given.push_back(item.key);
+        for (WorkItem& item : run->items)
+          given.push_back(item.key);
       }
       if (std::holds_alternative<OpenConnection>(action)) ++connections;
       if (std::holds_alternative<TakeBack>(action)) asked_back = true;
@@ -84,7 +85,8 @@ class Protocol : public ::testing::Test {
 
   int results_said() const {
     int count = 0;
-    for (const auto& message : said) count += message.results().results_size();
+    for (const auto& message : said)
+      count += message.results().results_size();
     return count;
   }
   bool said_body(pb::ToCoordinator::BodyCase body) const {
@@ -134,7 +136,8 @@ TEST_F(Protocol, GathersResultsWhileThereIsWork) {
   EXPECT_EQ(results_said(), 0);
   pass(milliseconds(2));
   EXPECT_EQ(results_said(), 1);
-  for (int i = 2; i <= 8; ++i) finish(i);
+  for (int i = 2; i <= 8; ++i)
+    finish(i);
   EXPECT_EQ(results_said(), 0);
   finish(9);  // one left: the slot would run dry
   EXPECT_EQ(results_said(), 8);
@@ -192,14 +195,17 @@ TEST_F(Protocol, DropsEverythingWhenAnotherCampaignRuns) {
 
 TEST_F(Protocol, NoticesASilentCoordinator) {
   be_welcome();
-  for (int i = 0; i < 6; ++i) pass(seconds(1));
+  for (int i = 0; i < 6; ++i)
+    pass(seconds(1));
   EXPECT_FALSE(protocol.active());
-  for (int i = 0; i < 3; ++i) pass(seconds(1));
+  for (int i = 0; i < 3; ++i)
+    pass(seconds(1));
   EXPECT_GE(connections, 2);
 }
 
 TEST_F(Protocol, GivesUpAfterTenMinutes) {
-  for (int i = 0; i < 700 && !left; ++i) pass(seconds(1));
+  for (int i = 0; i < 700 && !left; ++i)
+    pass(seconds(1));
   ASSERT_TRUE(left);
   EXPECT_EQ(left->code, ExitCode::Unreachable);
 }

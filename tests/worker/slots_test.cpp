@@ -1,7 +1,7 @@
 #include "worker/slots.h"
 
-#include <cstdlib>
 #include <gtest/gtest.h>
+#include <cstdlib>
 
 namespace swarmsmith {
 namespace {

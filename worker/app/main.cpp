@@ -1,13 +1,13 @@
 // swarmsmith-worker: evaluates for one coordinator until it is sent home.
 
+#include <sys/prctl.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <string>
-#include <sys/prctl.h>
-#include <unistd.h>
 
 #include "base/log.h"
 #include "sim/engine/self_test.h"
@@ -60,9 +60,8 @@ int run(const Arguments& arguments) {
   Pool pool(slots, make_simulation, [&wakeup] { wakeup.notify(); });
   log(LogLevel::Debug, "worker", "started",
       {{"coordinator", arguments.connect}, {"slots", std::to_string(slots)}});
-  const WorkerEnd end =
-      serve({.endpoint = arguments.connect, .protocol = {}, .socket = {}}, identity, pool, wakeup,
-            g_drain);
+  const WorkerEnd end = serve({.endpoint = arguments.connect, .protocol = {}, .socket = {}},
+                              identity, pool, wakeup, g_drain);
   const LogLevel level = end.code == ExitCode::Done ? LogLevel::Debug : LogLevel::Error;
   log(level, "worker", "ended", {{"reason", end.reason}});
   // Slots that still run have missed the grace time; nobody waits for them any more.
@@ -74,9 +73,10 @@ int run(const Arguments& arguments) {
 
 int main(int argc, char** argv) {
   swarmsmith::Arguments arguments;
-  CLI::App app{"Evaluates control software for the coordinator of a campaign.\n"
-               "Exit codes: 0 drained, 2 usage, 5 no coordinator for ten minutes, 7 refused by the "
-               "coordinator\n(another build), 143 interrupted twice. SIGTERM drains."};
+  CLI::App app{
+      "Evaluates control software for the coordinator of a campaign.\n"
+      "Exit codes: 0 drained, 2 usage, 5 no coordinator for ten minutes, 7 refused by the "
+      "coordinator\n(another build), 143 interrupted twice. SIGTERM drains."};
   app.name("swarmsmith-worker");
   app.add_option("--connect", arguments.connect, "Where the coordinator listens")
       ->type_name("tcp://HOST:PORT")

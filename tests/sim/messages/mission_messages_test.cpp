@@ -1,7 +1,7 @@
 #include "sim/messages/mission_messages.h"
 
-#include <functional>
 #include <gtest/gtest.h>
+#include <functional>
 #include <limits>
 
 namespace swarmsmith {

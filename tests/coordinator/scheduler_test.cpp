@@ -1,0 +1,342 @@
+#include "coordinator/scheduler.h"
+
+#include <gtest/gtest.h>
+
+namespace swarmsmith {
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+/// A scheduler and workers played by hand; worker n has the peer n.
+class Schedulers : public ::testing::Test {
+ protected:
+  void hello(PeerId peer, int slots = 1, std::uint64_t incarnation = 1, int version = 0,
+             std::vector<PackedKey> holds = {}) {
+    WorkerHello hello;
+    hello.identity = std::string(15, 'w') + static_cast<char>('a' + peer % 20);
+    hello.incarnation = incarnation;
+    hello.engine_version = version;
+    hello.slots = slots;
+    hello.same_scenario = true;
+    hello.holds = std::move(holds);
+    scheduler.on_hello(peer, hello, now);
+    sequence = 0;
+    take();
+  }
+  void credit(PeerId peer, std::uint32_t tasks, std::uint64_t incarnation = 1) {
+    scheduler.on_credit({peer, incarnation, ++sequence}, tasks, now);
+    move();
+  }
+  void want(std::int64_t first, std::int64_t count) {
+    std::vector<Task> tasks;
+    for (std::int64_t i = first; i < first + count; ++i) {
+      tasks.push_back({.key = {{i}, Purpose::Race, 1}, .machine = "m"});
+    }
+    scheduler.add(std::move(tasks));
+    move();
+  }
+  static PackedKey key(std::int64_t candidate) { return pack(candidate, 0, 1); }
+  void answer(PeerId peer, std::int64_t candidate, double score = 1, std::string failure = "",
+              std::int64_t attempt = 1) {
+    const WorkerResult result{.key = key(candidate),
+                              .attempt = attempt,
+                              .score = score,
+                              .state_digest = 5,
+                              .wall_us = 100,
+                              .failure = std::move(failure)};
+    scheduler.on_results({peer, 1, 0}, {&result, 1}, now);
+    move();
+  }
+  void beat(PeerId peer, std::vector<RunningReport> running = {}, std::uint32_t tasks = 100) {
+    scheduler.on_heartbeat({peer, 1, ++sequence}, tasks, running, now);
+    move();
+  }
+  void pass(Duration time) {
+    now += time;
+    scheduler.on_tick(now);
+    move();
+  }
+  void move() {
+    scheduler.dispatch(now);
+    take();
+  }
+  void take() {
+    for (SchedulerAction& action : scheduler.take_actions()) {
+      if (auto* tasks = std::get_if<SendTasks>(&action)) {
+        for (const auto& leased : tasks->tasks) {
+          given[tasks->peer].push_back(leased.task.key.candidate.value);
+        }
+      }
+      actions.push_back(std::move(action));
+    }
+  }
+  template <class Kind>
+  std::vector<Kind> all() const {
+    std::vector<Kind> found;
+    for (const SchedulerAction& action : actions) {
+      if (const auto* one = std::get_if<Kind>(&action)) found.push_back(*one);
+    }
+    return found;
+  }
+
+  SchedulerOptions options;
+  Scheduler scheduler{options, {}};
+  TimePoint now{seconds(100)};
+  std::vector<SchedulerAction> actions;
+  std::map<PeerId, std::vector<std::int64_t>> given;
+  std::uint64_t sequence = 0;
+};
+
+TEST_F(Schedulers, GiveNothingBeyondTheCredit) {
+  hello(1);
+  want(1, 100);
+  EXPECT_TRUE(given[1].empty());
+  credit(1, 3);
+  EXPECT_EQ(given[1], (std::vector<std::int64_t>{1, 2, 3}));
+  credit(1, 3);
+  EXPECT_EQ(given[1].size(), 3U);
+  answer(1, 1);
+  EXPECT_EQ(given[1].size(), 4U);
+}
+
+TEST_F(Schedulers, ShareWhatIsLeftNearTheEnd) {
+  hello(1);
+  hello(2);
+  credit(1, 4000);
+  credit(2, 4000);
+  want(1, 8);
+  // Eight left and two slots: two each, the rest waits for who is first.
+  EXPECT_EQ(given[1].size(), 2U);
+  EXPECT_EQ(given[2].size(), 2U);
+}
+
+TEST_F(Schedulers, CloseAMessageAtSixtyFourTasks) {
+  hello(1);
+  credit(1, 200);
+  want(1, 1000);
+  const auto messages = all<SendTasks>();
+  ASSERT_EQ(messages.size(), 4U);
+  EXPECT_EQ(messages[0].tasks.size(), 64U);
+  EXPECT_EQ(messages[3].tasks.size(), 8U);
+}
+
+TEST_F(Schedulers, AcceptTheFirstResultAndDropTheSecond) {
+  hello(1);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 2.5);
+  answer(1, 1, 2.5);
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 2.5);
+  EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
+  EXPECT_TRUE(all<ConflictFound>().empty());
+}
+
+TEST_F(Schedulers, ReportASecondResultWithOtherBits) {
+  hello(1);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 2.5);
+  answer(1, 1, 2.6);
+  ASSERT_EQ(all<ConflictFound>().size(), 1U);
+  EXPECT_EQ(all<ConflictFound>()[0].row.kept_score, 2.5);
+  EXPECT_EQ(all<ConflictFound>()[0].row.other_score, 2.6);
+}
+
+TEST_F(Schedulers, TakeAResultThatWasNeverLeased) {
+  hello(1);
+  want(1, 1);
+  answer(1, 1);
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(scheduler.leases().size(), 0U);
+}
+
+TEST_F(Schedulers, IgnoreAResultThatNobodyWants) {
+  hello(1);
+  answer(1, 77);
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  EXPECT_EQ(scheduler.counters().unknown, 1U);
+}
+
+TEST_F(Schedulers, RefuseAnotherEngine) {
+  hello(1, 1, 1, 99);
+  ASSERT_EQ(all<SendReject>().size(), 1U);
+  EXPECT_EQ(all<SendReject>()[0].reason, RejectReason::Build);
+  EXPECT_NE(all<SendReject>()[0].sentence.find("version 99"), std::string::npos);
+  EXPECT_EQ(scheduler.workers().connected(), 0U);
+}
+
+TEST_F(Schedulers, IgnoreAnOldHello) {
+  hello(1, 1, 3);
+  hello(21, 1, 2);  // the same worker over another connection
+  EXPECT_EQ(all<SendWelcome>().size(), 1U);
+}
+
+TEST_F(Schedulers, AskWhoSpeaks) {
+  credit(4, 1);
+  EXPECT_EQ(all<SendWhoAreYou>().size(), 1U);
+}
+
+TEST_F(Schedulers, GiveTheTasksOfASilentWorkerToOthers) {
+  hello(1);
+  credit(1, 2);
+  want(1, 4);
+  EXPECT_EQ(given[1].size(), 2U);
+  for (int i = 0; i < 6; ++i)
+    pass(seconds(1));
+  EXPECT_EQ(scheduler.workers().connected(), 0U);
+  hello(2);
+  credit(2, 100);
+  EXPECT_EQ(given[2][0], 1);
+}
+
+TEST_F(Schedulers, TryAloneWhatRanWhenAWorkerDied) {
+  hello(1);
+  hello(2);
+  credit(2, 0);
+  credit(1, 100);
+  want(1, 8);
+  const std::size_t before = given[1].size();
+  ASSERT_GE(before, 2U);
+  scheduler.on_unreachable(1, now + milliseconds(10));
+  credit(2, 100);
+  EXPECT_EQ(given[2], (std::vector<std::int64_t>{1}));
+  answer(2, 1);
+  EXPECT_EQ(given[2], (std::vector<std::int64_t>{1, 2}));
+}
+
+TEST_F(Schedulers, RejectAfterThreeDeathsAlone) {
+  want(1, 1);
+  for (PeerId peer = 1; peer <= 4; ++peer) {
+    EXPECT_TRUE(all<OutcomeAccepted>().empty());
+    hello(peer);
+    credit(peer, 10);
+    ASSERT_EQ(given[peer].size(), 1U);
+    scheduler.on_unreachable(peer, now);
+    move();
+  }
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
+}
+
+TEST_F(Schedulers, TakeBackADeathWhenTheWorkerComesAgain) {
+  want(1, 1);
+  hello(1);
+  credit(1, 10);
+  std::uint64_t incarnation = 1;
+  for (int i = 0; i < 10; ++i) {
+    scheduler.on_unreachable(1, now);
+    move();
+    hello(1, 1, ++incarnation);
+    credit(1, 10, incarnation);
+  }
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  EXPECT_EQ(given[1].size(), 11U);
+}
+
+TEST_F(Schedulers, ConfirmAFailureElsewhere) {
+  hello(1);
+  hello(2);
+  credit(1, 10);
+  credit(2, 10);
+  want(1, 1);
+  const PeerId first = given[1].empty() ? 2 : 1;
+  const PeerId second = 3 - first;
+  answer(first, 1, 0, "not a number");
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  ASSERT_EQ(given[second].size(), 1U);
+  answer(first, 1, 0, "not a number");  // said twice: counts once
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  answer(second, 1, 0, "not a number", 2);
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
+}
+
+TEST_F(Schedulers, StopAfterTooManyTimeouts) {
+  hello(1);
+  credit(1, 10);
+  want(1, 1);
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_TRUE(all<StopCampaign>().empty());
+    beat(1, {{key(1), 31'000}});
+  }
+  ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+}
+
+TEST_F(Schedulers, LetALeaseExpireThatMakesNoProgress) {
+  hello(1);
+  hello(2);
+  credit(1, 2);
+  want(1, 2);
+  EXPECT_EQ(given[1].size(), 1U);
+  for (int i = 0; i < 7; ++i) {
+    beat(1, {{key(1), i * 1000}}, 2);
+    beat(2, {}, 0);
+    pass(seconds(1));
+  }
+  EXPECT_EQ(scheduler.counters().expired, 0U);  // it says that it runs
+  for (int i = 0; i < 7; ++i) {
+    beat(1, {}, 2);
+    beat(2, {}, 0);
+    pass(seconds(1));
+  }
+  EXPECT_GE(scheduler.counters().expired, 1U);
+}
+
+TEST_F(Schedulers, KnowThatTheyWereStoppedThemselves) {
+  hello(1);
+  pass(milliseconds(100));
+  pass(seconds(60));
+  EXPECT_EQ(scheduler.workers().connected(), 1U);
+}
+
+TEST_F(Schedulers, KeepWhatAReturningWorkerHolds) {
+  hello(1);
+  credit(1, 2);
+  want(1, 40);
+  EXPECT_EQ(given[1], (std::vector<std::int64_t>{1, 2}));
+  hello(1, 1, 2, 0, {key(2)});
+  EXPECT_EQ(scheduler.leases().leased(), 1U);
+  EXPECT_TRUE(scheduler.leases().find(key(2))->lease);
+  credit(1, 2, 2);
+  EXPECT_EQ(given[1].back(), 1);
+}
+
+TEST_F(Schedulers, RequeueWhatADrainingWorkerReturns) {
+  hello(1);
+  credit(1, 2);
+  want(1, 40);
+  const std::vector<PackedKey> keys{key(1), key(2)};
+  scheduler.on_returned({1, 1, ++sequence}, keys, now);
+  move();
+  EXPECT_EQ(scheduler.leases().leased(), 0U);  // it wants none any more
+  hello(2);
+  credit(2, 1);
+  EXPECT_EQ(given[2], (std::vector<std::int64_t>{1}));
+}
+
+TEST_F(Schedulers, LeaseNothingWhileHeld) {
+  hello(1);
+  credit(1, 10);
+  scheduler.hold(true);
+  want(1, 10);
+  EXPECT_TRUE(given[1].empty());
+  scheduler.hold(false);
+  move();
+  EXPECT_FALSE(given[1].empty());
+}
+
+TEST_F(Schedulers, AreFullAtTheLimit) {
+  SchedulerOptions small;
+  small.max_workers = 1;
+  scheduler = Scheduler(small, {});
+  hello(1);
+  hello(2);
+  ASSERT_EQ(all<SendReject>().size(), 1U);
+  EXPECT_EQ(all<SendReject>()[0].reason, RejectReason::Limit);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,171 @@
+#include "coordinator/service.h"
+
+#include <gtest/gtest.h>
+#include <atomic>
+#include <thread>
+
+#include "base/rng.h"
+#include "proto/wire.h"
+#include "tests/cluster/synthetic_campaign.h"
+#include "tests/support/memory_store.h"
+#include "worker/service.h"
+#include "worker/slots.h"
+
+namespace swarmsmith {
+namespace {
+
+using cluster::CampaignShape;
+using cluster::SyntheticCampaign;
+
+/// Evaluates a synthetic campaign in this process.
+EvaluatorFactory honest(const CampaignShape& shape) {
+  return [shape](const std::string&) -> Expected<Evaluator> {
+    return Evaluator([shape](const WorkItem& item) -> Expected<Measured> {
+      const cluster::Truth truth = cluster::truth_of(shape, unpack(item.key));
+      if (truth.kind != cluster::Truth::Kind::Score) return bad_input("planted");
+      return Measured{truth.score, truth.state_digest};
+    });
+  };
+}
+
+/// A real service on loopback; tests add workers and trouble.
+class Services : public ::testing::Test {
+ protected:
+  void open(CampaignShape of = {}) {
+    shape = of;
+    campaign = std::make_unique<SyntheticCampaign>(shape, std::span<const StoredScore>());
+    ServiceOptions options;
+    options.coordinator.scenario = "scenario";
+    auto opened = Service::open(options, store, *campaign);
+    ASSERT_TRUE(opened);
+    service = std::move(*opened);
+  }
+
+  /// Runs it in a thread of its own until it ends.
+  std::jthread run() {
+    return std::jthread([this](const std::stop_token& stop) {
+      ServiceHooks hooks;
+      hooks.on_status = [this](const LiveStatus& status) {
+        workers = status.workers;
+        malformed = status.malformed;
+        done = status.done;
+        in_trouble = !status.trouble.empty();
+      };
+      end = service->run(stop, hooks);
+      ended = true;
+    });
+  }
+
+  std::jthread worker(std::string build = "1", int engine = 0) {
+    return std::jthread([this, build, engine] {
+      Wakeup wakeup;
+      Pool pool(2, honest(shape), [&] { wakeup.notify(); });
+      WorkerIdentity identity = identity_of_this_process(2, build);
+      identity.engine_version = engine;
+      last_end = serve({.endpoint = service->endpoint(), .protocol = {}, .socket = {}}, identity,
+                       pool, wakeup, never);
+    });
+  }
+
+  static bool eventually(const std::function<bool()>& holds) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(30);
+    while (!holds()) {
+      if (std::chrono::steady_clock::now() > deadline) return false;
+      std::this_thread::yield();
+    }
+    return true;
+  }
+
+  CampaignShape shape;
+  MemoryStore store;
+  std::unique_ptr<SyntheticCampaign> campaign;
+  std::unique_ptr<Service> service;
+  const std::atomic<bool> never{false};
+  std::atomic<std::int64_t> workers{0}, malformed{0}, done{0};
+  std::atomic<bool> ended{false}, in_trouble{false};
+  ServiceEnd end;
+  WorkerEnd last_end;
+};
+
+TEST_F(Services, RunACampaignToItsEndAndSendWorkersHome) {
+  open({.seed = 3, .failing = true});
+  {
+    const std::jthread loop = run();
+    const std::jthread one = worker();
+    ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  }
+  EXPECT_EQ(end.how, ServiceEnd::How::Finished);
+  EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
+  EXPECT_EQ(campaign->complaint(), "");
+  EXPECT_EQ(last_end.code, ExitCode::Done);
+}
+
+TEST_F(Services, KeepHonestWorkersUnaffectedByBadPeers) {
+  open({.seed = 4, .designs = 20, .candidates = 20, .steps = 30});
+  {
+    const std::jthread loop = run();
+    const std::jthread one = worker();
+    std::vector<std::unique_ptr<ClientSocket>> bad;
+    Rng rng(1);
+    pb::ToCoordinator replayed;
+    replayed.set_incarnation(1);
+    replayed.mutable_results()->set_scenario(digest_of_scenario("scenario"));
+    replayed.mutable_results()->add_results()->mutable_key()->set_candidate(1);
+    std::string other_version = encode(replayed);
+    other_version[4] = 9;
+    for (int i = 0; i < 6; ++i) {
+      bad.push_back(std::make_unique<ClientSocket>(service->endpoint()));
+      bad.back()->connect();
+      for (int j = 0; j < 40; ++j) {
+        std::string garbage(rng.below(200), '\0');
+        for (char& c : garbage)
+          c = static_cast<char>(rng.below(256));
+        bad.back()->send(garbage);
+        bad.back()->send("SWRM" + garbage);
+        bad.back()->send(encode(replayed));
+        bad.back()->send(other_version);
+      }
+      bad.back()->send(std::string(kMaxFrameBytes + 1, 'x'));
+    }
+    ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  }
+  EXPECT_EQ(end.how, ServiceEnd::How::Finished);
+  EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
+  EXPECT_TRUE(store.rows_of<ConflictRow>().empty());
+}
+
+TEST_F(Services, RefuseAWorkerOfAnotherBuild) {
+  open();
+  std::jthread loop = run();
+  { const std::jthread one = worker("other", 99); }
+  EXPECT_EQ(last_end.code, ExitCode::Refused);
+  EXPECT_NE(last_end.reason.find("version 99"), std::string::npos);
+  loop.request_stop();
+  ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  EXPECT_EQ(end.how, ServiceEnd::How::Interrupted);
+}
+
+TEST_F(Services, StopLeasingWhileTheDiskIsFull) {
+  open({.seed = 5});
+  store.set_trouble("disk full");
+  const std::jthread loop = run();
+  const std::jthread one = worker();
+  ASSERT_TRUE(eventually([&] { return in_trouble.load() && workers.load() == 1; }));
+  EXPECT_FALSE(ended.load());
+  EXPECT_EQ(done.load(), 0);
+  store.set_trouble("");
+  ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  EXPECT_EQ(end.how, ServiceEnd::How::Finished);
+}
+
+TEST_F(Services, ListenOnLoopbackOnly) {
+  SyntheticCampaign source({}, {});
+  ServiceOptions options;
+  options.bind = "tcp://0.0.0.0:*";
+  const auto opened = Service::open(options, store, source);
+  ASSERT_FALSE(opened);
+  EXPECT_EQ(opened.error().kind, ErrorKind::BadInput);
+}
+
+}  // namespace
+}  // namespace swarmsmith
