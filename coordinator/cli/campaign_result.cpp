@@ -1,11 +1,11 @@
 #include "coordinator/cli/campaign_result.h"
 
-#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <vector>
 
 #include "coordinator/cli/mean_interval.h"
+#include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/query_output.h"
 
 namespace swarmsmith::cli {
@@ -30,7 +30,9 @@ Expected<std::map<std::string, std::vector<double>>> tests_by_design(StoreReader
   return scores;
 }
 
-Cell number_cell(double value) { return {Cell::Type::Real, json_number(value)}; }
+Cell number_cell(double value) {
+  return {Cell::Type::Real, json_number(value)};
+}
 
 /// Puts test_mean, test_95 (half-width of the interval) and test_runs before the last column.
 void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tests) {
@@ -50,25 +52,24 @@ void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tes
   }
 }
 
-std::string four_digits(const std::string& text) {
-  char buffer[32];
-  const int size = std::snprintf(buffer, sizeof buffer, "%.4g", std::strtod(text.c_str(), nullptr));
-  return {buffer, static_cast<std::size_t>(size)};
+/// A cell of numbers as people read it.
+std::string shown(const std::string& text) {
+  return score_text(std::strtod(text.c_str(), nullptr));
 }
 
 /// One paragraph a design: what it is, how good its machine is, the machine.
 void write_text(Output& output, const Rows& rows) {
   for (const auto& cells : rows.cells) {
-    output.out << cells[0].text << "  " << cells[1].text << ", " << cells[2].text
-               << ", repetition " << cells[3].text << ": " << cells[4].text << " after "
-               << cells[5].text << " experiments\n";
+    output.out << cells[0].text << "  " << cells[1].text << ", " << cells[2].text << ", repetition "
+               << cells[3].text << ": " << cells[4].text << " after " << cells[5].text
+               << " experiments\n";
     if (cells[6].type == Cell::Type::Null) continue;
-    output.out << "  best " << cells[6].text << ", mean score " << four_digits(cells[7].text)
+    output.out << "  best " << cells[6].text << ", mean score " << shown(cells[7].text)
                << " in the race";
     if (cells[8].type != Cell::Type::Null) {
-      output.out << ", " << four_digits(cells[8].text);
+      output.out << ", " << shown(cells[8].text);
       if (cells[9].type != Cell::Type::Null) {
-        output.out << " +- " << four_digits(cells[9].text) << " (95 %)";
+        output.out << " +- " << shown(cells[9].text) << " (95 %)";
       }
       output.out << " on " << cells[10].text << " fresh seeds";
     }

@@ -8,8 +8,8 @@
 namespace swarmsmith::cli {
 
 /// The answer of a campaign, from its store: each design's best machine with its mean score in the
-/// race and, with the 95 % interval of the mean, on fresh seeds. As a table and the machines' texts,
-/// or as the event {"v":1,"event":"done","designs":[...]}.
+/// race and, with the 95 % interval of the mean, on fresh seeds. As a table and the machines'
+/// texts, or as the event {"v":1,"event":"done","designs":[...]}.
 ExitCode write_result(Output& output, StoreReader& store);
 
 /// What can be done with the store now, as commands.

@@ -1,11 +1,11 @@
 #include "coordinator/cli/campaign_run.h"
 
+#include <unistd.h>
 #include <algorithm>
 #include <csignal>
 #include <cstdlib>
 #include <memory>
 #include <stop_token>
-#include <unistd.h>
 #include <utility>
 
 #include "coordinator/campaign/campaign_file.h"
@@ -48,7 +48,8 @@ WorkerScenario scenario_of(const Campaign& campaign) {
   for (const CampaignMission& mission : campaign.missions) {
     scenario.missions.push_back(mission.mission);
   }
-  for (const Method& method : campaign.methods) scenario.flavours.push_back(method.flavour);
+  for (const Method& method : campaign.methods)
+    scenario.flavours.push_back(method.flavour);
   return scenario;
 }
 
@@ -59,8 +60,8 @@ ServiceOptions service_options(const Campaign& campaign, const RunOptions& optio
   SchedulerOptions& scheduler = service.coordinator.scheduler;
   scheduler.engine_version = kEngineVersion;
   scheduler.self_test = self_test_digest();
-  scheduler.task_timeout = std::chrono::duration_cast<Duration>(
-      std::chrono::duration<double>(campaign.task_timeout_s));
+  scheduler.task_timeout =
+      std::chrono::duration_cast<Duration>(std::chrono::duration<double>(campaign.task_timeout_s));
   scheduler.retries = campaign.retries;
   scheduler.stop_on_failure = campaign.stop_on_failure;
   if (!options.bind.empty()) service.bind = "tcp://" + options.bind;
@@ -104,8 +105,8 @@ class CampaignRun {
     if (options_.announce) announce((*service)->endpoint());
     const int processes = local_processes(campaign_, options_);
     if (processes == 0) return serve(**service, runner, nullptr);
-    auto workers = LocalWorkers::start(
-        {.endpoint = (*service)->endpoint(), .processes = processes});
+    auto workers =
+        LocalWorkers::start({.endpoint = (*service)->endpoint(), .processes = processes});
     if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
     return serve(**service, runner, &*workers);
   }
@@ -132,7 +133,8 @@ class CampaignRun {
     const ServiceHooks hooks{
         .on_rows =
             [&](const std::vector<Row>& rows) {
-              for (const Row& row : rows) progress_.add(row, clock_.now());
+              for (const Row& row : rows)
+                progress_.add(row, clock_.now());
             },
         .on_status =
             [&](const LiveStatus& live) {
@@ -154,11 +156,13 @@ class CampaignRun {
 
   ExitCode exit_code_of(const ServiceEnd& end) {
     switch (end.how) {
-      case ServiceEnd::How::Finished: return ExitCode::Done;
+      case ServiceEnd::How::Finished:
+        return ExitCode::Done;
       case ServiceEnd::How::Stopped:
         print_resume();
         return fail(output_, ExitCode::OverFailureLimit, end.reason);
-      case ServiceEnd::How::Interrupted: break;
+      case ServiceEnd::How::Interrupted:
+        break;
     }
     print_resume();
     return g_signal == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted;
@@ -213,7 +217,8 @@ std::optional<Campaign> CampaignFlags::read(Output& output) const {
   }
   if (!store.empty()) campaign->store = store;
   const std::vector<Error> complaints = check_budget(*campaign);
-  for (const Error& complaint : complaints) print_error(output, complaint);
+  for (const Error& complaint : complaints)
+    print_error(output, complaint);
   if (!complaints.empty()) return std::nullopt;
   return campaign;
 }

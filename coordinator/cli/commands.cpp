@@ -5,7 +5,8 @@
 namespace swarmsmith::cli {
 namespace {
 
-constexpr std::string_view kRunDetails = R"(Designs control software as the campaign file says, with workers of its own, and prints the result.
+constexpr std::string_view kRunDetails =
+    R"(Designs control software as the campaign file says, with workers of its own, and prints the result.
 Without a file it runs a demo: aggregation, 2,000 experiments, store demo.db. Every score is in the
 store as soon as it counts; Ctrl-C, kill -9, a power cut: the same command goes on where it was, and
 comes to the same answer. On a finished store it prints the result again.
@@ -15,20 +16,23 @@ Examples:
   swarmsmith run campaign.toml
   swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db)";
 
-constexpr std::string_view kServeDetails = R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. In this version
+constexpr std::string_view kServeDetails =
+    R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. In this version
 on this host only.
 
 Examples:
   swarmsmith serve campaign.toml
   swarmsmith serve campaign.toml --bind 127.0.0.1:5555)";
 
-constexpr std::string_view kWorkerDetails = R"(Evaluates for a coordinator until there is nothing more to do. SIGTERM lets it finish what it is
+constexpr std::string_view kWorkerDetails =
+    R"(Evaluates for a coordinator until there is nothing more to do. SIGTERM lets it finish what it is
 at; it can come and go at any time. Starts the program swarmsmith-worker.
 
 Example:
   swarmsmith worker --connect 127.0.0.1:5555 --slots 4)";
 
-constexpr std::string_view kVerifyDetails = R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
+constexpr std::string_view kVerifyDetails =
+    R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
 budget and winner with what is stored; checks the file itself, too. Exit code 0 when all is clean.
 
 Example:

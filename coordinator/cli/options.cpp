@@ -144,7 +144,14 @@ void Options::choice(const std::string& names, std::string& value,
 
 void Options::integer(const std::string& names, std::optional<std::int64_t>& value, Range range,
                       const std::string& help) {
-  app_->add_option(names, value, help)->check(CLI::Range(range.least, range.most));
+  const auto without_underscores = [](std::string given) {
+    std::erase(given, '_');
+    return given;
+  };
+  // Checks run in reverse: the range sees what the transformation has made.
+  app_->add_option(names, value, help)
+      ->check(CLI::Range(range.least, range.most))
+      ->transform(without_underscores, "", "underscores");
 }
 
 ExitCode run_program(const std::vector<std::string>& arguments, Output& output) {

@@ -39,6 +39,7 @@ class Options {
     std::int64_t most;
   };
   /// Nothing stays nothing when the option is not there.
+  /// As in campaign files, underscores may group the digits: 100_000.
   void integer(const std::string& names, std::optional<std::int64_t>& value, Range range,
                const std::string& help);
 

@@ -35,11 +35,14 @@ std::size_t Progress::terminal_width() {
   return known ? size.ws_col - 1U : 79U;
 }
 
-void Progress::add(const Row& row, TimePoint now) {
+bool Progress::repeats_state(const Row& row) const {
   const auto* state = std::get_if<DesignStateRow>(&row);
-  const bool news = state == nullptr || model_.design(state->design).state != state->state;
+  return state != nullptr && model_.design(state->design).state == state->state;
+}
+
+void Progress::add(const Row& row, TimePoint now) {
+  const bool news = !repeats_state(row);
   model_.add(row);
-  // A race tells its state after each step; only its beginning and end are news.
   if (form_ == Form::Silent || !news) return;
   if (form_ == Form::Json) {
     const std::string event = event_json(row);

@@ -40,6 +40,8 @@ class Progress {
  private:
   enum class Form { Silent, Json, Terminal, Plain };
 
+  /// A race tells its state after each step; only another one is news.
+  bool repeats_state(const Row& row) const;
   void add_line(const std::string& line);
   void write_row(const Row& row, TimePoint now);
   void draw(const LiveStatus& live);

@@ -11,14 +11,6 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Scores from 0.01 to 1,000,000 come with enough digits and without exponents.
-std::string score_text(double score) {
-  char buffer[64];
-  const int size =
-      std::snprintf(buffer, sizeof buffer, std::abs(score) < 1000 ? "%.4g" : "%.0f", score);
-  return {buffer, static_cast<std::size_t>(size)};
-}
-
 /// Padded on the left.
 std::string right(const std::string& text, std::size_t width) {
   return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
@@ -83,6 +75,13 @@ std::string second_half(const ProgressModel& model, const LiveStatus& live) {
 }
 
 }  // namespace
+
+std::string score_text(double score) {
+  char buffer[64];
+  const int size =
+      std::snprintf(buffer, sizeof buffer, std::abs(score) < 1000 ? "%.4g" : "%.0f", score);
+  return {buffer, static_cast<std::size_t>(size)};
+}
 
 std::string_view name_of(DesignState state) {
   static constexpr std::array<std::string_view, 5> kNames = {"waiting", "racing", "testing",

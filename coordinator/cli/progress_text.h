@@ -9,6 +9,9 @@ namespace swarmsmith::cli {
 
 /// Lines about a campaign for people, and events for programs. All pure.
 
+/// Four digits, and none behind the point from 1,000 on: scores of grid exploration are large.
+std::string score_text(double score);
+
 /// The line that is redrawn on a terminal, cut to `width` columns:
 ///   design 3/10  iteration 5/~10  [####------]  52 418/100 000  alive 17/58  best 2.71
 ///   412 sim/s  ETA 1m55s  failed 3

@@ -19,7 +19,8 @@ void write(Output& output, const Verification& found) {
                << "]}\n";
     return;
   }
-  for (const std::string& complaint : found.complaints) output.out << complaint << "\n";
+  for (const std::string& complaint : found.complaints)
+    output.out << complaint << "\n";
   if (found.complaints.empty()) {
     output.out << "clean: " << found.evaluations << " evaluations of " << found.designs
                << " designs, " << found.finished << " finished; every race was played again\n";

@@ -1,7 +1,7 @@
+#include <unistd.h>
 #include <cerrno>
 #include <cstring>
 #include <memory>
-#include <unistd.h>
 
 #include "coordinator/cli/commands.h"
 #include "coordinator/local_workers.h"
@@ -30,7 +30,8 @@ Run declare_worker(Options& options) {
       words.push_back(std::to_string(*arguments->slots));
     }
     std::vector<char*> pointers;
-    for (std::string& word : words) pointers.push_back(word.data());
+    for (std::string& word : words)
+      pointers.push_back(word.data());
     pointers.push_back(nullptr);
     execv(pointers.front(), pointers.data());
     return fail(output, ExitCode::Unreachable,

@@ -33,22 +33,21 @@ std::vector<std::string> names_of(const ParameterSpace& space) {
 
 /// Every active parameter uniform in its domain, reals rounded.
 Configuration random_configuration(const ParameterSpace& space, Rng& rng) {
-  Configuration configuration(space.size());
+  Assignment values(space);
   for (const std::size_t i : space.hierarchy_order()) {
-    const Assignment values(space, configuration);
     if (!space.is_active(i, values)) continue;
     if (!space.is_numeric(i)) {
-      configuration.set(i, static_cast<double>(rng.below(space.value_count(i))));
+      values.set(i, static_cast<double>(rng.below(space.value_count(i))));
       continue;
     }
     const Interval interval = space.interval(i, values)->value();
     const bool whole = std::holds_alternative<Integer>(space[i].domain);
-    configuration.set(
+    values.set(
         i, whole ? static_cast<double>(rng.uniform_int(static_cast<std::int64_t>(interval.lower),
                                                        static_cast<std::int64_t>(interval.upper)))
                  : std::round(rng.uniform(interval.lower, interval.upper) * 100) / 100);
   }
-  return configuration;
+  return values.configuration();
 }
 
 class Flavours : public testing::TestWithParam<std::string> {};

@@ -38,6 +38,13 @@ TEST(Program, RefusesAWordTooMany) {
   EXPECT_THAT(ran.err, HasSubstr("`now` is one word too many"));
 }
 
+TEST(Program, TakesNumbersWithUnderscores) {
+  // The range complains about what remains.
+  const Ran ran = run({"ls", "designs", "--limit", "2_000_000_000"});
+  EXPECT_THAT(ran.err, HasSubstr("2000000000 not in range"));
+  EXPECT_THAT(run({"ls", "designs", "--limit", "1_000"}).err, HasSubstr("which store?"));
+}
+
 TEST(Program, NamesWhatIsMissing) {
   const Ran ran = run({"check"});
   EXPECT_EQ(ran.code, 2);

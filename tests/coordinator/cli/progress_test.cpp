@@ -187,6 +187,16 @@ TEST(ProgressInALog, TellsEveryHalfMinuteAndWhenADesignEnds) {
   EXPECT_THAT(printer.err(), HasSubstr("workers 2  slots 3/4\n"));
 }
 
+TEST(ProgressInALog, TellsAStateOnce) {
+  Printer printer(flags());
+  DesignStateRow racing = kFinished;
+  racing.state = DesignState::Racing;
+  printer.add(racing);
+  EXPECT_THAT(printer.err(), HasSubstr("racing"));
+  printer.add(racing);
+  EXPECT_EQ(printer.err(), "");
+}
+
 TEST(ProgressInALog, TellsOfTheRaceWhenItShallSayMore) {
   Output output = flags();
   output.verbose = true;

@@ -162,8 +162,8 @@ TEST_F(Result, NamesTheWinnersWithTheirMachines) {
   Output output{.out = out, .err = err};
   const auto store = StoreReader::open(store_);
   EXPECT_EQ(write_result(output, **store), ExitCode::Done);
-  EXPECT_THAT(out.str(), HasSubstr("c1  " + kExploreText));
-  EXPECT_THAT(out.str(), HasSubstr("test_mean"));
+  EXPECT_THAT(out.str(), HasSubstr("best c1, mean score 2.5 in the race"));
+  EXPECT_THAT(out.str(), HasSubstr("\n  " + kExploreText + "\n"));
   out.str("");
   output.json = true;
   write_result(output, **store);
