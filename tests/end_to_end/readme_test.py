@@ -1,0 +1,42 @@
+"""Every command of the README, in its order, in a folder that looks like a built checkout."""
+import os
+import pathlib
+import re
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
+BUILD = pathlib.Path(os.environ["SWARMSMITH_BIN"]).parent
+
+
+def commands():
+    """The lines of the README's blocks of shell."""
+    text = (SOURCE / "README.md").read_text()
+    return "\n".join(re.findall(r"^```sh\n(.*?)^```", text, re.S | re.M))
+
+
+class Readme(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="swarmsmith-readme-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        for name in os.listdir(SOURCE):
+            if not name.startswith(".") and not name.startswith("build") and ".db" not in name:
+                (self.folder / name).symlink_to(SOURCE / name)
+        (self.folder / "build").symlink_to(BUILD)
+
+    def test_its_commands_work_as_written(self):
+        script = "set -eux\n" + commands()
+        self.assertIn("./dev run", script)
+        done = subprocess.run(["bash", "-c", script], cwd=self.folder, capture_output=True,
+                              text=True, timeout=500)
+        self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr[-3000:])
+        self.assertIn("fresh seeds", done.stdout)
+        self.assertRegex(done.stdout, r"--nstates [1-4] ")
+        self.assertRegex(done.stdout, r"(?m)^[0-9a-f]{32}$")
+        self.assertIn("clean", done.stdout)
+
+
+if __name__ == "__main__":
+    unittest.main()
