@@ -3,9 +3,9 @@
 /// Stops the process when `condition` is false: our own logic is wrong, and a race that went on
 /// would record wrong results. Stays on in every kind of build; the campaign resumes from its
 /// store. `what` says what must hold.
-#define SWARMSMITH_ASSERT(condition, what)                                      \
-  do {                                                                          \
-    if (!(condition)) [[unlikely]]                                              \
+#define SWARMSMITH_ASSERT(condition, what)                                          \
+  do {                                                                              \
+    if (!(condition)) [[unlikely]]                                                  \
       ::swarmsmith::detail::assertion_failed(#condition, what, __FILE__, __LINE__); \
   } while (false)
 

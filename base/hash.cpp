@@ -1,7 +1,7 @@
 #include "base/hash.h"
 
-#include <cstring>
 #include <fmt/format.h>
+#include <cstring>
 
 namespace swarmsmith {
 
@@ -22,7 +22,9 @@ void Digest::add(std::string_view text) {
   }
 }
 
-std::uint64_t Digest::value64() const { return mix64(state_[0] ^ std::rotl(state_[1], 17)); }
+std::uint64_t Digest::value64() const {
+  return mix64(state_[0] ^ std::rotl(state_[1], 17));
+}
 
 std::string Digest::hex() const {
   return fmt::format("{:016x}{:016x}", value64(), mix64(state_[1] + words_));

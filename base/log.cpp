@@ -1,12 +1,12 @@
 #include "base/log.h"
 
-#include <cstdlib>
 #include <fmt/format.h>
-#include <iterator>
-#include <memory>
 #include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
+#include <cstdlib>
+#include <iterator>
+#include <memory>
 
 namespace swarmsmith {
 namespace {
@@ -62,10 +62,14 @@ Log& the_log() {
 
 spdlog::level::level_enum to_spdlog(LogLevel level) {
   switch (level) {
-    case LogLevel::Debug: return spdlog::level::debug;
-    case LogLevel::Info: return spdlog::level::info;
-    case LogLevel::Warning: return spdlog::level::warn;
-    case LogLevel::Error: return spdlog::level::err;
+    case LogLevel::Debug:
+      return spdlog::level::debug;
+    case LogLevel::Info:
+      return spdlog::level::info;
+    case LogLevel::Warning:
+      return spdlog::level::warn;
+    case LogLevel::Error:
+      return spdlog::level::err;
   }
   return spdlog::level::err;
 }
@@ -103,6 +107,8 @@ void log(LogLevel level, std::string_view component, std::string_view event,
   sink.logger->log(to_spdlog(level), "{}", line);
 }
 
-void set_log_level(LogLevel level) { the_log().logger->set_level(to_spdlog(level)); }
+void set_log_level(LogLevel level) {
+  the_log().logger->set_level(to_spdlog(level));
+}
 
 }  // namespace swarmsmith

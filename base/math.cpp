@@ -25,7 +25,8 @@ constexpr double kHalfPi3 = 0x1.4c4c6628b80dcp-59;
 template <std::size_t N>
 double polynomial(const std::array<double, N>& c, double x) {
   double sum = c[N - 1];
-  for (std::size_t i = N - 1; i > 0; --i) sum = sum * x + c[i - 1];
+  for (std::size_t i = N - 1; i > 0; --i)
+    sum = sum * x + c[i - 1];
   return sum;
 }
 
@@ -37,16 +38,16 @@ double scale(double x, int n) {
 /// sin(r) for |r| <= pi/4: Taylor, the first term left out is r^19 / 19!, below 1e-19.
 double sin_kernel(double r) {
   static constexpr std::array<double, 8> kCoefficients = {
-      -1.0 / 6,         1.0 / 120,         -1.0 / 5040,          1.0 / 362880,
-      -1.0 / 39916800,  1.0 / 6227020800., -1.0 / 1307674368e3,  1.0 / 355687428096e3};
+      -1.0 / 6,        1.0 / 120,         -1.0 / 5040,         1.0 / 362880,
+      -1.0 / 39916800, 1.0 / 6227020800., -1.0 / 1307674368e3, 1.0 / 355687428096e3};
   const double s = r * r;
   return r + r * s * polynomial(kCoefficients, s);
 }
 
 double cos_kernel(double r) {
   static constexpr std::array<double, 8> kCoefficients = {
-      1.0 / 24,           -1.0 / 720,           1.0 / 40320,          -1.0 / 3628800,
-      1.0 / 479001600.,   -1.0 / 87178291200.,  1.0 / 20922789888e3,  -1.0 / 6402373705728e3};
+      1.0 / 24,         -1.0 / 720,          1.0 / 40320,         -1.0 / 3628800,
+      1.0 / 479001600., -1.0 / 87178291200., 1.0 / 20922789888e3, -1.0 / 6402373705728e3};
   const double s = r * r;
   const double half = 0.5 * s;
   const double head = 1.0 - half;
@@ -56,18 +57,18 @@ double cos_kernel(double r) {
 
 /// atan(t) for 0 <= t <= 0.2: Taylor up to t^23; the first term left out is below 2e-19.
 double atan_kernel(double t) {
-  static constexpr std::array<double, 11> kCoefficients = {
-      -1.0 / 3, 1.0 / 5,   -1.0 / 7, 1.0 / 9,   -1.0 / 11, 1.0 / 13,
-      -1.0 / 15, 1.0 / 17, -1.0 / 19, 1.0 / 21, -1.0 / 23};
+  static constexpr std::array<double, 11> kCoefficients = {-1.0 / 3,  1.0 / 5,  -1.0 / 7,  1.0 / 9,
+                                                           -1.0 / 11, 1.0 / 13, -1.0 / 15, 1.0 / 17,
+                                                           -1.0 / 19, 1.0 / 21, -1.0 / 23};
   const double s = t * t;
   return t + t * s * polynomial(kCoefficients, s);
 }
 
-/// atan(t) for 0 <= t <= 1: from the nearest k/4, atan(t) = atan(k/4) + atan((t - k/4)/(1 + t k/4)).
+/// atan(t) for 0 <= t <= 1: from the nearest k/4, atan(t) = atan(k/4) + atan((t - k/4)/(1 + t
+/// k/4)).
 double atan_unit(double t) {
-  static constexpr std::array<double, 5> kAtanQuarters = {0.0, 0.24497866312686415,
-                                                          0.4636476090008061, 0.6435011087932844,
-                                                          0.7853981633974483};
+  static constexpr std::array<double, 5> kAtanQuarters = {
+      0.0, 0.24497866312686415, 0.4636476090008061, 0.6435011087932844, 0.7853981633974483};
   const int k = static_cast<int>(t * 4.0 + 0.5);
   if (k == 0) return atan_kernel(t);
   const double quarter = k / 4.0;
@@ -91,7 +92,8 @@ double erf_series(double x) {
 /// erfc(x) for x > 2 by its continued fraction, from the inside out.
 double erfc_fraction(double x) {
   double tail = 0;
-  for (int n = 120; n > 0; --n) tail = 0.5 * n / (x + tail);
+  for (int n = 120; n > 0; --n)
+    tail = 0.5 * n / (x + tail);
   return 0.5641895835477563 * exp(-x * x) / (x + tail);
 }
 
@@ -99,15 +101,18 @@ double erfc_fraction(double x) {
 
 SinCos sin_cos(double angle_rad) {
   const double quadrant = std::floor(angle_rad * (2.0 / kPi) + 0.5);
-  const double r =
-      ((angle_rad - quadrant * kHalfPi1) - quadrant * kHalfPi2) - quadrant * kHalfPi3;
+  const double r = ((angle_rad - quadrant * kHalfPi1) - quadrant * kHalfPi2) - quadrant * kHalfPi3;
   const double s = sin_kernel(r);
   const double c = cos_kernel(r);
   switch (static_cast<std::int64_t>(quadrant) & 3) {
-    case 0: return {s, c};
-    case 1: return {c, -s};
-    case 2: return {-s, -c};
-    default: return {-c, s};
+    case 0:
+      return {s, c};
+    case 1:
+      return {c, -s};
+    case 2:
+      return {-s, -c};
+    default:
+      return {-c, s};
   }
 }
 
@@ -121,10 +126,20 @@ double atan2(double y, double x) {
 }
 
 double exp(double x) {
-  static constexpr std::array<double, 14> kCoefficients = {
-      1.0,           1.0,            1.0 / 2,         1.0 / 6,          1.0 / 24,
-      1.0 / 120,     1.0 / 720,      1.0 / 5040,      1.0 / 40320,      1.0 / 362880,
-      1.0 / 3628800, 1.0 / 39916800, 1.0 / 479001600., 1.0 / 6227020800.};
+  static constexpr std::array<double, 14> kCoefficients = {1.0,
+                                                           1.0,
+                                                           1.0 / 2,
+                                                           1.0 / 6,
+                                                           1.0 / 24,
+                                                           1.0 / 120,
+                                                           1.0 / 720,
+                                                           1.0 / 5040,
+                                                           1.0 / 40320,
+                                                           1.0 / 362880,
+                                                           1.0 / 3628800,
+                                                           1.0 / 39916800,
+                                                           1.0 / 479001600.,
+                                                           1.0 / 6227020800.};
   if (std::isnan(x)) return x;
   if (x > 709.8) return kInfinity;
   if (x < -745.2) return 0;
@@ -137,9 +152,9 @@ double exp(double x) {
 }
 
 double log(double x) {
-  static constexpr std::array<double, 11> kCoefficients = {
-      2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,  2.0 / 11, 2.0 / 13,
-      2.0 / 15, 2.0 / 17, 2.0 / 19, 2.0 / 21, 2.0 / 23};
+  static constexpr std::array<double, 11> kCoefficients = {2.0 / 3,  2.0 / 5,  2.0 / 7,  2.0 / 9,
+                                                           2.0 / 11, 2.0 / 13, 2.0 / 15, 2.0 / 17,
+                                                           2.0 / 19, 2.0 / 21, 2.0 / 23};
   if (std::isnan(x) || x < 0) return std::numeric_limits<double>::quiet_NaN();
   if (x == 0) return -kInfinity;
   if (x == kInfinity) return x;
@@ -167,7 +182,9 @@ double log(double x) {
          ((half_square - (s * (half_square + tail) + exponent * kLn2Low)) - f);
 }
 
-double pow(double base, double exponent) { return exp(exponent * log(base)); }
+double pow(double base, double exponent) {
+  return exp(exponent * log(base));
+}
 
 double normal_cdf(double x) {
   const double z = std::fabs(x) / 1.4142135623730951;
@@ -184,26 +201,38 @@ double normal_quantile(double p) {
       3.3871328727963666080e0, 1.3314166789178437745e2, 1.9715909503065514427e3,
       1.3731693765509461125e4, 4.5921953931549871457e4, 6.7265770927008700853e4,
       3.3430575583588128105e4, 2.5090809287301226727e3};
-  static constexpr std::array<double, 8> kMiddleBottom = {
-      1.0,                     4.2313330701600911252e1, 6.8718700749205790830e2,
-      5.3941960214247511077e3, 2.1213794301586595867e4, 3.9307895800092710610e4,
-      2.8729085735721942674e4, 5.2264952788528545610e3};
+  static constexpr std::array<double, 8> kMiddleBottom = {1.0,
+                                                          4.2313330701600911252e1,
+                                                          6.8718700749205790830e2,
+                                                          5.3941960214247511077e3,
+                                                          2.1213794301586595867e4,
+                                                          3.9307895800092710610e4,
+                                                          2.8729085735721942674e4,
+                                                          5.2264952788528545610e3};
   static constexpr std::array<double, 8> kNearTop = {
-      1.42343711074968357734e0,  4.63033784615654529590e0,  5.76949722146069140550e0,
-      3.64784832476320460504e0,  1.27045825245236838258e0,  2.41780725177450611770e-1,
+      1.42343711074968357734e0,  4.63033784615654529590e0, 5.76949722146069140550e0,
+      3.64784832476320460504e0,  1.27045825245236838258e0, 2.41780725177450611770e-1,
       2.27238449892691845833e-2, 7.74545014278341407640e-4};
-  static constexpr std::array<double, 8> kNearBottom = {
-      1.0,                       2.05319162663775882187e0,  1.67638483018380384940e0,
-      6.89767334985100004550e-1, 1.48103976427480074590e-1, 1.51986665636164571966e-2,
-      5.47593808499534494600e-4, 1.05075007164441684324e-9};
+  static constexpr std::array<double, 8> kNearBottom = {1.0,
+                                                        2.05319162663775882187e0,
+                                                        1.67638483018380384940e0,
+                                                        6.89767334985100004550e-1,
+                                                        1.48103976427480074590e-1,
+                                                        1.51986665636164571966e-2,
+                                                        5.47593808499534494600e-4,
+                                                        1.05075007164441684324e-9};
   static constexpr std::array<double, 8> kFarTop = {
       6.65790464350110377720e0,  5.46378491116411436990e0,  1.78482653991729133580e0,
       2.96560571828504891230e-1, 2.65321895265761230930e-2, 1.24266094738807843860e-3,
       2.71155556874348757815e-5, 2.01033439929228813265e-7};
-  static constexpr std::array<double, 8> kFarBottom = {
-      1.0,                       5.99832206555887937690e-1, 1.36929880922735805310e-1,
-      1.48753612908506148525e-2, 7.86869131145613259100e-4, 1.84631831751005468180e-5,
-      1.42151175831644588870e-7, 2.04426310338993978564e-15};
+  static constexpr std::array<double, 8> kFarBottom = {1.0,
+                                                       5.99832206555887937690e-1,
+                                                       1.36929880922735805310e-1,
+                                                       1.48753612908506148525e-2,
+                                                       7.86869131145613259100e-4,
+                                                       1.84631831751005468180e-5,
+                                                       1.42151175831644588870e-7,
+                                                       2.04426310338993978564e-15};
   const double q = p - 0.5;
   if (std::fabs(q) <= 0.425) {
     const double r = 0.180625 - q * q;
@@ -224,6 +253,8 @@ double wrap_angle(double angle_rad) {
   return wrapped;
 }
 
-double hypot(double x, double y) { return std::sqrt(x * x + y * y); }
+double hypot(double x, double y) {
+  return std::sqrt(x * x + y * y);
+}
 
 }  // namespace swarmsmith

@@ -16,8 +16,12 @@ struct SinCos {
 
 /// Sine and cosine of an angle in radians; |angle_rad| up to 1e5.
 SinCos sin_cos(double angle_rad);
-inline double sin(double angle_rad) { return sin_cos(angle_rad).sin; }
-inline double cos(double angle_rad) { return sin_cos(angle_rad).cos; }
+inline double sin(double angle_rad) {
+  return sin_cos(angle_rad).sin;
+}
+inline double cos(double angle_rad) {
+  return sin_cos(angle_rad).cos;
+}
 
 /// Angle of the point (x, y) in (-pi, pi]; 0 for the origin.
 double atan2(double y, double x);

@@ -18,7 +18,8 @@ std::uint64_t Rng::below(std::uint64_t n) {
   // The largest multiple of n that fits; numbers beyond it are drawn again.
   const std::uint64_t limit = ~std::uint64_t{0} - (~std::uint64_t{0} % n + 1) % n;
   std::uint64_t x = next();
-  while (x > limit) x = next();
+  while (x > limit)
+    x = next();
   return x % n;
 }
 

@@ -21,14 +21,26 @@ using Radians = Quantity<struct RadianUnit>;
 using Seconds = Quantity<struct SecondUnit>;
 using MetresPerSecond = Quantity<struct MetrePerSecondUnit>;
 
-constexpr Radians degrees(double angle_deg) { return {angle_deg * 0.017453292519943295}; }
-constexpr Metres centimetres(double length_cm) { return {length_cm / 100.0}; }
+constexpr Radians degrees(double angle_deg) {
+  return {angle_deg * 0.017453292519943295};
+}
+constexpr Metres centimetres(double length_cm) {
+  return {length_cm / 100.0};
+}
 
 namespace literals {
-constexpr Metres operator""_m(long double v) { return {static_cast<double>(v)}; }
-constexpr Radians operator""_rad(long double v) { return {static_cast<double>(v)}; }
-constexpr Seconds operator""_s(long double v) { return {static_cast<double>(v)}; }
-constexpr MetresPerSecond operator""_mps(long double v) { return {static_cast<double>(v)}; }
+constexpr Metres operator""_m(long double v) {
+  return {static_cast<double>(v)};
+}
+constexpr Radians operator""_rad(long double v) {
+  return {static_cast<double>(v)};
+}
+constexpr Seconds operator""_s(long double v) {
+  return {static_cast<double>(v)};
+}
+constexpr MetresPerSecond operator""_mps(long double v) {
+  return {static_cast<double>(v)};
+}
 }  // namespace literals
 
 }  // namespace swarmsmith

@@ -20,7 +20,13 @@ enum class Purpose : std::int8_t { Race = 0, LookAhead = 1, Test = 2, Audit = 3,
 /// How an evaluation ended. The numbers are stored. A rejected one has no score.
 enum class EvaluationStatus : std::int8_t { Ok = 0, Rejected = 1 };
 
-enum class DesignState : std::int8_t { Waiting = 0, Racing = 1, Testing = 2, Finished = 3, Stopped = 4 };
+enum class DesignState : std::int8_t {
+  Waiting = 0,
+  Racing = 1,
+  Testing = 2,
+  Finished = 3,
+  Stopped = 4
+};
 
 /// Names an evaluation within a store: a candidate (its design follows from it), what for, and the
 /// pair (instance, seed) by its number in the design's list of that purpose, from 1.
@@ -41,16 +47,18 @@ inline constexpr std::int64_t kPairsPerCandidate = 100'000;
 constexpr CandidateId candidate_id(DesignId design, std::int64_t number) {
   return {(design.value - 1) * kCandidatesPerDesign + number};
 }
-constexpr DesignId design_of(CandidateId id) { return {(id.value - 1) / kCandidatesPerDesign + 1}; }
+constexpr DesignId design_of(CandidateId id) {
+  return {(id.value - 1) / kCandidatesPerDesign + 1};
+}
 constexpr std::int64_t number_of(CandidateId id) {
   return (id.value - 1) % kCandidatesPerDesign + 1;
 }
 
 struct CampaignRow {
   std::string name;
-  std::string digest;       ///< of what decides the answer
-  std::string deciding;     ///< JSON object: the keys and values that the digest covers, in order
-  std::string file;         ///< the normalised campaign file; reading it gives the campaign again
+  std::string digest;    ///< of what decides the answer
+  std::string deciding;  ///< JSON object: the keys and values that the digest covers, in order
+  std::string file;      ///< the normalised campaign file; reading it gives the campaign again
   std::int64_t seed = 0;
 };
 
@@ -67,10 +75,10 @@ struct DesignRow {
 struct CandidateRow {
   CandidateId id;
   std::int64_t iteration = 0;
-  CandidateId parent;           ///< whose model it was sampled from; none for initial ones
-  std::string parameters;       ///< JSON object of the active parameters
-  std::string machine;          ///< text of the grammar
-  std::string modules;          ///< JSON object, module name -> occurrences
+  CandidateId parent;      ///< whose model it was sampled from; none for initial ones
+  std::string parameters;  ///< JSON object of the active parameters
+  std::string machine;     ///< text of the grammar
+  std::string modules;     ///< JSON object, module name -> occurrences
   std::int64_t states = 0;
   std::int64_t transitions = 0;
 };
@@ -86,14 +94,14 @@ struct PairRow {
 
 struct EvaluationRow {
   EvaluationKey key;
-  std::int64_t iteration = 0;   ///< whose race asked for it; 0 outside races
+  std::int64_t iteration = 0;  ///< whose race asked for it; 0 outside races
   EvaluationStatus status = EvaluationStatus::Ok;
-  double score = 0;             ///< larger is better; finite
+  double score = 0;  ///< larger is better; finite
   std::uint64_t state_digest = 0;
-  std::string source;           ///< the simulator profile
-  std::int64_t wall_us = 0;     ///< not part of the answer
-  std::int64_t worker = 0;      ///< not part of the answer; 0 when unknown
-  std::int64_t attempt = 1;     ///< not part of the answer
+  std::string source;        ///< the simulator profile
+  std::int64_t wall_us = 0;  ///< not part of the answer
+  std::int64_t worker = 0;   ///< not part of the answer; 0 when unknown
+  std::int64_t attempt = 1;  ///< not part of the answer
 };
 
 /// The race no longer wants this evaluation (its candidate was rejected on an earlier pair): it
@@ -105,7 +113,7 @@ struct UnusedRow {
 struct IterationRow {
   DesignId design;
   std::int64_t number = 0;
-  std::int64_t of = 0;              ///< iterations planned when this one began
+  std::int64_t of = 0;  ///< iterations planned when this one began
   std::int64_t budget = 0;
   std::int64_t configurations = 0;  ///< elites included
   std::int64_t elites = 0;
@@ -116,22 +124,23 @@ struct IterationRow {
 /// One task of a race: all alive candidates on one pair, and the test after it.
 struct RaceStepRow {
   DesignId design;
-  std::int64_t step = 0;        ///< from 1, through all iterations
+  std::int64_t step = 0;  ///< from 1, through all iterations
   std::int64_t iteration = 0;
   std::int64_t pair = 0;
-  char marker = 'x';            ///< irace's: x no test, = nothing dropped, - dropped, ! only protected ones, . nothing to run
-  std::int64_t evaluated = 0;   ///< experiments of this step
+  char marker = 'x';  ///< irace's: x no test, = nothing dropped, - dropped, ! only protected ones,
+                      ///< . nothing to run
+  std::int64_t evaluated = 0;  ///< experiments of this step
   std::int64_t alive_before = 0;
   std::int64_t alive_after = 0;
   CandidateId best;
-  double mean_best = 0;         ///< score
-  std::int64_t used = 0;        ///< experiments of the design so far
+  double mean_best = 0;   ///< score
+  std::int64_t used = 0;  ///< experiments of the design so far
   std::optional<double> statistic;
   std::optional<double> p_value;
   std::optional<double> kendall_w;
   std::optional<double> spearman_rho;
   std::optional<double> qvar;
-  std::uint64_t digest = 0;     ///< alive set, ranks, statistic, generator
+  std::uint64_t digest = 0;  ///< alive set, ranks, statistic, generator
 };
 
 struct EliminationRow {
@@ -139,15 +148,15 @@ struct EliminationRow {
   std::int64_t iteration = 0;
   std::int64_t step = 0;
   double rank_sum = 0;
-  std::string reason;           ///< "test", "rejected", "not kept" (survived the race, no elite)
+  std::string reason;  ///< "test", "rejected", "not kept" (survived the race, no elite)
 };
 
 struct EliteRow {
   DesignId design;
   std::int64_t iteration = 0;
-  std::int64_t rank = 0;        ///< from 1
+  std::int64_t rank = 0;  ///< from 1
   CandidateId candidate;
-  double mean = 0;              ///< score over the pairs seen so far
+  double mean = 0;  ///< score over the pairs seen so far
   std::int64_t runs = 0;
 };
 
@@ -165,24 +174,24 @@ struct DesignStateRow {
   DesignState state = DesignState::Waiting;
   std::int64_t used = 0;
   std::int64_t iteration = 0;
-  CandidateId best;             ///< best so far; the winner of a finished design
+  CandidateId best;  ///< best so far; the winner of a finished design
   double best_mean = 0;
-  std::string reason;           ///< why it ended
+  std::string reason;  ///< why it ended
 };
 
 struct CampaignStateRow {
-  std::string state;            ///< "running", "finished", "stopped"
+  std::string state;  ///< "running", "finished", "stopped"
 };
 
 /// Not part of the answer.
 struct WorkerRow {
-  std::int64_t id = 0;          ///< by order of arrival in this store
-  std::string identity;         ///< 128 random bits in hexadecimal
+  std::int64_t id = 0;   ///< by order of arrival in this store
+  std::string identity;  ///< 128 random bits in hexadecimal
   std::string host;
   std::int64_t pid = 0;
   std::int64_t slots = 0;
   std::string build;
-  std::string state;            ///< "connected", "lost", "left", "refused"
+  std::string state;  ///< "connected", "lost", "left", "refused"
   std::int64_t done = 0;
   std::int64_t failed = 0;
 };
@@ -199,9 +208,9 @@ struct ConflictRow {
 
 /// Something that a person may want to know afterwards. Not part of the answer.
 struct EventRow {
-  std::string severity;         ///< "info", "warning", "error"
-  std::string kind;             ///< "worker lost", "lease expired", "disk full", ...
-  std::string text;             ///< JSON object
+  std::string severity;  ///< "info", "warning", "error"
+  std::string kind;      ///< "worker lost", "lease expired", "disk full", ...
+  std::string text;      ///< JSON object
 };
 
 using Row = std::variant<CandidateRow, PairRow, EvaluationRow, UnusedRow, IterationRow, RaceStepRow,

@@ -45,7 +45,8 @@ void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tes
       const MeanInterval interval = mean_interval(found->second);
       // One value has no interval.
       const bool several = found->second.size() > 1;
-      added = {number_cell(interval.mean), several ? number_cell(interval.half_width) : Cell{},
+      added = {number_cell(interval.mean),
+               several ? number_cell(interval.half_width) : Cell{},
                {Cell::Type::Integer, std::to_string(found->second.size())}};
     }
     cells.insert(cells.end() - 1, added.begin(), added.end());

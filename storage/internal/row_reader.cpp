@@ -180,7 +180,8 @@ std::vector<StoredStep> read_steps(const sqlite::Connection& connection) {
 std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection) {
   std::vector<DesignStateRow> states;
   Statement row(connection, kDesignStates);
-  while (row.step()) states.push_back(design_state(row));
+  while (row.step())
+    states.push_back(design_state(row));
   return states;
 }
 

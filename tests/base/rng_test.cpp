@@ -13,7 +13,8 @@ namespace {
 TEST(Rng, SameSeedGivesSameNumbers) {
   Rng a(7);
   Rng b(7);
-  for (int i = 0; i < 100; ++i) EXPECT_EQ(a.next(), b.next());
+  for (int i = 0; i < 100; ++i)
+    EXPECT_EQ(a.next(), b.next());
   EXPECT_NE(Rng(7).next(), Rng(8).next());
 }
 
@@ -35,9 +36,11 @@ TEST(Rng, NumbersAreFixed) {
 TEST(Rng, IntegersAreUniform) {
   Rng rng(11);
   std::array<int, 7> counts{};
-  for (int i = 0; i < 70'000; ++i) ++counts[rng.below(7)];
+  for (int i = 0; i < 70'000; ++i)
+    ++counts[rng.below(7)];
   double chi_square = 0;
-  for (const int count : counts) chi_square += (count - 10'000.0) * (count - 10'000.0) / 10'000.0;
+  for (const int count : counts)
+    chi_square += (count - 10'000.0) * (count - 10'000.0) / 10'000.0;
   EXPECT_LT(chi_square, 22.46);  // 0.1 % point of 6 degrees of freedom
   for (int i = 0; i < 1000; ++i) {
     const auto x = rng.uniform_int(-2, 3);
@@ -68,7 +71,8 @@ TEST(Rng, ShuffleReachesEveryOrderEquallyOften) {
     rng.shuffle(std::span<int>(items));
     ++counts[static_cast<std::size_t>(items[0] * 2 + (items[1] > items[2] ? 1 : 0))];
   }
-  for (const int count : counts) EXPECT_NEAR(count, 10'000, 400);
+  for (const int count : counts)
+    EXPECT_NEAR(count, 10'000, 400);
 }
 
 TEST(Rng, BernoulliHasItsEnds) {
