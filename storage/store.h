@@ -20,8 +20,11 @@ struct WriterNews {
 };
 
 struct StoreOptions {
-  std::chrono::milliseconds retry{
-      1000};  ///< how long to wait before a failed commit is tried again
+  /// How long to wait before a failed commit is tried again.
+  std::chrono::milliseconds retry{1000};
+  /// The least time from one commit to the next, unless somebody waits in flush(): what comes in
+  /// meanwhile shares one transaction, and a commit costs the kernel as much as a hundred rows.
+  std::chrono::milliseconds gather{20};
 };
 
 /// The one writer of a store: a SQLite file in WAL mode, synchronous=FULL, with a thread of its own

@@ -1,5 +1,6 @@
 #include "storage/internal/group_writer.h"
 
+#include <algorithm>
 #include <iterator>
 #include <utility>
 
@@ -10,6 +11,9 @@
 
 namespace swarmsmith {
 namespace {
+
+/// So many batches are committed without waiting for more.
+constexpr std::size_t kLargeGroup = 1024;
 
 /// A constraint, a type or a misuse: the same rows would fail again and for ever, and it is our own
 /// logic that made them. All else is the disk's trouble, and passes.
@@ -26,6 +30,7 @@ GroupWriter::GroupWriter(LockFile lock, sqlite::Connection connection, const Sto
       connection_(std::move(connection)),
       rows_(connection_),
       retry_(options.retry),
+      gather_(options.gather),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 GroupWriter::~GroupWriter() {
@@ -40,12 +45,14 @@ std::uint64_t GroupWriter::append(std::vector<Row> rows) {
   for (const Row& row : rows)
     require_finite(row);
   std::uint64_t ticket = 0;
+  bool wake = false;
   {
     const std::lock_guard guard(mutex_);
     ticket = ++last_ticket_;
     queue_.push_back({ticket, std::move(rows)});
+    wake = queue_.size() == 1 || queue_.size() == kLargeGroup;
   }
-  work_.notify_one();
+  if (wake) work_.notify_one();
   return ticket;
 }
 
@@ -57,6 +64,8 @@ void GroupWriter::set_listener(std::function<void(const WriterNews&)> on_news) {
 void GroupWriter::flush() {
   std::unique_lock guard(mutex_);
   const std::uint64_t wanted = last_ticket_;
+  awaited_ = std::max(awaited_, wanted);
+  work_.notify_one();
   committed_changed_.wait(guard, [&] { return committed_ >= wanted; });
 }
 
@@ -110,7 +119,10 @@ bool GroupWriter::take_group(const std::stop_token& stop, std::vector<Batch>& gr
   if (!group.empty()) return true;
   std::unique_lock guard(mutex_);
   work_.wait(guard, stop, [this] { return !queue_.empty(); });
+  work_.wait_until(guard, stop, next_commit_,
+                   [this] { return awaited_ > committed_ || queue_.size() >= kLargeGroup; });
   std::swap(group, queue_);
+  next_commit_ = std::chrono::steady_clock::now() + gather_;
   return !group.empty();
 }
 

@@ -50,13 +50,16 @@ class GroupWriter final : public Store {
   sqlite::Connection connection_;
   RowWriter rows_;
   std::chrono::milliseconds retry_;
+  std::chrono::milliseconds gather_;
+  std::chrono::steady_clock::time_point next_commit_{};  ///< of the writer's thread
 
-  std::mutex mutex_;  ///< guards the next five
+  std::mutex mutex_;  ///< guards the next six
   std::condition_variable_any work_;
   std::condition_variable committed_changed_;
   std::vector<Batch> queue_;
   std::uint64_t last_ticket_ = 0;
   std::uint64_t committed_ = 0;
+  std::uint64_t awaited_ = 0;  ///< somebody waits in flush() for this ticket
 
   std::mutex listener_mutex_;
   std::function<void(const WriterNews&)> listener_;
