@@ -80,9 +80,11 @@ void Scheduler::dispatch(TimePoint now) {
   if (held_ || draining_ || workers_.connected() == 0) return;
   dispatch_alone(now);
   if (leases_.queued() == 0) return;
-  // Guided self-scheduling: near the end of what there is, nobody holds more than a share of it.
+  // Guided self-scheduling: near the end of what there is, nobody holds more than half a share of
+  // it. A worker that is alone may have it all: its slots share what it holds.
   const std::int64_t remaining = static_cast<std::int64_t>(leases_.size());
-  const std::int64_t share = std::max<std::int64_t>(1, remaining / (2 * workers_.slots()));
+  const std::int64_t parts = workers_.connected() > 1 ? 2 * workers_.slots() : workers_.slots();
+  const std::int64_t share = std::max<std::int64_t>(1, (remaining + parts - 1) / parts);
   auto& all = workers_.all();
   const auto first = all.upper_bound(turn_);
   for (auto at = first; at != all.end(); ++at) {
