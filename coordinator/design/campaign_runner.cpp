@@ -14,9 +14,13 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
   open_designs();
 }
 
-std::vector<Task> CampaignRunner::take_tasks() { return std::exchange(tasks_, {}); }
+std::vector<Task> CampaignRunner::take_tasks() {
+  return std::exchange(tasks_, {});
+}
 
-std::vector<Row> CampaignRunner::take_rows() { return std::exchange(rows_, {}); }
+std::vector<Row> CampaignRunner::take_rows() {
+  return std::exchange(rows_, {});
+}
 
 void CampaignRunner::tell(const Outcome& outcome) {
   const auto found = open_.find(design_of(outcome.key.candidate));
@@ -42,8 +46,8 @@ void CampaignRunner::open_designs() {
     const DesignId id = plan.row.id;
     if (std::ranges::find(finished_, id) != finished_.end()) continue;
     auto stored = stored_.extract(id);
-    auto runner = DesignRunner::start(std::move(plan), stored ? std::move(stored.mapped())
-                                                              : StoredDesign{});
+    auto runner =
+        DesignRunner::start(std::move(plan), stored ? std::move(stored.mapped()) : StoredDesign{});
     if (!runner) {
       error_ = runner.error();
       return;

@@ -11,8 +11,8 @@
 
 namespace swarmsmith {
 
-/// All designs of a campaign as one source of work: opens them in order, a few at a time, and passes
-/// outcomes on to theirs. A pure state machine.
+/// All designs of a campaign as one source of work: opens them in order, a few at a time, and
+/// passes outcomes on to theirs. A pure state machine.
 class CampaignRunner final : public WorkSource {
  public:
   /// How many unfinished designs race at the same time: one alone leaves slots idle at each of its

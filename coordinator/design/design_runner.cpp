@@ -158,38 +158,39 @@ void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
   SWARMSMITH_ASSERT(found != awaited_.end(), "an outcome is told once, and only when wanted");
   put(found->second, {outcome.key, outcome.status, outcome.score, outcome.state_digest});
   awaited_.erase(found);
-  rows.emplace_back(EvaluationRow{.key = outcome.key,
-                                  .iteration = outcome.key.purpose == Purpose::Race ? iteration_ : 0,
-                                  .status = outcome.status,
-                                  .score = outcome.score,
-                                  .state_digest = outcome.state_digest,
-                                  .source = plan_.source,
-                                  .wall_us = outcome.wall_us,
-                                  .worker = outcome.worker,
-                                  .attempt = outcome.attempt});
+  rows.emplace_back(
+      EvaluationRow{.key = outcome.key,
+                    .iteration = outcome.key.purpose == Purpose::Race ? iteration_ : 0,
+                    .status = outcome.status,
+                    .score = outcome.score,
+                    .state_digest = outcome.state_digest,
+                    .source = plan_.source,
+                    .wall_us = outcome.wall_us,
+                    .worker = outcome.worker,
+                    .attempt = outcome.attempt});
 }
 
 Expected<void> DesignRunner::record_events(std::vector<Row>& rows) {
   for (const RaceEvent& event : race_.take_events()) {
-    auto recorded = std::visit(
-        Overloaded{[&](const ConfigurationSampled& sampled) -> Expected<void> {
-                     record_candidate(sampled, rows);
-                     return {};
-                   },
-                   [&](const IterationStarted& started) -> Expected<void> {
-                     record_iteration_start(started, rows);
-                     return {};
-                   },
-                   [&](const RaceStep& step) { return record_step(step, rows); },
-                   [&](const IterationEnded& ended) -> Expected<void> {
-                     record_iteration_end(ended, rows);
-                     return {};
-                   },
-                   [&](const RaceFinished& finished) -> Expected<void> {
-                     reason_ = finished.reason;
-                     return {};
-                   }},
-        event);
+    auto recorded =
+        std::visit(Overloaded{[&](const ConfigurationSampled& sampled) -> Expected<void> {
+                                record_candidate(sampled, rows);
+                                return {};
+                              },
+                              [&](const IterationStarted& started) -> Expected<void> {
+                                record_iteration_start(started, rows);
+                                return {};
+                              },
+                              [&](const RaceStep& step) { return record_step(step, rows); },
+                              [&](const IterationEnded& ended) -> Expected<void> {
+                                record_iteration_end(ended, rows);
+                                return {};
+                              },
+                              [&](const RaceFinished& finished) -> Expected<void> {
+                                reason_ = finished.reason;
+                                return {};
+                              }},
+                   event);
     if (!recorded) return recorded;
   }
   return {};
@@ -256,8 +257,8 @@ Expected<void> DesignRunner::record_step(const RaceStep& step, std::vector<Row>&
                           .iteration = step.iteration,
                           .step = number,
                           .rank_sum = elimination.rank_sum,
-                          .reason = elimination.reason == EliminationReason::Test ? "test"
-                                                                                  : "rejected"},
+                          .reason =
+                              elimination.reason == EliminationReason::Test ? "test" : "rejected"},
            rows);
   }
   record_state(rows);

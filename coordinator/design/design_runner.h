@@ -29,7 +29,7 @@ struct DesignPlan {
   std::uint32_t mission = 0;  ///< index into the campaign's missions
   std::uint32_t method = 0;   ///< index into the campaign's methods
   ParameterSpace space;
-  Scenario scenario;          ///< with the design's seed and budget
+  Scenario scenario;  ///< with the design's seed and budget
   std::function<CandidateText(const Configuration&)> describe;
   std::int64_t test_count = 0;  ///< fresh seeds for the winner
   std::string source;           ///< the simulator profile's name
@@ -111,7 +111,7 @@ class DesignRunner {
   /// What is waited for, in the race's order: a batch of the race, or the tests.
   std::vector<Experiment> batch_;
   std::vector<double> costs_;
-  std::vector<StoredScore> scores_;  ///< that the costs were made of
+  std::vector<StoredScore> scores_;                         ///< that the costs were made of
   std::unordered_map<std::uint64_t, std::size_t> awaited_;  ///< position by key
   /// Scores that the race wanted and did not use; it may want them again, in a later iteration.
   std::unordered_map<std::uint64_t, StoredScore> unused_;
@@ -124,7 +124,7 @@ class DesignRunner {
   std::size_t steps_ = 0;              ///< of the race, seen so far
   std::int64_t iteration_ = 0;
   std::int64_t used_ = 0;
-  std::int64_t best_ = 0;              ///< number of the best so far, the winner at the end
+  std::int64_t best_ = 0;  ///< number of the best so far, the winner at the end
   double best_mean_ = 0;
   std::string reason_;
 };

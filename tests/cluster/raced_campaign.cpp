@@ -102,12 +102,16 @@ RacedCampaign::RacedCampaign(const CampaignShape& shape, std::map<DesignId, Stor
 
 RacedCampaign::RacedCampaign(const CampaignShape& shape, const SimulatedDisk& disk)
     : RacedCampaign(shape, by_design(disk.scores(), disk.steps(), finished_on(disk)),
-                    finished_on(disk)) {}
+                    finished_on(disk)) {
+  for (const StoredScore& score : disk.scores())
+    asked_.emplace(pack(score.key), true);
+}
 
 std::vector<Task> RacedCampaign::take_tasks() {
   std::vector<Task> tasks = runner_.take_tasks();
   for (const Task& task : tasks) {
-    if (!asked_.emplace(pack(task.key), false).second) complaint_ = "asked twice";
+    if (!asked_.emplace(pack(task.key), false).second)
+      complaint_ = "asked for what was asked for or stored before";
   }
   return tasks;
 }

@@ -21,7 +21,8 @@ double score_of(const Task& task) {
   Digest digest;
   digest.add(task.machine);
   const double quality = Rng(digest.value64()).uniform();
-  return 10 * quality + Rng(digest.value64()).split("noise", static_cast<std::uint64_t>(task.seed)).normal();
+  return 10 * quality +
+         Rng(digest.value64()).split("noise", static_cast<std::uint64_t>(task.seed)).normal();
 }
 
 Outcome outcome_of(const Task& task) {
@@ -81,8 +82,10 @@ struct Memory {
 void run(CampaignRunner& runner, Memory& memory, Rng order, std::size_t limit = ~std::size_t{0}) {
   std::vector<Task> ready;
   while (limit > 0) {
-    for (Task& task : runner.take_tasks()) ready.push_back(std::move(task));
-    for (Row& row : runner.take_rows()) memory.rows.push_back(std::move(row));
+    for (Task& task : runner.take_tasks())
+      ready.push_back(std::move(task));
+    for (Row& row : runner.take_rows())
+      memory.rows.push_back(std::move(row));
     if (ready.empty()) break;
     const std::size_t chosen = order.below(ready.size());
     std::swap(ready[chosen], ready.back());
@@ -91,7 +94,8 @@ void run(CampaignRunner& runner, Memory& memory, Rng order, std::size_t limit = 
     runner.tell(outcome_of(task));
     --limit;
   }
-  for (Row& row : runner.take_rows()) memory.rows.push_back(std::move(row));
+  for (Row& row : runner.take_rows())
+    memory.rows.push_back(std::move(row));
 }
 
 Memory undisturbed(std::int64_t repetitions) {
@@ -222,7 +226,8 @@ TEST(CampaignRunner, ADesignWithoutCandidatesStopsAndTheOthersGoOn) {
       if (design_of(task.key.candidate) == DesignId{2}) outcome.status = EvaluationStatus::Rejected;
       runner.tell(outcome);
     }
-    for (Row& row : runner.take_rows()) rows.push_back(std::move(row));
+    for (Row& row : runner.take_rows())
+      rows.push_back(std::move(row));
   }
   EXPECT_TRUE(runner.finished());
   std::map<DesignId, DesignStateRow> states;
