@@ -14,9 +14,13 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
   open_designs();
 }
 
-std::vector<Task> CampaignRunner::take_tasks() { return std::exchange(tasks_, {}); }
+std::vector<Task> CampaignRunner::take_tasks() {
+  return std::exchange(tasks_, {});
+}
 
-std::vector<Row> CampaignRunner::take_rows() { return std::exchange(rows_, {}); }
+std::vector<Row> CampaignRunner::take_rows() {
+  return std::exchange(rows_, {});
+}
 
 void CampaignRunner::tell(const Outcome& outcome) {
   const auto found = open_.find(design_of(outcome.key.candidate));
@@ -33,8 +37,6 @@ void CampaignRunner::advance(DesignRunner& design) {
     return;
   }
   if (design.state() != DesignState::Finished && design.state() != DesignState::Stopped) return;
-  finished_.push_back(design.id());
-  used_by_finished_ += design.used();
   open_.erase(design.id());
 }
 
@@ -42,13 +44,10 @@ void CampaignRunner::open_designs() {
   while (!error_ && open_.size() < kOpenDesigns && next_plan_ < plans_.size()) {
     DesignPlan plan = std::move(plans_[next_plan_++]);
     const DesignId id = plan.row.id;
-    if (std::ranges::find(finished_, id) != finished_.end()) {
-      used_by_finished_ += plan.row.budget;
-      continue;
-    }
+    if (std::ranges::find(finished_, id) != finished_.end()) continue;
     auto stored = stored_.extract(id);
-    auto runner = DesignRunner::start(std::move(plan), stored ? std::move(stored.mapped())
-                                                              : StoredDesign{});
+    auto runner =
+        DesignRunner::start(std::move(plan), stored ? std::move(stored.mapped()) : StoredDesign{});
     if (!runner) {
       error_ = runner.error();
       return;
@@ -67,15 +66,6 @@ bool CampaignRunner::finished() const {
   return !error_ && open_.empty() && next_plan_ == plans_.size();
 }
 
-CampaignProgress CampaignRunner::progress() const {
-  CampaignProgress progress{.designs = plans_.size(),
-                            .finished = finished_.size(),
-                            .budget = budget_,
-                            .used = used_by_finished_};
-  for (const auto& [id, design] : open_) progress.used += design.used();
-  return progress;
-}
-
 std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& scores,
                                            const std::vector<StoredStep>& steps,
                                            const std::vector<DesignId>& finished) {
@@ -85,10 +75,10 @@ std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& score
   };
   for (const StoredScore& score : scores) {
     const DesignId id = design_of(score.key.candidate);
-    if (skipped(id)) continue;
+    const bool is_test = score.key.purpose == Purpose::Test;
+    if (skipped(id) || (!is_test && score.key.purpose != Purpose::Race)) continue;
     StoredDesign& design = designs[id];
-    auto& known =
-        score.key.purpose == Purpose::Test ? design.test_scores : design.race_scores;
+    auto& known = is_test ? design.test_scores : design.race_scores;
     known.emplace(DesignRunner::key_of(number_of(score.key.candidate), score.key.pair), score);
   }
   for (const StoredStep& step : steps) {

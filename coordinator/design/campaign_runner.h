@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <map>
 #include <optional>
 #include <vector>
@@ -12,16 +11,8 @@
 
 namespace swarmsmith {
 
-/// How far a campaign has come, for people.
-struct CampaignProgress {
-  std::size_t designs = 0;
-  std::size_t finished = 0;
-  std::int64_t budget = 0;  ///< experiments of all designs
-  std::int64_t used = 0;
-};
-
-/// All designs of a campaign as one source of work: opens them in order, a few at a time, and passes
-/// outcomes on to theirs. A pure state machine.
+/// All designs of a campaign as one source of work: opens them in order, a few at a time, and
+/// passes outcomes on to theirs. A pure state machine.
 class CampaignRunner final : public WorkSource {
  public:
   /// How many unfinished designs race at the same time: one alone leaves slots idle at each of its
@@ -40,7 +31,6 @@ class CampaignRunner final : public WorkSource {
 
   /// Why the campaign cannot go on: a plan that does not fit, a store that disagrees.
   const std::optional<Error>& error() const { return error_; }
-  CampaignProgress progress() const;
 
  private:
   void open_designs();
@@ -55,11 +45,10 @@ class CampaignRunner final : public WorkSource {
   std::vector<Row> rows_;
   std::optional<Error> error_;
   bool state_recorded_ = false;
-  std::int64_t budget_ = 0;
-  std::int64_t used_by_finished_ = 0;
 };
 
-/// A store's scores and steps, sorted by design, without the designs in `finished`.
+/// A store's scores and steps, sorted by design, without the designs in `finished` and without
+/// scores that no race asked for (audits, later scorings).
 std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& scores,
                                            const std::vector<StoredStep>& steps,
                                            const std::vector<DesignId>& finished);

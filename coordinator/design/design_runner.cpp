@@ -48,7 +48,7 @@ Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>&
   }
   while (state_ == DesignState::Racing && awaited_.empty()) {
     if (race_.finished()) {
-      finish_race(tasks, rows);
+      if (auto ended = finish_race(tasks, rows); !ended) return ended;
       break;
     }
     consumed_ = 0;
@@ -64,22 +64,25 @@ Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>&
   return {};
 }
 
-void DesignRunner::finish_race(std::vector<Task>& tasks, std::vector<Row>& rows) {
+Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks, std::vector<Row>& rows) {
+  if (steps_ < stored_.step_digests.size()) return Unexpected(other_way());
   if (race_.failure()) {
     state_ = DesignState::Stopped;
     reason_ = to_string(*race_.failure());
     record_state(rows);
-    return;
+    return {};
   }
   state_ = DesignState::Testing;
   record_state(rows);
   want_tests(tasks, rows);
+  return {};
 }
 
 void DesignRunner::want_batch(std::vector<Task>& tasks, std::vector<Row>& rows) {
   const auto wanted = race_.wanted();
   batch_.assign(wanted.begin(), wanted.end());
   costs_.assign(batch_.size(), 0);
+  scores_.assign(batch_.size(), {});
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     const Experiment& experiment = batch_[i];
     if (experiment.pair > pairs_known_) {
@@ -92,7 +95,7 @@ void DesignRunner::want_batch(std::vector<Task>& tasks, std::vector<Row>& rows) 
              rows);
     }
     want(i, {candidate(experiment.configuration), Purpose::Race, experiment.pair}, experiment,
-         tasks);
+         tasks, rows);
   }
 }
 
@@ -102,6 +105,7 @@ void DesignRunner::want_tests(std::vector<Task>& tasks, std::vector<Row>& rows) 
     batch_.push_back(test_experiment(plan_, best_, number));
   }
   costs_.assign(batch_.size(), 0);
+  scores_.assign(batch_.size(), {});
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     const Experiment& experiment = batch_[i];
     record(PairRow{.design = plan_.row.id,
@@ -111,20 +115,29 @@ void DesignRunner::want_tests(std::vector<Task>& tasks, std::vector<Row>& rows) 
                    .seed = experiment.seed},
            rows);
     want(i, {candidate(experiment.configuration), Purpose::Test, experiment.pair}, experiment,
-         tasks);
+         tasks, rows);
   }
 }
 
 void DesignRunner::want(std::size_t position, const EvaluationKey& key,
-                        const Experiment& experiment, std::vector<Task>& tasks) {
+                        const Experiment& experiment, std::vector<Task>& tasks,
+                        std::vector<Row>& rows) {
   const std::uint64_t packed = swarmsmith::key_of(key);
   auto& known = key.purpose == Purpose::Race ? stored_.race_scores : stored_.test_scores;
-  if (const auto found = known.find(packed); found != known.end()) {
-    const StoredScore& score = found->second;
-    costs_[position] =
-        score.status == EvaluationStatus::Ok ? to_cost(score.score) : kRejected;
-    known.erase(found);
-    return;
+  if (const auto score = known.extract(packed)) return put(position, score.mapped());
+  if (key.purpose == Purpose::Race) {
+    if (const auto score = unused_.extract(packed)) {
+      put(position, score.mapped());
+      // The store has the evaluation, and takes the iteration from this row.
+      record(EvaluationRow{.key = key,
+                           .iteration = iteration_,
+                           .status = score.mapped().status,
+                           .score = score.mapped().score,
+                           .state_digest = score.mapped().state_digest,
+                           .source = plan_.source},
+             rows);
+      return;
+    }
   }
   awaited_.emplace(packed, position);
   tasks.push_back({.key = key,
@@ -135,44 +148,49 @@ void DesignRunner::want(std::size_t position, const EvaluationKey& key,
                    .machine = machines_[static_cast<std::size_t>(experiment.configuration - 1)]});
 }
 
+void DesignRunner::put(std::size_t position, const StoredScore& score) {
+  scores_[position] = score;
+  costs_[position] = score.status == EvaluationStatus::Ok ? to_cost(score.score) : kRejected;
+}
+
 void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
   const auto found = awaited_.find(swarmsmith::key_of(outcome.key));
   SWARMSMITH_ASSERT(found != awaited_.end(), "an outcome is told once, and only when wanted");
-  costs_[found->second] =
-      outcome.status == EvaluationStatus::Ok ? to_cost(outcome.score) : kRejected;
+  put(found->second, {outcome.key, outcome.status, outcome.score, outcome.state_digest});
   awaited_.erase(found);
-  rows.emplace_back(EvaluationRow{.key = outcome.key,
-                                  .iteration = outcome.key.purpose == Purpose::Race ? iteration_ : 0,
-                                  .status = outcome.status,
-                                  .score = outcome.score,
-                                  .state_digest = outcome.state_digest,
-                                  .source = plan_.source,
-                                  .wall_us = outcome.wall_us,
-                                  .worker = outcome.worker,
-                                  .attempt = outcome.attempt});
+  rows.emplace_back(
+      EvaluationRow{.key = outcome.key,
+                    .iteration = outcome.key.purpose == Purpose::Race ? iteration_ : 0,
+                    .status = outcome.status,
+                    .score = outcome.score,
+                    .state_digest = outcome.state_digest,
+                    .source = plan_.source,
+                    .wall_us = outcome.wall_us,
+                    .worker = outcome.worker,
+                    .attempt = outcome.attempt});
 }
 
 Expected<void> DesignRunner::record_events(std::vector<Row>& rows) {
   for (const RaceEvent& event : race_.take_events()) {
-    auto recorded = std::visit(
-        Overloaded{[&](const ConfigurationSampled& sampled) -> Expected<void> {
-                     record_candidate(sampled, rows);
-                     return {};
-                   },
-                   [&](const IterationStarted& started) -> Expected<void> {
-                     record_iteration_start(started, rows);
-                     return {};
-                   },
-                   [&](const RaceStep& step) { return record_step(step, rows); },
-                   [&](const IterationEnded& ended) -> Expected<void> {
-                     record_iteration_end(ended, rows);
-                     return {};
-                   },
-                   [&](const RaceFinished& finished) -> Expected<void> {
-                     reason_ = finished.reason;
-                     return {};
-                   }},
-        event);
+    auto recorded =
+        std::visit(Overloaded{[&](const ConfigurationSampled& sampled) -> Expected<void> {
+                                record_candidate(sampled, rows);
+                                return {};
+                              },
+                              [&](const IterationStarted& started) -> Expected<void> {
+                                record_iteration_start(started, rows);
+                                return {};
+                              },
+                              [&](const RaceStep& step) { return record_step(step, rows); },
+                              [&](const IterationEnded& ended) -> Expected<void> {
+                                record_iteration_end(ended, rows);
+                                return {};
+                              },
+                              [&](const RaceFinished& finished) -> Expected<void> {
+                                reason_ = finished.reason;
+                                return {};
+                              }},
+                   event);
     if (!recorded) return recorded;
   }
   return {};
@@ -187,7 +205,7 @@ void DesignRunner::record_candidate(const ConfigurationSampled& sampled, std::ve
   alive_.insert(sampled.id);
   record(CandidateRow{.id = candidate(sampled.id),
                       .iteration = sampled.iteration,
-                      .parent = sampled.parent > 0 ? candidate(sampled.parent) : CandidateId{},
+                      .parent = candidate(sampled.parent),
                       .parameters = std::move(text.parameters),
                       .machine = std::move(text.machine),
                       .modules = std::move(text.modules),
@@ -239,21 +257,25 @@ Expected<void> DesignRunner::record_step(const RaceStep& step, std::vector<Row>&
                           .iteration = step.iteration,
                           .step = number,
                           .rank_sum = elimination.rank_sum,
-                          .reason = elimination.reason == EliminationReason::Test ? "test"
-                                                                                  : "rejected"},
+                          .reason =
+                              elimination.reason == EliminationReason::Test ? "test" : "rejected"},
            rows);
   }
   record_state(rows);
   if (steps_ < stored_.step_digests.size() && stored_.step_digests[steps_] != step.digest) {
-    return unexpected(
-        ErrorKind::Corrupt,
-        "the race, replayed from the stored scores, takes another way than the store has: the store "
-        "was written by another version of the engine, or is damaged. Keep the file, and run the "
-        "campaign into a new store",
-        to_string(plan_.row.id) + ", step " + std::to_string(number));
+    return Unexpected(other_way());
   }
   ++steps_;
   return {};
+}
+
+/// Of the step that would come next.
+Error DesignRunner::other_way() const {
+  return {ErrorKind::Corrupt,
+          "the race, replayed from the stored scores, takes another way than the store has: the "
+          "store was written by another version of the engine, or is damaged. Keep the file, and "
+          "run the campaign into a new store",
+          to_string(plan_.row.id) + ", step " + std::to_string(steps_ + 1)};
 }
 
 void DesignRunner::record_consumed(const RaceStep& step, std::vector<Row>& rows) {
@@ -282,9 +304,9 @@ void DesignRunner::record_consumed(const RaceStep& step, std::vector<Row>& rows)
 
 void DesignRunner::record_unused(std::size_t until, std::vector<Row>& rows) {
   for (; consumed_ < until; ++consumed_) {
-    record(UnusedRow{{candidate(batch_[consumed_].configuration), Purpose::Race,
-                      batch_[consumed_].pair}},
-           rows);
+    const StoredScore& score = scores_[consumed_];
+    unused_.emplace(swarmsmith::key_of(score.key), score);
+    record(UnusedRow{score.key}, rows);
   }
 }
 
@@ -322,7 +344,7 @@ void DesignRunner::record_state(std::vector<Row>& rows) {
                         .state = state_,
                         .used = used_,
                         .iteration = iteration_,
-                        .best = best_ > 0 ? candidate(best_) : CandidateId{},
+                        .best = candidate(best_),
                         .best_mean = best_mean_,
                         .reason = reason_},
          rows);

@@ -29,7 +29,7 @@ struct DesignPlan {
   std::uint32_t mission = 0;  ///< index into the campaign's missions
   std::uint32_t method = 0;   ///< index into the campaign's methods
   ParameterSpace space;
-  Scenario scenario;          ///< with the design's seed and budget
+  Scenario scenario;  ///< with the design's seed and budget
   std::function<CandidateText(const Configuration&)> describe;
   std::int64_t test_count = 0;  ///< fresh seeds for the winner
   std::string source;           ///< the simulator profile's name
@@ -80,12 +80,13 @@ class DesignRunner {
   DesignRunner(DesignPlan plan, StoredDesign stored, IteratedRace race);
 
   /// To the tests of the winner; or to an end without one, when every configuration was rejected.
-  void finish_race(std::vector<Task>& tasks, std::vector<Row>& rows);
+  Expected<void> finish_race(std::vector<Task>& tasks, std::vector<Row>& rows);
   void want_batch(std::vector<Task>& tasks, std::vector<Row>& rows);
   void want_tests(std::vector<Task>& tasks, std::vector<Row>& rows);
-  /// Takes the experiment's score from the store, or makes a task of it.
+  /// Takes the experiment's score from what is known, or makes a task of it.
   void want(std::size_t position, const EvaluationKey& key, const Experiment& experiment,
-            std::vector<Task>& tasks);
+            std::vector<Task>& tasks, std::vector<Row>& rows);
+  void put(std::size_t position, const StoredScore& score);
   Expected<void> record_events(std::vector<Row>& rows);
   Expected<void> record_step(const RaceStep& step, std::vector<Row>& rows);
   void record_consumed(const RaceStep& step, std::vector<Row>& rows);
@@ -94,9 +95,13 @@ class DesignRunner {
   void record_iteration_start(const IterationStarted& started, std::vector<Row>& rows);
   void record_iteration_end(const IterationEnded& ended, std::vector<Row>& rows);
   void record_state(std::vector<Row>& rows);
+  Error other_way() const;
   /// Rows of the race go through here: those that led to the last stored step are on disk.
   void record(Row row, std::vector<Row>& rows) const;
-  CandidateId candidate(std::int64_t number) const { return candidate_id(plan_.row.id, number); }
+  /// None for 0.
+  CandidateId candidate(std::int64_t number) const {
+    return number > 0 ? candidate_id(plan_.row.id, number) : CandidateId{};
+  }
 
   DesignPlan plan_;
   StoredDesign stored_;
@@ -106,7 +111,10 @@ class DesignRunner {
   /// What is waited for, in the race's order: a batch of the race, or the tests.
   std::vector<Experiment> batch_;
   std::vector<double> costs_;
+  std::vector<StoredScore> scores_;                         ///< that the costs were made of
   std::unordered_map<std::uint64_t, std::size_t> awaited_;  ///< position by key
+  /// Scores that the race wanted and did not use; it may want them again, in a later iteration.
+  std::unordered_map<std::uint64_t, StoredScore> unused_;
   std::size_t consumed_ = 0;  ///< of the last batch, by the race's steps
   std::int64_t pairs_known_ = 0;
 
@@ -116,7 +124,7 @@ class DesignRunner {
   std::size_t steps_ = 0;              ///< of the race, seen so far
   std::int64_t iteration_ = 0;
   std::int64_t used_ = 0;
-  std::int64_t best_ = 0;              ///< number of the best so far, the winner at the end
+  std::int64_t best_ = 0;  ///< number of the best so far, the winner at the end
   double best_mean_ = 0;
   std::string reason_;
 };

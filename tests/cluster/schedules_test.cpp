@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <cstdlib>
 #include <string>
+#include <string_view>
 
 #include "tests/cluster/simulated_cluster.h"
 
@@ -8,7 +10,13 @@ namespace swarmsmith::cluster {
 namespace {
 
 constexpr std::uint64_t kShards = 8;
-constexpr std::uint64_t kSchedulesOfAShard = 1000;
+constexpr std::uint64_t kSchedulesOfAShard = 500;
+
+std::uint64_t schedules_of_a_shard() {
+  const char* wanted = std::getenv("SWARMSMITH_LONG");
+  const bool is_long = wanted != nullptr && std::string_view(wanted) == "1";
+  return is_long ? 10 * kSchedulesOfAShard : kSchedulesOfAShard;
+}
 
 class Schedules : public ::testing::TestWithParam<std::uint64_t> {};
 
@@ -24,9 +32,9 @@ TEST_P(Schedules, EndWithTheAnswerOfAnUndisturbedRun) {
     if (GetParam() == 0) expect_fine(std::strtoull(seed, nullptr, 10));
     return;
   }
-  for (std::uint64_t i = 0; i < kSchedulesOfAShard && !HasFailure(); ++i) {
-    expect_fine(GetParam() * kSchedulesOfAShard + i + 1);
-  }
+  const std::uint64_t count = schedules_of_a_shard();
+  for (std::uint64_t i = 0; i < count && !HasFailure(); ++i)
+    expect_fine(GetParam() * count + i + 1);
 }
 
 INSTANTIATE_TEST_SUITE_P(Shard, Schedules, ::testing::Range<std::uint64_t>(0, kShards));
@@ -45,10 +53,29 @@ TEST(SimulatedCluster, NeedsFewEventsWithoutFaults) {
 }
 
 TEST(SimulatedCluster, RejectsWhatKillsItsWorkersThreeTimesAlone) {
-  SimulatedCluster cluster({.seed = 1, .faults = {}, .campaign = {.killing = true}});
-  EXPECT_EQ(cluster.run(), "");
-  // Once among others, three times alone.
-  EXPECT_EQ(cluster.crashes(), 4);
+  int with_one = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    SimulatedCluster cluster(
+        {.seed = seed, .faults = {}, .campaign = {.seed = seed, .killing = true}});
+    EXPECT_EQ(cluster.run(), "") << seed;
+    if (cluster.killers() != 1) continue;
+    // Once among others, three times alone.
+    EXPECT_EQ(cluster.crashes(), 4) << seed;
+    ++with_one;
+  }
+  EXPECT_GT(with_one, 0);
+}
+
+TEST(SimulatedCluster, RacesForSeveralIterationsAndDropsCandidates) {
+  const SimulatedDisk disk = undisturbed({});
+  const auto design_lines = [&](std::string_view beginning) {
+    return std::ranges::count_if(
+        disk.answer(), [&](const std::string& line) { return line.starts_with(beginning); });
+  };
+  EXPECT_TRUE(disk.finished());
+  EXPECT_GE(disk.scores().size(), 80U);
+  EXPECT_GE(design_lines("iteration:"), 4);
+  EXPECT_GE(design_lines("elimination:"), 4);
 }
 
 }  // namespace

@@ -20,8 +20,9 @@ constexpr std::uint64_t kMaxEvents = 300'000;
 
 const char* const kScenario = "scenario";
 
-CoordinatorOptions coordinator_options() {
+CoordinatorOptions coordinator_options(std::int64_t first_worker) {
   CoordinatorOptions options;
+  options.scheduler.first_worker = first_worker;
   options.campaign_digest = "cluster";
   options.scenario = kScenario;
   return options;
@@ -54,9 +55,15 @@ Schedule schedule_of(std::uint64_t seed) {
                      .pauses = up_to(3),
                      .slow_commit = one_of({0, 0.05, 0.5}),
                      .until = milliseconds(rng.uniform_int(100, rng.bernoulli(0.8) ? 800 : 8000))};
-  schedule.campaign.seed = seed;
-  schedule.campaign.failing = rng.bernoulli(0.3);
-  schedule.campaign.killing = rng.bernoulli(0.3);
+  CampaignShape& campaign = schedule.campaign;
+  campaign.seed = seed;
+  // Mostly all designs at once; sometimes more than are open at a time.
+  campaign.designs = rng.bernoulli(0.05) ? 6 : 1 + up_to(1);
+  campaign.budget = 54 + up_to(20);
+  campaign.tests = up_to(4);
+  campaign.failing = rng.bernoulli(0.4);
+  campaign.killing = rng.bernoulli(0.2);
+  campaign.hopeless = rng.bernoulli(0.1);
   return schedule;
 }
 
@@ -91,15 +98,25 @@ std::string SimulatedCluster::run() {
   return failure_;
 }
 
-/// In memory, and when the disk is replayed.
+/// As it was stored, and when it is derived again from nothing but the stored scores.
 void SimulatedCluster::check_answer() {
-  const std::string wanted = undisturbed_dump(schedule_.campaign);
-  if (campaign_->dump() != wanted) fail("another answer than without faults");
-  std::vector<StoredScore> stored;
-  for (const auto& [key, score] : disk_)
-    stored.push_back(score);
-  const SyntheticCampaign replayed(schedule_.campaign, stored);
-  if (!replayed.finished() || replayed.dump() != wanted) fail("another answer on disk");
+  const std::vector<std::string> wanted = undisturbed(schedule_.campaign).answer();
+  const std::vector<std::string> stored = disk_.answer();
+  const auto [one, other] = std::ranges::mismatch(wanted, stored);
+  if (one != wanted.end() || other != stored.end()) {
+    fail("another answer than without faults: " + (other != stored.end() ? *other : "nothing") +
+         ", and not " + (one != wanted.end() ? *one : "nothing"));
+  }
+  if (!disk_.finished()) fail("the end of the campaign is not on disk");
+  for (const DesignStateRow& design : disk_.design_states()) {
+    const bool over = design.state == DesignState::Finished || design.state == DesignState::Stopped;
+    if (!over) fail("a design is not finished");
+    if (design.used > schedule_.campaign.budget) fail("a design used more than its budget");
+  }
+  RacedCampaign again(schedule_.campaign, by_design(disk_.scores(), {}, {}), {});
+  if (!again.finished() || !again.take_tasks().empty()) fail("scores are missing on disk");
+  write(again.take_rows());
+  if (disk_.answer() != stored) fail("another answer when it is derived again");
 }
 
 void SimulatedCluster::fail(const std::string& what) {
@@ -227,8 +244,7 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
   if (!message) return fail("the coordinator sent a frame that is malformed");
   for (const pb::Key& key : (*message)->acknowledged().keys()) {
     const PackedKey packed = *pack(key);
-    const bool fails = truth_of(schedule_.campaign, unpack(packed)).kind == Truth::Kind::Fails;
-    if (!disk_.contains(packed) && !fails) fail("acknowledged what is not on disk");
+    if (!disk_.holds(packed) && !failed_.contains(packed)) fail("acknowledged what is not on disk");
   }
 }
 
@@ -239,11 +255,9 @@ void SimulatedCluster::start_coordinator() {
   ++it.life;
   it.alive = true;
   it.paused_until = {};
-  std::vector<StoredScore> known;
-  for (const auto& [key, score] : disk_)
-    known.push_back(score);
-  campaign_ = std::make_unique<SyntheticCampaign>(schedule_.campaign, known);
-  coordinator_ = std::make_unique<Coordinator>(coordinator_options(), *campaign_, known);
+  campaign_ = std::make_unique<RacedCampaign>(schedule_.campaign, disk_);
+  coordinator_ = std::make_unique<Coordinator>(coordinator_options(disk_.next_worker()), *campaign_,
+                                               disk_.scores());
   tickets_ = 0;
   uncommitted_.clear();
   on_process(kCoordinator, Duration{0}, [this] { tick_coordinator(); });
@@ -255,6 +269,10 @@ void SimulatedCluster::crash_coordinator() {
   coordinator_process_.alive = false;
   coordinator_.reset();
   campaign_.reset();
+  // Some of what waited for the disk may have come there all the same.
+  const std::uint64_t written = rng_.below(uncommitted_.size() + 1);
+  for (std::uint64_t i = 0; i < written; ++i)
+    write(uncommitted_[i].rows);
   uncommitted_.clear();
   const bool noticed = rng_.bernoulli(0.7);
   for (int i = 0; i < kWorkers; ++i) {
@@ -290,7 +308,7 @@ void SimulatedCluster::settle_coordinator() {
     }
   }
   check_leases();
-  if (!campaign_->complaint().empty()) fail(campaign_->complaint());
+  if (const std::string complaint = campaign_->complaint(); !complaint.empty()) fail(complaint);
   if (coordinator_->stopped()) fail("stopped: " + *coordinator_->stopped());
 }
 
@@ -309,16 +327,13 @@ void SimulatedCluster::commit() {
   if (uncommitted_.empty()) return;
   const Batch batch = std::move(uncommitted_.front());
   uncommitted_.pop_front();
-  for (const Row& row : batch.rows) {
-    if (std::holds_alternative<ConflictRow>(row)) fail("two results with other bits");
-    const auto* evaluation = std::get_if<EvaluationRow>(&row);
-    if (evaluation == nullptr) continue;
-    const StoredScore score{evaluation->key, evaluation->status, evaluation->score,
-                            evaluation->state_digest};
-    if (!disk_.emplace(pack(evaluation->key), score).second) fail("two rows of one evaluation");
-  }
+  write(batch.rows);
   coordinator_->on_committed(batch.ticket);
   settle_coordinator();
+}
+
+void SimulatedCluster::write(const std::vector<Row>& rows) {
+  if (const std::string complaint = disk_.commit(rows); !complaint.empty()) fail(complaint);
 }
 
 void SimulatedCluster::check_leases() {
@@ -417,10 +432,14 @@ void SimulatedCluster::start_items(int index) {
 
 void SimulatedCluster::finish_item(int index, const WorkItem& item) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
-  const Truth truth = truth_of(schedule_.campaign, unpack(item.key));
-  if (truth.kind == Truth::Kind::Kills) return crash_worker(index);
+  const Truth truth = truth_of(schedule_.campaign, {item.mission, item.machine, item.seed});
+  if (truth.kind == Truth::Kind::Kills) {
+    killers_.insert(item.key);
+    return crash_worker(index);
+  }
   --worker.running;
   const bool fails = truth.kind == Truth::Kind::Fails;
+  if (fails) failed_.insert(item.key);
   worker.protocol->on_evaluated(
       {.key = item.key,
        .attempt = item.attempt,

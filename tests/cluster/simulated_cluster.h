@@ -13,7 +13,8 @@
 #include "base/clock.h"
 #include "base/rng.h"
 #include "coordinator/coordinator.h"
-#include "tests/cluster/synthetic_campaign.h"
+#include "tests/cluster/raced_campaign.h"
+#include "tests/cluster/simulated_disk.h"
 #include "worker/protocol.h"
 
 namespace swarmsmith::cluster {
@@ -42,8 +43,8 @@ struct Schedule {
 /// A schedule out of a seed: some kinds of faults, rare or dense.
 Schedule schedule_of(std::uint64_t seed);
 
-/// Coordinator and three workers, the real protocol code, in one thread on a simulated clock,
-/// network and disk. The same schedule gives the same events.
+/// Coordinator and three workers, the real races and protocol code, in one thread on a simulated
+/// clock, network and disk. The same schedule gives the same events.
 class SimulatedCluster {
  public:
   explicit SimulatedCluster(const Schedule& schedule);
@@ -55,6 +56,8 @@ class SimulatedCluster {
   /// Events so far; for the tests' own sanity.
   std::uint64_t events() const { return order_; }
   int crashes() const { return crashes_; }
+  /// Evaluations that killed a worker.
+  std::size_t killers() const { return killers_.size(); }
 
  private:
   static constexpr int kWorkers = 3;
@@ -118,6 +121,7 @@ class SimulatedCluster {
   void tick_coordinator();
   void append(std::vector<Row> rows);
   void commit();
+  void write(const std::vector<Row>& rows);
   void check_leases();
   void check_answer();
 
@@ -141,14 +145,16 @@ class SimulatedCluster {
   int crashes_ = 0;
 
   Process coordinator_process_;
-  std::unique_ptr<SyntheticCampaign> campaign_;
+  std::unique_ptr<RacedCampaign> campaign_;
   std::unique_ptr<Coordinator> coordinator_;
-  std::map<PackedKey, StoredScore> disk_;
+  SimulatedDisk disk_;
   std::deque<Batch> uncommitted_;
   std::uint64_t tickets_ = 0;
   TimePoint last_commit_;
 
   std::vector<Worker> workers_;
+  std::set<PackedKey> failed_;   ///< said once to have no score
+  std::set<PackedKey> killers_;  ///< killed a worker
   std::map<PeerId, Connection> connections_;
   PeerId peers_ = 0;
 };

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "proto/wire.h"
-#include "tests/cluster/synthetic_campaign.h"
+#include "tests/coordinator/synthetic_campaign.h"
 
 namespace swarmsmith {
 namespace {

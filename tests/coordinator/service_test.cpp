@@ -6,7 +6,7 @@
 
 #include "base/rng.h"
 #include "proto/wire.h"
-#include "tests/cluster/synthetic_campaign.h"
+#include "tests/coordinator/synthetic_campaign.h"
 #include "tests/support/memory_store.h"
 #include "worker/service.h"
 #include "worker/slots.h"

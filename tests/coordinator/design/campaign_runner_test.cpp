@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -20,7 +21,8 @@ double score_of(const Task& task) {
   Digest digest;
   digest.add(task.machine);
   const double quality = Rng(digest.value64()).uniform();
-  return 10 * quality + Rng(digest.value64()).split("noise", static_cast<std::uint64_t>(task.seed)).normal();
+  return 10 * quality +
+         Rng(digest.value64()).split("noise", static_cast<std::uint64_t>(task.seed)).normal();
 }
 
 Outcome outcome_of(const Task& task) {
@@ -80,8 +82,10 @@ struct Memory {
 void run(CampaignRunner& runner, Memory& memory, Rng order, std::size_t limit = ~std::size_t{0}) {
   std::vector<Task> ready;
   while (limit > 0) {
-    for (Task& task : runner.take_tasks()) ready.push_back(std::move(task));
-    for (Row& row : runner.take_rows()) memory.rows.push_back(std::move(row));
+    for (Task& task : runner.take_tasks())
+      ready.push_back(std::move(task));
+    for (Row& row : runner.take_rows())
+      memory.rows.push_back(std::move(row));
     if (ready.empty()) break;
     const std::size_t chosen = order.below(ready.size());
     std::swap(ready[chosen], ready.back());
@@ -90,7 +94,8 @@ void run(CampaignRunner& runner, Memory& memory, Rng order, std::size_t limit = 
     runner.tell(outcome_of(task));
     --limit;
   }
-  for (Row& row : runner.take_rows()) memory.rows.push_back(std::move(row));
+  for (Row& row : runner.take_rows())
+    memory.rows.push_back(std::move(row));
 }
 
 Memory undisturbed(std::int64_t repetitions) {
@@ -196,6 +201,107 @@ TEST(CampaignRunner, ARejectedCandidateIsDroppedAndItsLaterRunsCountNowhere) {
   }
   EXPECT_EQ(unused, 4) << "of the five pairs before the first test";
   EXPECT_TRUE(eliminated);
+}
+
+/// Two designs of 60 experiments, three iterations each.
+std::vector<DesignPlan> tiny_plans() {
+  std::vector<DesignPlan> plans = small_plans(2);
+  for (DesignPlan& plan : plans) {
+    plan.row.budget = 60;
+    plan.scenario.max_experiments = 60;
+    plan.scenario.first_test = 3;
+    plan.scenario.mu = 3;
+    plan.scenario.nb_iterations = 3;
+    plan.scenario.min_nb_survival = 2;
+  }
+  return plans;
+}
+
+TEST(CampaignRunner, ADesignWithoutCandidatesStopsAndTheOthersGoOn) {
+  CampaignRunner runner(tiny_plans(), {}, {});
+  std::vector<Row> rows;
+  for (auto tasks = runner.take_tasks(); !tasks.empty(); tasks = runner.take_tasks()) {
+    for (const Task& task : tasks) {
+      Outcome outcome = outcome_of(task);
+      if (design_of(task.key.candidate) == DesignId{2}) outcome.status = EvaluationStatus::Rejected;
+      runner.tell(outcome);
+    }
+    for (Row& row : runner.take_rows())
+      rows.push_back(std::move(row));
+  }
+  EXPECT_TRUE(runner.finished());
+  std::map<DesignId, DesignStateRow> states;
+  for (const Row& row : rows) {
+    if (const auto* state = std::get_if<DesignStateRow>(&row)) states[state->design] = *state;
+    if (const auto* step = std::get_if<RaceStepRow>(&row); step && step->design == DesignId{2}) {
+      EXPECT_EQ(step->alive_after, 0);
+      EXPECT_EQ(step->best, CandidateId{}) << "a store knows no such candidate";
+    }
+  }
+  EXPECT_EQ(states[DesignId{1}].state, DesignState::Finished);
+  EXPECT_EQ(states[DesignId{2}].state, DesignState::Stopped);
+  EXPECT_EQ(states[DesignId{2}].best, CandidateId{});
+  EXPECT_NE(states[DesignId{2}].reason, "");
+}
+
+TEST(CampaignRunner, AsksOnceForWhatItWantsAgainAfterARejectionMadeItUnused) {
+  int wanted_again = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    CampaignRunner runner(tiny_plans(), {}, {});
+    std::map<EvaluationKey, int> asked;
+    std::map<EvaluationKey, std::int64_t> iterations;
+    std::map<DesignId, std::int64_t> used;
+    for (auto tasks = runner.take_tasks(); !tasks.empty(); tasks = runner.take_tasks()) {
+      for (const Task& task : tasks) {
+        EXPECT_EQ(++asked[task.key], 1) << to_string(task.key) << ", seed " << seed;
+        Outcome outcome = outcome_of(task);
+        Rng rng = Rng(seed).split(task.machine, static_cast<std::uint64_t>(task.seed));
+        if (rng.bernoulli(0.06)) outcome.status = EvaluationStatus::Rejected;
+        runner.tell(outcome);
+      }
+      for (const Row& row : runner.take_rows()) {
+        if (const auto* e = std::get_if<EvaluationRow>(&row); e && e->iteration > 0) {
+          const auto [at, fresh] = iterations.try_emplace(e->key, e->iteration);
+          if (fresh) continue;
+          EXPECT_EQ(at->second, 0) << "only what was unused is given again";
+          at->second = e->iteration;
+          ++wanted_again;
+        }
+        if (const auto* u = std::get_if<UnusedRow>(&row)) iterations[u->key] = 0;
+        if (const auto* d = std::get_if<DesignStateRow>(&row)) used[d->design] = d->used;
+      }
+    }
+    EXPECT_TRUE(runner.finished());
+    std::map<DesignId, std::int64_t> counted;
+    for (const auto& [key, iteration] : iterations)
+      counted[design_of(key.candidate)] += iteration > 0;
+    EXPECT_EQ(counted, used) << "seed " << seed;
+  }
+  EXPECT_GT(wanted_again, 0);
+}
+
+TEST(CampaignRunner, TakesNoScoreThatNoRaceAskedFor) {
+  const EvaluationKey key{candidate_id(DesignId{1}, 1), Purpose::Race, 1};
+  for (const Purpose purpose : {Purpose::LookAhead, Purpose::Audit, Purpose::Score}) {
+    const std::vector<StoredScore> scores = {{.key = {key.candidate, purpose, key.pair},
+                                              .status = EvaluationStatus::Ok,
+                                              .score = 1e6,
+                                              .state_digest = 1}};
+    CampaignRunner runner(tiny_plans(), by_design(scores, {}, {}), {});
+    EXPECT_EQ(runner.take_tasks().front().key, key);
+  }
+}
+
+TEST(CampaignRunner, StopsWhenTheStoreHasMoreStepsThanTheReplay) {
+  const Memory whole = undisturbed(1);
+  auto stored = by_design(whole.scores(), whole.steps(), {});
+  auto& steps = stored.at(DesignId{1}).step_digests;
+  const std::size_t played = steps.size();
+  steps.push_back(1);
+  CampaignRunner runner(small_plans(1), stored, {});
+  ASSERT_TRUE(runner.error());
+  EXPECT_EQ(runner.error()->kind, ErrorKind::Corrupt);
+  EXPECT_EQ(runner.error()->where, "d1, step " + std::to_string(played + 1));
 }
 
 TEST(Ids, AreCanonical) {

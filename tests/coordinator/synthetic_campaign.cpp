@@ -1,4 +1,4 @@
-#include "tests/cluster/synthetic_campaign.h"
+#include "tests/coordinator/synthetic_campaign.h"
 
 #include <algorithm>
 #include <bit>

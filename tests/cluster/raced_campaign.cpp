@@ -1,0 +1,145 @@
+#include "tests/cluster/raced_campaign.h"
+
+#include <fmt/format.h>
+#include <utility>
+
+#include "base/assert.h"
+#include "base/hash.h"
+#include "base/rng.h"
+
+namespace swarmsmith::cluster {
+namespace {
+
+/// The mission of hopeless designs.
+constexpr std::uint32_t kHopeless = 1;
+
+ParameterSpace space() {
+  auto made = ParameterSpace::make(
+      {{.name = "kind",
+        .switch_text = "--kind ",
+        .domain = Categorical{{"a", "b", "c"}},
+        .condition = {}},
+       {.name = "count", .switch_text = "--count ", .domain = Integer{1.0, 8.0}, .condition = {}},
+       {.name = "gain", .switch_text = "--gain ", .domain = Real{0.0, 1.0}, .condition = {}}});
+  SWARMSMITH_ASSERT(made, "the tests' space is well-formed");
+  return std::move(*made);
+}
+
+CandidateText text_of(const Configuration& configuration) {
+  return {.parameters = "{}",
+          .machine = fmt::format("--kind {} --count {} --gain {}", configuration[0],
+                                 configuration[1], configuration[2]),
+          .modules = "{}"};
+}
+
+Outcome outcome_of(const CampaignShape& shape, const Task& task) {
+  const Truth truth = truth_of(shape, {task.mission, task.machine, task.seed});
+  const bool ok = truth.kind == Truth::Kind::Score;
+  return {.key = task.key,
+          .status = ok ? EvaluationStatus::Ok : EvaluationStatus::Rejected,
+          .score = truth.score,
+          .state_digest = truth.state_digest};
+}
+
+std::vector<DesignId> finished_on(const SimulatedDisk& disk) {
+  std::vector<DesignId> finished;
+  for (const DesignStateRow& state : disk.design_states()) {
+    if (state.state == DesignState::Finished) finished.push_back(state.design);
+  }
+  return finished;
+}
+
+}  // namespace
+
+Truth truth_of(const CampaignShape& shape, const Evaluand& evaluand) {
+  Digest text;
+  text.add(evaluand.machine);
+  const std::uint64_t machine = text.value64();
+  const std::uint64_t bits =
+      mix64(machine ^ mix64(static_cast<std::uint64_t>(evaluand.seed) + mix64(shape.seed)));
+  if (evaluand.mission == kHopeless) return {.kind = Truth::Kind::Fails};
+  if (shape.failing && bits % 24 == 0) return {.kind = Truth::Kind::Fails};
+  if (shape.killing && bits % 80 == 1) return {.kind = Truth::Kind::Kills};
+  const double quality = Rng(machine).uniform();
+  return {.kind = Truth::Kind::Score,
+          .score = 3 * quality + Rng(bits).normal(),
+          .state_digest = mix64(bits)};
+}
+
+std::vector<DesignPlan> plans_of(const CampaignShape& shape) {
+  std::vector<DesignPlan> plans;
+  for (int number = 1; number <= shape.designs; ++number) {
+    const bool hopeless = shape.hopeless && number == shape.designs;
+    const auto seed = static_cast<std::int64_t>(
+        mix64(shape.seed + static_cast<std::uint64_t>(number) * 1000) >> 1U);
+    Scenario scenario;
+    scenario.max_experiments = shape.budget;
+    scenario.seed = static_cast<std::uint64_t>(seed);
+    scenario.first_test = 3;
+    scenario.mu = 3;
+    scenario.nb_iterations = 3;
+    scenario.min_nb_survival = 2;
+    plans.push_back({.row = {.id = {number},
+                             .mission = "test",
+                             .method = "test",
+                             .repetition = number,
+                             .seed = seed,
+                             .budget = shape.budget},
+                     .mission = hopeless ? kHopeless : 0,
+                     .method = 0,
+                     .space = space(),
+                     .scenario = scenario,
+                     .describe = text_of,
+                     .test_count = shape.tests,
+                     .source = "test"});
+  }
+  return plans;
+}
+
+RacedCampaign::RacedCampaign(const CampaignShape& shape, std::map<DesignId, StoredDesign> stored,
+                             std::vector<DesignId> finished)
+    : runner_(plans_of(shape), std::move(stored), std::move(finished)) {}
+
+RacedCampaign::RacedCampaign(const CampaignShape& shape, const SimulatedDisk& disk)
+    : RacedCampaign(shape, by_design(disk.scores(), disk.steps(), finished_on(disk)),
+                    finished_on(disk)) {
+  for (const StoredScore& score : disk.scores())
+    asked_.emplace(pack(score.key), true);
+}
+
+std::vector<Task> RacedCampaign::take_tasks() {
+  std::vector<Task> tasks = runner_.take_tasks();
+  for (const Task& task : tasks) {
+    if (!asked_.emplace(pack(task.key), false).second)
+      complaint_ = "asked for what was asked for or stored before";
+  }
+  return tasks;
+}
+
+void RacedCampaign::tell(const Outcome& outcome) {
+  const auto asked = asked_.find(pack(outcome.key));
+  if (asked == asked_.end()) {
+    complaint_ = "told what was never asked";
+  } else if (std::exchange(asked->second, true)) {
+    complaint_ = "told twice";
+  } else {
+    runner_.tell(outcome);
+  }
+}
+
+std::string RacedCampaign::complaint() const {
+  return runner_.error() ? to_string(*runner_.error()) : complaint_;
+}
+
+SimulatedDisk undisturbed(const CampaignShape& shape) {
+  SimulatedDisk disk;
+  RacedCampaign campaign(shape, disk);
+  for (auto tasks = campaign.take_tasks(); !tasks.empty(); tasks = campaign.take_tasks()) {
+    for (const Task& task : tasks)
+      campaign.tell(outcome_of(shape, task));
+    if (!disk.commit(campaign.take_rows()).empty()) return {};
+  }
+  return campaign.finished() && campaign.complaint().empty() ? disk : SimulatedDisk{};
+}
+
+}  // namespace swarmsmith::cluster

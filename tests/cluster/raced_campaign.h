@@ -1,0 +1,75 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "coordinator/design/campaign_runner.h"
+#include "coordinator/task_key.h"
+#include "tests/cluster/simulated_disk.h"
+
+namespace swarmsmith::cluster {
+
+/// What an evaluation does, in a campaign of the tests.
+struct Truth {
+  enum class Kind {
+    Score,
+    Fails,  ///< always says that there is no score
+    Kills,  ///< always kills its worker
+  };
+  Kind kind = Kind::Score;
+  double score = 0;
+  std::uint64_t state_digest = 0;
+};
+
+struct CampaignShape {
+  std::uint64_t seed = 1;
+  int designs = 2;
+  std::int64_t budget = 54;  ///< of each design; the least that three iterations need
+  std::int64_t tests = 3;    ///< of each winner
+  bool failing = false;      ///< a few evaluations fail
+  bool killing = false;      ///< and a few kill
+  bool hopeless = false;     ///< every evaluation of the last design fails
+};
+
+/// What is evaluated by a task, as workers see it.
+struct Evaluand {
+  std::uint32_t mission = 0;
+  std::string_view machine;
+  std::int64_t seed = 0;
+};
+
+/// The outcome of an evaluation: a pure function.
+Truth truth_of(const CampaignShape& shape, const Evaluand& evaluand);
+
+/// The designs of the campaign: real races over three parameters.
+std::vector<DesignPlan> plans_of(const CampaignShape& shape);
+
+/// The real races behind the interface that the coordinator sees, watched: what is asked or told
+/// twice is a complaint, as is any error.
+class RacedCampaign final : public WorkSource {
+ public:
+  /// Goes on where the disk stands, as `swarmsmith run` does with a store.
+  RacedCampaign(const CampaignShape& shape, const SimulatedDisk& disk);
+  RacedCampaign(const CampaignShape& shape, std::map<DesignId, StoredDesign> stored,
+                std::vector<DesignId> finished);
+
+  std::vector<Task> take_tasks() override;
+  void tell(const Outcome& outcome) override;
+  std::vector<Row> take_rows() override { return runner_.take_rows(); }
+  bool finished() const override { return runner_.finished(); }
+
+  std::string complaint() const;
+
+ private:
+  CampaignRunner runner_;
+  std::map<PackedKey, bool> asked_;  ///< whether it was told
+  std::string complaint_;
+};
+
+/// The disk after a campaign that nothing disturbed; empty when that failed.
+SimulatedDisk undisturbed(const CampaignShape& shape);
+
+}  // namespace swarmsmith::cluster

@@ -1,0 +1,167 @@
+#include "tests/cluster/simulated_disk.h"
+
+#include <algorithm>
+
+#include "base/overloaded.h"
+#include "coordinator/task_key.h"
+#include "storage/answer.h"
+
+namespace swarmsmith::cluster {
+namespace {
+
+/// Rows that hold a latest value.
+bool is_replaced(const Row& row) {
+  return std::holds_alternative<CandidateTotalsRow>(row) ||
+         std::holds_alternative<DesignStateRow>(row) ||
+         std::holds_alternative<CampaignStateRow>(row) || std::holds_alternative<WorkerRow>(row);
+}
+
+}  // namespace
+
+SimulatedDisk::RowKey SimulatedDisk::key_of(const Row& row) {
+  using Key = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
+  const auto of_evaluation = [](const EvaluationKey& key) {
+    return Key{key.candidate.value, static_cast<std::int64_t>(key.purpose), key.pair};
+  };
+  const Key key = std::visit(
+      Overloaded{[](const CandidateRow& r) {
+                   return Key{r.id.value, 0, 0};
+                 },
+                 [](const PairRow& r) {
+                   return Key{r.design.value, static_cast<std::int64_t>(r.purpose), r.number};
+                 },
+                 [&](const EvaluationRow& r) { return of_evaluation(r.key); },
+                 [&](const UnusedRow& r) { return of_evaluation(r.key); },
+                 [](const IterationRow& r) {
+                   return Key{r.design.value, r.number, 0};
+                 },
+                 [](const RaceStepRow& r) {
+                   return Key{r.design.value, r.step, 0};
+                 },
+                 [](const EliminationRow& r) {
+                   return Key{r.candidate.value, 0, 0};
+                 },
+                 [](const EliteRow& r) {
+                   return Key{r.design.value, r.iteration, r.rank};
+                 },
+                 [](const CandidateTotalsRow& r) {
+                   return Key{r.candidate.value, 0, 0};
+                 },
+                 [](const DesignStateRow& r) {
+                   return Key{r.design.value, 0, 0};
+                 },
+                 [](const CampaignStateRow&) { return Key{}; },
+                 [](const WorkerRow& r) {
+                   return Key{r.id, 0, 0};
+                 },
+                 [&](const ConflictRow& r) { return of_evaluation(r.key); },
+                 [](const EventRow&) { return Key{}; }},
+      row);
+  return std::tuple_cat(std::tuple(row.index()), key);
+}
+
+std::string SimulatedDisk::commit(const std::vector<Row>& rows) {
+  for (const Row& row : rows) {
+    std::string complaint = put(row);
+    if (!complaint.empty()) return complaint + ": " + describe(row);
+  }
+  return {};
+}
+
+std::string SimulatedDisk::put(const Row& row) {
+  if (std::holds_alternative<EventRow>(row)) return {};
+  if (std::holds_alternative<ConflictRow>(row)) return "two results with other bits";
+  if (std::string complaint = missing_reference(row); !complaint.empty()) return complaint;
+  if (const auto* unused = std::get_if<UnusedRow>(&row)) {
+    const auto at = rows_.find(key_of(EvaluationRow{.key = unused->key}));
+    if (at == rows_.end()) return "an evaluation that is not there is unused";
+    std::get<EvaluationRow>(at->second).iteration = 0;
+    return {};
+  }
+  const auto [at, fresh] = rows_.emplace(key_of(row), row);
+  if (fresh) return {};
+  if (is_replaced(row)) {
+    at->second = row;
+    return {};
+  }
+  if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
+    auto& first = std::get<EvaluationRow>(at->second);
+    const bool is_wanted_after_all = first.iteration == 0 && evaluation->iteration != 0;
+    if (!is_wanted_after_all) return "two rows of one evaluation";
+    first.iteration = evaluation->iteration;
+  }
+  if (!same_answer(at->second, row)) return "a row is given again, but not the same";
+  return {};
+}
+
+bool SimulatedDisk::has_candidate(CandidateId id) const {
+  return rows_.contains(key_of(CandidateRow{.id = id}));
+}
+
+/// A store refuses such rows, and with them all that comes later.
+std::string SimulatedDisk::missing_reference(const Row& row) const {
+  const CandidateId id =
+      std::visit(Overloaded{[](const CandidateRow& r) { return r.parent; },
+                            [](const EvaluationRow& r) { return r.key.candidate; },
+                            [](const RaceStepRow& r) { return r.best; },
+                            [](const EliteRow& r) { return r.candidate; },
+                            [](const EliminationRow& r) { return r.candidate; },
+                            [](const CandidateTotalsRow& r) { return r.candidate; },
+                            [](const DesignStateRow& r) { return r.best; },
+                            [](const auto&) { return CandidateId{}; }},
+                 row);
+  return !id || has_candidate(id) ? "" : "a row of a candidate that is not there";
+}
+
+bool SimulatedDisk::holds(PackedKey evaluation) const {
+  return rows_.contains(key_of(EvaluationRow{.key = unpack(evaluation)}));
+}
+
+template <class Kind>
+std::vector<Kind> SimulatedDisk::rows_of() const {
+  std::vector<Kind> found;
+  const std::size_t index = Row(Kind{}).index();
+  for (auto at = rows_.lower_bound({index, INT64_MIN, 0, 0});
+       at != rows_.end() && at->second.index() == index; ++at) {
+    found.push_back(std::get<Kind>(at->second));
+  }
+  return found;
+}
+
+std::vector<StoredScore> SimulatedDisk::scores() const {
+  std::vector<StoredScore> scores;
+  for (const EvaluationRow& row : rows_of<EvaluationRow>())
+    scores.push_back({row.key, row.status, row.score, row.state_digest});
+  return scores;
+}
+
+std::vector<StoredStep> SimulatedDisk::steps() const {
+  std::vector<StoredStep> steps;
+  for (const RaceStepRow& row : rows_of<RaceStepRow>())
+    steps.push_back({row.design, row.step, row.digest});
+  return steps;
+}
+
+std::vector<DesignStateRow> SimulatedDisk::design_states() const {
+  return rows_of<DesignStateRow>();
+}
+
+std::int64_t SimulatedDisk::next_worker() const {
+  const std::vector<WorkerRow> workers = rows_of<WorkerRow>();
+  return workers.empty() ? 1 : workers.back().id + 1;
+}
+
+bool SimulatedDisk::finished() const {
+  const std::vector<CampaignStateRow> states = rows_of<CampaignStateRow>();
+  return !states.empty() && states.back().state == "finished";
+}
+
+std::vector<std::string> SimulatedDisk::answer() const {
+  std::vector<std::string> lines;
+  for (const auto& [key, row] : rows_) {
+    if (in_answer(row)) lines.push_back(describe(row));
+  }
+  return lines;
+}
+
+}  // namespace swarmsmith::cluster
