@@ -294,7 +294,8 @@ class BadStore(BadInput):
                     "WITH a AS (SELECT 1) DELETE FROM meta"):
             with self.subTest(sql):
                 self.assert_refused(2, ": ", "query", store, sql)
-        self.assert_refused(2, "one statement at a time", "ls", "designs", store, "--where", "1; DROP TABLE x")
+        self.assert_refused(2, "one statement at a time", "ls", "designs", store, "--where",
+                            "1; DROP TABLE x")
         self.assertEqual(store.read_bytes(), before)
 
     def test_a_finished_store_gives_its_result_again(self):
