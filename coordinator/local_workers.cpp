@@ -19,6 +19,8 @@ constexpr Duration kShortLife = std::chrono::seconds(5);
 constexpr Duration kFirstPause = std::chrono::milliseconds(100);
 constexpr Duration kLongestPause = std::chrono::seconds(10);
 constexpr Duration kEndGrace = std::chrono::seconds(2);
+/// Of one worker, in a row.
+constexpr int kMostFailures = 5;
 /// swarmsmith-worker's exit code for a coordinator that does not want it.
 constexpr int kRefused = 7;
 
@@ -115,6 +117,13 @@ void LocalWorkers::on_ended(Child& child, int status, TimePoint now) {
         "the coordinator refuses its own workers (" + command_.front() + " is of another build)";
   }
   const bool lived = now - child.started >= kShortLife;
+  // Being killed is an accident; ending by oneself, again and again, is not.
+  const bool failed = WIFEXITED(status) && WEXITSTATUS(status) != 0 && !lived;
+  child.failures = failed ? child.failures + 1 : 0;
+  if (child.failures >= kMostFailures && trouble_.empty()) {
+    trouble_ = "workers end as soon as they are started (" + command_.front() + ", exit code " +
+               std::to_string(WEXITSTATUS(status)) + "); install it again, or see what it says";
+  }
   child.pause = lived ? Duration{} : std::clamp(2 * child.pause, kFirstPause, kLongestPause);
   child.start_at = now + child.pause;
 }

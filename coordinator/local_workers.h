@@ -45,6 +45,7 @@ class LocalWorkers {
     TimePoint started;
     TimePoint start_at;
     Duration pause{};
+    int failures = 0;  ///< ended at once by itself, in a row
   };
 
   LocalWorkers() = default;

@@ -236,6 +236,14 @@ class Loop final : public Service {
 Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options, Store& store,
                                                  WorkSource& source) {
   if (options.bind.empty()) options.bind = "tcp://127.0.0.1:*";
+  // A name of an interface is what a socket would look for.
+  if (constexpr std::string_view kName = "tcp://localhost:"; options.bind.starts_with(kName)) {
+    options.bind.replace(0, kName.size(), "tcp://127.0.0.1:");
+  }
+  if (!is_tcp_address(options.bind)) {
+    return bad_input("this is no address to listen on; it is written 127.0.0.1:5555, host and port",
+                     options.bind);
+  }
   if (!is_loopback(options.bind)) {
     return bad_input(
         "workers of other hosts are not admitted yet, since connections are not encrypted: bind to "

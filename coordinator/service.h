@@ -44,7 +44,8 @@ struct ServiceEnd {
 /// A coordinator's loop: socket, clock and store around a Coordinator. One thread, that of `run`.
 class Service {
  public:
-  /// Errors: BadInput (an address beyond loopback), Unavailable (the port is taken). `store` and
+  /// Errors: BadInput (no address, or one beyond loopback), Conflict (the port is taken),
+  /// Unavailable. `store` and
   /// `source` must outlive the object; the store's listener is taken over.
   static Expected<std::unique_ptr<Service>> open(ServiceOptions options, Store& store,
                                                  WorkSource& source);

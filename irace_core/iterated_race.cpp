@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "irace_core/internal/design_state.h"
+#include "irace_core/internal/schedule.h"
 
 namespace swarmsmith {
 namespace {
@@ -27,6 +28,10 @@ Expected<void> check_initial(const ParameterSpace& space,
 }
 
 }  // namespace
+
+std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario) {
+  return irace::Schedule(scenario, space.variable_count()).total_budget();
+}
 
 Expected<IteratedRace> IteratedRace::start(ParameterSpace space, Scenario scenario,
                                            std::vector<Configuration> initial) {

@@ -24,6 +24,9 @@ struct Experiment {
   friend bool operator==(const Experiment&, const Experiment&) = default;
 };
 
+/// The budget of a design: max_experiments, or what min_experiments makes of it.
+std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario);
+
 /// Elitist iterated racing (Lopez-Ibanez et al., "The irace package", Operations Research
 /// Perspectives 3, 2016), as ask and tell: a pure function of space, scenario, initial
 /// configurations and costs. No clock, no threads, no input or output.

@@ -61,6 +61,18 @@ SendStatus send_on(zmq::socket_t& socket, std::string_view frame, zmq::send_flag
 
 }  // namespace
 
+bool is_tcp_address(std::string_view endpoint) {
+  constexpr std::string_view kScheme = "tcp://";
+  constexpr int kLargestPort = 65'535;
+  const std::size_t colon = endpoint.rfind(':');
+  if (!endpoint.starts_with(kScheme) || colon <= kScheme.size()) return false;
+  const std::string port(endpoint.substr(colon + 1));
+  if (port == "*") return true;
+  if (port.empty() || port.size() > 5) return false;
+  if (port.find_first_not_of("0123456789") != std::string::npos) return false;
+  return std::stoi(port) <= kLargestPort;
+}
+
 struct ServerSocket::Impl {
   zmq::context_t context{1};
   zmq::socket_t socket{context, zmq::socket_type::router};
@@ -81,8 +93,11 @@ Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& en
   try {
     impl->socket.bind(endpoint);
   } catch (const zmq::error_t& error) {
-    return unexpected(ErrorKind::Unavailable,
-                      std::string("cannot listen on this address: ") + error.what(), endpoint);
+    const bool taken = error.num() == EADDRINUSE;
+    return unexpected(taken ? ErrorKind::Conflict : ErrorKind::Unavailable,
+                      taken ? "another program listens on this port; name another one, or end that"
+                            : std::string("cannot listen on this address: ") + error.what(),
+                      endpoint);
   }
   impl->endpoint = impl->socket.get(zmq::sockopt::last_endpoint);
   return std::unique_ptr<ServerSocket>(new ServerSocket(std::move(impl)));

@@ -85,4 +85,8 @@ class ClientSocket {
   std::unique_ptr<Impl> impl_;
 };
 
+/// Whether the text is tcp://HOST:PORT, with a number up to 65535 for the port, or * for a free
+/// one.
+bool is_tcp_address(std::string_view endpoint);
+
 }  // namespace swarmsmith

@@ -82,10 +82,12 @@ std::vector<std::string> SqliteReader::integrity() {
     while (check.step()) {
       if (check.text(0) != "ok") faults.push_back(check.text(0));
     }
-    Statement foreign(connection_, "PRAGMA foreign_key_check");
+    Statement foreign(connection_,
+                      "SELECT \"table\", parent, count(*) FROM pragma_foreign_key_check"
+                      " GROUP BY \"table\", parent");
     while (foreign.step()) {
-      faults.push_back(fmt::format("a row of {} names a row of {} that does not exist",
-                                   foreign.text(0), foreign.text(2)));
+      faults.push_back(fmt::format("rows of {} name rows of {} that do not exist: {}",
+                                   foreign.text(0), foreign.text(1), foreign.integer(2)));
     }
   } catch (const sqlite::SqliteError& error) {
     faults.emplace_back(error.what());

@@ -5,13 +5,27 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <stdexcept>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/expected.h"
 #include "storage/rows.h"
 
 namespace swarmsmith {
+
+/// Thrown where a store that was opened cannot be read after all: the file is damaged in its middle
+/// or was changed under us, or the disk fails.
+class StoreFailure : public std::runtime_error {
+ public:
+  StoreFailure(const std::string& message, std::string file)
+      : std::runtime_error(message), file_(std::move(file)) {}
+  const std::string& file() const { return file_; }  ///< empty when not known
+
+ private:
+  std::string file_;
+};
 
 /// What a writer tells about itself, from its own thread.
 struct WriterNews {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 #include <random>
+#include <string>
 
 #include "base/log.h"
 #include "base/overloaded.h"
@@ -14,6 +15,8 @@ using std::chrono::milliseconds;
 
 /// Time for the last words to leave the socket.
 constexpr milliseconds kLinger{500};
+/// Without a coordinator, before a person is told.
+constexpr std::chrono::seconds kLonely{3};
 /// While results come, the slots do not wake the loop for each.
 constexpr milliseconds kLookAgain{2};
 
@@ -23,6 +26,7 @@ class Loop {
        Wakeup& wakeup)
       : socket_(options.endpoint, options.socket),
         protocol_(identity, options.protocol, Rng(std::random_device{}())),
+        endpoint_(options.endpoint),
         pool_(&pool),
         wakeup_(&wakeup) {}
 
@@ -58,6 +62,19 @@ class Loop {
     if (drain.load()) protocol_.on_drain(now);
     protocol_.on_tick(now);
     carry_out();
+    tell_when_alone(now);
+  }
+
+  /// Once each time that nobody answers.
+  void tell_when_alone(TimePoint now) {
+    if (protocol_.active()) {
+      active_ = now;
+      told_ = false;
+    }
+    if (told_ || end_ || now - active_ < kLonely) return;
+    told_ = true;
+    log(LogLevel::Warning, "worker", "no coordinator answers; trying on for ten minutes",
+        {{"coordinator", endpoint_}});
   }
 
   void take_events(TimePoint now) {
@@ -113,6 +130,9 @@ class Loop {
   SystemClock clock_;
   ClientSocket socket_;
   WorkerProtocol protocol_;
+  std::string endpoint_;
+  TimePoint active_ = clock_.now();
+  bool told_ = false;
   Pool* pool_;
   Wakeup* wakeup_;
   std::optional<WorkerEnd> end_;

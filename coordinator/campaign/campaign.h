@@ -46,6 +46,9 @@ struct Method {
   friend bool operator==(const Method&, const Method&) = default;
 };
 
+/// Of a design: lists of pairs are as long as a part of it.
+inline constexpr std::int64_t kLargestBudget = 100'000'000;
+
 /// A campaign file, checked and complete.
 struct Campaign {
   std::string name = "campaign";

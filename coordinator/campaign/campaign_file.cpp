@@ -1,6 +1,8 @@
 #include "coordinator/campaign/campaign_file.h"
 
 #include <cctype>
+#include <cerrno>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <sstream>
@@ -162,7 +164,8 @@ std::vector<Error> check_budget(const Campaign& campaign) {
   for (const Method& method : campaign.methods) {
     auto error = check_race(campaign, method);
     if (!error) continue;
-    const std::string where = error->where.empty() ? "" : error->where + ": ";
+    const bool known = error->where.empty() || error->where == "max_experiments";
+    const std::string where = known ? "" : error->where + ": ";
     error->message = "method \"" + method.name + "\": " + where + error->message;
     error->where.clear();
     errors.push_back(std::move(*error));
@@ -170,7 +173,8 @@ std::vector<Error> check_budget(const Campaign& campaign) {
   return errors;
 }
 
-CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::path& file) {
+CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::path& file,
+                                std::optional<std::int64_t> budget) {
   const auto document = parse_document(text, file.string());
   if (!document) return tl::unexpected(std::vector<Error>{document.error()});
   Complaints complaints(file.string());
@@ -185,21 +189,39 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   read_workers(root, campaign);
   read_dashboard(root);
   root.finish();
-  if (complaints.empty()) complain_about_races(root, campaign);
+  if (budget) {
+    campaign.race.max_experiments = *budget;
+    campaign.race.min_experiments.reset();
+  } else if (complaints.empty()) {
+    complain_about_races(root, campaign);
+  }
   if (!complaints.empty()) return tl::unexpected(complaints.take());
   return campaign;
 }
 
-CampaignOrErrors read_campaign(const std::filesystem::path& file) {
+CampaignOrErrors read_campaign(const std::filesystem::path& file,
+                               std::optional<std::int64_t> budget) {
+  const auto unreadable = [&](ErrorKind kind, const std::string& why) {
+    return tl::unexpected(std::vector<Error>{Error{kind, why, file.string()}});
+  };
+  std::error_code trouble;
+  if (std::filesystem::is_directory(file, trouble)) {
+    return unreadable(ErrorKind::BadInput,
+                      "this is a folder; name the campaign file in it, such as " +
+                          (file / "campaign.toml").string());
+  }
+  if (!std::filesystem::exists(file, trouble) && !trouble) {
+    return unreadable(ErrorKind::NotFound,
+                      "there is no such campaign file; `swarmsmith init` writes one");
+  }
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file)) {
-    Error error{ErrorKind::NotFound, "there is no such campaign file; `swarmsmith init` writes one",
-                file.string()};
-    return tl::unexpected(std::vector<Error>{std::move(error)});
+  if (!stream) {
+    return unreadable(ErrorKind::BadInput,
+                      std::string("the campaign file cannot be read: ") + std::strerror(errno));
   }
   std::ostringstream text;
   text << stream.rdbuf();
-  return parse_campaign(text.str(), file);
+  return parse_campaign(text.str(), file, budget);
 }
 
 Campaign demo_campaign() {

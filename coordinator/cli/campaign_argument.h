@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
@@ -8,7 +9,9 @@
 
 namespace swarmsmith::cli {
 
-/// Reads the campaign file, or prints everything that is wrong with it (exit code 2).
-std::optional<Campaign> read_or_complain(const std::string& file, Output& output);
+/// Reads the campaign file, or prints everything that is wrong with it (exit code 2). A `budget` of
+/// a flag takes the place of the file's.
+std::optional<Campaign> read_or_complain(const std::string& file, Output& output,
+                                         std::optional<std::int64_t> budget = std::nullopt);
 
 }  // namespace swarmsmith::cli

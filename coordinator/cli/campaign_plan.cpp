@@ -6,6 +6,7 @@
 #include <thread>
 #include <variant>
 
+#include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/machine_space.h"
 #include "irace_core/iterated_race.h"
 #include "sim/engine/simulate.h"
@@ -86,7 +87,10 @@ CampaignPlan plan_of(const Campaign& campaign) {
   const auto methods = static_cast<std::int64_t>(campaign.methods.size());
   const auto missions = static_cast<std::int64_t>(campaign.missions.size());
   plan.designs = missions * methods * campaign.repetitions;
-  plan.experiments = plan.designs * campaign.race.max_experiments;
+  for (const DesignRow& design : design_rows(campaign)) {
+    plan.experiments += design.budget;
+    plan.largest_budget = std::max(plan.largest_budget, design.budget);
+  }
   for (const CampaignMission& mission : campaign.missions) {
     plan.tests += mission.test_count * methods * campaign.repetitions;
   }

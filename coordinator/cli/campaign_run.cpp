@@ -64,7 +64,10 @@ ServiceOptions service_options(const Campaign& campaign, const RunOptions& optio
       std::chrono::duration_cast<Duration>(std::chrono::duration<double>(campaign.task_timeout_s));
   scheduler.retries = campaign.retries;
   scheduler.stop_on_failure = campaign.stop_on_failure;
-  if (!options.bind.empty()) service.bind = "tcp://" + options.bind;
+  if (!options.bind.empty()) {
+    const bool has_scheme = options.bind.find("://") != std::string::npos;
+    service.bind = (has_scheme ? "" : "tcp://") + options.bind;
+  }
   return service;
 }
 
@@ -94,13 +97,12 @@ class CampaignRun {
         progress_(output, designs_, clock_.now()) {}
 
   ExitCode run() {
+    catch_signals();
     auto plans = plans_of(campaign_);
     if (!plans) return fail(output_, ExitCode::Usage, plans.error());
     CampaignRunner runner = replay(std::move(*plans));
     if (runner.error()) return fail_of(*runner.error());
-    ServiceOptions service_for = service_options(campaign_, options_);
-    service_for.coordinator.scheduler.first_worker = store_.next_worker();
-    auto service = Service::open(std::move(service_for), store_, runner);
+    auto service = listen(runner);
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
     if (options_.announce) announce((*service)->endpoint());
     const int processes = local_processes(campaign_, options_);
@@ -112,6 +114,22 @@ class CampaignRun {
   }
 
  private:
+  /// On the address that was asked for, or on one of the next ports where that will do.
+  Expected<std::unique_ptr<Service>> listen(CampaignRunner& runner) {
+    constexpr int kPorts = 100;
+    ServiceOptions service_for = service_options(campaign_, options_);
+    service_for.coordinator.scheduler.first_worker = store_.next_worker();
+    const std::string bind = service_for.bind;
+    for (int next = 1;; ++next) {
+      auto service = Service::open(service_for, store_, runner);
+      const bool taken = !service && service.error().kind == ErrorKind::Conflict;
+      if (!taken || !options_.next_port || next == kPorts) return service;
+      const std::size_t colon = bind.rfind(':') + 1;
+      service_for.bind =
+          bind.substr(0, colon) + std::to_string(std::stoi(bind.substr(colon)) + next);
+    }
+  }
+
   CampaignRunner replay(std::vector<DesignPlan> plans) {
     std::vector<DesignId> finished;
     for (const DesignStateRow& state : store_.design_states()) {
@@ -127,7 +145,6 @@ class CampaignRun {
   }
 
   ExitCode serve(Service& service, const CampaignRunner& runner, LocalWorkers* workers) {
-    catch_signals();
     std::stop_source stop;
     std::string worker_trouble;
     const ServiceHooks hooks{
@@ -201,24 +218,27 @@ class CampaignRun {
 
 void CampaignFlags::declare(Options& options, Options::Need file_needed) {
   options.text("FILE", file, "Campaign file", file_needed);
-  options.integer("--budget", budget, {1, 1'000'000'000}, "Experiments of each design");
+  options.integer("--budget", budget, {1, kLargestBudget}, "Experiments of each design");
   options.integer("--seed", seed, {0, INT64_MAX}, "Seed that everything derives from");
   options.text("--store", store, "Where the results go");
 }
 
 std::optional<Campaign> CampaignFlags::read(Output& output) const {
   std::optional<Campaign> campaign =
-      file.empty() ? demo_campaign() : read_or_complain(file, output);
+      file.empty() ? demo_campaign() : read_or_complain(file, output, budget);
   if (!campaign) return std::nullopt;
   if (budget) campaign->race.max_experiments = *budget;
   if (seed) campaign->seed = static_cast<std::uint64_t>(*seed);
-  if (const char* variable = std::getenv("SWARMSMITH_STORE"); variable != nullptr) {
+  if (const char* variable = std::getenv("SWARMSMITH_STORE");
+      variable != nullptr && *variable != '\0') {
     campaign->store = variable;
   }
   if (!store.empty()) campaign->store = store;
+  if (!budget) return campaign;
   const std::vector<Error> complaints = check_budget(*campaign);
-  for (const Error& complaint : complaints)
-    print_error(output, complaint);
+  for (const Error& complaint : complaints) {
+    print_error(output, {complaint.kind, complaint.message, "--budget"});
+  }
   if (!complaints.empty()) return std::nullopt;
   return campaign;
 }

@@ -30,6 +30,8 @@ struct RunOptions {
   std::optional<std::int64_t> workers;
   std::string bind;  ///< host:port; empty: a free port on loopback
   bool announce = false;
+  /// When another program listens on the port of `bind`, one of the next ones will do.
+  bool next_port = false;
 };
 
 /// Runs the campaign to its end, going on where its store stands, and prints its result. SIGINT and

@@ -36,7 +36,7 @@ void write_text(Output& output, const Campaign& campaign, const CampaignPlan& pl
              << "designs      " << plan.designs << " = " << names_of(campaign) << " x "
              << campaign.repetitions << " repetitions\n"
              << "experiments  " << grouped(plan.experiments) << " (at most "
-             << grouped(campaign.race.max_experiments) << " a design), and " << grouped(plan.tests)
+             << grouped(plan.largest_budget) << " a design), and " << grouped(plan.tests)
              << " tests of winners\n"
              << "evaluation   " << decimals(plan.evaluation_s * 1e3, "%.3g")
              << " ms on one core of this machine\n"

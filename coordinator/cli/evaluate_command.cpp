@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cstdio>
 #include <memory>
 
@@ -101,6 +102,14 @@ Expected<Plan> make_plan(const Arguments& arguments, Output& output) {
   return plan;
 }
 
+/// Left of every wall: arenas are convex, and their walls go round counter-clockwise.
+bool is_inside(const Arena& arena, const Pose& pose) {
+  return std::ranges::all_of(arena.walls, [&](const Wall& wall) {
+    return (wall.to.x - wall.from.x) * (pose.y - wall.from.y) >=
+           (wall.to.y - wall.from.y) * (pose.x - wall.from.x);
+  });
+}
+
 /// What of the instance no table gives is drawn from the seed.
 Expected<Instance> instance_for(const Plan& plan, std::int64_t seed) {
   const auto robots = static_cast<std::size_t>(plan.mission.robots);
@@ -110,6 +119,12 @@ Expected<Instance> instance_for(const Plan& plan, std::int64_t seed) {
     if (starts == plan.starts.end() || starts->second.size() != robots) {
       return bad_input("there are no " + std::to_string(robots) + " starting poses for seed " +
                            std::to_string(seed),
+                       "--starts");
+    }
+    for (std::size_t robot = 0; robot < robots; ++robot) {
+      if (is_inside(plan.mission.arena, starts->second[robot])) continue;
+      return bad_input("seed " + std::to_string(seed) + ": robot " + std::to_string(robot) +
+                           " starts outside of the arena",
                        "--starts");
     }
     instance.starts = starts->second;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <string>
 #include <string_view>
+#include <type_traits>
 
 #include "base/math.h"
 #include "base/suggestion.h"
@@ -37,7 +38,9 @@ struct Line {
     const std::string_view text = cells[cell];
     const char* end = text.data() + text.size();
     const auto [stop, error] = std::from_chars(text.data(), end, value);
-    if (error == std::errc() && stop == end) return value;
+    bool is_number = error == std::errc() && stop == end;
+    if constexpr (std::is_floating_point_v<Number>) is_number = is_number && std::isfinite(value);
+    if (is_number) return value;
     return bad_input("\"" + std::string(text) + "\" is no number", where);
   }
 };
@@ -65,6 +68,10 @@ Expected<void> read_table(const std::filesystem::path& file,
                           const std::vector<std::string>& columns,
                           const std::function<Expected<void>(const Line&)>& on_line) {
   std::ifstream stream(file);
+  std::error_code trouble;
+  if (std::filesystem::is_directory(file, trouble)) {
+    return bad_input("this is a folder; a table is a file", file.string());
+  }
   if (!stream) return unexpected(ErrorKind::NotFound, "there is no such file", file.string());
   std::string text;
   std::getline(stream, text);

@@ -1,15 +1,32 @@
 #include <exception>
+#include <new>
 #include <string>
 #include <vector>
 
 #include "coordinator/cli/options.h"
+#include "storage/store.h"
 
 int main(int argc, char** argv) {
   using namespace swarmsmith::cli;
   Output output = standard_output();
   try {
     const std::vector<std::string> arguments(argv + 1, argv + argc);
-    return static_cast<int>(run_program(arguments, output));
+    const ExitCode code = run_program(arguments, output);
+    if (output.out.flush() || code != ExitCode::Done) return static_cast<int>(code);
+    return static_cast<int>(
+        fail(output, ExitCode::Failed,
+             "standard output: the answer could not be written; is the disk full, or the output "
+             "closed?"));
+  } catch (const swarmsmith::StoreFailure& failure) {
+    const std::string message = std::string("the store cannot be used: ") + failure.what() +
+                                "; take it from a backup, or export what can be read with "
+                                "sqlite3's .recover";
+    return static_cast<int>(
+        fail(output, ExitCode::Store, {swarmsmith::ErrorKind::Corrupt, message, failure.file()}));
+  } catch (const std::bad_alloc&) {
+    return static_cast<int>(fail(output, ExitCode::Failed,
+                                 "there is not enough memory for this; try it with a smaller "
+                                 "budget, fewer seeds or fewer rows"));
   } catch (const std::exception& error) {
     // What the environment refused: a full disk, no memory, a store that goes away under us.
     return static_cast<int>(fail(output, ExitCode::Failed, std::string(error.what())));

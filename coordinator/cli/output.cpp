@@ -26,6 +26,23 @@ bool is_dumb() {
   return terminal == nullptr || std::string_view(terminal) == "dumb";
 }
 
+/// Bytes of the UTF-8 character at the begin of `text`; 0 when there is none.
+std::size_t character_at(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned char first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t size = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
+  if (size == 0 || first > 0xf4 || text.size() < size) return 0;
+  for (std::size_t i = 1; i < size; ++i) {
+    if ((byte(i) & 0xc0U) != 0x80) return 0;
+  }
+  // Longer than needed, half of a surrogate pair, beyond the last.
+  const unsigned char second = byte(1);
+  if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f)) return 0;
+  if ((first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f)) return 0;
+  return size;
+}
+
 }  // namespace
 
 Output standard_output() {
@@ -59,8 +76,17 @@ ExitCode fail(Output& output, ExitCode code, const Error& error) {
 std::string json_text(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string quoted = "\"";
-  for (const char letter : text) {
+  while (!text.empty()) {
+    const std::size_t size = character_at(text);
+    const char letter = text.front();
     const auto code = static_cast<unsigned char>(letter);
+    if (size != 1) {
+      // What is no text (names of files may be anything) is replaced: JSON is UTF-8.
+      quoted += size == 0 ? std::string_view("\xef\xbf\xbd") : text.substr(0, size);
+      text.remove_prefix(size == 0 ? 1 : size);
+      continue;
+    }
+    text.remove_prefix(1);
     if (letter == '"' || letter == '\\') {
       quoted += '\\';
       quoted += letter;

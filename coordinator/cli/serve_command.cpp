@@ -12,12 +12,18 @@ Run declare_serve(Options& options) {
   };
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Required);
-  options.text("--bind", arguments->bind, "Address and port for workers (default 127.0.0.1:5555)");
+  options.text(
+      "--bind", arguments->bind,
+      "Address and port for workers (default 127.0.0.1:5555, or the next port that is free)");
   return [arguments](Output& output) {
     const auto campaign = arguments->campaign.read(output);
     if (!campaign) return ExitCode::Usage;
     RunOptions run{.workers = 0, .bind = arguments->bind, .announce = true};
-    if (run.bind.empty()) run.bind = campaign->bind.empty() ? "127.0.0.1:5555" : campaign->bind;
+    if (run.bind.empty()) run.bind = campaign->bind;
+    if (run.bind.empty()) {
+      run.bind = "127.0.0.1:5555";
+      run.next_port = true;
+    }
     return run_campaign(output, *campaign, run);
   };
 }

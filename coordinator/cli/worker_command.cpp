@@ -5,6 +5,7 @@
 
 #include "coordinator/cli/commands.h"
 #include "coordinator/local_workers.h"
+#include "proto/socket.h"
 
 namespace swarmsmith::cli {
 
@@ -23,8 +24,16 @@ Run declare_worker(Options& options) {
     const auto program = find_worker_program();
     if (!program) return fail(output, ExitCode::Unreachable, program.error());
     const bool has_scheme = arguments->connect.find("://") != std::string::npos;
-    std::vector<std::string> words{program->string(), "--connect",
-                                   (has_scheme ? "" : "tcp://") + arguments->connect};
+    const std::string endpoint = (has_scheme ? "" : "tcp://") + arguments->connect;
+    if (!is_tcp_address(endpoint) || endpoint.ends_with("*")) {
+      return fail(output, ExitCode::Usage,
+                  {ErrorKind::BadInput,
+                   "`" + arguments->connect +
+                       "` is no address; it is written 127.0.0.1:5555, host and port, as `serve` "
+                       "prints it",
+                   "--connect"});
+    }
+    std::vector<std::string> words{program->string(), "--connect", endpoint};
     if (arguments->slots) {
       words.emplace_back("--slots");
       words.push_back(std::to_string(*arguments->slots));

@@ -122,6 +122,7 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   for (const Row& row : rows) add(row, replayed);
   add_stepped_pairs(replayed);
   add_stepped_pairs(stored);
+  if (!stored.state) complaints.push_back(name + ": the store has no row of this design");
   const bool finished = stored.state && stored.state->state == DesignState::Finished;
   if (finished && !tasks.empty()) {
     complaints.push_back(fmt::format("{}: the design is finished, but {} of its evaluations are "

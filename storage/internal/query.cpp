@@ -143,7 +143,14 @@ Expected<StoreReader::QueryEnd> run_query(
       end.truncated = true;
       return end;
     }
-    if (code != SQLITE_ROW) return bad_input(sqlite3_errmsg(connection.handle()), sql);
+    if (code != SQLITE_ROW) {
+      // The statement's own fault (a number too large, bad JSON), or the file's.
+      if ((code & 0xff) != SQLITE_ERROR && (code & 0xff) != SQLITE_TOOBIG &&
+          (code & 0xff) != SQLITE_MISMATCH) {
+        connection.fail(code);
+      }
+      return bad_input(sqlite3_errmsg(connection.handle()), sql);
+    }
     for (std::size_t i = 0; i < width; ++i)
       cells[i] = cell_at(row, static_cast<int>(i));
     on_row(cells);

@@ -131,7 +131,7 @@ CandidateTotalsRow totals(const Statement& row) {
 
 CampaignRow read_campaign(const sqlite::Connection& connection) {
   Statement row(connection, "SELECT name, digest, deciding, file, seed FROM campaign");
-  SWARMSMITH_ASSERT(row.step(), "a store holds a campaign");
+  if (!row.step()) connection.fail(SQLITE_CORRUPT, "the table campaign has no row");
   return {.name = row.text(0),
           .digest = row.text(1),
           .deciding = row.text(2),
@@ -191,7 +191,8 @@ std::int64_t read_next_worker(const sqlite::Connection& connection) {
 }
 
 bool is_finished(const sqlite::Connection& connection) {
-  return sqlite::text_of(connection, "SELECT state FROM campaign") == "finished";
+  Statement row(connection, "SELECT state FROM campaign");
+  return row.step() && row.text(0) == "finished";
 }
 
 void read_answer(const sqlite::Connection& connection, const OnRow& on_row) {

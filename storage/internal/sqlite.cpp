@@ -4,6 +4,16 @@
 
 namespace swarmsmith::sqlite {
 
+namespace {
+
+/// Where the connection's rows are.
+std::string file_of(sqlite3* handle) {
+  const char* file = sqlite3_db_filename(handle, "main");
+  return file == nullptr ? std::string() : std::string(file);
+}
+
+}  // namespace
+
 Connection::Connection(const std::string& file, int flags) {
   sqlite3* opened = nullptr;
   const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX, nullptr);
@@ -19,7 +29,11 @@ void Connection::execute(const std::string& sql) {
 }
 
 void Connection::fail(int code) const {
-  throw SqliteError(code, sqlite3_errmsg(handle_.get()));
+  throw SqliteError(code, sqlite3_errmsg(handle_.get()), file_of(handle_.get()));
+}
+
+void Connection::fail(int code, const std::string& message) const {
+  throw SqliteError(code, message, file_of(handle_.get()));
 }
 
 Statement::Statement(const Connection& connection, std::string_view sql) {
@@ -34,7 +48,8 @@ bool Statement::step() {
   const int code = sqlite3_step(handle_.get());
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
-  SqliteError error(code, sqlite3_errmsg(sqlite3_db_handle(handle_.get())));
+  sqlite3* connection = sqlite3_db_handle(handle_.get());
+  SqliteError error(code, sqlite3_errmsg(connection), file_of(connection));
   reset();
   throw error;
 }

@@ -8,14 +8,18 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+
+#include "storage/store.h"
 
 namespace swarmsmith::sqlite {
 
 /// SQLite refused: its words and its extended result code. The environment failed (disk full, file
 /// damaged), or a row broke a constraint.
-class SqliteError : public std::runtime_error {
+class SqliteError : public StoreFailure {
  public:
-  SqliteError(int code, const std::string& message) : std::runtime_error(message), code_(code) {}
+  SqliteError(int code, const std::string& message, std::string file = {})
+      : StoreFailure(message, std::move(file)), code_(code) {}
   /// The code without its details: SQLITE_FULL, SQLITE_IOERR, SQLITE_CONSTRAINT, ...
   int primary_code() const { return code_ & 0xff; }
 
@@ -35,6 +39,7 @@ class Connection {
   /// Rows that the last statement changed.
   std::int64_t changes() const { return sqlite3_changes64(handle_.get()); }
   [[noreturn]] void fail(int code) const;
+  [[noreturn]] void fail(int code, const std::string& message) const;
 
  private:
   struct Close {

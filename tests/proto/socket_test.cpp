@@ -103,7 +103,7 @@ TEST_F(Sockets, DropAnOverLongMessageAndItsConnectionOnly) {
 TEST_F(Sockets, RefuseAnAddressThatIsTaken) {
   const auto second = ServerSocket::bind(server->endpoint());
   ASSERT_FALSE(second);
-  EXPECT_EQ(second.error().kind, ErrorKind::Unavailable);
+  EXPECT_EQ(second.error().kind, ErrorKind::Conflict);
 }
 
 TEST_F(Sockets, WakeWhenTheyAreNotified) {

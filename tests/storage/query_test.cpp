@@ -119,9 +119,8 @@ TEST_F(QueryTest, FindsNoFaultInASoundStoreAndSaysWhatIsWrongInAnother) {
   EXPECT_THAT(reader->integrity(), testing::IsEmpty());
   sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE)
       .execute("PRAGMA foreign_keys = OFF; DELETE FROM candidate WHERE id = 1");
-  EXPECT_THAT(
-      reader->integrity(),
-      testing::Contains("a row of evaluation names a row of candidate that does not exist"));
+  EXPECT_THAT(reader->integrity(),
+              testing::Contains("rows of evaluation name rows of candidate that do not exist: 5"));
 }
 
 }  // namespace

@@ -34,7 +34,9 @@ const std::vector<std::string> kTestsNotYet = {"t-test", "t-test-holm", "t-test-
 /// All options that are one number or one flag.
 void read_numbers(TableReader& race, Scenario& scenario) {
   for (const IntegerOption& option : kIntegerOptions) {
-    const auto value = race.integer(option.key, {option.least, kLargestOption});
+    const bool budget = option.member == &Scenario::max_experiments;
+    const auto value =
+        race.integer(option.key, {option.least, budget ? kLargestBudget : kLargestOption});
     if (value) scenario.*option.member = *value;
   }
   for (const RealOption& option : kRealOptions) {
@@ -44,7 +46,7 @@ void read_numbers(TableReader& race, Scenario& scenario) {
   for (const FlagOption& option : kFlagOptions) {
     if (const auto value = race.boolean(option.key)) scenario.*option.member = *value;
   }
-  scenario.min_experiments = race.integer("min_experiments", {1, kLargestOption});
+  scenario.min_experiments = race.integer("min_experiments", {1, kLargestBudget});
 }
 
 }  // namespace
@@ -71,7 +73,9 @@ void read_race(TableReader& root, Scenario& scenario, std::int64_t& digits) {
                    "that each design may use");
   }
   race->finish(kNotYet);
-  if (const auto checked = check(scenario); !checked && race->has(checked.error().where)) {
+  Scenario judged = scenario;
+  if (judged.max_experiments == 0) judged.max_experiments = 1;  // was complained about above
+  if (const auto checked = check(judged); !checked && race->has(checked.error().where)) {
     race->complain(checked.error().where,
                    "`" + checked.error().where + "` " + checked.error().message);
   }
