@@ -1,5 +1,5 @@
-// The evaluations of a finished campaign once more, in a plain loop over threads: what the same work
-// costs without race, messages and store.
+// The evaluations of a finished campaign once more, in a plain loop over threads: what the same
+// work costs without race, messages and store.
 //
 //   plain_loop STORE [THREADS]
 
@@ -107,7 +107,7 @@ int run(const std::string& path, int threads) {
 
 int main(int argc, char** argv) {
   if (argc < 2) swarmsmith::give_up("usage: plain_loop STORE [THREADS]");
-  const int threads = argc > 2 ? std::atoi(argv[2])
-                               : static_cast<int>(std::thread::hardware_concurrency());
+  const int threads =
+      argc > 2 ? std::atoi(argv[2]) : static_cast<int>(std::thread::hardware_concurrency());
   return swarmsmith::run(argv[1], threads);
 }

@@ -36,7 +36,7 @@ struct WorkerOptions {
   Duration welcome_timeout = std::chrono::seconds(5);
   Duration give_up_after = std::chrono::minutes(10);
   std::size_t results_per_message = 64;
-  Duration flush_after = std::chrono::milliseconds(2);
+  Duration flush_after = std::chrono::milliseconds(5);
   Duration work_ahead = std::chrono::milliseconds(20);
   Duration grace = std::chrono::seconds(5);
   /// Asks for nothing while it has more results than this that are not acknowledged.

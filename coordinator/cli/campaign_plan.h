@@ -11,9 +11,9 @@ namespace swarmsmith::cli {
 /// What a campaign will cost, as far as it can be said before it runs.
 struct CampaignPlan {
   std::int64_t designs = 0;
-  std::int64_t experiments = 0;  ///< of all races, at most
+  std::int64_t experiments = 0;     ///< of all races, at most
   std::int64_t largest_budget = 0;  ///< of a design
-  std::int64_t tests = 0;        ///< evaluations of winners, outside the budgets
+  std::int64_t tests = 0;           ///< evaluations of winners, outside the budgets
   std::int64_t slots = 1;
   double evaluation_s = 0;  ///< mean over machines and missions, measured here on one core
   double time_s = 0;

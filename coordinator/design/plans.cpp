@@ -60,9 +60,10 @@ Expected<std::vector<DesignPlan>> plans_of(const Campaign& campaign) {
                          .method = static_cast<std::uint32_t>(method),
                          .space = spaces[method]->space.parameters(),
                          .scenario = scenario,
-                         .describe = [space = spaces[method]](const Configuration& configuration) {
-                           return text_of(*space, configuration);
-                         },
+                         .describe =
+                             [space = spaces[method]](const Configuration& configuration) {
+                               return text_of(*space, configuration);
+                             },
                          .test_count = campaign.missions[mission].test_count,
                          .source = campaign.profile.name});
       }

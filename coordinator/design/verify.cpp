@@ -1,7 +1,7 @@
 #include "coordinator/design/verify.h"
 
-#include <algorithm>
 #include <fmt/format.h>
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <set>
@@ -57,7 +57,8 @@ void add(const Row& row, DesignAnswer& answer) {
     answer.totals[totals->candidate] = describe(row);
   } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
     if (evaluation->key.purpose == Purpose::Race) ++answer.evaluations;
-  } else if (const auto* pair = std::get_if<PairRow>(&row); pair && pair->purpose == Purpose::Race) {
+  } else if (const auto* pair = std::get_if<PairRow>(&row);
+             pair && pair->purpose == Purpose::Race) {
     answer.pairs.emplace(pair->number, describe(row));
   } else {
     if (const auto* step = std::get_if<RaceStepRow>(&row)) answer.stepped.insert(step->pair);
@@ -85,7 +86,8 @@ std::vector<std::string> missing_from(std::vector<std::string>& all,
 void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::string& name,
                       std::vector<std::string>& complaints) {
   for (const std::string& row : missing_from(stored.rows, replayed.rows)) {
-    complaints.push_back(fmt::format("{}: the scores give a row that the store lacks: {}", name, row));
+    complaints.push_back(
+        fmt::format("{}: the scores give a row that the store lacks: {}", name, row));
   }
   for (const auto& [candidate, row] : replayed.totals) {
     const auto found = stored.totals.find(candidate);
@@ -95,12 +97,13 @@ void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::s
     if (complaints.size() > kComplaintsPerDesign) break;
   }
   if (!replayed.state || !same_answer(*stored.state, *replayed.state)) {
-    complaints.push_back(fmt::format(
-        "{}: the store ends with {}, its scores with {}", name, describe(*stored.state),
-        replayed.state ? describe(*replayed.state) : std::string("nothing")));
+    complaints.push_back(
+        fmt::format("{}: the store ends with {}, its scores with {}", name, describe(*stored.state),
+                    replayed.state ? describe(*replayed.state) : std::string("nothing")));
   } else if (stored.evaluations != replayed.state->used) {
-    complaints.push_back(fmt::format("{}: {} evaluations are stored as used by the race, which used {}",
-                                     name, stored.evaluations, replayed.state->used));
+    complaints.push_back(
+        fmt::format("{}: {} evaluations are stored as used by the race, which used {}", name,
+                    stored.evaluations, replayed.state->used));
   }
 }
 
@@ -119,18 +122,21 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
     return;
   }
   DesignAnswer replayed;
-  for (const Row& row : rows) add(row, replayed);
+  for (const Row& row : rows)
+    add(row, replayed);
   add_stepped_pairs(replayed);
   add_stepped_pairs(stored);
   if (!stored.state) complaints.push_back(name + ": the store has no row of this design");
   const bool finished = stored.state && stored.state->state == DesignState::Finished;
   if (finished && !tasks.empty()) {
-    complaints.push_back(fmt::format("{}: the design is finished, but {} of its evaluations are "
-                                     "missing, the first is {}",
-                                     name, tasks.size(), to_string(tasks.front().key)));
+    complaints.push_back(
+        fmt::format("{}: the design is finished, but {} of its evaluations are "
+                    "missing, the first is {}",
+                    name, tasks.size(), to_string(tasks.front().key)));
   }
   for (const std::string& row : missing_from(replayed.rows, stored.rows)) {
-    complaints.push_back(fmt::format("{}: the store has a row that its scores do not give: {}", name, row));
+    complaints.push_back(
+        fmt::format("{}: the store has a row that its scores do not give: {}", name, row));
   }
   if (runner->unasked() > 0) {
     complaints.push_back(fmt::format("{}: {} stored evaluations were never asked for by the race",

@@ -134,7 +134,7 @@ TEST_F(Protocol, GathersResultsWhileThereIsWork) {
   get_tasks(1, 10);
   finish(1);
   EXPECT_EQ(results_said(), 0);
-  pass(milliseconds(2));
+  pass(milliseconds(5));
   EXPECT_EQ(results_said(), 1);
   for (int i = 2; i <= 8; ++i)
     finish(i);
