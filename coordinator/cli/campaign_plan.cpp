@@ -72,7 +72,7 @@ void warn_about_black(const Campaign& campaign, std::vector<std::string>& warnin
         std::ranges::find(method.conditions, "black_floor") != method.conditions.end();
     const Flavour& flavour = **find_flavour(method.flavour);
     const bool narrow = flavour.floor.black.high < 1000;
-    if (!has_black || !narrow || campaign.profile.ground_color_sd == 0) continue;
+    if (!has_black || !narrow || campaign.profile.ground_color.sd == 0) continue;
     warnings.push_back("method \"" + method.name + "\": flavour " + method.flavour +
                        " takes only a pure black for black, so that with the ground noise of "
                        "profile " +

@@ -40,6 +40,10 @@ struct Neighbour {
 /// -infinity closer than 0.05, +infinity beyond the range R or with nothing there.
 using ProximityReadings = std::array<double, kProximitySensors>;
 
+/// Lux at the eight directions of the proximity sensors, in [0, 16000]; a ring of sensors that the
+/// RVR lacks and `chocolate` wants (thesis facts, section 6.1).
+using LightReadings = std::array<double, kProximitySensors>;
+
 /// Readings of the current cycle. A source computes what is asked for, so a sensor that no module
 /// asks for costs nothing; asking twice in a cycle gives the same reading.
 class Senses {
@@ -50,14 +54,33 @@ class Senses {
   virtual Rgb ground_color() = 0;
   /// The robots nearer than 0.75 m (thesis 5.1, lidar clustering), in a fixed order.
   virtual std::span<const Neighbour> neighbours() = 0;
+  virtual const LightReadings& light() = 0;
+  /// Time since the start as the robot's clock has it, seconds.
+  virtual double time_s() = 0;
 };
 
-/// Speeds of the treads over ground, metres per second.
+/// Two in front, one on each side, one at the back (thesis 3.1); black is off.
+using Leds = std::array<Rgb, 5>;
+
+/// Speeds of the treads over ground, metres per second, and what the LEDs show.
 struct Command {
   double left_mps = 0;
   double right_mps = 0;
+  Leds leds{};
 
   friend bool operator==(const Command&, const Command&) = default;
 };
+
+/// Wheels go up to 155 cm/s, either way (thesis table 5.1 and facts, section 5).
+inline constexpr double kMaxWheelSpeed_mps = 1.55;
+
+/// The command within the wheels' range.
+constexpr Command clamped(Command command) {
+  for (double* speed : {&command.left_mps, &command.right_mps}) {
+    if (*speed > kMaxWheelSpeed_mps) *speed = kMaxWheelSpeed_mps;
+    if (*speed < -kMaxWheelSpeed_mps) *speed = -kMaxWheelSpeed_mps;
+  }
+  return command;
+}
 
 }  // namespace swarmsmith

@@ -2,10 +2,18 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/expected.h"
+#include "sim/control/reference_model.h"
+#include "sim/mission/colors.h"
+#include "sim/mission/pose.h"
 
 namespace swarmsmith {
+
+/// How the simulated robot's sensors and actuators fall short of ideal ones: data, one struct a
+/// device. Standard deviations (sd) and half-widths are in the reading's unit. Numbers of the
+/// built-in profiles and their sources stand in sim/files/profiles.
 
 /// Who solves contacts between robots and with walls; each checks the other.
 enum class ContactModel {
@@ -13,20 +21,94 @@ enum class ContactModel {
   Box2d,
 };
 
-/// How the simulated robot's sensors and actuators fall short of ideal ones: data, one struct a
-/// device. Standard deviations and half-widths in the reading's unit.
+/// Eight rays (thesis 4.2.9, 7.1). Of a reading, in this order: missed, or misjudged, or a phantom;
+/// then the limits hold again.
+struct ProximitySensing {
+  double range_m = 0.4;  ///< R: beyond it a reading is +infinity
+  double sd_m = 0;       ///< normal noise on finite distances
+  double scale_sd = 0;   ///< finite distances times N(1, scale_sd)
+  double largest_miss_rate =
+      0;                    ///< each sensor's rate of misses, drawn for the run from U(0, this)
+  double phantom_rate = 0;  ///< of the readings that are uniform in [0.05 m, R] instead
+
+  friend bool operator==(const ProximitySensing&, const ProximitySensing&) = default;
+};
+
+/// RGB of the floor (thesis 4.2.1, 3.2): bias and noise are added, rounded, clamped, then labelled.
+struct GroundColorSensing {
+  double sd = 0;         ///< normal noise a channel
+  double bias_sd = 0;    ///< of the normal bias that a robot has on all channels for the run
+  bool labeler = false;  ///< the nearest label takes the reading's place (thesis eq. 3.1, 3.2)
+  std::vector<Rgb> labels = default_labels();
+
+  static std::vector<Rgb> default_labels();
+  friend bool operator==(const GroundColorSensing&, const GroundColorSensing&) = default;
+};
+
+/// 719 rays (thesis 4.2.10).
+struct LidarSensing {
+  double half_width_m = 0;  ///< of the uniform noise
+
+  friend bool operator==(const LidarSensing&, const LidarSensing&) = default;
+};
+
+/// Who is near (thesis 5.1, 7.1).
+struct NeighbourSensing {
+  enum class Source {
+    Camera,  ///< omnidirectional, sees each robot's centre
+    Lidar,   ///< clusters of lidar rays that meet the others' turrets
+  };
+  Source source = Source::Camera;
+  double miss_rate = 0;       ///< a neighbour is missed in a cycle
+  double weak_share = 0;      ///< probability that a robot has trouble for the whole run
+  double weak_miss_rate = 0;  ///< then this is its rate
+
+  friend bool operator==(const NeighbourSensing&, const NeighbourSensing&) = default;
+};
+
+/// When a robot acts (thesis 7.1).
+struct ControlTiming {
+  /// Delay of a command until it acts, with its probability; drawn for each command. Order is kept:
+  /// a late command delays those after it. Empty: at once. Probabilities sum to 1.
+  struct Delay {
+    int sub_steps = 0;  ///< of 10 ms
+    double probability = 0;
+
+    friend bool operator==(const Delay&, const Delay&) = default;
+  };
+  std::vector<Delay> delays;
+  /// A robot's control period is 0.1 s times a factor that is drawn for the run from this interval,
+  /// times 1 + U(-jitter, jitter) for each cycle. Scores are taken every 0.1 s all the same.
+  double least_period = 1;
+  double most_period = 1;
+  double jitter = 0;
+
+  friend bool operator==(const ControlTiming&, const ControlTiming&) = default;
+};
+
+/// What of a robot the score sees (thesis 7.3).
+struct TrackedPoint {
+  Point tag;                ///< place of the tag in the robot's frame, metres
+  bool scores_tag = false;  ///< else the centre
+
+  friend bool operator==(const TrackedPoint&, const TrackedPoint&) = default;
+};
+
 struct Profile {
   std::string name;
-  double proximity_range_m = 0.4;  ///< R: beyond it a reading is +infinity
-  double proximity_sd_m = 0;       ///< normal noise on finite distances (thesis 4.2.9)
-  double ground_color_sd = 0;      ///< normal noise a channel, rounded, clamped (thesis 4.2.1)
   ContactModel contacts = ContactModel::Exact;
+  ProximitySensing proximity;
+  GroundColorSensing ground_color;
+  LidarSensing lidar;
+  NeighbourSensing neighbours;
+  ControlTiming timing;
+  TrackedPoint tracking;
 
   friend bool operator==(const Profile&, const Profile&) = default;
 };
 
-/// `rvr` (thesis 4.2: noise on) or `argos3` (as the published files: noise off). An unknown name is
-/// an error that lists the known ones.
+/// `rvr` (thesis 4.2: noise on), `argos3` (as the published files: noise off) or `pseudo-reality`
+/// (thesis 7.1). An unknown name is an error that lists the known ones.
 Expected<Profile> built_in_profile(std::string_view name);
 
 }  // namespace swarmsmith

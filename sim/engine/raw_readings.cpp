@@ -15,7 +15,7 @@ ProximityReadings RawReadings::proximity(double range_m) const {
 }
 
 std::vector<RawReadings> raw_readings(const Arena& arena, std::span<const Pose> robots) {
-  const World world(arena, robots, ContactModel::Exact);
+  const World world(arena, BoxOutline{kBodySide_m, kBodySide_m}, robots, ContactModel::Exact);
   std::vector<RawReadings> all(robots.size());
   for (int robot = 0; robot < world.robots(); ++robot) {
     RawReadings& readings = all[static_cast<std::size_t>(robot)];

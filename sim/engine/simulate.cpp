@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <deque>
 #include <vector>
 
 #include "base/assert.h"
@@ -15,26 +16,71 @@
 namespace swarmsmith {
 namespace {
 
-/// One control cycle in sub-steps, and how many cycles a command waits before it acts. A command
-/// that waits none acts from the instant on at which its readings were taken: in the original's
-/// terms, what tick t computes moves the robot during tick t+1.
-constexpr int kPeriod = kSubStepsPerInstant;
-constexpr std::int64_t kWait = 0;
+constexpr double kPeriod = kSubStepsPerInstant;
+
+/// When a robot acts: its control period, and how late its commands are (thesis 7.1).
+class Clock {
+ public:
+  Clock(const ControlTiming& timing, const Rng& run, std::uint64_t robot)
+      : timing_(&timing),
+        jitter_(run.split("jitter", robot)),
+        latency_(run.split("latency", robot)),
+        period_(kPeriod *
+                run.split("period", robot).uniform(timing.least_period, timing.most_period)) {
+    next_cycle();
+  }
+
+  /// Sub-step of the next control cycle. Cycles begin at whole sub-steps; what rounding takes from
+  /// one it gives to the next.
+  std::int64_t next() const { return next_; }
+
+  void next_cycle() {
+    const double jitter =
+        timing_->jitter == 0 ? 0 : jitter_.uniform(-timing_->jitter, timing_->jitter);
+    due_ += period_ * (1 + jitter);
+    next_ = std::max(next_ + 1, static_cast<std::int64_t>(due_ + 0.5));
+  }
+
+  /// Draws how many sub-steps the present cycle's command is late.
+  int draw_delay() {
+    double u = latency_.uniform();
+    for (const ControlTiming::Delay& delay : timing_->delays) {
+      u -= delay.probability;
+      if (u < 0) return delay.sub_steps;
+    }
+    return timing_->delays.back().sub_steps;
+  }
+
+ private:
+  const ControlTiming* timing_;
+  Rng jitter_;
+  Rng latency_;
+  double period_;   ///< of this robot in this run, sub-steps
+  double due_ = 0;  ///< the next cycle, not rounded
+  std::int64_t next_ = 0;
+};
+
+/// A command on its way to the treads.
+struct LateCommand {
+  std::int64_t from = 0;  ///< sub-step from which it acts
+  Command command;
+};
 
 /// A robot with what it needs to act on its own clock.
 struct Agent {
   RobotSenses senses;
   ControlSoftware control;
-  std::int64_t next_act = kPeriod;  ///< sub-step of its next control cycle
-  std::int64_t cycle = 0;           ///< control cycles done
-  Command command{};                ///< the last one computed
-  Command acting{};                 ///< what the drive follows
-  /// Commands that still wait, oldest first, each with the cycle from which it acts.
-  struct Pending {
-    std::int64_t from_cycle;
-    Command command;
-  };
-  std::vector<Pending> pending{};
+  Clock clock;
+  std::int64_t cycle = 0;              ///< control cycles done
+  Command command{};                   ///< the last one computed
+  Command acting{};                    ///< what the drive follows
+  std::deque<LateCommand> late{};      ///< oldest first
+  const Readings* readings = nullptr;  ///< what the recorder asked for
+
+  /// Sub-step at which something happens to it next.
+  std::int64_t next_event() const {
+    return late.empty() ? clock.next() : std::min(clock.next(), late.front().from);
+  }
 };
 
 class Run {
@@ -43,16 +89,17 @@ class Run {
       : setup_(setup),
         recorder_(recorder),
         arena_(arena_of(setup.mission, setup.instance)),
-        world_(arena_, setup.instance.starts, setup.profile.contacts),
+        world_(arena_, setup.mission.body, setup.instance.starts, setup.profile.contacts),
         scorer_(setup.mission.rule, arena_),
         positions_(setup.instance.starts.size()) {
     const Rng run(static_cast<std::uint64_t>(setup.seed));
     agents_.reserve(positions_.size());
     for (int i = 0; i < world_.robots(); ++i) {
+      const auto number = static_cast<std::uint64_t>(i);
       agents_.push_back(
           {.senses = RobotSenses(world_, arena_, setup.profile, i, run),
-           .control = ControlSoftware(setup.machine, setup.flavour,
-                                      run.split("control", static_cast<std::uint64_t>(i)))});
+           .control = ControlSoftware(setup.machine, setup.flavour, run.split("control", number)),
+           .clock = Clock(setup.profile.timing, run, number)});
     }
   }
 
@@ -64,12 +111,11 @@ class Run {
       while (now < end) {
         std::int64_t next = end;
         for (const Agent& agent : agents_)
-          next = std::min(next, agent.next_act);
+          next = std::min(next, agent.next_event());
         world_.advance(static_cast<int>(next - now));
         now = next;
-        for (int i = 0; i < world_.robots(); ++i) {
-          if (agents_[static_cast<std::size_t>(i)].next_act == now) act(i);
-        }
+        for (int i = 0; i < world_.robots(); ++i)
+          serve(i, now);
       }
       observe();
       record(instant);
@@ -78,54 +124,79 @@ class Run {
   }
 
  private:
-  /// One control cycle of a robot: read, decide, and let the drive have what is due.
-  void act(int robot) {
+  /// What is due for a robot at this sub-step: late commands, then its control cycle.
+  void serve(int robot, std::int64_t now) {
     Agent& agent = agents_[static_cast<std::size_t>(robot)];
-    ++agent.cycle;
-    agent.next_act += kPeriod;
-    agent.senses.begin_cycle(agent.cycle);
-    agent.command = agent.control.step(agent.senses);
-    if (kWait == 0) {
-      agent.acting = agent.command;
-    } else {
-      agent.pending.push_back({agent.cycle + kWait, agent.command});
-      while (!agent.pending.empty() && agent.pending.front().from_cycle <= agent.cycle) {
-        agent.acting = agent.pending.front().command;
-        agent.pending.erase(agent.pending.begin());
-      }
+    const bool acts = agent.clock.next() == now;
+    if (acts) decide(agent, now);
+    bool arrived = false;
+    while (!agent.late.empty() && agent.late.front().from <= now) {
+      agent.acting = agent.late.front().command;
+      agent.late.pop_front();
+      arrived = true;
     }
     // Also an old command is renewed: its direction follows the heading, cycle by cycle.
-    world_.command(robot, agent.acting);
+    if (acts || arrived) world_.command(robot, agent.acting);
+  }
+
+  /// One control cycle: read, decide, and send the command on its way. A command without latency
+  /// acts from the instant on at which its readings were taken: in the original's terms, what tick
+  /// t computes moves the robot during tick t+1.
+  void decide(Agent& agent, std::int64_t now) {
+    ++agent.cycle;
+    agent.senses.begin_cycle({.number = agent.cycle,
+                              .time_s = kSubStep_s * static_cast<double>(now),
+                              .acted = agent.acting});
+    agent.command = clamped(agent.control.step(agent.senses));
+    if (!recorder_.sensors.empty()) agent.readings = &agent.senses.read(recorder_.sensors);
+    if (setup_.profile.timing.delays.empty()) {
+      agent.acting = agent.command;
+    } else {
+      const std::int64_t before = agent.late.empty() ? now : agent.late.back().from;
+      agent.late.push_back({std::max(before, now + agent.clock.draw_delay()), agent.command});
+    }
+    agent.clock.next_cycle();
+  }
+
+  /// Where the score looks for a robot.
+  Point scored_point(const Body& body) const {
+    const TrackedPoint& tracking = setup_.profile.tracking;
+    if (!tracking.scores_tag) return {body.x, body.y};
+    return {body.x + body.cos * tracking.tag.x - body.sin * tracking.tag.y,
+            body.y + body.sin * tracking.tag.x + body.cos * tracking.tag.y};
   }
 
   void observe() {
-    for (int i = 0; i < world_.robots(); ++i) {
-      positions_[static_cast<std::size_t>(i)] = {world_.body(i).x, world_.body(i).y};
-    }
+    for (int i = 0; i < world_.robots(); ++i)
+      positions_[static_cast<std::size_t>(i)] = scored_point(world_.body(i));
     scorer_.observe(positions_);
   }
 
   void record(int instant) {
-    if (!recorder_) return;
+    if (!recorder_.observe) return;
     records_.clear();
     for (int i = 0; i < world_.robots(); ++i) {
       const Agent& agent = agents_[static_cast<std::size_t>(i)];
       records_.push_back({.pose = instant == 0 ? setup_.instance.starts[static_cast<std::size_t>(i)]
                                                : pose_of(world_.body(i)),
                           .command = agent.command,
-                          .state = agent.control.state()});
+                          .state = agent.control.state(),
+                          .readings = agent.readings});
     }
-    recorder_(instant, records_);
+    objects_.clear();
+    for (int i = world_.robots(); i < world_.movers(); ++i)
+      objects_.push_back(pose_of(world_.body(i)));
+    recorder_.observe({.cycle = instant, .robots = records_, .objects = objects_});
   }
 
   std::uint64_t digest() const {
     Digest digest;
-    for (int i = 0; i < world_.robots(); ++i) {
+    for (int i = 0; i < world_.movers(); ++i) {
       const Body& body = world_.body(i);
       for (const double value : {body.x, body.y, body.cos, body.sin, body.vx, body.vy, body.spin}) {
         digest.add(value);
       }
-      digest.add(agents_[static_cast<std::size_t>(i)].control.state());
+      if (i < world_.robots()) digest.add(agents_[static_cast<std::size_t>(i)].control.state());
     }
     return digest.value64();
   }
@@ -138,6 +209,7 @@ class Run {
   std::vector<Agent> agents_;
   std::vector<Point> positions_;
   std::vector<RobotRecord> records_;
+  std::vector<Pose> objects_;
 };
 
 }  // namespace

@@ -1,13 +1,16 @@
 #pragma once
 
+#include <concepts>
 #include <cstdint>
 #include <functional>
 #include <span>
+#include <utility>
 
 #include "sim/control/control_software.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
 #include "sim/engine/profile.h"
+#include "sim/engine/readings.h"
 #include "sim/mission/mission.h"
 
 namespace swarmsmith {
@@ -32,13 +35,30 @@ struct SimulationResult {
 /// The state of one robot at a global instant, for recorders and tests.
 struct RobotRecord {
   Pose pose;
-  Command command;  ///< computed in this cycle, acts in the next
-  int state = 0;    ///< of the machine, after this cycle's transition test
+  Command command;  ///< computed in its last control cycle; without latency it acts in the next
+  int state = 0;    ///< of the machine, after that cycle's transition test
+  /// What the recorder asked for, as read in that cycle; null in cycle 0, or when it asked for
+  /// nothing.
+  const Readings* readings = nullptr;
 };
 
-/// Called after each control cycle (1, 2, ...) with one record a robot; also with cycle 0, the
-/// start.
-using Recorder = std::function<void(int cycle, std::span<const RobotRecord>)>;
+/// Everything that moves, at a global instant.
+struct Snapshot {
+  int cycle = 0;  ///< instants of 0.1 s since the start, which is 0
+  std::span<const RobotRecord> robots;
+  std::span<const Pose> objects;  ///< the arena's movable objects, in its order
+};
+
+/// Is called with the start, and then with each global instant.
+struct Recorder {
+  Recorder() = default;
+  template <std::invocable<const Snapshot&> Observer>
+  Recorder(Observer observer, Sensors wanted = {})  // NOLINT: any observer is a recorder
+      : observe(std::move(observer)), sensors(wanted) {}
+
+  std::function<void(const Snapshot&)> observe;
+  Sensors sensors;  ///< what shall be read besides what the machine asks for
+};
 
 /// Runs the mission once. Pure: the same setup gives the same bits, on every machine, thread and
 /// build; nothing is kept between calls. Without a recorder nothing is recorded and no sensor is
@@ -46,6 +66,6 @@ using Recorder = std::function<void(int cycle, std::span<const RobotRecord>)>;
 SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder = {});
 
 /// Part of the digest of a campaign: raised with every change that changes a score's bits.
-inline constexpr int kEngineVersion = 1;
+inline constexpr int kEngineVersion = 2;
 
 }  // namespace swarmsmith

@@ -189,7 +189,7 @@ void to_message(const Mission& mission, pb::Mission& message) {
   write(mission.shuffled, *message.mutable_shuffled());
   message.set_robots(mission.robots);
   message.set_cycles(mission.cycles);
-  message.set_placement_radius_m(mission.placement_radius_m);
+  message.set_placement_radius_m(std::get<PlaceInDisc>(mission.placement).radius_m);
   write(mission.rule, *message.mutable_rule());
 }
 
@@ -201,7 +201,8 @@ Expected<Mission> from_message(const pb::Mission& message) {
   mission.shuffled = reader.shuffled(message.shuffled());
   mission.robots = message.robots();
   mission.cycles = message.cycles();
-  mission.placement_radius_m = reader.number(message.placement_radius_m(), "placement_radius");
+  mission.placement = PlaceInDisc{
+      .centre = {}, .radius_m = reader.number(message.placement_radius_m(), "placement_radius")};
   mission.rule = reader.rule(message.rule());
   if (mission.robots < 1 || mission.robots > kMaxRobots) {
     reader.complain("robots", std::to_string(mission.robots) + " robots; wanted 1 to 1000");

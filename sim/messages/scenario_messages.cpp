@@ -10,9 +10,9 @@ namespace {
 
 void write(const Profile& profile, pb::Profile& out) {
   out.set_name(profile.name);
-  out.set_proximity_range_m(profile.proximity_range_m);
-  out.set_proximity_sd_m(profile.proximity_sd_m);
-  out.set_ground_color_sd(profile.ground_color_sd);
+  out.set_proximity_range_m(profile.proximity.range_m);
+  out.set_proximity_sd_m(profile.proximity.sd_m);
+  out.set_ground_color_sd(profile.ground_color.sd);
   switch (profile.contacts) {
     case ContactModel::Exact:
       out.set_contacts(pb::Profile::CONTACTS_EXACT);
@@ -26,11 +26,11 @@ void write(const Profile& profile, pb::Profile& out) {
 Expected<Profile> read(const pb::Profile& message) {
   Profile profile;
   profile.name = message.name();
-  profile.proximity_range_m = message.proximity_range_m();
-  profile.proximity_sd_m = message.proximity_sd_m();
-  profile.ground_color_sd = message.ground_color_sd();
+  profile.proximity.range_m = message.proximity_range_m();
+  profile.proximity.sd_m = message.proximity_sd_m();
+  profile.ground_color.sd = message.ground_color_sd();
   for (const double number :
-       {profile.proximity_range_m, profile.proximity_sd_m, profile.ground_color_sd}) {
+       {profile.proximity.range_m, profile.proximity.sd_m, profile.ground_color.sd}) {
     if (!std::isfinite(number) || number < 0) {
       return bad_input("a number of the profile is negative or not finite", "profile");
     }

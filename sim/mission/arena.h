@@ -6,6 +6,7 @@
 
 #include "sim/control/reference_model.h"
 #include "sim/mission/pose.h"
+#include "sim/mission/solid.h"
 
 namespace swarmsmith {
 
@@ -45,11 +46,15 @@ bool contains(const Patch& patch, Point point);
 
 /// Where robots live: walls and floor are data that sensors, contacts and scores all read.
 struct Arena {
-  /// Closed polygon, counter-clockwise.
+  /// Closed polygon, counter-clockwise, without crossings; it need not be convex.
   std::vector<Wall> walls;
+  double wall_height_m = kWallHeight_m;
   Rgb floor{127, 127, 127};
   /// Later patches lie on top of earlier ones.
   std::vector<Patch> patches;
+  std::vector<Obstacle> obstacles;
+  std::vector<MovableObject> objects;
+  std::vector<Light> lights;
 
   friend bool operator==(const Arena&, const Arena&) = default;
 };

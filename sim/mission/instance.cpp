@@ -91,7 +91,7 @@ Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
                              " places for robot " + std::to_string(robot + 1) + " was free",
                          mission.name);
       }
-      pose = draw_pose(rng, mission.placement_radius_m);
+      pose = draw_pose(rng, std::get<PlaceInDisc>(mission.placement).radius_m);
     } while (!is_free(square_of(pose)));
     starts.push_back(pose);
     placed.push_back(square_of(pose));

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "base/expected.h"
@@ -28,16 +29,48 @@ struct ShuffledPatches {
   friend bool operator==(const ShuffledPatches&, const ShuffledPatches&) = default;
 };
 
+/// Where robots may start, with any heading unless said; always clear of walls, obstacles, objects
+/// and each other.
+
+/// Uniform in a disc (law of radius and angle: rvr-automode facts, section 7).
+struct PlaceInDisc {
+  Point centre;
+  double radius_m = 1.2;
+
+  friend bool operator==(const PlaceInDisc&, const PlaceInDisc&) = default;
+};
+
+/// Uniform in a rectangle.
+struct PlaceInRectangle {
+  Rectangle area;
+
+  friend bool operator==(const PlaceInRectangle&, const PlaceInRectangle&) = default;
+};
+
+/// Uniform in the whole arena.
+struct PlaceAnywhere {
+  friend bool operator==(const PlaceAnywhere&, const PlaceAnywhere&) = default;
+};
+
+/// The same poses in each run, one a robot.
+struct PlaceAt {
+  std::vector<Pose> poses;
+
+  friend bool operator==(const PlaceAt&, const PlaceAt&) = default;
+};
+
+using Placement = std::variant<PlaceInDisc, PlaceInRectangle, PlaceAnywhere, PlaceAt>;
+
 /// A task and the place where it is done.
 struct Mission {
   std::string name;
   Arena arena;
   ShuffledPatches shuffled;
   int robots = 3;
+  /// The robots' bodies.
+  Outline body = BoxOutline{kBodySide_m, kBodySide_m};
   int cycles = 1200;  ///< duration in control cycles of 0.1 s
-  /// Robots start with their centres uniform in a disc of this radius around the origin (law of
-  /// radius and angle: rvr-automode facts, section 7).
-  double placement_radius_m = 1.2;
+  Placement placement = PlaceInDisc{};
   ScoreRule rule;
 
   friend bool operator==(const Mission&, const Mission&) = default;
@@ -60,8 +93,5 @@ Expected<Instance> instance_of(const Mission& mission, std::int64_t seed);
 
 /// The arena with the instance's patches on its floor.
 Arena arena_of(const Mission& mission, const Instance& instance);
-
-/// Side of the robot's square body, metres (argos3-rvr; rvr-automode facts, section 2).
-inline constexpr double kBodySide_m = 0.286;
 
 }  // namespace swarmsmith

@@ -41,10 +41,13 @@ class RecordedSenses final : public Senses {
   const ProximityReadings& proximity() override { return tick_->proximity; }
   Rgb ground_color() override { return tick_->floor; }
   std::span<const Neighbour> neighbours() override { return neighbours_; }
+  const LightReadings& light() override { return light_; }
+  double time_s() override { return 0; }
 
  private:
   const RecordedTick* tick_;
   std::vector<Neighbour> neighbours_;
+  LightReadings light_{};
 };
 
 }  // namespace swarmsmith

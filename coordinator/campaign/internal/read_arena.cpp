@@ -83,7 +83,8 @@ void set_area(CampaignMission& mission, double area_m2) {
   mission.mission.arena.walls = regular_dodecagon(area_m2).walls;
   // A regular dodecagon of inradius r has the area 12 r^2 tan 15 degrees.
   const double inradius_m = std::sqrt(area_m2 / (12 * (2 - std::sqrt(3.0))));
-  mission.mission.placement_radius_m = inradius_m * kRadius_m / kInradius_m;
+  mission.mission.placement =
+      PlaceInDisc{.centre = {}, .radius_m = inradius_m * kRadius_m / kInradius_m};
 }
 
 }  // namespace

@@ -90,7 +90,7 @@ void read_training(TableReader& instances, CampaignMission& mission) {
   if (!training) return;
   training->choice("placement", std::vector<std::string>{"uniform"});
   const auto radius = training->number("radius", {0.01, 1000});
-  mission.mission.placement_radius_m = radius.value_or(mission.mission.placement_radius_m);
+  if (radius) mission.mission.placement = PlaceInDisc{.centre = {}, .radius_m = *radius};
   training->finish();
 }
 

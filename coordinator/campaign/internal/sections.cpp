@@ -121,7 +121,7 @@ void add_mission(const CampaignMission& campaign_mission, std::vector<Section>& 
                        {"robots", std::to_string(mission.robots)}}});
   sections.push_back({"[mission.arena]", prefix + "arena.", arena_lines(campaign_mission)});
   sections.push_back({"[mission.score]", prefix + "score.", score_lines(mission.rule)});
-  const std::string radius = number_text(mission.placement_radius_m);
+  const std::string radius = number_text(std::get<PlaceInDisc>(mission.placement).radius_m);
   const std::string count = std::to_string(campaign_mission.test_count);
   sections.push_back({"[mission.instances]",
                       prefix + "instances.",

@@ -35,7 +35,7 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
   floor_ = floor_at(arena, floor_place_);
 }
 
-void RobotSenses::begin_cycle(std::int64_t cycle) {
+void RobotSenses::begin_cycle(const Cycle& cycle) {
   cycle_ = cycle;
   has_proximity_ = has_ground_ = has_neighbours_ = false;
 }
@@ -43,15 +43,15 @@ void RobotSenses::begin_cycle(std::int64_t cycle) {
 const ProximityReadings& RobotSenses::proximity() {
   if (has_proximity_) return proximity_;
   has_proximity_ = true;
-  const double range = profile_->proximity_range_m;
+  const double range = profile_->proximity.range_m;
   proximity_ = ray_distances(*world_, robot_, range);
   for (std::size_t i = 0; i < proximity_.size(); ++i) {
     double& reading = proximity_[i];
     reading = limited(reading, range);
-    if (profile_->proximity_sd_m == 0 || !std::isfinite(reading)) continue;
-    const auto index = static_cast<std::uint64_t>(cycle_) * kProximitySensors + i;
+    if (profile_->proximity.sd_m == 0 || !std::isfinite(reading)) continue;
+    const auto index = static_cast<std::uint64_t>(cycle_.number) * kProximitySensors + i;
     reading =
-        limited(reading + profile_->proximity_sd_m * normal_at(proximity_noise_, index), range);
+        limited(reading + profile_->proximity.sd_m * normal_at(proximity_noise_, index), range);
   }
   return proximity_;
 }
@@ -67,9 +67,9 @@ Rgb RobotSenses::ground_color() {
     floor_ = floor_at(*arena_, place);
   }
   ground_ = floor_;
-  const double sd = profile_->ground_color_sd;
+  const double sd = profile_->ground_color.sd;
   if (sd != 0) {
-    const auto index = static_cast<std::uint64_t>(cycle_) * 3;
+    const auto index = static_cast<std::uint64_t>(cycle_.number) * 3;
     ground_.r = noisy_channel(ground_.r, sd * normal_at(ground_noise_, index));
     ground_.g = noisy_channel(ground_.g, sd * normal_at(ground_noise_, index + 1));
     ground_.b = noisy_channel(ground_.b, sd * normal_at(ground_noise_, index + 2));
@@ -83,6 +83,16 @@ std::span<const Neighbour> RobotSenses::neighbours() {
     find_neighbours(*world_, robot_, neighbours_);
   }
   return neighbours_;
+}
+
+const LightReadings& RobotSenses::light() {
+  return light_;
+}
+
+const Readings& RobotSenses::read(Sensors sensors) {
+  if (sensors.has(Sensor::GroundColor)) readings_.ground_color = ground_color();
+  if (sensors.has(Sensor::Proximity)) readings_.proximity_m = proximity();
+  return readings_;
 }
 
 }  // namespace swarmsmith

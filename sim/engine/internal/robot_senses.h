@@ -7,6 +7,7 @@
 #include "sim/control/reference_model.h"
 #include "sim/engine/internal/world.h"
 #include "sim/engine/profile.h"
+#include "sim/engine/readings.h"
 #include "sim/mission/arena.h"
 
 namespace swarmsmith {
@@ -27,12 +28,23 @@ class RobotSenses final : public Senses {
   RobotSenses(const World& world, const Arena& arena, const Profile& profile, int robot,
               const Rng& run);
 
-  /// Forgets all readings; `cycle` counts this robot's control cycles.
-  void begin_cycle(std::int64_t cycle);
+  /// A control cycle of this robot.
+  struct Cycle {
+    std::int64_t number = 0;  ///< counts from 1
+    double time_s = 0;        ///< since the start
+    Command acted;            ///< what the treads followed during the cycle that just ended
+  };
+  /// Forgets all readings.
+  void begin_cycle(const Cycle& cycle);
 
   const ProximityReadings& proximity() override;
   Rgb ground_color() override;
   std::span<const Neighbour> neighbours() override;
+  const LightReadings& light() override;
+  double time_s() override { return cycle_.time_s; }
+
+  /// The sensors' readings of this cycle; what control asked for is not read again.
+  const Readings& read(Sensors sensors);
 
  private:
   const World* world_;
@@ -41,7 +53,7 @@ class RobotSenses final : public Senses {
   int robot_;
   std::uint64_t proximity_noise_;  ///< keys of the streams
   std::uint64_t ground_noise_;
-  std::int64_t cycle_ = 0;
+  Cycle cycle_;
   bool has_proximity_ = false;
   bool has_ground_ = false;
   bool has_neighbours_ = false;
@@ -50,6 +62,8 @@ class RobotSenses final : public Senses {
   Point floor_place_;  ///< where the floor was last looked up, and what colour it has there
   Rgb floor_;
   std::vector<Neighbour> neighbours_;
+  LightReadings light_{};
+  Readings readings_;
 };
 
 }  // namespace swarmsmith

@@ -7,14 +7,25 @@
 
 namespace swarmsmith {
 
-World::World(const Arena& arena, std::span<const Pose> starts, ContactModel contacts)
+World::World(const Arena& arena, const Outline& robot, std::span<const Pose> starts,
+             ContactModel contacts)
     : walls_(walls_of(arena)),
-      set_points_(starts.size()),
-      distances2_(starts.size() * starts.size()),
-      reach_(walls_, static_cast<int>(starts.size())),
-      solver_(make_contact_solver(contacts, walls_.convex)) {
+      robots_(static_cast<int>(starts.size())),
+      forms_{form_of(robot, kBodyHeight_m)},
+      plain_(walls_.convex && forms_[0].is_rvr && arena.obstacles.empty() && arena.objects.empty()),
+      set_points_(starts.size() + arena.objects.size()),
+      distances2_(set_points_.size() * set_points_.size()),
+      reach_(walls_, static_cast<int>(set_points_.size())),
+      solver_(make_contact_solver(contacts, plain_)) {
   for (const Pose& start : starts)
     bodies_.push_back(body_at(start));
+  for (const MovableObject& object : arena.objects) {
+    bodies_.push_back(body_at(object.start));
+    forms_.push_back(form_of(object.outline, object.height_m));
+  }
+  for (const Obstacle& obstacle : arena.obstacles) {
+    obstacles_.push_back({form_of(obstacle.outline, obstacle.height_m), body_at(obstacle.pose)});
+  }
   measure_distances();
 }
 

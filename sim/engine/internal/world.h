@@ -6,6 +6,7 @@
 
 #include "sim/engine/internal/body.h"
 #include "sim/engine/internal/contact_solver.h"
+#include "sim/engine/internal/form.h"
 #include "sim/engine/internal/reach.h"
 #include "sim/engine/internal/walls.h"
 #include "sim/mission/arena.h"
@@ -14,19 +15,29 @@
 namespace swarmsmith {
 
 /// Bodies, walls and the law of motion: what there is besides sensors and control software. Time
-/// counts in sub-steps of 10 ms.
+/// counts in sub-steps of 10 ms. Movers are the robots, 0 to robots() - 1, and behind them the
+/// arena's movable objects.
 class World {
  public:
-  World(const Arena& arena, std::span<const Pose> starts, ContactModel contacts);
+  World(const Arena& arena, const Outline& robot, std::span<const Pose> starts,
+        ContactModel contacts);
   World(const World&) = delete;
   World& operator=(const World&) = delete;
 
-  int robots() const { return static_cast<int>(bodies_.size()); }
-  const Body& body(int robot) const { return bodies_[static_cast<std::size_t>(robot)]; }
+  int robots() const { return robots_; }
+  int movers() const { return static_cast<int>(bodies_.size()); }
+  const Body& body(int mover) const { return bodies_[static_cast<std::size_t>(mover)]; }
+  /// All robots have one form, each object its own.
+  const Form& form(int mover) const {
+    return forms_[mover < robots_ ? 0 : static_cast<std::size_t>(mover - robots_ + 1)];
+  }
   const Walls& walls() const { return walls_; }
+  std::span<const FixedSolid> obstacles() const { return obstacles_; }
+  /// Only robots that are squares of the RVR's side, and walls around a convex arena.
+  bool is_plain() const { return plain_; }
   /// Square of the distance between two centres, now.
-  double distance2(int robot, int other) const {
-    return distances2_[static_cast<std::size_t>(robot) * bodies_.size() +
+  double distance2(int mover, int other) const {
+    return distances2_[static_cast<std::size_t>(mover) * bodies_.size() +
                        static_cast<std::size_t>(other)];
   }
 
@@ -44,6 +55,10 @@ class World {
   void measure_distances();
 
   Walls walls_;
+  int robots_;
+  std::vector<Form> forms_;  ///< the robots', then those of the objects
+  std::vector<FixedSolid> obstacles_;
+  bool plain_;
   std::vector<Body> bodies_;
   std::vector<SetPoint> set_points_;
   std::vector<double> distances2_;

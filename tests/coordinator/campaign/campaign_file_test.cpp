@@ -87,7 +87,7 @@ robots = 2
                           Patch{Rectangle{{0, 0.5}, 0.3, 0.3}, {255, 0, 0}}));
   EXPECT_EQ(mission.rule, ScoreRule(RobotsOn{{255, 0, 0}}));
   EXPECT_EQ(campaign.missions[0].test_count, 20);
-  EXPECT_NEAR(mission.placement_radius_m, 1.2 * 1.2357 / 1.226, 1e-4);
+  EXPECT_NEAR(std::get<PlaceInDisc>(mission.placement).radius_m, 1.2 * 1.2357 / 1.226, 1e-4);
 }
 
 TEST(CampaignFile, TakesAPresetAndChangesIt) {

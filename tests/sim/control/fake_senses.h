@@ -32,6 +32,11 @@ class FakeSenses final : public Senses {
     ++neighbours_asked;
     return others;
   }
+  const LightReadings& light() override {
+    ++light_asked;
+    return lux;
+  }
+  double time_s() override { return now_s; }
 
   /// One obstacle in the direction, one of 45, 0, -45, -90, -135, 180, 135, 90 degrees.
   FakeSenses& obstacle(int direction_deg, double distance_m) {
@@ -51,7 +56,10 @@ class FakeSenses final : public Senses {
   std::vector<Neighbour> others;
   int proximity_asked = 0;
   int ground_asked = 0;
+  LightReadings lux{};
+  double now_s = 0;
   int neighbours_asked = 0;
+  int light_asked = 0;
 };
 
 }  // namespace swarmsmith

@@ -8,23 +8,23 @@ namespace {
 TEST(Profile, TheDefaultHasTheNoiseOfTheThesis) {
   const Expected<Profile> rvr = built_in_profile("rvr");
   ASSERT_TRUE(rvr.has_value());
-  EXPECT_EQ(rvr->proximity_range_m, 0.4);
-  EXPECT_EQ(rvr->proximity_sd_m, 0.01);
-  EXPECT_EQ(rvr->ground_color_sd, 5);
+  EXPECT_EQ(rvr->proximity.range_m, 0.4);
+  EXPECT_EQ(rvr->proximity.sd_m, 0.01);
+  EXPECT_EQ(rvr->ground_color.sd, 5);
 }
 
 TEST(Profile, ThatOfThePublishedFilesHasNone) {
   const Expected<Profile> argos3 = built_in_profile("argos3");
   ASSERT_TRUE(argos3.has_value());
-  EXPECT_EQ(argos3->proximity_sd_m, 0);
-  EXPECT_EQ(argos3->ground_color_sd, 0);
+  EXPECT_EQ(argos3->proximity.sd_m, 0);
+  EXPECT_EQ(argos3->ground_color.sd, 0);
 }
 
 TEST(Profile, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
   const Expected<Profile> none = built_in_profile("mars");
   ASSERT_FALSE(none.has_value());
   EXPECT_EQ(none.error().kind, ErrorKind::NotFound);
-  EXPECT_EQ(none.error().message, "no simulator profile 'mars'; known: rvr, argos3");
+  EXPECT_EQ(none.error().message, "no simulator profile 'mars'; known: rvr, argos3, pseudo-reality");
 }
 
 }  // namespace

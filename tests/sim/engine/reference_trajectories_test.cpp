@@ -135,13 +135,14 @@ TEST(ClosedLoop, AMachineWithoutRandomDrawsFollowsTheOriginalForAllTwelveHundred
     if (machine.id == "hG5") text = machine.text;
   }
   double worst_m = 0;
-  runs.run(machine_of(text), 1, 0, [&](int cycle, std::span<const RobotRecord> robots) {
+  runs.run(machine_of(text), 1, 0, [&](const Snapshot& now) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const Pose& truth = logged.at(static_cast<std::size_t>(cycle))[i].pose;
-      worst_m = std::max(worst_m, hypot(robots[i].pose.x - truth.x, robots[i].pose.y - truth.y));
-      if (cycle == 0) continue;
-      EXPECT_NEAR(robots[i].command.left_mps * 100,
-                  logged[static_cast<std::size_t>(cycle)][i].left_cmps, 0.01);
+      const Pose& truth = logged.at(static_cast<std::size_t>(now.cycle))[i].pose;
+      worst_m =
+          std::max(worst_m, hypot(now.robots[i].pose.x - truth.x, now.robots[i].pose.y - truth.y));
+      if (now.cycle == 0) continue;
+      EXPECT_NEAR(now.robots[i].command.left_mps * 100,
+                  logged[static_cast<std::size_t>(now.cycle)][i].left_cmps, 0.01);
     }
   });
   RecordProperty("worst_m", testing::PrintToString(worst_m));

@@ -18,7 +18,7 @@ struct Scene {
   Arena arena = dodecagon_of_the_thesis();
   std::vector<Pose> poses = {{0, 0, 0}, {0.5, 0, 0}, {0, -1, kPi}};
   Profile profile;
-  World world{arena, poses, ContactModel::Exact};
+  World world{arena, BoxOutline{kBodySide_m, kBodySide_m}, poses, ContactModel::Exact};
 
   RobotSenses senses(int robot, std::uint64_t seed = 1) const {
     return RobotSenses(world, arena, profile, robot, Rng(seed));
@@ -28,7 +28,7 @@ struct Scene {
 TEST(RobotSenses, ReadWhatIsThere) {
   const Scene scene;
   RobotSenses senses = scene.senses(0);
-  senses.begin_cycle(1);
+  senses.begin_cycle({.number = 1});
   EXPECT_NEAR(senses.proximity()[1], 0.5 - 2 * kHalfSide_m, 1e-12);
   for (std::size_t i = 0; i < kProximitySensors; ++i) {
     EXPECT_TRUE(i == 1 || senses.proximity()[i] == kInfinity) << i;
@@ -42,7 +42,7 @@ TEST(RobotSenses, ReadWhatIsThere) {
 TEST(RobotSenses, TheDirectionOfANeighbourIsInTheRobotsFrame) {
   const Scene scene;
   RobotSenses senses = scene.senses(1);
-  senses.begin_cycle(1);
+  senses.begin_cycle({.number = 1});
   ASSERT_EQ(senses.neighbours().size(), 1);
   EXPECT_DOUBLE_EQ(senses.neighbours()[0].direction_x, -1);
   EXPECT_NEAR(senses.neighbours()[0].direction_y, 0, 1e-15);
@@ -52,30 +52,30 @@ TEST(RobotSenses, TheGroundSensorLooksAhead) {
   Scene scene;
   scene.arena.patches.push_back({Disc{{0.5, 0}, 0.46}, {0, 0, 0}});
   RobotSenses senses = scene.senses(0);
-  senses.begin_cycle(1);
+  senses.begin_cycle({.number = 1});
   EXPECT_EQ(senses.ground_color(), (Rgb{0, 0, 0}));
 }
 
 TEST(RobotSenses, AReadingIsTheSameAllCycleAndAnotherInTheNext) {
   Scene scene;
-  scene.profile.proximity_sd_m = 0.01;
+  scene.profile.proximity.sd_m = 0.01;
   RobotSenses senses = scene.senses(0);
-  senses.begin_cycle(1);
+  senses.begin_cycle({.number = 1});
   const double first = senses.proximity()[1];
   EXPECT_EQ(senses.proximity()[1], first);
-  senses.begin_cycle(2);
+  senses.begin_cycle({.number = 2});
   EXPECT_NE(senses.proximity()[1], first);
 }
 
 TEST(RobotSenses, NoiseDoesNotDependOnWhatElseWasAsked) {
   Scene scene;
-  scene.profile.proximity_sd_m = 0.01;
-  scene.profile.ground_color_sd = 5;
+  scene.profile.proximity.sd_m = 0.01;
+  scene.profile.ground_color.sd = 5;
   RobotSenses all = scene.senses(0);
   RobotSenses few = scene.senses(0);
   for (int cycle = 1; cycle <= 50; ++cycle) {
-    all.begin_cycle(cycle);
-    few.begin_cycle(cycle);
+    all.begin_cycle({.number = cycle});
+    few.begin_cycle({.number = cycle});
     const Rgb color = all.ground_color();
     const double distance = all.proximity()[1];
     if (cycle % 7 == 0) {
@@ -89,12 +89,12 @@ TEST(RobotSenses, NoiseDoesNotDependOnWhatElseWasAsked) {
 
 TEST(RobotSenses, NoiseDependsOnSeedAndRobot) {
   Scene scene;
-  scene.profile.ground_color_sd = 50;
+  scene.profile.ground_color.sd = 50;
   std::vector<Rgb> colors;
   for (const int robot : {0, 1}) {
     for (const std::uint64_t seed : {1U, 2U}) {
       RobotSenses senses = scene.senses(robot, seed);
-      senses.begin_cycle(1);
+      senses.begin_cycle({.number = 1});
       for (const Rgb& other : colors)
         EXPECT_NE(senses.ground_color(), other);
       colors.push_back(senses.ground_color());
@@ -104,14 +104,14 @@ TEST(RobotSenses, NoiseDependsOnSeedAndRobot) {
 
 TEST(RobotSenses, ProximityNoiseHasItsMoments) {
   Scene scene;
-  scene.profile.proximity_sd_m = 0.01;
+  scene.profile.proximity.sd_m = 0.01;
   RobotSenses senses = scene.senses(0);
   const double truth = 0.5 - 2 * kHalfSide_m;
   constexpr int kCycles = 20'000;
   double sum = 0;
   double squares = 0;
   for (int cycle = 1; cycle <= kCycles; ++cycle) {
-    senses.begin_cycle(cycle);
+    senses.begin_cycle({.number = cycle});
     const double error = senses.proximity()[1] - truth;
     sum += error;
     squares += error * error;
@@ -122,12 +122,12 @@ TEST(RobotSenses, ProximityNoiseHasItsMoments) {
 
 TEST(RobotSenses, LimitsHoldAfterTheNoise) {
   Scene scene;
-  scene.profile.proximity_sd_m = 0.2;
+  scene.profile.proximity.sd_m = 0.2;
   RobotSenses senses = scene.senses(0);
   int near = 0;
   int far = 0;
   for (int cycle = 1; cycle <= 1000; ++cycle) {
-    senses.begin_cycle(cycle);
+    senses.begin_cycle({.number = cycle});
     const double reading = senses.proximity()[1];
     near += reading == -kInfinity ? 1 : 0;
     far += reading == kInfinity ? 1 : 0;
@@ -140,14 +140,14 @@ TEST(RobotSenses, LimitsHoldAfterTheNoise) {
 
 TEST(RobotSenses, GroundNoiseHasItsMomentsOnEachChannelOfItsOwn) {
   Scene scene;
-  scene.profile.ground_color_sd = 5;
+  scene.profile.ground_color.sd = 5;
   RobotSenses senses = scene.senses(0);
   constexpr int kCycles = 20'000;
   double sum_r = 0;
   double squares_g = 0;
   double product = 0;
   for (int cycle = 1; cycle <= kCycles; ++cycle) {
-    senses.begin_cycle(cycle);
+    senses.begin_cycle({.number = cycle});
     const Rgb color = senses.ground_color();
     sum_r += color.r - 127;
     squares_g += (color.g - 127) * (color.g - 127);
@@ -161,12 +161,12 @@ TEST(RobotSenses, GroundNoiseHasItsMomentsOnEachChannelOfItsOwn) {
 
 TEST(RobotSenses, GroundNoiseIsClampedToAByte) {
   Scene scene;
-  scene.profile.ground_color_sd = 5;
+  scene.profile.ground_color.sd = 5;
   scene.arena.floor = {0, 255, 0};
   RobotSenses senses = scene.senses(0);
   int black = 0;
   for (int cycle = 1; cycle <= 1000; ++cycle) {
-    senses.begin_cycle(cycle);
+    senses.begin_cycle({.number = cycle});
     const Rgb color = senses.ground_color();
     EXPECT_LT(color.r, 40);
     EXPECT_GT(color.g, 215);

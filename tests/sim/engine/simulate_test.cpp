@@ -120,7 +120,7 @@ TEST(Simulate, GivesTheSameBitsInAnyOrderAndInAnyThread) {
 TEST(Simulate, ARecorderChangesNothing) {
   const Job job = job_of(kPusher, "grid_exploration", "rvr", 5);
   const SimulationResult plain = job.run();
-  const SimulationResult recorded = job.run([](int, std::span<const RobotRecord>) {});
+  const SimulationResult recorded = job.run([](const Snapshot&) {});
   EXPECT_EQ(plain.score, recorded.score);
   EXPECT_EQ(plain.state_digest, recorded.state_digest);
 }
@@ -135,11 +135,11 @@ TEST(Simulate, SeedsDifferInNoiseAndDraws) {
 TEST(Simulate, RecordsTheStartAndEachCycle) {
   const Job job = job_of(kPusher, "aggregation", "argos3", 3);
   int next = 0;
-  job.run([&](int cycle, std::span<const RobotRecord> robots) {
-    EXPECT_EQ(cycle, next++);
-    EXPECT_EQ(robots.size(), 3);
-    if (cycle == 0) {
-      EXPECT_EQ(robots[1].pose, job.instance.starts[1]);
+  job.run([&](const Snapshot& now) {
+    EXPECT_EQ(now.cycle, next++);
+    EXPECT_EQ(now.robots.size(), 3);
+    if (now.cycle == 0) {
+      EXPECT_EQ(now.robots[1].pose, job.instance.starts[1]);
     }
   });
   EXPECT_EQ(next, 1201);
@@ -149,7 +149,7 @@ TEST(Simulate, ACommandMovesTheRobotFromTheCycleAfterItsReadings) {
   Job job = job_of(kPusher, "aggregation", "argos3", 1);
   job.instance.starts = {{0, 0, 0}};
   std::vector<double> x;
-  job.run([&](int, std::span<const RobotRecord> robots) { x.push_back(robots[0].pose.x); });
+  job.run([&](const Snapshot& now) { x.push_back(now.robots[0].pose.x); });
   EXPECT_EQ(x[1], 0) << "the first tick moves with zero";
   // Ten sub-steps that speed up by 0.0075 m/s each, moved with the speed before.
   EXPECT_NEAR(x[2], 0.01 * 0.0075 * 45, 1e-12);
@@ -159,9 +159,9 @@ TEST(Simulate, ScoresWhatTheRecordedTrajectoryScores) {
   for (const ReferenceMission& name : kReferenceMissions) {
     const Job job = job_of(reference_machines()[1], name.ours, "rvr", 7);
     Trajectory trajectory{.robots = 3, .poses = {}};
-    const SimulationResult result = job.run([&](int cycle, std::span<const RobotRecord> robots) {
-      for (const RobotRecord& robot : robots) {
-        if (cycle > 0) trajectory.poses.push_back(robot.pose);
+    const SimulationResult result = job.run([&](const Snapshot& now) {
+      for (const RobotRecord& robot : now.robots) {
+        if (now.cycle > 0) trajectory.poses.push_back(robot.pose);
       }
     });
     EXPECT_EQ(result.score, score_of(job.mission, job.instance, trajectory)) << name.ours;
@@ -181,14 +181,14 @@ TEST_P(InTheArena, RobotsStayAndOverlapLittle) {
   for (std::int64_t seed = 1; seed <= 40; ++seed) {
     Job job = job_of(kPusher, "grid_exploration", "argos3", seed);
     job.profile.contacts = GetParam();
-    job.run([&](int, std::span<const RobotRecord> robots) {
-      for (std::size_t i = 0; i < robots.size(); ++i) {
-        const Body body = body_at(robots[i].pose);
+    job.run([&](const Snapshot& now) {
+      for (std::size_t i = 0; i < now.robots.size(); ++i) {
+        const Body body = body_at(now.robots[i].pose);
         for (const WallPlane& wall : walls.planes) {
           deepest_wall = std::max(deepest_wall, -gap_to(body, wall));
         }
-        for (std::size_t j = i + 1; j < robots.size(); ++j) {
-          deepest_pair = std::max(deepest_pair, -gap_between(body, body_at(robots[j].pose)));
+        for (std::size_t j = i + 1; j < now.robots.size(); ++j) {
+          deepest_pair = std::max(deepest_pair, -gap_between(body, body_at(now.robots[j].pose)));
         }
       }
     });
@@ -216,8 +216,8 @@ TEST(Simulate, AnArenaWithANotchIsLivedInToo) {
                              {{0.1, 1}, {0, 0.5}}, {{0, 0.5}, {-0.1, 1}}, {{-0.1, 1}, {-1, 1}},
                              {{-1, 1}, {-1, -1}}};
   job.instance.starts = {{-0.5, -0.5, 0}, {0.5, -0.5, 2}, {0, 0, 1.5}};
-  job.run([](int, std::span<const RobotRecord> robots) {
-    for (const RobotRecord& robot : robots) {
+  job.run([](const Snapshot& now) {
+    for (const RobotRecord& robot : now.robots) {
       EXPECT_LT(std::max(std::fabs(robot.pose.x), std::fabs(robot.pose.y)), 0.87);
       EXPECT_FALSE(std::fabs(robot.pose.x) < 0.05 && robot.pose.y > 0.5);
     }

@@ -24,7 +24,7 @@ Mission some_mission() {
   mission.shuffled.shares = {{{9, 8, 7}, 3}};
   mission.robots = 20;
   mission.cycles = 77;
-  mission.placement_radius_m = 0.7;
+  mission.placement = PlaceInDisc{.centre = {}, .radius_m = 0.7};
   mission.rule = ColorReward{{{{1, 2, 3}, -1.5}, {{3, 2, 1}, 2}}};
   return mission;
 }

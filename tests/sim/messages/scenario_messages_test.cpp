@@ -35,7 +35,7 @@ TEST(ScenarioMessages, SayWhichMissionIsWrong) {
 TEST(ScenarioMessages, RefuseBytesAndProfilesThatMakeNoSense) {
   EXPECT_FALSE(scenario_from_bytes("\xff\xff\xff"));
   WorkerScenario scenario = some_scenario();
-  scenario.profile.proximity_sd_m = -1;
+  scenario.profile.proximity.sd_m = -1;
   EXPECT_FALSE(scenario_from_bytes(to_bytes(scenario)));
 }
 

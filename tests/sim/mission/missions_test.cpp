@@ -22,7 +22,7 @@ TEST(BuiltInMission, AllAreOfThreeRobotsAndTwoMinutesInTheArenaOfTheThesis) {
     EXPECT_EQ(mission.name, name);
     EXPECT_EQ(mission.robots, 3);
     EXPECT_EQ(mission.cycles, 1200);
-    EXPECT_EQ(mission.placement_radius_m, 1.2);
+    EXPECT_EQ(mission.placement, Placement(PlaceInDisc{.centre = {}, .radius_m = 1.2}));
     EXPECT_EQ(mission.arena.walls, dodecagon_of_the_thesis().walls);
     EXPECT_EQ(mission.arena.floor, (Rgb{127, 127, 127}));
   }
