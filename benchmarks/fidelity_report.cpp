@@ -2,8 +2,10 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <future>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "tests/sim/engine/comparison.h"
 #include "tests/sim/engine/open_loop.h"
@@ -14,7 +16,34 @@ namespace swarmsmith {
 namespace {
 
 /// Streams of control draws for each of the original's seeds.
-constexpr int kStreams = 10;
+constexpr int kStreams = 30;
+
+/// All comparisons of one contact solver, mission by mission.
+struct Results {
+  int equal_runs = 0;
+  std::vector<MissionComparison> missions;
+  std::vector<DesignsComparison> designs;
+};
+
+/// A thread for each mission.
+Results compare_all(ContactModel model) {
+  std::vector<std::future<MissionComparison>> missions;
+  std::vector<std::future<DesignsComparison>> designs;
+  for (const ReferenceMission& mission : kReferenceMissions) {
+    missions.push_back(std::async(std::launch::async, [&mission, model] {
+      return compare_reference_machines(mission, model, kStreams);
+    }));
+    designs.push_back(std::async(std::launch::async, [&mission, model] {
+      return compare_thesis_designs(mission, model, kStreams);
+    }));
+  }
+  Results results{.equal_runs = seed_exact_runs(model), .missions = {}, .designs = {}};
+  for (auto& mission : missions)
+    results.missions.push_back(mission.get());
+  for (auto& of_mission : designs)
+    results.designs.push_back(of_mission.get());
+  return results;
+}
 
 int digits_of(const ReferenceMission& mission) {
   return std::string_view(mission.theirs) == "grid" ? 0 : 3;
@@ -62,7 +91,7 @@ the start, 1200 ticks, three robots. The logs round poses to 0.01 mm and command
 }
 
 /// What both solvers reach, in a few lines.
-void print_summary() {
+void print_summary(const Results& exact, const Results& box2d) {
   fmt::print(R"(## In short, for both contact solvers
 
 Equal runs: of 600 runs of hG5 and r21, which draw no random numbers, those with the original's score.
@@ -74,49 +103,40 @@ reaches 0.963, 0.983 and 0.819.
 | | `exact` | `box2d` |
 | --- | --- | --- |
 )");
-  const auto both = [](const char* what, const auto& of) {
-    fmt::print("| {} | {} | {} |\n", what, of(ContactModel::Exact), of(ContactModel::Box2d));
+  const auto both = [&](const std::string& what, const auto& of) {
+    fmt::print("| {} | {} | {} |\n", what, of(exact), of(box2d));
   };
-  both("equal runs of 600", [](ContactModel model) { return seed_exact_runs(model); });
-  std::map<ContactModel, std::vector<MissionComparison>> missions;
-  std::map<ContactModel, std::vector<DesignsComparison>> designs;
-  for (const ContactModel model : {ContactModel::Exact, ContactModel::Box2d}) {
-    for (const ReferenceMission& mission : kReferenceMissions) {
-      missions[model].push_back(compare_reference_machines(mission, model, kStreams));
-      designs[model].push_back(compare_thesis_designs(mission, model, kStreams));
-    }
-  }
-  both("intervals that hold 0, of 60", [&](ContactModel model) {
+  both("equal runs of 600", [](const Results& results) { return results.equal_runs; });
+  both("intervals that hold 0, of 60", [](const Results& results) {
     int held = 60;
-    for (const MissionComparison& mission : missions[model])
+    for (const MissionComparison& mission : results.missions)
       held -= mission.misses;
     return held;
   });
-  both("mean z² (ideal 1)", [&](ContactModel model) {
+  both("mean z² (ideal 1)", [](const Results& results) {
     double sum = 0;
-    for (const MissionComparison& mission : missions[model])
-      sum += mission.mean_z2 / 3;
+    for (const MissionComparison& mission : results.missions)
+      sum += mission.mean_z2 / static_cast<double>(results.missions.size());
     return fmt::format("{:.2f}", sum);
   });
   for (std::size_t i = 0; i < kReferenceMissions.size(); ++i) {
-    both(fmt::format("rank correlation, {}", kReferenceMissions[i].ours).c_str(),
-         [&](ContactModel model) {
-           return fmt::format("{:.3f}", missions[model][i].rank_correlation);
+    both(fmt::format("rank correlation, {}", kReferenceMissions[i].ours),
+         [i](const Results& results) {
+           return fmt::format("{:.3f}", results.missions[i].rank_correlation);
          });
   }
   for (std::size_t i = 0; i < kReferenceMissions.size(); ++i) {
     const int digits = digits_of(kReferenceMissions[i]);
     both(fmt::format("thesis' ten designs, {} (original {:.{}f})", kReferenceMissions[i].ours,
-                     designs[ContactModel::Exact][i].all.theirs, digits)
-             .c_str(),
-         [&](ContactModel model) {
-           return fmt::format("{:.{}f}", designs[model][i].all.ours, digits);
+                     exact.designs[i].all.theirs, digits),
+         [i, digits](const Results& results) {
+           return fmt::format("{:.{}f}", results.designs[i].all.ours, digits);
          });
   }
   fmt::print("\n");
 }
 
-void print_machines() {
+void print_machines(const Results& results) {
   fmt::print(R"(## Twenty machines on three missions, solver `exact`
 
 Means over seeds 1 to 100, ours over {} streams of control draws for each seed. Difference: ours less the
@@ -126,20 +146,18 @@ exploration is minus the mean age summed over the cycles.
 
 )",
              kStreams);
-  for (const ReferenceMission& mission : kReferenceMissions) {
+  for (std::size_t i = 0; i < kReferenceMissions.size(); ++i) {
     fmt::print(
         "### {}\n\n| machine | original | ours | difference | equal |\n"
         "| --- | --- | --- | --- | --- |\n",
-        mission.ours);
-    const MissionComparison result =
-        compare_reference_machines(mission, ContactModel::Exact, kStreams);
-    for (const MachineComparison& machine : result.machines)
-      print_row(machine.id, machine, digits_of(mission));
+        kReferenceMissions[i].ours);
+    for (const MachineComparison& machine : results.missions[i].machines)
+      print_row(machine.id, machine, digits_of(kReferenceMissions[i]));
     fmt::print("\n");
   }
 }
 
-void print_designs() {
+void print_designs(const Results& results) {
   fmt::print(R"(## The thesis' own thirty designs, solver `exact`
 
 Each on its own mission, seeds 1 to 30, otherwise as above. Near the maximum score nearly all runs are equal,
@@ -148,13 +166,14 @@ so that the interval of a single machine is too narrow there; the mean of the te
 | machine | original | ours | difference | equal |
 | --- | --- | --- | --- | --- |
 )");
-  for (const ReferenceMission& mission : kReferenceMissions) {
-    const DesignsComparison result = compare_thesis_designs(mission, ContactModel::Exact, kStreams);
-    const int digits = digits_of(mission);
-    for (const MachineComparison& design : result.designs)
+  for (std::size_t i = 0; i < kReferenceMissions.size(); ++i) {
+    const DesignsComparison& of_mission = results.designs[i];
+    const int digits = digits_of(kReferenceMissions[i]);
+    for (const MachineComparison& design : of_mission.designs)
       print_row(design.id, design, digits);
-    fmt::print("| **all ten, {}** | {:.{}f} | {:.{}f} | {} | |\n", mission.ours, result.all.theirs,
-               digits, result.all.ours, digits, interval(result.all, digits));
+    fmt::print("| **all ten, {}** | {:.{}f} | {:.{}f} | {} | |\n", kReferenceMissions[i].ours,
+               of_mission.all.theirs, digits, of_mission.all.ours, digits,
+               interval(of_mission.all, digits));
   }
 }
 
@@ -162,10 +181,13 @@ so that the interval of a single machine is too narrow there; the mean of the te
 }  // namespace swarmsmith
 
 int main() {
-  swarmsmith::print_head();
-  swarmsmith::print_summary();
-  swarmsmith::print_trajectories();
-  swarmsmith::print_machines();
-  swarmsmith::print_designs();
+  using namespace swarmsmith;
+  const Results exact = compare_all(ContactModel::Exact);
+  const Results box2d = compare_all(ContactModel::Box2d);
+  print_head();
+  print_summary(exact, box2d);
+  print_trajectories();
+  print_machines(exact);
+  print_designs(exact);
   return std::fflush(stdout) == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }
