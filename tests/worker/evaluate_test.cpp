@@ -16,7 +16,7 @@ WorkerScenario short_aggregation() {
   WorkerScenario scenario{.campaign_digest = "d",
                           .engine_version = kEngineVersion,
                           .missions = {*built_in_mission("aggregation")},
-                          .flavours = {"watermelon"},
+                          .methods = {{.flavour = "watermelon"}},
                           .profile = *built_in_profile("rvr")};
   scenario.missions[0].cycles = 50;
   return scenario;
@@ -62,7 +62,7 @@ TEST(Evaluate, FailsWithASentence) {
 TEST(Evaluate, RefusesScenariosThatItCannotRun) {
   EXPECT_FALSE(make_simulation("rubbish"));
   WorkerScenario scenario = short_aggregation();
-  scenario.flavours = {"vinegar"};
+  scenario.methods = {{.flavour = "vinegar"}};
   EXPECT_FALSE(make_simulation(to_bytes(scenario)));
   scenario = short_aggregation();
   scenario.engine_version = kEngineVersion + 1;

@@ -9,7 +9,7 @@ WorkerScenario some_scenario() {
   return {.campaign_digest = "0123456789abcdef0123456789abcdef",
           .engine_version = 3,
           .missions = {*built_in_mission("aggregation"), *built_in_mission("color_selection")},
-          .flavours = {"watermelon", "watermelon-argos3"},
+          .methods = {{.flavour = "watermelon"}, {"watermelon-argos3", TurnClock::Seconds}},
           .profile = *built_in_profile("rvr")};
 }
 
