@@ -44,13 +44,13 @@ void warn_about_light(const Method& method, const Campaign& campaign,
   const bool photo = has(method.behaviours, Module::Phototaxis);
   const bool anti = has(method.behaviours, Module::AntiPhototaxis);
   if (!photo && !anti) return;
-  const std::string modules = photo && anti ? "phototaxis and anti_phototaxis"
-                              : photo       ? "phototaxis"
-                                            : "anti_phototaxis";
+  const std::string effect = photo && anti ? "phototaxis and anti_phototaxis only avoid"
+                             : photo       ? "phototaxis only avoids"
+                                           : "anti_phototaxis only avoids";
   for (const CampaignMission& mission : campaign.missions) {
     if (!mission.mission.arena.lights.empty()) continue;
     warnings.push_back("method \"" + method.name + "\": mission " + mission.mission.name +
-                       " has no light, so that " + modules + " only avoid obstacles there");
+                       " has no light, so that " + effect + " obstacles there");
   }
 }
 

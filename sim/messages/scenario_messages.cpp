@@ -53,7 +53,7 @@ void write(const WorkerMethod& method, pb::Method& out) {
 Expected<WorkerMethod> read(const pb::Method& message) {
   if (message.turn_clock() != pb::Method::TURN_CLOCK_CYCLES &&
       message.turn_clock() != pb::Method::TURN_CLOCK_SECONDS) {
-    return bad_input("a clock of turns that this program does not know", "methods.turn_clock");
+    return bad_input("a clock of turns that this program does not know", "turn_clock");
   }
   const bool cycles = message.turn_clock() == pb::Method::TURN_CLOCK_CYCLES;
   return WorkerMethod{message.flavour(), cycles ? TurnClock::Cycles : TurnClock::Seconds};
@@ -89,9 +89,12 @@ Expected<WorkerScenario> scenario_from_bytes(std::string_view bytes) {
     }
     scenario.missions.push_back(std::move(*mission));
   }
-  for (const pb::Method& message_of_method : message.methods()) {
-    Expected<WorkerMethod> method = read(message_of_method);
-    if (!method) return Unexpected(method.error());
+  for (int i = 0; i < message.methods_size(); ++i) {
+    Expected<WorkerMethod> method = read(message.methods(i));
+    if (!method) {
+      const std::string path = "methods[" + std::to_string(i) + "].";
+      return bad_input(method.error().message, path + method.error().where);
+    }
     scenario.methods.push_back(std::move(*method));
   }
   Expected<Profile> profile = read(message.profile());
