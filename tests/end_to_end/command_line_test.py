@@ -62,9 +62,9 @@ class CommandLine(ProgramTest):
         done = self.run_campaign(store)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
         self.assert_clean(store)
-        tried = self.query(store, "SELECT count(*) FROM v_candidates "
+        tried = self.query(store, "SELECT count(*) AS n FROM v_candidates "
                                   "WHERE modules LIKE '%phototaxis%'")
-        self.assertGreater(tried[0][0], 0)
+        self.assertGreater(tried[0]["n"], 0)
 
     def test_evaluate_takes_the_words_of_a_machine_as_they_are(self):
         done = call("evaluate", *EXPLORE, "--mission", "aggregation", "--seeds", "1-3", "--json")
