@@ -10,8 +10,6 @@ namespace swarmsmith {
 
 /// The eight proximity rays start this far from the centre (rvr-automode facts, section 3.1).
 inline constexpr double kRayStart_m = 0.143;
-/// What is nearer reads -infinity.
-inline constexpr double kBlindZone_m = 0.05;
 
 /// Distances along the proximity directions from the ray's start to what it meets; +infinity where
 /// nothing was met. Physical distances: limits and noise come later.
