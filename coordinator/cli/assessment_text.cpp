@@ -21,7 +21,7 @@ std::string without_trailing_blanks(std::string line) {
 
 std::string check_line(std::string_view module, const Check& check) {
   return without_trailing_blanks(
-      fmt::format("{:<24}  {:<21}  {:>4}  {:<7}  {:<20}  {}", module, check.setting, check.runs,
+      fmt::format("{:<24}  {:<22}  {:>4}  {:<7}  {:<20}  {}", module, check.setting, check.runs,
                   check.passes ? "passes" : "FAILS", check.measured, check.expected));
 }
 
@@ -30,10 +30,10 @@ std::string rate_line(std::string_view module, const Rate& rate) {
   const auto trials = static_cast<double>(rate.trials);
   const bool outside = rate.expected < rate.low || rate.expected > rate.high;
   return without_trailing_blanks(fmt::format(
-      "{:<24}  {:<21}  {:>6}  {:>8}  {:<16}  {:.4f}{}", module, rate.setting, rate.trials,
+      "{:<24}  {:<22}  {:>6}  {:>8}  {:<16}  {:.4f}{}", module, rate.setting, rate.trials,
       measured ? fmt::format("{:.4f}", static_cast<double>(rate.firings) / trials) : "-",
       measured ? fmt::format("{:.4f} to {:.4f}", rate.low, rate.high) : "-", rate.expected,
-      outside ? "  outside" : ""));
+      outside ? " outside" : ""));
 }
 
 /// A paragraph with the second and further lines indented.
@@ -72,7 +72,7 @@ std::string rates(const Report& report) {
       text += rate_line(id_of(module.module), rate);
   }
   if (text.empty()) return text;
-  return fmt::format("\n{:<24}  {:<21}  {:>6}  {:>8}  {:<16}  {}\n", "rate of", "setting", "trials",
+  return fmt::format("\n{:<24}  {:<22}  {:>6}  {:>8}  {:<16}  {}\n", "rate of", "setting", "trials",
                      "measured", "99 % interval", "expected") +
          text;
 }
@@ -118,7 +118,7 @@ std::string module_json(const ModuleReport& module) {
 
 std::string assessment_text(const Report& report, std::string_view flavour,
                             std::string_view profile) {
-  std::string text = fmt::format("{:<24}  {:<21}  {:>4}  {:<7}  {:<20}  {}\n", "module", "setting",
+  std::string text = fmt::format("{:<24}  {:<22}  {:>4}  {:<7}  {:<20}  {}\n", "module", "setting",
                                  "runs", "verdict", "measured", "expected");
   for (const ModuleReport& module : report.modules) {
     for (const Check& check : module.checks)

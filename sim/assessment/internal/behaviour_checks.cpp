@@ -150,6 +150,22 @@ constexpr std::array<DistanceTest, 4> kDistanceTests = {
      {"phototaxis", light_distance, true, true},
      {"anti_phototaxis", light_distance, false, true}}};
 
+/// Why robots may not answer to each other, as far as the flavour's numbers tell: the neighbour's
+/// vector is too short where the test starts, and nearer its body is an obstacle.
+std::string note_about_neighbours(const NeighbourModel& model, bool attraction) {
+  double strength = kAlpha;
+  for (int i = 1; !attraction && i < model.repulsion_power; ++i)
+    strength *= kAlpha;
+  const double gain = attraction ? model.attraction_gain : model.repulsion_gain;
+  const double length = gain * strength / (model.offset + kNearestPair_m * model.per_metre);
+  if (length < 0 || length >= model.shortest_result) return {};
+  return fmt::format(
+      "the vector of a neighbour at {} m has length {:.2f}; below {} the robot goes straight "
+      "ahead, "
+      "and as soon as a proximity sensor sees the neighbour it counts as an obstacle, {} times",
+      kNearestPair_m, length, model.shortest_result, model.obstacle_gain);
+}
+
 std::vector<Check> check_distance(const DistanceTest& test, const Subject& subject) {
   Mission mission = mission_in(dodecagon_of_the_thesis());
   if (test.with_light) mission.arena.lights.push_back(kLight);
@@ -175,7 +191,9 @@ std::vector<Check> check_distance(const DistanceTest& test, const Subject& subje
            .passes = passes,
            .measured = range_text(changes, 2) + " m",
            .expected = test.falls ? "below 0 m" : "above 0 m",
-           .note = {}}};
+           .note = passes || test.with_light
+                       ? std::string()
+                       : note_about_neighbours(subject.flavour.neighbours, test.falls)}};
 }
 
 double parameter_value(const ParameterSpec& parameter) {

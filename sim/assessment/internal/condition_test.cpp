@@ -13,9 +13,7 @@
 namespace swarmsmith::assessment {
 namespace {
 
-constexpr double kDiscRadius_m = 0.5;     // the black spot of aggregation
-constexpr double kPatchDistance_m = 0.6;  // of a patch's centre from the arena's
-constexpr double kPatchSide_m = 0.45;
+constexpr double kDiscRadius_m = 0.5;  // the black spot of aggregation
 
 Rgb color_named(std::string_view name) {
   const std::optional<Rgb> color = color_from_name(name);
@@ -30,17 +28,16 @@ Arena arena_with_disc(Rgb color) {
   return arena;
 }
 
-/// The gray floor with a patch of each label's colour, in a ring.
-Arena arena_with_patches(const std::vector<LabelSpec>& labels) {
+/// A stripe of each label's colour, side by side over the whole arena. There is no gray between
+/// them: under noise its hue is any, and robots would seldom get as far as the wanted stripe.
+Arena arena_with_stripes(const std::vector<LabelSpec>& labels) {
+  constexpr double kSide_m = 2.6;
   Arena arena = dodecagon_of_the_thesis();
+  const double width_m = kSide_m / static_cast<double>(labels.size());
   for (std::size_t i = 0; i < labels.size(); ++i) {
-    const SinCos place =
-        sin_cos(2 * kPi * static_cast<double>(i) / static_cast<double>(labels.size()));
-    arena.patches.push_back(
-        {Rectangle{.centre = {kPatchDistance_m * place.cos, kPatchDistance_m * place.sin},
-                   .width_m = kPatchSide_m,
-                   .height_m = kPatchSide_m},
-         color_named(name_of(labels[i].label))});
+    const double x_m = (static_cast<double>(i) + 0.5) * width_m - 0.5 * kSide_m;
+    arena.patches.push_back({Rectangle{.centre = {x_m, 0}, .width_m = width_m, .height_m = kSide_m},
+                             color_named(name_of(labels[i].label))});
   }
   return arena;
 }
@@ -112,9 +109,9 @@ std::vector<ConditionTest> tests_of(const ModuleSpec& spec, const Flavour& flavo
                        .trigger = Trigger::Label,
                        .gray = {},
                        .label = label.label,
-                       .floor = name + " patch",
+                       .floor = name + " stripe",
                        .wanted = color_named(name),
-                       .arena = arena_with_patches(floor.labels)});
+                       .arena = arena_with_stripes(floor.labels)});
     }
     return tests;
   }

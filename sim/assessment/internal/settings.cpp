@@ -12,9 +12,6 @@
 namespace swarmsmith::assessment {
 namespace {
 
-constexpr double kNearestPair_m = 0.5;
-constexpr double kFarthestPair_m = 0.7;
-
 /// The law of the missions' placement, in the smallest disc that holds every such group: the
 /// corners of a triangle with sides of 0.7 m lie 0.7 / sqrt 3 = 0.404 m from its centre.
 Pose draw_pose(Rng& rng) {

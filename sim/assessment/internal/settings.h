@@ -27,7 +27,10 @@ Mission mission_in(Arena arena);
 /// Starts anywhere in the arena, as the missions have them.
 std::vector<Pose> starts_anywhere(const Mission& mission, std::int64_t seed);
 
-/// Starts around the centre, all pairs 0.5 to 0.7 m apart, any heading.
+inline constexpr double kNearestPair_m = 0.5;
+inline constexpr double kFarthestPair_m = 0.7;
+
+/// Starts around the centre, all pairs that far apart, any heading.
 std::vector<Pose> starts_in_a_group(std::int64_t seed);
 
 /// One run under the eyes of a recorder.
