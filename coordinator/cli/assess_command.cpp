@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <memory>
+#include <string_view>
 
 #include "coordinator/cli/assessment_text.h"
 #include "coordinator/cli/commands.h"
@@ -16,23 +17,30 @@ struct Arguments {
   std::string profile = "rvr";
 };
 
-/// Counts the modules on the error stream, once it has taken longer than people like to wait.
+/// Counts the modules on the error stream, once it has taken longer than people like to wait: on a
+/// terminal in one line that goes away again, elsewhere a line now and then.
 class Counter {
  public:
   explicit Counter(Output& output) : output_(&output) {}
 
   void tell(int done, int of) {
-    constexpr auto kPatience = std::chrono::seconds(2);
-    if (output_->quiet || std::chrono::steady_clock::now() - begin_ < kPatience) return;
-    // Only a terminal can take a line back.
-    output_->err << (output_->err_is_terminal ? "\r\x1b[2K" : "")
-                 << fmt::format("assessed {} of {} modules", done, of)
-                 << (output_->err_is_terminal && done < of ? "" : "\n") << std::flush;
+    const auto now = std::chrono::steady_clock::now();
+    if (output_->quiet || now < next_) return;
+    const std::string text = fmt::format("assessed {} of {} modules", done, of);
+    if (output_->err_is_terminal) {
+      output_->err << kClearLine << (done < of ? text : std::string()) << std::flush;
+    } else {
+      next_ = now + std::chrono::seconds(30);
+      output_->err << text << '\n' << std::flush;
+    }
   }
 
  private:
+  static constexpr std::string_view kClearLine = "\r\x1b[2K";
+
   Output* output_;
-  std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+  std::chrono::steady_clock::time_point next_ =
+      std::chrono::steady_clock::now() + std::chrono::seconds(2);
 };
 
 ExitCode run(const Arguments& arguments, Output& output) {
