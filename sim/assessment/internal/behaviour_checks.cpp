@@ -150,26 +150,35 @@ constexpr std::array<DistanceTest, 4> kDistanceTests = {
      {"phototaxis", light_distance, true, true},
      {"anti_phototaxis", light_distance, false, true}}};
 
-/// Why robots may not answer to each other, as far as the flavour's numbers tell: the neighbour's
-/// vector is too short where the test starts, and nearer its body is an obstacle.
-std::string note_about_neighbours(const NeighbourModel& model, bool attraction) {
-  double strength = kAlpha;
-  for (int i = 1; !attraction && i < model.repulsion_power; ++i)
-    strength *= kAlpha;
-  const double gain = attraction ? model.attraction_gain : model.repulsion_gain;
-  const double length = gain * strength / (model.offset + kNearestPair_m * model.per_metre);
-  if (length < 0 || length >= model.shortest_result) return {};
-  return fmt::format(
-      "the vector of a neighbour at {} m has length {:.2f}; below {} the robot goes straight "
-      "ahead, "
-      "and as soon as a proximity sensor sees the neighbour it counts as an obstacle, {} times",
-      kNearestPair_m, length, model.shortest_result, model.obstacle_gain);
-}
+/// Where robots steer that see neighbours, in control cycles.
+struct Steering {
+  int straight = 0;
+  int towards = 0;  ///< to the side where the neighbours are
+  int away = 0;
+
+  void add(const RobotRecord& robot) {
+    if (robot.readings == nullptr || robot.readings->neighbours.empty()) return;
+    double side = 0;
+    for (const Neighbour& neighbour : robot.readings->neighbours)
+      side += neighbour.direction_y;
+    const double turn = robot.command.right_mps - robot.command.left_mps;
+    ++(turn == 0 ? straight : turn * side > 0 ? towards : away);
+  }
+
+  std::string text() const {
+    const double percent = 100.0 / std::max(1, straight + towards + away);
+    return fmt::format(
+        "robots that saw a neighbour steered towards its side in {:.0f} % of the cycles, to the "
+        "other in {:.0f} %, and went straight ahead in {:.0f} %",
+        percent * towards, percent * away, percent * straight);
+  }
+};
 
 std::vector<Check> check_distance(const DistanceTest& test, const Subject& subject) {
   Mission mission = mission_in(dodecagon_of_the_thesis());
   if (test.with_light) mission.arena.lights.push_back(kLight);
   std::vector<double> changes;
+  Steering steering;
   for (int seed = 1; seed <= kBehaviourRuns; ++seed) {
     double start = 0;
     double end = 0;
@@ -177,9 +186,11 @@ std::vector<Check> check_distance(const DistanceTest& test, const Subject& subje
       const double distance = test.distance(now.robots);
       if (now.cycle == 0) start = distance;
       if (now.cycle > kCycles - kLastCycles) end += distance / kLastCycles;
+      for (const RobotRecord& robot : now.robots)
+        steering.add(robot);
     };
     watch({subject.machine, subject.flavour, subject.profile, mission}, starts_in_a_group(seed),
-          seed, observe);
+          seed, Recorder(observe, Sensor::Neighbours));
     changes.push_back(end - start);
   }
   const bool passes = std::ranges::all_of(
@@ -191,9 +202,7 @@ std::vector<Check> check_distance(const DistanceTest& test, const Subject& subje
            .passes = passes,
            .measured = range_text(changes, 2) + " m",
            .expected = test.falls ? "below 0 m" : "above 0 m",
-           .note = passes || test.with_light
-                       ? std::string()
-                       : note_about_neighbours(subject.flavour.neighbours, test.falls)}};
+           .note = passes || test.with_light ? std::string() : steering.text()}};
 }
 
 double parameter_value(const ParameterSpec& parameter) {

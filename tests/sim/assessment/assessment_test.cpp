@@ -55,7 +55,7 @@ TEST(Assessment, TheAttractionOfThePublishedProgramFails) {
   EXPECT_EQ(report.passed(), 10);
   EXPECT_FALSE(report.passes());
   EXPECT_THAT(module_in(report, Module::Attraction).checks.at(0).note,
-              HasSubstr("a neighbour at 0.5 m has length 0.07"));
+              HasSubstr("went straight ahead in "));
 }
 
 // Each channel of the black spot reads 0 with probability P(N(0, 5) < 0.5) = 0.54, all three with
