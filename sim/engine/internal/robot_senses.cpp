@@ -92,6 +92,10 @@ const LightReadings& RobotSenses::light() {
 const Readings& RobotSenses::read(Sensors sensors) {
   if (sensors.has(Sensor::GroundColor)) readings_.ground_color = ground_color();
   if (sensors.has(Sensor::Proximity)) readings_.proximity_m = proximity();
+  if (sensors.has(Sensor::Neighbours)) {
+    const std::span<const Neighbour> seen = neighbours();
+    readings_.neighbours.assign(seen.begin(), seen.end());
+  }
   return readings_;
 }
 
