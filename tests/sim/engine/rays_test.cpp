@@ -94,7 +94,7 @@ TEST_P(RaysAtRange, MeetTheWallsOfAConvexArenaAsThePlainWayDoes) {
     const Body self =
         body_at({rng.uniform(-0.7, 0.7), rng.uniform(-0.7, 0.7), rng.uniform(-kPi, kPi)});
     RayDistances distances = nothing();
-    meet_walls(self, walls, GetParam(), distances);
+    meet_walls(self, kRayStart_m, walls, GetParam(), distances);
     expect_same(distances, plain_distances(self, arena.walls), GetParam());
   }
 }
@@ -108,7 +108,7 @@ TEST_P(RaysAtRange, MeetTheNearestWallOfANotchedArena) {
     const Body self =
         body_at({rng.uniform(-0.4, 0.3), rng.uniform(-0.3, 0.0), rng.uniform(-kPi, kPi)});
     RayDistances distances = nothing();
-    meet_walls(self, walls, GetParam(), distances);
+    meet_walls(self, kRayStart_m, walls, GetParam(), distances);
     expect_same(distances, plain_distances(self, arena.walls), GetParam());
   }
 }
@@ -144,7 +144,7 @@ TEST(Rays, ThatStartBehindAWallReadZero) {
   const Walls walls = walls_of(dodecagon_of_the_thesis());
   const Body self = body_at({1.226 - 0.142, 0, 0});
   RayDistances distances = nothing();
-  meet_walls(self, walls, 0.4, distances);
+  meet_walls(self, kRayStart_m, walls, 0.4, distances);
   EXPECT_EQ(distances[1], 0);
 }
 
