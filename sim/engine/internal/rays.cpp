@@ -4,11 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/control/readings.h"
+#include "sim/engine/internal/crossing.h"
+
 namespace swarmsmith {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kHalfRoot = 0.70710678118654757;
+/// Faces reach this much beyond their ends, so that rounding lets no ray slip through a corner.
+constexpr double kSlack_m = 1e-12;
 
 /// The eight rays lie on four lines through the centre: one ray ahead on the line, one back.
 struct Line {
@@ -19,8 +23,8 @@ struct Line {
 };
 
 constexpr std::array<Line, 4> kLines = {Line{1, 0, 1, 5}, Line{0, 1, 7, 3},
-                                        Line{kHalfRoot, kHalfRoot, 0, 4},
-                                        Line{-kHalfRoot, kHalfRoot, 6, 2}};
+                                        Line{kSqrtHalf, kSqrtHalf, 0, 4},
+                                        Line{-kSqrtHalf, kSqrtHalf, 6, 2}};
 
 /// A pose of one square in the frame of another.
 struct Relative {
@@ -54,8 +58,9 @@ double distance_to_square(double ux, double uy, const Relative& at) {
 
 }  // namespace
 
-void meet_walls(const Body& self, const Walls& walls, double range_m, RayDistances& distances) {
-  const double sight = kRayStart_m + range_m;
+void meet_walls(const Body& self, double start_m, const Walls& walls, double range_m,
+                RayDistances& distances) {
+  const double sight = start_m + range_m;
   const double clear = walls.clear_radius_m - sight;
   if (clear > 0 && self.x * self.x + self.y * self.y < clear * clear) return;
   for (const WallPlane& wall : walls.planes) {
@@ -70,11 +75,28 @@ void meet_walls(const Body& self, const Walls& walls, double range_m, RayDistanc
       if (!walls.convex) {
         const double sideways = nx * line.y - ny * line.x;
         const double along = wall.along(self.x, self.y) + from_centre * sideways;
-        if (along < 0 || along > wall.length_m) continue;
+        if (along < -kSlack_m || along > wall.length_m + kSlack_m) continue;
       }
       double& distance = distances[cosine > 0 ? line.ahead : line.back];
-      distance = std::min(distance, std::max(0.0, std::fabs(from_centre) - kRayStart_m));
+      distance = std::min(distance, std::max(0.0, std::fabs(from_centre) - start_m));
     }
+  }
+}
+
+void meet_solid(const Body& self, double start_m, const Form& form, const Body& at, double range_m,
+                RayDistances& distances) {
+  const double sight = start_m + range_m + form.radius_m;
+  const double dx = at.x - self.x;
+  const double dy = at.y - self.y;
+  if (dx * dx + dy * dy > sight * sight) return;
+  for (std::size_t i = 0; i < distances.size(); ++i) {
+    const Vector2 local = kProximityDirections[i];
+    const Point ray = {self.cos * local.x - self.sin * local.y,
+                       self.sin * local.x + self.cos * local.y};
+    if (std::fabs(ray.x * dy - ray.y * dx) > form.radius_m) continue;
+    const Point start = {self.x + start_m * ray.x, self.y + start_m * ray.y};
+    const Stretch inside = stretch_in(form, at, start, ray);
+    if (!inside.empty() && inside.from >= 0) distances[i] = std::min(distances[i], inside.from);
   }
 }
 

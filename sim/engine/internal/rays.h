@@ -4,23 +4,34 @@
 
 #include "sim/control/reference_model.h"
 #include "sim/engine/internal/body.h"
+#include "sim/engine/internal/form.h"
 #include "sim/engine/internal/walls.h"
 
 namespace swarmsmith {
 
-/// The eight proximity rays start this far from the centre (rvr-automode facts, section 3.1).
+/// The eight proximity rays start on the circle that is inscribed in the robot's body; the RVR's
+/// this far from the centre (rvr-automode facts, section 3.1).
 inline constexpr double kRayStart_m = 0.143;
+inline double ray_start_m(const Form& robot) {
+  return robot.is_rvr ? kRayStart_m : robot.inradius_m;
+}
 
 /// Distances along the proximity directions from the ray's start to what it meets; +infinity where
 /// nothing was met. Physical distances: limits and noise come later.
 using RayDistances = std::array<double, kProximitySensors>;
 
-/// Shortens the rays of `self` that meet a wall within `range_m`; hits beyond it may be left out. A
-/// ray that starts behind the face of a wall reads 0.
-void meet_walls(const Body& self, const Walls& walls, double range_m, RayDistances& distances);
+/// Shortens the rays of `self`, which start `start_m` from its centre, where they meet a wall
+/// within `range_m`; hits beyond it may be left out. A ray that starts behind the face of a wall
+/// reads 0.
+void meet_walls(const Body& self, double start_m, const Walls& walls, double range_m,
+                RayDistances& distances);
 
-/// The same for another robot's square. A ray that starts inside of it does not meet it (simulator
+/// The same for a solid of any form. A ray that starts inside of it does not meet it (simulator
 /// facts, section 4.1).
+void meet_solid(const Body& self, double start_m, const Form& form, const Body& at, double range_m,
+                RayDistances& distances);
+
+/// The same for two RVRs, quicker.
 void meet_robot(const Body& self, const Body& other, double range_m, RayDistances& distances);
 
 /// Centres farther apart than this cannot matter to meet_robot.

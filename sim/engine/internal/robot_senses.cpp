@@ -2,23 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "sim/engine/internal/normal_noise.h"
+#include "sim/control/labeler.h"
+#include "sim/control/lidar_clustering.h"
+#include "sim/engine/internal/lidar.h"
+#include "sim/engine/internal/light.h"
 #include "sim/engine/internal/sensing.h"
 
 namespace swarmsmith {
 namespace {
 
-/// The standard normal number with this index in the stream with this key.
-double normal_at(std::uint64_t key, std::uint64_t index) {
-  Rng rng(key + index);
-  return NormalNoise::instance().draw(rng);
-}
-
 std::uint8_t noisy_channel(std::uint8_t value, double noise) {
   const double rounded = std::floor(value + noise + 0.5);
   return static_cast<std::uint8_t>(std::clamp(rounded, 0.0, 255.0));
+}
+
+/// Whether this robot has trouble for the whole run, and so how often it misses a neighbour.
+double miss_rate_of_run(const NeighbourSensing& sensing, const Rng& run, int robot) {
+  if (sensing.weak_share == 0) return sensing.miss_rate;
+  Rng lot = run.split("weak neighbours", static_cast<std::uint64_t>(robot));
+  return lot.bernoulli(sensing.weak_share) ? sensing.weak_miss_rate : sensing.miss_rate;
 }
 
 }  // namespace
@@ -29,36 +32,42 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
       arena_(&arena),
       profile_(&profile),
       robot_(robot),
-      proximity_noise_(run.split("proximity", static_cast<std::uint64_t>(robot)).key()),
-      ground_noise_(run.split("ground", static_cast<std::uint64_t>(robot)).key()) {
-  neighbours_.reserve(static_cast<std::size_t>(world.robots()));
+      motion_(world.body(robot)),
+      proximity_noise_(profile.proximity, run, robot),
+      neighbour_miss_rate_(miss_rate_of_run(profile.neighbours, run, robot)) {
+  const GroundColorSensing& ground = profile.ground_color;
+  if (ground.sd > 0) ground_noise_ = NoiseStream(run, "ground", robot);
+  if (ground.bias_sd > 0) {
+    ground_bias_ = ground.bias_sd * NoiseStream(run, "ground bias", robot).normal(0);
+  }
+  if (profile.lidar.half_width_m > 0) lidar_noise_ = NoiseStream(run, "lidar", robot);
+  if (neighbour_miss_rate_ > 0) neighbour_misses_ = NoiseStream(run, "neighbour misses", robot);
+  readings_.neighbours.reserve(static_cast<std::size_t>(world.robots()));
   floor_ = floor_at(arena, floor_place_);
 }
 
 void RobotSenses::begin_cycle(const Cycle& cycle) {
   cycle_ = cycle;
-  has_proximity_ = has_ground_ = has_neighbours_ = false;
+  computed_ = {};
+}
+
+bool RobotSenses::is_due(Sensor sensor) {
+  if (computed_.has(sensor)) return false;
+  computed_ = computed_ | sensor;
+  return true;
 }
 
 const ProximityReadings& RobotSenses::proximity() {
-  if (has_proximity_) return proximity_;
-  has_proximity_ = true;
-  const double range = profile_->proximity.range_m;
-  proximity_ = ray_distances(*world_, robot_, range);
-  for (std::size_t i = 0; i < proximity_.size(); ++i) {
-    double& reading = proximity_[i];
-    reading = limited(reading, range);
-    if (profile_->proximity.sd_m == 0 || !std::isfinite(reading)) continue;
-    const auto index = static_cast<std::uint64_t>(cycle_.number) * kProximitySensors + i;
-    reading =
-        limited(reading + profile_->proximity.sd_m * normal_at(proximity_noise_, index), range);
+  if (is_due(Sensor::Proximity)) {
+    readings_.proximity_m = ray_distances(*world_, robot_, profile_->proximity.range_m);
+    proximity_noise_.apply(readings_.proximity_m, cycle_.number);
   }
-  return proximity_;
+  return readings_.proximity_m;
 }
 
 Rgb RobotSenses::ground_color() {
-  if (has_ground_) return ground_;
-  has_ground_ = true;
+  Rgb& ground = readings_.ground_color;
+  if (!is_due(Sensor::GroundColor)) return ground;
   const Body& body = world_->body(robot_);
   const Point place = {body.x + kGroundSensorAhead_m * body.cos,
                        body.y + kGroundSensorAhead_m * body.sin};
@@ -66,36 +75,80 @@ Rgb RobotSenses::ground_color() {
     floor_place_ = place;
     floor_ = floor_at(*arena_, place);
   }
-  ground_ = floor_;
-  const double sd = profile_->ground_color.sd;
-  if (sd != 0) {
-    const auto index = static_cast<std::uint64_t>(cycle_.number) * 3;
-    ground_.r = noisy_channel(ground_.r, sd * normal_at(ground_noise_, index));
-    ground_.g = noisy_channel(ground_.g, sd * normal_at(ground_noise_, index + 1));
-    ground_.b = noisy_channel(ground_.b, sd * normal_at(ground_noise_, index + 2));
+  ground = floor_;
+  const GroundColorSensing& sensing = profile_->ground_color;
+  if (sensing.sd > 0 || sensing.bias_sd > 0) {
+    auto index = static_cast<std::uint64_t>(cycle_.number) * 3;
+    for (std::uint8_t* channel : {&ground.r, &ground.g, &ground.b}) {
+      const double noise = sensing.sd > 0 ? sensing.sd * ground_noise_.normal(index) : 0;
+      *channel = noisy_channel(*channel, ground_bias_ + noise);
+      ++index;
+    }
   }
-  return ground_;
+  if (sensing.labeler) ground = nearest_label(ground, sensing.labels);
+  return ground;
 }
 
 std::span<const Neighbour> RobotSenses::neighbours() {
-  if (!has_neighbours_) {
-    has_neighbours_ = true;
-    find_neighbours(*world_, robot_, neighbours_);
+  if (!is_due(Sensor::Neighbours)) return readings_.neighbours;
+  if (profile_->neighbours.source == NeighbourSensing::Source::Camera) {
+    find_neighbours(*world_, robot_, readings_.neighbours);
+  } else {
+    turret_ranges_m_.resize(kLidarRays);
+    scan_turrets(*world_, robot_, turret_ranges_m_);
+    add_lidar_noise(turret_ranges_m_, profile_->lidar.half_width_m, lidar_noise_, cycle_.number);
+    cluster_lidar(turret_ranges_m_, readings_.neighbours);
   }
-  return neighbours_;
+  if (neighbour_miss_rate_ > 0) drop_missed_neighbours();
+  return readings_.neighbours;
+}
+
+void RobotSenses::drop_missed_neighbours() {
+  // The number at an index decides on the cycle's k-th neighbour; there are never as many as rays.
+  const std::uint64_t first = static_cast<std::uint64_t>(cycle_.number) * kLidarRays;
+  std::vector<Neighbour>& neighbours = readings_.neighbours;
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < neighbours.size(); ++k) {
+    if (neighbour_misses_.at(first + k).bernoulli(neighbour_miss_rate_)) continue;
+    neighbours[kept++] = neighbours[k];
+  }
+  neighbours.resize(kept);
 }
 
 const LightReadings& RobotSenses::light() {
-  return light_;
+  if (is_due(Sensor::LightRing)) readings_.light_lux = light_ring(*world_, *arena_, robot_);
+  return readings_.light_lux;
+}
+
+void RobotSenses::read_motion(Sensors sensors) {
+  const Body& body = world_->body(robot_);
+  const auto wants = [&](Sensor sensor) { return sensors.has(sensor) && is_due(sensor); };
+  if (wants(Sensor::Velocity)) readings_.velocity_mps = motion_.velocity(body, cycle_.acted);
+  if (wants(Sensor::Accelerometer)) {
+    readings_.acceleration_g = motion_.acceleration(body, cycle_.acted);
+  }
+  if (wants(Sensor::Gyroscope)) readings_.spin_radps = motion_.spin(body);
+  if (wants(Sensor::Imu)) readings_.orientation = MotionSensors::orientation(body);
+  if (wants(Sensor::Locator)) readings_.position_m = motion_.position(body);
+  if (wants(Sensor::Quaternion)) readings_.rotation = motion_.rotation(body);
+}
+
+void RobotSenses::read_lidar() {
+  readings_.lidar_m.resize(kLidarRays);
+  scan_surroundings(*world_, robot_, readings_.lidar_m);
+  add_lidar_noise(readings_.lidar_m, profile_->lidar.half_width_m, lidar_noise_, cycle_.number);
 }
 
 const Readings& RobotSenses::read(Sensors sensors) {
-  if (sensors.has(Sensor::GroundColor)) readings_.ground_color = ground_color();
-  if (sensors.has(Sensor::Proximity)) readings_.proximity_m = proximity();
-  if (sensors.has(Sensor::Neighbours)) {
-    const std::span<const Neighbour> seen = neighbours();
-    readings_.neighbours.assign(seen.begin(), seen.end());
+  read_motion(sensors);
+  if (sensors.has(Sensor::GroundColor)) ground_color();
+  if (sensors.has(Sensor::Proximity)) proximity();
+  if (sensors.has(Sensor::Neighbours)) neighbours();
+  if (sensors.has(Sensor::LightRing)) light();
+  if (sensors.has(Sensor::FrontLight) && is_due(Sensor::FrontLight)) {
+    readings_.front_light_lux = front_light(*world_, *arena_, robot_);
   }
+  if (sensors.has(Sensor::Lidar) && is_due(Sensor::Lidar)) read_lidar();
   return readings_;
 }
 

@@ -5,6 +5,9 @@
 
 #include "base/rng.h"
 #include "sim/control/reference_model.h"
+#include "sim/engine/internal/motion_sensors.h"
+#include "sim/engine/internal/noise_stream.h"
+#include "sim/engine/internal/proximity_noise.h"
 #include "sim/engine/internal/world.h"
 #include "sim/engine/profile.h"
 #include "sim/engine/readings.h"
@@ -17,12 +20,17 @@ inline constexpr double kGroundSensorAhead_m = 0.05;
 
 /// One robot's sensors in the simulated world, each computed when first asked for in a cycle.
 ///
+/// Ground colour (thesis 4.2.1): the floor 0.05 m ahead of the centre, plus a bias of robot and run
+/// and normal noise a channel, rounded, clamped to 0..255, then labelled (eq. 3.1, 3.2) where the
+/// profile says so. Neighbours (thesis 5.1): by camera or from the lidar's clusters, less those
+/// that are missed (thesis 7.1). The others: motion_sensors.h, light.h, proximity_noise.h, lidar.h.
+///
 /// Noise is counter-based: a reading's is a function of seed, robot, sensor, cycle and channel, so
 /// that what is asked for, and when, changes no other reading (decided so that a machine that
 /// ignores a sensor for a while meets the same noise as one that does not).
 class RobotSenses final : public Senses {
  public:
-  /// World, arena and profile must outlive the object.
+  /// The robot stands at its start. World, arena and profile must outlive the object.
   RobotSenses(const World& world, const Arena& arena, const Profile& profile, int robot,
               const Rng& run);
 
@@ -42,26 +50,38 @@ class RobotSenses final : public Senses {
   double time_s() override { return cycle_.time_s; }
 
   /// The sensors' readings of this cycle; what control asked for is not read again.
+  ///
+  /// The accelerometer and the gyroscope compare with their reading before: ask for them in every
+  /// cycle or in none.
   const Readings& read(Sensors sensors);
 
+  /// What was computed in this cycle so far.
+  Sensors computed() const { return computed_; }
+
  private:
+  /// Whether the sensor has not been read in this cycle; it counts as read from now on.
+  bool is_due(Sensor sensor);
+  void read_motion(Sensors sensors);
+  void read_lidar();
+  void drop_missed_neighbours();
+
   const World* world_;
   const Arena* arena_;
   const Profile* profile_;
   int robot_;
-  std::uint64_t proximity_noise_;  ///< keys of the streams
-  std::uint64_t ground_noise_;
+  MotionSensors motion_;
+  ProximityNoise proximity_noise_;
+  NoiseStream ground_noise_;
+  NoiseStream lidar_noise_;
+  NoiseStream neighbour_misses_;
+  double ground_bias_ = 0;          ///< of this robot in this run, on all channels
+  double neighbour_miss_rate_ = 0;  ///< of this robot in this run
   Cycle cycle_;
-  bool has_proximity_ = false;
-  bool has_ground_ = false;
-  bool has_neighbours_ = false;
-  ProximityReadings proximity_{};
-  Rgb ground_;
+  Sensors computed_;  ///< the others' readings are of an earlier cycle
+  Readings readings_;
   Point floor_place_;  ///< where the floor was last looked up, and what colour it has there
   Rgb floor_;
-  std::vector<Neighbour> neighbours_;
-  LightReadings light_{};
-  Readings readings_;
+  std::vector<double> turret_ranges_m_;  ///< the scan that finds neighbours, if it is the lidar
 };
 
 }  // namespace swarmsmith

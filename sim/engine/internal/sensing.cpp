@@ -7,11 +7,31 @@
 
 namespace swarmsmith {
 
+namespace {
+
+/// What else than walls there is to meet, where not all are RVRs.
+void meet_solids(const World& world, int robot, double range_m, RayDistances& distances) {
+  const Body& self = world.body(robot);
+  const double start = ray_start_m(world.form(robot));
+  for (int other = 0; other < world.movers(); ++other) {
+    if (other == robot) continue;
+    meet_solid(self, start, world.form(other), world.body(other), range_m, distances);
+  }
+  for (const FixedSolid& obstacle : world.obstacles())
+    meet_solid(self, start, obstacle.form, obstacle.at, range_m, distances);
+}
+
+}  // namespace
+
 RayDistances ray_distances(const World& world, int robot, double range_m) {
   RayDistances distances;
   distances.fill(std::numeric_limits<double>::infinity());
   const Body& self = world.body(robot);
-  meet_walls(self, world.walls(), range_m, distances);
+  meet_walls(self, ray_start_m(world.form(robot)), world.walls(), range_m, distances);
+  if (!world.is_plain()) {
+    meet_solids(world, robot, range_m, distances);
+    return distances;
+  }
   const double sight = sight_of_robots_m(range_m);
   for (int other = 0; other < world.robots(); ++other) {
     if (other == robot || world.distance2(robot, other) > sight * sight) continue;

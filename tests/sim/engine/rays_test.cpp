@@ -8,54 +8,20 @@
 
 #include "base/math.h"
 #include "base/rng.h"
+#include "sim/engine/internal/sensing.h"
+#include "tests/sim/engine/plain_rays.h"
 
 namespace swarmsmith {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+const Form kRvr = form_of(BoxOutline{kBodySide_m, kBodySide_m}, kBodyHeight_m);
+
 RayDistances nothing() {
   RayDistances distances;
   distances.fill(kInfinity);
   return distances;
-}
-
-/// A hexagon with a notch, so that a wall may hide another one.
-Arena notched_arena() {
-  Arena arena;
-  const std::vector<Point> corners = {{1, 0},  {0.6, 0.9},  {0, 0.3},
-                                      {-1, 1}, {-1.2, 0.0}, {-0.2, -1}};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    arena.walls.push_back({corners[i], corners[(i + 1) % corners.size()]});
-  }
-  return arena;
-}
-
-/// Distance along a ray to a segment, the plain way; infinity when it is missed.
-double to_segment(Point start, Point direction, Point from, Point to) {
-  const double ex = to.x - from.x;
-  const double ey = to.y - from.y;
-  const double cross = direction.x * ey - direction.y * ex;
-  if (cross == 0) return kInfinity;
-  const double fx = from.x - start.x;
-  const double fy = from.y - start.y;
-  const double t = (fx * ey - fy * ex) / cross;
-  const double u = (fx * direction.y - fy * direction.x) / cross;
-  return t >= 0 && u >= 0 && u <= 1 ? t : kInfinity;
-}
-
-std::vector<Wall> sides_of(const Body& body) {
-  const double h = kHalfSide_m;
-  const std::vector<Point> local = {{h, h}, {-h, h}, {-h, -h}, {h, -h}};
-  std::vector<Wall> sides;
-  for (std::size_t i = 0; i < 4; ++i) {
-    const auto world = [&](Point p) {
-      return Point{body.x + body.cos * p.x - body.sin * p.y,
-                   body.y + body.sin * p.x + body.cos * p.y};
-    };
-    sides.push_back({world(local[i]), world(local[(i + 1) % 4])});
-  }
-  return sides;
 }
 
 /// All eight rays against all segments.
@@ -94,7 +60,7 @@ TEST_P(RaysAtRange, MeetTheWallsOfAConvexArenaAsThePlainWayDoes) {
     const Body self =
         body_at({rng.uniform(-0.7, 0.7), rng.uniform(-0.7, 0.7), rng.uniform(-kPi, kPi)});
     RayDistances distances = nothing();
-    meet_walls(self, walls, GetParam(), distances);
+    meet_walls(self, kRayStart_m, walls, GetParam(), distances);
     expect_same(distances, plain_distances(self, arena.walls), GetParam());
   }
 }
@@ -108,7 +74,7 @@ TEST_P(RaysAtRange, MeetTheNearestWallOfANotchedArena) {
     const Body self =
         body_at({rng.uniform(-0.4, 0.3), rng.uniform(-0.3, 0.0), rng.uniform(-kPi, kPi)});
     RayDistances distances = nothing();
-    meet_walls(self, walls, GetParam(), distances);
+    meet_walls(self, kRayStart_m, walls, GetParam(), distances);
     expect_same(distances, plain_distances(self, arena.walls), GetParam());
   }
 }
@@ -123,11 +89,77 @@ TEST_P(RaysAtRange, MeetAnotherRobotAsThePlainWayDoes) {
     if (hypot(other.x, other.y) < 2 * kCornerRadius_m) continue;
     RayDistances distances = nothing();
     meet_robot(self, other, GetParam(), distances);
-    expect_same(distances, plain_distances(self, sides_of(other)), GetParam());
+    expect_same(distances, plain_distances(self, sides_of(kRvr, other)), GetParam());
     for (const double distance : distances)
       hits += distance <= GetParam() ? 1 : 0;
   }
   EXPECT_GT(hits, 50);
+}
+
+TEST(Rays, MeetASquareLikeAnyOtherSolid) {
+  Rng rng(4);
+  for (int i = 0; i < 5000; ++i) {
+    const Body self = body_at({0, 0, rng.uniform(-kPi, kPi)});
+    const Body other =
+        body_at({rng.uniform(-0.8, 0.8), rng.uniform(-0.8, 0.8), rng.uniform(-kPi, kPi)});
+    RayDistances quick = nothing();
+    meet_robot(self, other, 0.4, quick);
+    RayDistances general = nothing();
+    meet_solid(self, kRayStart_m, kRvr, other, 0.4, general);
+    expect_same(general, quick, 0.4);
+  }
+}
+
+/// The eight rays of robots of this form in a notched arena full of things.
+void expect_plain_distances_among_things(const Outline& robot, std::uint64_t seed) {
+  Arena arena = notched_arena();
+  furnish(arena);
+  Rng rng(seed);
+  int hits = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::vector<Pose> poses = {
+        {rng.uniform(-0.1, 0.1), rng.uniform(-0.25, -0.1), rng.uniform(-kPi, kPi)},
+        {rng.uniform(-0.6, -0.4), rng.uniform(0.0, 0.1), rng.uniform(-kPi, kPi)}};
+    const World world(arena, robot, poses, ContactModel::Box2d);
+    const double out = world.form(0).inradius_m;
+    const RayDistances distances = ray_distances(world, 0, 0.4);
+    RayDistances want;
+    for (std::size_t ray = 0; ray < want.size(); ++ray) {
+      const double angle = poses[0].theta + kProximityDirections_deg[ray] * kPi / 180;
+      const Point direction = {std::cos(angle), std::sin(angle)};
+      const Point start = {poses[0].x + out * direction.x, poses[0].y + out * direction.y};
+      want[ray] = to_anything(start, direction, arena, world, 0);
+      hits += want[ray] <= 0.4 ? 1 : 0;
+    }
+    expect_same(distances, want, 0.4);
+  }
+  EXPECT_GT(hits, 2000);
+}
+
+TEST(Rays, OfSquareRobotsMeetObstaclesObjectsAndWalls) {
+  expect_plain_distances_among_things(BoxOutline{kBodySide_m, kBodySide_m}, 5);
+}
+
+TEST(Rays, OfRoundRobotsStartOnTheirRim) {
+  expect_plain_distances_among_things(CircleOutline{0.1}, 6);
+}
+
+TEST(Rays, OfPolygonsStartOnTheInscribedCircle) {
+  expect_plain_distances_among_things(
+      PolygonOutline{{{0.12, 0}, {0.03, 0.08}, {-0.09, 0.06}, {-0.09, -0.06}, {0.03, -0.08}}}, 7);
+}
+
+TEST(Rays, StartOnTheInscribedCircle) {
+  EXPECT_EQ(ray_start_m(kRvr), 0.143);
+  EXPECT_DOUBLE_EQ(ray_start_m(form_of(BoxOutline{0.4, 0.2}, 0.1)), 0.1);
+  EXPECT_EQ(ray_start_m(form_of(CircleOutline{0.09}, 0.1)), 0.09);
+}
+
+TEST(Rays, ThatStartInsideASolidDoNotMeetIt) {
+  const Body self = body_at({0, 0, 0});
+  RayDistances distances = nothing();
+  meet_solid(self, 0.143, form_of(CircleOutline{0.1}, 0.1), body_at({0.2, 0, 0}), 2, distances);
+  EXPECT_EQ(distances[1], kInfinity);
 }
 
 TEST(Rays, ThatStartInsideAnotherRobotDoNotMeetIt) {
@@ -144,7 +176,7 @@ TEST(Rays, ThatStartBehindAWallReadZero) {
   const Walls walls = walls_of(dodecagon_of_the_thesis());
   const Body self = body_at({1.226 - 0.142, 0, 0});
   RayDistances distances = nothing();
-  meet_walls(self, walls, 0.4, distances);
+  meet_walls(self, kRayStart_m, walls, 0.4, distances);
   EXPECT_EQ(distances[1], 0);
 }
 

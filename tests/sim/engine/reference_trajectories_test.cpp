@@ -6,8 +6,8 @@
 
 #include "base/math.h"
 #include "sim/engine/internal/motion.h"
+#include "sim/engine/internal/robot_senses.h"
 #include "sim/engine/internal/walls.h"
-#include "sim/engine/raw_readings.h"
 #include "tests/sim/engine/open_loop.h"
 #include "tests/sim/engine/reference_data.h"
 #include "tests/sim/engine/reference_runs.h"
@@ -31,6 +31,23 @@ bool in_the_open(const Poses& poses, std::size_t robot, const Walls& walls) {
   }
   return std::all_of(walls.planes.begin(), walls.planes.end(),
                      [&](const WallPlane& wall) { return wall.depth_of(self.x, self.y) > 0.21; });
+}
+
+/// Physical length of the original's rays (rvr-automode facts, section 3.1).
+constexpr double kRayLength_m = 2.0;
+
+/// What ideal sensors of proximity range R read at the given poses, one a robot.
+std::vector<Readings> readings_at(const Poses& poses, const Arena& arena, double range_m) {
+  Profile profile;
+  profile.proximity.range_m = range_m;
+  const World world(arena, BoxOutline{kBodySide_m, kBodySide_m}, poses, ContactModel::Exact);
+  std::vector<Readings> all;
+  for (int robot = 0; robot < world.robots(); ++robot) {
+    RobotSenses senses(world, arena, profile, robot, Rng(1));
+    senses.begin_cycle({.number = 1});
+    all.push_back(senses.read(Sensor::GroundColor | Sensor::Proximity | Sensor::Neighbours));
+  }
+  return all;
 }
 
 class LoggedRuns : public testing::TestWithParam<const char*> {};
@@ -85,17 +102,19 @@ TEST_P(LoggedRuns, EveryReadingIsTheOriginals) {
   int neighbours_differ = 0;
   int read = 0;
   for (std::size_t tick = 1; tick < run.size(); ++tick) {
-    const std::vector<RawReadings> readings = raw_readings(arena, poses_of(run[tick]));
+    const std::vector<Readings> readings = readings_at(poses_of(run[tick]), arena, 0.4);
+    const std::vector<Readings> far = readings_at(poses_of(run[tick]), arena, kRayLength_m);
     for (std::size_t robot = 0; robot < 3; ++robot) {
       const LoggedTick& logged = run[tick][robot];
       for (std::size_t i = 0; i < kProximitySensors; ++i) {
         double want = logged.proximity[i];
-        // The original writes 0 where a ray meets nothing within its 2 m.
+        // The original writes 0 where a ray meets nothing within its length.
         const bool nothing = want == 0;
         if (nothing) want = std::numeric_limits<double>::infinity();
-        const double got = readings[robot].proximity(0.4)[i];
+        const double got = readings[robot].proximity_m[i];
         const bool same = std::isinf(want) ? got == want : std::fabs(got - want) < 2e-4;
-        const bool nothing_too = std::isinf(readings[robot].distances_m[i]);
+        const bool nothing_too =
+            far[robot].proximity_m[i] == std::numeric_limits<double>::infinity();
         proximity_differs += same && nothing == nothing_too ? 0 : 1;
         ++read;
       }
@@ -119,9 +138,9 @@ TEST_P(LoggedRuns, TheFloorIsTheOriginals) {
   const Arena arena = arena_of(runs.mission, runs.instances[0]);
   int differs = 0;
   for (std::size_t tick = 1; tick < run.size(); ++tick) {
-    const std::vector<RawReadings> readings = raw_readings(arena, poses_of(run[tick]));
+    const std::vector<Readings> readings = readings_at(poses_of(run[tick]), arena, 0.4);
     for (std::size_t robot = 0; robot < 3; ++robot) {
-      differs += readings[robot].floor == run[tick][robot].floor ? 0 : 1;
+      differs += readings[robot].ground_color == run[tick][robot].floor ? 0 : 1;
     }
   }
   // Poses are logged to 1e-5 m: on a border the colour may be the neighbour's.

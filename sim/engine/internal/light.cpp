@@ -1,0 +1,123 @@
+#include "sim/engine/internal/light.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/control/readings.h"
+#include "sim/engine/internal/crossing.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A segment of space, its points at t in [0, 1].
+struct Segment {
+  Place from;
+  Place to;
+
+  Point origin() const { return {from.x, from.y}; }
+  Point along() const { return {to.x - from.x, to.y - from.y}; }
+  /// Keeps of a stretch what lies on the segment, and no higher than this.
+  void keep(Stretch& stretch, double height_m) const {
+    stretch.keep(-1, 1);
+    stretch.keep(0, -1);
+    stretch.keep(from.z - height_m, to.z - from.z);
+  }
+};
+
+bool meets_wall(const Segment& segment, const WallPlane& wall, double height_m) {
+  const double depth = wall.depth_of(segment.from.x, segment.from.y);
+  const double depth_step = wall.depth_of(segment.to.x, segment.to.y) - depth;
+  const double along = wall.along(segment.from.x, segment.from.y);
+  const double along_step = wall.along(segment.to.x, segment.to.y) - along;
+  Stretch stretch;
+  stretch.keep(depth, depth_step);  // on the plane of the face
+  stretch.keep(-depth, -depth_step);
+  stretch.keep(-along, -along_step);  // between its ends
+  stretch.keep(along - wall.length_m, along_step);
+  segment.keep(stretch, height_m);
+  return !stretch.empty();
+}
+
+bool meets_solid(const Segment& segment, const Form& form, const Body& at) {
+  Stretch stretch = stretch_in(form, at, segment.origin(), segment.along());
+  segment.keep(stretch, form.height_m);
+  return !stretch.empty();
+}
+
+/// Where a sensor of the ring is, and the direction it looks into.
+struct LightSensor {
+  Place place;
+  Point direction;
+};
+
+LightSensor sensor_towards(const Body& body, Vector2 direction) {
+  const Point world = {body.cos * direction.x - body.sin * direction.y,
+                       body.sin * direction.x + body.cos * direction.y};
+  return {.place = {.x = body.x + kLightSensorsOut_m * world.x,
+                    .y = body.y + kLightSensorsOut_m * world.y,
+                    .z = kLightSensorsHeight_m},
+          .direction = world};
+}
+
+/// I / d^2.
+double illuminance(const Light& light, const Place& at) {
+  const double dx = light.x_m - at.x;
+  const double dy = light.y_m - at.y;
+  const double dz = light.z_m - at.z;
+  return light.intensity_cd / (dx * dx + dy * dy + dz * dz);
+}
+
+double cosine_to(const Light& light, const LightSensor& sensor) {
+  const double dx = light.x_m - sensor.place.x;
+  const double dy = light.y_m - sensor.place.y;
+  const double distance = std::sqrt(dx * dx + dy * dy);
+  return distance > 0 ? (dx * sensor.direction.x + dy * sensor.direction.y) / distance : 0;
+}
+
+}  // namespace
+
+bool is_occluded(const World& world, double wall_height_m, int robot, const Place& sensor,
+                 const Place& light) {
+  const Segment segment = {sensor, light};
+  for (const WallPlane& wall : world.walls().planes) {
+    if (meets_wall(segment, wall, wall_height_m)) return true;
+  }
+  for (const FixedSolid& obstacle : world.obstacles()) {
+    if (meets_solid(segment, obstacle.form, obstacle.at)) return true;
+  }
+  for (int mover = 0; mover < world.movers(); ++mover) {
+    if (mover != robot && meets_solid(segment, world.form(mover), world.body(mover))) return true;
+  }
+  return false;
+}
+
+double front_light(const World& world, const Arena& arena, int robot) {
+  const LightSensor sensor = sensor_towards(world.body(robot), {1, 0});
+  double lux = 0;
+  for (const Light& light : arena.lights) {
+    if (light.intensity_cd == 0) continue;
+    const Place place = {light.x_m, light.y_m, light.z_m};
+    if (is_occluded(world, arena.wall_height_m, robot, sensor.place, place)) continue;
+    lux += illuminance(light, sensor.place);
+  }
+  return std::clamp(lux, 0.0, kBrightest_lux);
+}
+
+LightReadings light_ring(const World& world, const Arena& arena, int robot) {
+  LightReadings readings{};
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const LightSensor sensor = sensor_towards(world.body(robot), kProximityDirections[i]);
+    double lux = 0;
+    for (const Light& light : arena.lights) {
+      const double cosine = cosine_to(light, sensor);
+      if (light.intensity_cd == 0 || !(cosine > 0)) continue;
+      const Place place = {light.x_m, light.y_m, light.z_m};
+      if (is_occluded(world, arena.wall_height_m, robot, sensor.place, place)) continue;
+      lux += illuminance(light, sensor.place) * cosine;
+    }
+    readings[i] = std::clamp(lux, 0.0, kBrightest_lux);
+  }
+  return readings;
+}
+
+}  // namespace swarmsmith

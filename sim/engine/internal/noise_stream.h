@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "base/rng.h"
+#include "sim/engine/internal/normal_noise.h"
+
+namespace swarmsmith {
+
+/// Counter-based noise of one kind, for one robot and run: the number at an index is a function of
+/// seed, name, robot and index, whatever else was drawn.
+class NoiseStream {
+ public:
+  /// Never drawn from.
+  NoiseStream() = default;
+  NoiseStream(const Rng& run, std::string_view name, int robot)
+      : key_(run.split(name, static_cast<std::uint64_t>(robot)).key()) {}
+
+  /// As many numbers as one index wants.
+  Rng at(std::uint64_t index) const { return Rng(key_ + index); }
+  /// Standard normal.
+  double normal(std::uint64_t index) const {
+    Rng rng = at(index);
+    return NormalNoise::instance().draw(rng);
+  }
+
+ private:
+  std::uint64_t key_ = 0;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,50 @@
+#include "sim/engine/internal/proximity_noise.h"
+
+#include <cmath>
+#include <limits>
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+ProximityNoise::ProximityNoise(const ProximitySensing& sensing, const Rng& run, int robot)
+    : sensing_(&sensing) {
+  if (sensing.sd_m > 0) normal_ = NoiseStream(run, "proximity", robot);
+  if (sensing.scale_sd > 0) scale_ = NoiseStream(run, "proximity scale", robot);
+  if (sensing.phantom_rate > 0) phantom_ = NoiseStream(run, "proximity phantom", robot);
+  if (sensing.largest_miss_rate > 0) {
+    miss_ = NoiseStream(run, "proximity miss", robot);
+    Rng rates = run.split("proximity miss rates", static_cast<std::uint64_t>(robot));
+    for (double& rate : miss_rates_)
+      rate = rates.uniform(0, sensing.largest_miss_rate);
+  }
+}
+
+void ProximityNoise::apply(RayDistances& readings, std::int64_t cycle) const {
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    const auto index = static_cast<std::uint64_t>(cycle) * kProximitySensors + i;
+    readings[i] = read(limited(readings[i], sensing_->range_m), i, index);
+  }
+}
+
+double ProximityNoise::read(double distance_m, std::size_t sensor, std::uint64_t index) const {
+  if (sensing_->phantom_rate > 0) {
+    Rng phantom = phantom_.at(index);
+    if (phantom.bernoulli(sensing_->phantom_rate)) {
+      return phantom.uniform(kBlindZone_m, sensing_->range_m);
+    }
+  }
+  if (distance_m == kInfinity) return distance_m;
+  if (sensing_->largest_miss_rate > 0 && miss_.at(index).bernoulli(miss_rates_[sensor])) {
+    return kInfinity;
+  }
+  if (!std::isfinite(distance_m)) return distance_m;
+  if (sensing_->scale_sd > 0) distance_m *= 1 + sensing_->scale_sd * scale_.normal(index);
+  if (sensing_->sd_m > 0) distance_m += sensing_->sd_m * normal_.normal(index);
+  return limited(distance_m, sensing_->range_m);
+}
+
+}  // namespace swarmsmith

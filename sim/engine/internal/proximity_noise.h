@@ -1,0 +1,34 @@
+#pragma once
+
+#include <array>
+
+#include "sim/engine/internal/noise_stream.h"
+#include "sim/engine/internal/rays.h"
+#include "sim/engine/profile.h"
+
+namespace swarmsmith {
+
+/// How one robot's proximity sensors fall short of the distances (thesis 4.2.9, 7.1; thesis facts,
+/// section 13).
+class ProximityNoise {
+ public:
+  /// Draws what the run keeps: the sensors' rates of misses. `sensing` must outlive the object.
+  ProximityNoise(const ProximitySensing& sensing, const Rng& run, int robot);
+
+  /// From physical distances to readings. A reading is a phantom, uniform in [0.05 m, R], whatever
+  /// is there; or a hit that is missed, +infinity; or a finite distance times N(1, scale_sd) plus
+  /// N(0, sd). The sensor's limits hold before and after.
+  void apply(RayDistances& readings, std::int64_t cycle) const;
+
+ private:
+  double read(double distance_m, std::size_t sensor, std::uint64_t index) const;
+
+  const ProximitySensing* sensing_;
+  NoiseStream normal_;
+  NoiseStream scale_;
+  NoiseStream miss_;
+  NoiseStream phantom_;
+  std::array<double, kProximitySensors> miss_rates_{};
+};
+
+}  // namespace swarmsmith

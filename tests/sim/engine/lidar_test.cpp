@@ -1,0 +1,162 @@
+#include "sim/engine/internal/lidar.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "base/math.h"
+#include "tests/sim/engine/plain_rays.h"
+#include "tests/sim/engine/statistics.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+const BoxOutline kRvr = {kBodySide_m, kBodySide_m};
+
+std::vector<double> scan(const World& world, int robot) {
+  std::vector<double> ranges(kLidarRays, -1);
+  scan_surroundings(world, robot, ranges);
+  return ranges;
+}
+
+std::vector<double> turrets(const World& world, int robot) {
+  std::vector<double> ranges(kLidarRays, -1);
+  scan_turrets(world, robot, ranges);
+  return ranges;
+}
+
+Point direction_of(double theta, int ray) {
+  const double angle = theta + 2 * kPi * ray / kLidarRays;
+  return {std::cos(angle), std::sin(angle)};
+}
+
+void expect_plain_scan(const World& world, const Arena& arena, const Pose& pose) {
+  const std::vector<double> ranges = scan(world, 0);
+  for (int ray = 0; ray < kLidarRays; ++ray) {
+    const double want =
+        to_anything(pose.position(), direction_of(pose.theta, ray), arena, world, 0);
+    ASSERT_NEAR(ranges[static_cast<std::size_t>(ray)], want, 1e-9) << "ray " << ray;
+  }
+}
+
+TEST(Lidar, MeetsWallsAndRobotsAsThePlainWayDoes) {
+  const Arena arena = dodecagon_of_the_thesis();
+  Rng rng(1);
+  for (int i = 0; i < 100; ++i) {
+    const std::vector<Pose> poses = {
+        {rng.uniform(-0.3, 0.3), rng.uniform(-0.3, 0.3), rng.uniform(-kPi, kPi)},
+        {rng.uniform(0.6, 1), rng.uniform(-0.3, 0.3), rng.uniform(-kPi, kPi)},
+        {rng.uniform(-1, -0.6), rng.uniform(-0.3, 0.3), rng.uniform(-kPi, kPi)}};
+    expect_plain_scan(World(arena, kRvr, poses, ContactModel::Exact), arena, poses[0]);
+  }
+}
+
+TEST(Lidar, MeetsObstaclesObjectsAndWallsThatAreNotConvex) {
+  Arena arena = notched_arena();
+  furnish(arena);
+  Rng rng(2);
+  for (int i = 0; i < 100; ++i) {
+    const std::vector<Pose> poses = {
+        {rng.uniform(-0.1, 0.1), rng.uniform(-0.25, -0.1), rng.uniform(-kPi, kPi)},
+        {rng.uniform(-0.6, -0.4), rng.uniform(0.0, 0.1), rng.uniform(-kPi, kPi)}};
+    expect_plain_scan(World(arena, CircleOutline{0.09}, poses, ContactModel::Box2d), arena,
+                      poses[0]);
+  }
+}
+
+TEST(Lidar, LooksAheadFirstAndThenCounterClockwise) {
+  // The robot looks along +y: 4 m ahead, 3 m to the left, 1 m to the right.
+  Arena arena;
+  const std::vector<Point> corners = {{1, -2}, {1, 4}, {-3, 4}, {-3, -2}};
+  for (std::size_t i = 0; i < 4; ++i)
+    arena.walls.push_back({corners[i], corners[(i + 1) % 4]});
+  const std::vector<Pose> poses = {{0, 0, kPi / 2}};
+  const std::vector<double> ranges = scan(World(arena, kRvr, poses, ContactModel::Exact), 0);
+  EXPECT_NEAR(ranges[0], 4, 1e-12);
+  // Ray 180 looks 90 + 90 / 719 degrees to the left, ray 539 as much to the right.
+  const double cosine = std::cos(90.0 / 719 * kPi / 180);
+  EXPECT_NEAR(ranges[180], 3 / cosine, 1e-12);
+  EXPECT_NEAR(ranges[539], 1 / cosine, 1e-12);
+}
+
+TEST(Lidar, NoRaySlipsThroughACornerOfTheArena) {
+  const Arena arena = dodecagon_of_the_thesis();
+  // Headings that put rays right onto corners, as far as numbers can.
+  for (const Wall& wall : arena.walls) {
+    for (const int ray : {0, 1, 359, 360, 718}) {
+      const double theta = atan2(wall.from.y, wall.from.x) - 2 * kPi * ray / kLidarRays;
+      const std::vector<Pose> poses = {{0, 0, theta}};
+      const std::vector<double> ranges = scan(World(arena, kRvr, poses, ContactModel::Exact), 0);
+      EXPECT_LT(*std::max_element(ranges.begin(), ranges.end()), 1.28);
+    }
+  }
+}
+
+TEST(Lidar, SeesOnlyTurretsWhereRobotsAreSought) {
+  const Arena arena = dodecagon_of_the_thesis();
+  const std::vector<Pose> poses = {{0, 0, 0.3}, {0.75, 0, 0}, {0, 0.5, 2}};
+  const World world(arena, kRvr, poses, ContactModel::Exact);
+  const std::vector<double> ranges = turrets(world, 0);
+  int met = 0;
+  for (int ray = 0; ray < kLidarRays; ++ray) {
+    double want = kInfinity;
+    for (const std::size_t other : {1U, 2U}) {
+      want = std::min(want, to_circle({0, 0}, direction_of(0.3, ray), poses[other].position(),
+                                      kTurretRadius_m));
+    }
+    const double got = ranges[static_cast<std::size_t>(ray)];
+    ASSERT_TRUE(got == want || std::fabs(got - want) < 1e-9) << "ray " << ray;
+    met += std::isfinite(got) ? 1 : 0;
+  }
+  // 2 asin(0.035 / d) of 360 degrees: 10.68 rays at 0.75 m, 16.03 at 0.5 m.
+  EXPECT_NEAR(met, 10.68 + 16.03, 2);
+}
+
+TEST(Lidar, LimitsAreItsRange) {
+  std::vector<double> ranges(kLidarRays, 1.0);
+  ranges[0] = 0.0999;
+  ranges[1] = 0.10;
+  ranges[2] = 12;
+  ranges[3] = 12.001;
+  ranges[4] = kInfinity;
+  add_lidar_noise(ranges, 0, NoiseStream(), 1);
+  EXPECT_EQ(ranges[0], -kInfinity);
+  EXPECT_EQ(ranges[1], 0.10);
+  EXPECT_EQ(ranges[2], 12);
+  EXPECT_EQ(ranges[3], kInfinity);
+  EXPECT_EQ(ranges[4], kInfinity);
+  EXPECT_EQ(ranges[5], 1.0);
+}
+
+TEST(LidarNoise, IsUniformAndAnotherForEachRayAndCycle) {
+  const NoiseStream noise(Rng(3), "lidar", 0);
+  std::vector<double> errors;
+  for (int cycle = 1; cycle <= 20; ++cycle) {
+    std::vector<double> ranges(kLidarRays, 1.0);
+    add_lidar_noise(ranges, 0.01, noise, cycle);
+    for (const double range : ranges)
+      errors.push_back(range - 1.0);
+  }
+  EXPECT_LT(ks_statistic(errors, [](double x) { return (x + 0.01) / 0.02; }), kKsLimit);
+  std::sort(errors.begin(), errors.end());
+  EXPECT_EQ(std::adjacent_find(errors.begin(), errors.end()), errors.end());
+}
+
+TEST(LidarNoise, ComesBeforeTheLimits) {
+  const NoiseStream noise(Rng(4), "lidar", 0);
+  std::vector<double> ranges(kLidarRays, 0.105);
+  std::fill(ranges.begin() + 300, ranges.end(), 11.995);
+  add_lidar_noise(ranges, 0.01, noise, 1);
+  const auto near = std::count(ranges.begin(), ranges.begin() + 300, -kInfinity);
+  const auto far = std::count(ranges.begin() + 300, ranges.end(), kInfinity);
+  EXPECT_LT(std::fabs(binomial_z(static_cast<double>(near), 300, 0.25)), 3.3);
+  EXPECT_LT(std::fabs(binomial_z(static_cast<double>(far), 419, 0.25)), 3.3);
+}
+
+}  // namespace
+}  // namespace swarmsmith
