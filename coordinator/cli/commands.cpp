@@ -61,6 +61,18 @@ Examples:
   swarmsmith evaluate --flavour watermelon-argos3 --profile argos3 --mission color_selection \
       --seeds 1-100 --starts starts.csv --patches patches.csv machine.fsm)";
 
+constexpr std::string_view kReplayDetails =
+    R"(Simulates a stored evaluation again and checks that score and final state have the same bits as
+stored; exit code 1 when they have not. Writes it down on the way: poses, commands, states and
+readings as CSV, a picture as SVG (docs/trajectories.md).
+
+Examples:
+  swarmsmith replay e100007 demo.db
+  swarmsmith replay e100007 demo.db --csv run.csv --readings ground_color,proximity
+  swarmsmith replay c1 demo.db --seed 7 --svg run.svg
+  swarmsmith replay c1 demo.db --seed 7 --svg - --at 60 > minute.svg
+  swarmsmith replay --sample 100 demo.db)";
+
 constexpr std::string_view kStatusDetails = R"(Reads the store, also while a campaign runs.
 
 Examples:
@@ -114,6 +126,8 @@ constexpr std::array kCommands = {
     Command{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
     Command{"query", "Ask a store in SQL", kQueryDetails, declare_query},
     Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate},
+    Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
+            declare_replay},
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
