@@ -19,6 +19,7 @@ namespace {
 constexpr double kMargin = 2;
 constexpr double kTitleSize = 3.4;
 constexpr double kTextSize = 2.8;
+constexpr double kBolder = 1.15;  ///< bold letters are so much wider
 constexpr double kLineHeight = 4.2;
 constexpr double kTallest = 1.25;          ///< of the arena, as part of the width
 constexpr double kTolerance = 0.06;        ///< of trails: less than a pixel of 300 a inch
@@ -97,7 +98,7 @@ std::vector<LegendEntry> legend_of(const ArenaPicture& picture) {
     ++counts[robot.label];
   for (const auto& [label, count] : counts) {
     if (label.empty()) continue;
-    entries.push_back({"", std::to_string(count) + " x " + label});
+    entries.push_back({"", std::to_string(count) + " \xc3\x97 " + label});
   }
   return entries;
 }
@@ -184,7 +185,7 @@ void draw_light(Svg& svg, PagePoint centre) {
 void draw_trail(Svg& svg, std::span<const PagePoint> track, const std::string& color,
                 bool on_white) {
   if (track.size() < 2) return;
-  if (on_white) svg.line(simplified(track, kTolerance), stroked("#ffffff", 0.8));
+  if (on_white) svg.line(simplified(track, kTolerance), stroked("#ffffff", 0.7));
   const std::size_t steps = track.size() - 1;
   for (std::size_t part = 0; part < kFadeSteps; ++part) {
     const std::size_t first = steps * part / kFadeSteps;
@@ -316,7 +317,7 @@ std::string draw(const ArenaPicture& picture) {
   for (const Light& light : picture.arena.lights)
     draw_light(svg, view.at({light.x_m, light.y_m}));
   double y = kMargin + 2.8;
-  svg.text({kMargin, y}, fitted_text(picture.title, kTitleSize, width),
+  svg.text({kMargin, y}, fitted_text(picture.title, kBolder * kTitleSize, width),
            {.size = kTitleSize, .bold = true, .fill = std::string(kInk)});
   for (const std::string& line : lines) {
     y += kLineHeight;
