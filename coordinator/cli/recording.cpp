@@ -53,6 +53,10 @@ void RecordingArguments::declare(Options& options) {
   options.text("--width", width, "Width of the picture, such as 84mm or 3.3in (default 84mm)");
 }
 
+ExitCode exit_code_of_recording(const Error& error) {
+  return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
+}
+
 Expected<void> Recording::Sink::close() {
   if (stream == nullptr) return {};
   stream->flush();

@@ -33,6 +33,9 @@ struct RecordingArguments {
   bool takes_standard_output() const { return csv == "-" || objects_csv == "-" || svg == "-"; }
 };
 
+/// What to exit with after an error of `Recording`.
+ExitCode exit_code_of_recording(const Error& error);
+
 /// Writes a run down while it is simulated.
 class Recording {
  public:

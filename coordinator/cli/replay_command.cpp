@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/recording.h"
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/cli/stored_runs.h"
@@ -69,18 +70,13 @@ std::string as_line(const StoredRun& run, const SimulationResult& result) {
 
 /// What a picture says of the run, besides the mission and the times.
 std::vector<std::string> details_of(const StoredRun& run, const SimulationResult& result) {
-  char score[32];
-  std::snprintf(score, sizeof score, "score %.6g", result.score);
-  return {run.candidate, "seed " + std::to_string(run.seed), score};
+  return {run.candidate, "seed " + std::to_string(run.seed), "score " + score_text(result.score)};
 }
 
 ExitCode replay_one(const StoredRun& run, const Arguments& arguments, int engine_version,
                     Output& output) {
   auto recording = Recording::start(arguments.recording, run.mission, run.machine, output);
-  if (!recording) {
-    const bool usage = recording.error().kind == ErrorKind::BadInput;
-    return fail(output, usage ? ExitCode::Usage : ExitCode::Failed, recording.error());
-  }
+  if (!recording) return fail(output, exit_code_of_recording(recording.error()), recording.error());
   const SimulationResult result = simulate(run.setup(), recording->recorder());
   const auto written = recording->finish(details_of(run, result), run.instance);
   if (!written) return fail(output, ExitCode::Failed, written.error());

@@ -164,12 +164,11 @@ TEST_F(Replay, OfASampleCountsTheDifferences) {
   EXPECT_EQ(json::parse(ran.out),
             json::parse(R"({"replayed":7,"same_bits":6,"different":["e100001a"]})"));
   EXPECT_THAT(ran.err, HasSubstr("e100001a: the replay gives"));
-  // Ordered by candidate, purpose and pair, the third, fifth and seventh: two of the race, the test.
+  // Ordered by candidate, purpose and pair, the third, fifth and seventh: two of the race, the
+  // test.
   const Ran three = run({"replay", "--sample", "3", "--store", store_});
   EXPECT_EQ(three.code, 0) << three.err;
   EXPECT_EQ(three.out, "3 evaluations replayed, 3 with the same bits as stored\n");
-});
-  EXPECT_THAT(two.out, HasSubstr("3 evaluations replayed, "));
 }
 
 TEST_F(Replay, WritesATableThatGivesTheScoreAgain) {
