@@ -199,6 +199,15 @@ TEST_F(Replay, WritesCommandsStatesAndReadingsToStandardOutput) {
   EXPECT_THAT(ran.err, StartsWith("e100001: same bits as stored"));
 }
 
+TEST_F(Replay, IsNotChangedByWritingItDown) {
+  const std::string file = (folder_ / "run.csv").string();
+  for (const char* id : {"e100001", "e100004"}) {
+    const Ran ran = run({"replay", id, store_, "--csv", file, "--readings", "all,lidar", "--json"});
+    ASSERT_EQ(ran.code, 0) << ran.err;
+    EXPECT_EQ(json::parse(ran.out)["same_bits"], true);
+  }
+}
+
 TEST_F(Replay, DrawsTheRunOrAPartOfIt) {
   const Ran whole = run({"replay", "e100001", store_, "--svg", "-", "--width", "10cm"});
   ASSERT_EQ(whole.code, 0) << whole.err;
