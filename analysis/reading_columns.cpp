@@ -23,10 +23,10 @@ struct Device {
 };
 
 /// stem0_unit, stem1_unit, ...
-Names numbered(const std::string& stem, int count, const std::string& unit) {
+Names numbered(std::string_view stem, int count, std::string_view unit) {
   Names names;
   for (int i = 0; i < count; ++i)
-    names.push_back(stem + std::to_string(i) + unit);
+    names.push_back(std::string(stem).append(std::to_string(i)).append(unit));
   return names;
 }
 

@@ -82,6 +82,14 @@ double distance_from(PagePoint point, PagePoint a, PagePoint b) {
 
 }  // namespace
 
+Paint filled(std::string_view color) {
+  return {.fill = std::string(color), .stroke = "none", .width = 0, .dashes = {}};
+}
+
+Paint stroked(std::string_view color, double width) {
+  return {.fill = "none", .stroke = std::string(color), .width = width, .dashes = {}};
+}
+
 std::string distinct_color(std::size_t number) {
   // Blue, vermillion, green, purple, orange, sky blue, black; yellow is too pale for thin lines.
   constexpr std::array<std::string_view, kDistinctColors> kColors = {
@@ -115,9 +123,10 @@ double text_width(std::string_view text, double size) {
 std::string fitted_text(std::string_view text, double size, double width) {
   if (text_width(text, size) <= width) return std::string(text);
   while (!text.empty() && text_width(text, size) + text_width("x", size) > width) {
-    do {
+    // A character goes with all of its bytes.
+    while (text.size() > 1 && !begins_character(text.back()))
       text.remove_suffix(1);
-    } while (!text.empty() && !begins_character(text.data()[text.size()]));
+    text.remove_suffix(1);
   }
   return std::string(text) + "\xe2\x80\xa6";
 }
@@ -147,11 +156,11 @@ void Svg::polygon(std::span<const PagePoint> corners, const Paint& paint) {
 
 void Svg::outside(std::span<const PagePoint> corners, const Paint& paint) {
   const std::array<PagePoint, 4> page = {{{0, 0}, {width_, 0}, {width_, height_}, {0, height_}}};
-  path(path_through(page) + "Z" + path_through(corners) + "Z", paint, " fill-rule=\"evenodd\"");
+  path(path_through(page) + "Z" + path_through(corners) + "Z", paint, R"( fill-rule="evenodd")");
 }
 
 void Svg::line(std::span<const PagePoint> points, const Paint& paint) {
-  path(path_through(points), paint, " stroke-linejoin=\"round\" stroke-linecap=\"round\"");
+  path(path_through(points), paint, R"( stroke-linejoin="round" stroke-linecap="round")");
 }
 
 void Svg::text(PagePoint at, std::string_view text, const TextStyle& style) {

@@ -28,6 +28,9 @@ struct Paint {
   std::string dashes;  ///< lengths in mm, such as "0.8 0.6"; empty: none
 };
 
+Paint filled(std::string_view color);
+Paint stroked(std::string_view color, double width);
+
 struct TextStyle {
   enum class Anchor { Start, Middle, End };
   double size = 2.8;  ///< mm: 2.8 mm are 8 points

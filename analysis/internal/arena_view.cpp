@@ -94,6 +94,7 @@ std::vector<PagePoint> ArenaView::outline(const Outline& outline, const Pose& po
 
 std::vector<PagePoint> ArenaView::track(const std::vector<Pose>& poses) const {
   std::vector<PagePoint> points;
+  points.reserve(poses.size());
   for (const Pose& pose : poses)
     points.push_back(at(pose.position()));
   return points;

@@ -57,7 +57,7 @@ ExitCode exit_code_of_recording(const Error& error) {
   return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
 }
 
-Expected<void> Recording::Sink::close() {
+Expected<void> Recording::Sink::close() const {
   if (stream == nullptr) return {};
   stream->flush();
   const bool good = stream->good();
@@ -161,7 +161,7 @@ Recorder Recording::recorder() {
   const bool asked =
       csv_.stream != nullptr || objects_csv_.stream != nullptr || svg_.stream != nullptr;
   if (!asked) return {};
-  return Recorder([this](const Snapshot& snapshot) { observe(snapshot); }, sensors_);
+  return {[this](const Snapshot& snapshot) { observe(snapshot); }, sensors_};
 }
 
 std::string Recording::behaviour_of(int state) const {
@@ -229,7 +229,7 @@ std::string Recording::picture(const std::vector<std::string>& details,
 Expected<void> Recording::finish(const std::vector<std::string>& details,
                                  const Instance& instance) {
   if (svg_.stream != nullptr) *svg_.stream << picture(details, instance);
-  for (Sink* sink : {&csv_, &objects_csv_, &svg_}) {
+  for (const Sink* sink : {&csv_, &objects_csv_, &svg_}) {
     if (auto closed = sink->close(); !closed) return closed;
   }
   return {};

@@ -60,7 +60,7 @@ class Recording {
     std::unique_ptr<std::ofstream> file;  ///< none for standard output
     std::ostream* stream = nullptr;       ///< null: not asked for
 
-    Expected<void> close();
+    Expected<void> close() const;
   };
 
   Recording(const Mission& mission, const Machine& machine)

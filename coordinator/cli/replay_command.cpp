@@ -1,4 +1,5 @@
-#include <cstdio>
+#include <fmt/format.h>
+
 #include <memory>
 
 #include "coordinator/cli/commands.h"
@@ -19,9 +20,7 @@ struct Arguments {
 };
 
 std::string hexadecimal(std::uint64_t digest) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(digest));
-  return text;
+  return fmt::format("{:016x}", digest);
 }
 
 /// "e81200007", or "c812, seed 7" for what the store does not hold.

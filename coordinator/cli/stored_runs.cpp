@@ -17,7 +17,7 @@ using Cell = StoreReader::Cell;
 
 /// From the JSON object of what decides the campaign, whose values are texts.
 int engine_version_in(const std::string& deciding) {
-  constexpr std::string_view kKey = "\"engine.version\":\"";
+  constexpr std::string_view kKey = R"("engine.version":")";
   const std::size_t at = deciding.find(kKey);
   return at == std::string::npos ? 0 : std::atoi(deciding.c_str() + at + kKey.size());
 }
