@@ -53,8 +53,10 @@ void draw_trail(Svg& svg, std::span<const PagePoint> track, const std::string& c
     const std::size_t last = steps * (part + 1) / kFadeSteps;
     if (first == last) continue;
     const double age = 1 - static_cast<double>(part + 1) / static_cast<double>(kFadeSteps);
-    svg.line(simplified(track.subspan(first, last - first + 1), kTolerance),
-             stroked(lightened(color, 0.6 * age), 0.4));
+    const auto points = simplified(track.subspan(first, last - first + 1), kTolerance);
+    // Who stands leaves no trail.
+    if (points.size() == 2 && points.front() == points.back()) continue;
+    svg.line(points, stroked(lightened(color, 0.6 * age), 0.4));
   }
 }
 

@@ -208,8 +208,21 @@ TEST_F(Replay, IsNotChangedByWritingItDown) {
   }
 }
 
+/// The outline that is filled with the first robot's colour.
+std::string body_of_robot_0(const std::string& svg) {
+  const std::size_t fill = svg.find("\" fill=\"#0072b2\" stroke=\"#ffffff\"");
+  if (fill == std::string::npos) return "no body of robot 0";
+  const std::size_t begin = svg.rfind("d=\"M", fill);
+  return svg.substr(begin, fill - begin);
+}
+
 TEST_F(Replay, DrawsTheRunOrAPartOfIt) {
-  const Ran whole = run({"replay", "e100001", store_, "--svg", "-", "--width", "10cm"});
+  // Wide enough for all to be said in one line, so that all have the same scale.
+  const auto draw = [&](std::vector<std::string> words) {
+    words.insert(words.begin(), {"replay", "e100001", store_, "--svg", "-", "--width", "10cm"});
+    return run(words);
+  };
+  const Ran whole = draw({});
   ASSERT_EQ(whole.code, 0) << whole.err;
   EXPECT_THAT(whole.out, StartsWith("<svg "));
   EXPECT_THAT(whole.out, HasSubstr("width=\"100mm\""));
@@ -217,13 +230,17 @@ TEST_F(Replay, DrawsTheRunOrAPartOfIt) {
   EXPECT_THAT(whole.out, HasSubstr("c1 \xc2\xb7 seed 21 \xc2\xb7 score "));
   EXPECT_THAT(whole.out, HasSubstr("0 s (hollow) to 120 s"));
   EXPECT_LT(whole.out.size(), 200'000U);
-  const Ran part = run({"replay", "e100001", store_, "--svg", "-", "--from", "118", "--to", "119.5 s"});
+  const Ran part = draw({"--from", "118", "--to", "119.5 s"});
   EXPECT_THAT(part.out, HasSubstr("118 s (hollow) to 119.5 s"));
-  EXPECT_LT(part.out.size(), whole.out.size() / 2);
-  const Ran instant = run({"replay", "e100001", store_, "--svg", "-", "--at", "0"});
+  const Ran instant = draw({"--at", "0"});
   EXPECT_THAT(instant.out, HasSubstr("at 0 s"));
   EXPECT_THAT(instant.out, HasSubstr(">0 exploration</text>"));
-  EXPECT_LT(instant.out.size(), part.out.size());
+  // Where robot 0 starts is in the whole run's picture and not in that of the last seconds; where
+  // it is at 119.5 s is in theirs.
+  EXPECT_THAT(whole.out, HasSubstr(body_of_robot_0(instant.out)));
+  EXPECT_THAT(part.out, Not(HasSubstr(body_of_robot_0(instant.out))));
+  const Ran end = draw({"--at", "119.5"});
+  EXPECT_THAT(part.out, HasSubstr(body_of_robot_0(end.out)));
 }
 
 struct Misuse {
