@@ -72,6 +72,18 @@ Examples:
   swarmsmith assess --flavour watermelon-argos3 --profile argos3
   swarmsmith assess --json)";
 
+constexpr std::string_view kReplayDetails =
+    R"(Simulates a stored evaluation again and checks that score and final state have the same bits as
+stored; exit code 1 when they have not. Writes it down on the way: poses, commands, states and
+readings as CSV, a picture as SVG (docs/trajectories.md).
+
+Examples:
+  swarmsmith replay e100007 demo.db
+  swarmsmith replay e100007 demo.db --csv run.csv --readings ground_color,proximity
+  swarmsmith replay c1 demo.db --seed 7 --svg run.svg
+  swarmsmith replay c1 demo.db --seed 7 --svg - --at 60 > minute.svg
+  swarmsmith replay --sample 100 demo.db)";
+
 constexpr std::string_view kStatusDetails = R"(Reads the store, also while a campaign runs.
 
 Examples:
@@ -127,6 +139,8 @@ constexpr std::array kCommands = {
     Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate},
     Command{"assess", "Measure whether each module does what it promises", kAssessDetails,
             declare_assess},
+    Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
+            declare_replay},
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},

@@ -1,11 +1,14 @@
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
 
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/instance_csv.h"
 #include "coordinator/cli/machine_argument.h"
 #include "coordinator/cli/mean_interval.h"
+#include "coordinator/cli/progress_text.h"
+#include "coordinator/cli/recording.h"
 #include "coordinator/cli/seeds.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
@@ -22,6 +25,7 @@ struct Arguments {
   std::string starts;
   std::string patches;
   StoreArgument store;
+  RecordingArguments recording;
 };
 
 /// Everything that the runs have in common.
@@ -156,19 +160,28 @@ Expected<Instance> instance_for(const Plan& plan, std::int64_t seed) {
 }
 
 /// For people: mean and interval.
-void write_summary(Output& output, const std::vector<double>& scores) {
+void write_summary(std::ostream& out, const std::vector<double>& scores) {
   const MeanInterval summary = mean_interval(scores);
   const auto shown = [](double value) {
     char buffer[32];
     const int size = std::snprintf(buffer, sizeof buffer, "%.6g", value);
     return std::string(buffer, static_cast<std::size_t>(size));
   };
-  output.out << "mean " << shown(summary.mean);
+  out << "mean " << shown(summary.mean);
   if (scores.size() > 1) {
-    output.out << "  95 % interval " << shown(summary.mean - summary.half_width) << " to "
-               << shown(summary.mean + summary.half_width);
+    out << "  95 % interval " << shown(summary.mean - summary.half_width) << " to "
+        << shown(summary.mean + summary.half_width);
   }
-  output.out << "  n " << scores.size() << "\n";
+  out << "  n " << scores.size() << "\n";
+}
+
+/// What a picture says of the run; a machine given as text has no name.
+std::vector<std::string> details_of(const Arguments& arguments, std::int64_t seed, double score) {
+  const std::size_t first = arguments.machine.find_first_not_of(' ');
+  const bool is_text = arguments.machine.compare(first, 2, "--") == 0;
+  const std::string name =
+      is_text ? "" : std::filesystem::path(arguments.machine).filename().string();
+  return {name, "seed " + std::to_string(seed), "score " + score_text(score)};
 }
 
 ExitCode run(const Arguments& arguments, Output& output) {
@@ -188,6 +201,13 @@ ExitCode run(const Arguments& arguments, Output& output) {
     if (!instance) return fail(output, ExitCode::Usage, instance.error());
     instances.push_back(std::move(*instance));
   }
+  if (arguments.recording.any() && plan->seeds.size() > 1) {
+    return fail(output, ExitCode::Usage,
+                "--seeds: tables and pictures are of one run; name one seed");
+  }
+  auto recording = Recording::start(arguments.recording, plan->mission, plan->machine, output);
+  if (!recording) return fail(output, exit_code_of_recording(recording.error()), recording.error());
+  std::ostream& answer = arguments.recording.takes_standard_output() ? output.err : output.out;
   std::vector<double> scores;
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const SimulationResult result = simulate({.machine = plan->machine,
@@ -195,16 +215,20 @@ ExitCode run(const Arguments& arguments, Output& output) {
                                               .profile = plan->profile,
                                               .mission = plan->mission,
                                               .instance = instances[i],
-                                              .seed = plan->seeds[i]});
+                                              .seed = plan->seeds[i]},
+                                             recording->recorder());
     scores.push_back(result.score);
     const std::string score = json_number(result.score);
     if (output.json) {
       output.out << "{\"seed\":" << plan->seeds[i] << ",\"score\":" << score << "}\n";
     } else {
-      output.out << "seed " << plan->seeds[i] << "  score " << score << "\n";
+      answer << "seed " << plan->seeds[i] << "  score " << score << "\n";
     }
   }
-  if (!output.json) write_summary(output, scores);
+  const auto written = recording->finish(details_of(arguments, plan->seeds.front(), scores.front()),
+                                         instances.front());
+  if (!written) return fail(output, ExitCode::Failed, written.error());
+  if (!output.json) write_summary(answer, scores);
   return output.out.good() ? ExitCode::Done : ExitCode::Failed;
 }
 
@@ -226,6 +250,7 @@ Run declare_evaluate(Options& options) {
   options.text("--starts", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
   options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");
   arguments->store.declare(options, false);
+  arguments->recording.declare(options);
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

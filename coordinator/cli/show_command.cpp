@@ -1,9 +1,10 @@
-#include <charconv>
+#include <algorithm>
 #include <memory>
 
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
+#include "coordinator/cli/thing_id.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -49,25 +50,17 @@ std::vector<Part> parts_of_candidate(const std::string& number) {
                number + " GROUP BY purpose, source"}};
 }
 
-std::vector<Part> parts_of_evaluation(const std::string& id) {
-  // e<candidate * 100,000 + pair>, a letter of the purpose behind it: the candidate makes it quick.
-  const std::string digits = id.substr(1, id.find_last_of("0123456789"));
-  return {{"evaluation", "SELECT * FROM v_evaluations WHERE candidate = " + digits +
-                             " / 100000 AND id = '" + id + "'"}};
+std::vector<Part> parts_of_evaluation(const ThingId& id) {
+  return {{"evaluation", "SELECT * FROM v_evaluations WHERE " + is_evaluation(id)}};
 }
 
 /// The parts, or none when the text is no id.
-std::vector<Part> parts_of(const std::string& id) {
-  if (id.size() < 2) return {};
-  const char purpose = id.front() == 'e' ? id.back() : '0';
-  const bool lettered = std::string_view("ltas").find(purpose) != std::string_view::npos;
-  const std::string number = id.substr(1, id.size() - (lettered ? 2 : 1));
-  if (number.empty() || number.size() > 18) return {};
-  if (number.find_first_not_of("0123456789") != std::string::npos) return {};
-  if (id.front() == 'd') return parts_of_design(number);
-  if (id.front() == 'c') return parts_of_candidate(number);
-  if (id.front() == 'e') return parts_of_evaluation(id);
-  return {};
+std::vector<Part> parts_of(const std::string& text) {
+  const auto id = parse_thing_id(text);
+  if (!id) return {};
+  if (id->letter == 'd') return parts_of_design(id->digits);
+  if (id->letter == 'c') return parts_of_candidate(id->digits);
+  return parts_of_evaluation(*id);
 }
 
 /// One row as "name  value" lines.

@@ -123,6 +123,20 @@ TEST(Evaluate, TakesPatchesFromATable) {
   EXPECT_THAT(ran.err, HasSubstr("patches.csv:2: mission color_selection has no place"));
 }
 
+TEST(Evaluate, WritesARunDown) {
+  const TemporaryFolder folder;
+  write_file(folder / "best.fsm", kExploreText + "\n");
+  const std::string svg = (folder / "run.svg").string();
+  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--mission", "aggregation",
+                       "--seeds", "7", "--csv", "-", "--svg", svg});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, testing::StartsWith("cycle,time_s,robot,x,y,theta,cmd_left,"));
+  EXPECT_THAT(ran.err, HasSubstr("seed 7  score "));
+  std::ostringstream drawn;
+  drawn << std::ifstream(svg).rdbuf();
+  EXPECT_THAT(drawn.str(), HasSubstr(">best.fsm \xc2\xb7 seed 7 \xc2\xb7 score "));
+}
+
 struct Misuse {
   std::vector<std::string> words;
   const char* sentence;
@@ -135,6 +149,8 @@ TEST(Evaluate, ExplainsWhatIsWrongWithItsArguments) {
       {{kStopText, "--mission", "aggregation", "--flavour", "melon"}, "--flavour: there is no"},
       {{kStopText, "--mission", "aggregation", "--profile", "x"}, "--profile: "},
       {{kStopText, "--mission", "aggregation", "--seeds", "3-1"}, "--seeds: seeds are written"},
+      {{kStopText, "--mission", "aggregation", "--csv", "x"}, "--seeds: tables and pictures are"},
+      {{kStopText, "--mission", "aggregation", "--at", "3"}, "add --svg FILE"},
       {{"--nstates 1 --s0 9", "--mission", "aggregation"}, "MACHINE, token"},
       {{"nothing.fsm", "--mission", "aggregation"}, "nothing.fsm: this is no machine"},
       {{"c1", "--mission", "aggregation"}, "which store?"},

@@ -1,0 +1,15 @@
+#pragma once
+
+#include <string_view>
+
+namespace swarmsmith {
+
+/// What the figures have in common; lengths on the page, mm.
+inline constexpr double kMargin = 2;
+inline constexpr double kTitleSize = 3.4;
+inline constexpr double kTextSize = 2.8;
+inline constexpr double kBolder = 1.15;  ///< bold letters are so much wider
+inline constexpr double kLineHeight = 4.2;
+inline constexpr std::string_view kInk = "#222222";
+
+}  // namespace swarmsmith

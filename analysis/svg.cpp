@@ -1,0 +1,223 @@
+#include "analysis/svg.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <utility>
+
+namespace swarmsmith {
+namespace {
+
+/// Hundredths of a millimetre are finer than any printer; the shortest text of that.
+std::string number(double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value,
+                                 std::chars_format::fixed, 2)
+                       .ptr;
+  std::string text(buffer.data(), end);
+  text.erase(text.find_last_not_of('0') + 1);
+  if (text.back() == '.') text.pop_back();
+  return text == "-0" ? "0" : text;
+}
+
+std::string attribute(std::string_view name, std::string_view value) {
+  return " " + std::string(name) + "=\"" + std::string(value) + "\"";
+}
+
+/// Letters that mean something in XML are written as entities; control characters, which XML cannot
+/// hold at all, are dropped.
+std::string escaped(std::string_view text) {
+  std::string result;
+  for (const char letter : text) {
+    if (letter == '&') {
+      result += "&amp;";
+    } else if (letter == '<') {
+      result += "&lt;";
+    } else if (letter == '>') {
+      result += "&gt;";
+    } else if (letter == '"') {
+      result += "&quot;";
+    } else if (static_cast<unsigned char>(letter) >= 0x20) {
+      result += letter;
+    }
+  }
+  return result;
+}
+
+std::string attributes_of(const Paint& paint) {
+  std::string text = attribute("fill", paint.fill);
+  if (paint.stroke == "none") return text;
+  text += attribute("stroke", paint.stroke) + attribute("stroke-width", number(paint.width));
+  if (!paint.dashes.empty()) text += attribute("stroke-dasharray", paint.dashes);
+  return text;
+}
+
+/// "M0 0L1 2 3 4": after the first L its letter may be left out.
+std::string path_through(std::span<const PagePoint> points) {
+  std::string data;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    data += i == 0 ? "M" : i == 1 ? "L" : " ";
+    data += number(points[i].x) + " " + number(points[i].y);
+  }
+  return data;
+}
+
+bool begins_character(char letter) {
+  return (static_cast<unsigned char>(letter) & 0xc0U) != 0x80U;
+}
+
+/// Distance of a point from the segment from `a` to `b`.
+double distance_from(PagePoint point, PagePoint a, PagePoint b) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  const double length2 = dx * dx + dy * dy;
+  double along = 0;
+  if (length2 > 0) along = ((point.x - a.x) * dx + (point.y - a.y) * dy) / length2;
+  along = std::clamp(along, 0.0, 1.0);
+  const double ex = point.x - (a.x + along * dx);
+  const double ey = point.y - (a.y + along * dy);
+  return std::sqrt(ex * ex + ey * ey);
+}
+
+}  // namespace
+
+Paint filled(std::string_view color) {
+  return {.fill = std::string(color), .stroke = "none", .width = 0, .dashes = {}};
+}
+
+Paint stroked(std::string_view color, double width) {
+  return {.fill = "none", .stroke = std::string(color), .width = width, .dashes = {}};
+}
+
+std::string distinct_color(std::size_t number) {
+  // Blue, vermillion, green, purple, orange, sky blue, black; yellow is too pale for thin lines.
+  constexpr std::array<std::string_view, kDistinctColors> kColors = {
+      "#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#000000"};
+  return std::string(kColors[number % kDistinctColors]);
+}
+
+std::string lightened(const std::string& color, double towards_white) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string result = "#";
+  for (std::size_t at = 1; at + 1 < color.size(); at += 2) {
+    int channel = 0;
+    std::from_chars(color.data() + at, color.data() + at + 2, channel, 16);
+    const auto mixed =
+        static_cast<std::size_t>(std::lround(channel + (255 - channel) * towards_white));
+    result += kDigits[mixed / 16];
+    result += kDigits[mixed % 16];
+  }
+  return result;
+}
+
+std::size_t characters_in(std::string_view text) {
+  return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
+}
+
+double text_width(std::string_view text, double size) {
+  // DejaVu Sans, the widest of the common ones, has 0.6 of its size a letter on average.
+  return 0.6 * size * static_cast<double>(characters_in(text));
+}
+
+std::string fitted_text(std::string_view text, double size, double width) {
+  if (text_width(text, size) <= width) return std::string(text);
+  while (!text.empty() && text_width(text, size) + text_width("x", size) > width) {
+    // A character goes with all of its bytes.
+    while (text.size() > 1 && !begins_character(text.back()))
+      text.remove_suffix(1);
+    text.remove_suffix(1);
+  }
+  return std::string(text) + "\xe2\x80\xa6";
+}
+
+Svg::Svg(double width_mm, double height_mm, std::string_view title, std::string_view description)
+    : width_(width_mm), height_(height_mm) {
+  const std::string w = number(width_mm);
+  const std::string h = number(height_mm);
+  text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\"" + attribute("width", w + "mm") +
+          attribute("height", h + "mm") + attribute("viewBox", "0 0 " + w + " " + h) +
+          " role=\"img\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\">\n<title>" +
+          escaped(title) + "</title>\n<desc>" + escaped(description) + "</desc>\n";
+}
+
+void Svg::circle(PagePoint centre, double radius, const Paint& paint) {
+  text_ += "<circle" + attribute("cx", number(centre.x)) + attribute("cy", number(centre.y)) +
+           attribute("r", number(radius)) + attributes_of(paint) + "/>\n";
+}
+
+void Svg::path(const std::string& data, const Paint& paint, std::string_view more) {
+  text_ += "<path" + attribute("d", data) + attributes_of(paint) + std::string(more) + "/>\n";
+}
+
+void Svg::polygon(std::span<const PagePoint> corners, const Paint& paint) {
+  path(path_through(corners) + "Z", paint, "");
+}
+
+void Svg::outside(std::span<const PagePoint> corners, const Paint& paint) {
+  const std::array<PagePoint, 4> page = {{{0, 0}, {width_, 0}, {width_, height_}, {0, height_}}};
+  path(path_through(page) + "Z" + path_through(corners) + "Z", paint, R"( fill-rule="evenodd")");
+}
+
+void Svg::line(std::span<const PagePoint> points, const Paint& paint) {
+  path(path_through(points), paint, R"( stroke-linejoin="round" stroke-linecap="round")");
+}
+
+void Svg::text(PagePoint at, std::string_view text, const TextStyle& style) {
+  text_ += "<text" + attribute("x", number(at.x)) + attribute("y", number(at.y)) +
+           attribute("font-size", number(style.size));
+  if (style.anchor == TextStyle::Anchor::Middle) text_ += attribute("text-anchor", "middle");
+  if (style.anchor == TextStyle::Anchor::End) text_ += attribute("text-anchor", "end");
+  if (style.bold) text_ += attribute("font-weight", "bold");
+  text_ += attribute("fill", style.fill) + ">" + escaped(text) + "</text>\n";
+}
+
+std::string Svg::finish() const {
+  return text_ + "</svg>\n";
+}
+
+std::vector<PagePoint> simplified(std::span<const PagePoint> points, double tolerance) {
+  if (points.size() < 3) return {points.begin(), points.end()};
+  std::vector<bool> kept(points.size(), false);
+  kept.front() = kept.back() = true;
+  // Stretches between two kept points, still to be looked at.
+  std::vector<std::pair<std::size_t, std::size_t>> open = {{0, points.size() - 1}};
+  while (!open.empty()) {
+    const auto [first, last] = open.back();
+    open.pop_back();
+    std::size_t farthest = first;
+    double distance = tolerance;
+    for (std::size_t i = first + 1; i < last; ++i) {
+      const double here = distance_from(points[i], points[first], points[last]);
+      if (here <= distance) continue;
+      distance = here;
+      farthest = i;
+    }
+    if (farthest == first) continue;
+    kept[farthest] = true;
+    open.emplace_back(first, farthest);
+    open.emplace_back(farthest, last);
+  }
+  std::vector<PagePoint> result;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (kept[i]) result.push_back(points[i]);
+  }
+  return result;
+}
+
+double millimetres_from_text(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, double>, 4> kUnits = {
+      {{"mm", 1}, {"cm", 10}, {"in", 25.4}, {"", 1}}};
+  double value = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || !std::isfinite(value)) return -1;
+  text.remove_prefix(static_cast<std::size_t>(stop - text.data()));
+  while (text.starts_with(' '))
+    text.remove_prefix(1);
+  for (const auto& [unit, length_mm] : kUnits) {
+    if (text == unit) return value * length_mm;
+  }
+  return -1;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,92 @@
+#pragma once
+
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/reading_columns.h"
+#include "base/expected.h"
+#include "coordinator/cli/options.h"
+#include "sim/control/machine.h"
+#include "sim/engine/simulate.h"
+
+namespace swarmsmith::cli {
+
+/// Options of commands that can write down one run: as tables and as a picture
+/// (docs/trajectories.md).
+struct RecordingArguments {
+  std::string csv;
+  std::string objects_csv;
+  std::string svg;
+  std::string readings;
+  std::string at;
+  std::string from;
+  std::string to;
+  std::string width;
+
+  void declare(Options& options);
+  /// Whether anything shall be written.
+  bool any() const { return !csv.empty() || !objects_csv.empty() || !svg.empty(); }
+  /// Whether something goes to standard output.
+  bool takes_standard_output() const { return csv == "-" || objects_csv == "-" || svg == "-"; }
+};
+
+/// What to exit with after an error of `Recording`.
+ExitCode exit_code_of_recording(const Error& error);
+
+/// Writes a run down while it is simulated.
+class Recording {
+ public:
+  /// Opens what the arguments name. `machine` and `mission` must outlive the recording. Errors:
+  /// BadInput, with the option as place, for arguments that make no sense for the mission;
+  /// Unavailable for a file that cannot be written.
+  static Expected<Recording> start(const RecordingArguments& arguments, const Mission& mission,
+                                   const Machine& machine, Output& output);
+
+  /// To be given to `simulate`; the recording must stay where it is until then. Observes nothing
+  /// when nothing shall be written.
+  Recorder recorder();
+
+  /// Draws and closes. `details` say which run it was: candidate, seed, score. Unavailable, with
+  /// the file as place, when something could not be written.
+  Expected<void> finish(const std::vector<std::string>& details, const Instance& instance);
+
+ private:
+  /// A file, or standard output.
+  struct Sink {
+    std::string name;
+    std::unique_ptr<std::ofstream> file;  ///< none for standard output
+    std::ostream* stream = nullptr;       ///< null: not asked for
+
+    Expected<void> close() const;
+  };
+
+  Recording(const Mission& mission, const Machine& machine)
+      : mission_(&mission), machine_(&machine) {}
+
+  static Expected<Sink> open(const std::string& name, Output& output);
+  Expected<void> read_span(const RecordingArguments& arguments);
+  void write_headers();
+  void observe(const Snapshot& snapshot);
+  void write_rows(const Snapshot& snapshot);
+  std::string behaviour_of(int state) const;
+  std::string picture(const std::vector<std::string>& details, const Instance& instance) const;
+
+  const Mission* mission_;
+  const Machine* machine_;
+  Sink csv_;
+  Sink objects_csv_;
+  Sink svg_;
+  Sensors sensors_;
+  std::optional<ReadingColumns> columns_;
+  int first_ = 0;  ///< instants of the picture
+  int last_ = 0;
+  double width_mm_ = 84;
+  std::vector<std::vector<Pose>> robots_;  ///< poses within the picture's span
+  std::vector<std::vector<Pose>> objects_;
+  std::vector<int> states_;  ///< at its last instant
+};
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace swarmsmith::cli {
+
+/// What a person calls by an id: d3, c812, e81200007, or e81200007t of a test.
+struct ThingId {
+  char letter = '\0';   ///< d, c or e
+  std::string digits;   ///< 1 to 18
+  std::string purpose;  ///< of an evaluation that was made for no race: l, t, a or s
+};
+
+/// Nothing when the text is no id.
+std::optional<ThingId> parse_thing_id(std::string_view text);
+
+/// SQL that picks an evaluation out of v_evaluations: by its candidate as well, which has an index.
+std::string is_evaluation(const ThingId& id);
+
+}  // namespace swarmsmith::cli

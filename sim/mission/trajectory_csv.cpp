@@ -1,0 +1,176 @@
+#include "sim/mission/trajectory_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <optional>
+#include <system_error>
+#include <type_traits>
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::array<std::string_view, 5> kRead = {"cycle", "robot", "x", "y", "theta"};
+using Cells = std::array<std::string_view, kRead.size()>;
+
+std::string line_place(int line) {
+  return "line " + std::to_string(line);
+}
+
+/// Takes the text up to the separator, and the separator with it.
+std::string_view take(std::string_view& text, char separator) {
+  const std::size_t end = std::min(text.find(separator), text.size());
+  const std::string_view part = text.substr(0, end);
+  text.remove_prefix(std::min(end + 1, text.size()));
+  return part;
+}
+
+std::string_view take_line(std::string_view& text) {
+  std::string_view line = take(text, '\n');
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return line;
+}
+
+/// Where the columns that are read stand in the header.
+using Places = std::array<std::size_t, kRead.size()>;
+
+Expected<Places> find_columns(std::string_view header) {
+  std::vector<std::string_view> names;
+  while (!header.empty())
+    names.push_back(take(header, ','));
+  Places places{};
+  for (std::size_t i = 0; i < kRead.size(); ++i) {
+    const auto found = std::ranges::find(names, kRead[i]);
+    if (found == names.end()) {
+      return bad_input("a trajectory has the columns " + std::string(kTrajectoryColumns) +
+                           "; there is no `" + std::string(kRead[i]) + "`",
+                       line_place(1));
+    }
+    places[i] = static_cast<std::size_t>(found - names.begin());
+  }
+  return places;
+}
+
+/// The cells that are read; nothing when the line is too short.
+std::optional<Cells> cells_of(std::string_view line, const Places& places) {
+  Cells cells;
+  std::size_t found = 0;
+  for (std::size_t column = 0; !line.empty() && found < kRead.size(); ++column) {
+    const std::string_view cell = take(line, ',');
+    for (std::size_t i = 0; i < kRead.size(); ++i) {
+      if (places[i] != column) continue;
+      cells[i] = cell;
+      ++found;
+    }
+  }
+  if (found < kRead.size()) return std::nullopt;
+  return cells;
+}
+
+template <class Number>
+Expected<Number> number_in(const Cells& cells, std::size_t column, int line) {
+  Number value{};
+  const std::string_view cell = cells[column];
+  const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  bool good = error == std::errc() && stop == cell.data() + cell.size();
+  if constexpr (std::is_floating_point_v<Number>) good = good && std::isfinite(value);
+  if (good) return value;
+  const char* const wanted = std::is_floating_point_v<Number> ? "a finite number" : "an integer";
+  return bad_input("column " + std::string(kRead[column]) + " wants " + wanted + ", not `" +
+                       std::string(cell) + "`",
+                   line_place(line));
+}
+
+/// Takes rows in their order and sees that none is missing.
+class Collector {
+ public:
+  Expected<void> add(int cycle, int robot, const Pose& pose, int line) {
+    if (rows_ == 0 && (cycle == 0 || cycle == 1)) cycle_ = cycle;
+    const bool next_instant = robot == 0 && rows_ > 0 && cycle == cycle_ + 1;
+    if (next_instant) {
+      if (robots_ == 0) robots_ = robot_;
+      if (robot_ != robots_) return incomplete(line);
+      ++cycle_;
+      robot_ = 0;
+    }
+    if (cycle != cycle_ || robot != robot_ || (robots_ > 0 && robot >= robots_)) {
+      return bad_input("expected robot " + std::to_string(robot_) + " of cycle " +
+                           std::to_string(cycle_) + " (rows go cycle by cycle from 0 or 1, robot " +
+                           "by robot from 0), found robot " + std::to_string(robot) + " of cycle " +
+                           std::to_string(cycle),
+                       line_place(line));
+    }
+    (cycle == 0 ? result_.starts : result_.trajectory.poses).push_back(pose);
+    ++robot_;
+    ++rows_;
+    return {};
+  }
+
+  Expected<RecordedTrajectory> finish(int line) {
+    if (robots_ == 0) robots_ = robot_;
+    if (robot_ != robots_) return incomplete(line);
+    result_.trajectory.robots = robots_;
+    return std::move(result_);
+  }
+
+ private:
+  Unexpected incomplete(int line) const {
+    return bad_input("cycle " + std::to_string(cycle_) + " has " + std::to_string(robot_) +
+                         " robots, the one before it " + std::to_string(robots_),
+                     line_place(line));
+  }
+
+  RecordedTrajectory result_;
+  std::int64_t rows_ = 0;
+  int cycle_ = 0;   ///< that is being read
+  int robot_ = 0;   ///< the next of this cycle
+  int robots_ = 0;  ///< of each cycle; 0 until the first one is complete
+};
+
+}  // namespace
+
+void append_number(std::string& line, double value) {
+  std::array<char, 32> buffer{};
+  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value).ptr;
+  line.append(buffer.data(), end);
+}
+
+void append_pose_cells(std::string& line, int cycle, int robot, const Pose& pose) {
+  line += std::to_string(cycle) + ",";
+  // A division, since 3 * 0.1 is not the number nearest to 0.3.
+  append_number(line, static_cast<double>(cycle) / 10);
+  line += "," + std::to_string(robot);
+  for (const double value : {pose.x, pose.y, pose.theta}) {
+    line += ',';
+    append_number(line, value);
+  }
+}
+
+Expected<RecordedTrajectory> parse_trajectory_csv(std::string_view text) {
+  const Expected<Places> places = find_columns(take_line(text));
+  if (!places) return Unexpected(places.error());
+  Collector collector;
+  int line = 1;
+  while (!text.empty()) {
+    ++line;
+    const auto cells = cells_of(take_line(text), *places);
+    if (!cells) return bad_input("the line is too short", line_place(line));
+    const auto cycle = number_in<int>(*cells, 0, line);
+    if (!cycle) return Unexpected(cycle.error());
+    const auto robot = number_in<int>(*cells, 1, line);
+    if (!robot) return Unexpected(robot.error());
+    std::array<double, 3> pose{};
+    for (std::size_t i = 0; i < pose.size(); ++i) {
+      const auto value = number_in<double>(*cells, 2 + i, line);
+      if (!value) return Unexpected(value.error());
+      pose[i] = *value;
+    }
+    const auto added = collector.add(*cycle, *robot, {pose[0], pose[1], pose[2]}, line);
+    if (!added) return Unexpected(added.error());
+  }
+  return collector.finish(line);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,74 @@
+#include "analysis/reading_columns.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <limits>
+#include <set>
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(SensorNames, NameEverySensorOnce) {
+  Sensors all;
+  for (const std::string& name : sensor_names()) {
+    const auto sensors = sensors_from_names(name);
+    ASSERT_TRUE(sensors) << name;
+    EXPECT_NE(all | *sensors, all) << name;
+    all = all | *sensors;
+  }
+  EXPECT_EQ(all, Sensors::all());
+}
+
+TEST(SensorNames, AllLeavesTheLidarOutUnlessItIsNamed) {
+  EXPECT_FALSE(sensors_from_names("all")->has(Sensor::Lidar));
+  EXPECT_EQ(*sensors_from_names("all,lidar"), Sensors::all());
+  EXPECT_EQ(*sensors_from_names("proximity,ground_color"), Sensor::Proximity | Sensor::GroundColor);
+}
+
+TEST(SensorNames, SuggestTheOneThatWasMeant) {
+  const auto sensors = sensors_from_names("proximty");
+  ASSERT_FALSE(sensors);
+  EXPECT_THAT(
+      sensors.error().message,
+      HasSubstr("there is no sensor `proximty` (did you mean \"proximity\"?); known: all, "));
+  EXPECT_FALSE(sensors_from_names(""));
+  EXPECT_FALSE(sensors_from_names("imu,"));
+}
+
+TEST(ReadingColumns, HaveNamesWithUnitsAndOneCellEach) {
+  const ReadingColumns columns(Sensor::GroundColor | Sensor::Neighbours, 3);
+  EXPECT_THAT(columns.names(), ElementsAre("ground_r", "ground_g", "ground_b", "neighbours",
+                                           "neighbour0_distance_m", "neighbour0_bearing_rad",
+                                           "neighbour1_distance_m", "neighbour1_bearing_rad"));
+  Readings readings;
+  readings.ground_color = {1, 20, 255};
+  readings.neighbours = {{.distance_m = 0.5, .direction_x = 0, .direction_y = -1}};
+  std::string line;
+  columns.append_cells(line, &readings);
+  EXPECT_EQ(line, ",1,20,255,1,0.5,-1.5707963267948966,,");
+  line.clear();
+  columns.append_cells(line, nullptr);
+  EXPECT_EQ(line, ",,,,,,,,");
+}
+
+TEST(ReadingColumns, OfAllSensorsAreDistinctAndFilled) {
+  const ReadingColumns columns(Sensors::all(), 1);
+  const std::set<std::string> distinct(columns.names().begin(), columns.names().end());
+  EXPECT_EQ(distinct.size(), columns.names().size());
+  EXPECT_TRUE(distinct.contains("lidar718_m"));
+  Readings readings;
+  readings.lidar_m.assign(719, 0.25);
+  readings.proximity_m[7] = -std::numeric_limits<double>::infinity();
+  std::string line;
+  columns.append_cells(line, &readings);
+  EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(line, ',')), columns.names().size());
+  EXPECT_THAT(line, testing::Not(HasSubstr(",,")));
+  EXPECT_THAT(line, HasSubstr(",-inf,0.25,"));
+}
+
+}  // namespace
+}  // namespace swarmsmith
