@@ -28,21 +28,11 @@ struct DesignTag {
 struct CandidateTag {
   static constexpr char kLetter = 'c';
 };
-struct EvaluationTag {
-  static constexpr char kLetter = 'e';
-};
-struct RealRunTag {
-  static constexpr char kLetter = 'r';
-};
 
 /// One (mission, method, repetition) of a campaign: one iterated race.
 using DesignId = Id<DesignTag>;
 /// A configuration that a design tried.
 using CandidateId = Id<CandidateTag>;
-/// The stored outcome of one experiment.
-using EvaluationId = Id<EvaluationTag>;
-/// A filmed trial.
-using RealRunId = Id<RealRunTag>;
 
 }  // namespace swarmsmith
 

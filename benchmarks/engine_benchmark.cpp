@@ -2,6 +2,9 @@
 #include <box2d/box2d.h>
 
 #include <array>
+#include <cmath>
+#include <ctime>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -12,7 +15,7 @@
 #include "tests/sim/engine/reference_runs.h"
 
 // What one evaluation costs: three robots, 120 s, 1200 control cycles, on one core. The counter
-// ms_each is CPU time per evaluation; the yardstick is a bare Box2D loop of the same world.
+// ms_each is CPU time per evaluation, bare_loops the same in bare Box2D loops of the same world.
 
 namespace swarmsmith {
 namespace {
@@ -35,23 +38,84 @@ std::map<std::string, ReferenceRuns> missions_in(const char* flavour, const char
   return missions;
 }
 
-void report(benchmark::State& state, double evaluations) {
-  state.counters["ms_each"] = benchmark::Counter(
-      evaluations / 1000, benchmark::Counter::kIsRate | benchmark::Counter::kInvert);
+/// The yardstick: the same bodies and walls, one step a cycle, no sensors, no control software; the
+/// robots drive in circles of 0.2 m, clear of each other, so that contacts cost nothing.
+void run_bare_loop() {
+  static constexpr std::array<Pose, 3> kStarts = {Pose{0.7, -0.2, 0}, Pose{-0.35, 0.4, 0},
+                                                  Pose{-0.35, -0.8, 0}};
+  b2World world(b2Vec2_zero);
+  b2BodyDef ground_definition;
+  b2Body* ground = world.CreateBody(&ground_definition);
+  for (const Wall& wall : dodecagon_of_the_thesis().walls) {
+    b2EdgeShape edge;
+    edge.SetTwoSided({static_cast<float>(wall.from.x), static_cast<float>(wall.from.y)},
+                     {static_cast<float>(wall.to.x), static_cast<float>(wall.to.y)});
+    ground->CreateFixture(&edge, 0);
+  }
+  std::vector<b2Body*> robots;
+  for (const Pose& start : kStarts) {
+    b2BodyDef definition;
+    definition.type = b2_dynamicBody;
+    definition.position = {static_cast<float>(start.x), static_cast<float>(start.y)};
+    definition.angle = static_cast<float>(start.theta);
+    robots.push_back(world.CreateBody(&definition));
+    b2PolygonShape square;
+    square.SetAsBox(0.143F, 0.143F);
+    robots.back()->CreateFixture(&square, 24.45F);
+  }
+  for (int cycle = 0; cycle < 1200; ++cycle) {
+    for (b2Body* robot : robots) {
+      robot->SetLinearVelocity(0.3F * robot->GetWorldVector({1, 0}));
+      robot->SetAngularVelocity(1.5F);
+    }
+    world.Step(0.1F, 8, 3);
+  }
+  benchmark::DoNotOptimize(robots[0]->GetPosition());
 }
 
-/// Each iteration runs all subjects on one seed.
-void run_all(benchmark::State& state, const std::vector<Subject>& subjects) {
+double cpu_seconds() {
+  return static_cast<double>(std::clock()) / CLOCKS_PER_SEC;
+}
+
+/// CPU seconds of one bare loop.
+double time_bare_loop() {
+  constexpr int kLoops = 10;
+  const double begin = cpu_seconds();
+  for (int i = 0; i < kLoops; ++i)
+    run_bare_loop();
+  return (cpu_seconds() - begin) / kLoops;
+}
+
+/// One evaluation of each subject on a seed.
+using Round = std::function<void(int seed)>;
+
+/// Runs rounds of `evaluations` each on the seeds 1 to 100, in turn with the yardstick, so that
+/// both meet the same noise of the machine.
+void run_rounds(benchmark::State& state, double evaluations, const Round& round) {
   int seed = 0;
-  double evaluations = 0;
+  double spent_s = 0;
+  double bare_s = 0;
+  double rounds = 0;
   for (auto _ : state) {
     seed = seed % 100 + 1;
-    for (const Subject& subject : subjects) {
-      benchmark::DoNotOptimize(subject.runs->run(subject.machine, seed).score);
-    }
-    evaluations += static_cast<double>(subjects.size());
+    const double begin = cpu_seconds();
+    round(seed);
+    spent_s += cpu_seconds() - begin;
+    state.PauseTiming();
+    bare_s += time_bare_loop();
+    state.ResumeTiming();
+    ++rounds;
   }
-  report(state, evaluations);
+  const double each_s = spent_s / rounds / evaluations;
+  state.counters["ms_each"] = each_s * 1000;
+  state.counters["bare_loops"] = each_s / (bare_s / rounds);
+}
+
+void run_all(benchmark::State& state, const std::vector<Subject>& subjects) {
+  run_rounds(state, static_cast<double>(subjects.size()), [&](int seed) {
+    for (const Subject& subject : subjects)
+      benchmark::DoNotOptimize(subject.runs->run(subject.machine, seed).score);
+  });
 }
 
 /// The thirty machines of the thesis on their missions; `only` keeps one mission's ten.
@@ -99,47 +163,41 @@ BENCHMARK_CAPTURE(thesis_designs_on, watermelon_rvr, "watermelon", "rvr", Contac
                   kAll);
 BENCHMARK_CAPTURE(reference_machines_on, watermelon_argos3, "watermelon-argos3", "argos3");
 
-/// The yardstick: the same bodies and walls, one step a cycle, no sensors, no control software; the
-/// robots drive in circles of 0.2 m, clear of each other, so that contacts cost nothing.
-void bare_box2d_loop(benchmark::State& state) {
-  static constexpr std::array<Pose, 3> kStarts = {Pose{0.7, -0.2, 0}, Pose{-0.35, 0.4, 0},
-                                                  Pose{-0.35, -0.8, 0}};
-  const Arena arena = dodecagon_of_the_thesis();
-  double evaluations = 0;
-  for (auto _ : state) {
-    b2World world(b2Vec2_zero);
-    b2BodyDef ground_definition;
-    b2Body* ground = world.CreateBody(&ground_definition);
-    for (const Wall& wall : arena.walls) {
-      b2EdgeShape edge;
-      edge.SetTwoSided({static_cast<float>(wall.from.x), static_cast<float>(wall.from.y)},
-                       {static_cast<float>(wall.to.x), static_cast<float>(wall.to.y)});
-      ground->CreateFixture(&edge, 0);
-    }
-    std::vector<b2Body*> robots;
-    for (const Pose& start : kStarts) {
-      b2BodyDef definition;
-      definition.type = b2_dynamicBody;
-      definition.position = {static_cast<float>(start.x), static_cast<float>(start.y)};
-      definition.angle = static_cast<float>(start.theta);
-      robots.push_back(world.CreateBody(&definition));
-      b2PolygonShape square;
-      square.SetAsBox(0.143F, 0.143F);
-      robots.back()->CreateFixture(&square, 24.45F);
-    }
-    for (int cycle = 0; cycle < 1200; ++cycle) {
-      for (b2Body* robot : robots) {
-        robot->SetLinearVelocity(0.3F * robot->GetWorldVector({1, 0}));
-        robot->SetAngularVelocity(1.5F);
-      }
-      world.Step(0.1F, 8, 3);
-    }
-    benchmark::DoNotOptimize(robots[0]->GetPosition());
-    ++evaluations;
+/// The thesis' designs for grid exploration in an arena with as much room for each robot as theirs.
+/// Lidar on: all 719 rays of each robot in each cycle.
+void swarm(benchmark::State& state, bool lidar) {
+  constexpr double kInradius_m = 1.226;
+  const auto robots = static_cast<int>(state.range(0));
+  Mission mission = built_in_mission("grid_exploration").value();
+  const double scale = std::sqrt(robots / 3.0);
+  mission.robots = robots;
+  mission.arena = regular_dodecagon(area_of(mission.arena) * robots / 3);
+  mission.placement = PlaceInDisc{.centre = {}, .radius_m = scale * (kInradius_m - 0.026)};
+  mission.rule = Coverage{.tiles = 10, .side_m = 2.50001 * scale};
+  const Profile profile = built_in_profile("argos3").value();
+  std::vector<Machine> machines;
+  for (const ReferenceMachine& design : thesis_designs()) {
+    if (design.mission == "grid" || design.mission == "grid_exploration")
+      machines.push_back(machine_of(design.text));
   }
-  report(state, evaluations);
+  const Recorder recorder = lidar ? Recorder([](const Snapshot&) {}, Sensor::Lidar) : Recorder();
+  run_rounds(state, static_cast<double>(machines.size()), [&](int seed) {
+    const Instance instance = instance_of(mission, seed).value();
+    for (const Machine& machine : machines) {
+      benchmark::DoNotOptimize(simulate({.machine = machine,
+                                         .flavour = watermelon_argos3(),
+                                         .profile = profile,
+                                         .mission = mission,
+                                         .instance = instance,
+                                         .seed = seed},
+                                        recorder)
+                                   .score);
+    }
+  });
+  state.counters["ns_per_robot_cycle"] = state.counters["ms_each"].value * 1e6 / (1200.0 * robots);
 }
-BENCHMARK(bare_box2d_loop);
+BENCHMARK_CAPTURE(swarm, lidar_off, false)->Arg(3)->Arg(10)->Arg(30)->Arg(100);
+BENCHMARK_CAPTURE(swarm, lidar_on, true)->Arg(3)->Arg(10)->Arg(30)->Arg(100);
 
 }  // namespace
 }  // namespace swarmsmith

@@ -61,7 +61,8 @@ std::vector<Work> work_of(StoreReader& store,
 /// Evaluates every item; returns how many scores differ from the stored ones.
 std::size_t evaluate_all(const std::vector<Work>& work, const Campaign& campaign, int threads) {
   const Mission& mission = campaign.missions.front().mission;
-  const Flavour& flavour = **find_flavour(campaign.methods.front().flavour);
+  const Method& method = campaign.methods.front();
+  const Flavour flavour = find_flavour(method.flavour, method.turn_clock).value();
   std::atomic<std::size_t> next = 0;
   std::atomic<std::size_t> different = 0;
   const auto run = [&] {

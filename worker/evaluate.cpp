@@ -17,7 +17,7 @@ constexpr std::size_t kMaxMachines = 1024;
 
 class Simulation {
  public:
-  Simulation(WorkerScenario scenario, std::vector<const Flavour*> flavours)
+  Simulation(WorkerScenario scenario, std::vector<Flavour> flavours)
       : scenario_(std::move(scenario)),
         flavours_(std::move(flavours)),
         machines_(flavours_.size()) {}
@@ -27,7 +27,7 @@ class Simulation {
       return bad_input("a task for a mission or method that the scenario does not have");
     }
     const Mission& mission = scenario_.missions[item.mission];
-    const Flavour& flavour = *flavours_[item.method];
+    const Flavour& flavour = flavours_[item.method];
     const Expected<const Machine*> machine = machine_of(item);
     if (!machine) return Unexpected(machine.error());
     const Expected<Instance> instance = instance_of(mission, item.seed);
@@ -45,14 +45,14 @@ class Simulation {
   Expected<const Machine*> machine_of(const WorkItem& item) {
     auto& known = machines_[item.method];
     if (const auto at = known.find(item.machine); at != known.end()) return &at->second;
-    Expected<Machine> machine = parse_machine(item.machine, *flavours_[item.method]);
+    Expected<Machine> machine = parse_machine(item.machine, flavours_[item.method]);
     if (!machine) return Unexpected(machine.error());
     if (known.size() >= kMaxMachines) known.clear();
     return &known.emplace(item.machine, std::move(*machine)).first->second;
   }
 
   WorkerScenario scenario_;
-  std::vector<const Flavour*> flavours_;
+  std::vector<Flavour> flavours_;                                   ///< by method
   std::vector<std::unordered_map<std::string, Machine>> machines_;  ///< by method and text
 };
 
@@ -67,11 +67,11 @@ Expected<Evaluator> make_simulation(const std::string& scenario) {
                                                " of the simulator, this program has version " +
                                                std::to_string(kEngineVersion));
   }
-  std::vector<const Flavour*> flavours;
-  for (const std::string& name : read->flavours) {
-    const Expected<const Flavour*> flavour = find_flavour(name);
+  std::vector<Flavour> flavours;
+  for (const WorkerMethod& method : read->methods) {
+    Expected<Flavour> flavour = find_flavour(method.flavour, method.turn_clock);
     if (!flavour) return Unexpected(flavour.error());
-    flavours.push_back(*flavour);
+    flavours.push_back(std::move(*flavour));
   }
   return Evaluator(Simulation(std::move(*read), std::move(flavours)));
 }

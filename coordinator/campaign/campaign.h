@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "irace_core/scenario.h"
+#include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
 #include "sim/mission/mission.h"
 
@@ -37,6 +38,7 @@ struct RangeOverride {
 struct Method {
   std::string name;
   std::string flavour = "watermelon";
+  TurnClock turn_clock = TurnClock::Cycles;  ///< the flavour's own unless the file has another
   std::int64_t max_states = 4;
   std::int64_t max_transitions = 4;
   std::vector<std::string> behaviours;  ///< names; all of the flavour's when the file has none

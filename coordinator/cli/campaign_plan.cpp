@@ -8,6 +8,7 @@
 
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/machine_space.h"
+#include "coordinator/cli/campaign_warnings.h"
 #include "irace_core/iterated_race.h"
 #include "sim/engine/simulate.h"
 
@@ -44,7 +45,7 @@ std::vector<Machine> some_machines(const Campaign& campaign, const Method& metho
 /// Mean seconds of an evaluation of the method on the mission, by as many as fit into `budget_s`.
 double measure(const Campaign& campaign, const Method& method, const Mission& mission,
                double budget_s) {
-  const Flavour& flavour = **find_flavour(method.flavour);
+  const Flavour flavour = find_flavour(method.flavour, method.turn_clock).value();
   const std::vector<Machine> machines = some_machines(campaign, method);
   const auto begin = SteadyClock::now();
   double elapsed_s = 0;
@@ -63,21 +64,6 @@ double measure(const Campaign& campaign, const Method& method, const Mission& mi
     elapsed_s = std::chrono::duration<double>(SteadyClock::now() - begin).count();
   }
   return runs == 0 ? 0 : elapsed_s / static_cast<double>(runs);
-}
-
-/// The published program sees black only at a grey level that noise never leaves alone.
-void warn_about_black(const Campaign& campaign, std::vector<std::string>& warnings) {
-  for (const Method& method : campaign.methods) {
-    const bool has_black =
-        std::ranges::find(method.conditions, "black_floor") != method.conditions.end();
-    const Flavour& flavour = **find_flavour(method.flavour);
-    const bool narrow = flavour.floor.black.high < 1000;
-    if (!has_black || !narrow || campaign.profile.ground_color.sd == 0) continue;
-    warnings.push_back("method \"" + method.name + "\": flavour " + method.flavour +
-                       " takes only a pure black for black, so that with the ground noise of "
-                       "profile " +
-                       campaign.profile.name + " black_floor hardly ever holds");
-  }
 }
 
 }  // namespace
@@ -106,7 +92,7 @@ CampaignPlan plan_of(const Campaign& campaign) {
   const auto busy = static_cast<double>(std::min(plan.slots, cores));
   plan.time_s = evaluations * (plan.evaluation_s + kOverhead_s) / busy;
   plan.disk_bytes = evaluations * kBytesPerEvaluation;
-  warn_about_black(campaign, plan.warnings);
+  plan.warnings = warnings_about(campaign);
   return plan;
 }
 

@@ -49,7 +49,7 @@ WorkerScenario scenario_of(const Campaign& campaign) {
     scenario.missions.push_back(mission.mission);
   }
   for (const Method& method : campaign.methods)
-    scenario.flavours.push_back(method.flavour);
+    scenario.methods.push_back({.flavour = method.flavour, .turn_clock = method.turn_clock});
   return scenario;
 }
 

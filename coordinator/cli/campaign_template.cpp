@@ -37,12 +37,13 @@ duration = "120 s"
 
 [[method]]
 name    = "@FLAVOUR@"
-flavour = "@FLAVOUR@"          # watermelon, watermelon-argos3
+flavour = "@FLAVOUR@"          # watermelon, watermelon-argos3, chocolate
 max_states      = 4
 max_transitions = 4            # out of each state
 # behaviours = ["exploration", "stop", "attraction", "repulsion"]
 # conditions = ["black_floor", "gray_floor", "white_floor", "neighbour_count",
-#               "inverted_neighbour_count", "fixed_probability", "color_detection"]
+#               "inverted_neighbour_count", "fixed_probability"]
+# turn_clock = "cycles"        # or "seconds": what turns of exploration are measured in
 #   [method.parameters]
 #   exploration.tau  = { int  = [1, 100] }
 #   attraction.alpha = { real = [1, 5] }

@@ -61,6 +61,17 @@ Examples:
   swarmsmith evaluate --flavour watermelon-argos3 --profile argos3 --mission color_selection \
       --seeds 1-100 --starts starts.csv --patches patches.csv machine.fsm)";
 
+constexpr std::string_view kAssessDetails =
+    R"(Runs each behaviour 5 times and each condition 10 times with three robots for 120 s, and compares what
+they do with what they promise; below that, how often conditions fired against their probability. Exit
+code 0 when all modules pass, 1 when one fails: under a profile with much noise some may, and a line
+says why. docs/assessment.md tells what is measured, and how.
+
+Examples:
+  swarmsmith assess
+  swarmsmith assess --flavour watermelon-argos3 --profile argos3
+  swarmsmith assess --json)";
+
 constexpr std::string_view kStatusDetails = R"(Reads the store, also while a campaign runs.
 
 Examples:
@@ -114,6 +125,8 @@ constexpr std::array kCommands = {
     Command{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
     Command{"query", "Ask a store in SQL", kQueryDetails, declare_query},
     Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate},
+    Command{"assess", "Measure whether each module does what it promises", kAssessDetails,
+            declare_assess},
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},

@@ -25,6 +25,7 @@ Run declare_status(Options& options);
 Run declare_ls(Options& options);
 Run declare_show(Options& options);
 Run declare_query(Options& options);
+Run declare_assess(Options& options);
 Run declare_export(Options& options);
 Run declare_digest(Options& options);
 Run declare_verify(Options& options);

@@ -27,7 +27,7 @@ struct Arguments {
 /// Everything that the runs have in common.
 struct Plan {
   Machine machine;
-  const Flavour* flavour = nullptr;
+  Flavour flavour;
   Profile profile;
   Mission mission;
   std::vector<std::int64_t> seeds;
@@ -41,6 +41,15 @@ struct Plan {
 std::string first_of(const std::string& a, const std::string& b, const std::string& c) {
   if (!a.empty()) return a;
   return b.empty() ? c : b;
+}
+
+/// A candidate's method has a say in its flavour's constants; another flavour has its own.
+Expected<Flavour> flavour_of(const Arguments& arguments, const NamedMachine& named) {
+  const std::string name = first_of(arguments.flavour, named.flavour, "watermelon");
+  const auto known = find_flavour(name);
+  if (!known) return Unexpected(known.error());
+  if (name != named.flavour || !named.turn_clock) return **known;
+  return find_flavour(name, *named.turn_clock);
 }
 
 /// A candidate's own mission may have been changed by its file; the flag names a built-in one.
@@ -83,10 +92,10 @@ Expected<Plan> make_plan(const Arguments& arguments, Output& output) {
   Plan plan;
   const auto named = find_machine(arguments.machine, arguments.store);
   if (!named) return Unexpected(named.error());
-  const auto flavour = find_flavour(first_of(arguments.flavour, named->flavour, "watermelon"));
+  auto flavour = flavour_of(arguments, *named);
   if (!flavour) return bad_input(flavour.error().message, "--flavour");
-  plan.flavour = *flavour;
-  auto machine = parse_machine(named->text, **flavour);
+  plan.flavour = std::move(*flavour);
+  auto machine = parse_machine(named->text, plan.flavour);
   if (!machine) return bad_input(machine.error().message, "MACHINE, " + machine.error().where);
   plan.machine = std::move(*machine);
   auto profile = built_in_profile(first_of(arguments.profile, named->profile, "rvr"));
@@ -182,7 +191,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
   std::vector<double> scores;
   for (std::size_t i = 0; i < instances.size(); ++i) {
     const SimulationResult result = simulate({.machine = plan->machine,
-                                              .flavour = *plan->flavour,
+                                              .flavour = plan->flavour,
                                               .profile = plan->profile,
                                               .mission = plan->mission,
                                               .instance = instances[i],
@@ -207,7 +216,8 @@ Run declare_evaluate(Options& options) {
                "Text that begins with --nstates or --fsm-config, a file, or a candidate (c812)",
                Options::Need::Required);
   options.text("--flavour", arguments->flavour,
-               "Flavour of the machine (default: the candidate's, else watermelon)");
+               "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
+               "candidate's, else watermelon)");
   options.text("--profile", arguments->profile,
                "Simulator profile: rvr, argos3 (default: the candidate's, else rvr)");
   options.text("--mission", arguments->mission,

@@ -5,7 +5,7 @@ namespace swarmsmith::cli {
 /// What every command of the program exits with; a promise to scripts (docs/command-line.md).
 enum class ExitCode : int {
   Done = 0,
-  Failed = 1,            ///< the campaign failed, or output could not be written
+  Failed = 1,            ///< the campaign or a module failed, or output could not be written
   Usage = 2,             ///< command line or campaign file wrong
   Store = 3,             ///< the store cannot be used
   NoSuchId = 4,          ///< no such design, candidate or evaluation

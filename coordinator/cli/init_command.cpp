@@ -48,7 +48,7 @@ Run declare_init(Options& options) {
   options.text("DIR", arguments->folder, "Folder of the new campaign.toml (default: this one)");
   options.choice("--mission", arguments->mission,
                  {"aggregation", "grid_exploration", "color_selection"}, "Mission to design for");
-  options.choice("--flavour", arguments->flavour, {"watermelon", "watermelon-argos3"},
+  options.choice("--flavour", arguments->flavour, {"watermelon", "watermelon-argos3", "chocolate"},
                  "Flavour of the modules");
   return [arguments](Output& output) { return run(*arguments, output); };
 }

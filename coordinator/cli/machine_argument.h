@@ -14,6 +14,7 @@ struct NamedMachine {
   std::string text;                        ///< of the grammar
   std::optional<CampaignMission> mission;  ///< of a candidate: its design's
   std::string flavour;                     ///< of a candidate, else empty
+  std::optional<TurnClock> turn_clock;     ///< of a candidate
   std::string profile;                     ///< of a candidate, else empty
 };
 

@@ -87,12 +87,7 @@ void DesignRunner::want_batch(std::vector<Task>& tasks, std::vector<Row>& rows) 
     const Experiment& experiment = batch_[i];
     if (experiment.pair > pairs_known_) {
       pairs_known_ = experiment.pair;
-      record(PairRow{.design = plan_.row.id,
-                     .purpose = Purpose::Race,
-                     .number = experiment.pair,
-                     .instance = experiment.instance,
-                     .seed = experiment.seed},
-             rows);
+      record_pair(Purpose::Race, experiment, rows);
     }
     want(i, {candidate(experiment.configuration), Purpose::Race, experiment.pair}, experiment,
          tasks, rows);
@@ -108,15 +103,20 @@ void DesignRunner::want_tests(std::vector<Task>& tasks, std::vector<Row>& rows) 
   scores_.assign(batch_.size(), {});
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     const Experiment& experiment = batch_[i];
-    record(PairRow{.design = plan_.row.id,
-                   .purpose = Purpose::Test,
-                   .number = experiment.pair,
-                   .instance = experiment.instance,
-                   .seed = experiment.seed},
-           rows);
+    record_pair(Purpose::Test, experiment, rows);
     want(i, {candidate(experiment.configuration), Purpose::Test, experiment.pair}, experiment,
          tasks, rows);
   }
+}
+
+void DesignRunner::record_pair(Purpose purpose, const Experiment& experiment,
+                               std::vector<Row>& rows) const {
+  record(PairRow{.design = plan_.row.id,
+                 .purpose = purpose,
+                 .number = experiment.pair,
+                 .instance = experiment.instance,
+                 .seed = experiment.seed},
+         rows);
 }
 
 void DesignRunner::want(std::size_t position, const EvaluationKey& key,

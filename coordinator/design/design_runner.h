@@ -87,6 +87,7 @@ class DesignRunner {
   void want(std::size_t position, const EvaluationKey& key, const Experiment& experiment,
             std::vector<Task>& tasks, std::vector<Row>& rows);
   void put(std::size_t position, const StoredScore& score);
+  void record_pair(Purpose purpose, const Experiment& experiment, std::vector<Row>& rows) const;
   Expected<void> record_events(std::vector<Row>& rows);
   Expected<void> record_step(const RaceStep& step, std::vector<Row>& rows);
   void record_consumed(const RaceStep& step, std::vector<Row>& rows);

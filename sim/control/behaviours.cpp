@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -79,11 +80,22 @@ int draw_turn_cycles(int tau, ExplorationModel::TurnLength law, Rng& rng) {
   return std::max(1, static_cast<int>(rng.uniform_int(0, tau - 1)));
 }
 
+/// Whether this cycle still belongs to a turn that was drawn before.
+bool goes_on_turning(BehaviourMemory& memory, Senses& senses, TurnClock clock) {
+  if (memory.turn_cycles_left == 0) return false;
+  if (clock == TurnClock::Cycles) {
+    --memory.turn_cycles_left;
+    return true;
+  }
+  if (senses.time_s() < memory.turn_end_s) return true;
+  memory.turn_cycles_left = 0;
+  return false;
+}
+
 Command explore(const Exploration& exploration, Senses& senses, const Flavour& flavour,
                 BehaviourMemory& memory, Rng& rng) {
   const double speed = flavour.speed_mps;
-  if (memory.turn_cycles_left > 0) {
-    --memory.turn_cycles_left;
+  if (goes_on_turning(memory, senses, flavour.exploration.turn_clock)) {
     return memory.turn_left ? Command{-speed, speed} : Command{speed, -speed};
   }
   const Turn turn = flavour.exploration.trigger == ExplorationModel::Trigger::FrontReadings
@@ -93,30 +105,54 @@ Command explore(const Exploration& exploration, Senses& senses, const Flavour& f
     memory.turn_left = turn == Turn::Left;
     memory.turn_cycles_left =
         draw_turn_cycles(exploration.tau, flavour.exploration.turn_length, rng);
+    if (flavour.exploration.turn_clock == TurnClock::Seconds) {
+      // Commands change only at cycles: the half makes the turn end at the one that is nearest to
+      // T = r * 0.1 s, whatever the clock rounds.
+      memory.turn_end_s = senses.time_s() + (memory.turn_cycles_left + 0.5) * kControlPeriod_s;
+    }
   }
   return {speed, speed};
 }
 
-/// gain * w' - obstacle_gain * w_o (thesis eq. 5.5, 5.6), where w' is `weight` times the sum of the
-/// neighbours' directions over their distances, turned round for a negative `sign`.
-Command steer(double sign, double gain, double weight, Senses& senses, const Flavour& flavour) {
-  const NeighbourModel& model = flavour.neighbours;
-  const std::span<const Neighbour> neighbours = senses.neighbours();
-  Vector2 result;
-  for (const Neighbour& neighbour : neighbours) {
-    const double distance = std::max(neighbour.distance_m, model.shortest_m) * model.per_metre;
-    const double length = sign * weight / (model.offset + distance);
-    result.x += length * neighbour.direction_x;
-    result.y += length * neighbour.direction_y;
-  }
-  if (neighbours.empty() && model.forward_when_alone) result.x = 1;
+/// Along gain * w' - obstacle_gain * w_o (thesis eq. 5.1 to 5.6), where w' is `target`, or what the
+/// flavour takes for it when there is nothing to go by.
+Command steer(double gain, const std::optional<Vector2>& target, Senses& senses,
+              const Flavour& flavour) {
+  const SteeringModel& model = flavour.steering;
+  const Vector2 otherwise{model.forward_by_default ? 1.0 : 0.0, 0};
+  const Vector2 wanted = target.value_or(otherwise);
   const Vector2 obstacles = obstacle_vector(
       senses.proximity(), neighbours_in_the_way(senses, flavour.obstacles), flavour.obstacles);
-  result.x = gain * result.x - model.obstacle_gain * obstacles.x;
-  result.y = gain * result.y - model.obstacle_gain * obstacles.y;
+  Vector2 result{gain * wanted.x - model.obstacle_gain * obstacles.x,
+                 gain * wanted.y - model.obstacle_gain * obstacles.y};
   const double square = result.x * result.x + result.y * result.y;
   if (square < model.shortest_result * model.shortest_result) result = {1, 0};
   return command_towards(result.x, result.y, flavour.speed_mps);
+}
+
+/// Towards the neighbours, away from them for a negative `weight`.
+Command follow_neighbours(double gain, double weight, Senses& senses, const Flavour& flavour) {
+  const NeighbourModel& model = flavour.neighbours;
+  const std::span<const Neighbour> neighbours = senses.neighbours();
+  Vector2 sum;
+  for (const Neighbour& neighbour : neighbours) {
+    const double distance = std::max(neighbour.distance_m, model.shortest_m) * model.per_metre;
+    const double length = weight / (model.offset + distance);
+    sum.x += length * neighbour.direction_x;
+    sum.y += length * neighbour.direction_y;
+  }
+  if (neighbours.empty()) return steer(gain, std::nullopt, senses, flavour);
+  return steer(gain, sum, senses, flavour);
+}
+
+/// Towards the light for sign 1, away from it for -1 (thesis eq. 5.1, 5.2).
+Command follow_light(double sign, Senses& senses, const Flavour& flavour) {
+  const Vector2 light = light_vector(senses.light(), flavour.light);
+  const double least = flavour.light.least_vector;
+  if (light.x * light.x + light.y * light.y < least * least) {
+    return steer(1, std::nullopt, senses, flavour);
+  }
+  return steer(1, Vector2{sign * light.x, sign * light.y}, senses, flavour);
 }
 
 double used_alpha(double alpha, const NeighbourModel& model) {
@@ -129,11 +165,19 @@ void need_parameters(std::span<const double> parameters, std::size_t count) {
                               std::to_string(parameters.size()));
 }
 
+std::size_t parameter_count(Module module) {
+  const bool none =
+      module == Module::Stop || module == Module::Phototaxis || module == Module::AntiPhototaxis;
+  return none ? 0 : 1;
+}
+
 }  // namespace
 
 Module module_of(const Behaviour& behaviour) {
   return std::visit(Overloaded{[](const Exploration&) { return Module::Exploration; },
                                [](const Stop&) { return Module::Stop; },
+                               [](const Phototaxis&) { return Module::Phototaxis; },
+                               [](const AntiPhototaxis&) { return Module::AntiPhototaxis; },
                                [](const Attraction&) { return Module::Attraction; },
                                [](const Repulsion&) { return Module::Repulsion; }},
                     behaviour);
@@ -143,19 +187,24 @@ std::vector<double> parameters_of(const Behaviour& behaviour) {
   using Values = std::vector<double>;
   return std::visit(
       Overloaded{[](const Exploration& b) { return Values{static_cast<double>(b.tau)}; },
-                 [](const Stop&) { return Values{}; },
+                 [](const Stop&) { return Values{}; }, [](const Phototaxis&) { return Values{}; },
+                 [](const AntiPhototaxis&) { return Values{}; },
                  [](const Attraction& b) { return Values{b.alpha}; },
                  [](const Repulsion& b) { return Values{b.alpha}; }},
       behaviour);
 }
 
 Behaviour make_behaviour(Module module, std::span<const double> parameters) {
-  need_parameters(parameters, module == Module::Stop ? 0 : 1);
+  need_parameters(parameters, parameter_count(module));
   switch (module) {
     case Module::Exploration:
       return Exploration{static_cast<int>(parameters[0])};
     case Module::Stop:
       return Stop{};
+    case Module::Phototaxis:
+      return Phototaxis{};
+    case Module::AntiPhototaxis:
+      return AntiPhototaxis{};
     case Module::Attraction:
       return Attraction{parameters[0]};
     case Module::Repulsion:
@@ -180,14 +229,16 @@ Command act(const Behaviour& behaviour, Senses& senses, const Flavour& flavour,
                  [](const Stop&) {
                    return Command{0, 0};
                  },
+                 [&](const Phototaxis&) { return follow_light(1, senses, flavour); },
+                 [&](const AntiPhototaxis&) { return follow_light(-1, senses, flavour); },
                  [&](const Attraction& b) {
-                   return steer(1, model.attraction_gain, used_alpha(b.alpha, model), senses,
-                                flavour);
+                   return follow_neighbours(model.attraction_gain, used_alpha(b.alpha, model),
+                                            senses, flavour);
                  },
                  [&](const Repulsion& b) {
                    const double alpha = used_alpha(b.alpha, model);
                    const double weight = model.repulsion_power == 2 ? alpha * alpha : alpha;
-                   return steer(-1, model.repulsion_gain, weight, senses, flavour);
+                   return follow_neighbours(model.repulsion_gain, -weight, senses, flavour);
                  }},
       behaviour);
 }

@@ -28,21 +28,32 @@ struct Stop {
   friend bool operator==(const Stop&, const Stop&) = default;
 };
 
-/// Towards the neighbours, away from obstacles (thesis eq. 5.5).
+/// Towards the light, away from obstacles (thesis eq. 5.1).
+struct Phototaxis {
+  friend bool operator==(const Phototaxis&, const Phototaxis&) = default;
+};
+
+/// Away from the light and from obstacles (thesis eq. 5.2).
+struct AntiPhototaxis {
+  friend bool operator==(const AntiPhototaxis&, const AntiPhototaxis&) = default;
+};
+
+/// Towards the neighbours, away from obstacles (thesis eq. 5.3, 5.5).
 struct Attraction {
   double alpha = 1;  ///< weight of the neighbours; 1..5 in the search
 
   friend bool operator==(const Attraction&, const Attraction&) = default;
 };
 
-/// Away from the neighbours and from obstacles (thesis eq. 5.6).
+/// Away from the neighbours and from obstacles (thesis eq. 5.4, 5.6).
 struct Repulsion {
   double alpha = 1;  ///< weight of the neighbours; 1..5 in the search
 
   friend bool operator==(const Repulsion&, const Repulsion&) = default;
 };
 
-using Behaviour = std::variant<Exploration, Stop, Attraction, Repulsion>;
+using Behaviour =
+    std::variant<Exploration, Stop, Phototaxis, AntiPhototaxis, Attraction, Repulsion>;
 
 Module module_of(const Behaviour& behaviour);
 
@@ -56,8 +67,10 @@ Behaviour make_behaviour(Module module, std::span<const double> parameters);
 /// What a behaviour remembers from one cycle to the next: Exploration's turn. A state that is
 /// entered begins with a fresh one.
 struct BehaviourMemory {
-  int turn_cycles_left = 0;  ///< 0: going forward
+  /// 0: going forward. By TurnClock::Seconds, the drawn number until the turn is over.
+  int turn_cycles_left = 0;
   bool turn_left = false;
+  double turn_end_s = 0;  ///< of TurnClock::Seconds: the first time that is no turn any more
 
   friend bool operator==(const BehaviourMemory&, const BehaviourMemory&) = default;
 };

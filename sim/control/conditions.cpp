@@ -85,6 +85,8 @@ Condition make_condition(Module module, std::span<const double> parameters) {
       return ColorDetection{parameters[0], static_cast<ColorLabel>(parameters[1])};
     case Module::Exploration:
     case Module::Stop:
+    case Module::Phototaxis:
+    case Module::AntiPhototaxis:
     case Module::Attraction:
     case Module::Repulsion:
       break;

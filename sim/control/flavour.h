@@ -1,6 +1,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,7 +15,7 @@ namespace swarmsmith {
 
 /// A flavour of the method as plain data: its modules, their numbers in the text grammar, the
 /// ranges of their parameters, and the constants that say what a module does. One code runs all
-/// flavours. Where the value of a constant comes from stands beside it in flavour.cpp.
+/// flavours. Where the value of a constant comes from stands beside it in flavours.cpp.
 
 /// One parameter of a module.
 struct ParameterSpec {
@@ -65,8 +66,8 @@ struct ObstacleModel {
     InverseDistance,  ///< 1/d within [near_m, far_m], nothing outside: blind when touching
   };
   Reading reading = Reading::Linear;
-  double near_m = 0.05;
-  double far_m = 0.4;
+  double near_m = kBlindZone_m;
+  double far_m = kProximityRange_m;
   /// The vector sum of the sensors is shortened to this length; infinity for never.
   double longest_sum = 1;
   /// A neighbour gives a reading of its own, 1 at `neighbour_near_m` and 0 at `neighbour_far_m`.
@@ -76,6 +77,15 @@ struct ObstacleModel {
 
   friend bool operator==(const ObstacleModel&, const ObstacleModel&) = default;
 };
+
+/// What a turn of Exploration is measured in; the two differ where the control period drifts.
+enum class TurnClock {
+  Cycles,   ///< r control cycles, r the drawn number
+  Seconds,  ///< the time of r nominal cycles, by the robot's clock (thesis eq. 7.1)
+};
+
+/// `cycles` or `seconds`.
+std::string_view name_of(TurnClock clock);
 
 struct ExplorationModel {
   enum class Trigger {
@@ -87,6 +97,7 @@ struct ExplorationModel {
     OneBelowTau,  ///< uniform in 0..tau-1, but at least one cycle
   };
   Trigger trigger = Trigger::FrontReadings;
+  TurnClock turn_clock = TurnClock::Cycles;
   double threshold = 0.1;
   /// Front of FrontReadings: |y| <= front_slope * x; of VectorSum: x >= 0.
   double front_slope = 1;
@@ -95,8 +106,8 @@ struct ExplorationModel {
   friend bool operator==(const ExplorationModel&, const ExplorationModel&) = default;
 };
 
-/// The vector of neighbours, sum of alpha^power / (offset + d) in each one's direction, and what
-/// Attraction and Repulsion make of it: sign * gain * vector - obstacle_gain * obstacles.
+/// w' of Attraction and Repulsion: the sum of alpha^power / (offset + d) in each neighbour's
+/// direction, times a gain.
 struct NeighbourModel {
   double per_metre = 1;          ///< unit of d: 1 metres, 100 centimetres
   double shortest_m = 0;         ///< a smaller distance counts as this one
@@ -105,13 +116,28 @@ struct NeighbourModel {
   int repulsion_power = 1;
   double attraction_gain = 1;
   double repulsion_gain = 1;
+
+  friend bool operator==(const NeighbourModel&, const NeighbourModel&) = default;
+};
+
+/// w' of Phototaxis and Anti-phototaxis: the sum of the ring's readings, each min(1, lux /
+/// full_lux), in their directions.
+struct LightModel {
+  double full_lux = 1000;     ///< a reading of 1
+  double least_vector = 0.1;  ///< a shorter sum is no light
+
+  friend bool operator==(const LightModel&, const LightModel&) = default;
+};
+
+/// Where a behaviour goes that has something to go by: along w' - obstacle_gain * obstacles.
+struct SteeringModel {
   double obstacle_gain = 5;
-  /// Without a neighbour, their vector is (1, 0); else it is zero.
-  bool forward_when_alone = true;
+  /// Without anything to go by (no neighbour, no light), w' is (1, 0); else it is zero.
+  bool forward_by_default = true;
   /// A shorter result means straight ahead.
   double shortest_result = 0.1;
 
-  friend bool operator==(const NeighbourModel&, const NeighbourModel&) = default;
+  friend bool operator==(const SteeringModel&, const SteeringModel&) = default;
 };
 
 /// Grey levels from `low` to `high`, both included, in thousandths of 0..255: the grey level is
@@ -145,6 +171,8 @@ struct Flavour {
   ObstacleModel obstacles;
   ExplorationModel exploration;
   NeighbourModel neighbours;
+  LightModel light;  ///< of no meaning to a flavour without the two phototaxes
+  SteeringModel steering;
   FloorModel floor;
 
   /// The entry of a module in the tables, or null when the flavour lacks it.
@@ -159,7 +187,16 @@ const Flavour& watermelon();
 /// The program published with the thesis, defects included (rvr-automode facts, sections 4 to 6).
 const Flavour& watermelon_argos3();
 
+/// Chocolate's modules on an RVR with a ring of light sensors (thesis facts, sections 6.1 and 7).
+const Flavour& chocolate();
+
+/// All of them, in the order in which people are told of them.
+std::span<const Flavour* const> all_flavours();
+
 /// The flavour with this name; an unknown name is an error that lists the known ones.
 Expected<const Flavour*> find_flavour(std::string_view name);
+
+/// The same as a value of one's own, with the turn clock that a method chose.
+Expected<Flavour> find_flavour(std::string_view name, TurnClock turn_clock);
 
 }  // namespace swarmsmith

@@ -7,8 +7,10 @@ namespace swarmsmith {
 namespace {
 
 /// In the order of the enumerators.
-constexpr std::array<std::string_view, 11> kIds = {"exploration",
+constexpr std::array<std::string_view, 13> kIds = {"exploration",
                                                    "stop",
+                                                   "phototaxis",
+                                                   "anti_phototaxis",
                                                    "attraction",
                                                    "repulsion",
                                                    "black_floor",

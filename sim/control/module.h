@@ -11,6 +11,8 @@ namespace swarmsmith {
 enum class Module {
   Exploration,
   Stop,
+  Phototaxis,
+  AntiPhototaxis,
   Attraction,
   Repulsion,
   BlackFloor,

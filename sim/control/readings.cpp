@@ -53,6 +53,16 @@ Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neig
   return sum;
 }
 
+Vector2 light_vector(const LightReadings& lux, const LightModel& model) {
+  Vector2 sum;
+  for (std::size_t i = 0; i < lux.size(); ++i) {
+    const double strength = std::min(1.0, lux[i] / model.full_lux);
+    sum.x += strength * kProximityDirections[i].x;
+    sum.y += strength * kProximityDirections[i].y;
+  }
+  return sum;
+}
+
 std::optional<HueSaturation> hue_and_saturation(Rgb color) {
   const int r = color.r;
   const int g = color.g;

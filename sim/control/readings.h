@@ -11,8 +11,10 @@ namespace swarmsmith {
 
 struct ObstacleModel;
 struct FloorModel;
+struct LightModel;
 
-/// What modules make of raw readings: obstacles as vectors, floors as grey levels and labels.
+/// What modules make of raw readings: obstacles and light as vectors, floors as grey levels and
+/// labels.
 
 /// A vector of the robot's frame.
 struct Vector2 {
@@ -46,6 +48,9 @@ double neighbour_strength(double distance_m, const ObstacleModel& model);
 /// section 4.1). Pass no neighbours when the model does not take them for obstacles.
 Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                         const ObstacleModel& model);
+
+/// Vector of the light: w_l of the thesis (eq. 5.1), each reading as light_i in [0, 1].
+Vector2 light_vector(const LightReadings& lux, const LightModel& model);
 
 /// Grey level in thousandths of 0..255: 0.299 R + 0.587 G + 0.114 B without rounding.
 constexpr int gray_level(Rgb color) {

@@ -3,12 +3,14 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string_view>
 
 namespace swarmsmith {
 
 /// The reference model of the RVR (thesis table 5.1): what control software may read and command.
-/// It is the border between control software and whatever carries it, a simulator or a robot.
-/// Frame: x forward, y left, angles counter-clockwise.
+/// It is the border between control software and whatever carries it, a simulator or a robot: both
+/// keep to the ranges below, and both give SI units. Frame: x forward, y left, angles
+/// counter-clockwise.
 
 inline constexpr int kProximitySensors = 8;
 
@@ -16,6 +18,17 @@ inline constexpr int kProximitySensors = 8;
 /// (argos3-rvr; rvr-automode facts, section 3.1).
 inline constexpr std::array<int, kProximitySensors> kProximityDirections_deg = {45,   0,   -45, -90,
                                                                                 -135, 180, 135, 90};
+
+/// A proximity sensor cannot measure what is nearer: then prox is 1 (thesis 4.2.9).
+inline constexpr double kBlindZone_m = 0.05;
+/// R, where prox becomes 0, unless a user tunes it: a profile for its sensors, a flavour for what
+/// it expects of them (thesis facts, section 5).
+inline constexpr double kProximityRange_m = 0.4;
+/// Of a light sensor (thesis 4.2.6).
+inline constexpr double kMostLight_lux = 16'000;
+/// Robots nearer than this are neighbours: beyond it the lidar may see walls of the room (thesis
+/// 5.1). Table 5.1 has 10 m, the range of the variable.
+inline constexpr double kNeighbourRange_m = 0.75;
 
 /// One control cycle, nominally (thesis 6.6: 1200 cycles are 120 s).
 inline constexpr double kControlPeriod_s = 0.1;
@@ -37,11 +50,12 @@ struct Neighbour {
 };
 
 /// Distances to the nearest obstacle along the eight directions, in metres from the sensor:
-/// -infinity closer than 0.05, +infinity beyond the range R or with nothing there.
+/// -infinity closer than `kBlindZone_m`, +infinity beyond the range R or with nothing there. prox
+/// of table 5.1 is what a flavour makes of them (`obstacle_strength`).
 using ProximityReadings = std::array<double, kProximitySensors>;
 
-/// Lux at the eight directions of the proximity sensors, in [0, 16000]; a ring of sensors that the
-/// RVR lacks and `chocolate` wants (thesis facts, section 6.1).
+/// Lux at the eight directions of the proximity sensors, up to `kMostLight_lux`; a ring of sensors
+/// that the RVR lacks and `chocolate` wants (thesis facts, section 6.1).
 using LightReadings = std::array<double, kProximitySensors>;
 
 /// Readings of the current cycle. A source computes what is asked for, so a sensor that no module
@@ -52,7 +66,7 @@ class Senses {
   virtual const ProximityReadings& proximity() = 0;
   /// Colour of the floor under the ground sensor, 0.05 m ahead of the centre.
   virtual Rgb ground_color() = 0;
-  /// The robots nearer than 0.75 m (thesis 5.1, lidar clustering), in a fixed order.
+  /// The robots nearer than `kNeighbourRange_m` (thesis 5.1, lidar clustering), in a fixed order.
   virtual std::span<const Neighbour> neighbours() = 0;
   virtual const LightReadings& light() = 0;
   /// Time since the start as the robot's clock has it, seconds.
@@ -82,5 +96,20 @@ constexpr Command clamped(Command command) {
   }
   return command;
 }
+
+/// A line of table 5.1, in SI units.
+struct ReferenceEntry {
+  std::string_view device;
+  std::string_view variable;
+  std::string_view unit;  ///< empty for a pure number
+  double least = 0;
+  double most = 0;
+  bool below_most = false;  ///< `most` itself is left out
+  int count = 0;            ///< 0: one a neighbour
+};
+
+/// Table 5.1 as the code above has it: wheels turn both ways (thesis facts, section 5), light is
+/// the ring's, and the LEDs, which the table leaves out, stand at its end.
+std::span<const ReferenceEntry> reference_model();
 
 }  // namespace swarmsmith

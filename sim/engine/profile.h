@@ -24,9 +24,9 @@ enum class ContactModel {
 /// Eight rays (thesis 4.2.9, 7.1). Of a reading, in this order: missed, or misjudged, or a phantom;
 /// then the limits hold again.
 struct ProximitySensing {
-  double range_m = 0.4;  ///< R: beyond it a reading is +infinity
-  double sd_m = 0;       ///< normal noise on finite distances
-  double scale_sd = 0;   ///< finite distances times N(1, scale_sd)
+  double range_m = kProximityRange_m;  ///< R: beyond it a reading is +infinity
+  double sd_m = 0;                     ///< normal noise on finite distances
+  double scale_sd = 0;                 ///< finite distances times N(1, scale_sd)
   double largest_miss_rate =
       0;                    ///< each sensor's rate of misses, drawn for the run from U(0, this)
   double phantom_rate = 0;  ///< of the readings that are uniform in [0.05 m, R] instead

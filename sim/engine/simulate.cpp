@@ -9,56 +9,13 @@
 #include "base/assert.h"
 #include "base/hash.h"
 #include "base/rng.h"
+#include "sim/engine/internal/robot_clock.h"
 #include "sim/engine/internal/robot_senses.h"
 #include "sim/engine/internal/world.h"
 #include "sim/mission/score.h"
 
 namespace swarmsmith {
 namespace {
-
-constexpr double kPeriod = kSubStepsPerInstant;
-
-/// When a robot acts: its control period, and how late its commands are (thesis 7.1).
-class Clock {
- public:
-  Clock(const ControlTiming& timing, const Rng& run, std::uint64_t robot)
-      : timing_(&timing),
-        jitter_(run.split("jitter", robot)),
-        latency_(run.split("latency", robot)),
-        period_(kPeriod *
-                run.split("period", robot).uniform(timing.least_period, timing.most_period)) {
-    next_cycle();
-  }
-
-  /// Sub-step of the next control cycle. Cycles begin at whole sub-steps; what rounding takes from
-  /// one it gives to the next.
-  std::int64_t next() const { return next_; }
-
-  void next_cycle() {
-    const double jitter =
-        timing_->jitter == 0 ? 0 : jitter_.uniform(-timing_->jitter, timing_->jitter);
-    due_ += period_ * (1 + jitter);
-    next_ = std::max(next_ + 1, static_cast<std::int64_t>(due_ + 0.5));
-  }
-
-  /// Draws how many sub-steps the present cycle's command is late.
-  int draw_delay() {
-    double u = latency_.uniform();
-    for (const ControlTiming::Delay& delay : timing_->delays) {
-      u -= delay.probability;
-      if (u < 0) return delay.sub_steps;
-    }
-    return timing_->delays.back().sub_steps;
-  }
-
- private:
-  const ControlTiming* timing_;
-  Rng jitter_;
-  Rng latency_;
-  double period_;   ///< of this robot in this run, sub-steps
-  double due_ = 0;  ///< the next cycle, not rounded
-  std::int64_t next_ = 0;
-};
 
 /// A command on its way to the treads.
 struct LateCommand {
@@ -70,7 +27,7 @@ struct LateCommand {
 struct Agent {
   RobotSenses senses;
   ControlSoftware control;
-  Clock clock;
+  RobotClock clock;
   std::int64_t cycle = 0;              ///< control cycles done
   Command command{};                   ///< the last one computed
   Command acting{};                    ///< what the drive follows
@@ -95,11 +52,11 @@ class Run {
     const Rng run(static_cast<std::uint64_t>(setup.seed));
     agents_.reserve(positions_.size());
     for (int i = 0; i < world_.robots(); ++i) {
-      const auto number = static_cast<std::uint64_t>(i);
       agents_.push_back(
           {.senses = RobotSenses(world_, arena_, setup.profile, i, run),
-           .control = ControlSoftware(setup.machine, setup.flavour, run.split("control", number)),
-           .clock = Clock(setup.profile.timing, run, number)});
+           .control = ControlSoftware(setup.machine, setup.flavour,
+                                      run.split("control", static_cast<std::uint64_t>(i))),
+           .clock = RobotClock(setup.profile.timing, run, i)});
     }
   }
 
@@ -149,11 +106,11 @@ class Run {
                               .acted = agent.acting});
     agent.command = clamped(agent.control.step(agent.senses));
     if (!recorder_.sensors.empty()) agent.readings = &agent.senses.read(recorder_.sensors);
-    if (setup_.profile.timing.delays.empty()) {
+    const std::int64_t arrival = agent.clock.arrival_of_command(now);
+    if (arrival == now && agent.late.empty()) {
       agent.acting = agent.command;
     } else {
-      const std::int64_t before = agent.late.empty() ? now : agent.late.back().from;
-      agent.late.push_back({std::max(before, now + agent.clock.draw_delay()), agent.command});
+      agent.late.push_back({arrival, agent.command});
     }
     agent.clock.next_cycle();
   }

@@ -44,6 +44,21 @@ Expected<Profile> read(const pb::Profile& message) {
   return profile;
 }
 
+void write(const WorkerMethod& method, pb::Method& out) {
+  out.set_flavour(method.flavour);
+  const bool cycles = method.turn_clock == TurnClock::Cycles;
+  out.set_turn_clock(cycles ? pb::Method::TURN_CLOCK_CYCLES : pb::Method::TURN_CLOCK_SECONDS);
+}
+
+Expected<WorkerMethod> read(const pb::Method& message) {
+  if (message.turn_clock() != pb::Method::TURN_CLOCK_CYCLES &&
+      message.turn_clock() != pb::Method::TURN_CLOCK_SECONDS) {
+    return bad_input("a clock of turns that this program does not know", "turn_clock");
+  }
+  const bool cycles = message.turn_clock() == pb::Method::TURN_CLOCK_CYCLES;
+  return WorkerMethod{message.flavour(), cycles ? TurnClock::Cycles : TurnClock::Seconds};
+}
+
 }  // namespace
 
 std::string to_bytes(const WorkerScenario& scenario) {
@@ -52,8 +67,8 @@ std::string to_bytes(const WorkerScenario& scenario) {
   message.set_engine_version(scenario.engine_version);
   for (const Mission& mission : scenario.missions)
     to_message(mission, *message.add_missions());
-  for (const std::string& flavour : scenario.flavours)
-    message.add_methods()->set_flavour(flavour);
+  for (const WorkerMethod& method : scenario.methods)
+    write(method, *message.add_methods());
   write(scenario.profile, *message.mutable_profile());
   return message.SerializeAsString();
 }
@@ -74,8 +89,14 @@ Expected<WorkerScenario> scenario_from_bytes(std::string_view bytes) {
     }
     scenario.missions.push_back(std::move(*mission));
   }
-  for (const pb::Method& method : message.methods())
-    scenario.flavours.push_back(method.flavour());
+  for (int i = 0; i < message.methods_size(); ++i) {
+    Expected<WorkerMethod> method = read(message.methods(i));
+    if (!method) {
+      const std::string path = "methods[" + std::to_string(i) + "].";
+      return bad_input(method.error().message, path + method.error().where);
+    }
+    scenario.methods.push_back(std::move(*method));
+  }
   Expected<Profile> profile = read(message.profile());
   if (!profile) return Unexpected(profile.error());
   scenario.profile = std::move(*profile);

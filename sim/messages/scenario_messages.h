@@ -5,17 +5,26 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
 #include "sim/mission/mission.h"
 
 namespace swarmsmith {
+
+/// What a worker must know of a method: which constants its machines run with.
+struct WorkerMethod {
+  std::string flavour;  ///< name
+  TurnClock turn_clock = TurnClock::Cycles;
+
+  friend bool operator==(const WorkerMethod&, const WorkerMethod&) = default;
+};
 
 /// What a worker must know of a campaign besides a task.
 struct WorkerScenario {
   std::string campaign_digest;
   int engine_version = 0;
   std::vector<Mission> missions;      ///< Task::mission is an index
-  std::vector<std::string> flavours;  ///< names, one a method; Task::method is an index
+  std::vector<WorkerMethod> methods;  ///< Task::method is an index
   Profile profile;
 
   friend bool operator==(const WorkerScenario&, const WorkerScenario&) = default;

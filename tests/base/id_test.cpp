@@ -5,7 +5,6 @@
 #include <type_traits>
 
 #include "base/expected.h"
-#include "base/units.h"
 
 namespace swarmsmith {
 namespace {
@@ -21,12 +20,6 @@ TEST(Error, SaysWhereWhenItKnows) {
   EXPECT_EQ(to_string(Error{ErrorKind::BadInput, "unknown key", "a.toml:3:1"}),
             "a.toml:3:1: unknown key");
   EXPECT_EQ(to_string(Error{ErrorKind::BadInput, "unknown key", ""}), "unknown key");
-}
-
-TEST(Units, LiteralsAndMakersAreSi) {
-  using namespace literals;
-  EXPECT_DOUBLE_EQ(degrees(180).value, 3.141592653589793);
-  EXPECT_EQ(centimetres(30), 0.3_m);
 }
 
 }  // namespace

@@ -70,7 +70,7 @@ class Coordinators : public ::testing::Test {
   }
 
   cluster::CampaignShape shape;
-  SyntheticCampaign campaign{shape, {}};
+  SyntheticCampaign campaign{shape};
   CoordinatorOptions options{.scheduler = {}, .campaign_digest = "d", .scenario = "scenario"};
   Coordinator coordinator{options, campaign, {}};
   TimePoint now{std::chrono::seconds(50)};

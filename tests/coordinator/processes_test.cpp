@@ -49,7 +49,7 @@ class Processes : public ::testing::Test {
     WorkerScenario scenario{.campaign_digest = "d",
                             .engine_version = kEngineVersion,
                             .missions = {*built_in_mission("aggregation")},
-                            .flavours = {"watermelon"},
+                            .methods = {{.flavour = "watermelon"}},
                             .profile = *built_in_profile("rvr")};
     scenario.missions[0].cycles = cycles;
     campaign = std::make_unique<Flat>(evaluations);

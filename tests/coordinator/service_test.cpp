@@ -33,7 +33,7 @@ class Services : public ::testing::Test {
  protected:
   void open(CampaignShape of = {}) {
     shape = of;
-    campaign = std::make_unique<SyntheticCampaign>(shape, std::span<const StoredScore>());
+    campaign = std::make_unique<SyntheticCampaign>(shape);
     ServiceOptions options;
     options.coordinator.scenario = "scenario";
     auto opened = Service::open(options, store, *campaign);
@@ -159,7 +159,7 @@ TEST_F(Services, StopLeasingWhileTheDiskIsFull) {
 }
 
 TEST_F(Services, ListenOnLoopbackOnly) {
-  SyntheticCampaign source({}, {});
+  SyntheticCampaign source({});
   ServiceOptions options;
   options.bind = "tcp://0.0.0.0:*";
   const auto opened = Service::open(options, store, source);

@@ -22,10 +22,8 @@ Truth truth_of(const CampaignShape& shape, const EvaluationKey& key) {
           .state_digest = mix64(bits)};
 }
 
-SyntheticCampaign::SyntheticCampaign(const CampaignShape& shape, std::span<const StoredScore> known)
+SyntheticCampaign::SyntheticCampaign(const CampaignShape& shape)
     : shape_(shape), races_(static_cast<std::size_t>(shape.designs)) {
-  for (const StoredScore& score : known)
-    known_[pack(score.key)] = score;
   for (std::size_t design = 0; design < races_.size(); ++design) {
     for (int i = 1; i <= shape_.candidates; ++i)
       races_[design].alive.push_back(i);
@@ -38,21 +36,13 @@ EvaluationKey SyntheticCampaign::key_of(std::size_t design, std::int64_t candida
   return {candidate_id(id, candidate), Purpose::Race, races_[design].step};
 }
 
-/// The next step, and those after it that are known altogether.
 void SyntheticCampaign::ask(std::size_t design) {
   Race& race = races_[design];
   if (race.step == shape_.steps) return;
   ++race.step;
   race.scores.clear();
-  std::vector<EvaluationKey> keys;
-  for (const std::int64_t candidate : race.alive)
-    keys.push_back(key_of(design, candidate));
-  for (const EvaluationKey& key : keys) {
-    const auto known = known_.find(pack(key));
-    if (known != known_.end()) {
-      put(design, key, known->second.status, known->second.score);
-      continue;
-    }
+  for (const std::int64_t candidate : race.alive) {
+    const EvaluationKey key = key_of(design, candidate);
     asked_[pack(key)] = false;
     tasks_.push_back({.key = key, .seed = key.pair, .machine = "--nstates 1 --s0 1"});
   }
@@ -134,7 +124,7 @@ std::string SyntheticCampaign::dump() const {
 }
 
 std::string undisturbed_dump(const CampaignShape& shape) {
-  SyntheticCampaign campaign(shape, {});
+  SyntheticCampaign campaign(shape);
   for (auto tasks = campaign.take_tasks(); !tasks.empty(); tasks = campaign.take_tasks()) {
     for (const Task& task : tasks) {
       const Truth truth = truth_of(shape, task.key);

@@ -3,7 +3,6 @@
 #include <cstdint>
 #include <map>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
@@ -38,10 +37,10 @@ Truth truth_of(const CampaignShape& shape, const EvaluationKey& key);
 
 /// Races in small: each step evaluates the candidates that are left on one pair, then the worst by
 /// the sum of its scores so far is dropped, so that what is asked for next depends on every bit.
-/// Rejected candidates are dropped at once. Replays outcomes that are known.
+/// Rejected candidates are dropped at once.
 class SyntheticCampaign final : public WorkSource {
  public:
-  SyntheticCampaign(const CampaignShape& shape, std::span<const StoredScore> known);
+  explicit SyntheticCampaign(const CampaignShape& shape);
 
   std::vector<Task> take_tasks() override;
   void tell(const Outcome& outcome) override;
@@ -63,13 +62,13 @@ class SyntheticCampaign final : public WorkSource {
   };
 
   EvaluationKey key_of(std::size_t design, std::int64_t candidate) const;
+  /// The next step.
   void ask(std::size_t design);
   void put(std::size_t design, const EvaluationKey& key, EvaluationStatus status, double score);
   void decide(std::size_t design);
 
   CampaignShape shape_;
   std::vector<Race> races_;
-  std::map<PackedKey, StoredScore> known_;
   std::map<PackedKey, bool> asked_;  ///< whether it was told
   std::vector<Task> tasks_;
   std::vector<Row> rows_;

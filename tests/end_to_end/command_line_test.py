@@ -51,6 +51,21 @@ class CommandLine(ProgramTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(json.loads(done.stdout)["experiments"], 2000)
 
+    def test_a_campaign_of_chocolate_checks_and_runs(self):
+        text = CAMPAIGN.format(seed=1, budget=2000, tests=2)
+        self.file.write_text(text.replace("watermelon-argos3", "chocolate").replace(
+            "max_experiments", "nb_iterations = 2\nmax_experiments"))
+        check = call("check", self.file, "--json")
+        self.assertEqual(check.returncode, 0, check.stderr)
+        self.assertIn("has no light", json.loads(check.stdout)["warnings"][0])
+        store = self.folder / "chocolate.db"
+        done = self.run_campaign(store)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assert_clean(store)
+        tried = self.query(store, "SELECT count(*) AS n FROM v_candidates "
+                                  "WHERE modules LIKE '%phototaxis%'")
+        self.assertGreater(tried[0]["n"], 0)
+
     def test_evaluate_takes_the_words_of_a_machine_as_they_are(self):
         done = call("evaluate", *EXPLORE, "--mission", "aggregation", "--seeds", "1-3", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)

@@ -16,7 +16,7 @@ WorkerScenario short_aggregation() {
   WorkerScenario scenario{.campaign_digest = "d",
                           .engine_version = kEngineVersion,
                           .missions = {*built_in_mission("aggregation")},
-                          .flavours = {"watermelon"},
+                          .methods = {{.flavour = "watermelon"}},
                           .profile = *built_in_profile("rvr")};
   scenario.missions[0].cycles = 50;
   return scenario;
@@ -50,6 +50,31 @@ TEST(Evaluate, GivesWhatTheSimulatorGives) {
   }
 }
 
+TEST(Evaluate, RunsAMethodWithItsTurnClock) {
+  WorkerScenario scenario = short_aggregation();
+  scenario.missions[0].cycles = 600;
+  scenario.methods = {{.flavour = "watermelon"}, {"watermelon", TurnClock::Seconds}};
+  scenario.profile = *built_in_profile("pseudo-reality");  // control periods below 0.1 s
+  const std::string bytes = to_bytes(scenario);
+  const Expected<Evaluator> evaluator = make_simulation(bytes);
+  ASSERT_TRUE(evaluator);
+  const Machine machine = *parse_machine(kMachine, watermelon());
+  const Instance instance = *instance_of(scenario.missions[0], 1);
+  for (const std::size_t method : {0U, 1U}) {
+    const Flavour flavour =
+        *find_flavour("watermelon", method == 0 ? TurnClock::Cycles : TurnClock::Seconds);
+    const SimulationResult wanted = simulate({.machine = machine,
+                                              .flavour = flavour,
+                                              .profile = scenario_from_bytes(bytes)->profile,
+                                              .mission = scenario.missions[0],
+                                              .instance = instance,
+                                              .seed = 1});
+    WorkItem work = item(1);
+    work.method = static_cast<std::uint32_t>(method);
+    EXPECT_EQ((*evaluator)(work)->state_digest, wanted.state_digest);
+  }
+}
+
 TEST(Evaluate, FailsWithASentence) {
   const Expected<Evaluator> evaluator = make_simulation(to_bytes(short_aggregation()));
   ASSERT_TRUE(evaluator);
@@ -62,7 +87,7 @@ TEST(Evaluate, FailsWithASentence) {
 TEST(Evaluate, RefusesScenariosThatItCannotRun) {
   EXPECT_FALSE(make_simulation("rubbish"));
   WorkerScenario scenario = short_aggregation();
-  scenario.flavours = {"vinegar"};
+  scenario.methods = {{.flavour = "vinegar"}};
   EXPECT_FALSE(make_simulation(to_bytes(scenario)));
   scenario = short_aggregation();
   scenario.engine_version = kEngineVersion + 1;

@@ -20,12 +20,23 @@ std::vector<std::string> ids_of(const std::vector<ModuleSpec>& table) {
 
 /// Null, after a complaint, when the flavour is unknown: then its modules cannot be checked.
 const Flavour* read_flavour(TableReader& table, Method& method) {
-  static const std::vector<std::string> kKnown = {watermelon().name, watermelon_argos3().name};
-  static const std::vector<std::string> kNotYet = {"chocolate", "vanilla"};
-  const auto name = table.choice("flavour", kKnown, kNotYet);
+  static const std::vector<std::string> kNotYet = {"vanilla"};
+  std::vector<std::string> known;
+  for (const Flavour* flavour : all_flavours())
+    known.push_back(flavour->name);
+  const auto name = table.choice("flavour", known, kNotYet);
   if (!name && table.has("flavour")) return nullptr;
   method.flavour = name.value_or(method.flavour);
   return *find_flavour(method.flavour);
+}
+
+/// What Exploration's turns are measured in, the flavour's own without the key.
+TurnClock read_turn_clock(TableReader& table, const Flavour& flavour) {
+  static const std::vector<std::string> kNames = {std::string(name_of(TurnClock::Cycles)),
+                                                  std::string(name_of(TurnClock::Seconds))};
+  const auto name = table.choice("turn_clock", kNames);
+  if (!name) return flavour.exploration.turn_clock;
+  return *name == kNames[0] ? TurnClock::Cycles : TurnClock::Seconds;
 }
 
 /// The modules that the key names, out of one of the flavour's tables and in its order, so that the
@@ -149,11 +160,12 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken) {
   method.max_transitions =
       table.integer("max_transitions", {1, kMaxTransitions}).value_or(kMaxTransitions);
   if (flavour != nullptr) {
+    method.turn_clock = read_turn_clock(table, *flavour);
     method.behaviours = read_modules(table, "behaviours", flavour->behaviours, flavour->name);
     method.conditions = read_modules(table, "conditions", flavour->conditions, flavour->name);
     if (auto ranges = table.table("parameters")) read_ranges(*ranges, *flavour, method);
   } else {
-    for (const std::string_view key : {"behaviours", "conditions", "parameters"})
+    for (const std::string_view key : {"turn_clock", "behaviours", "conditions", "parameters"})
       table.take(key);
   }
   table.finish();

@@ -136,6 +136,7 @@ void add_method(const Method& method, std::vector<Section>& sections) {
                       prefix,
                       {{"name", quoted_text(method.name)},
                        {"flavour", quoted_text(method.flavour)},
+                       {"turn_clock", quoted_text(name_of(method.turn_clock))},
                        {"max_states", std::to_string(method.max_states)},
                        {"max_transitions", std::to_string(method.max_transitions)},
                        {"behaviours", array_of(method.behaviours)},

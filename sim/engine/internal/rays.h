@@ -15,8 +15,6 @@ inline constexpr double kRayStart_m = 0.143;
 inline double ray_start_m(const Form& robot) {
   return robot.is_rvr ? kRayStart_m : robot.inradius_m;
 }
-/// What is nearer reads -infinity.
-inline constexpr double kBlindZone_m = 0.05;
 
 /// Distances along the proximity directions from the ray's start to what it meets; +infinity where
 /// nothing was met. Physical distances: limits and noise come later.

@@ -17,8 +17,6 @@ namespace swarmsmith {
 
 /// The place of the ground sensor, ahead of the centre (rvr-automode facts, section 3.2).
 inline constexpr double kGroundSensorAhead_m = 0.05;
-/// Robots nearer than this are neighbours (thesis 5.1).
-inline constexpr double kNeighbourRange_m = 0.75;
 
 /// One robot's sensors in the simulated world, each computed when first asked for in a cycle.
 ///

@@ -55,6 +55,26 @@ TEST(CampaignFile, ReadsTheKeysOfEverySection) {
   EXPECT_TRUE(campaign.stop_on_failure);
 }
 
+TEST(CampaignFile, ReadsAMethodOfChocolateWithItsModules) {
+  const Campaign campaign =
+      parsed(FileText{.method = "name = \"c\"\nflavour = \"chocolate\"\n"}.text());
+  EXPECT_THAT(campaign.methods[0].behaviours,
+              ElementsAre("exploration", "stop", "phototaxis", "anti_phototaxis", "attraction",
+                          "repulsion"));
+  EXPECT_THAT(campaign.methods[0].conditions,
+              ElementsAre("black_floor", "gray_floor", "white_floor", "neighbour_count",
+                          "inverted_neighbour_count", "fixed_probability"));
+}
+
+TEST(CampaignFile, ReadsWhatTurnsAreMeasuredIn) {
+  const auto clock = [](const std::string& keys) {
+    return parsed(FileText{.method = "name = \"m\"\n" + keys}.text()).methods[0].turn_clock;
+  };
+  EXPECT_EQ(clock(""), TurnClock::Cycles);
+  EXPECT_EQ(clock("turn_clock = \"cycles\"\n"), TurnClock::Cycles);
+  EXPECT_EQ(clock("turn_clock = \"seconds\"\n"), TurnClock::Seconds);
+}
+
 TEST(CampaignFile, ReadsAMissionOfItsOwn) {
   const Campaign campaign = parsed(FileText{.mission = R"(name = "shelter"
 duration = "60.5 s"

@@ -15,19 +15,20 @@ using testing::ElementsAre;
 using testing::Pair;
 using testing::SizeIs;
 
-const FileText kRich{.campaign = "seed = 9\nrepetitions = 2\n",
-                     .mission =
-                         "name = \"color_selection\"\n[[mission]]\n"
-                         "name = \"grid_exploration\"\nduration = \"12.3 s\"\n[[mission]]\n"
-                         "name = \"shelter\"\narena = { area = 4.91, floor = \"#010203\", "
-                         "spots = [ { shape = \"circle\", x = 0.1, y = 0, diameter = 0.7, "
-                         "color = \"black\" } ] }\n"
-                         "score = { kind = \"robots_on\", color = \"black\" }\n",
-                     .method =
-                         "name = \"a\"\n[[method]]\nname = \"b\"\n"
-                         "flavour = \"watermelon-argos3\"\nmax_states = 3\n"
-                         "parameters.neighbour_count.eta = { real = [0.25, 10] }\n",
-                     .race = "max_experiments = 5000\nmin_experiments = 100\nconfidence = 0.9\n"};
+const FileText kRich{
+    .campaign = "seed = 9\nrepetitions = 2\n",
+    .mission =
+        "name = \"color_selection\"\n[[mission]]\n"
+        "name = \"grid_exploration\"\nduration = \"12.3 s\"\n[[mission]]\n"
+        "name = \"shelter\"\narena = { area = 4.91, floor = \"#010203\", "
+        "spots = [ { shape = \"circle\", x = 0.1, y = 0, diameter = 0.7, "
+        "color = \"black\" } ] }\n"
+        "score = { kind = \"robots_on\", color = \"black\" }\n",
+    .method =
+        "name = \"a\"\n[[method]]\nname = \"b\"\n"
+        "flavour = \"watermelon-argos3\"\nmax_states = 3\nturn_clock = \"seconds\"\n"
+        "parameters.neighbour_count.eta = { real = [0.25, 10] }\n",
+    .race = "max_experiments = 5000\nmin_experiments = 100\nconfidence = 0.9\n"};
 
 TEST(NormalisedText, ReadsBackToTheSameCampaign) {
   const Campaign campaign = parsed(kRich.text());
@@ -88,6 +89,8 @@ TEST(CampaignDigest, CoversEverythingThatDecides) {
       {.mission = "name = \"aggregation\"\ninstances = { test = { count = 7 } }\n"},
       {.method = "name = \"x\"\n"},
       {.method = "name = \"watermelon\"\nflavour = \"watermelon-argos3\"\n"},
+      {.method = "name = \"watermelon\"\nflavour = \"chocolate\"\n"},
+      {.method = "name = \"watermelon\"\nturn_clock = \"seconds\"\n"},
       {.method = "name = \"watermelon\"\nmax_states = 3\n"},
       {.method = "name = \"watermelon\"\nbehaviours = [\"stop\", \"exploration\"]\n"},
       {.method = "name = \"watermelon\"\nparameters.exploration.tau = { int = [1, 50] }\n"},
@@ -107,6 +110,7 @@ TEST(Deciding, ReadsLikeTheFile) {
   const Deciding entries = deciding(parsed(FileText{}.text()));
   EXPECT_THAT(entries, Contains(Pair("campaign.seed", "1")));
   EXPECT_THAT(entries, Contains(Pair("mission.aggregation.duration", "\"120 s\"")));
+  EXPECT_THAT(entries, Contains(Pair("method.watermelon.turn_clock", "\"cycles\"")));
   EXPECT_THAT(entries, Contains(Pair("race.max_experiments", "2000")));
   EXPECT_EQ(entries.back().first, "engine.version");
 }

@@ -50,18 +50,46 @@ Configuration random_configuration(const ParameterSpace& space, Rng& rng) {
   return values.configuration();
 }
 
-class Flavours : public testing::TestWithParam<std::string> {};
-
-TEST_P(Flavours, HaveTheOneHundredAndFortyNineParametersOfTheOriginalInItsOrder) {
-  const MachineSpace machines = space_of(method_of(GetParam()));
-  const auto names = names_of(machines.parameters());
-  ASSERT_EQ(names.size(), 149U);
-  EXPECT_EQ(machines.parameters().variable_count(), 149);
-  const std::vector<std::string> first(names.begin(), names.begin() + 14);
-  EXPECT_THAT(first, ElementsAre("NumStates", "S0", "RWM0", "ATT0", "REP0", "NumConnections0",
-                                 "N0x0", "C0x0", "P0x0", "B0x0", "W0x0", "BI0x0", "WI0x0", "L0x0"));
-  EXPECT_EQ(names.back(), "L3x3");
+TEST(MachineSpace, OfWatermelonHasTheOneHundredAndFortyNineParametersOfTheOriginalInItsOrder) {
+  for (const char* flavour : {"watermelon", "watermelon-argos3"}) {
+    const MachineSpace machines = space_of(method_of(flavour));
+    const auto names = names_of(machines.parameters());
+    ASSERT_EQ(names.size(), 149U);
+    EXPECT_EQ(machines.parameters().variable_count(), 149);
+    const std::vector<std::string> first(names.begin(), names.begin() + 14);
+    EXPECT_THAT(first,
+                ElementsAre("NumStates", "S0", "RWM0", "ATT0", "REP0", "NumConnections0", "N0x0",
+                            "C0x0", "P0x0", "B0x0", "W0x0", "BI0x0", "WI0x0", "L0x0"));
+    EXPECT_EQ(names.back(), "L3x3");
+  }
 }
+
+TEST(MachineSpace, OfChocolateIsWatermelonsWithoutLabels) {
+  const MachineSpace machines = space_of(method_of("chocolate"));
+  const ParameterSpace& space = machines.parameters();
+  auto names = names_of(space_of(method_of("watermelon")).parameters());
+  std::erase_if(names, [](const std::string& name) { return name.front() == 'L'; });
+  EXPECT_EQ(names.size(), 133U);
+  EXPECT_EQ(names_of(space), names);
+  EXPECT_EQ(std::get<Categorical>(space[*space.index_of("S2")].domain).values,
+            (std::vector<std::string>{"exploration", "stop", "phototaxis", "anti_phototaxis",
+                                      "attraction", "repulsion"}));
+  EXPECT_EQ(std::get<Categorical>(space[*space.index_of("C2x1")].domain).values.size(), 6U);
+  const auto& xi = std::get<Integer>(space[*space.index_of("B0x0")].domain);
+  EXPECT_EQ(std::get<double>(xi.lower), 0);
+  EXPECT_EQ(std::get<double>(xi.upper), 10);
+  // tau and alpha belong to one behaviour each; the phototaxes have nothing to choose.
+  Rng rng(5);
+  for (int i = 0; i < 200; ++i) {
+    const Configuration configuration = random_configuration(space, rng);
+    const std::size_t behaviour = configuration.choice(*space.index_of("S0"));
+    EXPECT_EQ(configuration.is_active(*space.index_of("RWM0")), behaviour == 0);
+    EXPECT_EQ(configuration.is_active(*space.index_of("ATT0")), behaviour == 4);
+    EXPECT_EQ(configuration.is_active(*space.index_of("REP0")), behaviour == 5);
+  }
+}
+
+class Flavours : public testing::TestWithParam<std::string> {};
 
 TEST_P(Flavours, MakeMachinesWhosePrintedTextReadsBackToTheSameMachine) {
   const Flavour& flavour = **find_flavour(GetParam());
@@ -96,9 +124,12 @@ TEST_P(Flavours, UseEachActiveParameterOnceInTheMachine) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Flavours, testing::Values("watermelon", "watermelon-argos3"),
+INSTANTIATE_TEST_SUITE_P(All, Flavours,
+                         testing::Values("watermelon", "watermelon-argos3", "chocolate"),
                          [](const auto& flavour) {
-                           return flavour.param == "watermelon" ? "Watermelon" : "WatermelonArgos3";
+                           std::string name = flavour.param;
+                           std::erase(name, '-');
+                           return name;
                          });
 
 TEST(MachineSpace, ReadsTransitionTargetsAmongTheOtherStates) {

@@ -40,8 +40,8 @@ inline void write_file(const std::filesystem::path& file, const std::string& tex
 }
 
 /// A store with one finished design of two candidates, c1 (the winner, child of c2) and c2.
-inline void write_store(const std::filesystem::path& file) {
-  auto campaign = demo_campaign();
+inline void write_store(const std::filesystem::path& file,
+                        const Campaign& campaign = demo_campaign()) {
   auto store = Store::open(file, campaign_row(campaign), design_rows(campaign));
   ASSERT_TRUE(store) << to_string(store.error());
   const DesignId design{1};

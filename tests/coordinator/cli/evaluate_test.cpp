@@ -156,6 +156,42 @@ TEST_F(EvaluateFromStore, TakesFlavourProfileAndMissionFromTheCandidatesCampaign
   EXPECT_EQ(lines_of(ran.out)[1]["score"], score_of("aggregation", 2));
 }
 
+/// Final score of kExploreText where control cycles come too early.
+double hasty_score(const Flavour& flavour, std::int64_t seed) {
+  const Mission mission = *built_in_mission("grid_exploration");
+  const Machine machine = *parse_machine(kExploreText, flavour);
+  return simulate({.machine = machine,
+                   .flavour = flavour,
+                   .profile = *built_in_profile("pseudo-reality"),
+                   .mission = mission,
+                   .instance = *instance_of(mission, seed),
+                   .seed = seed})
+      .score;
+}
+
+TEST(EvaluateFromAStoreOfTimedTurns, TakesTheTurnClockOfTheCandidatesMethod) {
+  const TemporaryFolder folder;
+  const std::string store = (folder / "timed.db").string();
+  Campaign campaign = demo_campaign();
+  campaign.methods[0].turn_clock = TurnClock::Seconds;
+  write_store(store, campaign);
+  const auto score = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {"evaluate",  "c1",
+                                      "--store",   store,
+                                      "--mission", "grid_exploration",
+                                      "--profile", "pseudo-reality",
+                                      "--seeds",   "3",
+                                      "--json"};
+    words.insert(words.end(), more.begin(), more.end());
+    return lines_of(run(words).out).at(0)["score"].get<double>();
+  };
+  const Flavour timed = find_flavour("watermelon", TurnClock::Seconds).value();
+  EXPECT_EQ(score({}), hasty_score(timed, 3));
+  EXPECT_EQ(score({"--flavour", "watermelon"}), hasty_score(timed, 3));
+  EXPECT_NE(score({}), hasty_score(watermelon(), 3));
+  EXPECT_EQ(score({"--flavour", "watermelon-argos3"}), hasty_score(watermelon_argos3(), 3));
+}
+
 TEST_F(EvaluateFromStore, ExitsWithFourForACandidateThatIsNotThere) {
   EXPECT_EQ(run({"evaluate", "c99", "--store", store_}).code, 4);
   EXPECT_EQ(run({"evaluate", "c1", "--store", store_ + "x"}).code, 3);

@@ -58,7 +58,7 @@ TEST(Stop, StandsStillAndAsksForNothing) {
   BehaviourMemory memory;
   Rng rng(1);
   EXPECT_EQ(act(Stop{}, senses, watermelon(), memory, rng), (Command{0, 0}));
-  EXPECT_EQ(senses.proximity_asked + senses.neighbours_asked + senses.ground_asked, 0);
+  EXPECT_EQ(senses.asked(), 0);
 }
 
 // --- Exploration ---------------------------------------------------------------------------------
@@ -186,7 +186,7 @@ TEST(Exploration, AsksForNothingWhileItTurns) {
   Rng rng(1);
   EXPECT_EQ(act(Exploration{5}, senses, watermelon(), memory, rng), (Command{-kSpeed, kSpeed}));
   EXPECT_EQ(memory.turn_cycles_left, 1);
-  EXPECT_EQ(senses.proximity_asked + senses.neighbours_asked, 0);
+  EXPECT_EQ(senses.asked(), 0);
 }
 
 // --- Attraction ----------------------------------------------------------------------------------
@@ -275,11 +275,47 @@ TEST(Repulsion, AnObstacleOfTheProgramCountsOneHoweverNear) {
                  kSpeed * 0.625 / std::hypot(0.625, 5));
 }
 
+// --- Sensors -------------------------------------------------------------------------------------
+
+TEST(Behaviour, AsksOnlyForTheSensorsItNeeds) {
+  const auto after = [](const Behaviour& behaviour, const Flavour& flavour) {
+    FakeSenses senses;
+    senses.light_from(0, 500).neighbour(0.5, 10);
+    BehaviourMemory memory;
+    Rng rng(1);
+    act(behaviour, senses, flavour, memory, rng);
+    EXPECT_EQ(senses.ground_asked, 0);
+    EXPECT_EQ(senses.time_asked, 0) << "turns are counted in cycles";
+    return senses;
+  };
+  for (const Flavour* flavour : all_flavours()) {
+    SCOPED_TRACE(flavour->name);
+    const bool obstacles = flavour->obstacles.neighbours_as_obstacles;
+    const FakeSenses exploring = after(Exploration{5}, *flavour);
+    EXPECT_EQ(exploring.proximity_asked, 1);
+    EXPECT_EQ(exploring.neighbours_asked, obstacles ? 1 : 0);
+    EXPECT_EQ(exploring.light_asked, 0);
+    for (const Behaviour& social : {Behaviour(Attraction{2}), Behaviour(Repulsion{2})}) {
+      const FakeSenses senses = after(social, *flavour);
+      EXPECT_EQ(senses.proximity_asked, 1);
+      EXPECT_GT(senses.neighbours_asked, 0);
+      EXPECT_EQ(senses.light_asked, 0);
+    }
+  }
+  for (const Behaviour& lit : {Behaviour(Phototaxis{}), Behaviour(AntiPhototaxis{})}) {
+    const FakeSenses senses = after(lit, chocolate());
+    EXPECT_EQ(senses.light_asked, 1);
+    EXPECT_EQ(senses.proximity_asked, 1);
+    EXPECT_EQ(senses.neighbours_asked, 0);
+  }
+}
+
 // --- Values --------------------------------------------------------------------------------------
 
 TEST(Behaviour, IsMadeFromItsModuleAndParameters) {
-  for (const Behaviour& behaviour : {Behaviour(Exploration{12}), Behaviour(Stop{}),
-                                     Behaviour(Attraction{1.5}), Behaviour(Repulsion{4.25})}) {
+  for (const Behaviour& behaviour :
+       {Behaviour(Exploration{12}), Behaviour(Stop{}), Behaviour(Phototaxis{}),
+        Behaviour(AntiPhototaxis{}), Behaviour(Attraction{1.5}), Behaviour(Repulsion{4.25})}) {
     EXPECT_EQ(make_behaviour(module_of(behaviour), parameters_of(behaviour)), behaviour);
   }
 }
@@ -288,6 +324,7 @@ TEST(Behaviour, IsNotMadeFromAConditionOrTooFewParameters) {
   const std::vector<double> one = {0.5};
   EXPECT_THROW(make_behaviour(Module::BlackFloor, one), std::invalid_argument);
   EXPECT_THROW(make_behaviour(Module::Stop, one), std::invalid_argument);
+  EXPECT_THROW(make_behaviour(Module::Phototaxis, one), std::invalid_argument);
   EXPECT_THROW(make_behaviour(Module::Exploration, {}), std::invalid_argument);
 }
 

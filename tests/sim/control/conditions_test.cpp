@@ -162,7 +162,7 @@ TEST(InvertedNeighbourCount, IsOneMinusTheOther) {
 TEST(FixedProbability, AsksForNothing) {
   FakeSenses senses;
   EXPECT_EQ(enabling_probability(FixedProbability{0.25}, senses, watermelon()), 0.25);
-  EXPECT_EQ(senses.ground_asked + senses.neighbours_asked + senses.proximity_asked, 0);
+  EXPECT_EQ(senses.asked(), 0);
 }
 
 TEST(Condition, AsksOnlyForItsSensor) {
@@ -171,8 +171,9 @@ TEST(Condition, AsksOnlyForItsSensor) {
   EXPECT_EQ(senses.ground_asked, 0);
   enabling_probability(BlackFloor{1}, senses, watermelon());
   EXPECT_EQ(senses.ground_asked, 1);
-  EXPECT_EQ(senses.neighbours_asked, 1);
-  EXPECT_EQ(senses.proximity_asked, 0);
+  enabling_probability(InvertedNeighbourCount{.eta = 1, .xi = 1}, senses, chocolate());
+  EXPECT_EQ(senses.neighbours_asked, 2);
+  EXPECT_EQ(senses.asked(), 3) << "neither light, obstacles nor the time";
 }
 
 TEST(Condition, IsMadeFromItsModuleAndParameters) {

@@ -77,7 +77,7 @@ TEST(ControlSoftware, AFinalStateIsNeverLeft) {
   for (int cycle = 0; cycle < 100; ++cycle)
     software.step(senses);
   EXPECT_EQ(software.state(), 0);
-  EXPECT_EQ(senses.ground_asked + senses.neighbours_asked + senses.proximity_asked, 0);
+  EXPECT_EQ(senses.asked(), 0);
 }
 
 /// How often each state is the first one that the machine goes to.

@@ -17,7 +17,7 @@ inline Neighbour neighbour_at(double distance_m, double bearing_deg) {
 }
 
 /// Readings as a test sets them, and how often each sensor was asked. At first there are no
-/// obstacles and no neighbours, and the floor is the arena's grey.
+/// obstacles, no neighbours and no light, and the floor is the arena's grey.
 class FakeSenses final : public Senses {
  public:
   const ProximityReadings& proximity() override {
@@ -36,12 +36,22 @@ class FakeSenses final : public Senses {
     ++light_asked;
     return lux;
   }
-  double time_s() override { return now_s; }
+  double time_s() override {
+    ++time_asked;
+    return now_s;
+  }
 
   /// One obstacle in the direction, one of 45, 0, -45, -90, -135, 180, 135, 90 degrees.
   FakeSenses& obstacle(int direction_deg, double distance_m) {
     for (std::size_t i = 0; i < distances.size(); ++i) {
       if (kProximityDirections_deg[i] == direction_deg) distances[i] = distance_m;
+    }
+    return *this;
+  }
+  /// What the light sensor in the direction reads, one of the same.
+  FakeSenses& light_from(int direction_deg, double reading_lux) {
+    for (std::size_t i = 0; i < lux.size(); ++i) {
+      if (kProximityDirections_deg[i] == direction_deg) lux[i] = reading_lux;
     }
     return *this;
   }
@@ -54,12 +64,17 @@ class FakeSenses final : public Senses {
                               kNothing, kNothing, kNothing, kNothing};
   Rgb floor{127, 127, 127};
   std::vector<Neighbour> others;
-  int proximity_asked = 0;
-  int ground_asked = 0;
   LightReadings lux{};
   double now_s = 0;
+  int proximity_asked = 0;
+  int ground_asked = 0;
   int neighbours_asked = 0;
   int light_asked = 0;
+  int time_asked = 0;
+
+  int asked() const {
+    return proximity_asked + ground_asked + neighbours_asked + light_asked + time_asked;
+  }
 };
 
 }  // namespace swarmsmith

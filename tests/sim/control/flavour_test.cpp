@@ -14,6 +14,7 @@ using ::testing::HasSubstr;
 TEST(Flavour, IsFoundByItsName) {
   EXPECT_EQ(find_flavour("watermelon").value(), &watermelon());
   EXPECT_EQ(find_flavour("watermelon-argos3").value(), &watermelon_argos3());
+  EXPECT_EQ(find_flavour("chocolate").value(), &chocolate());
 }
 
 TEST(Flavour, AnUnknownNameListsTheKnownOnes) {
@@ -21,27 +22,41 @@ TEST(Flavour, AnUnknownNameListsTheKnownOnes) {
   ASSERT_FALSE(flavour.has_value());
   EXPECT_EQ(flavour.error().kind, ErrorKind::NotFound);
   EXPECT_EQ(flavour.error().message,
-            "there is no flavour `melon`; known are: watermelon, watermelon-argos3");
+            "there is no flavour `melon`; known are: watermelon, watermelon-argos3, chocolate");
+}
+
+std::string numbers_of(const Flavour& flavour) {
+  std::string table;
+  for (const auto* modules : {&flavour.behaviours, &flavour.conditions}) {
+    for (const ModuleSpec& spec : *modules) {
+      table += std::to_string(spec.number) + " " + std::string(id_of(spec.module)) + "\n";
+    }
+  }
+  return table;
 }
 
 TEST(Flavour, ModulesHaveTheNumbersOfThePublishedGrammar) {
   for (const Flavour* flavour : {&watermelon(), &watermelon_argos3()}) {
-    std::string table;
-    for (const auto* modules : {&flavour->behaviours, &flavour->conditions}) {
-      for (const ModuleSpec& spec : *modules) {
-        table += std::to_string(spec.number) + " " + std::string(id_of(spec.module)) + "\n";
-      }
-    }
-    EXPECT_EQ(table,
+    EXPECT_EQ(numbers_of(*flavour),
               "0 exploration\n1 stop\n2 attraction\n3 repulsion\n"
               "0 black_floor\n1 gray_floor\n2 white_floor\n3 neighbour_count\n"
               "4 inverted_neighbour_count\n5 fixed_probability\n6 color_detection\n");
   }
 }
 
+TEST(Flavour, ModulesOfChocolateHaveTheNumbersOfTheEPucks) {
+  EXPECT_EQ(numbers_of(chocolate()),
+            "0 exploration\n1 stop\n2 phototaxis\n3 anti_phototaxis\n4 attraction\n5 repulsion\n"
+            "0 black_floor\n1 gray_floor\n2 white_floor\n3 neighbour_count\n"
+            "4 inverted_neighbour_count\n5 fixed_probability\n");
+}
+
 TEST(Flavour, ModuleIdsReadBack) {
-  for (const ModuleSpec& spec : watermelon().conditions) {
-    EXPECT_EQ(module_from_id(id_of(spec.module)), spec.module);
+  for (const Flavour* flavour : all_flavours()) {
+    for (const auto* modules : {&flavour->behaviours, &flavour->conditions}) {
+      for (const ModuleSpec& spec : *modules)
+        EXPECT_EQ(module_from_id(id_of(spec.module)), spec.module);
+    }
   }
   EXPECT_EQ(module_from_id("exploration"), Module::Exploration);
   EXPECT_FALSE(module_from_id("Exploration").has_value());
@@ -70,6 +85,18 @@ TEST(Flavour, GivesThe149ParametersOfTheSearch) {
   }
 }
 
+TEST(Flavour, AValueOfOnesOwnHasTheTurnClockThatWasChosen) {
+  for (const Flavour* known : all_flavours()) {
+    EXPECT_EQ(known->exploration.turn_clock, TurnClock::Cycles);
+    EXPECT_EQ(find_flavour(known->name, TurnClock::Cycles).value(), *known);
+    Flavour timed = find_flavour(known->name, TurnClock::Seconds).value();
+    EXPECT_EQ(timed.exploration.turn_clock, TurnClock::Seconds);
+    timed.exploration.turn_clock = TurnClock::Cycles;
+    EXPECT_EQ(timed, *known) << "nothing else changes";
+  }
+  EXPECT_FALSE(find_flavour("melon", TurnClock::Cycles).has_value());
+}
+
 TEST(Flavour, AParameterOfOneSymbolIsTheSameInAllModules) {
   for (const ModuleSpec& one : watermelon().conditions) {
     for (const ModuleSpec& other : watermelon().conditions) {
@@ -95,8 +122,9 @@ TEST(Flavour, SearchRangesAreThoseOfTheThesisAndLieWithinWhatIsAccepted) {
   };
   EXPECT_EQ(xi_of(watermelon()).low, 0);
   EXPECT_EQ(xi_of(watermelon_argos3()).low, 1);
+  EXPECT_EQ(xi_of(chocolate()).low, 0);
   EXPECT_EQ(xi_of(watermelon()).high, 10);
-  for (const Flavour* flavour : {&watermelon(), &watermelon_argos3()}) {
+  for (const Flavour* flavour : all_flavours()) {
     for (const auto* modules : {&flavour->behaviours, &flavour->conditions}) {
       for (const ModuleSpec& spec : *modules) {
         for (const ParameterSpec& parameter : spec.parameters) {
@@ -119,19 +147,6 @@ TEST(ParameterSpec, ComplainsInASentence) {
   EXPECT_THAT(complaint_about(beta, 1.01).value(),
               HasSubstr("beta must be at least 0 and at most 1"));
   EXPECT_TRUE(complaint_about(beta, std::numeric_limits<double>::quiet_NaN()).has_value());
-}
-
-TEST(Flavour, TheTwoDifferExactlyWhereThesisAndProgramDo) {
-  const Flavour& thesis = watermelon();
-  const Flavour& program = watermelon_argos3();
-  EXPECT_EQ(thesis.behaviours, program.behaviours);
-  EXPECT_EQ(thesis.floor.labels, program.floor.labels);
-  EXPECT_EQ(thesis.speed_mps, program.speed_mps);
-  EXPECT_NE(thesis.conditions, program.conditions);  // xi from 0 or from 1
-  EXPECT_NE(thesis.obstacles, program.obstacles);
-  EXPECT_NE(thesis.exploration, program.exploration);
-  EXPECT_NE(thesis.neighbours, program.neighbours);
-  EXPECT_NE(thesis.floor.black, program.floor.black);
 }
 
 }  // namespace

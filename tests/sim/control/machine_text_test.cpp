@@ -183,51 +183,37 @@ double any_fraction() {
   return static_cast<double>(*rc::gen::inRange<std::int64_t>(0, 1'000'000'007)) / 1'000'000'006.0;
 }
 
-Behaviour any_behaviour() {
-  const double alpha = 0.01 + 5 * any_fraction();
-  switch (*rc::gen::inRange(0, 4)) {
-    case 0:
-      return Exploration{*rc::gen::inRange(1, 101)};
-    case 1:
-      return Stop{};
-    case 2:
-      return Attraction{alpha};
-    default:
-      return Repulsion{alpha};
+/// Any value that the parameter may have.
+double any_value(const ParameterSpec& parameter) {
+  if (parameter.type == ParameterSpec::Type::Real) {
+    const double least = parameter.least_included ? parameter.low : parameter.low / 100;
+    return least + (parameter.high - least) * any_fraction();
   }
+  const auto low = static_cast<int>(parameter.low);
+  return *rc::gen::inRange(low, static_cast<int>(parameter.high) + 1);
 }
 
-Condition any_condition() {
-  const double beta = any_fraction();
-  const double eta = 20 * any_fraction();
-  const int xi = *rc::gen::inRange(0, 11);
-  switch (*rc::gen::inRange(0, 7)) {
-    case 0:
-      return BlackFloor{beta};
-    case 1:
-      return GrayFloor{beta};
-    case 2:
-      return WhiteFloor{beta};
-    case 3:
-      return NeighbourCount{.eta = eta, .xi = xi};
-    case 4:
-      return InvertedNeighbourCount{.eta = eta, .xi = xi};
-    case 5:
-      return FixedProbability{beta};
-    default:
-      return ColorDetection{beta, static_cast<ColorLabel>(*rc::gen::inRange(0, 4))};
-  }
+/// A module out of the table with values for its parameters.
+template <class Made>
+Made any_of(const std::vector<ModuleSpec>& table,
+            Made (*make)(Module module, std::span<const double> parameters)) {
+  const ModuleSpec& spec = table[*rc::gen::inRange<std::size_t>(0, table.size())];
+  std::vector<double> values;
+  for (const ParameterSpec& parameter : spec.parameters)
+    values.push_back(any_value(parameter));
+  return make(spec.module, values);
 }
 
-Machine any_machine() {
+Machine any_machine(const Flavour& flavour) {
   Machine machine;
   const int states = *rc::gen::inRange(1, kMaxStates + 1);
   for (int i = 0; i < states; ++i) {
-    State state{any_behaviour(), {}};
+    State state{any_of(flavour.behaviours, make_behaviour), {}};
     const int transitions = states == 1 ? 0 : *rc::gen::inRange(0, kMaxTransitions + 1);
     for (int j = 0; j < transitions; ++j) {
       const int other = *rc::gen::inRange(0, states - 1);
-      state.transitions.push_back({any_condition(), other < i ? other : other + 1});
+      state.transitions.push_back(
+          {any_of(flavour.conditions, make_condition), other < i ? other : other + 1});
     }
     machine.states.push_back(std::move(state));
   }
@@ -235,9 +221,9 @@ Machine any_machine() {
 }
 
 TEST(MachineText, WhatIsPrintedReadsBackToTheSameMachine) {
-  for (const Flavour* flavour : {&watermelon(), &watermelon_argos3()}) {
+  for (const Flavour* flavour : all_flavours()) {
     EXPECT_TRUE(rc::check([flavour] {
-      const Machine machine = any_machine();
+      const Machine machine = any_machine(*flavour);
       const std::string text = print_machine(machine, *flavour);
       const Expected<Machine> again = parse_machine(text, *flavour);
       RC_ASSERT(again.has_value());
@@ -249,7 +235,7 @@ TEST(MachineText, WhatIsPrintedReadsBackToTheSameMachine) {
 
 TEST(MachineText, ATextWithAWordLeftOutIsAnError) {
   EXPECT_TRUE(rc::check([] {
-    const std::string text = print_machine(any_machine(), watermelon());
+    const std::string text = print_machine(any_machine(watermelon()), watermelon());
     std::vector<std::string> words;
     for (std::size_t at = 0; at < text.size();) {
       const std::size_t end = std::min(text.find(' ', at), text.size());

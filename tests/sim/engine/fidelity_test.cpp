@@ -1,163 +1,50 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <map>
-#include <vector>
+#include <string_view>
 
-#include "tests/sim/engine/reference_data.h"
-#include "tests/sim/engine/reference_runs.h"
+#include "tests/sim/engine/comparison.h"
 
-// The tables of docs/fidelity.md: run this program with --gtest_filter='Fidelity*'.
+// Bounds on what docs/fidelity.md shows in full (`./dev bench fidelity` writes it).
 
 namespace swarmsmith {
 namespace {
 
 /// Streams of control draws for each seed; the original has one.
 constexpr int kStreams = 3;
-/// 99.5 % quantile of the standard normal distribution.
-constexpr double kZ99 = 2.5758293035489004;
 
-/// Ours against the original's, paired by seed.
-struct Comparison {
-  double ours = 0;
-  double theirs = 0;
-  double difference = 0;
-  double half_width = 0;  ///< of the 99 % interval of the difference
-  double z = 0;
-
-  bool holds_zero() const { return std::fabs(difference) <= half_width; }
-};
-
-Comparison compare(const std::vector<double>& ours, const std::vector<double>& theirs) {
-  Comparison result;
-  const auto n = static_cast<double>(ours.size());
-  for (std::size_t i = 0; i < ours.size(); ++i) {
-    result.ours += ours[i] / n;
-    result.theirs += theirs[i] / n;
-  }
-  result.difference = result.ours - result.theirs;
-  double squares = 0;
-  for (std::size_t i = 0; i < ours.size(); ++i) {
-    const double rest = ours[i] - theirs[i] - result.difference;
-    squares += rest * rest;
-  }
-  const double error = std::sqrt(squares / (n - 1) / n);
-  result.half_width = kZ99 * error;
-  result.z = error > 0 ? result.difference / error : 0;
-  return result;
-}
-
-/// Scores of one machine: ours, averaged over the streams, and the original's, seed by seed.
-Comparison compare_machine(const ReferenceRuns& runs, const Machine& machine,
-                           const std::map<int, double>& scores, std::vector<double>& ours,
-                           std::vector<double>& theirs) {
-  ours.clear();
-  theirs.clear();
-  for (const auto& [seed, score] : scores) {
-    double sum = 0;
-    for (int stream = 0; stream < kStreams; ++stream)
-      sum += runs.run(machine, seed, stream).score;
-    ours.push_back(sum / kStreams);
-    theirs.push_back(score);
-  }
-  return compare(ours, theirs);
-}
-
-void print_row(const std::string& name, const Comparison& row, int digits) {
-  std::printf("| %s | %.*f | %.*f | %+.*f +- %.*f | %s |\n", name.c_str(), digits, row.theirs,
-              digits, row.ours, digits, row.difference, digits, row.half_width,
-              row.holds_zero() ? "yes" : "no");
-}
-
-/// Rank correlation after Spearman; equal values share their mean rank.
-double rank_correlation(const std::vector<double>& a, const std::vector<double>& b) {
-  const auto ranks = [](const std::vector<double>& values) {
-    std::vector<double> result;
-    for (const double value : values) {
-      double rank = 0.5;
-      for (const double other : values) {
-        rank += other < value ? 1 : other == value ? 0.5 : 0;
-      }
-      result.push_back(rank);
-    }
-    return result;
-  };
-  const std::vector<double> ra = ranks(a);
-  const std::vector<double> rb = ranks(b);
-  const double mean = (static_cast<double>(a.size()) + 1) / 2;
-  double ab = 0;
-  double aa = 0;
-  double bb = 0;
-  for (std::size_t i = 0; i < a.size(); ++i) {
-    ab += (ra[i] - mean) * (rb[i] - mean);
-    aa += (ra[i] - mean) * (ra[i] - mean);
-    bb += (rb[i] - mean) * (rb[i] - mean);
-  }
-  return ab / std::sqrt(aa * bb);
-}
-
-class Fidelity : public testing::TestWithParam<ReferenceMission> {
- protected:
-  int digits() const { return std::string(GetParam().theirs) == "grid" ? 0 : 3; }
-};
+class Fidelity : public testing::TestWithParam<ReferenceMission> {};
 INSTANTIATE_TEST_SUITE_P(All, Fidelity, testing::ValuesIn(kReferenceMissions),
                          [](const auto& instance) { return instance.param.theirs; });
 
 TEST_P(Fidelity, TheTwentyMachinesScoreAsInTheOriginal) {
-  const ReferenceScores scores = reference_scores();
-  const ReferenceRuns runs(GetParam().ours);
-  std::vector<double> ours;
-  std::vector<double> theirs;
-  std::vector<double> our_means;
-  std::vector<double> their_means;
-  int misses = 0;
-  double squares = 0;
-  std::printf("| %s | original | ours | difference, 99 %% | holds 0 |\n|---|---|---|---|---|\n",
-              GetParam().ours);
-  for (const ReferenceMachine& machine : reference_machines()) {
-    const Comparison row = compare_machine(
-        runs, machine_of(machine.text), scores.at(GetParam().theirs).at(machine.id), ours, theirs);
-    print_row(machine.id, row, digits());
-    misses += row.holds_zero() ? 0 : 1;
-    squares += row.z * row.z;
-    our_means.push_back(row.ours);
-    their_means.push_back(row.theirs);
+  const MissionComparison result =
+      compare_reference_machines(GetParam(), ContactModel::Exact, kStreams);
+  for (const MachineComparison& machine : result.machines) {
+    if (machine.scores.holds_zero()) continue;
+    std::printf("%s: %+.3f +- %.3f\n", machine.id.c_str(), machine.scores.difference,
+                machine.scores.half_width);
   }
-  const double correlation = rank_correlation(our_means, their_means);
-  std::printf("misses %d of 20, mean z^2 %.2f, rank correlation %.3f\n", misses, squares / 20,
-              correlation);
-  EXPECT_LE(misses, 1);
-  EXPECT_LT(squares / 20, 1.6);
+  EXPECT_LE(result.misses, 1);
+  EXPECT_LT(result.mean_z2, 1.6);
   // The original against a resample of itself reaches no more than 0.82 on colour.
-  EXPECT_GT(correlation, std::string(GetParam().theirs) == "color" ? 0.88 : 0.95);
+  const bool color = std::string_view(GetParam().theirs) == "color";
+  EXPECT_GT(result.rank_correlation, color ? 0.88 : 0.95);
 }
 
 TEST_P(Fidelity, TheThesisDesignsScoreAsInTheOriginal) {
-  const ReferenceScores scores = thesis_scores();
-  const ReferenceRuns runs(GetParam().ours);
-  std::vector<double> ours;
-  std::vector<double> theirs;
-  // By seed, over the ten designs: designs share the starts of a seed.
-  std::vector<double> our_seeds(30);
-  std::vector<double> their_seeds(30);
-  std::printf("| %s | original | ours | difference, 99 %% | holds 0 |\n|---|---|---|---|---|\n",
-              GetParam().ours);
-  for (const ReferenceMachine& machine : thesis_designs()) {
-    const auto mission = scores.find(GetParam().theirs);
-    if (mission == scores.end() || !mission->second.contains(machine.id)) continue;
-    const Comparison row = compare_machine(runs, machine_of(machine.text),
-                                           mission->second.at(machine.id), ours, theirs);
-    print_row(machine.id, row, digits());
-    for (std::size_t i = 0; i < 30; ++i) {
-      our_seeds[i] += ours.at(i) / 10;
-      their_seeds[i] += theirs.at(i) / 10;
-    }
-  }
-  const Comparison all = compare(our_seeds, their_seeds);
-  print_row("all ten", all, digits());
-  EXPECT_TRUE(all.holds_zero()) << all.difference << " +- " << all.half_width;
+  const DesignsComparison result =
+      compare_thesis_designs(GetParam(), ContactModel::Exact, kStreams);
+  ASSERT_EQ(result.designs.size(), 10);
+  EXPECT_TRUE(result.all.holds_zero()) << result.all.difference << " +- " << result.all.half_width;
+}
+
+TEST(SeedBySeed, TheExactSolverGivesTheOriginalsScores) {
+  EXPECT_GE(seed_exact_runs(ContactModel::Exact), 575);
+}
+
+TEST(SeedBySeed, Box2dGivesTheOriginalsScores) {
+  EXPECT_GE(seed_exact_runs(ContactModel::Box2d), 565);
 }
 
 }  // namespace

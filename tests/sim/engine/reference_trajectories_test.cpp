@@ -8,6 +8,7 @@
 #include "sim/engine/internal/motion.h"
 #include "sim/engine/internal/robot_senses.h"
 #include "sim/engine/internal/walls.h"
+#include "tests/sim/engine/open_loop.h"
 #include "tests/sim/engine/reference_data.h"
 #include "tests/sim/engine/reference_runs.h"
 
@@ -144,6 +145,14 @@ TEST_P(LoggedRuns, TheFloorIsTheOriginals) {
   }
   // Poses are logged to 1e-5 m: on a border the colour may be the neighbour's.
   EXPECT_LE(differs, 1);
+}
+
+TEST_P(LoggedRuns, ItsOwnCommandsDriveItAgainUntilTheFirstContact) {
+  const OpenLoop again = drive_again(logged_run(GetParam()));
+  RecordProperty("first_contact", again.first_contact);
+  RecordProperty("worst_m", testing::PrintToString(again.worst_m));
+  std::printf("first contact in tick %d, worst %.3g m\n", again.first_contact, again.worst_m);
+  EXPECT_LT(again.worst_m, 1e-3);
 }
 
 TEST(ClosedLoop, AMachineWithoutRandomDrawsFollowsTheOriginalForAllTwelveHundredTicks) {

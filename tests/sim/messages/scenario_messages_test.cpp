@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "proto/scenario.pb.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -9,7 +11,7 @@ WorkerScenario some_scenario() {
   return {.campaign_digest = "0123456789abcdef0123456789abcdef",
           .engine_version = 3,
           .missions = {*built_in_mission("aggregation"), *built_in_mission("color_selection")},
-          .flavours = {"watermelon", "watermelon-argos3"},
+          .methods = {{.flavour = "watermelon"}, {"watermelon-argos3", TurnClock::Seconds}},
           .profile = *built_in_profile("rvr")};
 }
 
@@ -18,6 +20,19 @@ TEST(ScenarioMessages, GiveBackTheScenario) {
   EXPECT_EQ(scenario_from_bytes(to_bytes(scenario)), scenario);
   scenario.profile.contacts = ContactModel::Box2d;
   EXPECT_EQ(scenario_from_bytes(to_bytes(scenario)), scenario);
+}
+
+TEST(ScenarioMessages, RefuseAClockOfTurnsThatIsNotKnown) {
+  pb::Scenario message;
+  ASSERT_TRUE(message.ParseFromString(to_bytes(some_scenario())));
+  message.mutable_methods(1)->set_turn_clock(static_cast<pb::Method::TurnClock>(7));
+  const auto read = scenario_from_bytes(message.SerializeAsString());
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().where, "methods[1].turn_clock");
+}
+
+TEST(ScenarioMessages, GiveBackTheMethods) {
+  EXPECT_EQ(scenario_from_bytes(to_bytes(some_scenario()))->methods, some_scenario().methods);
 }
 
 TEST(ScenarioMessages, AreTheSameBytesForTheSameScenario) {

@@ -1,0 +1,68 @@
+#include "sim/assessment/internal/condition_rates.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <utility>
+
+#include "base/math.h"
+#include "sim/assessment/internal/statistics.h"
+
+namespace swarmsmith::assessment {
+namespace {
+
+constexpr double kBeta = 0.3;
+constexpr double kEta = 5;
+constexpr int kXi = 1;
+
+struct Tally {
+  std::int64_t trials = 0;
+  std::int64_t firings = 0;
+};
+
+Rate rate_of(std::string setting, const Tally& tally, double expected) {
+  const Interval interval = wilson_interval(tally.firings, tally.trials);
+  return {.setting = std::move(setting),
+          .trials = tally.trials,
+          .firings = tally.firings,
+          .expected = expected,
+          .low = interval.low,
+          .high = interval.high};
+}
+
+/// Eq. 5.7 of the thesis.
+double sigmoid(int neighbours) {
+  return 1 / (1 + exp(kEta * (kXi - neighbours)));
+}
+
+}  // namespace
+
+std::vector<Rate> rates_of(const ConditionTest& test, const Flavour& flavour,
+                           const Profile& profile) {
+  const Condition condition =
+      make_condition(test, *flavour.find(test.module), {.beta = kBeta, .eta = kEta, .xi = kXi});
+  const Machine machine{
+      {{Exploration{kTau}, {{condition, 1}}}, {Exploration{kTau}, {{condition, 0}}}}};
+  const bool counts =
+      test.trigger == Trigger::Neighbours || test.trigger == Trigger::NeighboursInverted;
+  std::array<Tally, kRobots> tallies{};  // by number of neighbours; else all in the first one
+  for_each_cycle(test, machine, flavour, profile, [&](const ObservedCycle& cycle) {
+    const Readings& readings = *cycle.record.readings;
+    if (!cycle.tested || !satisfies(test, readings.ground_color, flavour.floor)) return;
+    const std::size_t neighbours = counts ? readings.neighbours.size() : 0;
+    if (neighbours >= tallies.size()) return;  // a lidar may see more of them than there are
+    ++tallies[neighbours].trials;
+    tallies[neighbours].firings += cycle.fired ? 1 : 0;
+  });
+  if (!counts) return {rate_of(fmt::format("{}, p = {}", test.floor, kBeta), tallies[0], kBeta)};
+  std::vector<Rate> rates;
+  for (int n = 0; n < kRobots; ++n) {
+    const double z = sigmoid(n);
+    rates.push_back(rate_of(fmt::format("eta = {}, xi = {}, n = {}", kEta, kXi, n),
+                            tallies[static_cast<std::size_t>(n)],
+                            test.trigger == Trigger::Neighbours ? z : 1 - z));
+  }
+  return rates;
+}
+
+}  // namespace swarmsmith::assessment

@@ -1,0 +1,197 @@
+#include "sim/assessment/internal/condition_test.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include "base/assert.h"
+#include "base/math.h"
+#include "sim/mission/colors.h"
+
+namespace swarmsmith::assessment {
+namespace {
+
+constexpr double kDiscRadius_m = 0.5;  // the black spot of aggregation
+
+Rgb color_named(std::string_view name) {
+  const std::optional<Rgb> color = color_from_name(name);
+  SWARMSMITH_ASSERT(color.has_value(), "the floor's colours have names");
+  return *color;
+}
+
+/// The gray floor with a disc in its middle, which robots that explore cross again and again.
+Arena arena_with_disc(Rgb color) {
+  Arena arena = dodecagon_of_the_thesis();
+  arena.patches.push_back({Disc{.centre = {0, 0}, .radius_m = kDiscRadius_m}, color});
+  return arena;
+}
+
+/// A stripe of each label's colour, side by side over the whole arena. There is no gray between
+/// them: under noise its hue is any, and robots would seldom get as far as the wanted stripe.
+Arena arena_with_stripes(const std::vector<LabelSpec>& labels) {
+  constexpr double kSide_m = 2.6;
+  Arena arena = dodecagon_of_the_thesis();
+  const double width_m = kSide_m / static_cast<double>(labels.size());
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    const double x_m = (static_cast<double>(i) + 0.5) * width_m - 0.5 * kSide_m;
+    arena.patches.push_back({Rectangle{.centre = {x_m, 0}, .width_m = width_m, .height_m = kSide_m},
+                             color_named(name_of(labels[i].label))});
+  }
+  return arena;
+}
+
+/// In degrees from red, for a colour that is no gray: sixths of a turn between the corners of the
+/// hexagon of full colours.
+double hue_of(Rgb color, int largest, int spread) {
+  const auto slope = [&](int a, int b) {
+    return 60.0 * static_cast<double>(a - b) / static_cast<double>(spread);
+  };
+  double hue = 0;
+  if (color.r == largest) {
+    hue = slope(color.g, color.b);
+  } else if (color.g == largest) {
+    hue = 120 + slope(color.b, color.r);
+  } else {
+    hue = 240 + slope(color.r, color.g);
+  }
+  return hue < 0 ? hue + 360 : hue;
+}
+
+/// Thesis 7: the closest hue within the tolerance; the program also looks at the saturation.
+bool is_seen_as(Rgb color, ColorLabel wanted, const FloorModel& floor) {
+  const int largest = std::max({color.r, color.g, color.b});
+  const int spread = largest - std::min({color.r, color.g, color.b});
+  if (spread == 0) return false;
+  const double hue = hue_of(color, largest, spread);
+  const double saturation = static_cast<double>(spread) / static_cast<double>(largest);
+  std::optional<ColorLabel> closest;
+  double least = floor.hue_tolerance_deg;
+  for (const LabelSpec& label : floor.labels) {
+    const double apart = std::fabs(hue - label.hue_deg);
+    const double difference = floor.hue_wraps ? std::min(apart, 360 - apart) : apart;
+    const bool like = std::fabs(saturation - label.saturation) < floor.saturation_tolerance;
+    if (!like || difference >= least) continue;
+    least = difference;
+    closest = label.label;
+  }
+  return closest == wanted;
+}
+
+ConditionTest on_disc(Module module, GrayRange gray, std::string_view color, std::string floor) {
+  const Rgb wanted = color_named(color);
+  return {.module = module,
+          .trigger = Trigger::Gray,
+          .gray = gray,
+          .floor = std::move(floor),
+          .wanted = wanted,
+          .arena = arena_with_disc(wanted)};
+}
+
+}  // namespace
+
+std::vector<ConditionTest> tests_of(const ModuleSpec& spec, const Flavour& flavour) {
+  const std::string_view id = id_of(spec.module);
+  const FloorModel& floor = flavour.floor;
+  if (id == "black_floor") return {on_disc(spec.module, floor.black, "black", "black spot")};
+  if (id == "white_floor") return {on_disc(spec.module, floor.white, "white", "white disc")};
+  if (id == "gray_floor") {
+    ConditionTest test = on_disc(spec.module, floor.gray, "black", "base floor");
+    test.wanted = test.arena.floor;
+    return {test};
+  }
+  if (id == "color_detection") {
+    std::vector<ConditionTest> tests;
+    for (const LabelSpec& label : floor.labels) {
+      const std::string name(name_of(label.label));
+      tests.push_back({.module = spec.module,
+                       .trigger = Trigger::Label,
+                       .gray = {},
+                       .label = label.label,
+                       .floor = name + " stripe",
+                       .wanted = color_named(name),
+                       .arena = arena_with_stripes(floor.labels)});
+    }
+    return tests;
+  }
+  ConditionTest test{
+      .module = spec.module, .gray = {}, .floor = "base floor", .arena = dodecagon_of_the_thesis()};
+  test.wanted = test.arena.floor;
+  if (id == "fixed_probability") return {test};
+  const bool inverted = id == "inverted_neighbour_count";
+  SWARMSMITH_ASSERT(inverted || id == "neighbour_count",
+                    "the assessment has a test for the condition");
+  test.trigger = inverted ? Trigger::NeighboursInverted : Trigger::Neighbours;
+  return {test};
+}
+
+bool satisfies(const ConditionTest& test, Rgb reading, const FloorModel& floor) {
+  switch (test.trigger) {
+    case Trigger::Gray: {
+      const int gray = 299 * reading.r + 587 * reading.g + 114 * reading.b;
+      return test.gray.low <= gray && gray <= test.gray.high;
+    }
+    case Trigger::Label:
+      return is_seen_as(reading, test.label, floor);
+    case Trigger::Always:
+    case Trigger::Neighbours:
+    case Trigger::NeighboursInverted:
+      break;
+  }
+  return true;
+}
+
+Condition make_condition(const ConditionTest& test, const ModuleSpec& spec,
+                         const ConditionParameters& parameters) {
+  std::vector<double> values;
+  for (const ParameterSpec& parameter : spec.parameters) {
+    if (parameter.name == "beta") {
+      values.push_back(parameters.beta);
+    } else if (parameter.name == "eta") {
+      values.push_back(parameters.eta);
+    } else if (parameter.name == "xi") {
+      values.push_back(parameters.xi);
+    } else {
+      SWARMSMITH_ASSERT(parameter.name == "label",
+                        "the assessment knows the condition's parameters");
+      values.push_back(static_cast<double>(test.label));
+    }
+  }
+  return swarmsmith::make_condition(spec.module, values);
+}
+
+Point ground_sensor_place(const Pose& pose) {
+  constexpr double kAhead_m = 0.05;
+  const SinCos heading = sin_cos(pose.theta);
+  return {pose.x + kAhead_m * heading.cos, pose.y + kAhead_m * heading.sin};
+}
+
+void for_each_cycle(const ConditionTest& test, const Machine& machine, const Flavour& flavour,
+                    const Profile& profile, const std::function<void(const ObservedCycle&)>& tell) {
+  const Mission mission = mission_in(test.arena);
+  for (int seed = 1; seed <= kConditionRuns; ++seed) {
+    std::array<int, kRobots> states{};
+    std::array<bool, kRobots> entered{};
+    entered.fill(true);
+    const auto observe = [&](const Snapshot& now) {
+      if (now.cycle == 0) return;
+      for (std::size_t i = 0; i < states.size(); ++i) {
+        const RobotRecord& record = now.robots[i];
+        const bool fired = record.state != states[i];
+        tell({.seed = seed,
+              .robot = static_cast<int>(i),
+              .state = states[i],
+              .tested = !entered[i],
+              .fired = fired,
+              .record = record});
+        states[i] = record.state;
+        entered[i] = fired;
+      }
+    };
+    watch({machine, flavour, profile, mission}, starts_anywhere(mission, seed), seed,
+          Recorder(observe, Sensor::GroundColor | Sensor::Neighbours));
+  }
+}
+
+}  // namespace swarmsmith::assessment

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "sim/control/flavour.h"
+#include "sim/control/machine.h"
+#include "sim/engine/profile.h"
+#include "sim/engine/simulate.h"
+#include "sim/mission/mission.h"
+
+namespace swarmsmith::assessment {
+
+/// Where and with what modules are assessed (thesis facts, section 10).
+
+inline constexpr int kTau = 10;
+inline constexpr double kAlpha = 3;
+inline constexpr int kBehaviourRuns = 5;   ///< seeds 1, 2, ...
+inline constexpr int kConditionRuns = 10;  ///< seeds 1, 2, ...
+inline constexpr int kRobots = 3;
+inline constexpr int kCycles = 1200;
+
+/// Three robots for 120 s in this arena. Its score is of no interest.
+Mission mission_in(Arena arena);
+
+/// Starts anywhere in the arena, as the missions have them.
+std::vector<Pose> starts_anywhere(const Mission& mission, std::int64_t seed);
+
+inline constexpr double kNearestPair_m = 0.5;
+inline constexpr double kFarthestPair_m = 0.7;
+
+/// Starts around the centre, all pairs that far apart, any heading.
+std::vector<Pose> starts_in_a_group(std::int64_t seed);
+
+/// One run under the eyes of a recorder.
+struct Trial {
+  const Machine& machine;
+  const Flavour& flavour;
+  const Profile& profile;
+  const Mission& mission;
+};
+void watch(const Trial& trial, std::vector<Pose> starts, std::int64_t seed,
+           const Recorder& recorder);
+
+/// The range of the values, in as few words: "0.31 to 0.42" with `digits` decimals.
+std::string range_text(const std::vector<double>& values, int digits);
+
+}  // namespace swarmsmith::assessment

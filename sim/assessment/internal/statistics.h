@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace swarmsmith::assessment {
+
+struct Interval {
+  double low = 0;
+  double high = 1;
+};
+
+/// Wilson's score interval of a rate, 99 %; [0, 1] without a trial (Wilson, JASA 22, 1927).
+Interval wilson_interval(std::int64_t hits, std::int64_t trials);
+
+/// Chi-square of waits against the geometric law with probability one half, waits of 1, 2, 3 and of
+/// 4 or more trials apart: 3 degrees of freedom.
+double geometric_chi_square(std::span<const double> waits);
+
+/// Its upper 1 % point.
+inline constexpr double kChiSquare3At1Percent = 11.344866730144373;
+
+}  // namespace swarmsmith::assessment

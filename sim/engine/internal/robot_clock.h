@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/rng.h"
+#include "sim/engine/profile.h"
+
+namespace swarmsmith {
+
+/// When a robot acts: its control cycles, and how late its commands are (thesis 7.1). Time counts
+/// in sub-steps of 10 ms since the start.
+class RobotClock {
+ public:
+  /// `run` is the stream of the evaluation; `timing` must outlive the object.
+  RobotClock(const ControlTiming& timing, const Rng& run, int robot);
+
+  /// Its next control cycle, at a whole sub-step; what rounding takes from one period it gives to
+  /// the next.
+  std::int64_t next() const { return next_; }
+
+  /// The present cycle is over.
+  void next_cycle();
+
+  /// When the command that is computed at `now` begins to act: after a delay that is drawn for it,
+  /// but never before the command ahead of it.
+  std::int64_t arrival_of_command(std::int64_t now);
+
+ private:
+  const ControlTiming* timing_;
+  Rng jitter_;
+  Rng latency_;
+  double period_;   ///< of this robot in this run, sub-steps
+  double due_ = 0;  ///< the next cycle, not rounded
+  std::int64_t next_ = 0;
+  std::int64_t last_arrival_ = 0;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/control/flavour.h"
+#include "tests/sim/control/page.h"
+
+// docs/flavours.md shows the flavours side by side: its tables must be the data's.
+
+namespace swarmsmith {
+namespace {
+
+using Text = std::function<std::string(const Flavour&)>;
+
+std::string yes_no(bool flag) {
+  return flag ? "yes" : "no";
+}
+
+/// The name of a constant in the page, and what the page says of it.
+std::vector<std::pair<std::string, Text>> constants() {
+  using F = const Flavour&;
+  const auto of_255 = [](int thousandths) { return short_text(thousandths / 1000.0); };
+  const auto range = [of_255](const GrayRange& r) {
+    return of_255(r.low) + " to " + of_255(r.high);
+  };
+  return {
+      {"speed_mps", [](F f) { return short_text(f.speed_mps); }},
+      {"obstacles.reading",
+       [](F f) {
+         const bool linear = f.obstacles.reading == ObstacleModel::Reading::Linear;
+         return std::string(linear ? "linear" : "1/d");
+       }},
+      {"obstacles.near_m", [](F f) { return short_text(f.obstacles.near_m); }},
+      {"obstacles.far_m", [](F f) { return short_text(f.obstacles.far_m); }},
+      {"obstacles.longest_sum", [](F f) { return short_text(f.obstacles.longest_sum); }},
+      {"obstacles.neighbours_as_obstacles",
+       [](F f) { return yes_no(f.obstacles.neighbours_as_obstacles); }},
+      {"exploration.trigger",
+       [](F f) {
+         const bool front = f.exploration.trigger == ExplorationModel::Trigger::FrontReadings;
+         return std::string(front ? "front readings" : "vector sum");
+       }},
+      {"exploration.threshold", [](F f) { return short_text(f.exploration.threshold); }},
+      {"exploration.turn_length",
+       [](F f) {
+         const bool zero = f.exploration.turn_length == ExplorationModel::TurnLength::ZeroToTau;
+         return std::string(zero ? "0 to tau" : "0 to tau - 1, at least 1");
+       }},
+      {"exploration.turn_clock",
+       [](F f) { return std::string(name_of(f.exploration.turn_clock)); }},
+      {"neighbours.per_metre", [](F f) { return short_text(f.neighbours.per_metre); }},
+      {"neighbours.shortest_m", [](F f) { return short_text(f.neighbours.shortest_m); }},
+      {"neighbours.offset", [](F f) { return short_text(f.neighbours.offset); }},
+      {"neighbours.alpha_truncated", [](F f) { return yes_no(f.neighbours.alpha_truncated); }},
+      {"neighbours.repulsion_power", [](F f) { return short_text(f.neighbours.repulsion_power); }},
+      {"neighbours.attraction_gain", [](F f) { return short_text(f.neighbours.attraction_gain); }},
+      {"neighbours.repulsion_gain", [](F f) { return short_text(f.neighbours.repulsion_gain); }},
+      {"light.full_lux",
+       [](F f) { return f.find(Module::Phototaxis) ? short_text(f.light.full_lux) : "-"; }},
+      {"light.least_vector",
+       [](F f) { return f.find(Module::Phototaxis) ? short_text(f.light.least_vector) : "-"; }},
+      {"steering.obstacle_gain", [](F f) { return short_text(f.steering.obstacle_gain); }},
+      {"steering.forward_by_default", [](F f) { return yes_no(f.steering.forward_by_default); }},
+      {"steering.shortest_result", [](F f) { return short_text(f.steering.shortest_result); }},
+      {"floor.black", [range](F f) { return range(f.floor.black); }},
+      {"floor.gray", [range](F f) { return range(f.floor.gray); }},
+      {"floor.white", [range](F f) { return range(f.floor.white); }},
+      {"floor.hue_tolerance_deg",
+       [](F f) { return f.floor.labels.empty() ? "-" : short_text(f.floor.hue_tolerance_deg); }},
+      {"floor.hue_wraps",
+       [](F f) { return f.floor.labels.empty() ? "-" : yes_no(f.floor.hue_wraps); }},
+      {"floor.saturation_tolerance",
+       [](F f) { return f.floor.labels.empty() ? "-" : short_text(f.floor.saturation_tolerance); }},
+      {"xi, least",
+       [](F f) { return short_text(f.find(Module::NeighbourCount)->parameters[0].low); }},
+  };
+}
+
+TEST(FlavoursPage, HasTheConstantsOfTheData) {
+  const std::string page = page_text("flavours.md");
+  for (const auto& [name, text] : constants()) {
+    std::string line = "\n| `" + name + "` |";
+    for (const Flavour* flavour : all_flavours())
+      line += " " + text(*flavour) + " |";
+    EXPECT_NE(page.find(line), std::string::npos) << "docs/flavours.md lacks the line" << line;
+  }
+}
+
+TEST(FlavoursPage, HasTheModulesWithTheirNumbers) {
+  const std::string page = page_text("flavours.md");
+  for (const Module module :
+       {Module::Exploration, Module::Stop, Module::Phototaxis, Module::AntiPhototaxis,
+        Module::Attraction, Module::Repulsion, Module::BlackFloor, Module::GrayFloor,
+        Module::WhiteFloor, Module::NeighbourCount, Module::InvertedNeighbourCount,
+        Module::FixedProbability, Module::ColorDetection}) {
+    std::string line = "\n| `" + std::string(id_of(module)) + "` |";
+    for (const Flavour* flavour : all_flavours()) {
+      const ModuleSpec* spec = flavour->find(module);
+      line += " " + (spec == nullptr ? "-" : std::to_string(spec->number)) + " |";
+    }
+    EXPECT_NE(page.find(line), std::string::npos) << "docs/flavours.md lacks the line" << line;
+  }
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,110 @@
+#include <gtest/gtest.h>
+
+#include <array>
+#include <map>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "base/hash.h"
+#include "sim/control/machine_text.h"
+#include "sim/engine/simulate.h"
+
+// One hash of the whole trajectory per mission, flavour and profile, the same in every build type,
+// compiler and thread. Another value means other scores for every recorded campaign: when that is
+// wanted, raise kEngineVersion; the failing test prints the new table.
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::array kMissions = {"aggregation", "grid_exploration", "color_selection"};
+constexpr std::array kProfiles = {"argos3", "rvr", "pseudo-reality"};
+
+/// Machines that use every module of their flavour.
+const std::map<std::string, std::string>& machines() {
+  static const std::map<std::string, std::string> kMachines = {
+      {"watermelon",
+       "--nstates 4 --s0 0 --rwm0 12 --n0 3 --n0x0 0 --c0x0 3 --p0x0 1 --w0x0 4.5 --n0x1 1 --c0x1 0 "
+       "--p0x1 0.8 --n0x2 2 --c0x2 6 --p0x2 0.7 --l0x2 3 --s1 2 --att1 3.25 --n1 3 --n1x0 0 --c1x0 5 "
+       "--p1x0 0.03 --n1x1 1 --c1x1 0 --p1x1 1 --n1x2 2 --c1x2 2 --p1x2 0.9 --s2 1 --n2 2 --n2x0 0 "
+       "--c2x0 1 --p2x0 0.2 --n2x1 2 --c2x1 5 --p2x1 0.02 --s3 3 --rep3 2.5 --n3 2 --n3x0 0 --c3x0 4 "
+       "--p3x0 2 --w3x0 7.5 --n3x1 1 --c3x1 5 --p3x1 0.05"},
+      {"watermelon-argos3",
+       "--nstates 4 --s0 0 --rwm0 12 --n0 3 --n0x0 0 --c0x0 3 --p0x0 1 --w0x0 4.5 --n0x1 1 --c0x1 0 "
+       "--p0x1 0.8 --n0x2 2 --c0x2 6 --p0x2 0.7 --l0x2 3 --s1 2 --att1 4.75 --n1 3 --n1x0 0 --c1x0 5 "
+       "--p1x0 0.03 --n1x1 1 --c1x1 0 --p1x1 1 --n1x2 2 --c1x2 2 --p1x2 0.9 --s2 1 --n2 2 --n2x0 0 "
+       "--c2x0 1 --p2x0 0.2 --n2x1 2 --c2x1 5 --p2x1 0.02 --s3 3 --rep3 3.5 --n3 2 --n3x0 0 --c3x0 4 "
+       "--p3x0 2 --w3x0 7.5 --n3x1 1 --c3x1 5 --p3x1 0.05"},
+      {"chocolate",
+       "--nstates 4 --s0 0 --rwm0 12 --n0 3 --n0x0 0 --c0x0 3 --p0x0 1 --w0x0 4.5 --n0x1 1 --c0x1 0 "
+       "--p0x1 0.8 --n0x2 2 --c0x2 5 --p0x2 0.05 --s1 4 --att1 3.25 --n1 3 --n1x0 0 --c1x0 5 "
+       "--p1x0 0.03 --n1x1 1 --c1x1 0 --p1x1 1 --n1x2 2 --c1x2 2 --p1x2 0.9 --s2 2 --n2 2 --n2x0 0 "
+       "--c2x0 1 --p2x0 0.02 --n2x1 2 --c2x1 5 --p2x1 0.02 --s3 5 --rep3 2.5 --n3 2 --n3x0 0 --c3x0 4 "
+       "--p3x0 2 --w3x0 7.5 --n3x1 1 --c3x1 5 --p3x1 0.05"}};
+  return kMachines;
+}
+
+/// The hash of all poses of all 1200 cycles, final velocities and states, and the score.
+std::string hash_of(const std::string& mission_name, const std::string& flavour_name,
+                    const std::string& profile_name) {
+  Mission mission = built_in_mission(mission_name).value();
+  mission.arena.lights.push_back({.x_m = 0.4, .y_m = -0.8, .z_m = 0.75, .intensity_cd = 900});
+  const Flavour& flavour = **find_flavour(flavour_name);
+  const Machine machine = parse_machine(machines().at(flavour_name), flavour).value();
+  const Profile profile = built_in_profile(profile_name).value();
+  const Instance instance = instance_of(mission, 17).value();
+  Digest digest;
+  const SimulationResult result = simulate({.machine = machine,
+                                            .flavour = flavour,
+                                            .profile = profile,
+                                            .mission = mission,
+                                            .instance = instance,
+                                            .seed = 17},
+                                           [&](const Snapshot& now) {
+                                             for (const RobotRecord& robot : now.robots) {
+                                               digest.add(robot.pose.x);
+                                               digest.add(robot.pose.y);
+                                               digest.add(robot.pose.theta);
+                                             }
+                                           });
+  digest.add(result.state_digest);
+  digest.add(result.score);
+  return digest.hex();
+}
+
+/// One row a mission, flavour and profile.
+std::string table_of_hashes() {
+  std::string table;
+  for (const char* mission : kMissions) {
+    for (const auto& [flavour, machine] : machines()) {
+      for (const char* profile : kProfiles) {
+        table += std::string(mission) + " " + flavour + " " + profile + " " +
+                 hash_of(mission, flavour, profile) + "\n";
+      }
+    }
+  }
+  return table;
+}
+
+constexpr const char* kTable = "";
+
+TEST(Determinism, TheTrajectoriesHaveTheirFixedHashes) {
+  EXPECT_EQ(table_of_hashes(), kTable);
+}
+
+TEST(Determinism, ThreadsChangeNothing) {
+  const std::string alone = table_of_hashes();
+  for (const std::size_t threads : {2U, 5U}) {
+    std::vector<std::string> tables(threads);
+    std::vector<std::thread> running;
+    for (std::string& table : tables)
+      running.emplace_back([&table] { table = table_of_hashes(); });
+    for (std::thread& thread : running)
+      thread.join();
+    for (const std::string& table : tables)
+      EXPECT_EQ(table, alone);
+  }
+}
+
+}  // namespace
+}  // namespace swarmsmith

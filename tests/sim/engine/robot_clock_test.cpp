@@ -1,0 +1,145 @@
+#include "sim/engine/internal/robot_clock.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "sim/engine/simulate.h"
+#include "tests/sim/engine/reference_runs.h"
+
+namespace swarmsmith {
+namespace {
+
+/// The numbers of pseudo-reality (thesis facts, section 13).
+ControlTiming drifting() {
+  return {.delays = {{10, 0.25}, {20, 0.5}, {30, 0.25}},
+          .least_period = 0.75,
+          .most_period = 1.0,
+          .jitter = 0.05};
+}
+
+/// Control cycles within 120 s.
+int cycles_of(RobotClock clock) {
+  int cycles = 0;
+  for (; clock.next() <= 12'000; clock.next_cycle())
+    ++cycles;
+  return cycles;
+}
+
+TEST(RobotClock, KeepsTheNominalPeriodToTheSubStep) {
+  const ControlTiming timing;
+  RobotClock clock(timing, Rng(1), 0);
+  for (std::int64_t cycle = 1; cycle <= 1200; ++cycle, clock.next_cycle()) {
+    ASSERT_EQ(clock.next(), 10 * cycle);
+    ASSERT_EQ(clock.arrival_of_command(clock.next()), clock.next());
+  }
+}
+
+TEST(RobotClock, AStrangePeriodIsRightOnTheWhole) {
+  const ControlTiming timing{.least_period = 0.777, .most_period = 0.777};
+  EXPECT_EQ(cycles_of(RobotClock(timing, Rng(1), 0)), 1544);  // 12000 / 7.77, rounded down
+}
+
+TEST(RobotClock, PeriodsAreUniformOverRobotsAndRuns) {
+  const ControlTiming timing = drifting();
+  std::vector<double> factors;
+  for (std::uint64_t run = 1; run <= 200; ++run) {
+    for (int robot = 0; robot < 5; ++robot) {
+      factors.push_back(1200.0 / cycles_of(RobotClock(timing, Rng(run), robot)));
+    }
+  }
+  std::sort(factors.begin(), factors.end());
+  EXPECT_GT(factors.front(), 0.745);
+  EXPECT_LT(factors.back(), 1.005);
+  // Kolmogorov and Smirnov against U(0.75, 1), 1 %: 1.63 / sqrt(n).
+  double distance = 0;
+  const auto n = static_cast<double>(factors.size());
+  for (std::size_t i = 0; i < factors.size(); ++i) {
+    const double expected = (factors[i] - 0.75) / 0.25;
+    distance = std::max(distance, std::fabs(expected - (static_cast<double>(i) + 0.5) / n));
+  }
+  EXPECT_LT(distance, 1.63 / std::sqrt(n));
+}
+
+TEST(RobotClock, JitterStaysWithinItsBounds) {
+  ControlTiming timing = drifting();
+  timing.least_period = timing.most_period = 1;
+  RobotClock clock(timing, Rng(3), 0);
+  int irregular = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const std::int64_t before = clock.next();
+    clock.next_cycle();
+    const std::int64_t period = clock.next() - before;
+    EXPECT_TRUE(period >= 9 && period <= 11) << period;
+    irregular += period == 10 ? 0 : 1;
+  }
+  EXPECT_GT(irregular, 100);
+}
+
+TEST(RobotClock, DelaysHaveTheirProbabilities) {
+  const ControlTiming timing = drifting();
+  // Commands so far apart that none waits for the one ahead.
+  RobotClock clock(timing, Rng(4), 1);
+  std::array<double, 4> counts{};
+  constexpr int kCommands = 4000;
+  for (int i = 0; i < kCommands; ++i) {
+    const std::int64_t now = i * 1000;
+    counts.at(static_cast<std::size_t>((clock.arrival_of_command(now) - now) / 10)) += 1;
+  }
+  EXPECT_EQ(counts[0], 0);
+  double chi_square = 0;
+  for (const ControlTiming::Delay& delay : timing.delays) {
+    const double expected = kCommands * delay.probability;
+    const double off = counts[static_cast<std::size_t>(delay.sub_steps / 10)] - expected;
+    chi_square += off * off / expected;
+  }
+  EXPECT_LT(chi_square, 9.21);  // 1 %, 2 degrees of freedom
+}
+
+TEST(RobotClock, CommandsKeepTheirOrder) {
+  const ControlTiming timing = drifting();
+  RobotClock clock(timing, Rng(5), 2);
+  std::int64_t last = 0;
+  int waited = 0;
+  for (int i = 0; i < 1000; ++i, clock.next_cycle()) {
+    const std::int64_t arrival = clock.arrival_of_command(clock.next());
+    EXPECT_GE(arrival, last);
+    waited += arrival == last ? 1 : 0;
+    last = arrival;
+  }
+  EXPECT_GT(waited, 50) << "a late command delays those after it";
+}
+
+TEST(RobotClock, ALateCommandMovesTheRobotLater) {
+  ReferenceRuns runs("aggregation");
+  runs.instances[0].starts = {{0, 0, 0}};
+  const auto first_motion = [&](int sub_steps) {
+    runs.profile.timing.delays = {{sub_steps, 1}};
+    int cycle = -1;
+    runs.run(machine_of("--nstates 1 --s0 0 --rwm0 1"), 1, 0, [&](const Snapshot& now) {
+      if (cycle < 0 && now.robots[0].pose.x > 0) cycle = now.cycle;
+    });
+    return cycle;
+  };
+  // Computed at 0.1 s, acts at once: what moves is seen at 0.2 s.
+  EXPECT_EQ(first_motion(0), 2);
+  EXPECT_EQ(first_motion(20), 4);
+}
+
+TEST(TrackedPoint, AScoreCanSeeTheTagInsteadOfTheCentre) {
+  ReferenceRuns runs("aggregation");
+  runs.mission.robots = 1;
+  // The centre stands on the black disc, the tag behind it does not.
+  runs.instances[0].starts = {{-0.45, 0, 0}};
+  const Machine stop = machine_of("--nstates 1 --s0 1");
+  runs.profile.tracking.tag = {-0.072, 0};
+  EXPECT_EQ(runs.run(stop, 1).score, 1);
+  runs.profile.tracking.scores_tag = true;
+  EXPECT_EQ(runs.run(stop, 1).score, 0);
+}
+
+}  // namespace
+}  // namespace swarmsmith
