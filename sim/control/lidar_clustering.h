@@ -25,7 +25,7 @@ struct LidarClustering {
   /// Readings outside of these are dropped; the farther bound so that the walls of the room are not
   /// taken for robots.
   double least_distance_m = 0.10;
-  double most_distance_m = 0.75;
+  double most_distance_m = kNeighbourRange_m;
   /// A reading belongs to the cluster of the kept reading before it when it differs by less.
   double distance_threshold_m = 0.02;
   double angle_threshold_deg = 10;

@@ -100,7 +100,7 @@ double front_light(const World& world, const Arena& arena, int robot) {
     if (is_occluded(world, arena.wall_height_m, robot, sensor.place, place)) continue;
     lux += illuminance(light, sensor.place);
   }
-  return std::clamp(lux, 0.0, kBrightest_lux);
+  return std::clamp(lux, 0.0, kMostLight_lux);
 }
 
 LightReadings light_ring(const World& world, const Arena& arena, int robot) {
@@ -115,7 +115,7 @@ LightReadings light_ring(const World& world, const Arena& arena, int robot) {
       if (is_occluded(world, arena.wall_height_m, robot, sensor.place, place)) continue;
       lux += illuminance(light, sensor.place) * cosine;
     }
-    readings[i] = std::clamp(lux, 0.0, kBrightest_lux);
+    readings[i] = std::clamp(lux, 0.0, kMostLight_lux);
   }
   return readings;
 }

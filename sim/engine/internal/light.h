@@ -11,8 +11,6 @@ namespace swarmsmith {
 /// sections 3 and 6.1).
 inline constexpr double kLightSensorsOut_m = 0.143;
 inline constexpr double kLightSensorsHeight_m = 0.114;
-/// Readings end here.
-inline constexpr double kBrightest_lux = 16000;
 
 /// A point of space, metres; z above the floor.
 struct Place {

@@ -11,7 +11,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
 ProximityNoise::ProximityNoise(const ProximitySensing& sensing, const Rng& run, int robot)
-    : sensing_(&sensing) {
+    : sensing_(&sensing),
+      ideal_(sensing.sd_m == 0 && sensing.scale_sd == 0 && sensing.phantom_rate == 0 &&
+             sensing.largest_miss_rate == 0) {
   if (sensing.sd_m > 0) normal_ = NoiseStream(run, "proximity", robot);
   if (sensing.scale_sd > 0) scale_ = NoiseStream(run, "proximity scale", robot);
   if (sensing.phantom_rate > 0) phantom_ = NoiseStream(run, "proximity phantom", robot);
@@ -25,8 +27,10 @@ ProximityNoise::ProximityNoise(const ProximitySensing& sensing, const Rng& run, 
 
 void ProximityNoise::apply(RayDistances& readings, std::int64_t cycle) const {
   for (std::size_t i = 0; i < readings.size(); ++i) {
+    readings[i] = limited(readings[i], sensing_->range_m);
+    if (ideal_) continue;
     const auto index = static_cast<std::uint64_t>(cycle) * kProximitySensors + i;
-    readings[i] = read(limited(readings[i], sensing_->range_m), i, index);
+    readings[i] = read(readings[i], i, index);
   }
 }
 

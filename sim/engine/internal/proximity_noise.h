@@ -24,6 +24,7 @@ class ProximityNoise {
   double read(double distance_m, std::size_t sensor, std::uint64_t index) const;
 
   const ProximitySensing* sensing_;
+  bool ideal_;  ///< only the limits apply
   NoiseStream normal_;
   NoiseStream scale_;
   NoiseStream miss_;

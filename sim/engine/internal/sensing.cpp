@@ -27,11 +27,12 @@ RayDistances ray_distances(const World& world, int robot, double range_m) {
   RayDistances distances;
   distances.fill(std::numeric_limits<double>::infinity());
   const Body& self = world.body(robot);
-  meet_walls(self, ray_start_m(world.form(robot)), world.walls(), range_m, distances);
   if (!world.is_plain()) {
+    meet_walls(self, ray_start_m(world.form(robot)), world.walls(), range_m, distances);
     meet_solids(world, robot, range_m, distances);
     return distances;
   }
+  meet_walls(self, kRayStart_m, world.walls(), range_m, distances);
   const double sight = sight_of_robots_m(range_m);
   for (int other = 0; other < world.robots(); ++other) {
     if (other == robot || world.distance2(robot, other) > sight * sight) continue;

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "sim/control/control_software.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/internal/robot_senses.h"
 #include "sim/engine/simulate.h"
@@ -48,6 +49,32 @@ TEST(Sensors, AnAbsentSensorIsNotComputed) {
   EXPECT_TRUE(senses.computed().empty());
   EXPECT_EQ(&readings, &senses.read(Sensors::all()));
   EXPECT_EQ(senses.computed(), Sensors::all());
+}
+
+/// What a machine's second cycle computes, the first in which it tests conditions.
+Sensors asked_by(const char* machine_text) {
+  const RichScene scene;
+  const Flavour& flavour = watermelon_argos3();
+  const Machine machine = parse_machine(machine_text, flavour).value();
+  ControlSoftware control(machine, flavour, Rng(1));
+  RobotSenses senses = scene.senses();
+  for (int cycle = 1; cycle <= 2; ++cycle) {
+    senses.begin_cycle({.number = cycle});
+    control.step(senses);
+  }
+  return senses.computed();
+}
+
+TEST(Sensors, AMachineComputesWhatItsModulesRead) {
+  EXPECT_EQ(asked_by("--nstates 1 --s0 1"), Sensors{}) << "Stop";
+  EXPECT_EQ(asked_by("--nstates 1 --s0 2 --att0 3"), Sensor::Proximity | Sensor::Neighbours)
+      << "Attraction";
+  EXPECT_EQ(asked_by("--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 0 --p0x0 1 --s1 1"),
+            Sensors(Sensor::GroundColor))
+      << "Stop until the floor is black";
+  EXPECT_EQ(asked_by("--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 3 --p0x0 1 --w0x0 5 --s1 1"),
+            Sensors(Sensor::Neighbours))
+      << "Stop until neighbours are there";
 }
 
 bool same_reading(const Readings& a, const Readings& b, Sensor sensor) {
