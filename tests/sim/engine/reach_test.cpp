@@ -10,38 +10,37 @@
 #include "base/rng.h"
 #include "sim/engine/internal/contact_solver.h"
 #include "sim/engine/internal/motion.h"
+#include "tests/sim/engine/islands.h"
 
 namespace swarmsmith {
 namespace {
 
 /// Robots with their set-points, and what the reach test says of them.
 struct Scene {
-  Walls walls = walls_of(dodecagon_of_the_thesis());
-  std::vector<IslandMember> robots;
+  Surroundings around = surroundings_of(dodecagon_of_the_thesis());
+  std::vector<Mover> robots;
 
   std::vector<Island> islands(int sub_steps = 10) const {
-    std::vector<Body> bodies;
-    std::vector<SetPoint> set_points;
     std::vector<double> distances2;
     double speed_limit = 0;
-    for (const IslandMember& a : robots) {
-      bodies.push_back(a.body);
-      set_points.push_back(a.set_point);
+    double radius = 0;
+    for (const Mover& a : robots) {
       speed_limit =
           std::max({speed_limit, hypot(a.body.vx, a.body.vy), hypot(a.set_point.vx, a.set_point.vy),
                     std::fabs(a.set_point.spin) * kWheelSeparation_m / 2});
-      for (const IslandMember& b : robots) {
+      radius = std::max(radius, a.form().radius_m);
+      for (const Mover& b : robots) {
         const double d = hypot(a.body.x - b.body.x, a.body.y - b.body.y);
         distances2.push_back(d * d);
       }
     }
-    Reach reach(walls, static_cast<int>(robots.size()));
-    const auto found = reach.find({bodies, set_points, distances2, speed_limit}, sub_steps);
+    Reach reach(around, robots.size(), radius);
+    const auto found = reach.find({robots, distances2, speed_limit}, sub_steps);
     return {found.begin(), found.end()};
   }
 };
 
-IslandMember standing(double x, double y, double theta = 0) {
+Mover standing(double x, double y, double theta = 0) {
   return {.body = body_at({x, y, theta}), .set_point = {}};
 }
 
@@ -56,7 +55,7 @@ TEST(Reach, ARobotThatDrivesAtAnotherMakesAnIsland) {
   scene.robots[0].set_point.vx = 0.3;
   const std::vector<Island> islands = scene.islands();
   ASSERT_EQ(islands.size(), 1);
-  EXPECT_EQ(islands[0].robots, (std::vector<int>{0, 2}));
+  EXPECT_EQ(islands[0].movers, (std::vector<int>{0, 2}));
   EXPECT_TRUE(islands[0].walls.empty());
 }
 
@@ -73,9 +72,10 @@ TEST(Reach, WallsInReachAreNamed) {
   scene.robots[0].set_point.vx = 0.3;
   const std::vector<Island> islands = scene.islands();
   ASSERT_EQ(islands.size(), 1);
-  EXPECT_EQ(islands[0].robots, (std::vector<int>{0}));
+  EXPECT_EQ(islands[0].movers, (std::vector<int>{0}));
   ASSERT_EQ(islands[0].walls.size(), 1);
-  const WallPlane& wall = scene.walls.planes[static_cast<std::size_t>(islands[0].walls[0])];
+  const WallPlane& wall =
+      scene.around.walls.planes[static_cast<std::size_t>(islands[0].walls[0].other)];
   EXPECT_NEAR(wall.nx, 1, 1e-12);
 }
 
@@ -85,7 +85,7 @@ TEST(Reach, ARobotThatMayBePushedReachesAsFarAsItsPusherDrives) {
   scene.robots[0].set_point.vx = 0.3;
   const std::vector<Island> islands = scene.islands();
   ASSERT_EQ(islands.size(), 1);
-  EXPECT_EQ(islands[0].robots, (std::vector<int>{0, 1, 2}));
+  EXPECT_EQ(islands[0].movers, (std::vector<int>{0, 1, 2}));
 }
 
 TEST(Reach, FewerSubStepsReachLess) {
@@ -105,7 +105,8 @@ TEST_P(ReachOnRandomRuns, RobotsItCallsFreeMoveAsIfTheSolverRanEverywhere) {
   for (int i = 0; i < 3; ++i) {
     scene.robots.push_back(standing(0.4 * i - 0.4, 0.1 * i, rng.uniform(-kPi, kPi)));
   }
-  const auto solver = make_exact_solver();
+  const auto solver = make_exact_solver(scene.around);
+  const Island all = everything(3, scene.around);
   std::vector<Command> commands(3);
   int called_free = 0;
   for (int tick = 0; tick < 4000; ++tick) {
@@ -117,11 +118,11 @@ TEST_P(ReachOnRandomRuns, RobotsItCallsFreeMoveAsIfTheSolverRanEverywhere) {
       scene.robots[i].set_point = set_point_of(commands[i], scene.robots[i].body);
     }
     const std::vector<Island> islands = scene.islands();
-    std::vector<IslandMember> solved = scene.robots;
-    solver->advance(solved, scene.walls.planes, 10);
+    std::vector<Mover> solved = scene.robots;
+    solver->advance(solved, {&all, 1}, 10);
     for (int i = 0; i < 3; ++i) {
       const bool in_island = std::any_of(islands.begin(), islands.end(), [&](const Island& island) {
-        return std::count(island.robots.begin(), island.robots.end(), i) > 0;
+        return std::count(island.movers.begin(), island.movers.end(), i) > 0;
       });
       if (in_island) continue;
       ++called_free;
