@@ -50,11 +50,23 @@ double gap_between(const Form& form, const Body& at, const Form& other, const Bo
 double gap_to(const Form& form, const Body& at, const WallPlane& wall) {
   const double depth = wall.depth_of(at.x, at.y);
   const double along = wall.along(at.x, at.y);
+  if (form.is_circle()) {
+    const double beyond = along - std::clamp(along, 0.0, wall.length_m);
+    return std::sqrt(depth * depth + beyond * beyond) - form.radius_m;
+  }
   const double in_front = depth - extent_along(form, at, wall.nx, wall.ny);
   const double behind = -depth - extent_along(form, at, -wall.nx, -wall.ny);
-  const double before = -along - extent_along(form, at, -wall.ny, wall.nx);
-  const double after = along - wall.length_m - extent_along(form, at, wall.ny, -wall.nx);
-  return std::max({in_front, behind, before, after});
+  double widest = std::max(in_front, behind);
+  for (std::size_t i = 0; i < form.normals.size(); ++i) {
+    const Point& normal = form.normals[i];
+    const double x = normal.x * at.cos - normal.y * at.sin;
+    const double y = normal.x * at.sin + normal.y * at.cos;
+    const double own = normal.x * form.corners[i].x + normal.y * form.corners[i].y;
+    const double from = x * (wall.from.x - at.x) + y * (wall.from.y - at.y);
+    const double to = from + wall.length_m * (wall.nx * y - wall.ny * x);
+    widest = std::max(widest, std::min(from, to) - own);
+  }
+  return widest;
 }
 
 }  // namespace swarmsmith
