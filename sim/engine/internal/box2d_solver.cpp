@@ -19,8 +19,8 @@ namespace swarmsmith {
 namespace {
 
 constexpr int kVelocityIterations = 10;
-/// The original tolerates 0.1 m of overlap, so positions are never pushed apart.
-constexpr int kPositionIterations = 0;
+/// The original tolerates 0.1 m of overlap: there positions are never pushed apart.
+constexpr int kPositionIterations = 3;
 
 b2Vec2 vector(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
@@ -97,16 +97,10 @@ void add_wall(b2Body* ground, const Walls& walls, std::size_t index) {
   const Point after = {next.from.x - next.ny * next.length_m,
                        next.from.y + next.nx * next.length_m};
   b2EdgeShape edge;
-#ifdef TWOSIDED
-  (void)before;
-  (void)after;
-  edge.SetTwoSided(vector(from.x, from.y), vector(to.x, to.y));
-#else
   // Box2D's edges face right, ours left. Knowing their neighbours keeps what slides along a wall
   // from catching on the joints.
   edge.SetOneSided(vector(after.x, after.y), vector(to.x, to.y), vector(from.x, from.y),
                    vector(before.x, before.y));
-#endif
   edge.m_radius = 0;
   b2FixtureDef fixture;
   fixture.shape = &edge;
@@ -141,7 +135,8 @@ void prepare_globals() {
 
 class Box2dSolver final : public ContactSolver {
  public:
-  explicit Box2dSolver(const Surroundings& surroundings) : surroundings_(&surroundings) {}
+  Box2dSolver(const Surroundings& surroundings, bool plain)
+      : surroundings_(&surroundings), position_iterations_(plain ? 0 : kPositionIterations) {}
 
   void advance(std::span<Mover> movers, std::span<const Island> islands, int sub_steps) override {
     for (const Island& island : islands) {
@@ -168,7 +163,7 @@ class Box2dSolver final : public ContactSolver {
       add_drive(world, bodies_.back(), mover);
     }
     for (int i = 0; i < sub_steps; ++i) {
-      world.Step(static_cast<float>(kSubStep_s), kVelocityIterations, kPositionIterations);
+      world.Step(static_cast<float>(kSubStep_s), kVelocityIterations, position_iterations_);
       mark_touched(world);
     }
     for (std::size_t i = 0; i < bodies_.size(); ++i) {
@@ -211,15 +206,16 @@ class Box2dSolver final : public ContactSolver {
   }
 
   const Surroundings* surroundings_;
+  int position_iterations_;
   std::vector<b2Body*> bodies_;
   std::vector<std::size_t> distinct_;
 };
 
 }  // namespace
 
-std::unique_ptr<ContactSolver> make_box2d_solver(const Surroundings& surroundings) {
+std::unique_ptr<ContactSolver> make_box2d_solver(const Surroundings& surroundings, bool plain) {
   prepare_globals();
-  return std::make_unique<Box2dSolver>(surroundings);
+  return std::make_unique<Box2dSolver>(surroundings, plain);
 }
 
 }  // namespace swarmsmith

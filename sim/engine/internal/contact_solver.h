@@ -35,7 +35,9 @@ std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool plai
 
 /// Our own, for the RVR's squares inside a convex polygon (simulator facts, section 4.1).
 std::unique_ptr<ContactSolver> make_exact_solver(const Surroundings& surroundings);
-/// Box2D's, single precision (simulator facts, section 4.2), for all forms.
-std::unique_ptr<ContactSolver> make_box2d_solver(const Surroundings& surroundings);
+/// Box2D's, single precision (simulator facts, section 4.2), for all forms. In a plain world
+/// overlap is left as it is, as in the original; elsewhere more than 5 mm of it is pushed apart,
+/// because light objects between heavy robots and walls would be pressed into them.
+std::unique_ptr<ContactSolver> make_box2d_solver(const Surroundings& surroundings, bool plain);
 
 }  // namespace swarmsmith

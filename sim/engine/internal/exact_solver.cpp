@@ -343,7 +343,7 @@ std::unique_ptr<ContactSolver> make_exact_solver(const Surroundings& surrounding
 std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool plain,
                                                    const Surroundings& surroundings) {
   return model == ContactModel::Exact && plain ? make_exact_solver(surroundings)
-                                               : make_box2d_solver(surroundings);
+                                               : make_box2d_solver(surroundings, plain);
 }
 
 }  // namespace swarmsmith

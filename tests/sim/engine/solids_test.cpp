@@ -142,7 +142,7 @@ TEST(Solids, ARobotPushesALightBoxAndNotAHeavyOne) {
 
 /// How far a box of 1.2 m by 0.3 m that 3.6 N hold goes in its last 20 s of 30 s, when so many
 /// robots push it side by side.
-double pushed_by(int robots, ContactModel contacts) {
+double pushed_by(int robots) {
   Arena arena = room();
   arena.walls = {
       {{-2, -2}, {12, -2}}, {{12, -2}, {12, 2}}, {{12, 2}, {-2, 2}}, {{-2, 2}, {-2, -2}}};
@@ -151,7 +151,7 @@ double pushed_by(int robots, ContactModel contacts) {
   std::vector<Pose> starts;
   for (int i = 0; i < robots; ++i)
     starts.push_back({-0.35, 0.35 * (i - (robots - 1) / 2.0), 0});
-  World world(arena, kRvr, starts, contacts);
+  World world(arena, kRvr, starts, ContactModel::Exact);
   drive(world, {0.3, 0.3}, 100);
   const double from = world.body(robots).x;
   drive(world, {0.3, 0.3}, 200);
@@ -160,10 +160,22 @@ double pushed_by(int robots, ContactModel contacts) {
 }
 
 TEST(Solids, ABoxThatNeitherOneNorTwoRobotsMoveYieldsToThree) {
-  EXPECT_NEAR(pushed_by(1, ContactModel::Exact), 0, 0.001);
-  EXPECT_NEAR(pushed_by(2, ContactModel::Exact), 0, 0.001);
+  EXPECT_NEAR(pushed_by(1), 0, 0.001);
+  // Ten rounds leave a little: measured 1.4 mm in 20 s.
+  EXPECT_NEAR(pushed_by(2), 0, 0.004);
   // 4.5 N drive, 3.6 N brake: they go as fast as they are told.
-  EXPECT_NEAR(pushed_by(3, ContactModel::Exact), 20 * 0.3, 0.1);
+  EXPECT_NEAR(pushed_by(3), 20 * 0.3, 0.1);
+}
+
+TEST(Solids, ALightObjectBetweenARobotAndAWallIsNotPressedInto) {
+  Arena arena = room();
+  arena.objects = {
+      {.outline = BoxOutline{0.1, 0.1}, .start = {1.9, 0, 0}, .mass_kg = 0.2, .friction_N = 0.2}};
+  World world(arena, kRvr, std::vector<Pose>{{1.5, 0, 0}}, ContactModel::Exact);
+  drive(world, {0.3, 0.3}, 1000);
+  // What Box2D leaves is 5 mm; without pushing apart it was 47 mm.
+  EXPECT_LT(depth_in_surroundings(world, 1), 0.006);
+  EXPECT_LT(-gap_between(world.form(0), world.body(0), world.form(1), world.body(1)), 0.006);
 }
 
 TEST(Solids, AWallsReflexCornerStopsARobotThatDrivesAtIt) {
@@ -222,8 +234,8 @@ TEST(Solids, AtFullSpeedNobodyPassesThroughWallsOrObstacles) {
         deepest = std::max(deepest, depth_in_surroundings(world, i));
       }
     }
-    // A corner that spins at full speed moves 42 mm in a sub-step.
-    EXPECT_LT(deepest, 0.06);
+    // A corner that spins at full speed moves 42 mm in a sub-step; measured at worst 30 mm.
+    EXPECT_LT(deepest, 0.05);
     RecordProperty("deepest_um", static_cast<int>(deepest * 1e6));
   }
 }
@@ -255,7 +267,7 @@ TEST(Solids, ASwarmAmongMixedSolidsKeepsThemApart) {
       }
     }
   }
-  EXPECT_LT(deepest, 0.03);
+  EXPECT_LT(deepest, 0.025);
   EXPECT_GT(deepest, 0.0001) << "they never met";
   RecordProperty("deepest_um", static_cast<int>(deepest * 1e6));
 }
