@@ -106,35 +106,29 @@ double relax(Constraint& c, Dynamic& a, Dynamic& b) {
   return std::max(std::fabs(normal_change), std::fabs(friction_change));
 }
 
-/// One round for one drive: towards the set-point, its whole impulse within the limit. Returns the
-/// largest change.
-double relax_drive(const SetPoint& set_point, Dynamic& robot) {
+/// One round for one drive: towards the set-point, its whole impulse within the limit.
+void relax_drive(const SetPoint& set_point, Dynamic& robot) {
   double x = robot.drive_x_Ns + kMass_kg * (set_point.vx - robot.vx);
   double y = robot.drive_y_Ns + kMass_kg * (set_point.vy - robot.vy);
   const double size2 = x * x + y * y;
+  if (robot.inverse_inertia != 0) {
+    const double twist =
+        std::clamp(robot.drive_twist_Nms + kInertia_kg_m2 * (set_point.spin - robot.spin),
+                   -kMaxTwist_Nms, kMaxTwist_Nms);
+    robot.spin += (twist - robot.drive_twist_Nms) * kInverseInertia;
+    robot.drive_twist_Nms = twist;
+  }
   robot.give = 1;
   if (size2 > kMaxImpulse_Ns * kMaxImpulse_Ns) {
     const double scale = kMaxImpulse_Ns / std::sqrt(size2);
-    robot.give = robot.inverse_inertia == 0 ? scale : 1;
+    if (robot.inverse_inertia == 0) robot.give = scale;
     x *= scale;
     y *= scale;
   }
-  const double x_change = x - robot.drive_x_Ns;
-  const double y_change = y - robot.drive_y_Ns;
+  robot.vx += (x - robot.drive_x_Ns) * kInverseMass;
+  robot.vy += (y - robot.drive_y_Ns) * kInverseMass;
   robot.drive_x_Ns = x;
   robot.drive_y_Ns = y;
-  robot.vx += x_change * kInverseMass;
-  robot.vy += y_change * kInverseMass;
-  const double change = std::max(std::fabs(x_change), std::fabs(y_change));
-  if (robot.inverse_inertia == 0) return change;
-  const double twist =
-      std::clamp(robot.drive_twist_Nms + kInertia_kg_m2 * (set_point.spin - robot.spin),
-                 -kMaxTwist_Nms, kMaxTwist_Nms);
-  const double twist_change = twist - robot.drive_twist_Nms;
-  robot.drive_twist_Nms = twist;
-  robot.spin += twist_change * kInverseInertia;
-  // A twist over the half side is comparable with an impulse.
-  return std::max(change, std::fabs(twist_change) / kHalfSide_m);
 }
 
 class ExactSolver final : public ContactSolver {
@@ -156,15 +150,16 @@ class ExactSolver final : public ContactSolver {
 
  private:
   void advance_island(std::span<Mover> movers, const Island& island, int sub_steps) {
-    before_ = memory_;
+    recall(island);
     int left = sub_steps;
     while (left > 0) {
       // Most islands are false alarms, or come to touch late: those sub-steps are free.
       const int quiet = before_.empty() ? quiet_sub_steps(movers, island, *surroundings_, left) : 0;
       if (quiet > 0) {
         for (const int index : island.movers) {
-          Mover& mover = movers[static_cast<std::size_t>(index)];
-          advance_freely(mover.body, mover.set_point, quiet);
+          const auto i = static_cast<std::size_t>(index);
+          advance_freely(movers[i].body, movers[i].set_point, quiet);
+          robots_[i] = {};
         }
         constraints_.clear();
       } else {
@@ -174,6 +169,24 @@ class ExactSolver final : public ContactSolver {
       before_.swap(constraints_);
     }
     fresh_.insert(fresh_.end(), before_.begin(), before_.end());
+  }
+
+  /// What held the island's contacts at the end of the last call; forgets the drives of the others.
+  void recall(const Island& island) {
+    before_.clear();
+    for (const int index : island.movers)
+      robots_[static_cast<std::size_t>(index)].touched = false;
+    for (const Constraint& c : memory_) {
+      if (!std::binary_search(island.movers.begin(), island.movers.end(), static_cast<int>(c.a))) {
+        continue;
+      }
+      before_.push_back(c);
+      robots_[c.a].touched = robots_[c.b].touched = true;
+    }
+    for (const int index : island.movers) {
+      Dynamic& robot = robots_[static_cast<std::size_t>(index)];
+      if (!robot.touched) robot = {};
+    }
   }
 
   void sub_step(std::span<Mover> movers, const Island& island) {
@@ -213,7 +226,6 @@ class ExactSolver final : public ContactSolver {
       active_.push_back(i);
       const double spin = mover.set_point.spin - mover.body.spin;
       robots_[i].inverse_mass = kInverseMass;
-      robots_[i].give = 1;
       robots_[i].inverse_inertia = std::fabs(spin) <= kSpinStep_radps ? 0 : kInverseInertia;
       held = held || robots_[i].inverse_inertia == 0;
     }
