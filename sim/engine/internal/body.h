@@ -28,8 +28,8 @@ inline constexpr int kSubStepsPerInstant = 10;
 inline constexpr double kSpeedStep_mps = kMaxForce_N / kMass_kg * kSubStep_s;
 inline constexpr double kSpinStep_radps = kMaxTorque_Nm / kInertia_kg_m2 * kSubStep_s;
 
-/// State of one robot. The heading is kept as the unit vector (cos, sin): no angle is stored, so
-/// that no trigonometric function is needed while a robot moves.
+/// State of one robot or object. The heading is kept as the unit vector (cos, sin): no angle is
+/// stored, so that no trigonometric function is needed while a body moves.
 struct Body {
   double x = 0;
   double y = 0;
@@ -51,7 +51,21 @@ struct SetPoint {
   friend bool operator==(const SetPoint&, const SetPoint&) = default;
 };
 
-/// A robot that stands at the pose.
+/// How a body answers to force, and how strongly it is steered: the RVR's, unless said. An object
+/// steers towards rest, by the friction of the floor.
+struct Dynamics {
+  double mass_kg = kMass_kg;
+  double inertia_kg_m2 = kInertia_kg_m2;
+  double max_force_N = kMaxForce_N;
+  double max_torque_Nm = kMaxTorque_Nm;
+  /// What those change in one sub-step.
+  double speed_step_mps = kSpeedStep_mps;
+  double spin_step_radps = kSpinStep_radps;
+
+  friend bool operator==(const Dynamics&, const Dynamics&) = default;
+};
+
+/// A body that stands at the pose.
 Body body_at(const Pose& pose);
 Pose pose_of(const Body& body);
 

@@ -1,30 +1,61 @@
 #include <box2d/box2d.h>
 
+#include <algorithm>
 #include <mutex>
 #include <vector>
 
 #include "base/math.h"
 #include "sim/engine/internal/contact_solver.h"
+#include "sim/engine/internal/contacts.h"
+#include "sim/engine/internal/motion.h"
 
 // Box2D 2.4 in the original's terms (simulator facts, section 4.2): the drive is a friction joint
 // to a kinematic body that moves with the set-point; its order (solve velocities, then move) is
-// made ours (move, find contacts, solve velocities) by handing over poses one sub-step ahead; the
-// skin that it keeps round polygons is taken off their size. A world of its own for each call keeps
+// made ours (move, find contacts, solve velocities) by handing over poses one sub-step ahead; its
+// shapes have no skin, so that they meet where they are. A world of its own for each call keeps
 // evaluations independent of each other: warm starts, the order of the tree and sleep die with it.
 
 namespace swarmsmith {
 namespace {
 
-constexpr double kSkin_m = b2_polygonRadius;
 constexpr int kVelocityIterations = 10;
-/// The original tolerates 0.1 m of overlap, so positions are never pushed apart.
-constexpr int kPositionIterations = 0;
+/// The original tolerates 0.1 m of overlap: there positions are never pushed apart.
+constexpr int kPositionIterations = 3;
 
 b2Vec2 vector(double x, double y) {
   return {static_cast<float>(x), static_cast<float>(y)};
 }
 
-b2Body* add_robot(b2World& world, const Body& body) {
+/// Adds the form, placed in the body's frame, to the body.
+void add_fixture(b2Body* body, const Form& form, const Body& at) {
+  b2CircleShape circle;
+  b2PolygonShape polygon;
+  b2FixtureDef fixture;
+  fixture.friction = static_cast<float>(kFriction);
+  if (form.is_circle()) {
+    circle.m_p = vector(at.x, at.y);
+    circle.m_radius = static_cast<float>(form.radius_m);
+    fixture.shape = &circle;
+  } else {
+    // Filled by hand: Set() would merge corners of small polygons.
+    polygon.m_count = static_cast<int32>(form.corners.size());
+    polygon.m_centroid = vector(at.x, at.y);
+    polygon.m_radius = 0;
+    for (std::size_t i = 0; i < form.corners.size(); ++i) {
+      const Point& corner = form.corners[i];
+      const Point& normal = form.normals[i];
+      polygon.m_vertices[i] = vector(at.x + at.cos * corner.x - at.sin * corner.y,
+                                     at.y + at.sin * corner.x + at.cos * corner.y);
+      polygon.m_normals[i] =
+          vector(at.cos * normal.x - at.sin * normal.y, at.sin * normal.x + at.cos * normal.y);
+    }
+    fixture.shape = &polygon;
+  }
+  body->CreateFixture(&fixture);
+}
+
+b2Body* add_mover(b2World& world, const Mover& mover) {
+  const Body& body = mover.body;
   b2BodyDef definition;
   definition.type = b2_dynamicBody;
   definition.position = vector(body.x + kSubStep_s * body.vx, body.y + kSubStep_s * body.vy);
@@ -32,50 +63,49 @@ b2Body* add_robot(b2World& world, const Body& body) {
   definition.linearVelocity = vector(body.vx, body.vy);
   definition.angularVelocity = static_cast<float>(body.spin);
   definition.allowSleep = false;
-  b2Body* robot = world.CreateBody(&definition);
-  b2PolygonShape square;
-  const auto half = static_cast<float>(kHalfSide_m - kSkin_m);
-  square.SetAsBox(half, half);
-  b2FixtureDef fixture;
-  fixture.shape = &square;
-  fixture.friction = static_cast<float>(kFriction);
-  robot->CreateFixture(&fixture);
+  b2Body* result = world.CreateBody(&definition);
+  add_fixture(result, mover.form(), Body{});
   b2MassData mass;
-  mass.mass = static_cast<float>(kMass_kg);
+  mass.mass = static_cast<float>(mover.dynamics().mass_kg);
   mass.center.SetZero();
-  mass.I = static_cast<float>(kInertia_kg_m2);
-  robot->SetMassData(&mass);
-  return robot;
+  mass.I = static_cast<float>(mover.dynamics().inertia_kg_m2);
+  result->SetMassData(&mass);
+  return result;
 }
 
-void add_drive(b2World& world, b2Body* robot, const SetPoint& set_point) {
+void add_drive(b2World& world, b2Body* body, const Mover& mover) {
   b2BodyDef definition;
   definition.type = b2_kinematicBody;
-  definition.position = robot->GetPosition();
-  definition.linearVelocity = vector(set_point.vx, set_point.vy);
-  definition.angularVelocity = static_cast<float>(set_point.spin);
+  definition.position = body->GetPosition();
+  definition.linearVelocity = vector(mover.set_point.vx, mover.set_point.vy);
+  definition.angularVelocity = static_cast<float>(mover.set_point.spin);
   definition.allowSleep = false;
   b2FrictionJointDef joint;
-  joint.Initialize(world.CreateBody(&definition), robot, robot->GetPosition());
-  joint.maxForce = static_cast<float>(kMaxForce_N);
-  joint.maxTorque = static_cast<float>(kMaxTorque_Nm);
+  joint.Initialize(world.CreateBody(&definition), body, body->GetPosition());
+  joint.maxForce = static_cast<float>(mover.dynamics().max_force_N);
+  joint.maxTorque = static_cast<float>(mover.dynamics().max_torque_Nm);
   world.CreateJoint(&joint);
 }
 
-void add_walls(b2World& world, std::span<const WallPlane> walls) {
-  b2BodyDef definition;
-  b2Body* ground = world.CreateBody(&definition);
-  for (const WallPlane& wall : walls) {
-    const double x = wall.from.x + kSkin_m * wall.nx;
-    const double y = wall.from.y + kSkin_m * wall.ny;
-    b2EdgeShape edge;
-    edge.SetTwoSided(vector(x, y),
-                     vector(x - wall.ny * wall.length_m, y + wall.nx * wall.length_m));
-    b2FixtureDef fixture;
-    fixture.shape = &edge;
-    fixture.friction = static_cast<float>(kFriction);
-    ground->CreateFixture(&fixture);
-  }
+void add_wall(b2Body* ground, const Walls& walls, std::size_t index) {
+  const std::size_t n = walls.planes.size();
+  const WallPlane& wall = walls.planes[index];
+  const Point from = wall.from;
+  const Point to = {from.x - wall.ny * wall.length_m, from.y + wall.nx * wall.length_m};
+  const Point before = walls.planes[(index + n - 1) % n].from;
+  const WallPlane& next = walls.planes[(index + 1) % n];
+  const Point after = {next.from.x - next.ny * next.length_m,
+                       next.from.y + next.nx * next.length_m};
+  b2EdgeShape edge;
+  // Box2D's edges face right, ours left. Knowing their neighbours keeps what slides along a wall
+  // from catching on the joints.
+  edge.SetOneSided(vector(after.x, after.y), vector(to.x, to.y), vector(from.x, from.y),
+                   vector(before.x, before.y));
+  edge.m_radius = 0;
+  b2FixtureDef fixture;
+  fixture.shape = &edge;
+  fixture.friction = static_cast<float>(kFriction);
+  ground->CreateFixture(&fixture);
 }
 
 Body taken_from(const b2Body& robot) {
@@ -97,41 +127,95 @@ void prepare_globals() {
   static std::once_flag once;
   std::call_once(once, [] {
     b2World world(b2Vec2_zero);
-    add_robot(world, Body{});
-    add_robot(world, Body{.x = 0.2});
+    add_mover(world, Mover{});
+    add_mover(world, Mover{.body = {.x = 0.2}, .set_point = {}});
     world.Step(static_cast<float>(kSubStep_s), 1, 0);
   });
 }
 
 class Box2dSolver final : public ContactSolver {
  public:
-  void advance(std::span<IslandMember> island, std::span<const WallPlane> walls,
-               int sub_steps) override {
-    b2World world(b2Vec2_zero);
-    world.SetAllowSleeping(false);
-    world.SetContinuousPhysics(false);
-    add_walls(world, walls);
-    robots_.clear();
-    for (const IslandMember& member : island) {
-      robots_.push_back(add_robot(world, member.body));
-      add_drive(world, robots_.back(), member.set_point);
+  Box2dSolver(const Surroundings& surroundings, bool plain)
+      : surroundings_(&surroundings), position_iterations_(plain ? 0 : kPositionIterations) {}
+
+  void advance(std::span<Mover> movers, std::span<const Island> islands, int sub_steps) override {
+    for (const Island& island : islands) {
+      // Most islands are false alarms, or come to touch late: those sub-steps are free.
+      const int quiet = quiet_sub_steps(movers, island, *surroundings_, sub_steps);
+      for (const int index : island.movers) {
+        Mover& mover = movers[static_cast<std::size_t>(index)];
+        advance_freely(mover.body, mover.set_point, quiet, mover.dynamics());
+      }
+      if (quiet < sub_steps) advance_touching(movers, island, sub_steps - quiet);
     }
-    for (int i = 0; i < sub_steps; ++i) {
-      world.Step(static_cast<float>(kSubStep_s), kVelocityIterations, kPositionIterations);
-    }
-    for (std::size_t i = 0; i < island.size(); ++i)
-      island[i].body = taken_from(*robots_[i]);
   }
 
  private:
-  std::vector<b2Body*> robots_;
+  void advance_touching(std::span<Mover> movers, const Island& island, int sub_steps) {
+    b2World world(b2Vec2_zero);
+    world.SetAllowSleeping(false);
+    world.SetContinuousPhysics(false);
+    add_surroundings(world, island);
+    bodies_.clear();
+    for (const int index : island.movers) {
+      const Mover& mover = movers[static_cast<std::size_t>(index)];
+      bodies_.push_back(add_mover(world, mover));
+      add_drive(world, bodies_.back(), mover);
+    }
+    for (int i = 0; i < sub_steps; ++i) {
+      world.Step(static_cast<float>(kSubStep_s), kVelocityIterations, position_iterations_);
+      mark_touched(world);
+    }
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      Mover& mover = movers[static_cast<std::size_t>(island.movers[i])];
+      if (bodies_[i]->GetUserData().pointer != 0) {
+        mover.body = taken_from(*bodies_[i]);
+      } else {
+        advance_freely(mover.body, mover.set_point, sub_steps, mover.dynamics());
+      }
+    }
+  }
+
+  void add_surroundings(b2World& world, const Island& island) {
+    const b2BodyDef definition;
+    b2Body* ground = world.CreateBody(&definition);
+    for (const std::size_t wall : distinct(island.walls))
+      add_wall(ground, surroundings_->walls, wall);
+    for (const std::size_t obstacle : distinct(island.obstacles)) {
+      const FixedSolid& solid = surroundings_->obstacles[obstacle];
+      add_fixture(ground, solid.form, solid.at);
+    }
+  }
+
+  /// What the island may meet, once each.
+  const std::vector<std::size_t>& distinct(const std::vector<Meeting>& meetings) {
+    distinct_.clear();
+    for (const Meeting& meeting : meetings)
+      distinct_.push_back(static_cast<std::size_t>(meeting.other));
+    std::sort(distinct_.begin(), distinct_.end());
+    distinct_.erase(std::unique(distinct_.begin(), distinct_.end()), distinct_.end());
+    return distinct_;
+  }
+
+  static void mark_touched(b2World& world) {
+    for (b2Contact* contact = world.GetContactList(); contact; contact = contact->GetNext()) {
+      if (!contact->IsTouching()) continue;
+      contact->GetFixtureA()->GetBody()->GetUserData().pointer = 1;
+      contact->GetFixtureB()->GetBody()->GetUserData().pointer = 1;
+    }
+  }
+
+  const Surroundings* surroundings_;
+  int position_iterations_;
+  std::vector<b2Body*> bodies_;
+  std::vector<std::size_t> distinct_;
 };
 
 }  // namespace
 
-std::unique_ptr<ContactSolver> make_box2d_solver() {
+std::unique_ptr<ContactSolver> make_box2d_solver(const Surroundings& surroundings, bool plain) {
   prepare_globals();
-  return std::make_unique<Box2dSolver>();
+  return std::make_unique<Box2dSolver>(surroundings, plain);
 }
 
 }  // namespace swarmsmith

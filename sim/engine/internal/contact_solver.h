@@ -3,25 +3,19 @@
 #include <memory>
 #include <span>
 
-#include "sim/engine/internal/body.h"
-#include "sim/engine/internal/walls.h"
+#include "sim/engine/internal/island.h"
+#include "sim/engine/internal/mover.h"
+#include "sim/engine/internal/surroundings.h"
 #include "sim/engine/profile.h"
 
 namespace swarmsmith {
 
-/// A robot of an island, before and after.
-struct IslandMember {
-  Body body;
-  SetPoint set_point;
-
-  friend bool operator==(const IslandMember&, const IslandMember&) = default;
-};
-
-/// The seam between free motion and contact: moves robots that may touch each other or a wall.
+/// The seam between free motion and contact: moves what may touch each other, a wall or an
+/// obstacle.
 ///
-/// A solver is a function: what it gives depends on its arguments alone, never on earlier calls (it
-/// keeps scratch memory, not impulses or caches), so that an evaluation cannot depend on the one
-/// before it. One solver serves one thread.
+/// A solver belongs to one world. It may remember what held its contacts in the last call, as the
+/// first guess of the next one; it keeps nothing else, and no two worlds share anything, so that an
+/// evaluation cannot depend on the one before it.
 ///
 /// The law, for each sub-step: all bodies move with their present velocity; contacts are found
 /// where bodies then are; velocities change by the drives' impulses (at most max force and torque
@@ -30,17 +24,20 @@ struct IslandMember {
 class ContactSolver {
  public:
   virtual ~ContactSolver() = default;
-  /// `walls` are those that a member may reach.
-  virtual void advance(std::span<IslandMember> island, std::span<const WallPlane> walls,
-                       int sub_steps) = 0;
+  /// Moves the members of the islands; called for each span of time, also when there are none.
+  virtual void advance(std::span<Mover> movers, std::span<const Island> islands, int sub_steps) = 0;
 };
 
-/// The solver of a contact model. `Exact` wants a convex arena; in another one it is Box2D's.
-std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool convex_arena);
+/// The solver of a contact model. `Exact` wants a plain world (World::is_plain); in another one it
+/// is Box2D's. `surroundings` must outlive the solver.
+std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool plain,
+                                                   const Surroundings& surroundings);
 
-/// Our own, for squares inside a convex polygon (simulator facts, section 4.1).
-std::unique_ptr<ContactSolver> make_exact_solver();
-/// Box2D's, single precision (simulator facts, section 4.2).
-std::unique_ptr<ContactSolver> make_box2d_solver();
+/// Our own, for the RVR's squares inside a convex polygon (simulator facts, section 4.1).
+std::unique_ptr<ContactSolver> make_exact_solver(const Surroundings& surroundings);
+/// Box2D's, single precision (simulator facts, section 4.2), for all forms. In a plain world
+/// overlap is left as it is, as in the original; elsewhere more than 5 mm of it is pushed apart,
+/// because light objects between heavy robots and walls would be pressed into them.
+std::unique_ptr<ContactSolver> make_box2d_solver(const Surroundings& surroundings, bool plain);
 
 }  // namespace swarmsmith

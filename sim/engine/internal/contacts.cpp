@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/engine/internal/gaps.h"
 #include "sim/engine/internal/motion.h"
 
 namespace swarmsmith {
@@ -12,6 +13,11 @@ namespace {
 /// Keeps the quotient of a gap and no motion finite, metres a sub-step.
 constexpr double kLeastReach_m = 1e-9;
 constexpr std::uint64_t kWallBit = std::uint64_t{1} << 63U;
+
+std::uint64_t id_of(const Meeting& meeting) {
+  return static_cast<std::uint64_t>(meeting.mover) << 32U |
+         static_cast<std::uint64_t>(meeting.other) << 3U;
+}
 
 struct Vector {
   double x;
@@ -25,49 +31,74 @@ Vector corner_of(const Body& body, unsigned corner) {
   return {body.cos * x - body.sin * y, body.sin * x + body.cos * y};
 }
 
-/// Whether the point, seen from the body's centre, lies in its square.
-bool holds(const Body& body, Vector point) {
-  return std::fabs(point.x * body.cos + point.y * body.sin) <= kHalfSide_m &&
-         std::fabs(point.y * body.cos - point.x * body.sin) <= kHalfSide_m;
-}
+/// Two squares, each seen from the other.
+struct Pair {
+  Vector b_from_a;  ///< b's centre in a's frame
+  Vector a_from_b;
+  double cos;  ///< of b's heading against a's
+  double sin;
+};
 
-/// The axis of the two squares along which they overlap least, from a to b.
-Vector normal_between(const Body& a, const Body& b) {
+Pair pair_of(const Body& a, const Body& b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;
-  const std::array<Vector, 4> axes = {
-      Vector{a.cos, a.sin}, {-a.sin, a.cos}, {b.cos, b.sin}, {-b.sin, b.cos}};
-  // The squares take up as much of each axis, so the least overlap is where the centres are widest
-  // apart.
-  Vector normal = axes[0];
-  double widest = -1;
-  for (const Vector& axis : axes) {
-    const double projection = dx * axis.x + dy * axis.y;
-    if (std::fabs(projection) <= widest) continue;
-    widest = std::fabs(projection);
-    const double side = std::copysign(1.0, projection);
-    normal = {side * axis.x, side * axis.y};
+  return {.b_from_a = {dx * a.cos + dy * a.sin, dy * a.cos - dx * a.sin},
+          .a_from_b = {-dx * b.cos - dy * b.sin, dx * b.sin - dy * b.cos},
+          .cos = a.cos * b.cos + a.sin * b.sin,
+          .sin = a.cos * b.sin - a.sin * b.cos};
+}
+
+/// gap_between of walls.h.
+double gap_of(const Pair& pair) {
+  const double widest = std::max({std::fabs(pair.b_from_a.x), std::fabs(pair.b_from_a.y),
+                                  std::fabs(pair.a_from_b.x), std::fabs(pair.a_from_b.y)});
+  return widest - kHalfSide_m * (1 + std::fabs(pair.cos) + std::fabs(pair.sin));
+}
+
+/// The axis of the two squares along which they overlap least, from a to b. They take up as much of
+/// each axis, so it is the one on which the centres are widest apart.
+Vector normal_of(const Pair& pair, const Body& a, const Body& b) {
+  const std::array<double, 4> apart = {pair.b_from_a.x, pair.b_from_a.y, -pair.a_from_b.x,
+                                       -pair.a_from_b.y};
+  std::size_t widest = 0;
+  for (std::size_t i = 1; i < 4; ++i) {
+    if (std::fabs(apart[i]) > std::fabs(apart[widest])) widest = i;
   }
-  return normal;
+  const Body& owner = widest < 2 ? a : b;
+  const double side = std::copysign(1.0, apart[widest]);
+  return widest % 2 == 0 ? Vector{side * owner.cos, side * owner.sin}
+                         : Vector{-side * owner.sin, side * owner.cos};
+}
+
+/// Which corners (bits 0 to 3) of a square lie in another one at the origin: its centre, and cosine
+/// and sine of its heading.
+unsigned corners_inside(Vector centre, double cosine, double sine) {
+  const double u = kHalfSide_m * (cosine - sine);
+  const double v = kHalfSide_m * (cosine + sine);
+  const auto inside = [&](double x, double y) {
+    return static_cast<unsigned>(std::fabs(centre.x + x) <= kHalfSide_m) &
+           static_cast<unsigned>(std::fabs(centre.y + y) <= kHalfSide_m);
+  };
+  return inside(u, v) | inside(-v, u) << 1U | inside(-u, -v) << 2U | inside(v, -u) << 3U;
 }
 
 /// Corners of `own` (0 to 3 of a, 4 to 7 of b) that lie in the other square.
-void meet(Contact contact, const Body& a, const Body& b, std::vector<Contact>& found) {
+void meet(Contact contact, const Pair& pair, const Body& a, const Body& b,
+          std::vector<Contact>& found) {
+  const unsigned corners = corners_inside(pair.a_from_b, pair.cos, -pair.sin) |
+                           corners_inside(pair.b_from_a, pair.cos, pair.sin) << 4U;
   for (unsigned corner = 0; corner < 8; ++corner) {
+    if ((corners >> corner & 1U) == 0) continue;
     const bool of_a = corner < 4;
-    const Body& own = of_a ? a : b;
-    const Body& other = of_a ? b : a;
-    const Vector from_own = corner_of(own, corner % 4);
-    const Vector from_other = {own.x + from_own.x - other.x, own.y + from_own.y - other.y};
-    if (!holds(other, from_other)) continue;
-    const Vector& from_a = of_a ? from_own : from_other;
-    const Vector& from_b = of_a ? from_other : from_own;
+    const Vector from_own = corner_of(of_a ? a : b, corner % 4);
+    const double x = (of_a ? a.x : b.x) + from_own.x;
+    const double y = (of_a ? a.y : b.y) + from_own.y;
     found.push_back(contact);
     found.back().id |= corner;
-    found.back().ax = from_a.x;
-    found.back().ay = from_a.y;
-    found.back().bx = from_b.x;
-    found.back().by = from_b.y;
+    found.back().ax = x - a.x;
+    found.back().ay = y - a.y;
+    found.back().bx = x - b.x;
+    found.back().by = y - b.y;
   }
 }
 
@@ -85,49 +116,65 @@ void meet_wall(Contact contact, const Body& body, const WallPlane& wall,
 
 }  // namespace
 
-void find_contacts(std::span<const IslandMember> island, std::span<const WallPlane> walls,
+void find_contacts(std::span<const Mover> movers, const Island& island, const Walls& walls,
                    std::vector<Contact>& found) {
   found.clear();
-  for (std::size_t i = 0; i < island.size(); ++i) {
-    const Body& a = island[i].body;
-    Contact contact{.a = static_cast<int>(i)};
-    for (std::size_t j = i + 1; j < island.size(); ++j) {
-      const Body& b = island[j].body;
-      if (gap_between(a, b) >= 0) continue;
-      const Vector normal = normal_between(a, b);
-      contact.b = static_cast<int>(j);
-      contact.id = static_cast<std::uint64_t>(i) << 32U | static_cast<std::uint64_t>(j) << 3U;
-      contact.nx = normal.x;
-      contact.ny = normal.y;
-      meet(contact, a, b, found);
-    }
-    contact.b = -1;
-    for (std::size_t w = 0; w < walls.size(); ++w) {
-      if (gap_to(a, walls[w]) >= 0) continue;
-      contact.id =
-          kWallBit | static_cast<std::uint64_t>(i) << 32U | static_cast<std::uint64_t>(w) << 3U;
-      contact.nx = walls[w].nx;
-      contact.ny = walls[w].ny;
-      meet_wall(contact, a, walls[w], found);
-    }
+  for (const Meeting& meeting : island.pairs) {
+    const Body& a = movers[static_cast<std::size_t>(meeting.mover)].body;
+    const Body& b = movers[static_cast<std::size_t>(meeting.other)].body;
+    const Pair pair = pair_of(a, b);
+    if (gap_of(pair) >= 0) continue;
+    const Vector normal = normal_of(pair, a, b);
+    meet({.a = meeting.mover,
+          .b = meeting.other,
+          .id = id_of(meeting),
+          .nx = normal.x,
+          .ny = normal.y},
+         pair, a, b, found);
+  }
+  for (const Meeting& meeting : island.walls) {
+    const Body& a = movers[static_cast<std::size_t>(meeting.mover)].body;
+    const WallPlane& wall = walls.planes[static_cast<std::size_t>(meeting.other)];
+    if (gap_to(a, wall) >= 0) continue;
+    meet_wall({.a = meeting.mover,
+               .b = -1,
+               .id = kWallBit | id_of(meeting),
+               .nx = wall.nx,
+               .ny = wall.ny},
+              a, wall, found);
   }
 }
 
-int quiet_sub_steps(std::span<const IslandMember> island, std::span<const WallPlane> walls,
-                    int most) {
+int quiet_sub_steps(std::span<const Mover> movers, const Island& island,
+                    const Surroundings& surroundings, int most) {
   double quiet = most;
-  for (std::size_t i = 0; i < island.size() && quiet >= 1; ++i) {
-    const double reach =
-        kSubStep_s * surface_speed(island[i].body, island[i].set_point) + kLeastReach_m;
-    for (std::size_t j = i + 1; j < island.size(); ++j) {
-      const double other = kSubStep_s * surface_speed(island[j].body, island[j].set_point);
-      quiet = std::min(quiet, gap_between(island[i].body, island[j].body) / (reach + other));
-    }
-    for (const WallPlane& wall : walls) {
-      quiet = std::min(quiet, gap_to(island[i].body, wall) / reach);
-    }
+  const auto reach_of = [](const Mover& mover) {
+    return kSubStep_s * surface_speed(mover.body, mover.set_point, mover.form().radius_m);
+  };
+  for (const Meeting& meeting : island.pairs) {
+    const Mover& a = movers[static_cast<std::size_t>(meeting.mover)];
+    const Mover& b = movers[static_cast<std::size_t>(meeting.other)];
+    const double gap = gap_between(a.form(), a.body, b.form(), b.body);
+    if (gap < 0) return 0;
+    quiet = std::min(quiet, gap / (reach_of(a) + reach_of(b) + kLeastReach_m));
   }
-  return std::max(0, static_cast<int>(quiet));
+  for (const Meeting& meeting : island.walls) {
+    const Mover& a = movers[static_cast<std::size_t>(meeting.mover)];
+    const WallPlane& wall = surroundings.walls.planes[static_cast<std::size_t>(meeting.other)];
+    const double gap = a.form().is_rvr && surroundings.walls.convex
+                           ? gap_to(a.body, wall)
+                           : gap_to(a.form(), a.body, wall);
+    if (gap < 0) return 0;
+    quiet = std::min(quiet, gap / (reach_of(a) + kLeastReach_m));
+  }
+  for (const Meeting& meeting : island.obstacles) {
+    const Mover& a = movers[static_cast<std::size_t>(meeting.mover)];
+    const FixedSolid& solid = surroundings.obstacles[static_cast<std::size_t>(meeting.other)];
+    const double gap = gap_between(a.form(), a.body, solid.form, solid.at);
+    if (gap < 0) return 0;
+    quiet = std::min(quiet, gap / (reach_of(a) + kLeastReach_m));
+  }
+  return static_cast<int>(quiet);
 }
 
 }  // namespace swarmsmith

@@ -4,15 +4,17 @@
 #include <span>
 #include <vector>
 
-#include "sim/engine/internal/contact_solver.h"
+#include "sim/engine/internal/island.h"
+#include "sim/engine/internal/mover.h"
+#include "sim/engine/internal/surroundings.h"
 
 namespace swarmsmith {
 
 /// A corner of a robot's square that lies in another robot's, or behind the face of a wall.
 struct Contact {
   int a = 0;
-  int b = -1;            ///< another robot of the island, or -1: a wall
-  std::uint64_t id = 0;  ///< which corner meets what; the same from sub-step to sub-step
+  int b = -1;            ///< another robot, or -1: a wall
+  std::uint64_t id = 0;  ///< which corner meets what; the same as long as it does
   double nx = 0;         ///< unit normal from a to the other
   double ny = 0;
   double ax = 0;  ///< from a's centre to the point of contact
@@ -21,14 +23,14 @@ struct Contact {
   double by = 0;
 };
 
-/// All contacts of an island as it stands, in a fixed order; replaces what was in `found`. Between
-/// two squares the normal is the axis of least overlap. Walls count with their whole line, so the
-/// arena must be convex.
-void find_contacts(std::span<const IslandMember> island, std::span<const WallPlane> walls,
+/// All contacts of an island of RVRs as it stands, in the order of their ids; replaces what was in
+/// `found`. Between two squares the normal is the axis of least overlap. Walls count with their
+/// whole line, so the arena must be convex.
+void find_contacts(std::span<const Mover> movers, const Island& island, const Walls& walls,
                    std::vector<Contact>& found);
 
 /// For how many sub-steps, up to `most`, no contact is possible: gaps against the fastest approach.
-int quiet_sub_steps(std::span<const IslandMember> island, std::span<const WallPlane> walls,
-                    int most);
+int quiet_sub_steps(std::span<const Mover> movers, const Island& island,
+                    const Surroundings& surroundings, int most);
 
 }  // namespace swarmsmith

@@ -1,205 +1,228 @@
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <span>
 #include <vector>
 
+#include "sim/engine/internal/contact_solver.h"
 #include "sim/engine/internal/contacts.h"
+#include "sim/engine/internal/impulses.h"
 #include "sim/engine/internal/motion.h"
 
 // Sequential impulses (Catto, "Iterative dynamics with temporal coherence", GDC 2005), with two
 // things of the original simulator: the drive is one more constraint with a limited impulse, and
 // overlap is never pushed apart, only approach is cancelled.
+//
+// Torque is plenty: a drive holds the spin of a robot that presses, so that rounds between it and
+// the contacts would only pass an impulse to and fro. Such spins are taken as held, contacts act as
+// if the robot could not turn, and at the end it is checked that the torque was there.
 
 namespace swarmsmith {
 namespace {
 
 constexpr int kRounds = 10;
-/// Rounds end early when no impulse changes by more, N s.
-constexpr double kSettled_Ns = 1e-9;
-constexpr double kMaxImpulse_Ns = kMaxForce_N * kSubStep_s;
-constexpr double kMaxTwist_Nms = kMaxTorque_Nm * kSubStep_s;
-constexpr double kInverseMass = 1 / kMass_kg;
-constexpr double kInverseInertia = 1 / kInertia_kg_m2;
-
-/// A contact with what it has done in this sub-step.
-struct Constraint {
-  Contact contact;
-  double normal_mass = 0;  ///< change of impulse per change of parting speed
-  double friction_mass = 0;
-  double normal_Ns = 0;  ///< impulses so far
-  double friction_Ns = 0;
-};
-
-/// What a drive gave in this sub-step.
-struct Drive {
-  double x_Ns = 0;
-  double y_Ns = 0;
-  double twist_Nms = 0;
-};
-
-void push(Body& body, double rx, double ry, double x_Ns, double y_Ns) {
-  body.vx += x_Ns * kInverseMass;
-  body.vy += y_Ns * kInverseMass;
-  body.spin += (rx * y_Ns - ry * x_Ns) * kInverseInertia;
-}
-
-/// An impulse along (x, y) from a to the other.
-void push_apart(std::span<IslandMember> island, const Contact& contact, double x, double y,
-                double size_Ns) {
-  push(island[static_cast<std::size_t>(contact.a)].body, contact.ax, contact.ay, -x * size_Ns,
-       -y * size_Ns);
-  if (contact.b >= 0) {
-    push(island[static_cast<std::size_t>(contact.b)].body, contact.bx, contact.by, x * size_Ns,
-         y * size_Ns);
-  }
-}
-
-/// Speed of the other against a at the point of contact, along (x, y).
-double parting_speed(std::span<const IslandMember> island, const Contact& contact, double x,
-                     double y) {
-  const Body& a = island[static_cast<std::size_t>(contact.a)].body;
-  double vx = a.spin * contact.ay - a.vx;
-  double vy = -a.spin * contact.ax - a.vy;
-  if (contact.b >= 0) {
-    const Body& b = island[static_cast<std::size_t>(contact.b)].body;
-    vx += b.vx - b.spin * contact.by;
-    vy += b.vy + b.spin * contact.bx;
-  }
-  return x * vx + y * vy;
-}
-
-/// The impulse along (x, y) that changes the parting speed by one.
-double mass_along(const Contact& contact, double x, double y) {
-  const double arm_a = contact.ax * y - contact.ay * x;
-  double response = kInverseMass + arm_a * arm_a * kInverseInertia;
-  if (contact.b >= 0) {
-    const double arm_b = contact.bx * y - contact.by * x;
-    response += kInverseMass + arm_b * arm_b * kInverseInertia;
-  }
-  return 1 / response;
-}
-
-/// One round for one contact; returns the largest change of an impulse.
-double relax(std::span<IslandMember> island, Constraint& constraint) {
-  const Contact& contact = constraint.contact;
-  const double parting = parting_speed(island, contact, contact.nx, contact.ny);
-  const double normal = std::max(0.0, constraint.normal_Ns - constraint.normal_mass * parting);
-  const double normal_change = normal - constraint.normal_Ns;
-  constraint.normal_Ns = normal;
-  push_apart(island, contact, contact.nx, contact.ny, normal_change);
-  const double sliding = parting_speed(island, contact, -contact.ny, contact.nx);
-  const double bound = kFriction * normal;
-  const double friction =
-      std::clamp(constraint.friction_Ns - constraint.friction_mass * sliding, -bound, bound);
-  const double friction_change = friction - constraint.friction_Ns;
-  constraint.friction_Ns = friction;
-  push_apart(island, contact, -contact.ny, contact.nx, friction_change);
-  return std::max(std::fabs(normal_change), std::fabs(friction_change));
-}
-
-/// One round for one drive: towards the set-point, its whole impulse within the limit. Returns the
-/// largest change.
-double steer(IslandMember& member, Drive& drive) {
-  Body& body = member.body;
-  double x = drive.x_Ns + kMass_kg * (member.set_point.vx - body.vx);
-  double y = drive.y_Ns + kMass_kg * (member.set_point.vy - body.vy);
-  const double size2 = x * x + y * y;
-  if (size2 > kMaxImpulse_Ns * kMaxImpulse_Ns) {
-    const double scale = kMaxImpulse_Ns / std::sqrt(size2);
-    x *= scale;
-    y *= scale;
-  }
-  const double twist =
-      std::clamp(drive.twist_Nms + kInertia_kg_m2 * (member.set_point.spin - body.spin),
-                 -kMaxTwist_Nms, kMaxTwist_Nms);
-  const Drive change = {x - drive.x_Ns, y - drive.y_Ns, twist - drive.twist_Nms};
-  drive = {x, y, twist};
-  push(body, 0, 0, change.x_Ns, change.y_Ns);
-  body.spin += change.twist_Nms * kInverseInertia;
-  // A twist over the half side is comparable with an impulse.
-  return std::max(
-      {std::fabs(change.x_Ns), std::fabs(change.y_Ns), std::fabs(change.twist_Nms) / kHalfSide_m});
-}
+/// Rounds end early when no contact changes its impulse by more, N s: less than a hundredth of what
+/// a drive gives in a sub-step. The next sub-step goes on from there.
+constexpr double kSettled_Ns = 1e-4;
 
 class ExactSolver final : public ContactSolver {
  public:
-  void advance(std::span<IslandMember> island, std::span<const WallPlane> walls,
-               int sub_steps) override {
-    constraints_.clear();
-    int left = sub_steps;
-    while (left > 0) {
-      // Most islands are false alarms, or come to touch late: those sub-steps are free.
-      const int quiet = quiet_sub_steps(island, walls, left);
-      if (quiet > 0) {
-        for (IslandMember& member : island) {
-          advance_freely(member.body, member.set_point, quiet);
-        }
-        constraints_.clear();
-      } else {
-        touching_sub_step(island, walls);
-      }
-      left -= std::max(quiet, 1);
+  explicit ExactSolver(const Surroundings& surroundings) : surroundings_(&surroundings) {}
+
+  void advance(std::span<Mover> movers, std::span<const Island> islands, int sub_steps) override {
+    if (islands.empty() && memory_.empty()) return;
+    robots_.resize(movers.size() + 1);
+    fresh_.clear();
+    for (const Island& island : islands)
+      advance_island(movers, island, sub_steps);
+    memory_.swap(fresh_);
+    if (islands.size() > 1) {
+      std::sort(memory_.begin(), memory_.end(),
+                [](const Constraint& a, const Constraint& b) { return a.id < b.id; });
     }
   }
 
  private:
-  void touching_sub_step(std::span<IslandMember> island, std::span<const WallPlane> walls) {
-    for (IslandMember& member : island) {
-      Body& body = member.body;
-      body.x += kSubStep_s * body.vx;
-      body.y += kSubStep_s * body.vy;
-      turn(body, kSubStep_s * body.spin);
-    }
-    find_contacts(island, walls, contacts_);
-    prepare();
-    for (const Constraint& constraint : constraints_) {
-      const Contact& contact = constraint.contact;
-      push_apart(island, contact, contact.nx, contact.ny, constraint.normal_Ns);
-      push_apart(island, contact, -contact.ny, contact.nx, constraint.friction_Ns);
-    }
-    drives_.assign(island.size(), Drive{});
-    for (int round = 0; round < kRounds; ++round) {
-      double change = 0;
-      for (Constraint& constraint : constraints_) {
-        change = std::max(change, relax(island, constraint));
+  void advance_island(std::span<Mover> movers, const Island& island, int sub_steps) {
+    recall(island);
+    int left = sub_steps;
+    while (left > 0) {
+      // Most islands are false alarms, or come to touch late: those sub-steps are free.
+      const int quiet = before_.empty() ? quiet_sub_steps(movers, island, *surroundings_, left) : 0;
+      if (quiet > 0) {
+        for (const int index : island.movers) {
+          const auto i = static_cast<std::size_t>(index);
+          advance_freely(movers[i].body, movers[i].set_point, quiet);
+          robots_[i] = {};
+        }
+        constraints_.clear();
+      } else {
+        sub_step(movers, island);
       }
-      for (std::size_t i = 0; i < island.size(); ++i) {
-        change = std::max(change, steer(island[i], drives_[i]));
+      left -= std::max(quiet, 1);
+      before_.swap(constraints_);
+    }
+    fresh_.insert(fresh_.end(), before_.begin(), before_.end());
+  }
+
+  /// What held the island's contacts at the end of the last call; forgets the drives of the others.
+  void recall(const Island& island) {
+    before_.clear();
+    for (const int index : island.movers)
+      robots_[static_cast<std::size_t>(index)].touched = false;
+    for (const Constraint& c : memory_) {
+      if (!std::binary_search(island.movers.begin(), island.movers.end(), static_cast<int>(c.a))) {
+        continue;
       }
-      if (change < kSettled_Ns || constraints_.empty()) break;
+      before_.push_back(c);
+      robots_[c.a].touched = robots_[c.b].touched = true;
+    }
+    for (const int index : island.movers) {
+      Dynamic& robot = robots_[static_cast<std::size_t>(index)];
+      if (!robot.touched) robot = {};
     }
   }
 
-  /// Makes the contacts' constraints. Warm start: what held a contact in the last sub-step is the
-  /// first guess of this one.
-  void prepare() {
-    before_.swap(constraints_);
-    constraints_.clear();
+  void sub_step(std::span<Mover> movers, const Island& island) {
+    for (const int index : island.movers)
+      move(movers[static_cast<std::size_t>(index)].body);
+    find_contacts(movers, island, surroundings_->walls, contacts_);
+    const bool held = select(movers, island);
+    if (active_.empty()) {
+      constraints_.clear();
+      return;
+    }
+    solve(movers, held);
+    for (const std::size_t i : active_) {
+      Body& body = movers[i].body;
+      body.vx = robots_[i].vx;
+      body.vy = robots_[i].vy;
+      body.spin = robots_[i].spin;
+    }
+  }
+
+  /// Steers what touches nothing; the others are `active_`. Returns whether a spin is held.
+  bool select(std::span<Mover> movers, const Island& island) {
+    for (const int index : island.movers)
+      robots_[static_cast<std::size_t>(index)].touched = false;
     for (const Contact& contact : contacts_) {
-      constraints_.push_back({.contact = contact,
-                              .normal_mass = mass_along(contact, contact.nx, contact.ny),
-                              .friction_mass = mass_along(contact, -contact.ny, contact.nx)});
-      for (const Constraint& old : before_) {
-        if (old.contact.id != contact.id) continue;
-        constraints_.back().normal_Ns = old.normal_Ns;
-        constraints_.back().friction_Ns = old.friction_Ns;
+      robots_[static_cast<std::size_t>(contact.a)].touched = true;
+      if (contact.b >= 0) robots_[static_cast<std::size_t>(contact.b)].touched = true;
+    }
+    active_.clear();
+    bool held = false;
+    for (const int index : island.movers) {
+      const auto i = static_cast<std::size_t>(index);
+      Mover& mover = movers[i];
+      if (!robots_[i].touched) {
+        robots_[i] = {};
+        steer(mover.body, mover.set_point);
+        continue;
       }
+      active_.push_back(i);
+      const double spin = mover.set_point.spin - mover.body.spin;
+      robots_[i].inverse_mass = kInverseMass;
+      robots_[i].inverse_inertia = std::fabs(spin) <= kSpinStep_radps ? 0 : kInverseInertia;
+      held = held || robots_[i].inverse_inertia == 0;
+    }
+    return held;
+  }
+
+  void solve(std::span<const Mover> movers, bool held) {
+    run_rounds(movers);
+    if (!held || holds(movers)) return;
+    for (const std::size_t i : active_)
+      robots_[i].inverse_inertia = kInverseInertia;
+    run_rounds(movers);
+  }
+
+  /// Whether the drives are strong enough to hold the spins that were held.
+  bool holds(std::span<const Mover> movers) {
+    for (const std::size_t i : active_) {
+      if (robots_[i].inverse_inertia != 0) continue;
+      robots_[i].drive_twist_Nms =
+          kInertia_kg_m2 * (movers[i].set_point.spin - movers[i].body.spin);
+    }
+    for (const Constraint& c : constraints_) {
+      Dynamic& a = robots_[c.a];
+      Dynamic& b = robots_[c.b];
+      if (a.inverse_inertia == 0) {
+        a.drive_twist_Nms += c.normal.arm_a * c.normal_Ns + c.face.arm_a * c.friction_Ns;
+      }
+      if (b.inverse_inertia == 0) {
+        b.drive_twist_Nms -= c.normal.arm_b * c.normal_Ns + c.face.arm_b * c.friction_Ns;
+      }
+    }
+    bool all = true;
+    for (const std::size_t i : active_) {
+      double& twist = robots_[i].drive_twist_Nms;
+      all = all && std::fabs(twist) <= kMaxTwist_Nms;
+      twist = std::clamp(twist, -kMaxTwist_Nms, kMaxTwist_Nms);
+    }
+    return all;
+  }
+
+  void run_rounds(std::span<const Mover> movers) {
+    prepare(movers);
+    double change = std::numeric_limits<double>::infinity();
+    for (int round = 0; round < kRounds && change >= kSettled_Ns; ++round) {
+      for (const std::size_t i : active_) {
+        if (change * robots_[i].give >= kSettled_Ns) relax_drive(movers[i].set_point, robots_[i]);
+      }
+      change = 0;
+      for (Constraint& c : constraints_)
+        change = std::max(change, relax(c, robots_[c.a], robots_[c.b]));
     }
   }
 
+  /// Warm start: what a contact or a drive gave in the last sub-step is the first guess of this
+  /// one.
+  void prepare(std::span<const Mover> movers) {
+    for (const std::size_t i : active_) {
+      const Body& body = movers[i].body;
+      Dynamic& robot = robots_[i];
+      robot.vx = body.vx + robot.drive_x_Ns * kInverseMass;
+      robot.vy = body.vy + robot.drive_y_Ns * kInverseMass;
+      robot.spin = robot.inverse_inertia == 0 ? movers[i].set_point.spin
+                                              : body.spin + robot.drive_twist_Nms * kInverseInertia;
+    }
+    constraints_.resize(contacts_.size());
+    auto old = before_.begin();
+    for (std::size_t k = 0; k < contacts_.size(); ++k) {
+      const Contact& contact = contacts_[k];
+      Constraint& c = constraints_[k];
+      const std::size_t b =
+          contact.b < 0 ? robots_.size() - 1 : static_cast<std::size_t>(contact.b);
+      set_constraint(c, contact, b, robots_[static_cast<std::size_t>(contact.a)], robots_[b]);
+      while (old != before_.end() && old->id < c.id)
+        ++old;
+      if (old == before_.end() || old->id != c.id) continue;
+      c.normal_Ns = old->normal_Ns;
+      c.friction_Ns = old->friction_Ns;
+      push_apart(c, robots_[c.a], robots_[c.b], c.normal_Ns, c.friction_Ns);
+    }
+  }
+
+  const Surroundings* surroundings_;
   std::vector<Contact> contacts_;
-  std::vector<Constraint> constraints_;
-  std::vector<Constraint> before_;
-  std::vector<Drive> drives_;
+  std::vector<Constraint> constraints_;  ///< of this sub-step
+  std::vector<Constraint> before_;       ///< of the last one
+  std::vector<Constraint> memory_;       ///< of all islands at the end of the last call
+  std::vector<Constraint> fresh_;        ///< and of this one
+  std::vector<Dynamic> robots_;
+  std::vector<std::size_t> active_;  ///< movers in contact
 };
 
 }  // namespace
 
-std::unique_ptr<ContactSolver> make_exact_solver() {
-  return std::make_unique<ExactSolver>();
+std::unique_ptr<ContactSolver> make_exact_solver(const Surroundings& surroundings) {
+  return std::make_unique<ExactSolver>(surroundings);
 }
 
-std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool convex_arena) {
-  return model == ContactModel::Exact && convex_arena ? make_exact_solver() : make_box2d_solver();
+std::unique_ptr<ContactSolver> make_contact_solver(ContactModel model, bool plain,
+                                                   const Surroundings& surroundings) {
+  return model == ContactModel::Exact && plain ? make_exact_solver(surroundings)
+                                               : make_box2d_solver(surroundings, plain);
 }
 
 }  // namespace swarmsmith

@@ -14,6 +14,12 @@ struct Form {
   double radius_m = 0;    ///< of the circle, or of the smallest one around the origin
   double inradius_m = 0;  ///< of the largest circle around the origin that fits into it
   double height_m = 0;
+  /// Outward unit normals; the side from a corner to the next has the normal of its index.
+  std::vector<Point> normals;
+  /// Of the floor under it, seen from the origin: mean distance, and mean square of the distance
+  /// (moment of inertia for each kilogram, at uniform density).
+  double mean_radius_m = 0;
+  double mean_radius2_m2 = 0;
   /// A square of the robot's side, for which there are quicker ways.
   bool is_rvr = false;
 
@@ -22,6 +28,9 @@ struct Form {
 };
 
 Form form_of(const Outline& outline, double height_m);
+
+/// The RVR's square.
+const Form& rvr_form();
 
 /// A solid that never moves.
 struct FixedSolid {

@@ -80,24 +80,34 @@ void turn(Body& body, double angle_rad) {
     turn_part(body, angle_rad / parts);
 }
 
-void sub_step(Body& body, const SetPoint& set_point) {
+void move(Body& body) {
   body.x += kSubStep_s * body.vx;
   body.y += kSubStep_s * body.vy;
   turn(body, kSubStep_s * body.spin);
+}
+
+void steer(Body& body, const SetPoint& set_point, const Dynamics& dynamics) {
   const double dx = set_point.vx - body.vx;
   const double dy = set_point.vy - body.vy;
   const double distance = std::sqrt(dx * dx + dy * dy);
-  if (distance <= kSpeedStep_mps) {
+  if (distance <= dynamics.speed_step_mps) {
     body.vx = set_point.vx;
     body.vy = set_point.vy;
   } else {
-    body.vx += dx / distance * kSpeedStep_mps;
-    body.vy += dy / distance * kSpeedStep_mps;
+    body.vx += dx / distance * dynamics.speed_step_mps;
+    body.vy += dy / distance * dynamics.speed_step_mps;
   }
-  body.spin += std::clamp(set_point.spin - body.spin, -kSpinStep_radps, kSpinStep_radps);
+  body.spin +=
+      std::clamp(set_point.spin - body.spin, -dynamics.spin_step_radps, dynamics.spin_step_radps);
 }
 
-void advance_freely(Body& body, const SetPoint& set_point, int sub_steps) {
+void sub_step(Body& body, const SetPoint& set_point, const Dynamics& dynamics) {
+  move(body);
+  steer(body, set_point, dynamics);
+}
+
+void advance_freely(Body& body, const SetPoint& set_point, int sub_steps,
+                    const Dynamics& dynamics) {
   const double span_s = sub_steps * kSubStep_s;
   const double dx = set_point.vx - body.vx;
   const double dy = set_point.vy - body.vy;
@@ -105,7 +115,7 @@ void advance_freely(Body& body, const SetPoint& set_point, int sub_steps) {
   body.y += span_s * set_point.vy;
   if (dx != 0 || dy != 0) {
     const double distance = std::sqrt(dx * dx + dy * dy);
-    const Approach speed = approach(distance, kSpeedStep_mps, sub_steps);
+    const Approach speed = approach(distance, dynamics.speed_step_mps, sub_steps);
     const double lag = kSubStep_s * speed.sum / distance;
     const double left = speed.left / distance;
     body.x -= lag * dx;
@@ -116,18 +126,17 @@ void advance_freely(Body& body, const SetPoint& set_point, int sub_steps) {
   const double dw = set_point.spin - body.spin;
   double angle = span_s * set_point.spin;
   if (dw != 0) {
-    const Approach spin = approach(std::fabs(dw), kSpinStep_radps, sub_steps);
+    const Approach spin = approach(std::fabs(dw), dynamics.spin_step_radps, sub_steps);
     angle -= kSubStep_s * std::copysign(spin.sum, dw);
     body.spin = set_point.spin - std::copysign(spin.left, dw);
   }
   if (angle != 0) turn(body, angle);
 }
 
-double surface_speed(const Body& body, const SetPoint& set_point) {
+double surface_speed(const Body& body, const SetPoint& set_point, double radius_m) {
   const double speed2 = std::max(body.vx * body.vx + body.vy * body.vy,
                                  set_point.vx * set_point.vx + set_point.vy * set_point.vy);
-  return std::sqrt(speed2) +
-         kCornerRadius_m * std::max(std::fabs(body.spin), std::fabs(set_point.spin));
+  return std::sqrt(speed2) + radius_m * std::max(std::fabs(body.spin), std::fabs(set_point.spin));
 }
 
 }  // namespace swarmsmith

@@ -2,140 +2,209 @@
 
 #include <algorithm>
 
+#include "sim/engine/internal/gaps.h"
 #include "sim/engine/internal/motion.h"
 
 namespace swarmsmith {
-Reach::Reach(const Walls& walls, int robots)
-    : walls_(&walls),
-      parent_(static_cast<std::size_t>(robots)),
-      margin_m_(parent_.size()),
-      speed_mps_(parent_.size()),
-      in_island_(parent_.size()),
-      islands_(parent_.size()) {}
+namespace {
+
+/// An inelastic push makes nothing faster than the fastest point that pushes; off centre it may add
+/// spin, which for convex outlines of uniform density a factor of two covers.
+constexpr double kPushed = 2;
+/// What a solver in single precision may be off, metres.
+constexpr double kRounding_m = 1e-6;
+
+double square(double x) {
+  return x * x;
+}
+
+}  // namespace
+
+Reach::Reach(const Surroundings& surroundings, std::size_t movers, double largest_radius_m)
+    : surroundings_(&surroundings),
+      largest_radius_m_(largest_radius_m),
+      parent_(movers),
+      size_(movers),
+      island_(movers),
+      margin_m_(movers),
+      speed_mps_(movers),
+      in_island_(movers),
+      islands_(movers) {}
 
 std::span<const Island> Reach::find(const Swarm& swarm, int sub_steps) {
   const double span_s = sub_steps * kSubStep_s;
   std::fill(in_island_.begin(), in_island_.end(), char{0});
   count_ = 0;
   const bool pairs = any_pair_near(swarm, span_s);
-  if (!pairs && !any_wall_near(swarm, span_s)) return {};
+  if (!pairs && !any_wall_near(swarm, span_s) && !any_obstacle_near(swarm, span_s)) return {};
   bound_motion(swarm, span_s);
+  near_.clear();
+  if (pairs) list_pairs(swarm, span_s);
   // A group that grew may be pushed further than its members drive, and reach more.
-  while (pairs && join_pairs(swarm))
+  while (join_pairs(swarm))
     widen_groups(span_s);
   gather(swarm);
   return {islands_.data(), count_};
 }
 
 bool Reach::any_pair_near(const Swarm& swarm, double span_s) const {
-  const double reach = 2 * (kCornerRadius_m + swarm.speed_limit_mps * span_s);
-  const std::size_t n = swarm.bodies.size();
+  const double reach2 =
+      square(2 * (largest_radius_m_ + swarm.speed_limit_mps * span_s + kRounding_m));
+  const std::size_t n = swarm.movers.size();
   for (std::size_t i = 0; i < n; ++i) {
     for (std::size_t j = i + 1; j < n; ++j) {
-      if (swarm.distances2[i * n + j] < reach * reach) return true;
+      if (swarm.distances2[i * n + j] < reach2) return true;
     }
   }
   return false;
 }
 
 bool Reach::any_wall_near(const Swarm& swarm, double span_s) const {
-  const double clear = walls_->clear_radius_m - kCornerRadius_m - swarm.speed_limit_mps * span_s;
-  return std::any_of(swarm.bodies.begin(), swarm.bodies.end(), [&](const Body& body) {
-    return clear <= 0 || body.x * body.x + body.y * body.y >= clear * clear;
+  const double clear = surroundings_->walls.clear_radius_m - largest_radius_m_ -
+                       swarm.speed_limit_mps * span_s - kRounding_m;
+  return std::any_of(swarm.movers.begin(), swarm.movers.end(), [&](const Mover& mover) {
+    return clear <= 0 || square(mover.body.x) + square(mover.body.y) >= square(clear);
   });
+}
+
+bool Reach::any_obstacle_near(const Swarm& swarm, double span_s) const {
+  const double margin = swarm.speed_limit_mps * span_s + kRounding_m;
+  for (const FixedSolid& solid : surroundings_->obstacles) {
+    for (const Mover& mover : swarm.movers) {
+      const double reach = solid.form.radius_m + mover.form().radius_m + margin;
+      if (square(mover.body.x - solid.at.x) + square(mover.body.y - solid.at.y) < square(reach)) {
+        return true;
+      }
+    }
+  }
+  return false;
 }
 
 void Reach::bound_motion(const Swarm& swarm, double span_s) {
   for (std::size_t i = 0; i < parent_.size(); ++i) {
-    parent_[i] = static_cast<int>(i);
-    speed_mps_[i] = surface_speed(swarm.bodies[i], swarm.set_points[i]);
-    margin_m_[i] = speed_mps_[i] * span_s;
+    const Mover& mover = swarm.movers[i];
+    parent_[i] = i;
+    speed_mps_[i] = surface_speed(mover.body, mover.set_point, mover.form().radius_m);
+    margin_m_[i] = speed_mps_[i] * span_s + kRounding_m;
   }
 }
 
-int Reach::root(int robot) const {
-  while (parent_[static_cast<std::size_t>(robot)] != robot) {
-    robot = parent_[static_cast<std::size_t>(robot)];
+void Reach::list_pairs(const Swarm& swarm, double span_s) {
+  const double fastest = *std::max_element(speed_mps_.begin(), speed_mps_.end());
+  const double reach2 = square(2 * (largest_radius_m_ + kPushed * fastest * span_s + kRounding_m));
+  const std::size_t n = swarm.movers.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    for (std::size_t j = i + 1; j < n; ++j) {
+      if (swarm.distances2[i * n + j] < reach2) near_.push_back({i, j});
+    }
   }
-  return robot;
+}
+
+std::size_t Reach::root(std::size_t mover) const {
+  while (parent_[mover] != mover)
+    mover = parent_[mover];
+  return mover;
+}
+
+bool Reach::may_touch(const Swarm& swarm, const Pair& pair) const {
+  const auto& [i, j] = pair;
+  // What rests against each other rests on.
+  if (speed_mps_[i] == 0 && speed_mps_[j] == 0) return false;
+  const Mover& a = swarm.movers[i];
+  const Mover& b = swarm.movers[j];
+  const double margin = margin_m_[i] + margin_m_[j];
+  const double circles = a.form().radius_m + b.form().radius_m + margin;
+  return swarm.distances2[i * swarm.movers.size() + j] < square(circles) &&
+         gap_between(a.form(), a.body, b.form(), b.body) <= margin;
 }
 
 bool Reach::join_pairs(const Swarm& swarm) {
   bool joined = false;
-  const std::size_t n = swarm.bodies.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      const double margin = margin_m_[i] + margin_m_[j];
-      const double circles = 2 * kCornerRadius_m + margin;
-      if (swarm.distances2[i * n + j] >= circles * circles) continue;
-      const int a = root(static_cast<int>(i));
-      const int b = root(static_cast<int>(j));
-      if (a == b || gap_between(swarm.bodies[i], swarm.bodies[j]) > margin) continue;
-      parent_[static_cast<std::size_t>(std::max(a, b))] = std::min(a, b);
-      joined = true;
-    }
+  for (const Pair& pair : near_) {
+    const std::size_t a = root(pair.a);
+    const std::size_t b = root(pair.b);
+    if (a == b || !may_touch(swarm, pair)) continue;
+    parent_[std::max(a, b)] = std::min(a, b);
+    joined = true;
   }
   return joined;
 }
 
 void Reach::widen_groups(double span_s) {
-  // An inelastic push makes nothing faster than the fastest point that pushes; off centre it may
-  // add spin, which a factor of two covers.
+  std::fill(size_.begin(), size_.end(), 0);
   for (std::size_t i = 0; i < parent_.size(); ++i) {
-    const auto group = static_cast<std::size_t>(root(static_cast<int>(i)));
-    speed_mps_[group] = std::max(speed_mps_[group], speed_mps_[i]);
+    parent_[i] = root(i);
+    ++size_[parent_[i]];
+    speed_mps_[parent_[i]] = std::max(speed_mps_[parent_[i]], speed_mps_[i]);
   }
   for (std::size_t i = 0; i < parent_.size(); ++i) {
-    const auto group = static_cast<std::size_t>(root(static_cast<int>(i)));
-    bool alone = group == i;
-    for (std::size_t j = 0; alone && j < parent_.size(); ++j) {
-      alone = j == i || root(static_cast<int>(j)) != static_cast<int>(i);
+    if (size_[parent_[i]] < 2) continue;
+    speed_mps_[i] = speed_mps_[parent_[i]];
+    margin_m_[i] = kPushed * speed_mps_[i] * span_s + kRounding_m;
+  }
+}
+
+bool Reach::wall_in_reach(const Mover& mover, const WallPlane& wall, double margin_m) const {
+  const double beyond = mover.form().radius_m + margin_m;
+  if (wall.depth_of(mover.body.x, mover.body.y) > beyond) return false;
+  if (surroundings_->walls.convex && mover.form().is_rvr) {
+    return gap_to(mover.body, wall) <= margin_m;
+  }
+  return gap_to(mover.form(), mover.body, wall) <= margin_m;
+}
+
+void Reach::add_surroundings(const Swarm& swarm, std::size_t mover, Island& island) const {
+  if (speed_mps_[mover] == 0) return;
+  const int name = static_cast<int>(mover);
+  const Mover& self = swarm.movers[mover];
+  const double margin = margin_m_[mover];
+  const std::vector<WallPlane>& planes = surroundings_->walls.planes;
+  const double clear = surroundings_->walls.clear_radius_m - self.form().radius_m - margin;
+  if (clear <= 0 || square(self.body.x) + square(self.body.y) >= square(clear)) {
+    for (std::size_t w = 0; w < planes.size(); ++w) {
+      if (wall_in_reach(self, planes[w], margin)) {
+        island.walls.push_back({name, static_cast<int>(w)});
+      }
     }
-    if (!alone) margin_m_[i] = 2 * speed_mps_[group] * span_s;
   }
-}
-
-bool Reach::wall_in_reach(const Body& body, const WallPlane& wall, double margin_m) const {
-  const double depth = wall.depth_of(body.x, body.y);
-  if (depth > kCornerRadius_m + margin_m) return false;
-  if (!walls_->convex) {
-    const double along = wall.along(body.x, body.y);
-    const double beyond = kCornerRadius_m + margin_m;
-    if (depth < -beyond || along < -beyond || along > wall.length_m + beyond) return false;
-  }
-  return gap_to(body, wall) <= margin_m;
-}
-
-void Reach::add_walls(const Swarm& swarm, Island& island) const {
-  for (const int robot : island.robots) {
-    const auto i = static_cast<std::size_t>(robot);
-    const Body& body = swarm.bodies[i];
-    const double clear = walls_->clear_radius_m - kCornerRadius_m - margin_m_[i];
-    if (clear > 0 && body.x * body.x + body.y * body.y < clear * clear) continue;
-    for (std::size_t w = 0; w < walls_->planes.size(); ++w) {
-      if (!wall_in_reach(body, walls_->planes[w], margin_m_[i])) continue;
-      const int wall = static_cast<int>(w);
-      const auto place = std::lower_bound(island.walls.begin(), island.walls.end(), wall);
-      if (place == island.walls.end() || *place != wall) island.walls.insert(place, wall);
+  for (std::size_t o = 0; o < surroundings_->obstacles.size(); ++o) {
+    const FixedSolid& solid = surroundings_->obstacles[o];
+    const double circles = solid.form.radius_m + self.form().radius_m + margin;
+    const double distance2 = square(self.body.x - solid.at.x) + square(self.body.y - solid.at.y);
+    if (distance2 < square(circles) &&
+        gap_between(self.form(), self.body, solid.form, solid.at) <= margin) {
+      island.obstacles.push_back({name, static_cast<int>(o)});
     }
   }
 }
 
 void Reach::gather(const Swarm& swarm) {
-  const int n = static_cast<int>(parent_.size());
-  for (int first = 0; first < n; ++first) {
-    if (root(first) != first) continue;
-    Island& island = islands_[count_];
-    island.robots.clear();
-    island.walls.clear();
-    for (int i = first; i < n; ++i) {
-      if (root(i) == first) island.robots.push_back(i);
+  std::fill(size_.begin(), size_.end(), 0);
+  for (std::size_t i = 0; i < parent_.size(); ++i)
+    ++size_[root(i)];
+  for (std::size_t i = 0; i < parent_.size(); ++i) {
+    const std::size_t group = root(i);
+    if (group == i) {
+      island_[i] = count_;
+      Island& island = islands_[count_];
+      island.movers.clear();
+      island.pairs.clear();
+      island.walls.clear();
+      island.obstacles.clear();
     }
-    add_walls(swarm, island);
-    if (island.robots.size() < 2 && island.walls.empty()) continue;
-    for (const int robot : island.robots)
-      in_island_[static_cast<std::size_t>(robot)] = 1;
-    ++count_;
+    Island& island = islands_[island_[group]];
+    add_surroundings(swarm, i, island);
+    if (size_[group] < 2 && island.walls.empty() && island.obstacles.empty()) continue;
+    island.movers.push_back(static_cast<int>(i));
+    in_island_[i] = 1;
+    if (group == i) ++count_;
+  }
+  for (const Pair& pair : near_) {
+    const std::size_t group = root(pair.a);
+    if (group == root(pair.b) && may_touch(swarm, pair)) {
+      islands_[island_[group]].pairs.push_back(
+          {static_cast<int>(pair.a), static_cast<int>(pair.b)});
+    }
   }
 }
 

@@ -3,59 +3,65 @@
 #include <span>
 #include <vector>
 
-#include "sim/engine/internal/body.h"
-#include "sim/engine/internal/walls.h"
+#include "sim/engine/internal/island.h"
+#include "sim/engine/internal/mover.h"
+#include "sim/engine/internal/surroundings.h"
 
 namespace swarmsmith {
 
-/// Robots that may touch each other, or walls, within the coming sub-steps.
-struct Island {
-  std::vector<int> robots;  ///< ascending
-  std::vector<int> walls;   ///< ascending
-
-  friend bool operator==(const Island&, const Island&) = default;
-};
-
-/// All bodies at one instant, as the reach test wants them.
+/// All movers at one instant, as the reach test wants them.
 struct Swarm {
-  std::span<const Body> bodies;
-  std::span<const SetPoint> set_points;
-  /// (robots x robots), squares of the distances between the centres.
+  std::span<const Mover> movers;
+  /// (movers x movers), squares of the distances between the centres.
   std::span<const double> distances2;
-  /// No body moves faster, nor is asked to.
+  /// No centre moves faster, nor is asked to.
   double speed_limit_mps = 0;
 };
 
-/// Finds the robots whose motion cannot be free, in two stages: bounding circles, then the gap
+/// Finds the movers whose motion cannot be free, in two stages: bounding circles, then the gap
 /// along a separating axis against how far both can move and how far their corners can swing
 /// (simulator facts, section 2.3). Never misses a touch; says "may" about four times as often as
-/// there is one. A robot that may be pushed counts as fast as what may push it.
+/// there is one. A mover that may be pushed counts as fast as what may push it. Movers that touch
+/// and rest are free, as long as nothing that moves reaches them.
 class Reach {
  public:
-  /// `walls` must outlive the object.
-  Reach(const Walls& walls, int robots);
+  /// `surroundings` must outlive the object; no mover is wider than `largest_radius_m` from its
+  /// centre.
+  Reach(const Surroundings& surroundings, std::size_t movers, double largest_radius_m);
 
-  /// The islands of the coming `sub_steps`; robots in none move freely. Valid until the next call.
+  /// The islands of the coming `sub_steps`; movers in none move freely. Valid until the next call.
   std::span<const Island> find(const Swarm& swarm, int sub_steps);
 
-  /// Whether the last call put the robot into no island.
-  bool is_free(int robot) const { return !in_island_[static_cast<std::size_t>(robot)]; }
+  /// Whether the last call put the mover into no island.
+  bool is_free(int mover) const { return !in_island_[static_cast<std::size_t>(mover)]; }
 
  private:
+  struct Pair {
+    std::size_t a;
+    std::size_t b;
+  };
+
   bool any_pair_near(const Swarm& swarm, double span_s) const;
   bool any_wall_near(const Swarm& swarm, double span_s) const;
+  bool any_obstacle_near(const Swarm& swarm, double span_s) const;
   void bound_motion(const Swarm& swarm, double span_s);
+  void list_pairs(const Swarm& swarm, double span_s);
   bool join_pairs(const Swarm& swarm);
   void widen_groups(double span_s);
+  bool may_touch(const Swarm& swarm, const Pair& pair) const;
   void gather(const Swarm& swarm);
-  void add_walls(const Swarm& swarm, Island& island) const;
-  bool wall_in_reach(const Body& body, const WallPlane& wall, double margin_m) const;
-  int root(int robot) const;
+  void add_surroundings(const Swarm& swarm, std::size_t mover, Island& island) const;
+  bool wall_in_reach(const Mover& mover, const WallPlane& wall, double margin_m) const;
+  std::size_t root(std::size_t mover) const;
 
-  const Walls* walls_;
-  std::vector<int> parent_;        ///< union-find
-  std::vector<double> margin_m_;   ///< how far any point of the body can get
-  std::vector<double> speed_mps_;  ///< how fast any point of the body can be
+  const Surroundings* surroundings_;
+  double largest_radius_m_;
+  std::vector<Pair> near_;           ///< pairs that may touch even when pushed
+  std::vector<std::size_t> parent_;  ///< union-find; the root is the first of its group
+  std::vector<std::size_t> size_;    ///< of a root's group
+  std::vector<std::size_t> island_;  ///< of a root's group
+  std::vector<double> margin_m_;     ///< how far any point of the body can get
+  std::vector<double> speed_mps_;    ///< how fast any point of the body can be
   std::vector<char> in_island_;
   std::vector<Island> islands_;
   std::size_t count_ = 0;

@@ -4,11 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "sim/engine/internal/body.h"
 #include "sim/engine/internal/contact_solver.h"
-#include "sim/engine/internal/form.h"
+#include "sim/engine/internal/mover.h"
 #include "sim/engine/internal/reach.h"
-#include "sim/engine/internal/walls.h"
+#include "sim/engine/internal/surroundings.h"
 #include "sim/mission/arena.h"
 #include "sim/mission/pose.h"
 
@@ -25,48 +24,42 @@ class World {
   World& operator=(const World&) = delete;
 
   int robots() const { return robots_; }
-  int movers() const { return static_cast<int>(bodies_.size()); }
-  const Body& body(int mover) const { return bodies_[static_cast<std::size_t>(mover)]; }
+  int movers() const { return static_cast<int>(movers_.size()); }
+  const Body& body(int mover) const { return movers_[static_cast<std::size_t>(mover)].body; }
   /// All robots have one form, each object its own.
-  const Form& form(int mover) const {
-    return forms_[mover < robots_ ? 0 : static_cast<std::size_t>(mover - robots_ + 1)];
-  }
-  const Walls& walls() const { return walls_; }
-  std::span<const FixedSolid> obstacles() const { return obstacles_; }
+  const Form& form(int mover) const { return movers_[static_cast<std::size_t>(mover)].form(); }
+  const Walls& walls() const { return surroundings_.walls; }
+  std::span<const FixedSolid> obstacles() const { return surroundings_.obstacles; }
   /// Only robots that are squares of the RVR's side, and walls around a convex arena.
   bool is_plain() const { return plain_; }
   /// Square of the distance between two centres, now.
   double distance2(int mover, int other) const {
-    return distances2_[static_cast<std::size_t>(mover) * bodies_.size() +
+    return distances2_[static_cast<std::size_t>(mover) * movers_.size() +
                        static_cast<std::size_t>(other)];
   }
 
   /// From now on the robot's drive steers towards the command, along its present heading.
   void command(int robot, const Command& command);
 
-  /// Moves all robots: free ones in closed form, islands through the contact solver.
+  /// Moves all movers: free ones in closed form, islands through the contact solver.
   void advance(int sub_steps);
 
-  /// How many sub-steps of robots went through the contact solver so far.
+  /// How many sub-steps of movers went through the contact solver so far.
   long solved_sub_steps() const { return solved_sub_steps_; }
 
  private:
-  void advance_island(const Island& island, int sub_steps);
+  void take_note(const Island& island, int sub_steps);
   void measure_distances();
 
-  Walls walls_;
+  Surroundings surroundings_;
   int robots_;
-  std::vector<Form> forms_;  ///< the robots', then those of the objects
-  std::vector<FixedSolid> obstacles_;
+  std::vector<MoverKind> kinds_;  ///< the robots', then those of the objects
+  std::vector<Mover> movers_;
   bool plain_;
-  std::vector<Body> bodies_;
-  std::vector<SetPoint> set_points_;
   std::vector<double> distances2_;
-  double speed_limit_mps_ = 0;  ///< what no body has exceeded so far
+  double speed_limit_mps_ = 0;  ///< what no centre has exceeded so far
   Reach reach_;
   std::unique_ptr<ContactSolver> solver_;
-  std::vector<IslandMember> members_;
-  std::vector<WallPlane> near_walls_;
   long solved_sub_steps_ = 0;
 };
 

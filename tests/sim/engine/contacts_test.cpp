@@ -8,20 +8,22 @@
 #include "base/math.h"
 #include "base/rng.h"
 #include "sim/engine/internal/motion.h"
+#include "tests/sim/engine/islands.h"
 
 namespace swarmsmith {
 namespace {
 
-std::vector<IslandMember> island_of(const std::vector<Pose>& poses) {
-  std::vector<IslandMember> island;
+std::vector<Mover> island_of(const std::vector<Pose>& poses) {
+  std::vector<Mover> island;
   for (const Pose& pose : poses)
     island.push_back({.body = body_at(pose), .set_point = {}});
   return island;
 }
 
-std::vector<Contact> contacts_of(const std::vector<IslandMember>& island) {
+std::vector<Contact> contacts_of(const std::vector<Mover>& island) {
   std::vector<Contact> contacts;
-  find_contacts(island, walls_of(dodecagon_of_the_thesis()).planes, contacts);
+  const Surroundings around = surroundings_of(dodecagon_of_the_thesis());
+  find_contacts(island, everything(island.size(), around), around.walls, contacts);
   return contacts;
 }
 
@@ -80,30 +82,31 @@ TEST(Contacts, NormalsPointFromTheFirstToTheOtherAndIdsAreDistinct) {
 }
 
 TEST(QuietSubSteps, AreAllThatAreLeftWhenNothingMoves) {
-  EXPECT_EQ(quiet_sub_steps(island_of({{0, 0, 0}, {0.29, 0, 0}}), {}, 10), 10);
+  EXPECT_EQ(quiet_sub_steps(island_of({{0, 0, 0}, {0.29, 0, 0}}), everything(2, {}), {}, 10), 10);
 }
 
 TEST(QuietSubSteps, AreNoneOnceSquaresTouch) {
-  EXPECT_EQ(quiet_sub_steps(island_of({{0, 0, 0}, {0.285, 0, 0}}), {}, 10), 0);
+  EXPECT_EQ(quiet_sub_steps(island_of({{0, 0, 0}, {0.285, 0, 0}}), everything(2, {}), {}, 10), 0);
 }
 
 TEST(QuietSubSteps, NeverEndBehindATouch) {
   Rng rng(2);
-  const Walls walls = walls_of(dodecagon_of_the_thesis());
+  const Surroundings around = surroundings_of(dodecagon_of_the_thesis());
+  const Island all = everything(2, around);
   for (int i = 0; i < 5000; ++i) {
-    std::vector<IslandMember> island = island_of(
+    std::vector<Mover> island = island_of(
         {{0.7, 0, rng.uniform(-kPi, kPi)}, {0.7 + rng.uniform(0.3, 0.4), 0, rng.uniform(-3, 3)}});
-    for (IslandMember& member : island) {
+    for (Mover& member : island) {
       member.body.vx = rng.uniform(-0.3, 0.3);
       member.body.spin = rng.uniform(-4, 4);
       member.set_point = set_point_of({rng.uniform(-0.3, 0.3), 0.3}, member.body);
     }
-    const int quiet = quiet_sub_steps(island, walls.planes, 10);
+    const int quiet = quiet_sub_steps(island, all, around, 10);
     std::vector<Contact> contacts;
     for (int step = 0; step < quiet; ++step) {
-      for (IslandMember& member : island)
+      for (Mover& member : island)
         sub_step(member.body, member.set_point);
-      find_contacts(island, walls.planes, contacts);
+      find_contacts(island, all, around.walls, contacts);
       ASSERT_TRUE(contacts.empty()) << "run " << i << " sub-step " << step;
     }
   }

@@ -94,7 +94,34 @@ std::string table_of_hashes() {
   return table;
 }
 
-constexpr const char* kTable = "";
+constexpr const char* kTable =
+    "aggregation chocolate argos3 1da78f92bf91db8f3d80f0d3dd791430\n"
+    "aggregation chocolate rvr 6f55bedac1e74adda86c7db1ae7aca67\n"
+    "aggregation chocolate pseudo-reality afd11c64ffa516a761353c5cafaabdc7\n"
+    "aggregation watermelon argos3 bc0c0f41ff45a475923213e1e7dd7ffa\n"
+    "aggregation watermelon rvr 3c7b5d976be0ca82a34e9bab1d87164b\n"
+    "aggregation watermelon pseudo-reality c6dd10890587fc9f9934a186e83a118d\n"
+    "aggregation watermelon-argos3 argos3 3d9867f85a9df69af10b5c09e4038228\n"
+    "aggregation watermelon-argos3 rvr 6feee5f28ad89a0d1cdae326c4aa2414\n"
+    "aggregation watermelon-argos3 pseudo-reality ed9be802d6576fc3d2dc6d7d13849cbc\n"
+    "grid_exploration chocolate argos3 0e1e2da6aa500df4b5a4c5b579ed8103\n"
+    "grid_exploration chocolate rvr 219ccbfd04ef03743904a64e1bf47b3d\n"
+    "grid_exploration chocolate pseudo-reality e6989d061e01cdf491af102fe08e35e4\n"
+    "grid_exploration watermelon argos3 6fd25942c264f526651be0e891c5fbd3\n"
+    "grid_exploration watermelon rvr 75c9dc9b7e9fe035e8c88977ca01c963\n"
+    "grid_exploration watermelon pseudo-reality c84ed1df644f49b50e55805f66034084\n"
+    "grid_exploration watermelon-argos3 argos3 b7ee546ed457a6d7426dbd86b5675f5c\n"
+    "grid_exploration watermelon-argos3 rvr e7f1afe6df1868b3d818c976867c3465\n"
+    "grid_exploration watermelon-argos3 pseudo-reality 51d72bdba84e44b5f71bea07c780a9aa\n"
+    "color_selection chocolate argos3 ab9ad97b1372f9e5ff427b3373ac710f\n"
+    "color_selection chocolate rvr e4acab918f4cfa58e32e10b4285c3706\n"
+    "color_selection chocolate pseudo-reality 7c35f109ffbccb2991668e24cdaec164\n"
+    "color_selection watermelon argos3 68ef928659e6797241ec40a3a5da944d\n"
+    "color_selection watermelon rvr 28c50bbf8fb8e1cfad4fba735164cce2\n"
+    "color_selection watermelon pseudo-reality 2e4c06f4163c36d2e17b1e93c8fff833\n"
+    "color_selection watermelon-argos3 argos3 277ed443fb7cb41bf9345c257192f189\n"
+    "color_selection watermelon-argos3 rvr 028b34bbaa8bda5b17984242cbf93512\n"
+    "color_selection watermelon-argos3 pseudo-reality 0d62c0db8c0b3c7ce716e730fea2df46\n";
 
 TEST(Determinism, TheTrajectoriesHaveTheirFixedHashes) {
   EXPECT_EQ(table_of_hashes(), kTable);

@@ -10,16 +10,19 @@
 namespace swarmsmith {
 namespace {
 
-/// Streams of control draws for each seed; the original has one.
+/// Streams of control draws for each seed; the original has one. Colour scores of most machines are
+/// nearly equal, so that their ranks need more.
 constexpr int kStreams = 3;
+constexpr int kColorStreams = 10;
 
 class Fidelity : public testing::TestWithParam<ReferenceMission> {};
 INSTANTIATE_TEST_SUITE_P(All, Fidelity, testing::ValuesIn(kReferenceMissions),
                          [](const auto& instance) { return instance.param.theirs; });
 
 TEST_P(Fidelity, TheTwentyMachinesScoreAsInTheOriginal) {
-  const MissionComparison result =
-      compare_reference_machines(GetParam(), ContactModel::Exact, kStreams);
+  const bool color = std::string_view(GetParam().theirs) == "color";
+  const MissionComparison result = compare_reference_machines(GetParam(), ContactModel::Exact,
+                                                              color ? kColorStreams : kStreams);
   for (const MachineComparison& machine : result.machines) {
     if (machine.scores.holds_zero()) continue;
     std::printf("%s: %+.3f +- %.3f\n", machine.id.c_str(), machine.scores.difference,
@@ -28,7 +31,6 @@ TEST_P(Fidelity, TheTwentyMachinesScoreAsInTheOriginal) {
   EXPECT_LE(result.misses, 1);
   EXPECT_LT(result.mean_z2, 1.6);
   // The original against a resample of itself reaches no more than 0.82 on colour.
-  const bool color = std::string_view(GetParam().theirs) == "color";
   EXPECT_GT(result.rank_correlation, color ? 0.88 : 0.95);
 }
 

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "sim/engine/internal/form.h"
+#include "sim/engine/internal/walls.h"
+
+namespace swarmsmith {
+
+/// Gap between two solids along the best separating axis among the normals of their sides, metres:
+/// a lower bound of their distance, negative when they overlap. Two RVRs take the quicker way of
+/// walls.h.
+double gap_between(const Form& form, const Body& at, const Form& other, const Body& other_at);
+
+/// The same between a solid and the face of a wall, which ends where it ends: a lower bound of
+/// their distance from either side.
+double gap_to(const Form& form, const Body& at, const WallPlane& wall);
+
+}  // namespace swarmsmith

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/engine/internal/form.h"
+#include "sim/engine/internal/walls.h"
+
+namespace swarmsmith {
+
+/// What never moves.
+struct Surroundings {
+  Walls walls;
+  std::vector<FixedSolid> obstacles;
+};
+
+Surroundings surroundings_of(const Arena& arena);
+
+}  // namespace swarmsmith
