@@ -10,7 +10,7 @@ namespace swarmsmith {
 void to_message(const ScoreRule& rule, pb::ScoreRule& message);
 
 /// Errors: no kind or an unknown one, a parameter that the kind lacks or that is missing, of
-/// another type or out of its limits; `where` is `rule.kind` or `rule.<parameter>`.
+/// another type or out of its limits; `where` is `rule`, `rule.kind` or `rule.<parameter>`.
 Expected<ScoreRule> from_message(const pb::ScoreRule& message);
 
 }  // namespace swarmsmith

@@ -1,6 +1,6 @@
 #include "coordinator/campaign/internal/read_score.h"
 
-#include <limits>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,61 +10,75 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kLargest = std::numeric_limits<double>::max();
+/// Reads the parameters of a kind, whatever it is, from the keys that it names.
+class FieldReader {
+ public:
+  FieldReader(TableReader& table, std::string kind) : table_(table), kind_(std::move(kind)) {}
 
-/// Scores that look once, at the end, take `at` and `maximize` for people coming from the examples
-/// of the literature; both have one value.
-void read_fixed_keys(TableReader& score) {
-  score.choice("at", std::vector<std::string>{"end"});
-  if (score.boolean("maximize") == false) {
-    score.complain("maximize",
-                   "scores are always maximised; give what is unwanted a negative "
-                   "reward instead of `maximize = false`");
+  void operator()(const ScoreField& field, double& value) {
+    need(field, "1");
+    value = table_.number(field.key, {field.least, field.most}).value_or(value);
   }
-}
 
-/// Thesis eq. 6.1.
-RobotsOn read_robots_on(TableReader& score) {
-  read_fixed_keys(score);
-  return {.color = read_color(score, "color").value_or(Rgb{})};
-}
-
-/// Thesis eq. 6.2.
-Coverage read_coverage(TableReader& score) {
-  if (score.boolean("maximize") == false) score.complain("maximize", "scores are always maximised");
-  Coverage coverage;
-  if (const auto tiles = score.integer("tiles", {1, 1000})) {
-    coverage.tiles = static_cast<int>(*tiles);
+  void operator()(const ScoreField& field, int& value) {
+    need(field, "1");
+    const Limits<std::int64_t> limits{static_cast<std::int64_t>(field.least),
+                                      static_cast<std::int64_t>(field.most)};
+    value = static_cast<int>(table_.integer(field.key, limits).value_or(value));
   }
-  coverage.side_m = score.number("side", {0.01, 1000}).value_or(coverage.side_m);
-  return coverage;
-}
 
-/// Thesis eq. 6.3.
-ColorReward read_color_reward(TableReader& score) {
-  read_fixed_keys(score);
-  ColorReward rule;
-  auto rewards = score.table("rewards");
-  if (!rewards) {
-    if (!score.has("rewards")) {
-      score.complain("rewards",
-                     "the score color_reward needs `rewards`, such as { red = 1, "
-                     "yellow = 2 }");
+  void operator()(const ScoreField& field, bool& value) {
+    need(field, "true");
+    value = table_.boolean(field.key).value_or(value);
+  }
+
+  void operator()(const ScoreField& field, Rgb& value) {
+    need(field, "\"black\"");
+    if (table_.has(field.key)) {
+      value = read_color(table_, field.key).value_or(value);
+    } else {
+      table_.take(field.key);
     }
-    return rule;
   }
-  for (const auto& [name, color] : read_color_keys(*rewards)) {
-    const auto reward = rewards->number(name, {-kLargest, kLargest});
-    rule.rewards.push_back({color, reward.value_or(0)});
+
+  void operator()(const ScoreField& field, When& value) {
+    need(field, "\"end\"");
+    static const std::vector<std::string> kNames(kWhenNames.begin(), kWhenNames.end());
+    const auto name = table_.choice(field.key, kNames);
+    if (name) value = when_from_name(*name).value_or(value);
   }
-  if (rule.rewards.empty()) score.complain("rewards", "`rewards` names no colour");
-  return rule;
-}
+
+  void operator()(const ScoreField& field, std::vector<Reward>& value) {
+    need(field, "{ red = 1, yellow = 2 }");
+    auto rewards = table_.table(field.key);
+    if (!rewards) return;
+    value.clear();
+    for (const auto& [name, color] : read_color_keys(*rewards)) {
+      const auto reward = rewards->number(name, {field.least, field.most});
+      value.push_back({color, reward.value_or(0)});
+    }
+    if (value.empty()) {
+      table_.complain(field.key, "`" + std::string(field.key) + "` names no colour");
+    }
+  }
+
+ private:
+  /// Complains when the key must be there and is not.
+  void need(const ScoreField& field, const std::string& example) {
+    if (!field.required || table_.has(field.key)) return;
+    const std::string key(field.key);
+    table_.complain(
+        key, "the score " + kind_ + " needs `" + key + "`, such as " + key + " = " + example);
+  }
+
+  TableReader& table_;
+  std::string kind_;
+};
 
 }  // namespace
 
 std::optional<ScoreRule> read_score(TableReader& score) {
-  static const std::vector<std::string> kKinds = {"robots_on", "coverage", "color_reward"};
+  static const std::vector<std::string> kKinds = score_kinds();
   static const std::vector<std::string> kNotYet = {"external"};
   const auto kind = score.choice("kind", kKinds, kNotYet);
   if (!kind) {
@@ -73,10 +87,15 @@ std::optional<ScoreRule> read_score(TableReader& score) {
     }
     return std::nullopt;
   }
-  ScoreRule rule;
-  if (*kind == "robots_on") rule = read_robots_on(score);
-  if (*kind == "coverage") rule = read_coverage(score);
-  if (*kind == "color_reward") rule = read_color_reward(score);
+  std::optional<ScoreRule> rule = score_of_kind(*kind);
+  FieldReader reader(score, *kind);
+  visit_fields(*rule, reader);
+  // For people coming from the examples of the literature; it has one value.
+  if (score.boolean("maximize") == false) {
+    score.complain("maximize",
+                   "scores are always maximised; let what is unwanted count negatively, as "
+                   "color_reward can, instead of `maximize = false`");
+  }
   score.finish();
   return rule;
 }
