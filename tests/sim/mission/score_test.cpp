@@ -9,6 +9,7 @@
 
 #include "base/rng.h"
 #include "sim/mission/mission.h"
+#include "tests/support/score_rules.h"
 
 namespace swarmsmith {
 namespace {
@@ -90,12 +91,80 @@ TEST_P(EveryMission, GivesACopyALifeOfItsOwn) {
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryMission,
                          ::testing::Values("aggregation", "grid_exploration", "color_selection"));
 
+// --- What holds for every kind in the list, at the end and summed
+// ---------------------------------
+
+/// The base floor and a black disc.
+Arena some_arena() {
+  return {.walls = {}, .patches = {{Disc{{0, 0}, 0.6}, {0, 0, 0}}}};
+}
+
+class EveryKind : public ::testing::TestWithParam<ScoreRule> {};
+
+TEST_P(EveryKind, DoesNotDependOnTheOrderOfRobotsAndObjects) {
+  Scorer scorer(GetParam(), some_arena());
+  Scorer turned = scorer;
+  std::vector<Point> objects = {{0.1, 0}, {5, 5}};
+  for (auto& robots : random_walks(300)) {
+    scorer.observe(robots, objects);
+    std::ranges::reverse(robots);
+    std::ranges::reverse(objects);
+    turned.observe(robots, objects);
+    EXPECT_EQ(scorer.score(), turned.score());
+  }
+  EXPECT_TRUE(std::isfinite(scorer.score()));
+  EXPECT_NE(scorer.score(), 0);
+}
+
+TEST_P(EveryKind, StartsAtZeroAndIsCopied) {
+  Scorer scorer(GetParam(), some_arena());
+  const Scorer copy = scorer;
+  scorer.observe(std::vector<Point>{{0, 0}, {3, 3}}, std::vector<Point>{{0, 0}, {3, 3}});
+  scorer.observe(std::vector<Point>{{1, 0}, {3, 3}}, std::vector<Point>{{1, 0}, {3, 3}});
+  EXPECT_NE(scorer.score(), 0);
+  EXPECT_EQ(copy.score(), 0);
+  EXPECT_FALSE(std::signbit(copy.score()));
+}
+
+TEST_P(EveryKind, SaysItsNameAndIsFoundByIt) {
+  const auto found = score_of_kind(kind_of(GetParam()));
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->index(), GetParam().index());
+  EXPECT_FALSE(fault_of(GetParam()));
+  EXPECT_FALSE(score_of_kind("external"));
+}
+
+INSTANTIATE_TEST_SUITE_P(InTheList, EveryKind, ::testing::ValuesIn(rules_of_every_kind()),
+                         [](const auto& rule) {
+                           return std::string(kind_of(rule.param)) + std::to_string(rule.index);
+                         });
+
 // --- Aggregation ---------------------------------------------------------------------------------
 
 TEST(RobotsOn, CountsThoseOnTheColorAtTheEnd) {
   const Scorer scorer = scorer_of("aggregation");
   EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.5, 0}, {0.51, 0}}}), 2);
   EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.1, 0}, {0.2, 0}}, {{1, 0}, {1, 0}, {0, 0.2}}}), 1);
+}
+
+TEST(RobotsOn, SumsRobotCycles) {
+  const Scorer scorer(RobotsOn{.color = {0, 0, 0}, .at = When::Sum}, some_arena());
+  EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.1, 0}, {9, 0}}, {{0, 0}, {9, 0}, {9, 0}}, {}}), 3);
+}
+
+TEST(ObjectsOn, CountsObjectsAndNoRobots) {
+  Scorer at_end(ObjectsOn{.color = {0, 0, 0}, .at = When::End}, some_arena());
+  Scorer summed(ObjectsOn{.color = {0, 0, 0}, .at = When::Sum}, some_arena());
+  const std::vector<Point> robots(5);
+  for (const double x : {0.7, 0.6, 0.0}) {
+    const std::vector<Point> objects = {{x, 0}, {0, 0.61}, {0.2, 0.2}};
+    at_end.observe(robots, objects);
+    summed.observe(robots, objects);
+  }
+  EXPECT_EQ(at_end.score(), 2);
+  EXPECT_EQ(summed.score(), 1 + 2 + 2);
+  at_end.observe(robots);
+  EXPECT_EQ(at_end.score(), 0);
 }
 
 // --- Grid exploration ----------------------------------------------------------------------------
@@ -162,6 +231,23 @@ TEST(ColorReward, SumsTheRewardsOfTheColorsUnderTheRobots) {
   EXPECT_EQ(score_after(scorer, {{yellow, yellow, yellow}}), 6);
   EXPECT_EQ(score_after(scorer, {{{0, 0}, {1, 1}, green}}), 0);
   EXPECT_EQ(score_after(scorer, {{yellow, yellow, yellow}, {red, green, {0, 0}}}), 1);
+}
+
+TEST(ColorReward, SumsTheRewardsOfAllCycles) {
+  const ColorReward rule{.rewards = {{{0, 0, 0}, 0.25}, {{127, 127, 127}, -2}}, .at = When::Sum};
+  const Scorer scorer(rule, some_arena());
+  EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.1, 0}, {9, 0}}, {{0, 0}, {0, 0}, {0, 0}}}),
+            5 * 0.25 - 2);
+}
+
+TEST(ColorReward, NeedsEachColorOnceAndFiniteRewards) {
+  const Arena arena = some_arena();
+  EXPECT_THROW(Scorer(ColorReward{}, arena), std::invalid_argument);
+  const ColorReward twice{.rewards = {{{1, 1, 1}, 1}, {{1, 1, 1}, 2}}};
+  EXPECT_THROW(Scorer(twice, arena), std::invalid_argument);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(Scorer(ColorReward{.rewards = {{{1, 1, 1}, infinity}}}, arena),
+               std::invalid_argument);
 }
 
 }  // namespace
