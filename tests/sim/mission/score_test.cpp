@@ -7,9 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "base/rng.h"
 #include "sim/mission/mission.h"
-#include "tests/support/score_rules.h"
+#include "tests/sim/mission/score_support.h"
 
 namespace swarmsmith {
 namespace {
@@ -18,23 +17,6 @@ namespace {
 Scorer scorer_of(const std::string& name) {
   const Mission mission = built_in_mission(name).value();
   return Scorer(mission.rule, arena_of(mission, instance_of(mission, 1).value()));
-}
-
-double score_after(Scorer scorer, const std::vector<std::vector<Point>>& instants) {
-  for (const std::vector<Point>& robots : instants)
-    scorer.observe(robots);
-  return scorer.score();
-}
-
-std::vector<std::vector<Point>> random_walks(int instants) {
-  Rng rng(2);
-  std::vector<std::vector<Point>> walks;
-  for (int i = 0; i < instants; ++i) {
-    std::vector<Point>& robots = walks.emplace_back();
-    for (int r = 0; r < 3; ++r)
-      robots.push_back({rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2)});
-  }
-  return walks;
 }
 
 // --- What holds for the score of every mission ---------------------------------------------------
@@ -90,54 +72,6 @@ TEST_P(EveryMission, GivesACopyALifeOfItsOwn) {
 
 INSTANTIATE_TEST_SUITE_P(BuiltIn, EveryMission,
                          ::testing::Values("aggregation", "grid_exploration", "color_selection"));
-
-// --- What holds for every kind in the list, at the end and summed
-// ---------------------------------
-
-/// The base floor and a black disc.
-Arena some_arena() {
-  return {.walls = {}, .patches = {{Disc{{0, 0}, 0.6}, {0, 0, 0}}}};
-}
-
-class EveryKind : public ::testing::TestWithParam<ScoreRule> {};
-
-TEST_P(EveryKind, DoesNotDependOnTheOrderOfRobotsAndObjects) {
-  Scorer scorer(GetParam(), some_arena());
-  Scorer turned = scorer;
-  std::vector<Point> objects = {{0.1, 0}, {5, 5}};
-  for (auto& robots : random_walks(300)) {
-    scorer.observe(robots, objects);
-    std::ranges::reverse(robots);
-    std::ranges::reverse(objects);
-    turned.observe(robots, objects);
-    EXPECT_EQ(scorer.score(), turned.score());
-  }
-  EXPECT_TRUE(std::isfinite(scorer.score()));
-  EXPECT_NE(scorer.score(), 0);
-}
-
-TEST_P(EveryKind, StartsAtZeroAndIsCopied) {
-  Scorer scorer(GetParam(), some_arena());
-  const Scorer copy = scorer;
-  scorer.observe(std::vector<Point>{{0, 0}, {3, 3}}, std::vector<Point>{{0, 0}, {3, 3}});
-  scorer.observe(std::vector<Point>{{1, 0}, {3, 3}}, std::vector<Point>{{1, 0}, {3, 3}});
-  EXPECT_NE(scorer.score(), 0);
-  EXPECT_EQ(copy.score(), 0);
-  EXPECT_FALSE(std::signbit(copy.score()));
-}
-
-TEST_P(EveryKind, SaysItsNameAndIsFoundByIt) {
-  const auto found = score_of_kind(kind_of(GetParam()));
-  ASSERT_TRUE(found);
-  EXPECT_EQ(found->index(), GetParam().index());
-  EXPECT_FALSE(fault_of(GetParam()));
-  EXPECT_FALSE(score_of_kind("external"));
-}
-
-INSTANTIATE_TEST_SUITE_P(InTheList, EveryKind, ::testing::ValuesIn(rules_of_every_kind()),
-                         [](const auto& rule) {
-                           return std::string(kind_of(rule.param)) + std::to_string(rule.index);
-                         });
 
 // --- Aggregation ---------------------------------------------------------------------------------
 
