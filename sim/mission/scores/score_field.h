@@ -53,7 +53,7 @@ constexpr std::optional<When> when_from_name(std::string_view name) {
 /// The parameter `at` of the kinds that have it.
 inline constexpr ScoreField kAtField{
     .key = "at",
-    .meaning = "`\"end\"`: as it is at the last instant; `\"sum\"`: summed over all instants"};
+    .meaning = R"(`"end"`: as it is at the last instant; `"sum"`: summed over all instants)"};
 
 /// What standing on a colour is worth.
 struct Reward {
