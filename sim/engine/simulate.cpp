@@ -48,7 +48,8 @@ class Run {
         arena_(arena_of(setup.mission, setup.instance)),
         world_(arena_, setup.mission.body, setup.instance.starts, setup.profile.contacts),
         scorer_(setup.mission.rule, arena_),
-        positions_(setup.instance.starts.size()) {
+        positions_(setup.instance.starts.size()),
+        object_positions_(arena_.objects.size()) {
     const Rng run(static_cast<std::uint64_t>(setup.seed));
     agents_.reserve(positions_.size());
     for (int i = 0; i < world_.robots(); ++i) {
@@ -126,7 +127,11 @@ class Run {
   void observe() {
     for (int i = 0; i < world_.robots(); ++i)
       positions_[static_cast<std::size_t>(i)] = scored_point(world_.body(i));
-    scorer_.observe(positions_);
+    for (int i = 0; i < world_.movers() - world_.robots(); ++i) {
+      const Body& body = world_.body(world_.robots() + i);
+      object_positions_[static_cast<std::size_t>(i)] = {body.x, body.y};
+    }
+    scorer_.observe(positions_, object_positions_);
   }
 
   void record(int instant) {
@@ -165,6 +170,7 @@ class Run {
   Scorer scorer_;
   std::vector<Agent> agents_;
   std::vector<Point> positions_;
+  std::vector<Point> object_positions_;
   std::vector<RobotRecord> records_;
   std::vector<Pose> objects_;
 };

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <initializer_list>
 #include <string>
+#include <utility>
 
 #include "base/overloaded.h"
+#include "sim/messages/score_messages.h"
 
 namespace swarmsmith {
 namespace {
@@ -61,24 +63,6 @@ void write(const ShuffledPatches& shuffled, pb::ShuffledPatches& out) {
     write(share.color, *to.mutable_color());
     to.set_count(share.count);
   }
-}
-
-void write(const ScoreRule& rule, pb::ScoreRule& out) {
-  std::visit(Overloaded{[&](const RobotsOn& robots_on) {
-                          write(robots_on.color, *out.mutable_robots_on()->mutable_color());
-                        },
-                        [&](const Coverage& coverage) {
-                          out.mutable_coverage()->set_tiles(coverage.tiles);
-                          out.mutable_coverage()->set_side_m(coverage.side_m);
-                        },
-                        [&](const ColorReward& colors) {
-                          auto& rewards = *out.mutable_color_reward()->mutable_rewards();
-                          for (const ColorReward::Reward& reward : colors.rewards) {
-                            write(reward.color, *rewards.Add()->mutable_color());
-                            rewards.rbegin()->set_reward(reward.reward);
-                          }
-                        }},
-             rule);
 }
 
 /// Reads one mission; the first thing that is wrong is kept, and reading goes on.
@@ -158,25 +142,10 @@ class Reader {
   }
 
   ScoreRule rule(const pb::ScoreRule& message) {
-    switch (message.rule_case()) {
-      case pb::ScoreRule::kRobotsOn:
-        return RobotsOn{color(message.robots_on().color(), "rule.color")};
-      case pb::ScoreRule::kCoverage:
-        return Coverage{message.coverage().tiles(),
-                        number(message.coverage().side_m(), "rule.side")};
-      case pb::ScoreRule::kColorReward: {
-        ColorReward rewards;
-        for (const auto& reward : message.color_reward().rewards()) {
-          rewards.rewards.push_back({color(reward.color(), "rule.rewards.color"),
-                                     number(reward.reward(), "rule.rewards.reward")});
-        }
-        return rewards;
-      }
-      case pb::ScoreRule::RULE_NOT_SET:
-        complain("rule", "a mission without a score rule");
-        break;
-    }
-    return RobotsOn{};
+    auto rule = from_message(message);
+    if (rule) return std::move(*rule);
+    complain(rule.error().where, rule.error().message);
+    return {};
   }
 };
 
@@ -190,7 +159,7 @@ void to_message(const Mission& mission, pb::Mission& message) {
   message.set_robots(mission.robots);
   message.set_cycles(mission.cycles);
   message.set_placement_radius_m(std::get<PlaceInDisc>(mission.placement).radius_m);
-  write(mission.rule, *message.mutable_rule());
+  to_message(mission.rule, *message.mutable_rule());
 }
 
 Expected<Mission> from_message(const pb::Mission& message) {

@@ -2,86 +2,100 @@
 
 #include <cstddef>
 #include <stdexcept>
-
-#include "base/overloaded.h"
+#include <utility>
 
 namespace swarmsmith {
 namespace {
 
-/// Sum of the ages 0, 1, ..., duration - 1 that a tile goes through in `duration` instants.
-std::int64_t sum_of_ages(std::int64_t duration) {
-  return duration * (duration - 1) / 2;
+using Scorers = ScorersOf<ScoreRule>::Type;
+
+constexpr auto kKindNumbers = std::make_index_sequence<std::variant_size_v<ScoreRule>>();
+
+template <std::size_t... I>
+std::vector<std::string> kinds(std::index_sequence<I...> /*numbers*/) {
+  return {std::string(std::variant_alternative_t<I, ScoreRule>::kKind)...};
 }
 
-double reward_of(const ColorReward& rule, Rgb color) {
-  for (const ColorReward::Reward& reward : rule.rewards) {
-    if (reward.color == color) return reward.reward;
+template <std::size_t... I>
+std::optional<ScoreRule> of_kind(std::string_view kind, std::index_sequence<I...> /*numbers*/) {
+  std::optional<ScoreRule> found;
+  ((std::variant_alternative_t<I, ScoreRule>::kKind == kind
+        ? void(found.emplace(std::in_place_index<I>))
+        : void()),
+   ...);
+  return found;
+}
+
+/// Keeps the first fault.
+class FaultFinder {
+ public:
+  std::optional<Error> fault;
+
+  void operator()(const ScoreField& field, double value) {
+    if (!field.allows(value)) complain(field, "is out of its limits");
   }
-  return 0;
+  void operator()(const ScoreField& field, int value) {
+    (*this)(field, static_cast<double>(value));
+  }
+  void operator()(const ScoreField& /*field*/, bool /*value*/) {}
+  void operator()(const ScoreField& /*field*/, Rgb /*value*/) {}
+  void operator()(const ScoreField& /*field*/, When /*value*/) {}
+  void operator()(const ScoreField& field, const std::vector<Reward>& rewards) {
+    if (rewards.empty()) complain(field, "names no colour");
+    for (std::size_t i = 0; i < rewards.size(); ++i) {
+      (*this)(field, rewards[i].reward);
+      for (std::size_t j = 0; j < i; ++j) {
+        if (rewards[i].color == rewards[j].color) complain(field, "names a colour twice");
+      }
+    }
+  }
+
+ private:
+  void complain(const ScoreField& field, const std::string& what) {
+    if (fault) return;
+    const std::string key(field.key);
+    fault = Error{ErrorKind::BadInput, "the score's `" + key + "` " + what, key};
+  }
+};
+
+/// The scorer of the rule's kind.
+Scorers scorer_of(const ScoreRule& rule, const Arena& arena) {
+  if (const auto fault = fault_of(rule)) throw std::invalid_argument(fault->message);
+  return std::visit(
+      [&]<class Rule>(const Rule& kind) {
+        return Scorers(std::in_place_type<typename Rule::Scorer>, kind, arena);
+      },
+      rule);
 }
 
 }  // namespace
 
-Scorer::Scorer(const ScoreRule& rule, const Arena& arena) : rule_(rule), arena_(arena) {
-  const auto* coverage = std::get_if<Coverage>(&rule_);
-  if (coverage == nullptr) return;
-  if (coverage->tiles < 1 || !(coverage->side_m > 0)) {
-    throw std::invalid_argument("coverage needs at least one tile and a side longer than 0");
-  }
-  // At the first instant all tiles are of age 0, visited or not (rvr-automode facts, section 8).
-  const auto tiles = static_cast<std::size_t>(coverage->tiles);
-  visited_.assign(tiles * tiles, 1);
+std::vector<std::string> score_kinds() {
+  return kinds(kKindNumbers);
 }
 
-void Scorer::observe(std::span<const Point> robots) {
-  ++instant_;
-  if (const auto* coverage = std::get_if<Coverage>(&rule_)) {
-    visit_tiles(*coverage, robots);
-  } else {
-    last_.assign(robots.begin(), robots.end());
-  }
+std::optional<ScoreRule> score_of_kind(std::string_view kind) {
+  return of_kind(kind, kKindNumbers);
 }
 
-/// A robot outside of the square of tiles visits none.
-void Scorer::visit_tiles(const Coverage& rule, std::span<const Point> robots) {
-  const double tiles = rule.tiles;
-  const double per_metre = tiles / rule.side_m;
-  for (const Point& robot : robots) {
-    const double column = robot.x * per_metre + 0.5 * tiles;
-    const double row = robot.y * per_metre + 0.5 * tiles;
-    if (!(column >= 0 && column < tiles && row >= 0 && row < tiles)) continue;
-    const std::size_t tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(rule.tiles) +
-                             static_cast<std::size_t>(column);
-    age_sum_ += sum_of_ages(instant_ - visited_[tile]);
-    visited_[tile] = instant_;
-  }
+std::string_view kind_of(const ScoreRule& rule) {
+  return std::visit([](const auto& kind) { return kind.kKind; }, rule);
 }
 
-double Scorer::coverage_score(const Coverage& rule) const {
-  std::int64_t sum = age_sum_;
-  for (const std::int64_t visited : visited_)
-    sum += sum_of_ages(instant_ + 1 - visited);
-  const double tiles = rule.tiles;
-  return sum == 0 ? 0.0 : -static_cast<double>(sum) / (tiles * tiles);
+std::optional<Error> fault_of(const ScoreRule& rule) {
+  FaultFinder finder;
+  visit_fields(rule, finder);
+  return finder.fault;
+}
+
+Scorer::Scorer(const ScoreRule& rule, const Arena& arena) : scorer_(scorer_of(rule, arena)) {}
+
+void Scorer::observe(std::span<const Point> robots, std::span<const Point> objects) {
+  std::visit([&](auto& scorer) { scorer.observe(Positions{robots, objects}); }, scorer_);
 }
 
 double Scorer::score() const {
-  return std::visit(Overloaded{[this](const RobotsOn& rule) {
-                                 double robots = 0;
-                                 for (const Point& robot : last_) {
-                                   if (floor_at(arena_, robot) == rule.color) ++robots;
-                                 }
-                                 return robots;
-                               },
-                               [this](const Coverage& rule) { return coverage_score(rule); },
-                               [this](const ColorReward& rule) {
-                                 double sum = 0;
-                                 for (const Point& robot : last_) {
-                                   sum += reward_of(rule, floor_at(arena_, robot));
-                                 }
-                                 return sum;
-                               }},
-                    rule_);
+  return std::visit([](const auto& scorer) { return scorer.score(); }, scorer_);
 }
 
 }  // namespace swarmsmith

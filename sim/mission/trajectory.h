@@ -9,23 +9,27 @@
 
 namespace swarmsmith {
 
-/// Poses of a swarm at the global instants 0.1 s, 0.2 s, ... of a run, the start left out. Made by
-/// a simulator or measured by a camera.
+/// Poses of a swarm, and of the movable objects around it, at the global instants 0.1 s, 0.2 s, ...
+/// of a run, the start left out. Made by a simulator or measured by a camera.
 struct Trajectory {
   int robots = 0;
   std::vector<Pose> poses;  ///< instant by instant, in each all robots in a fixed order
+  int objects = 0;
+  std::vector<Pose> object_poses;  ///< instant by instant, in the arena's order
 
   int instants() const {
     return robots == 0 ? 0 : static_cast<int>(poses.size() / static_cast<std::size_t>(robots));
   }
   /// The robots' poses at an instant, counted from 0.
   std::span<const Pose> at(int instant) const;
+  std::span<const Pose> objects_at(int instant) const;
 
   friend bool operator==(const Trajectory&, const Trajectory&) = default;
 };
 
-/// What the mission's score says of the whole trajectory; larger is better. The number of robots
-/// and instants is the trajectory's. Throws std::invalid_argument when an instant is incomplete.
+/// What the mission's score says of the whole trajectory; larger is better. The number of robots,
+/// objects and instants is the trajectory's. Throws std::invalid_argument when an instant lacks
+/// one.
 double score_of(const Mission& mission, const Instance& instance, const Trajectory& trajectory);
 
 }  // namespace swarmsmith

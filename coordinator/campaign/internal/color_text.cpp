@@ -33,6 +33,11 @@ std::string color_text(Rgb color) {
   return text;
 }
 
+std::string color_key(Rgb color) {
+  const std::string text = color_text(color);
+  return text.front() == '#' ? "\"" + text + "\"" : text;
+}
+
 std::string known_colors() {
   std::string text;
   for (const NamedColor& named : kNamedColors)

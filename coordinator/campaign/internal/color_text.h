@@ -14,6 +14,9 @@ std::optional<Rgb> parse_color(std::string_view text);
 /// The name when the colour has one, else "#rrggbb".
 std::string color_text(Rgb color);
 
+/// The colour as a TOML key: names are bare, numbers need quotes.
+std::string color_key(Rgb color);
+
 /// What may be written for a colour, for sentences.
 std::string known_colors();
 

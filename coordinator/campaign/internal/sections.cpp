@@ -5,6 +5,7 @@
 #include "base/overloaded.h"
 #include "coordinator/campaign/internal/color_text.h"
 #include "coordinator/campaign/internal/race_options.h"
+#include "coordinator/campaign/internal/score_text.h"
 #include "coordinator/campaign/internal/table_reader.h"
 #include "sim/control/flavour.h"
 
@@ -50,12 +51,6 @@ std::string spot_text(const Patch& patch) {
   return "{ " + shape + ", color = " + quoted_text(color_text(patch.color)) + " }";
 }
 
-/// A colour as a key: names are bare, numbers need quotes.
-std::string color_key(Rgb color) {
-  const std::string text = color_text(color);
-  return text.front() == '#' ? quoted_text(text) : text;
-}
-
 /// The inline table `shuffled`.
 std::string shuffled_text(const ShuffledPatches& shuffled) {
   const std::string colors = list_of(shuffled.shares, [](const ShuffledPatches::Share& share) {
@@ -64,34 +59,6 @@ std::string shuffled_text(const ShuffledPatches& shuffled) {
   const std::string places = list_of(
       shuffled.places, [](const Rectangle& place) { return "{ " + rectangle_text(place) + " }"; });
   return "{ colors = { " + colors + " }, places = [" + places + "] }";
-}
-
-/// The inline table `rewards`, in the rule's own order.
-std::string rewards_text(const ColorReward& rule) {
-  return "{ " +
-         list_of(rule.rewards,
-                 [](const ColorReward::Reward& reward) {
-                   return color_key(reward.color) + " = " + number_text(reward.reward);
-                 }) +
-         " }";
-}
-
-/// [mission.score]
-std::vector<SectionLine> score_lines(const ScoreRule& rule) {
-  return std::visit(
-      Overloaded{
-          [](const RobotsOn& robots) -> std::vector<SectionLine> {
-            return {{"kind", "\"robots_on\""}, {"color", quoted_text(color_text(robots.color))}};
-          },
-          [](const Coverage& coverage) -> std::vector<SectionLine> {
-            return {{"kind", "\"coverage\""},
-                    {"tiles", std::to_string(coverage.tiles)},
-                    {"side", number_text(coverage.side_m)}};
-          },
-          [](const ColorReward& reward) -> std::vector<SectionLine> {
-            return {{"kind", "\"color_reward\""}, {"rewards", rewards_text(reward)}};
-          }},
-      rule);
 }
 
 /// [mission.arena]; without an area the walls are the thesis' own.

@@ -7,8 +7,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "base/rng.h"
 #include "sim/mission/mission.h"
+#include "tests/sim/mission/score_support.h"
 
 namespace swarmsmith {
 namespace {
@@ -17,23 +17,6 @@ namespace {
 Scorer scorer_of(const std::string& name) {
   const Mission mission = built_in_mission(name).value();
   return Scorer(mission.rule, arena_of(mission, instance_of(mission, 1).value()));
-}
-
-double score_after(Scorer scorer, const std::vector<std::vector<Point>>& instants) {
-  for (const std::vector<Point>& robots : instants)
-    scorer.observe(robots);
-  return scorer.score();
-}
-
-std::vector<std::vector<Point>> random_walks(int instants) {
-  Rng rng(2);
-  std::vector<std::vector<Point>> walks;
-  for (int i = 0; i < instants; ++i) {
-    std::vector<Point>& robots = walks.emplace_back();
-    for (int r = 0; r < 3; ++r)
-      robots.push_back({rng.uniform(-1.2, 1.2), rng.uniform(-1.2, 1.2)});
-  }
-  return walks;
 }
 
 // --- What holds for the score of every mission ---------------------------------------------------
@@ -96,6 +79,26 @@ TEST(RobotsOn, CountsThoseOnTheColorAtTheEnd) {
   const Scorer scorer = scorer_of("aggregation");
   EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.5, 0}, {0.51, 0}}}), 2);
   EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.1, 0}, {0.2, 0}}, {{1, 0}, {1, 0}, {0, 0.2}}}), 1);
+}
+
+TEST(RobotsOn, SumsRobotCycles) {
+  const Scorer scorer(RobotsOn{.color = {0, 0, 0}, .at = When::Sum}, some_arena());
+  EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.1, 0}, {9, 0}}, {{0, 0}, {9, 0}, {9, 0}}, {}}), 3);
+}
+
+TEST(ObjectsOn, CountsObjectsAndNoRobots) {
+  Scorer at_end(ObjectsOn{.color = {0, 0, 0}, .at = When::End}, some_arena());
+  Scorer summed(ObjectsOn{.color = {0, 0, 0}, .at = When::Sum}, some_arena());
+  const std::vector<Point> robots(5);
+  for (const double x : {0.7, 0.6, 0.0}) {
+    const std::vector<Point> objects = {{x, 0}, {0, 0.61}, {0.2, 0.2}};
+    at_end.observe(robots, objects);
+    summed.observe(robots, objects);
+  }
+  EXPECT_EQ(at_end.score(), 2);
+  EXPECT_EQ(summed.score(), 1 + 2 + 2);
+  at_end.observe(robots);
+  EXPECT_EQ(at_end.score(), 0);
 }
 
 // --- Grid exploration ----------------------------------------------------------------------------
@@ -162,6 +165,23 @@ TEST(ColorReward, SumsTheRewardsOfTheColorsUnderTheRobots) {
   EXPECT_EQ(score_after(scorer, {{yellow, yellow, yellow}}), 6);
   EXPECT_EQ(score_after(scorer, {{{0, 0}, {1, 1}, green}}), 0);
   EXPECT_EQ(score_after(scorer, {{yellow, yellow, yellow}, {red, green, {0, 0}}}), 1);
+}
+
+TEST(ColorReward, SumsTheRewardsOfAllCycles) {
+  const ColorReward rule{.rewards = {{{0, 0, 0}, 0.25}, {{127, 127, 127}, -2}}, .at = When::Sum};
+  const Scorer scorer(rule, some_arena());
+  EXPECT_EQ(score_after(scorer, {{{0, 0}, {0.1, 0}, {9, 0}}, {{0, 0}, {0, 0}, {0, 0}}}),
+            5 * 0.25 - 2);
+}
+
+TEST(ColorReward, NeedsEachColorOnceAndFiniteRewards) {
+  const Arena arena = some_arena();
+  EXPECT_THROW(Scorer(ColorReward{}, arena), std::invalid_argument);
+  const ColorReward twice{.rewards = {{{1, 1, 1}, 1}, {{1, 1, 1}, 2}}};
+  EXPECT_THROW(Scorer(twice, arena), std::invalid_argument);
+  const double infinity = std::numeric_limits<double>::infinity();
+  EXPECT_THROW(Scorer(ColorReward{.rewards = {{{1, 1, 1}, infinity}}}, arena),
+               std::invalid_argument);
 }
 
 }  // namespace

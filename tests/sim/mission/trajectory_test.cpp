@@ -34,6 +34,19 @@ TEST(Trajectory, TheInstancesPatchesCount) {
   EXPECT_EQ(score_of(mission, instance, trajectory), 2);
 }
 
+TEST(Trajectory, ObjectsAreScoredWithTheRobots) {
+  Mission mission = built_in_mission("aggregation").value();
+  mission.rule = ObjectsOn{.color = {0, 0, 0}, .at = When::Sum};
+  Trajectory trajectory{.robots = 1,
+                        .poses = {{0, 0, 0}, {0, 0, 0}},
+                        .objects = 2,
+                        .object_poses = {{0, 0, 0}, {1, 0, 0}, {0, 0.1, 0}, {0.2, 0, 1}}};
+  EXPECT_EQ(trajectory.objects_at(1)[1], (Pose{0.2, 0, 1}));
+  EXPECT_EQ(score_of(mission, Instance{}, trajectory), 3);
+  trajectory.object_poses.pop_back();
+  EXPECT_THROW(score_of(mission, Instance{}, trajectory), std::invalid_argument);
+}
+
 TEST(Trajectory, AnIncompleteInstantIsRefused) {
   const Mission mission = built_in_mission("aggregation").value();
   const Trajectory trajectory{.robots = 2, .poses = {{0, 0, 0}}};

@@ -1,0 +1,45 @@
+#include "sim/mission/scores/coverage.h"
+
+#include <cstddef>
+
+namespace swarmsmith {
+namespace {
+
+/// Sum of the ages 0, 1, ..., duration - 1 that a tile goes through in `duration` instants.
+std::int64_t sum_of_ages(std::int64_t duration) {
+  return duration * (duration - 1) / 2;
+}
+
+}  // namespace
+
+CoverageScorer::CoverageScorer(const Coverage& rule, const Arena& /*arena*/) : rule_(rule) {
+  // At the first instant all tiles are of age 0, visited or not (rvr-automode facts, section 8).
+  const auto tiles = static_cast<std::size_t>(rule.tiles);
+  visited_.assign(tiles * tiles, 1);
+}
+
+/// A robot outside of the square of tiles visits none.
+void CoverageScorer::observe(const Positions& seen) {
+  ++instant_;
+  const double tiles = rule_.tiles;
+  const double per_metre = tiles / rule_.side_m;
+  for (const Point& robot : seen.robots) {
+    const double column = robot.x * per_metre + 0.5 * tiles;
+    const double row = robot.y * per_metre + 0.5 * tiles;
+    if (!(column >= 0 && column < tiles && row >= 0 && row < tiles)) continue;
+    const std::size_t tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(rule_.tiles) +
+                             static_cast<std::size_t>(column);
+    age_sum_ += sum_of_ages(instant_ - visited_[tile]);
+    visited_[tile] = instant_;
+  }
+}
+
+double CoverageScorer::score() const {
+  std::int64_t sum = age_sum_;
+  for (const std::int64_t visited : visited_)
+    sum += sum_of_ages(instant_ + 1 - visited);
+  const double tiles = rule_.tiles;
+  return sum == 0 ? 0.0 : -static_cast<double>(sum) / (tiles * tiles);
+}
+
+}  // namespace swarmsmith

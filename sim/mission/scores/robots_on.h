@@ -1,0 +1,39 @@
+#pragma once
+
+#include "sim/mission/scores/floor_counts.h"
+#include "sim/mission/scores/score_field.h"
+
+namespace swarmsmith {
+
+class RobotsOnScorer;
+
+/// Number of robots on floor of `color` (thesis eq. 6.1); with `at` "sum" the anytime variant,
+/// robot cycles on that floor.
+struct RobotsOn {
+  static constexpr std::string_view kKind = "robots_on";
+  using Scorer = RobotsOnScorer;
+
+  Rgb color{0, 0, 0};
+  When at = When::End;
+
+  template <class Rule, class Visitor>
+  static void fields(Rule& rule, Visitor& field) {
+    field({.key = "color", .meaning = "of the floor where robots count", .required = true},
+          rule.color);
+    field(kAtField, rule.at);
+  }
+  friend bool operator==(const RobotsOn&, const RobotsOn&) = default;
+};
+
+class RobotsOnScorer {
+ public:
+  RobotsOnScorer(const RobotsOn& rule, const Arena& arena);
+
+  void observe(const Positions& seen);
+  double score() const;
+
+ private:
+  FloorCounts counts_;
+};
+
+}  // namespace swarmsmith
