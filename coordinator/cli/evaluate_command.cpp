@@ -9,6 +9,7 @@
 #include "coordinator/cli/seeds.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith::cli {
 namespace {

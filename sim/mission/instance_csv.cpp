@@ -92,15 +92,6 @@ Expected<std::vector<Row>> rows_of(std::string_view text,
   return rows;
 }
 
-/// Whether the point lies inside of a convex arena.
-bool inside(const Arena& arena, Point point) {
-  return std::all_of(arena.walls.begin(), arena.walls.end(), [point](const Wall& wall) {
-    return (wall.to.x - wall.from.x) * (point.y - wall.from.y) -
-               (wall.to.y - wall.from.y) * (point.x - wall.from.x) >
-           0;
-  });
-}
-
 Unexpected no_row(std::string_view what, std::int64_t seed) {
   return unexpected(ErrorKind::NotFound,
                     "the " + std::string(what) + " have no row for seed " + std::to_string(seed));
@@ -118,7 +109,7 @@ Expected<std::vector<Pose>> explicit_starts(const Mission& mission, std::int64_t
                      where);
   }
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (!inside(mission.arena, starts[i].position())) {
+    if (!is_inside(mission.arena, starts[i].position())) {
       return bad_input("robot " + std::to_string(i) + " stands outside of the arena", where);
     }
   }

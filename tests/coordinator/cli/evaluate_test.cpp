@@ -7,6 +7,7 @@
 #include "coordinator/cli/seeds.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 #include "tests/coordinator/cli/cli_support.h"
 
 namespace swarmsmith::cli {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "sim/files/profile_file.h"
+
 namespace swarmsmith {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "coordinator/campaign/internal/color_text.h"
+#include "sim/files/color_text.h"
 
 #include <charconv>
 #include <cstdint>

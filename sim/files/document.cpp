@@ -1,4 +1,4 @@
-#include "coordinator/campaign/internal/document.h"
+#include "sim/files/document.h"
 
 #include <toml++/toml.h>
 

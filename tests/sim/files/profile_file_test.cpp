@@ -1,4 +1,4 @@
-#include "sim/engine/profile.h"
+#include "sim/files/profile_file.h"
 
 #include <gtest/gtest.h>
 
@@ -24,7 +24,10 @@ TEST(Profile, AnUnknownNameIsAnErrorThatListsTheKnownOnes) {
   const Expected<Profile> none = built_in_profile("mars");
   ASSERT_FALSE(none.has_value());
   EXPECT_EQ(none.error().kind, ErrorKind::NotFound);
-  EXPECT_EQ(none.error().message, "no simulator profile 'mars'; known: rvr, argos3, pseudo-reality");
+  EXPECT_EQ(
+      none.error().message,
+      "there is no simulator profile `mars`; built in are: rvr, argos3, pseudo-reality; a file "
+      "of your own ends in .toml");
 }
 
 }  // namespace

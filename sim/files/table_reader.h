@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <set>
@@ -10,16 +11,18 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "coordinator/campaign/internal/document.h"
+#include "sim/files/document.h"
 
 namespace swarmsmith {
 
-/// Everything that is wrong with a campaign file, in the order of the file.
+/// Everything that is wrong with a file, in the order of the file.
 class Complaints {
  public:
   explicit Complaints(std::string file) : file_(std::move(file)) {}
 
   void add(Place place, std::string message);
+  /// Something wrong in another file, which `place` names.
+  void add_foreign(Place place, Error error);
   bool empty() const { return complaints_.empty(); }
   /// Sorted by place; those without one come last.
   std::vector<Error> take();
@@ -28,6 +31,9 @@ class Complaints {
   std::string file_;
   std::vector<std::pair<Place, Error>> complaints_;
 };
+
+/// "2 min" or "2min" as 120; units are ms, s, min and h.
+std::optional<double> parse_seconds(std::string_view text);
 
 /// Ends of a range, both included.
 template <class Number>
@@ -52,6 +58,8 @@ class TableReader {
   /// Where the key's value is, else where the table is.
   Place place_of(std::string_view key) const;
   void complain(std::string_view key, std::string message);
+  /// Something wrong in another file, which the key names.
+  void complain_foreign(std::string_view key, Error error);
 
   std::optional<bool> boolean(std::string_view key);
   std::optional<std::int64_t> integer(std::string_view key, Limits<std::int64_t> limits);
@@ -65,6 +73,11 @@ class TableReader {
   std::optional<double> seconds(std::string_view key, Limits<double> limits);
   std::optional<std::vector<std::string>> texts(std::string_view key);
   std::optional<Limits<double>> interval(std::string_view key);
+  /// A list of lists of `width` numbers each; `example` shows one in complaints.
+  std::optional<std::vector<std::vector<double>>> number_rows(std::string_view key,
+                                                              std::size_t width,
+                                                              Limits<double> limits,
+                                                              std::string_view example);
   /// A table below this one; its own reader must `finish` as well.
   std::optional<TableReader> table(std::string_view key);
   std::vector<TableReader> tables(std::string_view key);
@@ -89,8 +102,5 @@ class TableReader {
   Complaints* complaints_;
   std::set<std::string, std::less<>> asked_;
 };
-
-/// A number as people write it: 5, 0.25, 1.5e+20.
-std::string number_text(double value);
 
 }  // namespace swarmsmith

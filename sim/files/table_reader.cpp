@@ -1,13 +1,12 @@
-#include "coordinator/campaign/internal/table_reader.h"
+#include "sim/files/table_reader.h"
 
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "base/suggestion.h"
+#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -22,20 +21,6 @@ struct Unit {
   double seconds;
 };
 constexpr std::array<Unit, 4> kUnits = {{{"ms", 0.001}, {"s", 1}, {"min", 60}, {"h", 3600}}};
-
-/// "2 min" or "2min" as 120.
-std::optional<double> parse_seconds(std::string_view text) {
-  double value = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc()) return std::nullopt;
-  std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
-  while (!unit.empty() && unit.front() == ' ')
-    unit.remove_prefix(1);
-  for (const Unit& known : kUnits) {
-    if (unit == known.name) return value * known.seconds;
-  }
-  return std::nullopt;
-}
 
 /// Integers and reals are both numbers to people.
 std::optional<double> as_number(const Node& node) {
@@ -60,17 +45,24 @@ std::string range_text(Limits<double> limits) {
 
 }  // namespace
 
-std::string number_text(double value) {
-  std::array<char, 32> buffer{};
-  char* const last = buffer.data() + buffer.size();
-  const bool whole = std::abs(value) < 1e15 && value == std::floor(value);
-  const auto end = whole ? std::to_chars(buffer.data(), last, static_cast<std::int64_t>(value)).ptr
-                         : std::to_chars(buffer.data(), last, value).ptr;
-  return {buffer.data(), end};
+std::optional<double> parse_seconds(std::string_view text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc()) return std::nullopt;
+  std::string_view unit = text.substr(static_cast<std::size_t>(end - text.data()));
+  while (!unit.empty() && unit.front() == ' ')
+    unit.remove_prefix(1);
+  for (const Unit& known : kUnits) {
+    if (unit == known.name) return value * known.seconds;
+  }
+  return std::nullopt;
 }
 
 void Complaints::add(Place place, std::string message) {
-  Error error{ErrorKind::BadInput, std::move(message), to_string(file_, place)};
+  add_foreign(place, Error{ErrorKind::BadInput, std::move(message), to_string(file_, place)});
+}
+
+void Complaints::add_foreign(Place place, Error error) {
   complaints_.emplace_back(place, std::move(error));
 }
 
@@ -112,6 +104,10 @@ Place TableReader::place_of(std::string_view key) const {
 
 void TableReader::complain(std::string_view key, std::string message) {
   complaints_->add(place_of(key), std::move(message));
+}
+
+void TableReader::complain_foreign(std::string_view key, Error error) {
+  complaints_->add_foreign(place_of(key), std::move(error));
 }
 
 /// A value of another type than the key wants.
@@ -270,6 +266,37 @@ std::vector<TableReader> TableReader::tables(std::string_view key) {
     }
   }
   return readers;
+}
+
+std::optional<std::vector<std::vector<double>>> TableReader::number_rows(std::string_view key,
+                                                                         std::size_t width,
+                                                                         Limits<double> limits,
+                                                                         std::string_view example) {
+  const Node* node = take(key);
+  if (node == nullptr) return std::nullopt;
+  const auto wrong = [&](const Node& where, const std::string& what) {
+    complaints_->add(where.place, "`" + std::string(key) + "` must be a list of " +
+                                      std::to_string(width) + " numbers each, such as " +
+                                      std::string(example) + what);
+    return std::nullopt;
+  };
+  const auto* array = std::get_if<Array>(&node->value);
+  if (array == nullptr) return wrong(*node, "");
+  std::vector<std::vector<double>> rows;
+  for (const Node& item : array->items) {
+    const auto* row = std::get_if<Array>(&item.value);
+    if (row == nullptr || row->items.size() != width) return wrong(item, "");
+    rows.emplace_back();
+    for (const Node& cell : row->items) {
+      const auto value = as_number(cell);
+      if (!value) return wrong(cell, "");
+      if (!within(*value, limits)) {
+        return wrong(cell, "; each " + range_text(limits) + ", this is " + number_text(*value));
+      }
+      rows.back().push_back(*value);
+    }
+  }
+  return rows;
 }
 
 void TableReader::finish(std::span<const std::string> not_yet) {

@@ -1,18 +1,15 @@
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
-#include "coordinator/campaign/campaign.h"
-#include "coordinator/campaign/internal/table_reader.h"
+#include "sim/control/reference_model.h"
+#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
-
-/// The [mission.arena] table: walls and floor. False when walls were given that make no arena.
-bool read_arena(TableReader& table, CampaignMission& mission);
 
 /// A colour by name or number; the key must be there.
 std::optional<Rgb> read_color(TableReader& table, std::string_view key);
