@@ -42,7 +42,7 @@ Expected<NamedMachine> machine_of_file(const std::string& file) {
     machine += (machine.empty() ? "" : " ") + line;
   }
   if (machine.empty()) return bad_input("the file holds no machine", file);
-  return NamedMachine{machine, std::nullopt, "", ""};
+  return NamedMachine{machine, std::nullopt, "", std::nullopt};
 }
 
 /// The store's own campaign says on what the candidate was tried.
@@ -59,10 +59,10 @@ Expected<NamedMachine> machine_of_store(const std::string& id, const StoreArgume
     return unexpected(ErrorKind::NotFound, "the store has no candidate " + id);
   }
   const auto& cells = rows->cells.front();
-  NamedMachine machine{cells[0].text, std::nullopt, "", ""};
+  NamedMachine machine{cells[0].text, std::nullopt, "", std::nullopt};
   const auto campaign = parse_campaign((*store)->campaign().file, "campaign.toml");
   if (!campaign) return machine;  // of another method, imported: flags must say it
-  machine.profile = campaign->profile.name;
+  machine.profile = campaign->profile;
   for (const CampaignMission& mission : campaign->missions) {
     if (mission.mission.name == cells[1].text) machine.mission = mission;
   }
@@ -76,7 +76,7 @@ Expected<NamedMachine> machine_of_store(const std::string& id, const StoreArgume
 
 Expected<NamedMachine> find_machine(const std::string& word, const StoreArgument& store) {
   const std::string text = trimmed(word);
-  if (text.starts_with("--")) return NamedMachine{text, std::nullopt, "", ""};
+  if (text.starts_with("--")) return NamedMachine{text, std::nullopt, "", std::nullopt};
   if (is_candidate(text)) return machine_of_store(text, store);
   return machine_of_file(text);
 }

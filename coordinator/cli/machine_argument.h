@@ -14,7 +14,7 @@ struct NamedMachine {
   std::string text;                        ///< of the grammar
   std::optional<CampaignMission> mission;  ///< of a candidate: its design's
   std::string flavour;                     ///< of a candidate, else empty
-  std::string profile;                     ///< of a candidate, else empty
+  std::optional<Profile> profile;          ///< of a candidate: its campaign's
 };
 
 /// `word` is the machine's text, a file that holds one (lines that begin with # are comments), or

@@ -82,12 +82,10 @@ std::optional<MissionEntry> read_base(TableReader& table, const std::string& nam
 }
 
 /// [mission.robot]: what the robots' bodies are.
-bool read_body(TableReader& robot, Mission& mission) {
+void read_body(TableReader& robot, Mission& mission) {
   Pose pose;
-  auto outline = read_outline(robot, {0.02, 5}, pose);
+  if (auto outline = read_outline(robot, {0.02, 5}, pose)) mission.body = std::move(*outline);
   robot.finish();
-  if (outline) mission.body = std::move(*outline);
-  return outline.has_value();
 }
 
 /// People say seconds, the engine counts control cycles.
@@ -118,15 +116,13 @@ void read_keys(TableReader& table, const ReadingPlace& place, MissionEntry& entr
   if (const auto robots = table.integer("robots", {1, 100})) {
     mission.robots = static_cast<int>(*robots);
   }
-  bool can_be_placed = true;
-  if (auto robot = table.table("robot")) can_be_placed = read_body(*robot, mission);
-  if (auto arena = table.table("arena")) {
-    can_be_placed = read_arena(*arena, place.folder, mission) && can_be_placed;
-  }
   if (auto score = table.table("score")) read_score(*score, mission);
+  const std::size_t before = table.complaints();
+  if (auto robot = table.table("robot")) read_body(*robot, mission);
+  if (auto arena = table.table("arena")) read_arena(*arena, place.folder, mission);
   if (auto instances = table.table("instances")) read_instances(*instances, entry);
+  if (table.complaints() == before) check_room(table, mission);
   table.finish();
-  if (can_be_placed) check_room(table, mission);
 }
 
 /// The name of a preset's file serves a mission without a name.
@@ -217,7 +213,11 @@ MissionOrErrors read_mission_file(const std::filesystem::path& file) {
 MissionOrErrors find_mission(const std::string& word, const std::filesystem::path& folder) {
   if (names_a_file(word)) return read_mission_file(folder / word);
   auto mission = built_in_mission(word);
-  if (!mission) return tl::unexpected(std::vector<Error>{mission.error()});
+  if (!mission) {
+    Error error = std::move(mission.error());
+    error.message += did_you_mean(word, kPresets) + "; a file of your own ends in .toml";
+    return tl::unexpected(std::vector<Error>{std::move(error)});
+  }
   return MissionEntry{std::move(*mission)};
 }
 

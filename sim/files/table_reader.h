@@ -24,6 +24,7 @@ class Complaints {
   /// Something wrong in another file, which `place` names.
   void add_foreign(Place place, Error error);
   bool empty() const { return complaints_.empty(); }
+  std::size_t count() const { return complaints_.size(); }
   /// Sorted by place; those without one come last.
   std::vector<Error> take();
 
@@ -58,6 +59,8 @@ class TableReader {
   /// Where the key's value is, else where the table is.
   Place place_of(std::string_view key) const;
   void complain(std::string_view key, std::string message);
+  /// How much was wrong so far, in all tables of the file.
+  std::size_t complaints() const { return complaints_->count(); }
   /// Something wrong in another file, which the key names.
   void complain_foreign(std::string_view key, Error error);
 

@@ -525,12 +525,12 @@ class Evaluate(BadInput):
 
     def test_tables_that_are_wrong(self):
         good = ["1,0,0,0,0", "1,1,0.5,0,0", "1,2,0,0.5,0"]
-        cases = [(good, "there are no 3 starting poses for seed 2"),
-                 (["1,0,abc,0,0"], 'starts.csv:2: "abc" is no number'),
-                 (["1,0,nan,0,0"], 'starts.csv:2: "nan" is no number'),
-                 (["1,0,0"], "starts.csv:2: the line is too short"),
-                 (["1,3,0,0,0"], "starts.csv:2: robots of a seed are numbered"),
-                 (["1,0,9,9,0"] + good[1:], "seed 1: robot 0 starts outside of the arena")]
+        cases = [(good, "the starts have no row for seed 2"),
+                 (["1,0,abc,0,0"], 'starts.csv:2: column x wants a number, not `abc`'),
+                 (["1,0,nan,0,0"], 'starts.csv:2: column x wants a finite number, not `nan`'),
+                 (["1,0,0"], "starts.csv:2: expected 5 cells as in the header, found 3"),
+                 (["1,3,0,0,0"], "starts.csv:2: column robot wants robot 0 of this seed"),
+                 (["1,0,9,9,0"] + good[1:], "seed 1: robot 0 stands outside of the arena")]
         for lines, sentence in cases:
             with self.subTest(sentence):
                 table = self.folder / "starts.csv"
@@ -540,8 +540,8 @@ class Evaluate(BadInput):
         table.write_text("")
         self.refused("starts.csv:1: there is no column `seed`", *EXPLORE, "--mission",
                      "aggregation", "--starts", table)
-        for line, sentence in (("1,5,5,red", "no place for a patch there"),
-                               ("1,5,5,rd", 'there is no colour "rd"')):
+        for line, sentence in (("1,5,5,red", "there is no free place for a patch at (5"),
+                               ("1,5,5,rd", "column color wants the name of a colour, not `rd`")):
             table.write_text("seed,x,y,color\n" + line + "\n")
             self.refused(sentence, *EXPLORE, "--mission", "color_selection", "--patches", table)
 

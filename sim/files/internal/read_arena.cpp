@@ -6,19 +6,19 @@
 
 namespace swarmsmith {
 
-bool read_arena(TableReader& table, const std::filesystem::path& folder, Mission& mission) {
-  const bool has_walls = read_walls(table, mission);
+void read_arena(TableReader& table, const std::filesystem::path& folder, Mission& mission) {
+  const std::size_t before = table.complaints();
+  read_walls(table, mission);
   const auto height = table.number("wall_height", {0.001, 100});
   mission.arena.wall_height_m = height.value_or(mission.arena.wall_height_m);
   read_floor(table, folder, mission);
-  const bool has_solids = read_solids(table, mission.arena);
+  read_solids(table, mission.arena);
   table.finish();
-  if (!has_walls || !has_solids) return false;
-  const auto misplaced = misplaced_solid(mission.arena);
-  if (!misplaced) return true;
-  const bool is_object = misplaced->starts_with("object");
-  table.complain(is_object ? "objects" : "obstacles", *misplaced);
-  return false;
+  // What is wrong by itself need not be told to stand in the way of others, too.
+  if (table.complaints() != before) return;
+  if (const auto misplaced = misplaced_solid(mission.arena)) {
+    table.complain(misplaced->starts_with("object") ? "objects" : "obstacles", *misplaced);
+  }
 }
 
 }  // namespace swarmsmith

@@ -8,7 +8,7 @@
 namespace swarmsmith {
 
 /// The [mission.arena] table: walls, floor, and what stands in the arena; files are found from
-/// `folder`. False when it is no arena that robots could be placed in.
-bool read_arena(TableReader& table, const std::filesystem::path& folder, Mission& mission);
+/// `folder`.
+void read_arena(TableReader& table, const std::filesystem::path& folder, Mission& mission);
 
 }  // namespace swarmsmith

@@ -118,13 +118,11 @@ std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pos
   return BoxOutline{length_m, need(table, "width", size)};
 }
 
-bool read_solids(TableReader& arena, Arena& into) {
-  bool good = true;
+void read_solids(TableReader& arena, Arena& into) {
   if (arena.has("obstacles")) {
     into.obstacles.clear();
     for (TableReader& table : arena.tables("obstacles")) {
       const auto obstacle = read_obstacle(table);
-      good = good && obstacle;
       if (obstacle) into.obstacles.push_back(*obstacle);
     }
   }
@@ -132,7 +130,6 @@ bool read_solids(TableReader& arena, Arena& into) {
     into.objects.clear();
     for (TableReader& table : arena.tables("objects")) {
       const auto object = read_object(table);
-      good = good && object;
       if (object) into.objects.push_back(*object);
     }
   }
@@ -143,7 +140,6 @@ bool read_solids(TableReader& arena, Arena& into) {
   }
   for (const char* key : {"obstacles", "objects", "lights"})
     arena.take(key);
-  return good;
 }
 
 }  // namespace swarmsmith

@@ -12,8 +12,7 @@ namespace swarmsmith {
 /// them.
 std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pose& pose);
 
-/// `obstacles`, `objects` and `lights` of [mission.arena], each in place of the preset's. False
-/// after a complaint.
-bool read_solids(TableReader& arena, Arena& into);
+/// `obstacles`, `objects` and `lights` of [mission.arena], each in place of the preset's.
+void read_solids(TableReader& arena, Arena& into);
 
 }  // namespace swarmsmith

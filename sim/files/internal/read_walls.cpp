@@ -139,29 +139,28 @@ std::vector<Point> read_corners(TableReader& arena, const std::string& shape) {
 
 }  // namespace
 
-bool read_walls(TableReader& arena, Mission& mission) {
+void read_walls(TableReader& arena, Mission& mission) {
   static const std::vector<std::string> kShapes = {"dodecagon", "regular",   "circle",
                                                    "square",    "rectangle", "polygon"};
   const auto given = arena.choice("shape", kShapes);
-  if (arena.has("shape") && !given) {
-    for (const WallKey& known : kWallKeys)
-      arena.take(known.key);  // whose they are is not known
-    return false;
-  }
   const std::string shape = given.value_or("dodecagon");
-  if (has_keys_of_other_shapes(arena, shape)) return false;
+  const bool is_clear = given || !arena.has("shape");
+  if (!is_clear || has_keys_of_other_shapes(arena, shape)) {
+    for (const WallKey& known : kWallKeys)
+      arena.take(known.key);  // what they would say is not known
+    return;
+  }
   if (shape == "dodecagon") {
     const auto inradius = read_inradius(arena, kDodecagon);
     const bool has_size = arena.has("area") || arena.has("inradius");
-    if (has_size && !inradius) return false;
+    if (has_size && !inradius) return;
     if (given || has_size) set_dodecagon(mission, inradius);
-    return true;
+    return;
   }
   std::vector<Point> corners = read_corners(arena, shape);
-  if (corners.empty()) return false;
+  if (corners.empty()) return;
   mission.arena.walls = walls_around(std::move(corners));
   mission.placement = PlaceAnywhere{};
-  return true;
 }
 
 }  // namespace swarmsmith

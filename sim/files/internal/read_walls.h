@@ -7,7 +7,7 @@ namespace swarmsmith {
 
 /// The keys of [mission.arena] that say where walls are. Other walls than the mission had also get
 /// another placement: a dodecagon the disc of the thesis in proportion, other shapes the whole
-/// arena. False, after a complaint, when the keys make no walls.
-bool read_walls(TableReader& arena, Mission& mission);
+/// arena.
+void read_walls(TableReader& arena, Mission& mission);
 
 }  // namespace swarmsmith

@@ -102,7 +102,7 @@ TEST(Evaluate, TakesStartsFromATable) {
   const Ran missing = run(seeds);
   EXPECT_EQ(missing.code, 2);
   EXPECT_EQ(missing.out, "");
-  EXPECT_THAT(missing.err, HasSubstr("--starts: there are no 3 starting poses for seed 6"));
+  EXPECT_THAT(missing.err, HasSubstr("the starts have no row for seed 6"));
 }
 
 TEST(Evaluate, TakesPatchesFromATable) {
@@ -121,7 +121,7 @@ TEST(Evaluate, TakesPatchesFromATable) {
   write_file(folder / "patches.csv", "seed,x,y,color\n1,0.7,0.25,yellow\n");
   const Ran ran = run(command);
   EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("patches.csv:2: mission color_selection has no place"));
+  EXPECT_THAT(ran.err, HasSubstr("patches, seed 1: there is no free place for a patch at (0.7"));
 }
 
 struct Misuse {
