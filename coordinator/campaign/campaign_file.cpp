@@ -46,6 +46,23 @@ void read_identity(TableReader& root, Campaign& campaign, const std::filesystem:
   table->finish();
 }
 
+/// All missions travel to the workers in one message, of which pictures are the only part that can
+/// become large (proto/wire.h).
+void check_pictures(TableReader& root, const Campaign& campaign) {
+  constexpr std::size_t kMostBytes = 24U << 20U;
+  std::size_t bytes = 0;
+  for (const CampaignMission& mission : campaign.missions) {
+    for (const Patch& patch : mission.mission.arena.patches) {
+      const auto* image = std::get_if<FloorImage>(&patch.shape);
+      if (image != nullptr) bytes += image->picture->png().size();
+    }
+  }
+  if (bytes <= kMostBytes) return;
+  root.complain("mission", "the images of all missions have " + std::to_string(bytes >> 20U) +
+                               " MB; at most 24 MB are taken: make them smaller, or make two "
+                               "campaigns");
+}
+
 /// By name, in a file of its own, or in a table.
 Profile read_profile(TableReader& simulator, const std::filesystem::path& folder) {
   const Node* node = simulator.take("profile");
@@ -179,6 +196,7 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   read_format(root);
   read_identity(root, campaign, file);
   campaign.missions = read_missions(root, file.parent_path());
+  check_pictures(root, campaign);
   campaign.methods = read_methods(root);
   read_race(root, campaign.race, campaign.digits);
   read_simulator(root, campaign, file.parent_path());

@@ -124,6 +124,36 @@ TEST(Evaluate, TakesPatchesFromATable) {
   EXPECT_THAT(ran.err, HasSubstr("patches, seed 1: there is no free place for a patch at (0.7"));
 }
 
+TEST(Evaluate, TakesMissionAndProfileFromFiles) {
+  const TemporaryFolder folder;
+  write_file(folder / "mine.toml", "format = 1\npreset = \"grid_exploration\"\n");
+  ASSERT_EQ(run({"profile", "rvr", "-o", (folder / "my_rvr.toml").string()}).code, 0);
+  const std::vector<std::string> command = {"evaluate",  kExploreText,
+                                            "--mission", (folder / "mine.toml").string(),
+                                            "--profile", (folder / "my_rvr.toml").string(),
+                                            "--seeds",   "4",
+                                            "--json"};
+  const Ran ran = run(command);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(lines_of(ran.out)[0]["score"], score_of("grid_exploration", 4));
+  write_file(folder / "mine.toml", "format = 1\nrobots = 0\nfloor = 1\n");
+  const Ran wrong = run(command);
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("mine.toml:2:10: `robots` must be from 1 to 100"));
+  EXPECT_THAT(wrong.err, HasSubstr("mine.toml:3:1: the file has no key `floor`"));
+}
+
+TEST(Profiles, AreListedPrintedAndWrittenButNotOver) {
+  EXPECT_EQ(run({"profile"}).out, "rvr\nargos3\npseudo-reality\n");
+  EXPECT_THAT(run({"profile", "pseudo-reality"}).out, HasSubstr("jitter = 0.05"));
+  EXPECT_EQ(json::parse(run({"profile", "--json"}).out)["profiles"].size(), 3U);
+  const TemporaryFolder folder;
+  const std::string file = (folder / "p.toml").string();
+  EXPECT_EQ(run({"profile", "rvr", "-o", file}).code, 0);
+  EXPECT_EQ(run({"profile", "rvr", "-o", file}).code, 2);
+  EXPECT_THAT(run({"profile", "rvx"}).err, HasSubstr("did you mean \"rvr\"?"));
+}
+
 struct Misuse {
   std::vector<std::string> words;
   const char* sentence;
