@@ -6,6 +6,8 @@
 #include <cmath>
 #include <utility>
 
+#include "base/base64.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -144,6 +146,15 @@ Svg::Svg(double width_mm, double height_mm, std::string_view title, std::string_
 void Svg::circle(PagePoint centre, double radius, const Paint& paint) {
   text_ += "<circle" + attribute("cx", number(centre.x)) + attribute("cy", number(centre.y)) +
            attribute("r", number(radius)) + attributes_of(paint) + "/>\n";
+}
+
+void Svg::image(PagePoint top_left, double width, double height, std::string_view png,
+                double opacity) {
+  text_ += "<image" + attribute("x", number(top_left.x)) + attribute("y", number(top_left.y)) +
+           attribute("width", number(width)) + attribute("height", number(height)) +
+           attribute("preserveAspectRatio", "none") + attribute("opacity", number(opacity)) +
+           attribute("image-rendering", "pixelated") +
+           attribute("href", "data:image/png;base64," + base64_text(png)) + "/>\n";
 }
 
 void Svg::path(const std::string& data, const Paint& paint, std::string_view more) {

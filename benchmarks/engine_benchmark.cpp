@@ -11,6 +11,7 @@
 
 #include "base/math.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 #include "tests/sim/engine/reference_data.h"
 #include "tests/sim/engine/reference_runs.h"
 

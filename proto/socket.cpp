@@ -31,9 +31,10 @@ int milliseconds(std::chrono::milliseconds duration) {
   return static_cast<int>(duration.count());
 }
 
-void apply(const SocketOptions& options, zmq::socket_t& socket) {
+/// `most`: bytes of a frame that may come in; a longer one ends its connection.
+void apply(const SocketOptions& options, std::size_t most, zmq::socket_t& socket) {
   socket.set(zmq::sockopt::linger, milliseconds(options.linger));
-  socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(kMaxFrameBytes));
+  socket.set(zmq::sockopt::maxmsgsize, static_cast<std::int64_t>(most));
   socket.set(zmq::sockopt::handshake_ivl, milliseconds(options.handshake_timeout));
   socket.set(zmq::sockopt::sndhwm, options.send_queue);
   socket.set(zmq::sockopt::heartbeat_ivl, milliseconds(options.heartbeat_interval));
@@ -87,7 +88,7 @@ ServerSocket::~ServerSocket() = default;
 Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& endpoint,
                                                            const SocketOptions& options) {
   auto impl = std::make_unique<Impl>();
-  apply(options, impl->socket);
+  apply(options, kMaxFrameBytes, impl->socket);
   // Else a message to a peer that has gone vanishes without an error.
   impl->socket.set(zmq::sockopt::router_mandatory, true);
   try {
@@ -170,7 +171,7 @@ ClientSocket::~ClientSocket() {
 void ClientSocket::connect() {
   impl_->drop(std::chrono::milliseconds{0});
   impl_->socket = zmq::socket_t(impl_->context, zmq::socket_type::dealer);
-  apply(impl_->options, impl_->socket);
+  apply(impl_->options, kMaxFrameToWorkerBytes, impl_->socket);
   // The worker's protocol decides when to try again.
   impl_->socket.set(zmq::sockopt::reconnect_ivl, -1);
   const std::string watch = "inproc://monitor-" + std::to_string(++impl_->connections);

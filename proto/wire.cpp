@@ -30,10 +30,10 @@ std::string encode_message(const Message& message) {
   return out;
 }
 
-Expected<std::string_view> payload_of(std::string_view frame) {
-  if (frame.size() < kFrameHeaderBytes || frame.size() > kMaxFrameBytes) {
+Expected<std::string_view> payload_of(std::string_view frame, std::size_t most) {
+  if (frame.size() < kFrameHeaderBytes || frame.size() > most) {
     return bad_input("a frame of " + std::to_string(frame.size()) + " bytes; wanted 8 to " +
-                         std::to_string(kMaxFrameBytes),
+                         std::to_string(most),
                      "length");
   }
   if (frame.substr(0, kFrameMagic.size()) != kFrameMagic) {
@@ -52,10 +52,11 @@ Expected<std::string_view> payload_of(std::string_view frame) {
 }
 
 template <class Message>
-Expected<const Message*> parse(std::string_view frame, google::protobuf::Arena& arena) {
+Expected<const Message*> parse(std::string_view frame, std::size_t most,
+                               google::protobuf::Arena& arena) {
   // What is wrong with a frame is told by value; the library would write it to standard error.
   [[maybe_unused]] static auto* const kLoud = google::protobuf::SetLogHandler(nullptr);
-  const Expected<std::string_view> payload = payload_of(frame);
+  const Expected<std::string_view> payload = payload_of(frame, most);
   if (!payload) return Unexpected(payload.error());
   auto* message = google::protobuf::Arena::CreateMessage<Message>(&arena);
   if (!message->ParseFromArray(payload->data(), static_cast<int>(payload->size()))) {
@@ -139,8 +140,9 @@ bool is_fine(const pb::ToWorker& message) {
 }
 
 template <class Message>
-Expected<const Message*> decode(std::string_view frame, google::protobuf::Arena& arena) {
-  Expected<const Message*> message = parse<Message>(frame, arena);
+Expected<const Message*> decode(std::string_view frame, std::size_t most,
+                                google::protobuf::Arena& arena) {
+  Expected<const Message*> message = parse<Message>(frame, most, arena);
   if (message && !is_fine(**message)) {
     return bad_input("a message with a value outside of the protocol's limits", "limits");
   }
@@ -158,12 +160,12 @@ std::string encode(const pb::ToWorker& message) {
 
 Expected<const pb::ToCoordinator*> decode_to_coordinator(std::string_view frame,
                                                          google::protobuf::Arena& arena) {
-  return decode<pb::ToCoordinator>(frame, arena);
+  return decode<pb::ToCoordinator>(frame, kMaxFrameBytes, arena);
 }
 
 Expected<const pb::ToWorker*> decode_to_worker(std::string_view frame,
                                                google::protobuf::Arena& arena) {
-  return decode<pb::ToWorker>(frame, arena);
+  return decode<pb::ToWorker>(frame, kMaxFrameToWorkerBytes, arena);
 }
 
 std::uint64_t digest_of_scenario(std::string_view bytes) {

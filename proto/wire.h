@@ -19,11 +19,13 @@ namespace swarmsmith {
 /// version understand each other; a minor version adds fields and bodies that the other ignores.
 inline constexpr std::string_view kFrameMagic = "SWRM";
 inline constexpr std::size_t kFrameHeaderBytes = 8;
-inline constexpr std::uint16_t kProtocolMajor = 1;
+inline constexpr std::uint16_t kProtocolMajor = 2;
 inline constexpr std::uint16_t kProtocolMinor = 0;
 
 /// What a receiver puts up with; senders keep far below.
 inline constexpr std::size_t kMaxFrameBytes = 1U << 20U;
+/// A scenario has the pictures of its missions' floors.
+inline constexpr std::size_t kMaxFrameToWorkerBytes = 32U << 20U;
 inline constexpr int kMaxItemsPerMessage = 4096;  ///< tasks, results or keys
 inline constexpr std::size_t kMaxMachineBytes = 16U << 10U;
 inline constexpr std::size_t kMaxTextBytes = 4U << 10U;

@@ -20,6 +20,9 @@ constexpr double kSmallestNumbered = 4.5;  ///< body with a number in it, mm
 /// Parts of a trail, each a little stronger than the one before.
 constexpr std::size_t kFadeSteps = 8;
 
+/// How far floor colours are on the way to white.
+constexpr double kFloorPaleness = 0.5;
+
 std::string color_text(Rgb color) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string text = "#";
@@ -32,7 +35,7 @@ std::string color_text(Rgb color) {
 
 /// What a floor colour looks like: black stays darker than grey, and trails are seen on both.
 std::string floor_color(Rgb color) {
-  return lightened(color_text(color), 0.5);
+  return lightened(color_text(color), kFloorPaleness);
 }
 
 /// Black on light colours, white on dark ones.
@@ -117,6 +120,13 @@ void draw_place(Svg& svg, const ArenaPicture& picture, const ArenaView& view) {
                    [&](const Rectangle& box) {
                      const Outline outline = BoxOutline{box.width_m, box.height_m};
                      svg.polygon(view.outline(outline, {box.centre.x, box.centre.y, 0}), paint);
+                   },
+                   [&](const FloorImage& image) {
+                     const Rectangle& area = image.area;
+                     svg.image(view.at({area.centre.x - area.width_m / 2,
+                                        area.centre.y + area.height_m / 2}),
+                               view.length(area.width_m), view.length(area.height_m),
+                               image.picture->png(), 1 - kFloorPaleness);
                    }},
         patch.shape);
   }

@@ -10,19 +10,11 @@
 #include "irace_core/scenario.h"
 #include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
-#include "sim/mission/mission.h"
+#include "sim/files/mission_file.h"
 
 namespace swarmsmith {
 
-/// A mission and how its designs are judged.
-struct CampaignMission {
-  Mission mission;
-  /// Of the regular dodecagon that its walls are; none: the walls of the thesis' program.
-  std::optional<double> area_m2;
-  std::int64_t test_count = 100;  ///< fresh seeds on which each winner is scored after its race
-
-  friend bool operator==(const CampaignMission&, const CampaignMission&) = default;
-};
+using CampaignMission = MissionEntry;
 
 /// A parameter's range that differs from the flavour's own.
 struct RangeOverride {

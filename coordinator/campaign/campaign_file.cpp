@@ -1,36 +1,20 @@
 #include "coordinator/campaign/campaign_file.h"
 
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "coordinator/campaign/internal/read_method.h"
-#include "coordinator/campaign/internal/read_mission.h"
-#include "coordinator/campaign/internal/table_reader.h"
 #include "coordinator/campaign/machine_space.h"
 #include "irace_core/iterated_race.h"
+#include "sim/files/file_text.h"
+#include "sim/files/profile_file.h"
+#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
 namespace {
 
-/// Of the files that this program reads; raised when an old file would mean something else.
-constexpr std::int64_t kFormat = 1;
 constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kLargestPort = 65'535;
-
-/// A file of a later format is refused before its unknown keys confuse anybody.
-void read_format(TableReader& root) {
-  const auto format = root.integer("format", {1, 1'000'000});
-  if (!root.has("format")) {
-    root.complain("format", "the file begins with its format: format = 1");
-  } else if (format && *format != kFormat) {
-    root.complain("format", "format " + std::to_string(*format) +
-                                " is newer than this program, which reads format 1");
-  }
-}
 
 /// The file's name without folder and ending, letters that no name has replaced.
 std::string name_from(const std::filesystem::path& file) {
@@ -62,25 +46,54 @@ void read_identity(TableReader& root, Campaign& campaign, const std::filesystem:
   table->finish();
 }
 
+/// All missions travel to the workers in one message, of which pictures are the only part that can
+/// become large (proto/wire.h).
+void check_pictures(TableReader& root, const Campaign& campaign) {
+  constexpr std::size_t kMostBytes = 24U << 20U;
+  std::size_t bytes = 0;
+  for (const CampaignMission& mission : campaign.missions) {
+    for (const Patch& patch : mission.mission.arena.patches) {
+      const auto* image = std::get_if<FloorImage>(&patch.shape);
+      if (image != nullptr) bytes += image->picture->png().size();
+    }
+  }
+  if (bytes <= kMostBytes) return;
+  root.complain("mission", "the images of all missions have " + std::to_string(bytes >> 20U) +
+                               " MB; at most 24 MB are taken: make them smaller, or make two "
+                               "campaigns");
+}
+
+/// By name, in a file of its own, or in a table.
+Profile read_profile(TableReader& simulator, const std::filesystem::path& folder) {
+  const Node* node = simulator.take("profile");
+  if (node != nullptr && std::holds_alternative<Table>(node->value)) {
+    auto table = simulator.table("profile");
+    return read_profile_table(*table);
+  }
+  const std::string name = simulator.text("profile").value_or("rvr");
+  auto profile = find_profile(name, folder);
+  if (profile) return std::move(*profile);
+  for (const Error& error : profile.error()) {
+    if (error.where.empty()) {
+      simulator.complain("profile", error.message);
+    } else {
+      simulator.complain_foreign("profile", error);
+    }
+  }
+  return {};
+}
+
 /// [simulator]: who evaluates.
-void read_simulator(TableReader& root, Campaign& campaign) {
+void read_simulator(TableReader& root, Campaign& campaign, const std::filesystem::path& folder) {
   static const std::vector<std::string> kKinds = {"builtin"};
   static const std::vector<std::string> kKindsNotYet = {"argos", "command"};
-  static const std::vector<std::string> kProfiles = {"rvr", "argos3"};
-  static const std::vector<std::string> kProfilesNotYet = {"pseudo-reality"};
-  std::string profile = kProfiles.front();
-  if (auto table = root.table("simulator")) {
-    table->choice("kind", kKinds, kKindsNotYet);
-    const auto named = table->text("profile");
-    if (named && named->ends_with(".toml")) {
-      table->complain("profile", "a profile in a file of its own is not there yet");
-    } else if (named) {
-      profile = table->choice("profile", kProfiles, kProfilesNotYet).value_or(profile);
-    }
-    static const std::vector<std::string> kKeysNotYet = {"command"};
-    table->finish(kKeysNotYet);
-  }
-  if (auto built_in = built_in_profile(profile)) campaign.profile = *built_in;
+  static const std::vector<std::string> kKeysNotYet = {"command"};
+  campaign.profile = built_in_profile("rvr").value();
+  auto table = root.table("simulator");
+  if (!table) return;
+  table->choice("kind", kKinds, kKindsNotYet);
+  campaign.profile = read_profile(*table, folder);
+  table->finish(kKeysNotYet);
 }
 
 /// "127.0.0.1:5555", "[::1]:5555"; port 0 is any free one.
@@ -182,10 +195,11 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   Campaign campaign;
   read_format(root);
   read_identity(root, campaign, file);
-  campaign.missions = read_missions(root);
+  campaign.missions = read_missions(root, file.parent_path());
+  check_pictures(root, campaign);
   campaign.methods = read_methods(root);
   read_race(root, campaign.race, campaign.digits);
-  read_simulator(root, campaign);
+  read_simulator(root, campaign, file.parent_path());
   read_workers(root, campaign);
   read_dashboard(root);
   root.finish();
@@ -201,27 +215,15 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
 
 CampaignOrErrors read_campaign(const std::filesystem::path& file,
                                std::optional<std::int64_t> budget) {
-  const auto unreadable = [&](ErrorKind kind, const std::string& why) {
-    return tl::unexpected(std::vector<Error>{Error{kind, why, file.string()}});
-  };
-  std::error_code trouble;
-  if (std::filesystem::is_directory(file, trouble)) {
-    return unreadable(ErrorKind::BadInput,
-                      "this is a folder; name the campaign file in it, such as " +
-                          (file / "campaign.toml").string());
+  auto text = read_file(file, "campaign");
+  if (text) return parse_campaign(*text, file, budget);
+  Error error = std::move(text.error());
+  if (error.kind == ErrorKind::NotFound) error.message += "; `swarmsmith init` writes one";
+  if (std::filesystem::is_directory(file)) {
+    error.message = "this is a folder; name the campaign file in it, such as " +
+                    (file / "campaign.toml").string();
   }
-  if (!std::filesystem::exists(file, trouble) && !trouble) {
-    return unreadable(ErrorKind::NotFound,
-                      "there is no such campaign file; `swarmsmith init` writes one");
-  }
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    return unreadable(ErrorKind::BadInput,
-                      std::string("the campaign file cannot be read: ") + std::strerror(errno));
-  }
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return parse_campaign(text.str(), file, budget);
+  return tl::unexpected(std::vector<Error>{std::move(error)});
 }
 
 Campaign demo_campaign() {

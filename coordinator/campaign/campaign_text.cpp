@@ -6,13 +6,7 @@
 namespace swarmsmith {
 
 std::string normalised_text(const Campaign& campaign) {
-  std::string text;
-  for (const Section& section : sections_of(campaign)) {
-    if (!section.header.empty()) text += "\n" + section.header + "\n";
-    for (const SectionLine& line : section.lines)
-      text += line.key + " = " + line.value + "\n";
-  }
-  return text;
+  return text_of(sections_of(campaign));
 }
 
 Deciding deciding(const Campaign& campaign) {

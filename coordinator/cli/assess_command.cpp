@@ -6,6 +6,7 @@
 
 #include "coordinator/cli/assessment_text.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/world_argument.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -49,11 +50,8 @@ ExitCode run(const Arguments& arguments, Output& output) {
     return fail(output, ExitCode::Usage,
                 {ErrorKind::BadInput, flavour.error().message, "--flavour"});
   }
-  const auto profile = built_in_profile(arguments.profile);
-  if (!profile) {
-    return fail(output, ExitCode::Usage,
-                {ErrorKind::BadInput, profile.error().message, "--profile"});
-  }
+  const auto profile = find_profile_or_complain(arguments.profile, "--profile", output);
+  if (!profile) return fail(output, ExitCode::Usage, profile.error());
   Counter counter(output);
   const Report report = assessment::assess(
       **flavour, *profile, [&counter](int done, int of) { counter.tell(done, of); });

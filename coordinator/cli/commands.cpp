@@ -57,6 +57,7 @@ With --json one line a run: {"seed":1,"score":2}.
 Examples:
   swarmsmith evaluate c812 --store demo.db --seeds 1-100
   swarmsmith evaluate best.fsm --mission aggregation
+  swarmsmith evaluate best.fsm --mission my_mission.toml --profile my_rvr.toml
   swarmsmith evaluate --nstates 1 --s0 0 --rwm0 10 --mission grid_exploration --json
   swarmsmith evaluate --flavour watermelon-argos3 --profile argos3 --mission color_selection \
       --seeds 1-100 --starts starts.csv --patches patches.csv machine.fsm)";
@@ -83,6 +84,15 @@ Examples:
   swarmsmith replay c1 demo.db --seed 7 --svg run.svg
   swarmsmith replay c1 demo.db --seed 7 --svg - --at 60 > minute.svg
   swarmsmith replay --sample 100 demo.db)";
+
+constexpr std::string_view kProfileDetails =
+    R"(A built-in profile as a commented file, to change and to name in a campaign file: profile =
+"my_rvr.toml". Without a name it lists the built-in ones.
+
+Examples:
+  swarmsmith profile
+  swarmsmith profile pseudo-reality
+  swarmsmith profile rvr -o my_rvr.toml)";
 
 constexpr std::string_view kStatusDetails = R"(Reads the store, also while a campaign runs.
 
@@ -129,6 +139,8 @@ constexpr std::array kCommands = {
     Command{"run", "Run a campaign, or go on with it", kRunDetails, declare_run},
     Command{"init", "Write a commented campaign file", kInitDetails, declare_init},
     Command{"check", "Check a campaign file and show its plan", kCheckDetails, declare_check},
+    Command{"profile", "Print a simulator profile, to make one's own", kProfileDetails,
+            declare_profile},
     Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
     Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
     Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},

@@ -22,6 +22,7 @@ Run declare_serve(Options& options);
 Run declare_worker(Options& options);
 Run declare_evaluate(Options& options);
 Run declare_replay(Options& options);
+Run declare_profile(Options& options);
 Run declare_status(Options& options);
 Run declare_ls(Options& options);
 Run declare_show(Options& options);

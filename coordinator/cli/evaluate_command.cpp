@@ -1,17 +1,18 @@
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "coordinator/cli/commands.h"
-#include "coordinator/cli/instance_csv.h"
 #include "coordinator/cli/machine_argument.h"
 #include "coordinator/cli/mean_interval.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/recording.h"
 #include "coordinator/cli/seeds.h"
+#include "coordinator/cli/world_argument.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/file_text.h"
+#include "sim/mission/instance_csv.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -35,10 +36,7 @@ struct Plan {
   Profile profile;
   Mission mission;
   std::vector<std::int64_t> seeds;
-  std::map<std::int64_t, std::vector<Pose>> starts;
-  std::map<std::int64_t, std::vector<Patch>> patches;
-  bool has_starts = false;
-  bool has_patches = false;
+  ExplicitInstances given;
 };
 
 /// The first text that is not empty.
@@ -56,27 +54,48 @@ Expected<Flavour> flavour_of(const Arguments& arguments, const NamedMachine& nam
   return find_flavour(name, *named.turn_clock);
 }
 
-/// A candidate's own mission may have been changed by its file; the flag names a built-in one.
-Expected<Mission> mission_of(const Arguments& arguments, const NamedMachine& named) {
-  if (!arguments.mission.empty()) {
-    if (named.mission && named.mission->mission.name == arguments.mission) {
-      return named.mission->mission;
-    }
-    return built_in_mission(arguments.mission);
+/// A candidate's own mission may have been changed by its file; the flag names a built-in one, or a
+/// file.
+Expected<Mission> mission_of(const Arguments& arguments, const NamedMachine& named,
+                             Output& output) {
+  if (arguments.mission.empty()) {
+    if (named.mission) return named.mission->mission;
+    return bad_input(
+        "on which mission? Add --mission aggregation, grid_exploration, color_selection or a file",
+        "--mission");
   }
-  if (named.mission) return named.mission->mission;
-  return bad_input(
-      "on which mission? Add --mission aggregation, grid_exploration or "
-      "color_selection");
+  if (named.mission && named.mission->mission.name == arguments.mission) {
+    return named.mission->mission;
+  }
+  return find_mission_or_complain(arguments.mission, "--mission", output);
+}
+
+/// The candidate's own profile, or what the flag says.
+Expected<Profile> profile_of(const Arguments& arguments, const NamedMachine& named,
+                             Output& output) {
+  if (named.profile && (arguments.profile.empty() || arguments.profile == named.profile->name)) {
+    return *named.profile;
+  }
+  const std::string word = arguments.profile.empty() ? "rvr" : arguments.profile;
+  return find_profile_or_complain(word, "--profile", output);
+}
+
+/// A table of a file; errors say "file:line".
+template <class Table>
+Expected<Table> read_table(const std::string& file, Expected<Table> (*parse)(std::string_view)) {
+  const auto text = read_file(file, "table");
+  if (!text) return Unexpected(text.error());
+  auto table = parse(*text);
+  if (table) return table;
+  return bad_input(table.error().message, file + ":" + table.error().where);
 }
 
 /// The tables, where they are named.
 Expected<void> read_instances(const Arguments& arguments, Plan& plan, Output& output) {
   if (!arguments.starts.empty()) {
-    auto starts = read_starts(arguments.starts);
+    auto starts = read_table(arguments.starts, parse_starts_csv);
     if (!starts) return Unexpected(starts.error());
-    plan.starts = std::move(*starts);
-    plan.has_starts = true;
+    plan.given.starts = std::move(*starts);
   }
   if (arguments.patches.empty()) return {};
   if (plan.mission.shuffled.places.empty()) {
@@ -84,10 +103,9 @@ Expected<void> read_instances(const Arguments& arguments, Plan& plan, Output& ou
                "mission " + plan.mission.name + " shuffles no patches: --patches is not used");
     return {};
   }
-  auto patches = read_patches(arguments.patches, plan.mission);
+  auto patches = read_table(arguments.patches, parse_patches_csv);
   if (!patches) return Unexpected(patches.error());
-  plan.patches = std::move(*patches);
-  plan.has_patches = true;
+  plan.given.patches = std::move(*patches);
   return {};
 }
 
@@ -102,61 +120,17 @@ Expected<Plan> make_plan(const Arguments& arguments, Output& output) {
   auto machine = parse_machine(named->text, plan.flavour);
   if (!machine) return bad_input(machine.error().message, "MACHINE, " + machine.error().where);
   plan.machine = std::move(*machine);
-  auto profile = built_in_profile(first_of(arguments.profile, named->profile, "rvr"));
-  if (!profile) return bad_input(profile.error().message, "--profile");
+  auto profile = profile_of(arguments, *named, output);
+  if (!profile) return Unexpected(profile.error());
   plan.profile = std::move(*profile);
-  auto mission = mission_of(arguments, *named);
-  if (!mission) return bad_input(mission.error().message, "--mission");
+  auto mission = mission_of(arguments, *named, output);
+  if (!mission) return Unexpected(mission.error());
   plan.mission = std::move(*mission);
   auto seeds = parse_seeds(arguments.seeds);
   if (!seeds) return Unexpected(seeds.error());
   plan.seeds = std::move(*seeds);
   if (auto read = read_instances(arguments, plan, output); !read) return Unexpected(read.error());
   return plan;
-}
-
-/// Left of every wall: arenas are convex, and their walls go round counter-clockwise.
-bool is_inside(const Arena& arena, const Pose& pose) {
-  return std::ranges::all_of(arena.walls, [&](const Wall& wall) {
-    return (wall.to.x - wall.from.x) * (pose.y - wall.from.y) >=
-           (wall.to.y - wall.from.y) * (pose.x - wall.from.x);
-  });
-}
-
-/// What of the instance no table gives is drawn from the seed.
-Expected<Instance> instance_for(const Plan& plan, std::int64_t seed) {
-  const auto robots = static_cast<std::size_t>(plan.mission.robots);
-  Instance instance;
-  if (plan.has_starts) {
-    const auto starts = plan.starts.find(seed);
-    if (starts == plan.starts.end() || starts->second.size() != robots) {
-      return bad_input("there are no " + std::to_string(robots) + " starting poses for seed " +
-                           std::to_string(seed),
-                       "--starts");
-    }
-    for (std::size_t robot = 0; robot < robots; ++robot) {
-      if (is_inside(plan.mission.arena, starts->second[robot])) continue;
-      return bad_input("seed " + std::to_string(seed) + ": robot " + std::to_string(robot) +
-                           " starts outside of the arena",
-                       "--starts");
-    }
-    instance.starts = starts->second;
-  }
-  if (plan.has_patches) {
-    const auto patches = plan.patches.find(seed);
-    if (patches == plan.patches.end()) {
-      return bad_input("there are no patches for seed " + std::to_string(seed), "--patches");
-    }
-    instance.patches = patches->second;
-  }
-  if (plan.has_starts && (plan.has_patches || plan.mission.shuffled.places.empty())) {
-    return instance;
-  }
-  auto drawn = instance_of(plan.mission, seed);
-  if (!drawn) return drawn;
-  if (plan.has_starts) drawn->starts = std::move(instance.starts);
-  if (plan.has_patches) drawn->patches = std::move(instance.patches);
-  return drawn;
 }
 
 /// For people: mean and interval.
@@ -197,7 +171,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
   // All instances first, so that a missing row stops everything and not the second half.
   std::vector<Instance> instances;
   for (const std::int64_t seed : plan->seeds) {
-    auto instance = instance_for(*plan, seed);
+    auto instance = instance_of(plan->mission, seed, plan->given);
     if (!instance) return fail(output, ExitCode::Usage, instance.error());
     instances.push_back(std::move(*instance));
   }
@@ -242,10 +216,13 @@ Run declare_evaluate(Options& options) {
   options.text("--flavour", arguments->flavour,
                "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
                "candidate's, else watermelon)");
-  options.text("--profile", arguments->profile,
-               "Simulator profile: rvr, argos3 (default: the candidate's, else rvr)");
-  options.text("--mission", arguments->mission,
-               "aggregation, grid_exploration or color_selection (default: the candidate's)");
+  options.text(
+      "--profile", arguments->profile,
+      "Simulator profile: rvr, argos3, pseudo-reality or a file (default: the candidate's, "
+      "else rvr)");
+  options.text(
+      "--mission", arguments->mission,
+      "aggregation, grid_exploration, color_selection or a file (default: the candidate's)");
   options.text("--seeds", arguments->seeds, "Seeds of the runs: 1-10 or 1,4,7-9 (default 1-10)");
   options.text("--starts", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
   options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");

@@ -62,7 +62,7 @@ Expected<NamedMachine> machine_of_store(const std::string& id, const StoreArgume
   NamedMachine machine{.text = cells[0].text};
   const auto campaign = parse_campaign((*store)->campaign().file, "campaign.toml");
   if (!campaign) return machine;  // of another method, imported: flags must say it
-  machine.profile = campaign->profile.name;
+  machine.profile = campaign->profile;
   for (const CampaignMission& mission : campaign->missions) {
     if (mission.mission.name == cells[1].text) machine.mission = mission;
   }

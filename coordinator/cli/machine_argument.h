@@ -15,7 +15,7 @@ struct NamedMachine {
   std::optional<CampaignMission> mission;  ///< of a candidate: its design's
   std::string flavour;                     ///< of a candidate, else empty
   std::optional<TurnClock> turn_clock;     ///< of a candidate
-  std::string profile;                     ///< of a candidate, else empty
+  std::optional<Profile> profile;          ///< of a candidate: its campaign's
 };
 
 /// `word` is the machine's text, a file that holds one (lines that begin with # are comments), or

@@ -9,6 +9,7 @@
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/cli/query_output.h"
 #include "sim/control/machine_text.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -1,10 +1,8 @@
 #pragma once
 
 #include <string>
-#include <string_view>
 #include <vector>
 
-#include "base/expected.h"
 #include "sim/control/reference_model.h"
 #include "sim/mission/colors.h"
 #include "sim/mission/pose.h"
@@ -106,9 +104,5 @@ struct Profile {
 
   friend bool operator==(const Profile&, const Profile&) = default;
 };
-
-/// `rvr` (thesis 4.2: noise on), `argos3` (as the published files: noise off) or `pseudo-reality`
-/// (thesis 7.1). An unknown name is an error that lists the known ones.
-Expected<Profile> built_in_profile(std::string_view name);
 
 }  // namespace swarmsmith

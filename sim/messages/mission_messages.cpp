@@ -1,11 +1,10 @@
 #include "sim/messages/mission_messages.h"
 
-#include <cmath>
-#include <initializer_list>
 #include <string>
 #include <utility>
 
 #include "base/overloaded.h"
+#include "sim/messages/internal/arena_messages.h"
 #include "sim/messages/score_messages.h"
 
 namespace swarmsmith {
@@ -13,47 +12,6 @@ namespace {
 
 constexpr int kMaxRobots = 1000;
 constexpr int kMaxCycles = 1'000'000;
-
-void write(Rgb color, pb::Color& out) {
-  out.set_r(color.r);
-  out.set_g(color.g);
-  out.set_b(color.b);
-}
-
-void write(Point point, pb::Point& out) {
-  out.set_x_m(point.x);
-  out.set_y_m(point.y);
-}
-
-void write(const Disc& disc, pb::Disc& out) {
-  write(disc.centre, *out.mutable_centre());
-  out.set_radius_m(disc.radius_m);
-}
-
-void write(const Rectangle& rectangle, pb::Rectangle& out) {
-  write(rectangle.centre, *out.mutable_centre());
-  out.set_width_m(rectangle.width_m);
-  out.set_height_m(rectangle.height_m);
-}
-
-void write(const Patch& patch, pb::Patch& out) {
-  std::visit(
-      Overloaded{[&](const Disc& disc) { write(disc, *out.mutable_disc()); },
-                 [&](const Rectangle& rectangle) { write(rectangle, *out.mutable_rectangle()); }},
-      patch.shape);
-  write(patch.color, *out.mutable_color());
-}
-
-void write(const Arena& arena, pb::Arena& out) {
-  for (const Wall& wall : arena.walls) {
-    pb::Wall& to = *out.add_walls();
-    write(wall.from, *to.mutable_from());
-    write(wall.to, *to.mutable_to());
-  }
-  write(arena.floor, *out.mutable_floor());
-  for (const Patch& patch : arena.patches)
-    write(patch, *out.add_patches());
-}
 
 void write(const ShuffledPatches& shuffled, pb::ShuffledPatches& out) {
   for (const Rectangle& place : shuffled.places)
@@ -65,71 +23,25 @@ void write(const ShuffledPatches& shuffled, pb::ShuffledPatches& out) {
   }
 }
 
-/// Reads one mission; the first thing that is wrong is kept, and reading goes on.
-class Reader {
+void write(const Placement& placement, pb::Placement& out) {
+  std::visit(Overloaded{[&](const PlaceInDisc& disc) {
+                          write(Disc{disc.centre, disc.radius_m}, *out.mutable_disc());
+                        },
+                        [&](const PlaceInRectangle& rectangle) {
+                          write(rectangle.area, *out.mutable_rectangle());
+                        },
+                        [&](const PlaceAnywhere&) { out.mutable_anywhere(); },
+                        [&](const PlaceAt& fixed) {
+                          pb::Placement::Fixed& to = *out.mutable_fixed();
+                          for (const Pose& pose : fixed.poses)
+                            write(pose, *to.add_poses());
+                        }},
+             placement);
+}
+
+/// Reads what of a mission is not the arena.
+class Reader : public ArenaReader {
  public:
-  std::string where;
-  std::string complaint;
-
-  void complain(const std::string& field, const std::string& text) {
-    if (!complaint.empty()) return;
-    where = field;
-    complaint = text;
-  }
-
-  double number(double value, const std::string& field) {
-    if (!std::isfinite(value)) complain(field, "a number that is not finite");
-    return value;
-  }
-
-  Rgb color(const pb::Color& message, const std::string& field) {
-    for (const std::uint32_t channel : {message.r(), message.g(), message.b()}) {
-      if (channel > 255) complain(field, "a colour channel of " + std::to_string(channel));
-    }
-    return {static_cast<std::uint8_t>(message.r()), static_cast<std::uint8_t>(message.g()),
-            static_cast<std::uint8_t>(message.b())};
-  }
-
-  Point point(const pb::Point& message, const std::string& field) {
-    return {number(message.x_m(), field), number(message.y_m(), field)};
-  }
-
-  Rectangle rectangle(const pb::Rectangle& message, const std::string& field) {
-    return {point(message.centre(), field + ".centre"), number(message.width_m(), field + ".width"),
-            number(message.height_m(), field + ".height")};
-  }
-
-  Patch patch(const pb::Patch& message, const std::string& field) {
-    Patch patch;
-    patch.color = color(message.color(), field + ".color");
-    switch (message.shape_case()) {
-      case pb::Patch::kDisc:
-        patch.shape = Disc{point(message.disc().centre(), field + ".centre"),
-                           number(message.disc().radius_m(), field + ".radius")};
-        break;
-      case pb::Patch::kRectangle:
-        patch.shape = rectangle(message.rectangle(), field);
-        break;
-      case pb::Patch::SHAPE_NOT_SET:
-        complain(field, "a patch without a shape");
-        break;
-    }
-    return patch;
-  }
-
-  Arena arena(const pb::Arena& message) {
-    Arena arena;
-    for (const pb::Wall& wall : message.walls()) {
-      arena.walls.push_back(
-          {point(wall.from(), "arena.walls.from"), point(wall.to(), "arena.walls.to")});
-    }
-    arena.floor = color(message.floor(), "arena.floor");
-    for (const pb::Patch& one : message.patches()) {
-      arena.patches.push_back(patch(one, "arena.patches"));
-    }
-    return arena;
-  }
-
   ShuffledPatches shuffled(const pb::ShuffledPatches& message) {
     ShuffledPatches shuffled;
     for (const pb::Rectangle& place : message.places()) {
@@ -139,6 +51,29 @@ class Reader {
       shuffled.shares.push_back({color(share.color(), "shuffled.shares.color"), share.count()});
     }
     return shuffled;
+  }
+
+  Placement placement(const pb::Placement& message) {
+    switch (message.rule_case()) {
+      case pb::Placement::kDisc: {
+        const Disc area = disc(message.disc(), "placement");
+        return PlaceInDisc{area.centre, area.radius_m};
+      }
+      case pb::Placement::kRectangle:
+        return PlaceInRectangle{rectangle(message.rectangle(), "placement")};
+      case pb::Placement::kAnywhere:
+        return PlaceAnywhere{};
+      case pb::Placement::kFixed: {
+        PlaceAt fixed;
+        for (const pb::Pose& one : message.fixed().poses())
+          fixed.poses.push_back(pose(one, "placement.poses"));
+        return fixed;
+      }
+      case pb::Placement::RULE_NOT_SET:
+        complain("placement", "a mission without a placement of its robots");
+        break;
+    }
+    return PlaceAnywhere{};
   }
 
   ScoreRule rule(const pb::ScoreRule& message) {
@@ -158,7 +93,8 @@ void to_message(const Mission& mission, pb::Mission& message) {
   write(mission.shuffled, *message.mutable_shuffled());
   message.set_robots(mission.robots);
   message.set_cycles(mission.cycles);
-  message.set_placement_radius_m(std::get<PlaceInDisc>(mission.placement).radius_m);
+  write(mission.body, *message.mutable_body());
+  write(mission.placement, *message.mutable_placement());
   to_message(mission.rule, *message.mutable_rule());
 }
 
@@ -170,8 +106,8 @@ Expected<Mission> from_message(const pb::Mission& message) {
   mission.shuffled = reader.shuffled(message.shuffled());
   mission.robots = message.robots();
   mission.cycles = message.cycles();
-  mission.placement = PlaceInDisc{
-      .centre = {}, .radius_m = reader.number(message.placement_radius_m(), "placement_radius")};
+  mission.body = reader.outline(message.body(), "body");
+  mission.placement = reader.placement(message.placement());
   mission.rule = reader.rule(message.rule());
   if (mission.robots < 1 || mission.robots > kMaxRobots) {
     reader.complain("robots", std::to_string(mission.robots) + " robots; wanted 1 to 1000");

@@ -1,48 +1,11 @@
 #include "sim/messages/scenario_messages.h"
 
-#include <cmath>
-
 #include "proto/scenario.pb.h"
 #include "sim/messages/mission_messages.h"
+#include "sim/messages/profile_messages.h"
 
 namespace swarmsmith {
 namespace {
-
-void write(const Profile& profile, pb::Profile& out) {
-  out.set_name(profile.name);
-  out.set_proximity_range_m(profile.proximity.range_m);
-  out.set_proximity_sd_m(profile.proximity.sd_m);
-  out.set_ground_color_sd(profile.ground_color.sd);
-  switch (profile.contacts) {
-    case ContactModel::Exact:
-      out.set_contacts(pb::Profile::CONTACTS_EXACT);
-      break;
-    case ContactModel::Box2d:
-      out.set_contacts(pb::Profile::CONTACTS_BOX2D);
-      break;
-  }
-}
-
-Expected<Profile> read(const pb::Profile& message) {
-  Profile profile;
-  profile.name = message.name();
-  profile.proximity.range_m = message.proximity_range_m();
-  profile.proximity.sd_m = message.proximity_sd_m();
-  profile.ground_color.sd = message.ground_color_sd();
-  for (const double number :
-       {profile.proximity.range_m, profile.proximity.sd_m, profile.ground_color.sd}) {
-    if (!std::isfinite(number) || number < 0) {
-      return bad_input("a number of the profile is negative or not finite", "profile");
-    }
-  }
-  if (message.contacts() != pb::Profile::CONTACTS_EXACT &&
-      message.contacts() != pb::Profile::CONTACTS_BOX2D) {
-    return bad_input("a contact model that this program does not know", "profile.contacts");
-  }
-  const bool exact = message.contacts() == pb::Profile::CONTACTS_EXACT;
-  profile.contacts = exact ? ContactModel::Exact : ContactModel::Box2d;
-  return profile;
-}
 
 void write(const WorkerMethod& method, pb::Method& out) {
   out.set_flavour(method.flavour);
@@ -69,7 +32,7 @@ std::string to_bytes(const WorkerScenario& scenario) {
     to_message(mission, *message.add_missions());
   for (const WorkerMethod& method : scenario.methods)
     write(method, *message.add_methods());
-  write(scenario.profile, *message.mutable_profile());
+  to_message(scenario.profile, *message.mutable_profile());
   return message.SerializeAsString();
 }
 
@@ -97,8 +60,8 @@ Expected<WorkerScenario> scenario_from_bytes(std::string_view bytes) {
     }
     scenario.methods.push_back(std::move(*method));
   }
-  Expected<Profile> profile = read(message.profile());
-  if (!profile) return Unexpected(profile.error());
+  Expected<Profile> profile = from_message(message.profile());
+  if (!profile) return bad_input(profile.error().message, "profile." + profile.error().where);
   scenario.profile = std::move(*profile);
   return scenario;
 }

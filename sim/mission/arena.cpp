@@ -1,12 +1,13 @@
 #include "sim/mission/arena.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
 #include <span>
 
-#include "base/math.h"
 #include "base/overloaded.h"
+#include "sim/mission/polygon.h"
 
 namespace swarmsmith {
 namespace {
@@ -14,56 +15,37 @@ namespace {
 constexpr int kSides = 12;
 constexpr double kWallThickness_m = 0.01;
 
-/// The line of points p with normal . p = distance; the normal has length 1 and points outwards.
-struct Line {
-  Point normal;
-  double distance = 0;
-};
-
-Point crossing(const Line& a, const Line& b) {
-  const double det = a.normal.x * b.normal.y - a.normal.y * b.normal.x;
-  return {(a.distance * b.normal.y - b.distance * a.normal.y) / det,
-          (b.distance * a.normal.x - a.distance * b.normal.x) / det};
-}
-
-/// The polygon between lines whose normals turn counter-clockwise.
-std::vector<Wall> walls_between(std::span<const Line> lines) {
-  std::vector<Wall> walls;
-  const std::size_t n = lines.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    walls.push_back(
-        {crossing(lines[(i + n - 1) % n], lines[i]), crossing(lines[i], lines[(i + 1) % n])});
-  }
-  return walls;
-}
-
-/// Unit vector at 30 k degrees, k in 0..11, with exact zeros and halves.
-Point direction_of_side(int k) {
-  const double half_root_three = 0.5 * std::sqrt(3.0);
-  const std::array<double, kSides> cosines = {1,  half_root_three,  0.5,  0, -0.5, -half_root_three,
-                                              -1, -half_root_three, -0.5, 0, 0.5,  half_root_three};
-  const auto at = [&cosines](int i) { return cosines[static_cast<std::size_t>(i % kSides)]; };
-  return {at(k), at(k + 9)};
+bool covers(const Rectangle& box, Point point) {
+  return std::fabs(point.x - box.centre.x) <= 0.5 * box.width_m &&
+         std::fabs(point.y - box.centre.y) <= 0.5 * box.height_m;
 }
 
 }  // namespace
 
-bool contains(const Patch& patch, Point point) {
-  return std::visit(Overloaded{[point](const Disc& disc) {
+std::optional<Rgb> color_at(const Patch& patch, Point point) {
+  return std::visit(Overloaded{[&](const Disc& disc) -> std::optional<Rgb> {
                                  const double dx = point.x - disc.centre.x;
                                  const double dy = point.y - disc.centre.y;
-                                 return dx * dx + dy * dy <= disc.radius_m * disc.radius_m;
+                                 if (dx * dx + dy * dy > disc.radius_m * disc.radius_m) return {};
+                                 return patch.color;
                                },
-                               [point](const Rectangle& box) {
-                                 return std::fabs(point.x - box.centre.x) <= 0.5 * box.width_m &&
-                                        std::fabs(point.y - box.centre.y) <= 0.5 * box.height_m;
+                               [&](const Rectangle& box) -> std::optional<Rgb> {
+                                 if (!covers(box, point)) return {};
+                                 return patch.color;
+                               },
+                               [&](const FloorImage& image) -> std::optional<Rgb> {
+                                 const Rectangle& area = image.area;
+                                 const Point top_left = {area.centre.x - 0.5 * area.width_m,
+                                                         area.centre.y + 0.5 * area.height_m};
+                                 return pixel_at(*image.picture, top_left, area.width_m,
+                                                 area.height_m, point);
                                }},
                     patch.shape);
 }
 
 Rgb floor_at(const Arena& arena, Point point) {
   for (auto patch = arena.patches.rbegin(); patch != arena.patches.rend(); ++patch) {
-    if (contains(*patch, point)) return patch->color;
+    if (const auto color = color_at(*patch, point)) return *color;
   }
   return arena.floor;
 }
@@ -75,29 +57,40 @@ Arena dodecagon_of_the_thesis() {
   std::array<Line, kSides> lines;
   for (int k = 0; k < kSides; ++k) {
     const Point centre = centres[static_cast<std::size_t>(k % 3)];
-    const Point normal = direction_of_side(k % 3);
+    const Point normal = direction_of(k % 3, kSides);
     const double middle = centre.x * normal.x + centre.y * normal.y;
-    lines[static_cast<std::size_t>(k)] = {direction_of_side(k), middle - 0.5 * kWallThickness_m};
+    lines[static_cast<std::size_t>(k)] = {direction_of(k, kSides), middle - 0.5 * kWallThickness_m};
   }
-  return {.walls = walls_between(lines), .patches = {}};
+  return {.walls = walls_around(corners_between(lines)), .patches = {}};
+}
+
+std::vector<Wall> walls_around(std::vector<Point> corners) {
+  // The first corner stays the first, so that a text of them reads back to the same walls.
+  if (signed_area(corners) < 0) std::reverse(corners.begin() + 1, corners.end());
+  std::vector<Wall> walls;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    walls.push_back({corners[i], corners[(i + 1) % corners.size()]});
+  return walls;
 }
 
 Arena regular_dodecagon(double area_m2) {
-  // Twelve triangles of height r and base 2 r tan 15 degrees; tan 15 degrees = 2 - sqrt 3.
-  const double inradius = std::sqrt(area_m2 / (kSides * (2 - std::sqrt(3.0))));
-  std::array<Line, kSides> lines;
-  for (int k = 0; k < kSides; ++k) {
-    lines[static_cast<std::size_t>(k)] = {direction_of_side(k), inradius};
-  }
-  return {.walls = walls_between(lines), .patches = {}};
+  return {.walls = walls_around(regular_polygon(kSides, inradius_of_area(kSides, area_m2))),
+          .patches = {}};
+}
+
+std::vector<Point> corners_of(const Arena& arena) {
+  std::vector<Point> corners;
+  for (const Wall& wall : arena.walls)
+    corners.push_back(wall.from);
+  return corners;
+}
+
+bool is_inside(const Arena& arena, Point point) {
+  return is_within(corners_of(arena), point);
 }
 
 double area_of(const Arena& arena) {
-  double doubled = 0;
-  for (const Wall& wall : arena.walls) {
-    doubled += wall.from.x * wall.to.y - wall.to.x * wall.from.y;
-  }
-  return 0.5 * doubled;
+  return signed_area(corners_of(arena));
 }
 
 }  // namespace swarmsmith

@@ -1,10 +1,12 @@
 #pragma once
 
-#include <string>
+#include <memory>
+#include <optional>
 #include <variant>
 #include <vector>
 
 #include "sim/control/reference_model.h"
+#include "sim/mission/floor_image.h"
 #include "sim/mission/pose.h"
 #include "sim/mission/solid.h"
 
@@ -34,15 +36,27 @@ struct Rectangle {
   friend bool operator==(const Rectangle&, const Rectangle&) = default;
 };
 
+/// A picture that is stretched over a rectangle of the floor; see pixel_at for its borders.
+struct FloorImage {
+  Rectangle area;
+  std::shared_ptr<const Picture> picture;  ///< never null
+
+  /// The same place and the same file.
+  friend bool operator==(const FloorImage& a, const FloorImage& b) {
+    return a.area == b.area && a.picture->png() == b.picture->png();
+  }
+};
+
 /// A coloured part of the floor; borders belong to it.
 struct Patch {
-  std::variant<Disc, Rectangle> shape;
-  Rgb color;
+  std::variant<Disc, Rectangle, FloorImage> shape;
+  Rgb color;  ///< not of an image
 
   friend bool operator==(const Patch&, const Patch&) = default;
 };
 
-bool contains(const Patch& patch, Point point);
+/// The patch's colour at a point, if it covers the point.
+std::optional<Rgb> color_at(const Patch& patch, Point point);
 
 /// Where robots live: walls and floor are data that sensors, contacts and scores all read.
 struct Arena {
@@ -67,8 +81,17 @@ Rgb floor_at(const Arena& arena, Point point);
 /// (rvr-automode facts, section 7; simulator facts, section 3.1).
 Arena dodecagon_of_the_thesis();
 
+/// Walls around a polygon that has no flaw (sim/mission/polygon.h), in either direction.
+std::vector<Wall> walls_around(std::vector<Point> corners);
+
 /// A regular dodecagon of the given area in square metres, a wall's middle on the x axis.
 Arena regular_dodecagon(double area_m2);
+
+/// The corners of the walls, counter-clockwise.
+std::vector<Point> corners_of(const Arena& arena);
+
+/// Whether the point lies within the walls.
+bool is_inside(const Arena& arena, Point point);
 
 /// Area of the polygon of walls, square metres.
 double area_of(const Arena& arena);

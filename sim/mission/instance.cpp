@@ -1,100 +1,108 @@
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
+#include <utility>
 
 #include "base/math.h"
+#include "base/overloaded.h"
 #include "base/rng.h"
+#include "sim/mission/internal/ground.h"
 #include "sim/mission/mission.h"
+#include "sim/mission/polygon.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr double kHalfSide_m = 0.5 * kBodySide_m;
 constexpr int kTriesPerRobot = 1000;
-
-/// A robot's square: centre and unit vector of the heading.
-struct Square {
-  Point centre;
-  double cos = 1;
-  double sin = 0;
-};
-
-Square square_of(const Pose& pose) {
-  const SinCos heading = sin_cos(pose.theta);
-  return {pose.position(), heading.cos, heading.sin};
-}
-
-/// Half the square's extent along the unit vector (x, y).
-double reach_along(const Square& square, double x, double y) {
-  return kHalfSide_m *
-         (std::fabs(square.cos * x + square.sin * y) + std::fabs(square.cos * y - square.sin * x));
-}
-
-/// Separating axis test of two equal squares: they overlap unless one of the four face directions
-/// shows a gap.
-bool overlap(const Square& a, const Square& b) {
-  const double dx = b.centre.x - a.centre.x;
-  const double dy = b.centre.y - a.centre.y;
-  const std::array<Point, 4> axes = {
-      {{a.cos, a.sin}, {-a.sin, a.cos}, {b.cos, b.sin}, {-b.sin, b.cos}}};
-  return std::all_of(axes.begin(), axes.end(), [&](Point axis) {
-    const double distance = std::fabs(dx * axis.x + dy * axis.y);
-    return distance < reach_along(a, axis.x, axis.y) + reach_along(b, axis.x, axis.y);
-  });
-}
-
-/// Whether the square crosses the line of a wall. Enough for convex arenas, where the inside is the
-/// left side of every wall.
-bool crosses(const Square& square, const Wall& wall) {
-  const double along_x = wall.to.x - wall.from.x;
-  const double along_y = wall.to.y - wall.from.y;
-  const double length = hypot(along_x, along_y);
-  const double inward_x = -along_y / length;
-  const double inward_y = along_x / length;
-  const double distance =
-      (square.centre.x - wall.from.x) * inward_x + (square.centre.y - wall.from.y) * inward_y;
-  return distance < reach_along(square, inward_x, inward_y);
-}
 
 /// Law of the program's placement (rvr-automode facts, section 7): of two uniform numbers the
 /// larger one gives the radius, their ratio the angle, which makes the disc's points equally
 /// likely.
-Pose draw_pose(Rng& rng, double radius_m) {
+Point draw_in_disc(Rng& rng, const PlaceInDisc& disc) {
   const double u1 = rng.uniform();
   const double u2 = rng.uniform();
   const double large = std::max(u1, u2);
   const double small = std::min(u1, u2);
   const SinCos direction = sin_cos(large > 0 ? 2 * kPi * small / large : 0);
-  const double radius = radius_m * large;
-  const double heading = wrap_angle(rng.uniform(0, 2 * kPi));
-  return {radius * direction.cos, radius * direction.sin, heading};
+  const double radius = disc.radius_m * large;
+  return {disc.centre.x + radius * direction.cos, disc.centre.y + radius * direction.sin};
+}
+
+Point draw_in_rectangle(Rng& rng, const Rectangle& area) {
+  const double x = rng.uniform() - 0.5;
+  const double y = rng.uniform() - 0.5;
+  return {area.centre.x + x * area.width_m, area.centre.y + y * area.height_m};
+}
+
+/// Points are drawn anew until they lie within the walls: those of the smallest rectangle around
+/// them are no places yet, so that they do not count as tries.
+Point draw_anywhere(Rng& rng, const Arena& arena, const Rectangle& bounds) {
+  Point point;
+  int draws = 0;
+  do {
+    point = draw_in_rectangle(rng, bounds);
+  } while (!is_inside(arena, point) && ++draws < kTriesPerRobot);
+  return point;
+}
+
+/// What is in the way of a robot that a file has placed.
+Unexpected misplaced(const Mission& mission, std::size_t robot, const std::string& by) {
+  return bad_input("robot " + std::to_string(robot + 1) + " at " +
+                       point_text(std::get<PlaceAt>(mission.placement).poses[robot].position()) +
+                       " would stand in " + by + "; place it elsewhere",
+                   mission.name);
+}
+
+/// The poses that the mission gives, each with room.
+Expected<std::vector<Pose>> given_starts(const Mission& mission, Ground ground) {
+  const std::vector<Pose>& poses = std::get<PlaceAt>(mission.placement).poses;
+  if (poses.size() != static_cast<std::size_t>(mission.robots)) {
+    return bad_input("there are poses for " + std::to_string(poses.size()) +
+                         " robots, and the mission has " + std::to_string(mission.robots),
+                     mission.name);
+  }
+  for (std::size_t i = 0; i < poses.size(); ++i) {
+    const Footprint body(mission.body, poses[i]);
+    const std::string by = ground.blocked_by(body);
+    if (!by.empty()) return misplaced(mission, i, by);
+    ground.add(body, "robot " + std::to_string(i + 1));
+  }
+  return poses;
 }
 
 Expected<std::vector<Pose>> draw_starts(const Mission& mission, Rng rng) {
+  Ground ground(mission.arena);
+  for (std::size_t i = 0; i < mission.arena.objects.size(); ++i) {
+    const MovableObject& object = mission.arena.objects[i];
+    ground.add({object.outline, object.start}, "object " + std::to_string(i + 1));
+  }
+  if (std::holds_alternative<PlaceAt>(mission.placement)) {
+    return given_starts(mission, std::move(ground));
+  }
+  const Rectangle bounds = ground.bounds();
+  const auto draw_point = Overloaded{
+      [&](const PlaceInDisc& disc) { return draw_in_disc(rng, disc); },
+      [&](const PlaceInRectangle& rectangle) { return draw_in_rectangle(rng, rectangle.area); },
+      [&](const PlaceAnywhere&) { return draw_anywhere(rng, mission.arena, bounds); },
+      [](const PlaceAt&) { return Point{}; }};
   std::vector<Pose> starts;
-  std::vector<Square> placed;
-  const auto is_free = [&](const Square& square) {
-    const auto& walls = mission.arena.walls;
-    return std::none_of(walls.begin(), walls.end(),
-                        [&](const Wall& wall) { return crosses(square, wall); }) &&
-           std::none_of(placed.begin(), placed.end(),
-                        [&](const Square& other) { return overlap(square, other); });
-  };
-  for (int robot = 0; robot < mission.robots; ++robot) {
-    int tries = 0;
-    Pose pose;
-    do {
-      if (tries++ == kTriesPerRobot) {
+  for (int robot = 1; robot <= mission.robots; ++robot) {
+    for (int tries = 0;; ++tries) {
+      if (tries == kTriesPerRobot) {
         return bad_input("arena too small for " + std::to_string(mission.robots) +
                              " robots: none of " + std::to_string(kTriesPerRobot) +
-                             " places for robot " + std::to_string(robot + 1) + " was free",
+                             " places for robot " + std::to_string(robot) +
+                             " was free; take fewer robots, or place them over a larger part of "
+                             "the arena (training.placement)",
                          mission.name);
       }
-      pose = draw_pose(rng, std::get<PlaceInDisc>(mission.placement).radius_m);
-    } while (!is_free(square_of(pose)));
-    starts.push_back(pose);
-    placed.push_back(square_of(pose));
+      const Point point = std::visit(draw_point, mission.placement);
+      const Pose pose{point.x, point.y, wrap_angle(rng.uniform(0, 2 * kPi))};
+      const Footprint body(mission.body, pose);
+      if (!ground.blocked_by(body).empty()) continue;
+      ground.add(body, "robot " + std::to_string(robot));
+      starts.push_back(pose);
+      break;
+    }
   }
   return starts;
 }

@@ -14,12 +14,8 @@
 namespace swarmsmith {
 namespace {
 
-/// Centres in files are decimal; a place is meant when they differ by less.
-constexpr double kSamePlace_m = 1e-6;
-
-std::string line_place(std::size_t line) {
-  return "line " + std::to_string(line);
-}
+/// Centres in files are rounded; a place is meant when they differ by less.
+constexpr double kSamePlace_m = 1e-3;
 
 /// Cuts at every separator: one part more than there are separators.
 std::vector<std::string_view> split(std::string_view text, char separator) {
@@ -41,7 +37,7 @@ struct Row {
   Unexpected wrong(std::size_t column, std::string_view wanted) const {
     return bad_input("column " + std::string(columns[column]) + " wants " + std::string(wanted) +
                          ", not `" + std::string(cells[column]) + "`",
-                     line_place(line));
+                     std::to_string(line));
   }
 
   template <class Number>
@@ -65,40 +61,49 @@ struct Row {
   }
 };
 
-/// The rows below the header, which must be `columns`. Lines may end in CR LF; the last may be
-/// empty.
+/// Where each wanted column is in the header.
+Expected<std::vector<std::size_t>> places_of(std::span<const std::string_view> columns,
+                                             std::span<const std::string_view> header) {
+  std::vector<std::size_t> places;
+  for (const std::string_view column : columns) {
+    const auto found = std::find(header.begin(), header.end(), column);
+    if (found == header.end()) {
+      std::string wanted;
+      for (const std::string_view one : columns)
+        wanted.append(wanted.empty() ? "" : ", ").append(one);
+      return bad_input("there is no column `" + std::string(column) + "`; wanted are: " + wanted,
+                       "1");
+    }
+    places.push_back(static_cast<std::size_t>(found - header.begin()));
+  }
+  return places;
+}
+
+/// The rows below the header, with the cells of `columns` in their order, whatever it is in the
+/// text; other columns are left out. Lines may end in CR LF; empty ones are skipped.
 Expected<std::vector<Row>> rows_of(std::string_view text,
                                    std::span<const std::string_view> columns) {
   std::vector<std::string_view> lines = split(text, '\n');
-  if (lines.back().empty()) lines.pop_back();
-  std::string header;
-  for (const std::string_view column : columns) {
-    header.append(header.empty() ? "" : ",").append(column);
+  for (std::string_view& line : lines) {
+    if (line.ends_with('\r')) line.remove_suffix(1);
   }
+  const std::vector<std::string_view> header = split(lines[0], ',');
+  const auto places = places_of(columns, header);
+  if (!places) return Unexpected(places.error());
   std::vector<Row> rows;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (lines[i].ends_with('\r')) lines[i].remove_suffix(1);
-    if (i == 0) continue;
-    rows.push_back({columns, split(lines[i], ','), i + 1});
-    if (rows.back().cells.size() != columns.size()) {
-      return bad_input("expected " + std::to_string(columns.size()) + " cells (" + header +
-                           "), found " + std::to_string(rows.back().cells.size()),
-                       line_place(i + 1));
+  for (std::size_t i = 1; i < lines.size(); ++i) {
+    if (lines[i].empty()) continue;
+    const std::vector<std::string_view> cells = split(lines[i], ',');
+    if (cells.size() != header.size()) {
+      return bad_input("expected " + std::to_string(header.size()) +
+                           " cells as in the header, found " + std::to_string(cells.size()),
+                       std::to_string(i + 1));
     }
-  }
-  if (lines.empty() || lines[0] != header) {
-    return bad_input("expected the header `" + header + "`", line_place(1));
+    rows.push_back({columns, {}, i + 1});
+    for (const std::size_t place : *places)
+      rows.back().cells.push_back(cells[place]);
   }
   return rows;
-}
-
-/// Whether the point lies inside of a convex arena.
-bool inside(const Arena& arena, Point point) {
-  return std::all_of(arena.walls.begin(), arena.walls.end(), [point](const Wall& wall) {
-    return (wall.to.x - wall.from.x) * (point.y - wall.from.y) -
-               (wall.to.y - wall.from.y) * (point.x - wall.from.x) >
-           0;
-  });
 }
 
 Unexpected no_row(std::string_view what, std::int64_t seed) {
@@ -118,7 +123,7 @@ Expected<std::vector<Pose>> explicit_starts(const Mission& mission, std::int64_t
                      where);
   }
   for (std::size_t i = 0; i < starts.size(); ++i) {
-    if (!inside(mission.arena, starts[i].position())) {
+    if (!is_inside(mission.arena, starts[i].position())) {
       return bad_input("robot " + std::to_string(i) + " stands outside of the arena", where);
     }
   }
@@ -142,7 +147,9 @@ Expected<std::vector<Patch>> explicit_patches(const Mission& mission, std::int64
                            ", " + std::to_string(patch.centre.y) + ")",
                        where);
     }
-    patches.push_back({*place, patch.color});
+    Patch& laid = patches.emplace_back();
+    laid.shape = *place;
+    laid.color = patch.color;
     free.erase(place);
   }
   return patches;

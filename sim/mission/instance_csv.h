@@ -25,8 +25,8 @@ struct PatchPlacement {
 using StartsBySeed = std::map<std::int64_t, std::vector<Pose>>;
 using PatchesBySeed = std::map<std::int64_t, std::vector<PatchPlacement>>;
 
-/// Reads `seed,robot,x,y,theta` (metres, radians), one row a robot, robots of a seed counted from 0
-/// in order. `where` of an error is "line 12".
+/// Reads `seed,robot,x,y,theta` (metres, radians), columns in any order, one row a robot, robots of
+/// a seed counted from 0 in order. `where` of an error is the line, from 1.
 Expected<StartsBySeed> parse_starts_csv(std::string_view text);
 
 /// Reads `seed,x,y,color` (metres; colours as in sim/mission/colors.h), one row a patch.
@@ -40,7 +40,7 @@ struct ExplicitInstances {
 
 /// Like `instance_of(mission, seed)`, with explicit starts and patches where given. A seed without
 /// a row, another number of robots, a start outside of the walls, and a patch where the mission has
-/// no place for one, or a second one, are errors.
+/// no place for one (to the millimetre), or a second one, are errors.
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed,
                                const ExplicitInstances& given);
 

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -88,7 +89,13 @@ struct Instance {
 /// of the thesis' program. An unknown name is an error that lists the known ones.
 Expected<Mission> built_in_mission(std::string_view name);
 
-/// Placement and patch colours of a seed. Fails when the robots do not fit into the arena.
+/// What is wrong with the obstacles and objects of an arena whose walls are right, as a sentence:
+/// an obstacle outside of the walls (it may reach into them, and into other obstacles), an object
+/// without room. Nothing when all is well.
+std::optional<std::string> misplaced_solid(const Arena& arena);
+
+/// Placement and patch colours of a seed. Fails when the robots do not fit into the arena, or those
+/// that have fixed places do not fit there.
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed);
 
 /// The arena with the instance's patches on its floor.

@@ -10,6 +10,7 @@
 #include "coordinator/service.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 #include "sim/messages/scenario_messages.h"
 #include "tests/support/memory_store.h"
 

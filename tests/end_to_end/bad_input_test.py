@@ -102,6 +102,43 @@ class CampaignFile(BadInput):
                 self.assert_refused(2, sentence, "run", "campaign.toml", "--store", "no.db")
         self.assertFalse((self.folder / "no.db").exists())
 
+    def test_missions_and_profiles_in_files_are_told_by_their_own_place(self):
+        mission = self.folder / "mine.toml"
+        profile = self.folder / "my_rvr.toml"
+        good = 'format = 1\npreset = "aggregation"\n'
+        missions = [
+            ('[arena]\nshape = "polygon"\nwalls = [[0, 0, 1, 0], [1, 0, 0, 1], [0, 1, 0, 0.5]]\n',
+             "mine.toml:5:9: the walls are not closed: wall 3 ends at (0, 0.5)"),
+            ('[arena]\nshape = "polygon"\ncorners = [[0, 0], [2, 2], [2, 0], [0, 2]]\n',
+             "mine.toml:5:11: these walls make no arena: side 1"),
+            ('[arena]\nshape = "square"\nside = nan\n', "mine.toml:5:8: `side` must be from"),
+            ('[arena]\nshape = "square"\nside = -3\n', "mine.toml:5:8: `side` must be from"),
+            ('robots = 90\n', "mine.toml:3:10: mission \"mine\": arena too small for 90 robots"),
+            ('arena.spots = [{ shape = "image", x = 0, y = 0, width = 1, height = 1, '
+             'file = "my_rvr.toml" }]\n', "my_rvr.toml: this is no PNG image"),
+            ('arena.spots = [{ shape = "image", x = 0, y = 0, width = 1, height = 1, '
+             'file = "none.png" }]\n', "none.png: there is no such image file"),
+        ]
+        profile.write_text('format = 1\nbase = "rvr"\n')
+        evaluate = ["evaluate", *EXPLORE, "--mission", mission.name, "--profile", profile.name]
+        for keys, sentence in missions:
+            with self.subTest(sentence):
+                mission.write_text(good + keys)
+                self.assert_refused(2, sentence, *evaluate)
+                self.changed(('name = "aggregation"', 'preset = "mine.toml"'))
+                self.assert_refused(2, sentence, "check", "campaign.toml")
+        mission.write_text(good)
+        for keys, sentence in [
+                ('[proximity]\nsd = -1\n', "my_rvr.toml:4:6: `sd` must be from 0 to 1, this is -1"),
+                ('[timing]\njiter = 0\n', 'my_rvr.toml:4:1: [timing] has no key `jiter` (did you'),
+                ('[timing]\ndelays = [{ time = "20 ms", probability = 0.5 }]\n',
+                 "my_rvr.toml:4:10: the probabilities of `delays` must sum to 1")]:
+            with self.subTest(sentence):
+                profile.write_text('format = 1\nbase = "rvr"\n' + keys)
+                self.assert_refused(2, sentence, *evaluate)
+                self.changed(('profile = "argos3"', 'profile = "my_rvr.toml"'))
+                self.assert_refused(2, sentence, "check", "campaign.toml")
+
     def test_everything_wrong_is_told_at_once_in_the_order_of_the_file(self):
         self.changed(("seed = 7", "seed = 1.5"), ('"aggregation"', '"aggregation"\nrobots = 0'),
                      ("max_experiments", "fist_test = 5\nmax_experiments"),
@@ -525,12 +562,12 @@ class Evaluate(BadInput):
 
     def test_tables_that_are_wrong(self):
         good = ["1,0,0,0,0", "1,1,0.5,0,0", "1,2,0,0.5,0"]
-        cases = [(good, "there are no 3 starting poses for seed 2"),
-                 (["1,0,abc,0,0"], 'starts.csv:2: "abc" is no number'),
-                 (["1,0,nan,0,0"], 'starts.csv:2: "nan" is no number'),
-                 (["1,0,0"], "starts.csv:2: the line is too short"),
-                 (["1,3,0,0,0"], "starts.csv:2: robots of a seed are numbered"),
-                 (["1,0,9,9,0"] + good[1:], "seed 1: robot 0 starts outside of the arena")]
+        cases = [(good, "the starts have no row for seed 2"),
+                 (["1,0,abc,0,0"], 'starts.csv:2: column x wants a number, not `abc`'),
+                 (["1,0,nan,0,0"], 'starts.csv:2: column x wants a finite number, not `nan`'),
+                 (["1,0,0"], "starts.csv:2: expected 5 cells as in the header, found 3"),
+                 (["1,3,0,0,0"], "starts.csv:2: column robot wants robot 0 of this seed"),
+                 (["1,0,9,9,0"] + good[1:], "seed 1: robot 0 stands outside of the arena")]
         for lines, sentence in cases:
             with self.subTest(sentence):
                 table = self.folder / "starts.csv"
@@ -540,8 +577,8 @@ class Evaluate(BadInput):
         table.write_text("")
         self.refused("starts.csv:1: there is no column `seed`", *EXPLORE, "--mission",
                      "aggregation", "--starts", table)
-        for line, sentence in (("1,5,5,red", "no place for a patch there"),
-                               ("1,5,5,rd", 'there is no colour "rd"')):
+        for line, sentence in (("1,5,5,red", "there is no free place for a patch at (5"),
+                               ("1,5,5,rd", "column color wants the name of a colour, not `rd`")):
             table.write_text("seed,x,y,color\n" + line + "\n")
             self.refused(sentence, *EXPLORE, "--mission", "color_selection", "--patches", table)
 

@@ -50,6 +50,10 @@ TEST(Wire, NamesThePartThatIsWrong) {
   EXPECT_EQ(fault_of(""), "length");
   EXPECT_EQ(fault_of(fine.substr(0, 7)), "length");
   EXPECT_EQ(fault_of(std::string(kMaxFrameBytes + 1, 'x')), "length");
+  google::protobuf::Arena arena;
+  EXPECT_EQ(decode_to_worker(std::string(kMaxFrameToWorkerBytes + 1, 'x'), arena).error().where,
+            "length");
+  EXPECT_EQ(decode_to_worker(std::string(kMaxFrameBytes + 1, 'x'), arena).error().where, "magic");
   EXPECT_EQ(fault_of("GET / HTTP/1.1"), "magic");
   EXPECT_EQ(fault_of(fine.substr(0, fine.size() - 1)), "protobuf");
 }

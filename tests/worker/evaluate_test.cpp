@@ -5,6 +5,7 @@
 #include "sim/control/machine_text.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 #include "sim/messages/scenario_messages.h"
 
 namespace swarmsmith {

@@ -4,9 +4,9 @@
 #include <optional>
 
 #include "base/suggestion.h"
-#include "coordinator/campaign/internal/read_mission.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
+#include "sim/files/mission_file.h"
 
 namespace swarmsmith {
 namespace {

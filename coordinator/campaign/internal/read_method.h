@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "coordinator/campaign/campaign.h"
-#include "coordinator/campaign/internal/table_reader.h"
+#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
 

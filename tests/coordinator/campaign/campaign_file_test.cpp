@@ -2,7 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <fstream>
+
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -118,6 +121,46 @@ TEST(CampaignFile, TakesAPresetAndChangesIt) {
   wanted.name = "long";
   wanted.cycles = 6000;
   EXPECT_EQ(campaign.missions[0].mission, wanted);
+}
+
+TEST(CampaignFile, TakesMissionsAndProfilesFromFilesBesideIt) {
+  const TemporaryFolder folder;
+  const auto write = [&](const char* name, const std::string& text) {
+    std::ofstream(folder / name) << text;
+  };
+  write("shelter.toml",
+        "format = 1\nrobots = 2\n[score]\nkind = \"robots_on\"\ncolor = \"white\"\n"
+        "[instances]\ntest = { count = 7 }\n");
+  write("mine.toml", "format = 1\nbase = \"argos3\"\n[proximity]\nsd = 0.02\n");
+  write("campaign.toml",
+        FileText{.mission = "preset = \"shelter.toml\"\n[[mission]]\nname = \"night\"\n"
+                            "preset = \"shelter.toml\"\nrobots = 5\n",
+                 .rest = "[simulator]\nprofile = \"mine.toml\"\n"}
+            .text());
+  const auto campaign = read_campaign(folder / "campaign.toml");
+  ASSERT_TRUE(campaign) << to_string(campaign.error().front());
+  ASSERT_THAT(campaign->missions, SizeIs(2));
+  EXPECT_EQ(campaign->missions[0].mission.name, "shelter");
+  EXPECT_EQ(campaign->missions[0].test_count, 7);
+  EXPECT_EQ(campaign->missions[1].mission.name, "night");
+  EXPECT_EQ(campaign->missions[1].mission.robots, 5);
+  EXPECT_EQ(campaign->profile, (Profile{.name = "mine", .proximity = {.sd_m = 0.02}}));
+}
+
+TEST(CampaignFile, TellsWhatIsWrongInFilesThatItNames) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "m.toml") << "format = 1\nrobots = 0\npreset = \"aggregation\"\n";
+  std::ofstream(folder / "rvr.toml") << "format = 1\n[proximity]\nsd = 0.5\n";
+  std::ofstream(folder / "c.toml") << FileText{.mission = "preset = \"m.toml\"\n",
+                                               .rest = "[simulator]\nprofile = \"rvr.toml\"\n"}
+                                          .text();
+  const auto campaign = read_campaign(folder / "c.toml");
+  ASSERT_FALSE(campaign);
+  ASSERT_THAT(campaign.error(), SizeIs(2));
+  EXPECT_EQ(campaign.error()[0].where, (folder / "m.toml").string() + ":2:10");
+  EXPECT_EQ(campaign.error()[1].where, (folder / "rvr.toml").string());
+  EXPECT_THAT(campaign.error()[1].message,
+              testing::HasSubstr("`rvr` is built in with other values"));
 }
 
 TEST(CampaignFile, OrdersRewardsByColourWhateverTheOrderAndSpelling) {

@@ -6,6 +6,8 @@
 
 #include "coordinator/campaign/campaign_rows.h"
 #include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/sim/every_noise.h"
+#include "tests/sim/random_mission.h"
 
 namespace swarmsmith {
 namespace {
@@ -51,6 +53,18 @@ TEST(NormalisedText, OfEachBuiltInMissionReadsBackToIt) {
     const std::string text = normalised_text(campaign);
     EXPECT_EQ(parsed(text).missions, campaign.missions) << text;
   }
+}
+
+TEST(NormalisedText, OfMissionsAndProfilesWithEverythingReadsBackToThem) {
+  Campaign campaign = parsed(FileText{}.text());
+  campaign.missions.clear();
+  for (std::uint64_t seed = 1; seed <= 5; ++seed)
+    campaign.missions.push_back({.mission = random_mission(seed)});
+  campaign.profile = every_noise();
+  const Campaign again = parsed(normalised_text(campaign));
+  EXPECT_EQ(again.missions, campaign.missions);
+  EXPECT_EQ(again.profile, campaign.profile);
+  EXPECT_EQ(campaign_digest(again), campaign_digest(campaign));
 }
 
 std::string digest_of(const FileText& file) {
@@ -99,6 +113,18 @@ TEST(CampaignDigest, CoversEverythingThatDecides) {
       {.race = "max_experiments = 2000\nsoft_restart = false\n"},
       {.race = "max_experiments = 2000\ndigits = 3\n"},
       {.rest = "[simulator]\nprofile = \"argos3\"\n"},
+      {.rest = "[simulator.profile]\nname = \"rvr\"\nbase = \"rvr\"\nlidar.half_width = 0.02\n"},
+      {.rest = "[simulator.profile]\nname = \"rvr\"\nbase = \"rvr\"\ntiming.jitter = 0.01\n"},
+      {.mission = "name = \"aggregation\"\nrobot = { shape = \"circle\", diameter = 0.3 }\n"},
+      {.mission = "name = \"aggregation\"\narena = { shape = \"square\", side = 3 }\n"},
+      {.mission = "name = \"aggregation\"\narena = { wall_height = 0.3 }\n"},
+      {.mission = "name = \"aggregation\"\narena = { lights = [ { x = 0, y = 0 } ] }\n"},
+      {.mission = "name = \"aggregation\"\narena = { obstacles = [ { shape = \"circle\", x = 0, "
+                  "y = 0, diameter = 0.3 } ] }\n"},
+      {.mission = "name = \"aggregation\"\narena = { objects = [ { shape = \"circle\", x = 0, y "
+                  "= 0, diameter = 0.3, mass = 1, friction = 1 } ] }\n"},
+      {.mission = "name = \"aggregation\"\ninstances = { training = { radius = 1 } }\n"},
+      {.mission = "name = \"aggregation\"\ninstances.training.placement = \"anywhere\"\n"},
   };
   std::set<std::string> digests;
   for (const FileText& file : files)

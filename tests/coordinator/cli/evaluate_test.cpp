@@ -7,6 +7,7 @@
 #include "coordinator/cli/seeds.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 #include "tests/coordinator/cli/cli_support.h"
 
 namespace swarmsmith::cli {
@@ -101,7 +102,7 @@ TEST(Evaluate, TakesStartsFromATable) {
   const Ran missing = run(seeds);
   EXPECT_EQ(missing.code, 2);
   EXPECT_EQ(missing.out, "");
-  EXPECT_THAT(missing.err, HasSubstr("--starts: there are no 3 starting poses for seed 6"));
+  EXPECT_THAT(missing.err, HasSubstr("the starts have no row for seed 6"));
 }
 
 TEST(Evaluate, TakesPatchesFromATable) {
@@ -120,7 +121,37 @@ TEST(Evaluate, TakesPatchesFromATable) {
   write_file(folder / "patches.csv", "seed,x,y,color\n1,0.7,0.25,yellow\n");
   const Ran ran = run(command);
   EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("patches.csv:2: mission color_selection has no place"));
+  EXPECT_THAT(ran.err, HasSubstr("patches, seed 1: there is no free place for a patch at (0.7"));
+}
+
+TEST(Evaluate, TakesMissionAndProfileFromFiles) {
+  const TemporaryFolder folder;
+  write_file(folder / "mine.toml", "format = 1\npreset = \"grid_exploration\"\n");
+  ASSERT_EQ(run({"profile", "rvr", "-o", (folder / "my_rvr.toml").string()}).code, 0);
+  const std::vector<std::string> command = {"evaluate",  kExploreText,
+                                            "--mission", (folder / "mine.toml").string(),
+                                            "--profile", (folder / "my_rvr.toml").string(),
+                                            "--seeds",   "4",
+                                            "--json"};
+  const Ran ran = run(command);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(lines_of(ran.out)[0]["score"], score_of("grid_exploration", 4));
+  write_file(folder / "mine.toml", "format = 1\nrobots = 0\nfloor = 1\n");
+  const Ran wrong = run(command);
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("mine.toml:2:10: `robots` must be from 1 to 100"));
+  EXPECT_THAT(wrong.err, HasSubstr("mine.toml:3:1: the file has no key `floor`"));
+}
+
+TEST(Profiles, AreListedPrintedAndWrittenButNotOver) {
+  EXPECT_EQ(run({"profile"}).out, "rvr\nargos3\npseudo-reality\n");
+  EXPECT_THAT(run({"profile", "pseudo-reality"}).out, HasSubstr("jitter = 0.05"));
+  EXPECT_EQ(json::parse(run({"profile", "--json"}).out)["profiles"].size(), 3U);
+  const TemporaryFolder folder;
+  const std::string file = (folder / "p.toml").string();
+  EXPECT_EQ(run({"profile", "rvr", "-o", file}).code, 0);
+  EXPECT_EQ(run({"profile", "rvr", "-o", file}).code, 2);
+  EXPECT_THAT(run({"profile", "rvx"}).err, HasSubstr("did you mean \"rvr\"?"));
 }
 
 TEST(Evaluate, WritesARunDown) {

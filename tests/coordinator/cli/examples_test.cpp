@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include "sim/files/mission_file.h"
+#include "sim/mission/polygon.h"
 #include "tests/coordinator/cli/cli_support.h"
 
 namespace swarmsmith::cli {
@@ -31,6 +33,48 @@ TEST(Examples, OfTheThesisAreThirtyDesignsOfAHundredThousandExperiments) {
 TEST(Examples, OfAMissionOfOnesOwnUseEveryKindOfScore) {
   const Campaign campaign = example("own_missions");
   EXPECT_EQ(campaign.missions.size(), 3U);
+}
+
+/// A mission of examples/missions, which three machines have run.
+Mission example_mission(const std::string& name) {
+  const auto file =
+      std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "examples" / "missions" / (name + ".toml");
+  auto entry = read_mission_file(file);
+  if (!entry) {
+    ADD_FAILURE() << to_string(entry.error().front());
+    return {};
+  }
+  const Ran ran = run({"evaluate", kExploreText, "--mission", file.string(), "--seeds", "1-3"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  return std::move(entry->mission);
+}
+
+TEST(Examples, OfPhototaxisHaveALightBeyondTheWall) {
+  const Mission mission = example_mission("phototaxis");
+  ASSERT_EQ(mission.arena.lights.size(), 1U);
+  EXPECT_FALSE(
+      is_inside(mission.arena, {mission.arena.lights[0].x_m, mission.arena.lights[0].y_m}));
+}
+
+TEST(Examples, OfBoxPushingHaveABoxThatThreeRobotsMoveAndTwoDoNot) {
+  constexpr double kPush_N = 1.5;  // of a robot: rvr-automode facts, section 2
+  const Mission mission = example_mission("box_pushing");
+  EXPECT_EQ(mission.robots, 3);
+  ASSERT_EQ(mission.arena.objects.size(), 1U);
+  EXPECT_GT(mission.arena.objects[0].friction_N, 2 * kPush_N);
+  EXPECT_LT(mission.arena.objects[0].friction_N, 3 * kPush_N);
+}
+
+TEST(Examples, OfAMazeHaveWallsThatAreNotConvexAndObstacles) {
+  const Mission mission = example_mission("maze");
+  EXPECT_FALSE(is_convex(corners_of(mission.arena)));
+  EXPECT_EQ(mission.arena.obstacles.size(), 3U);
+}
+
+TEST(Examples, OfAnImageFloorHaveThePicturesColours) {
+  const Mission mission = example_mission("image_floor");
+  EXPECT_EQ(floor_at(mission.arena, {0, 0.75}), (Rgb{255, 255, 0}));
+  EXPECT_EQ(floor_at(mission.arena, {0, 0.3}), (Rgb{127, 127, 127}));
 }
 
 }  // namespace

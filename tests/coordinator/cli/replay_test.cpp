@@ -5,6 +5,7 @@
 #include "coordinator/cli/thing_id.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 #include "sim/mission/trajectory_csv.h"
 #include "tests/coordinator/cli/cli_support.h"
 

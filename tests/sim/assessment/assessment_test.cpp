@@ -1,4 +1,5 @@
 #include "sim/assessment/assessment.h"
+#include "sim/files/profile_file.h"
 
 #include <gmock/gmock.h>
 

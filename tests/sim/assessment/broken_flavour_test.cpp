@@ -1,6 +1,7 @@
 #include <gmock/gmock.h>
 
 #include "sim/assessment/assessment.h"
+#include "sim/files/profile_file.h"
 
 // A flavour with one wrong number fails in the module that uses it, and in no other.
 

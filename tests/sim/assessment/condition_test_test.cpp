@@ -5,6 +5,7 @@
 #include <array>
 
 #include "sim/control/readings.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith::assessment {
 namespace {

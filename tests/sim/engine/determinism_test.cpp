@@ -9,6 +9,7 @@
 #include "base/hash.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 
 // One hash of the whole trajectory per mission, flavour and profile, the same in every build type,
 // compiler and thread. Another value means other scores for every recorded campaign: when that is

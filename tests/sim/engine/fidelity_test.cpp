@@ -21,8 +21,8 @@ INSTANTIATE_TEST_SUITE_P(All, Fidelity, testing::ValuesIn(kReferenceMissions),
 
 TEST_P(Fidelity, TheTwentyMachinesScoreAsInTheOriginal) {
   const bool color = std::string_view(GetParam().theirs) == "color";
-  const MissionComparison result = compare_reference_machines(GetParam(), ContactModel::Exact,
-                                                              color ? kColorStreams : kStreams);
+  const MissionComparison result =
+      compare_reference_machines(GetParam(), ContactModel::Exact, color ? kColorStreams : kStreams);
   for (const MachineComparison& machine : result.machines) {
     if (machine.scores.holds_zero()) continue;
     std::printf("%s: %+.3f +- %.3f\n", machine.id.c_str(), machine.scores.difference,

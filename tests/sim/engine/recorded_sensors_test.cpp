@@ -9,6 +9,7 @@
 #include "sim/control/machine_text.h"
 #include "sim/engine/internal/robot_senses.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith {
 namespace {

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "sim/control/machine_text.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith {
 

@@ -2,6 +2,7 @@
 
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
 #include "sim/mission/trajectory.h"
 
 namespace swarmsmith {

@@ -14,6 +14,7 @@
 #include "sim/control/machine_text.h"
 #include "sim/engine/internal/body.h"
 #include "sim/engine/internal/walls.h"
+#include "sim/files/profile_file.h"
 #include "sim/mission/trajectory.h"
 #include "tests/sim/engine/reference_data.h"
 

@@ -4,6 +4,8 @@
 #include <functional>
 #include <limits>
 
+#include "tests/sim/random_mission.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -46,6 +48,13 @@ TEST(MissionMessages, GiveBackEveryFieldAndRule) {
   EXPECT_EQ(from_message(message_of(mission)), mission);
 }
 
+TEST(MissionMessages, GiveBackMissionsWithEverythingBitForBit) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const Mission mission = random_mission(seed);
+    EXPECT_EQ(from_message(message_of(mission)), mission) << seed;
+  }
+}
+
 TEST(MissionMessages, SayWhatIsWrongAndWhere) {
   const auto complaint = [](const std::function<void(pb::Mission&)>& spoil) {
     pb::Mission message = message_of(some_mission());
@@ -62,7 +71,19 @@ TEST(MissionMessages, SayWhatIsWrongAndWhere) {
                   std::numeric_limits<double>::quiet_NaN());
             }),
             "arena.walls.to");
+  EXPECT_EQ(complaint([](auto& m) { m.mutable_arena()->mutable_walls()->DeleteSubrange(2, 10); }),
+            "arena.walls");
   EXPECT_EQ(complaint([](auto& m) { m.clear_rule(); }), "rule");
+  EXPECT_EQ(complaint([](auto& m) { m.clear_placement(); }), "placement");
+  EXPECT_EQ(complaint([](auto& m) { m.clear_body(); }), "body");
+  EXPECT_EQ(complaint([](auto& m) { m.mutable_body()->set_circle_radius_m(0); }), "body.radius");
+  EXPECT_EQ(complaint([](auto& m) { m.mutable_body()->mutable_polygon(); }), "body.corners");
+  EXPECT_EQ(complaint([](auto& m) {
+              m.mutable_arena()->mutable_patches(0)->mutable_image()->set_png("no");
+            }),
+            "arena.patches.image");
+  EXPECT_EQ(complaint([](auto& m) { m.mutable_arena()->add_objects()->set_mass_kg(-1); }),
+            "arena.objects");
   EXPECT_EQ(complaint([](auto& m) { m.set_robots(0); }), "robots");
   EXPECT_EQ(complaint([](auto& m) { m.set_cycles(2'000'000); }), "cycles");
 }

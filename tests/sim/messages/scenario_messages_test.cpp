@@ -2,7 +2,13 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <functional>
+
 #include "proto/scenario.pb.h"
+#include "sim/files/profile_file.h"
+#include "sim/messages/profile_messages.h"
+#include "tests/sim/every_noise.h"
 
 namespace swarmsmith {
 namespace {
@@ -18,7 +24,7 @@ WorkerScenario some_scenario() {
 TEST(ScenarioMessages, GiveBackTheScenario) {
   WorkerScenario scenario = some_scenario();
   EXPECT_EQ(scenario_from_bytes(to_bytes(scenario)), scenario);
-  scenario.profile.contacts = ContactModel::Box2d;
+  scenario.profile = every_noise();
   EXPECT_EQ(scenario_from_bytes(to_bytes(scenario)), scenario);
 }
 
@@ -49,9 +55,31 @@ TEST(ScenarioMessages, SayWhichMissionIsWrong) {
 
 TEST(ScenarioMessages, RefuseBytesAndProfilesThatMakeNoSense) {
   EXPECT_FALSE(scenario_from_bytes("\xff\xff\xff"));
-  WorkerScenario scenario = some_scenario();
-  scenario.profile.proximity.sd_m = -1;
-  EXPECT_FALSE(scenario_from_bytes(to_bytes(scenario)));
+  const auto complaint = [](const std::function<void(Profile&)>& spoil) {
+    WorkerScenario scenario = some_scenario();
+    spoil(scenario.profile);
+    const auto read = scenario_from_bytes(to_bytes(scenario));
+    return read ? "" : read.error().where;
+  };
+  EXPECT_EQ(complaint([](Profile&) {}), "");
+  EXPECT_EQ(complaint([](Profile& p) { p.proximity.sd_m = -1; }), "profile.proximity.sd");
+  EXPECT_EQ(complaint([](Profile& p) { p.neighbours.miss_rate = std::nan(""); }),
+            "profile.neighbours.miss_rate");
+  EXPECT_EQ(complaint([](Profile& p) { p.timing.delays = {{10, 0.5}}; }), "profile.timing.delays");
+  EXPECT_EQ(complaint([](Profile& p) { p.timing.least_period = 2; }), "profile.timing.period");
+  EXPECT_EQ(complaint([](Profile& p) { p.tracking.tag.y = 7; }), "profile.tracking.tag");
+}
+
+TEST(ProfileMessages, NeedEveryFieldAndNoOther) {
+  pb::Profile message;
+  to_message(every_noise(), message);
+  EXPECT_EQ(from_message(message), every_noise());
+  pb::Profile less = message;
+  less.mutable_fields()->RemoveLast();
+  EXPECT_FALSE(from_message(less));
+  message.add_fields()->set_key("proximity.more");
+  ASSERT_FALSE(from_message(message));
+  EXPECT_EQ(from_message(message).error().where, "proximity.more");
 }
 
 }  // namespace

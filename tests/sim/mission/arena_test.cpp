@@ -59,14 +59,14 @@ TEST(Dodecagon, ByAreaIsRegularAndHasThatArea) {
 
 TEST(Patch, ItsBorderBelongsToIt) {
   const Patch disc{Disc{{0, 0}, 0.5}, {0, 0, 0}};
-  EXPECT_TRUE(contains(disc, {0.5, 0}));
-  EXPECT_TRUE(contains(disc, {0.3, -0.4}));
-  EXPECT_FALSE(contains(disc, {0.5000001, 0}));
+  EXPECT_TRUE(color_at(disc, {0.5, 0}));
+  EXPECT_TRUE(color_at(disc, {0.3, -0.4}));
+  EXPECT_FALSE(color_at(disc, {0.5000001, 0}));
   const Patch box{Rectangle{{1, 1}, 0.5, 0.25}, {0, 0, 0}};
-  EXPECT_TRUE(contains(box, {1.25, 1.125}));
-  EXPECT_TRUE(contains(box, {0.75, 0.875}));
-  EXPECT_FALSE(contains(box, {1.2500001, 1}));
-  EXPECT_FALSE(contains(box, {1, 1.1250001}));
+  EXPECT_TRUE(color_at(box, {1.25, 1.125}));
+  EXPECT_TRUE(color_at(box, {0.75, 0.875}));
+  EXPECT_FALSE(color_at(box, {1.2500001, 1}));
+  EXPECT_FALSE(color_at(box, {1, 1.1250001}));
 }
 
 TEST(Floor, LaterPatchesLieOnTop) {

@@ -34,22 +34,24 @@ TEST(StartsCsv, AcceptsLineEndsOfBothKinds) {
 }
 
 TEST(StartsCsv, ErrorsNameTheLine) {
-  EXPECT_EQ(starts_error(""), "line 1: expected the header `seed,robot,x,y,theta`");
-  EXPECT_EQ(starts_error("seed,x,y\n"), "line 1: expected the header `seed,robot,x,y,theta`");
+  EXPECT_EQ(starts_error(""), "1: there is no column `seed`; wanted are: seed, robot, x, y, theta");
+  EXPECT_EQ(starts_error("seed,x,y\n"),
+            "1: there is no column `robot`; wanted are: seed, robot, x, y, theta");
   const std::string header = "seed,robot,x,y,theta\n";
-  EXPECT_EQ(starts_error(header + "1,0,0,0\n"),
-            "line 2: expected 5 cells (seed,robot,x,y,theta), found 4");
-  EXPECT_EQ(starts_error(header + "1,0,0,0,0\n\n1,1,0,0,0\n"),
-            "line 3: expected 5 cells (seed,robot,x,y,theta), found 1");
+  EXPECT_EQ(starts_error(header + "1,0,0,0\n"), "2: expected 5 cells as in the header, found 4");
   EXPECT_EQ(starts_error(header + "1,0,0,0,0\n1,2,0,0,0\n"),
-            "line 3: column robot wants robot 1 of this seed, not `2`");
+            "3: column robot wants robot 1 of this seed, not `2`");
   EXPECT_EQ(starts_error(header + "1,0,0,0,0\n1,0,0,0,0\n"),
-            "line 3: column robot wants robot 1 of this seed, not `0`");
-  EXPECT_EQ(starts_error(header + "x,0,0,0,0\n"), "line 2: column seed wants an integer, not `x`");
-  EXPECT_EQ(starts_error(header + "1,0,0.1m,0,0\n"), "line 2: column x wants a number, not `0.1m`");
-  EXPECT_EQ(starts_error(header + "1,0,0,inf,0\n"),
-            "line 2: column y wants a finite number, not `inf`");
-  EXPECT_EQ(starts_error(header + "1,0,0,0, 0\n"), "line 2: column theta wants a number, not ` 0`");
+            "3: column robot wants robot 1 of this seed, not `0`");
+  EXPECT_EQ(starts_error(header + "x,0,0,0,0\n"), "2: column seed wants an integer, not `x`");
+  EXPECT_EQ(starts_error(header + "1,0,0.1m,0,0\n"), "2: column x wants a number, not `0.1m`");
+  EXPECT_EQ(starts_error(header + "1,0,0,inf,0\n"), "2: column y wants a finite number, not `inf`");
+  EXPECT_EQ(starts_error(header + "1,0,0,0, 0\n"), "2: column theta wants a number, not ` 0`");
+}
+
+TEST(StartsCsv, TakesColumnsInAnyOrderAndLeavesOthersOut) {
+  EXPECT_EQ(parse_starts_csv("y,x,who,theta,robot,seed\n2,1,me,0.5,0,7\n\n").value(),
+            parse_starts_csv("seed,robot,x,y,theta\n7,0,1,2,0.5\n").value());
 }
 
 TEST(PatchesCsv, ReadsPatchesBySeed) {
@@ -62,9 +64,10 @@ TEST(PatchesCsv, ReadsPatchesBySeed) {
 }
 
 TEST(PatchesCsv, ErrorsNameTheLine) {
-  EXPECT_EQ(patches_error("seed,x,y,colour\n"), "line 1: expected the header `seed,x,y,color`");
+  EXPECT_EQ(patches_error("seed,x,y,colour\n"),
+            "1: there is no column `color`; wanted are: seed, x, y, color");
   EXPECT_EQ(patches_error("seed,x,y,color\n1,0,0,pink\n"),
-            "line 2: column color wants the name of a colour, not `pink`");
+            "2: column color wants the name of a colour, not `pink`");
 }
 
 class ExplicitInstance : public ::testing::Test {

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+#include "base/expected.h"
+#include "coordinator/cli/output.h"
+#include "sim/engine/profile.h"
+#include "sim/mission/mission.h"
+
+namespace swarmsmith::cli {
+
+/// The mission or profile of a flag: built in, or a file. All that is wrong with a file but the
+/// last thing is printed, the last is the error; `flag` is where, when the file has no place for
+/// it.
+Expected<Mission> find_mission_or_complain(const std::string& word, const std::string& flag,
+                                           Output& output);
+Expected<Profile> find_profile_or_complain(const std::string& word, const std::string& flag,
+                                           Output& output);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,97 @@
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "sim/engine/profile.h"
+
+namespace swarmsmith {
+
+/// Ends of a field's range, both included.
+struct FieldLimits {
+  double least = 0;
+  double most = 0;
+
+  /// False for what is not a number.
+  constexpr bool contain(double value) const { return value >= least && value <= most; }
+};
+
+inline constexpr FieldLimits kRate{0, 1};
+/// Delays of commands are whole sub-steps of 10 ms, up to ten seconds.
+inline constexpr int kLongestDelay = 1000;
+/// Of the control period, as a factor on 0.1 s.
+inline constexpr FieldLimits kPeriodFactor{0.1, 10};
+
+/// What a field may be, with the words for it.
+template <class Value>
+using FieldChoices = std::array<std::pair<std::string_view, Value>, 2>;
+
+inline constexpr FieldChoices<ContactModel> kContactModels = {
+    {{"exact", ContactModel::Exact}, {"box2d", ContactModel::Box2d}}};
+inline constexpr FieldChoices<NeighbourSensing::Source> kNeighbourSources = {
+    {{"camera", NeighbourSensing::Source::Camera}, {"lidar", NeighbourSensing::Source::Lidar}}};
+inline constexpr FieldChoices<bool> kScorePoints = {{{"centre", false}, {"tag", true}}};
+
+/// The fields of a profile, in the order of its file, each with its key and limits. Whatever reads,
+/// writes or sends profiles visits them here, so that a new field is one line for all.
+///
+/// A visitor has `device(name)`, which the fields after it belong to, and for fields `number(key,
+/// value, limits)`, `flag(key, value)`, `choice(key, value, choices)`, `colors(key, list)`,
+/// `delays(key, list)`, `period(key, least, most)` and `point(key, value, limits)`.
+template <class AnyProfile, class Visitor>
+void visit_fields(AnyProfile& profile, Visitor& visitor) {
+  visitor.choice("contacts", profile.contacts, kContactModels);
+
+  visitor.device("proximity");
+  visitor.number("range", profile.proximity.range_m, FieldLimits{0.06, 2});
+  visitor.number("sd", profile.proximity.sd_m, FieldLimits{0, 1});
+  visitor.number("scale_sd", profile.proximity.scale_sd, FieldLimits{0, 1});
+  visitor.number("largest_miss_rate", profile.proximity.largest_miss_rate, kRate);
+  visitor.number("phantom_rate", profile.proximity.phantom_rate, kRate);
+
+  visitor.device("ground_color");
+  visitor.number("sd", profile.ground_color.sd, FieldLimits{0, 255});
+  visitor.number("bias_sd", profile.ground_color.bias_sd, FieldLimits{0, 255});
+  visitor.flag("labeler", profile.ground_color.labeler);
+  visitor.colors("labels", profile.ground_color.labels);
+
+  visitor.device("lidar");
+  visitor.number("half_width", profile.lidar.half_width_m, FieldLimits{0, 1});
+
+  visitor.device("neighbours");
+  visitor.choice("source", profile.neighbours.source, kNeighbourSources);
+  visitor.number("miss_rate", profile.neighbours.miss_rate, kRate);
+  visitor.number("weak_share", profile.neighbours.weak_share, kRate);
+  visitor.number("weak_miss_rate", profile.neighbours.weak_miss_rate, kRate);
+
+  visitor.device("timing");
+  visitor.delays("delays", profile.timing.delays);
+  visitor.period("period", profile.timing.least_period, profile.timing.most_period);
+  visitor.number("jitter", profile.timing.jitter, FieldLimits{0, 0.5});
+
+  visitor.device("tracking");
+  visitor.point("tag", profile.tracking.tag, FieldLimits{-1, 1});
+  visitor.choice("score_point", profile.tracking.scores_tag, kScorePoints);
+}
+
+/// Whether the probabilities are some and sum to 1; so do those of no delays at all, which means
+/// "at once". Decimal fractions need not sum to the last bit.
+inline bool is_distribution(std::span<const ControlTiming::Delay> delays) {
+  double sum = delays.empty() ? 1 : 0;
+  for (const ControlTiming::Delay& delay : delays) {
+    if (!kRate.contain(delay.probability)) return false;
+    sum += delay.probability;
+  }
+  return std::fabs(sum - 1) < 1e-9;
+}
+
+/// The word of a value.
+template <class Value>
+std::string_view word_of(Value value, const FieldChoices<Value>& choices) {
+  return choices[0].second == value ? choices[0].first : choices[1].first;
+}
+
+}  // namespace swarmsmith

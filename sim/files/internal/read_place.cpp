@@ -1,0 +1,29 @@
+#include "sim/files/internal/read_place.h"
+
+#include <string>
+
+#include "base/math.h"
+
+namespace swarmsmith {
+
+double need(TableReader& table, std::string_view key, Limits<double> limits) {
+  if (!table.has(key)) table.complain(key, table.name() + " needs `" + std::string(key) + "`");
+  return table.number(key, limits).value_or(limits.most);
+}
+
+Point need_point(TableReader& table) {
+  return {need(table, "x", kCoordinate), need(table, "y", kCoordinate)};
+}
+
+double read_heading(TableReader& table) {
+  const auto angle_deg = table.number("angle", {-36'000, 36'000});
+  // Degrees would not read back to the same bits: what the program writes is in radians.
+  const auto theta = table.number("theta", {-1000, 1000});
+  if (angle_deg && theta) {
+    table.complain("theta", "`angle` (degrees) and `theta` (radians) say the same; give one");
+  }
+  if (theta) return wrap_angle(*theta);
+  return angle_deg ? wrap_angle(*angle_deg * (kPi / 180)) : 0;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,59 @@
+#include "sim/files/internal/read_placement.h"
+
+#include <string>
+
+#include "sim/files/internal/read_floor.h"
+#include "sim/files/internal/read_place.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr Limits<double> kRadius{0.01, 1000};
+
+/// Keys that are not there keep what the mission has, if that is a disc, too.
+PlaceInDisc read_disc(TableReader& training, const Mission& mission) {
+  const auto* before = std::get_if<PlaceInDisc>(&mission.placement);
+  PlaceInDisc disc = before != nullptr ? *before : PlaceInDisc{};
+  disc.centre.x = training.number("x", kCoordinate).value_or(disc.centre.x);
+  disc.centre.y = training.number("y", kCoordinate).value_or(disc.centre.y);
+  disc.radius_m = training.number("radius", kRadius).value_or(disc.radius_m);
+  if (before == nullptr && !training.has("radius")) {
+    training.complain("radius",
+                      "placement = \"uniform\" in an arena of this shape needs a `radius`");
+  }
+  return disc;
+}
+
+PlaceAt read_poses(TableReader& training) {
+  PlaceAt fixed;
+  for (TableReader& table : training.tables("poses")) {
+    const Point place = need_point(table);
+    fixed.poses.push_back({place.x, place.y, read_heading(table)});
+    table.finish();
+  }
+  if (!training.has("poses")) {
+    training.complain("poses",
+                      "placement = \"fixed\" needs `poses`, one a robot, such as "
+                      "[ { x = 0, y = 0, angle = 90 } ]");
+  }
+  return fixed;
+}
+
+}  // namespace
+
+void read_placement(TableReader& instances, Mission& mission) {
+  auto training = instances.table("training");
+  if (!training) return;
+  static const std::vector<std::string> kRules = {"uniform", "rectangle", "anywhere", "fixed"};
+  const auto given = training->choice("placement", kRules);
+  if (training->has("placement") && !given) return;
+  // A radius alone is one for the disc.
+  const std::string rule = given.value_or("uniform");
+  if (rule == "uniform") mission.placement = read_disc(*training, mission);
+  if (rule == "rectangle") mission.placement = PlaceInRectangle{read_rectangle(*training, false)};
+  if (rule == "anywhere") mission.placement = PlaceAnywhere{};
+  if (rule == "fixed") mission.placement = read_poses(*training);
+  training->finish();
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,103 @@
+#include "sim/files/internal/read_score.h"
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "base/suggestion.h"
+#include "sim/files/internal/read_color.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Reads the parameters of a kind, whatever it is, from the keys that it names.
+class FieldReader {
+ public:
+  FieldReader(TableReader& table, std::string kind) : table_(table), kind_(std::move(kind)) {}
+
+  void operator()(const ScoreField& field, double& value) {
+    need(field, "1");
+    value = table_.number(field.key, {field.least, field.most}).value_or(value);
+  }
+
+  void operator()(const ScoreField& field, int& value) {
+    need(field, "1");
+    const Limits<std::int64_t> limits{static_cast<std::int64_t>(field.least),
+                                      static_cast<std::int64_t>(field.most)};
+    value = static_cast<int>(table_.integer(field.key, limits).value_or(value));
+  }
+
+  void operator()(const ScoreField& field, bool& value) {
+    need(field, "true");
+    value = table_.boolean(field.key).value_or(value);
+  }
+
+  void operator()(const ScoreField& field, Rgb& value) {
+    need(field, "\"black\"");
+    if (table_.has(field.key)) {
+      value = read_color(table_, field.key).value_or(value);
+    } else {
+      table_.take(field.key);
+    }
+  }
+
+  void operator()(const ScoreField& field, When& value) {
+    need(field, "\"end\"");
+    static const std::vector<std::string> kNames(kWhenNames.begin(), kWhenNames.end());
+    const auto name = table_.choice(field.key, kNames);
+    if (name) value = when_from_name(*name).value_or(value);
+  }
+
+  void operator()(const ScoreField& field, std::vector<Reward>& value) {
+    need(field, "{ red = 1, yellow = 2 }");
+    auto rewards = table_.table(field.key);
+    if (!rewards) return;
+    value.clear();
+    for (const auto& [name, color] : read_color_keys(*rewards)) {
+      const auto reward = rewards->number(name, {field.least, field.most});
+      value.push_back({color, reward.value_or(0)});
+    }
+    if (value.empty()) {
+      table_.complain(field.key, "`" + std::string(field.key) + "` names no colour");
+    }
+  }
+
+ private:
+  /// Complains when the key must be there and is not.
+  void need(const ScoreField& field, const std::string& example) {
+    if (!field.required || table_.has(field.key)) return;
+    const std::string key(field.key);
+    table_.complain(
+        key, "the score " + kind_ + " needs `" + key + "`, such as " + key + " = " + example);
+  }
+
+  TableReader& table_;
+  std::string kind_;
+};
+
+}  // namespace
+
+std::optional<ScoreRule> read_score(TableReader& score) {
+  static const std::vector<std::string> kKinds = score_kinds();
+  static const std::vector<std::string> kNotYet = {"external"};
+  const auto kind = score.choice("kind", kKinds, kNotYet);
+  if (!kind) {
+    if (!score.has("kind")) {
+      score.complain("kind", score.name() + " needs a `kind`: " + joined(kKinds));
+    }
+    return std::nullopt;
+  }
+  std::optional<ScoreRule> rule = score_of_kind(*kind);
+  FieldReader reader(score, *kind);
+  visit_fields(*rule, reader);
+  // For people coming from the examples of the literature; it has one value.
+  if (score.boolean("maximize") == false) {
+    score.complain("maximize",
+                   "scores are always maximised; let what is unwanted count negatively, as "
+                   "color_reward can, instead of `maximize = false`");
+  }
+  score.finish();
+  return rule;
+}
+
+}  // namespace swarmsmith

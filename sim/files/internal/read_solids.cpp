@@ -1,0 +1,145 @@
+#include "sim/files/internal/read_solids.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "base/math.h"
+#include "sim/files/internal/read_place.h"
+#include "sim/mission/polygon.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::size_t kMostCorners = 8;
+constexpr Limits<double> kHeight{0.001, 100};
+constexpr Limits<double> kSolidSize{0.005, 100};
+
+/// Corners in the solid's own frame, of which the origin is to be the centre of mass; what is there
+/// to rounding stays, so that what was written before reads back to the same bits.
+void centre_corners(std::vector<Point>& corners, Pose& pose) {
+  const Point middle = centroid(corners);
+  if (std::fabs(middle.x) < 1e-12 && std::fabs(middle.y) < 1e-12) return;
+  for (Point& corner : corners)
+    corner = {corner.x - middle.x, corner.y - middle.y};
+  const SinCos heading = sin_cos(pose.theta);
+  pose.x += middle.x * heading.cos - middle.y * heading.sin;
+  pose.y += middle.x * heading.sin + middle.y * heading.cos;
+}
+
+std::optional<Outline> read_polygon(TableReader& table, Pose& pose) {
+  const auto rows = table.number_rows("corners", 2, kCoordinate, "[[0, 0], [1, 0], [0, 1]]");
+  if (!rows) {
+    if (!table.has("corners")) table.complain("corners", table.name() + " needs `corners`");
+    return std::nullopt;
+  }
+  std::vector<Point> corners;
+  for (const auto& row : *rows)
+    corners.push_back({row[0], row[1]});
+  std::optional<std::string> flaw = flaw_of(corners);
+  if (!flaw && signed_area(corners) < 0) std::reverse(corners.begin() + 1, corners.end());
+  if (!flaw && !is_convex(corners)) {
+    flaw = "it is not convex; put it together from several that are";
+  }
+  if (!flaw && corners.size() > kMostCorners) {
+    flaw = std::to_string(corners.size()) + " corners; at most " + std::to_string(kMostCorners) +
+           " are taken";
+  }
+  if (flaw) {
+    table.complain("corners", "this polygon cannot stand in an arena: " + *flaw);
+    return std::nullopt;
+  }
+  centre_corners(corners, pose);
+  return PolygonOutline{std::move(corners)};
+}
+
+/// Where a solid stands; a polygon's corners may say it alone.
+Pose read_pose(TableReader& table) {
+  const bool by_corners = !table.has("x") && !table.has("y") && table.has("corners");
+  const Point place = by_corners ? Point{} : need_point(table);
+  return {place.x, place.y, read_heading(table)};
+}
+
+std::optional<Obstacle> read_obstacle(TableReader& table) {
+  Obstacle obstacle;
+  obstacle.pose = read_pose(table);
+  auto outline = read_outline(table, kSolidSize, obstacle.pose);
+  obstacle.height_m = table.number("height", kHeight).value_or(obstacle.height_m);
+  table.finish();
+  if (!outline) return std::nullopt;
+  obstacle.outline = std::move(*outline);
+  return obstacle;
+}
+
+std::optional<MovableObject> read_object(TableReader& table) {
+  MovableObject object;
+  object.start = read_pose(table);
+  auto outline = read_outline(table, kSolidSize, object.start);
+  object.mass_kg = need(table, "mass", {0.001, 10'000});
+  object.friction_N = need(table, "friction", {0, 100'000});
+  object.height_m = table.number("height", kHeight).value_or(object.height_m);
+  table.finish();
+  if (!outline) return std::nullopt;
+  object.outline = std::move(*outline);
+  return object;
+}
+
+Light read_light(TableReader& table) {
+  Light light;
+  const Point place = need_point(table);
+  light.x_m = place.x;
+  light.y_m = place.y;
+  light.z_m = table.number("z", {0, 100}).value_or(light.z_m);
+  light.intensity_cd = table.number("intensity", {0, 1e9}).value_or(light.intensity_cd);
+  table.finish();
+  return light;
+}
+
+}  // namespace
+
+std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pose& pose) {
+  static const std::vector<std::string> kShapes = {"circle", "square", "box", "polygon"};
+  const auto shape = table.choice("shape", kShapes);
+  if (!table.has("shape")) {
+    table.complain("shape", table.name() + " needs a `shape`: circle, square, box or polygon");
+  }
+  if (!shape) {
+    for (const char* key : {"diameter", "side", "length", "width", "corners"})
+      table.take(key);  // whose they are is not known
+    return std::nullopt;
+  }
+  if (*shape == "circle") return CircleOutline{need(table, "diameter", size) / 2};
+  if (*shape == "polygon") return read_polygon(table, pose);
+  if (*shape == "square") {
+    const double side_m = need(table, "side", size);
+    return BoxOutline{side_m, side_m};
+  }
+  const double length_m = need(table, "length", size);
+  return BoxOutline{length_m, need(table, "width", size)};
+}
+
+void read_solids(TableReader& arena, Arena& into) {
+  if (arena.has("obstacles")) {
+    into.obstacles.clear();
+    for (TableReader& table : arena.tables("obstacles")) {
+      const auto obstacle = read_obstacle(table);
+      if (obstacle) into.obstacles.push_back(*obstacle);
+    }
+  }
+  if (arena.has("objects")) {
+    into.objects.clear();
+    for (TableReader& table : arena.tables("objects")) {
+      const auto object = read_object(table);
+      if (object) into.objects.push_back(*object);
+    }
+  }
+  if (arena.has("lights")) {
+    into.lights.clear();
+    for (TableReader& table : arena.tables("lights"))
+      into.lights.push_back(read_light(table));
+  }
+  for (const char* key : {"obstacles", "objects", "lights"})
+    arena.take(key);
+}
+
+}  // namespace swarmsmith

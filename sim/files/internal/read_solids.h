@@ -1,0 +1,18 @@
+#pragma once
+
+#include <optional>
+
+#include "sim/files/table_reader.h"
+#include "sim/mission/arena.h"
+
+namespace swarmsmith {
+
+/// The keys of an outline: `shape` and its sizes. A polygon's corners may lie anywhere: they are
+/// moved so that the origin is their centre of mass, and `pose`, in whose frame they were, with
+/// them.
+std::optional<Outline> read_outline(TableReader& table, Limits<double> size, Pose& pose);
+
+/// `obstacles`, `objects` and `lights` of [mission.arena], each in place of the preset's.
+void read_solids(TableReader& arena, Arena& into);
+
+}  // namespace swarmsmith

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/files/toml_text.h"
+#include "sim/mission/score.h"
+
+namespace swarmsmith {
+
+/// The lines of [mission.score], which `read_score` reads back to the same rule.
+std::vector<SectionLine> score_lines(const ScoreRule& rule);
+
+}  // namespace swarmsmith

@@ -1,0 +1,226 @@
+#include "sim/files/mission_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "base/suggestion.h"
+#include "sim/files/document.h"
+#include "sim/files/file_text.h"
+#include "sim/files/internal/read_arena.h"
+#include "sim/files/internal/read_placement.h"
+#include "sim/files/internal/read_score.h"
+#include "sim/files/internal/read_solids.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kLongest_s = 86'400;
+/// Enough to find a swarm that fits only now and then.
+constexpr int kPlacementTrials = 20;
+
+const std::vector<std::string> kPresets = {"aggregation", "grid_exploration", "color_selection"};
+
+/// Where files that a mission names are, and whether it may begin with another mission's.
+struct ReadingPlace {
+  std::filesystem::path folder;
+  bool takes_files = false;
+};
+
+/// [mission.instances]: what designs are tried on, and then judged on.
+void read_instances(TableReader& instances, MissionEntry& mission) {
+  read_placement(instances, mission.mission);
+  if (auto test = instances.table("test")) {
+    mission.test_count = test->integer("count", {0, 99'999}).value_or(mission.test_count);
+    test->finish();
+  }
+  instances.finish();
+}
+
+/// What a mission begins with when nothing is said.
+MissionEntry empty_mission(const std::string& name) {
+  return {{.name = name, .arena = dodecagon_of_the_thesis(), .shuffled = {}, .rule = RobotsOn{}}};
+}
+
+/// A preset in a file of its own.
+std::optional<MissionEntry> read_preset_file(TableReader& table, const std::string& preset,
+                                             const ReadingPlace& place) {
+  if (!place.takes_files) {
+    table.complain(
+        "preset", "a mission in a file of its own begins with a built-in one: " + joined(kPresets));
+    return std::nullopt;
+  }
+  auto mission = read_mission_file(place.folder / preset);
+  if (mission) return std::move(*mission);
+  for (const Error& error : mission.error())
+    table.complain_foreign("preset", error);
+  return std::nullopt;
+}
+
+/// The mission that the file's keys change: a built-in one, one of another file, or an empty arena.
+/// Nothing after a complaint that makes others useless.
+std::optional<MissionEntry> read_base(TableReader& table, const std::string& name,
+                                      const ReadingPlace& place) {
+  const auto given = table.text("preset");
+  const bool built_in = std::ranges::find(kPresets, name) != kPresets.end();
+  if (!given && !built_in) {
+    if (table.has("preset") || table.has("score")) return empty_mission(name);
+    table.complain(
+        "name",
+        "mission \"" + name + "\" is not built in" + did_you_mean(name, kPresets) +
+            ", so it needs a `preset` or a [mission.score]; built in are: " + joined(kPresets));
+    return empty_mission(name);
+  }
+  const std::string preset = given.value_or(name);
+  if (given && names_a_file(preset)) return read_preset_file(table, preset, place);
+  if (auto mission = built_in_mission(preset)) return MissionEntry{std::move(*mission)};
+  table.complain("preset",
+                 "there is no preset \"" + preset + "\"" + did_you_mean(preset, kPresets) +
+                     "; built in are: " + joined(kPresets) + "; a file of your own ends in .toml");
+  return empty_mission(name);
+}
+
+/// [mission.robot]: what the robots' bodies are.
+void read_body(TableReader& robot, Mission& mission) {
+  Pose pose;
+  if (auto outline = read_outline(robot, {0.02, 5}, pose)) mission.body = std::move(*outline);
+  robot.finish();
+}
+
+/// People say seconds, the engine counts control cycles.
+void read_duration(TableReader& table, Mission& mission) {
+  const auto duration = table.seconds("duration", {kControlPeriod_s, kLongest_s});
+  if (!duration) return;
+  const double cycles = *duration / kControlPeriod_s;
+  mission.cycles = static_cast<int>(std::lround(cycles));
+  if (std::abs(cycles - std::round(cycles)) > 1e-6) {
+    table.complain("duration", "`duration` must be a multiple of the control period, 0.1 s");
+  }
+}
+
+/// Tries some placements, so that a swarm that does not fit is found before the campaign.
+void check_room(TableReader& table, const Mission& mission) {
+  for (int seed = 1; seed <= kPlacementTrials; ++seed) {
+    const auto instance = instance_of(mission, seed);
+    if (instance) continue;
+    table.complain("robots", "mission \"" + mission.name + "\": " + instance.error().message);
+    return;
+  }
+}
+
+/// The keys of a mission over those of its preset.
+void read_keys(TableReader& table, const ReadingPlace& place, MissionEntry& entry) {
+  Mission& mission = entry.mission;
+  read_duration(table, mission);
+  if (const auto robots = table.integer("robots", {1, 100})) {
+    mission.robots = static_cast<int>(*robots);
+  }
+  if (auto score = table.table("score")) {
+    if (auto rule = read_score(*score)) mission.rule = std::move(*rule);
+  }
+  const std::size_t before = table.complaints();
+  if (auto robot = table.table("robot")) read_body(*robot, mission);
+  if (auto arena = table.table("arena")) read_arena(*arena, place.folder, mission);
+  if (auto instances = table.table("instances")) read_instances(*instances, entry);
+  if (table.complaints() == before) check_room(table, mission);
+  table.finish();
+}
+
+/// The name of a preset's file serves a mission without a name.
+std::string default_name(TableReader& table) {
+  const Node* preset = table.take("preset");
+  const auto* text = preset == nullptr ? nullptr : std::get_if<std::string>(&preset->value);
+  if (text == nullptr || !names_a_file(*text)) return "";
+  return std::filesystem::path(*text).stem().string();
+}
+
+/// One [[mission]]; `taken` are the names of those before it.
+MissionEntry read_mission(TableReader& table, const std::vector<std::string>& taken,
+                          const ReadingPlace& place) {
+  const std::string name =
+      table.has("name") ? table.text("name").value_or("") : default_name(table);
+  if (!check_name(table, name, taken)) return {};
+  auto entry = read_base(table, name, place);
+  if (!entry) return {};
+  entry->mission.name = name;
+  read_keys(table, place, *entry);
+  return std::move(*entry);
+}
+
+}  // namespace
+
+bool check_name(TableReader& reader, const std::string& name,
+                const std::vector<std::string>& taken) {
+  constexpr std::string_view kLetters =
+      "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  if (name.empty() && !reader.has("name")) {
+    reader.complain("name", reader.name() + " needs a `name`");
+    return false;
+  }
+  if (name.empty() || name.find_first_not_of(kLetters) != std::string::npos) {
+    reader.complain("name",
+                    "a name consists of letters, digits, `_`, `-` and `.`, and is not "
+                    "empty");
+    return false;
+  }
+  if (std::ranges::find(taken, name) != taken.end()) {
+    reader.complain("name", "two " + reader.name() + " have the name \"" + name + "\"");
+    return false;
+  }
+  return true;
+}
+
+std::vector<MissionEntry> read_missions(TableReader& root, const std::filesystem::path& folder) {
+  std::vector<MissionEntry> missions;
+  std::vector<std::string> names;
+  for (TableReader& table : root.tables("mission")) {
+    missions.push_back(read_mission(table, names, {folder, true}));
+    names.push_back(missions.back().mission.name);
+  }
+  if (!root.has("mission")) {
+    root.complain("mission",
+                  "the file has no [[mission]]; the shortest is [[mission]] with name = "
+                  "\"aggregation\"");
+  }
+  return missions;
+}
+
+MissionOrErrors parse_mission(std::string_view text, const std::filesystem::path& file) {
+  const auto document = parse_document(text, file.string());
+  if (!document) return tl::unexpected(std::vector<Error>{document.error()});
+  Complaints complaints(file.string());
+  TableReader root(*document, "", complaints);
+  read_format(root);
+  const std::string name = root.text("name").value_or(file.stem().string());
+  MissionEntry entry;
+  const ReadingPlace place{file.parent_path(), false};
+  if (check_name(root, name, {})) {
+    if (auto base = read_base(root, name, place)) {
+      entry = std::move(*base);
+      entry.mission.name = name;
+      read_keys(root, place, entry);
+    }
+  }
+  if (!complaints.empty()) return tl::unexpected(complaints.take());
+  return entry;
+}
+
+MissionOrErrors read_mission_file(const std::filesystem::path& file) {
+  const auto text = read_file(file, "mission");
+  if (!text) return tl::unexpected(std::vector<Error>{text.error()});
+  return parse_mission(*text, file);
+}
+
+MissionOrErrors find_mission(const std::string& word, const std::filesystem::path& folder) {
+  if (names_a_file(word)) return read_mission_file(folder / word);
+  auto mission = built_in_mission(word);
+  if (!mission) {
+    Error error = std::move(mission.error());
+    error.message += did_you_mean(word, kPresets) + "; a file of your own ends in .toml";
+    return tl::unexpected(std::vector<Error>{std::move(error)});
+  }
+  return MissionEntry{std::move(*mission)};
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace swarmsmith {
+
+/// Values as TOML and the lines of a file, from which normalised texts and lists of what decides an
+/// answer are made: they cannot disagree.
+
+struct SectionLine {
+  std::string key;
+  std::string value;    ///< as TOML
+  bool decides = true;  ///< whether another value gives another answer
+};
+
+struct Section {
+  std::string header;  ///< "[campaign]", "[[mission]]", "[mission.arena]"; empty for the top
+  std::string prefix;  ///< of keys in the deciding list: "mission.aggregation.arena."
+  std::vector<SectionLine> lines;
+};
+
+/// The sections as a file, each header with an empty line before it.
+std::string text_of(const std::vector<Section>& sections);
+
+/// In double quotes, with what TOML and JSON both want escaped.
+std::string quoted_text(std::string_view text);
+
+/// The shortest number that reads back to the same bits: 5, 0.25, 1.5e+20.
+std::string number_text(double value);
+
+inline std::string flag_text(bool flag) {
+  return flag ? "true" : "false";
+}
+
+/// The items' texts, separated by commas.
+template <class Items, class Text>
+std::string list_of(const Items& items, const Text& text_of) {
+  std::string text;
+  for (const auto& item : items)
+    text += (text.empty() ? "" : ", ") + text_of(item);
+  return text;
+}
+
+}  // namespace swarmsmith

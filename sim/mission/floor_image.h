@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expected.h"
+#include "sim/control/reference_model.h"
+#include "sim/mission/pose.h"
+
+namespace swarmsmith {
+
+/// Pixels of a PNG file, read once and then shared by all copies of an arena.
+class Picture {
+ public:
+  static constexpr std::size_t kMostBytes = 1U << 20U;
+  static constexpr std::int64_t kMostPixels = 16'000'000;
+
+  /// Reads the bytes of a PNG file: any kind of pixels, told as 8-bit sRGB. More than a megabyte or
+  /// 16 million pixels, and what is no PNG, are errors.
+  static Expected<std::shared_ptr<const Picture>> from_png(std::string bytes);
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  /// Column from the left, row from the top. Nothing where the picture is transparent, by half or
+  /// more.
+  std::optional<Rgb> at(int column, int row) const;
+  /// The file.
+  const std::string& png() const { return png_; }
+
+ private:
+  Picture() = default;
+
+  int width_ = 0;
+  int height_ = 0;
+  std::vector<std::uint8_t> pixels_;  ///< red, green, blue, opacity; row by row from the top
+  std::string png_;
+};
+
+/// Finds the pixel of a picture that covers a rectangle of the floor.
+///
+/// The picture's top row is at the largest y. A point takes the colour of the pixel that it lies
+/// in; on the border between two pixels, that of the right or lower one; the rectangle's own border
+/// belongs to it.
+std::optional<Rgb> pixel_at(const Picture& picture, Point top_left, double width_m, double height_m,
+                            Point point);
+
+}  // namespace swarmsmith

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "sim/mission/arena.h"
+#include "sim/mission/pose.h"
+#include "sim/mission/solid.h"
+
+namespace swarmsmith {
+
+/// A solid at its place: the ground that it covers, convex.
+class Footprint {
+ public:
+  Footprint(const Outline& outline, const Pose& pose);
+
+  Point centre() const { return centre_; }
+  /// Counter-clockwise; empty for a circle.
+  std::span<const Point> corners() const { return {corners_.data(), count_}; }
+  double radius_m() const { return radius_m_; }  ///< of a circle, else 0
+
+  /// Extent along the unit vector (x, y): its points p have p . (x, y) from `least` to `most`.
+  struct Extent {
+    double least;
+    double most;
+  };
+  Extent along(double x, double y) const;
+
+ private:
+  void add_corner(Point own, double cos, double sin);
+
+  Point centre_;
+  std::array<Point, 8> corners_;
+  std::size_t count_ = 0;
+  double radius_m_ = 0;
+};
+
+/// Whether two solids share ground.
+bool overlap(const Footprint& a, const Footprint& b);
+
+/// Whether a solid stands in the way of a wall's face.
+bool crosses(const Footprint& solid, const Wall& wall);
+
+}  // namespace swarmsmith

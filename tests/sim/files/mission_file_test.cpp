@@ -1,0 +1,259 @@
+#include "sim/files/mission_file.h"
+
+#include <gmock/gmock.h>
+
+#include "sim/files/document.h"
+#include "sim/mission/polygon.h"
+#include "tests/sim/random_mission.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+constexpr const char* kScore = "[score]\nkind = \"robots_on\"\ncolor = \"white\"\n";
+
+/// A mission file with an arena, which lies in the folder of the examples.
+MissionOrErrors with_arena(const std::string& arena, const std::string& more = "") {
+  return parse_mission("format = 1\n" + more + kScore + "[arena]\n" + arena,
+                       SWARMSMITH_SOURCE_DIR "/examples/missions/x.toml");
+}
+
+Mission read(const std::string& arena, const std::string& more = "") {
+  auto entry = with_arena(arena, more);
+  if (entry) return std::move(entry->mission);
+  for (const Error& error : entry.error())
+    ADD_FAILURE() << to_string(error);
+  return {};
+}
+
+/// The sentences without the file's name and place.
+std::vector<std::string> complaints(const std::string& arena, const std::string& more = "") {
+  std::vector<std::string> sentences;
+  const auto entry = with_arena(arena, more);
+  if (entry) return sentences;
+  for (const Error& error : entry.error())
+    sentences.push_back(error.message);
+  return sentences;
+}
+
+/// What a campaign file with these lines would read.
+std::vector<MissionEntry> read_back(const std::string& text) {
+  const auto document = parse_document(text, "x.toml");
+  if (!document) ADD_FAILURE() << to_string(document.error());
+  Complaints wrong("x.toml");
+  TableReader root(*document, "", wrong);
+  auto missions = read_missions(root, "");
+  for (const Error& error : wrong.take())
+    ADD_FAILURE() << to_string(error);
+  return missions;
+}
+
+TEST(MissionText, ReadsBackToTheSameMissionBitForBit) {
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    const MissionEntry entry{.mission = random_mission(seed), .test_count = 7};
+    const std::string text = text_of(mission_sections(entry));
+    const auto again = read_back(text);
+    ASSERT_EQ(again.size(), 1U);
+    ASSERT_EQ(again[0], entry) << text;
+    EXPECT_EQ(text_of(mission_sections(again[0])), text);
+  }
+}
+
+TEST(MissionFile, HasTheNameOfItsFileUnlessItSaysOne) {
+  EXPECT_EQ(read("").name, "x");
+  EXPECT_EQ(read("", "name = \"other\"\n").name, "other");
+}
+
+TEST(MissionFile, BeginsWithABuiltInOneIfItSaysSo) {
+  const auto entry = parse_mission("format = 1\npreset = \"aggregation\"\nrobots = 5\n", "x.toml");
+  ASSERT_TRUE(entry);
+  Mission wanted = built_in_mission("aggregation").value();
+  wanted.name = "x";
+  wanted.robots = 5;
+  EXPECT_EQ(entry->mission, wanted);
+}
+
+TEST(ArenaShapes, HaveTheirAreas) {
+  const auto area = [](const std::string& keys) { return area_of(read(keys).arena); };
+  EXPECT_NEAR(area("shape = \"dodecagon\"\narea = 4.91\n"), 4.91, 1e-12);
+  EXPECT_NEAR(area("shape = \"dodecagon\"\ninradius = 1\n"), 12 * (2 - std::sqrt(3.0)), 1e-12);
+  EXPECT_NEAR(area("shape = \"regular\"\nsides = 7\narea = 3\n"), 3, 1e-12);
+  EXPECT_NEAR(area("shape = \"regular\"\nsides = 6\ninradius = 1\n"), 2 * std::sqrt(3.0), 1e-12);
+  EXPECT_NEAR(area("shape = \"square\"\nside = 3\n"), 9, 1e-12);
+  EXPECT_NEAR(area("shape = \"rectangle\"\nwidth = 3\nheight = 2\n"), 6, 1e-12);
+  EXPECT_NEAR(area("shape = \"circle\"\ndiameter = 2\n"), kPi, 0.01);
+  EXPECT_NEAR(area("shape = \"polygon\"\ncorners = [[0, 0], [0, 2], [2, 0]]\n"), 2, 1e-12);
+  EXPECT_EQ(read("").arena.walls, dodecagon_of_the_thesis().walls);
+}
+
+TEST(ArenaShapes, WallsThatJoinAreAPolygonInEitherDirection) {
+  const Mission forth = read(
+      "shape = \"polygon\"\n"
+      "walls = [[-1, -1, 1, -1], [1, -1, 1, 1], [1, 1, -1, 1], [-1, 1, -1, -1]]\n");
+  const Mission back =
+      read("shape = \"polygon\"\ncorners = [[-1, -1], [-1, 1], [1, 1], [1, -1]]\n");
+  EXPECT_EQ(forth.arena.walls, back.arena.walls);
+  EXPECT_GT(area_of(back.arena), 0);
+}
+
+TEST(ArenaShapes, OtherThanTheDodecagonPlaceRobotsAnywhere) {
+  EXPECT_EQ(read("shape = \"square\"\nside = 3\n").placement, Placement(PlaceAnywhere{}));
+  EXPECT_EQ(read("").placement, Placement(PlaceInDisc{}));
+}
+
+struct BadArena {
+  const char* keys;
+  const char* sentence;
+};
+
+TEST(ArenaShapes, ThatMakeNoArenaAreExplained) {
+  const BadArena bad[] = {
+      {"shape = \"polygon\"\nwalls = [[0, 0, 1, 0], [1, 0, 1, 1], [1, 1, 0.2, 0]]\n",
+       "not closed: wall 3 ends at (0.2, 0), wall 1 begins at (0, 0), a gap of 0.2 m"},
+      {"shape = \"polygon\"\ncorners = [[0, 0], [2, 2], [2, 0], [0, 2]]\n",
+       "side 1, from (0, 0), crosses or touches side 3, from (2, 0)"},
+      {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0]]\n", "2 corners; a polygon has at least 3"},
+      {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0, 1], [0, 0]]\n",
+       "corners 1 and 4 are the same point, (0, 0); the last corner is joined to the first"},
+      {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [2, 0]]\n", "turns back on itself"},
+      {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0, nan]]\n", "this is nan"},
+      {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0, 1e9]]\n", "from -100 to 100"},
+      {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0]]\n", "2 numbers each"},
+      {"shape = \"polygon\"\n", "needs `corners` or `walls`"},
+      {"shape = \"square\"\nside = -1\n", "`side` must be from 0.1 to 200, this is -1"},
+      {"shape = \"square\"\nside = nan\n", "this is nan"},
+      {"shape = \"square\"\n", "needs `side`"},
+      {"shape = \"square\"\nside = 1\ndiameter = 2\n", "`diameter` belongs to shape = \"circle\""},
+      {"shape = \"regular\"\nsides = 2\narea = 1\n", "`sides` must be from 3 to 60"},
+      {"shape = \"regular\"\nsides = 5\n", "needs an `inradius` or an `area`"},
+      {"area = 4\ninradius = 1\n", "say the same; give one"},
+      {"area = 0\n", "`area` must be from 0.01"},
+      {"wall_height = 0\n", "`wall_height` must be from 0.001"},
+      {"shape = \"octagon\"\n", "`shape` cannot be \"octagon\""},
+  };
+  for (const BadArena& arena : bad) {
+    EXPECT_THAT(complaints(arena.keys), ElementsAre(HasSubstr(arena.sentence))) << arena.keys;
+  }
+}
+
+TEST(Solids, StandWhereTheFileSaysWithPolygonsAroundTheirCentreOfMass) {
+  const Mission mission = read(
+      "shape = \"square\"\nside = 6\n"
+      "obstacles = [ { shape = \"circle\", x = 1, y = 2, diameter = 0.5 },\n"
+      "  { shape = \"box\", x = -1, y = 0, length = 1, width = 0.2, angle = 90, height = 1 },\n"
+      "  { shape = \"polygon\", corners = [[1, 1], [1, 1.6], [1.6, 1]] } ]\n"
+      "objects = [ { shape = \"square\", x = 0, y = -2, side = 0.4, mass = 1, friction = 3.6 } ]\n"
+      "lights = [ { x = 0, y = -4.25, intensity = 500 } ]\n");
+  const Arena& arena = mission.arena;
+  ASSERT_EQ(arena.obstacles.size(), 3U);
+  EXPECT_EQ(arena.obstacles[0], (Obstacle{CircleOutline{0.25}, {1, 2, 0}, 0.3}));
+  EXPECT_EQ(arena.obstacles[1].outline, Outline(BoxOutline{1, 0.2}));
+  EXPECT_NEAR(arena.obstacles[1].pose.theta, kPi / 2, 1e-15);
+  EXPECT_EQ(arena.obstacles[1].height_m, 1);
+  EXPECT_NEAR(arena.obstacles[2].pose.x, 1.2, 1e-12);
+  EXPECT_NEAR(arena.obstacles[2].pose.y, 1.2, 1e-12);
+  const auto& corners = std::get<PolygonOutline>(arena.obstacles[2].outline).corners;
+  EXPECT_NEAR(corners[0].x, -0.2, 1e-12);
+  EXPECT_GT(signed_area(corners), 0);
+  EXPECT_THAT(arena.objects,
+              ElementsAre(MovableObject{BoxOutline{0.4, 0.4}, {0, -2, 0}, 1, 3.6, 0.3}));
+  EXPECT_THAT(arena.lights, ElementsAre(Light{0, -4.25, 0.75, 500}));
+}
+
+TEST(Solids, WithoutRoomOrSenseAreExplained) {
+  const BadArena bad[] = {
+      {"obstacles = [ { shape = \"circle\", x = 5, y = 0, diameter = 1 } ]\n",
+       "obstacle 1 stands outside of the walls"},
+      {"objects = [ { shape = \"circle\", x = 1.1, y = 0, diameter = 0.5, mass = 1, friction = 1 } "
+       "]\n",
+       "object 1 would stand in a wall"},
+      {"obstacles = [ { shape = \"circle\", x = 0, y = 0, diameter = 1 } ]\n"
+       "objects = [ { shape = \"square\", x = 0.5, y = 0, side = 0.2, mass = 1, friction = 1 } ]\n",
+       "object 1 would stand in obstacle 1"},
+      {"obstacles = [ { shape = \"circle\", x = 0, y = 0, diameter = 0 } ]\n",
+       "`diameter` must be from 0.005"},
+      {"obstacles = [ { shape = \"star\", x = 0, y = 0 } ]\n", "`shape` cannot be \"star\""},
+      {"obstacles = [ { shape = \"polygon\", corners = [[0, 0], [1, 0], [0.1, 0.1], [0, 1]] } ]\n",
+       "it is not convex"},
+      {"objects = [ { shape = \"circle\", x = 0, y = 0, diameter = 0.5, friction = 1 } ]\n",
+       "needs `mass`"},
+      {"obstacles = [ { shape = \"circle\", x = 0, y = 0, diameter = 1, angle = 1, theta = 1 } ]\n",
+       "say the same"},
+  };
+  for (const BadArena& arena : bad) {
+    EXPECT_THAT(complaints(arena.keys), ElementsAre(HasSubstr(arena.sentence))) << arena.keys;
+  }
+}
+
+TEST(Images, LieOnTheFloor) {
+  const Mission mission = read(
+      "spots = [ { shape = \"image\", file = \"ring.png\", x = 0, y = 0, width = 2.6, height = 2.6 "
+      "} ]\n");
+  EXPECT_EQ(floor_at(mission.arena, {0, 0}), (Rgb{127, 127, 127}));
+  EXPECT_EQ(floor_at(mission.arena, {0.75, 0}), (Rgb{255, 255, 0}));
+}
+
+TEST(Images, ThatCannotBeReadAreExplained) {
+  const auto spot = [](const std::string& keys) {
+    return "spots = [ { shape = \"image\", x = 0, y = 0, width = 1, height = 1" + keys + " } ]\n";
+  };
+  EXPECT_THAT(complaints(spot("")), ElementsAre(HasSubstr("an image needs a `file`")));
+  EXPECT_THAT(complaints(spot(", file = \"no.png\"")),
+              ElementsAre(HasSubstr("no.png: there is no such image file")));
+  EXPECT_THAT(complaints(spot(", file = \"..\"")), ElementsAre(HasSubstr("this is a folder")));
+  EXPECT_THAT(complaints(spot(", file = \"maze.toml\"")),
+              ElementsAre(HasSubstr("maze.toml: this is no PNG image")));
+  EXPECT_THAT(complaints(spot(", data = \"AAA\"")), ElementsAre(HasSubstr("no base64")));
+  EXPECT_THAT(complaints(spot(", data = \"AAAA\"")), ElementsAre(HasSubstr("no PNG image")));
+}
+
+TEST(Placements, AreReadWithTheirKeys) {
+  const auto placement = [](const std::string& training, const std::string& robots = "1") {
+    return read("shape = \"square\"\nside = 4\n",
+                "robots = " + robots + "\ninstances = { training = " + training + " }\n")
+        .placement;
+  };
+  EXPECT_EQ(placement("{ placement = \"uniform\", x = 0.5, radius = 1 }"),
+            Placement(PlaceInDisc{{0.5, 0}, 1}));
+  EXPECT_EQ(placement("{ placement = \"rectangle\", x = 0, y = 1, width = 2, height = 1 }"),
+            Placement(PlaceInRectangle{{{0, 1}, 2, 1}}));
+  EXPECT_EQ(placement("{ placement = \"anywhere\" }"), Placement(PlaceAnywhere{}));
+  EXPECT_EQ(placement("{ placement = \"fixed\", poses = [ { x = 1, y = 0 }, { x = -1, y = 0, theta "
+                      "= 0.5 } ] }",
+                      "2"),
+            Placement(PlaceAt{{{1, 0, 0}, {-1, 0, 0.5}}}));
+}
+
+TEST(Placements, ThatCannotBeAreExplained) {
+  const auto wrong = [](const std::string& training, const std::string& robots = "2") {
+    return complaints("shape = \"square\"\nside = 4\n",
+                      "robots = " + robots + "\ninstances = { training = " + training + " }\n");
+  };
+  EXPECT_THAT(wrong("{ placement = \"fixed\", poses = [ { x = 1, y = 0 } ] }"),
+              ElementsAre(HasSubstr("poses for 1 robots, and the mission has 2")));
+  EXPECT_THAT(wrong("{ placement = \"fixed\", poses = [ { x = 1.9, y = 0 } ] }", "1"),
+              ElementsAre(HasSubstr("robot 1 at (1.9, 0) would stand in a wall")));
+  EXPECT_THAT(wrong("{ placement = \"fixed\", poses = [ { x = 1, y = 0 }, { x = 1.1, y = 0 } ] }"),
+              ElementsAre(HasSubstr("robot 2 at (1.1, 0) would stand in robot 1")));
+  EXPECT_THAT(wrong("{ placement = \"rectangle\", x = 0, y = 0, width = 0.1, height = 0.1 }"),
+              ElementsAre(HasSubstr("take fewer robots, or place them over a larger part")));
+  EXPECT_THAT(wrong("{ placement = \"uniform\" }"), ElementsAre(HasSubstr("needs a `radius`")));
+  EXPECT_THAT(wrong("{ placement = \"unifrm\" }"),
+              ElementsAre(HasSubstr("did you mean \"uniform\"?")));
+}
+
+TEST(Robots, HaveBodiesOfAnyConvexShape) {
+  const auto body = [](const std::string& keys) {
+    return read("", "robot = { " + keys + " }\n").body;
+  };
+  EXPECT_EQ(body("shape = \"circle\", diameter = 0.3"), Outline(CircleOutline{0.15}));
+  EXPECT_EQ(body("shape = \"square\", side = 0.2"), Outline(BoxOutline{0.2, 0.2}));
+  EXPECT_EQ(body("shape = \"box\", length = 0.3, width = 0.2"), Outline(BoxOutline{0.3, 0.2}));
+  EXPECT_THAT(complaints("", "robot = { shape = \"circle\", diameter = 9 }\n"),
+              ElementsAre(HasSubstr("`diameter` must be from 0.02 to 5")));
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,82 @@
+#include "sim/mission/floor_image.h"
+
+#include <gmock/gmock.h>
+#include <png.h>
+
+#include "sim/mission/arena.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+
+/// The bytes of a PNG file with these pixels of four channels.
+std::string png_of(int width, int height, const std::vector<std::uint8_t>& rgba) {
+  png_image image{};
+  image.version = PNG_IMAGE_VERSION;
+  image.width = static_cast<png_uint_32>(width);
+  image.height = static_cast<png_uint_32>(height);
+  image.format = PNG_FORMAT_RGBA;
+  png_alloc_size_t size = 0;
+  png_image_write_to_memory(&image, nullptr, &size, 0, rgba.data(), 0, nullptr);
+  std::string bytes(size, '\0');
+  png_image_write_to_memory(&image, bytes.data(), &size, 0, rgba.data(), 0, nullptr);
+  bytes.resize(size);
+  return bytes;
+}
+
+/// Two columns, three rows: red, green / blue, white / black, transparent.
+const std::string kPng = png_of(2, 3, {255, 0,   0,   255, 0, 255, 0, 255, 0,   0,   255, 255,
+                                       255, 255, 255, 255, 0, 0,   0, 255, 200, 200, 200, 127});
+
+TEST(Picture, HasThePixelsOfItsFile) {
+  const auto picture = Picture::from_png(kPng).value();
+  EXPECT_EQ(picture->width(), 2);
+  EXPECT_EQ(picture->height(), 3);
+  EXPECT_EQ(picture->at(0, 0), (Rgb{255, 0, 0}));
+  EXPECT_EQ(picture->at(1, 1), (Rgb{255, 255, 255}));
+  EXPECT_EQ(picture->at(0, 2), (Rgb{0, 0, 0}));
+  EXPECT_EQ(picture->at(1, 2), std::nullopt);
+  EXPECT_EQ(picture->png(), kPng);
+}
+
+TEST(Picture, ThatIsNoneIsAnError) {
+  const auto error = [](std::string bytes) {
+    const auto picture = Picture::from_png(std::move(bytes));
+    return picture ? "" : picture.error().message;
+  };
+  EXPECT_THAT(error(""), HasSubstr("no PNG image"));
+  EXPECT_THAT(error("GIF89a, really"), HasSubstr("no PNG image"));
+  EXPECT_THAT(error(kPng.substr(0, kPng.size() / 2)), HasSubstr("PNG image"));
+  EXPECT_THAT(error(std::string(Picture::kMostBytes + 1, 'x')), HasSubstr("at most 1 MB"));
+}
+
+TEST(Picture, OfTooManyPixelsIsAnErrorBeforeItIsUnpacked) {
+  const std::vector<std::uint8_t> black(4 * 4001 * 4000, 0);
+  const std::string bytes = png_of(4001, 4000, black);
+  ASSERT_LT(bytes.size(), Picture::kMostBytes);
+  const auto picture = Picture::from_png(bytes);
+  ASSERT_FALSE(picture);
+  EXPECT_THAT(picture.error().message, HasSubstr("4001 x 4000 pixels; at most 16 million"));
+}
+
+TEST(FloorImage, LiesWithItsTopRowAtTheLargestYAndOwnsItsBorder) {
+  Arena arena{.walls = {}, .patches = {}};
+  // Pixels of 1 m x 1 m: x from 0 to 2, y from 0 to 3.
+  arena.patches.push_back({FloorImage{{{1, 1.5}, 2, 3}, Picture::from_png(kPng).value()}, {}});
+  EXPECT_EQ(floor_at(arena, {0.5, 2.5}), (Rgb{255, 0, 0}));
+  EXPECT_EQ(floor_at(arena, {1.5, 2.5}), (Rgb{0, 255, 0}));
+  EXPECT_EQ(floor_at(arena, {0.5, 0.5}), (Rgb{0, 0, 0}));
+  // Between pixels: the right and the lower one.
+  EXPECT_EQ(floor_at(arena, {1, 2.5}), (Rgb{0, 255, 0}));
+  EXPECT_EQ(floor_at(arena, {0.5, 2}), (Rgb{0, 0, 255}));
+  // The outer border belongs to the image, and nothing beyond it.
+  EXPECT_EQ(floor_at(arena, {2, 3}), (Rgb{0, 255, 0}));
+  EXPECT_EQ(floor_at(arena, {0, 0}), (Rgb{0, 0, 0}));
+  EXPECT_EQ(floor_at(arena, {2.000001, 3}), (Rgb{127, 127, 127}));
+  // What is transparent shows the floor.
+  EXPECT_EQ(floor_at(arena, {1.5, 0.5}), (Rgb{127, 127, 127}));
+}
+
+}  // namespace
+}  // namespace swarmsmith
