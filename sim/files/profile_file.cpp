@@ -11,6 +11,7 @@
 #include "sim/files/document.h"
 #include "sim/files/file_text.h"
 #include "sim/files/internal/read_profile.h"
+#include "sim/files/mission_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -84,6 +85,12 @@ ProfileOrErrors parse_profile(std::string_view text, const std::filesystem::path
   TableReader root(*document, "", complaints);
   Profile profile{.name = file.stem().string()};
   read_format(root);
+  if (!is_name(profile.name)) {
+    root.complain("name",
+                  "a profile has its file's name, so that the file's must consist of letters, "
+                  "digits, `_`, `-` and `.`; this is \"" +
+                      profile.name + "\"");
+  }
   read_fields(root, profile);
   root.finish();
   if (!complaints.empty()) return tl::unexpected(complaints.take());
@@ -99,8 +106,8 @@ ProfileOrErrors find_profile(const std::string& word, const std::filesystem::pat
 
 Profile read_profile_table(TableReader& table) {
   Profile profile;
-  if (!table.has("name")) table.complain("name", table.name() + " needs a `name`");
   profile.name = table.text("name").value_or("");
+  check_name(table, profile.name, {});
   read_fields(table, profile);
   table.finish();
   return profile;
