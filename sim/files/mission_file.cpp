@@ -150,15 +150,19 @@ MissionEntry read_mission(TableReader& table, const std::vector<std::string>& ta
 
 }  // namespace
 
-bool check_name(TableReader& reader, const std::string& name,
-                const std::vector<std::string>& taken) {
+bool is_name(std::string_view name) {
   constexpr std::string_view kLetters =
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-.";
+  return !name.empty() && name.find_first_not_of(kLetters) == std::string_view::npos;
+}
+
+bool check_name(TableReader& reader, const std::string& name,
+                const std::vector<std::string>& taken) {
   if (name.empty() && !reader.has("name")) {
     reader.complain("name", reader.name() + " needs a `name`");
     return false;
   }
-  if (name.empty() || name.find_first_not_of(kLetters) != std::string::npos) {
+  if (!is_name(name)) {
     reader.complain("name",
                     "a name consists of letters, digits, `_`, `-` and `.`, and is not "
                     "empty");

@@ -45,8 +45,10 @@ std::vector<MissionEntry> read_missions(TableReader& root, const std::filesystem
 /// not. Reads back to the same bits.
 std::vector<Section> mission_sections(const MissionEntry& entry);
 
-/// A name that is good for stores, command lines and files: letters, digits, `_`, `-`, `.`.
-/// Complains under `key` and says so when it is none, or when it is in `taken`.
+/// Whether a name is good for stores, command lines and files: letters, digits, `_`, `-`, `.`.
+bool is_name(std::string_view name);
+
+/// Complains under `name` and says so when it is none, or when it is in `taken`.
 bool check_name(TableReader& reader, const std::string& name,
                 const std::vector<std::string>& taken);
 

@@ -81,6 +81,12 @@ TEST(ProfileFile, HasTheNameOfItsFileAndIdealDevicesUnlessItSaysOtherwise) {
   EXPECT_EQ(*profile, (Profile{.name = "my_rvr", .ground_color = {.sd = 2.5}}));
 }
 
+TEST(ProfileFile, NeedsANameThatStoresTake) {
+  const auto profile = parse_profile("format = 1\n", "my rvr.toml");
+  ASSERT_FALSE(profile);
+  EXPECT_THAT(profile.error()[0].message, HasSubstr("this is \"my rvr\""));
+}
+
 TEST(ProfileFile, MayBeginWithABuiltInOne) {
   const auto profile =
       parse_profile("format = 1\nbase = \"pseudo-reality\"\n[timing]\ndelays = []\n", "x.toml");

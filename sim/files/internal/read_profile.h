@@ -1,0 +1,15 @@
+#pragma once
+
+#include "sim/engine/profile.h"
+#include "sim/files/table_reader.h"
+
+namespace swarmsmith {
+
+/// Control periods are told to the microsecond, so that texts read back to the same bits.
+inline constexpr double kMicroseconds_per_period = 100'000;
+
+/// Takes the fields of a profile out of its table and the tables in it. A field that is not there
+/// keeps its value.
+void read_profile_fields(TableReader& table, Profile& profile);
+
+}  // namespace swarmsmith

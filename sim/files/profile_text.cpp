@@ -1,0 +1,71 @@
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "sim/engine/profile_fields.h"
+#include "sim/files/color_text.h"
+#include "sim/files/internal/read_profile.h"
+#include "sim/files/profile_file.h"
+
+namespace swarmsmith {
+namespace {
+
+/// The visitor that writes the fields of a profile as lines.
+class FieldWriter {
+ public:
+  FieldWriter(std::vector<Section>& sections, std::string header)
+      : sections_(&sections), header_(std::move(header)) {
+    sections_->push_back({"[" + header_ + "]", header_ + ".", {}});
+  }
+
+  void device(std::string_view name) {
+    const std::string path = header_ + "." + std::string(name);
+    sections_->push_back({"[" + path + "]", path + ".", {}});
+  }
+  void number(std::string_view key, double value, FieldLimits) { add(key, number_text(value)); }
+  void flag(std::string_view key, bool value) { add(key, flag_text(value)); }
+  template <class Value>
+  void choice(std::string_view key, Value value, const FieldChoices<Value>& choices) {
+    add(key, quoted_text(word_of(value, choices)));
+  }
+  void colors(std::string_view key, const std::vector<Rgb>& colors) {
+    add(key, "[" + list_of(colors, [](Rgb c) { return quoted_text(color_text(c)); }) + "]");
+  }
+  void delays(std::string_view key, const std::vector<ControlTiming::Delay>& delays) {
+    add(key, "[" + list_of(delays, [](const ControlTiming::Delay& delay) {
+               return "{ time = \"" + std::to_string(10 * delay.sub_steps) +
+                      " ms\", probability = " + number_text(delay.probability) + " }";
+             }) + "]");
+  }
+  void period(std::string_view key, double least, double most) {
+    add(key, "[" + period_text(least) + ", " + period_text(most) + "]");
+  }
+  void point(std::string_view key, Point point, FieldLimits) {
+    add(key, "[" + number_text(point.x) + ", " + number_text(point.y) + "]");
+  }
+
+  void add(std::string_view key, std::string value) {
+    sections_->back().lines.push_back({std::string(key), std::move(value)});
+  }
+
+ private:
+  static std::string period_text(double factor) {
+    return "\"" + number_text(std::round(factor * kMicroseconds_per_period) / 1000) + " ms\"";
+  }
+
+  std::vector<Section>* sections_;
+  std::string header_;
+};
+
+}  // namespace
+
+std::vector<Section> profile_sections(const Profile& profile, const std::string& header) {
+  std::vector<Section> sections;
+  FieldWriter writer(sections, header);
+  writer.add("name", quoted_text(profile.name));
+  visit_fields(profile, writer);
+  return sections;
+}
+
+}  // namespace swarmsmith
