@@ -13,6 +13,8 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kTick{100};
+/// For the last words of workers when all is done.
+constexpr Duration kFarewell = std::chrono::seconds(5);
 constexpr Duration kRateWindow = std::chrono::seconds(3);
 /// Frames that are read before the campaign moves on and answers go out.
 constexpr int kFramesAtOnce = 256;
@@ -212,6 +214,10 @@ class Loop final : public Service {
     coordinator_.drain(clock_.now());
     carry_out();
     store_->flush();
+    // A worker that did not hear of the end would look for the coordinator until somebody stops it.
+    const TimePoint until = clock_.now() + kFarewell;
+    while (coordinator_.scheduler().workers().connected() > 0 && clock_.now() < until)
+      step();
     report(clock_.now());
     return {ServiceEnd::How::Finished, {}};
   }
