@@ -2,11 +2,13 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
 #include <future>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "analysis/svg.h"
 #include "tests/sim/engine/comparison.h"
 #include "tests/sim/engine/open_loop.h"
 
@@ -72,6 +74,50 @@ from the original's starting poses and patches. `./dev bench fidelity` writes th
 )");
 }
 
+/// One panel: the original's trails broad and pale, ours thin on top of them, up to the first
+/// contact.
+void draw_panel(Svg& svg, const char* name, PagePoint middle, double scale) {
+  const LoggedRun log = logged_run(name);
+  const OpenLoop again = drive_again(log);
+  const auto at = [&](double x, double y) {
+    return PagePoint{middle.x + scale * x, middle.y - scale * y};
+  };
+  std::vector<PagePoint> walls;
+  for (const Wall& wall : dodecagon_of_the_thesis().walls)
+    walls.push_back(at(wall.from.x, wall.from.y));
+  svg.polygon(walls, {.fill = "#f4f4f4", .stroke = "#000000", .width = 0.3});
+  const auto ticks = static_cast<std::size_t>(again.first_contact) + 1;
+  for (std::size_t robot = 0; robot < 3; ++robot) {
+    std::vector<PagePoint> theirs;
+    std::vector<PagePoint> ours;
+    for (std::size_t tick = 0; tick < ticks; ++tick) {
+      const Pose& logged = log[tick][robot].pose;
+      const Pose& driven = again.poses[tick][robot];
+      theirs.push_back(at(logged.x, logged.y));
+      ours.push_back(at(driven.x, driven.y));
+    }
+    const std::string color = distinct_color(robot);
+    svg.line(simplified(theirs, 0.02), stroked(lightened(color, 0.65), 1.1));
+    svg.line(simplified(ours, 0.02), stroked(color, 0.2));
+  }
+  const double below = middle.y + 1.3 * scale + 3;
+  svg.text({middle.x, below}, name, {.size = 2.8, .anchor = TextStyle::Anchor::Middle});
+}
+
+/// The recorded runs side by side.
+std::string draw_trajectories() {
+  constexpr double kPanel_mm = 58;
+  constexpr double kScale = 21;  // mm a metre
+  Svg svg(3 * kPanel_mm, kPanel_mm + 6, "Recorded trajectories and ours",
+          "Trails of the original simulator, broad and pale, and of ours, thin, which cover them");
+  double x = kPanel_mm / 2;
+  for (const char* name : kLoggedRuns) {
+    draw_panel(svg, name, {x, kPanel_mm / 2}, kScale);
+    x += kPanel_mm;
+  }
+  return svg.finish();
+}
+
 void print_trajectories() {
   fmt::print(R"(## Trajectories
 
@@ -89,7 +135,10 @@ the start, 1200 ticks, three robots. The logs round poses to 0.01 mm and command
                again.first_contact == ticks ? "none" : fmt::format("tick {}", again.first_contact),
                again.worst_m * 1000, again.worst_of_all_m * 1000);
   }
-  fmt::print("\n");
+  fmt::print(
+      "\n![Trails of the original, broad, under ours, thin](figures/fidelity-trajectories.svg)\n\n"
+      "Up to the first contact; the original's trails are drawn broad, so that ours can be told "
+      "from them.\n\n");
 }
 
 /// What both solvers reach, in a few lines.
@@ -183,8 +232,13 @@ so that the interval of a single machine is too narrow there; the mean of the te
 }  // namespace
 }  // namespace swarmsmith
 
-int main() {
+int main(int argc, char** argv) {
   using namespace swarmsmith;
+  if (argc != 2) {
+    std::fputs("usage: fidelity_report FIGURE.svg > fidelity.md\n", stderr);
+    return EXIT_FAILURE;
+  }
+  std::ofstream(argv[1]) << draw_trajectories();
   const Results exact = compare_all(ContactModel::Exact);
   const Results box2d = compare_all(ContactModel::Box2d);
   print_head();

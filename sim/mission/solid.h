@@ -36,7 +36,7 @@ using Outline = std::variant<CircleOutline, BoxOutline, PolygonOutline>;
 struct Obstacle {
   Outline outline;
   Pose pose;
-  double height_m = 0.3;  ///< for the light that it keeps away
+  double height_m = 0.3;  ///< for the light that it keeps away, and the rays that meet it
 
   friend bool operator==(const Obstacle&, const Obstacle&) = default;
 };
@@ -68,5 +68,9 @@ inline constexpr double kBodySide_m = 0.286;
 /// Its height; what the walls have (rvr-automode facts, sections 2 and 7).
 inline constexpr double kBodyHeight_m = 0.114;
 inline constexpr double kWallHeight_m = 0.08;
+/// Where proximity and lidar rays run above the floor; they pass over obstacles and objects that
+/// are lower (rvr-automode facts, sections 3.1 and 3.4).
+inline constexpr double kProximityHeight_m = 0.032;
+inline constexpr double kLidarHeight_m = 0.04;
 
 }  // namespace swarmsmith

@@ -115,10 +115,12 @@ void scan_surroundings(const World& world, int robot, std::span<double> ranges_m
   const std::vector<WallPlane>& walls = world.walls().planes;
   for (std::size_t i = 0; i < walls.size(); ++i)  // each wall ends where the next one begins
     scanner.meet_wall(walls[i].from, walls[(i + 1) % walls.size()].from);
-  for (const FixedSolid& obstacle : world.obstacles())
-    scanner.meet_solid(obstacle.form, obstacle.at);
+  for (const FixedSolid& obstacle : world.obstacles()) {
+    if (obstacle.form.height_m >= kLidarHeight_m) scanner.meet_solid(obstacle.form, obstacle.at);
+  }
   for (int mover = 0; mover < world.movers(); ++mover) {
-    if (mover != robot) scanner.meet_solid(world.form(mover), world.body(mover));
+    if (mover == robot || world.form(mover).height_m < kLidarHeight_m) continue;
+    scanner.meet_solid(world.form(mover), world.body(mover));
   }
 }
 

@@ -9,16 +9,18 @@ namespace swarmsmith {
 
 namespace {
 
-/// What else than walls there is to meet, where not all are RVRs.
+/// What else than walls there is to meet, where not all are RVRs. Rays pass above what is low.
 void meet_solids(const World& world, int robot, double range_m, RayDistances& distances) {
   const Body& self = world.body(robot);
   const double start = ray_start_m(world.form(robot));
   for (int other = 0; other < world.movers(); ++other) {
-    if (other == robot) continue;
+    if (other == robot || world.form(other).height_m < kProximityHeight_m) continue;
     meet_solid(self, start, world.form(other), world.body(other), range_m, distances);
   }
-  for (const FixedSolid& obstacle : world.obstacles())
+  for (const FixedSolid& obstacle : world.obstacles()) {
+    if (obstacle.form.height_m < kProximityHeight_m) continue;
     meet_solid(self, start, obstacle.form, obstacle.at, range_m, distances);
+  }
 }
 
 }  // namespace

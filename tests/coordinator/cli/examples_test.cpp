@@ -1,6 +1,9 @@
 #include <gmock/gmock.h>
 
+#include "sim/control/machine_text.h"
+#include "sim/engine/simulate.h"
 #include "sim/files/mission_file.h"
+#include "sim/files/profile_file.h"
 #include "sim/mission/polygon.h"
 #include "tests/coordinator/cli/cli_support.h"
 
@@ -63,6 +66,16 @@ TEST(Examples, OfBoxPushingHaveABoxThatThreeRobotsMoveAndTwoDoNot) {
   ASSERT_EQ(mission.arena.objects.size(), 1U);
   EXPECT_GT(mission.arena.objects[0].friction_N, 2 * kPush_N);
   EXPECT_LT(mission.arena.objects[0].friction_N, 3 * kPush_N);
+  // Straight on is enough, for three of them.
+  const Machine straight = parse_machine("--nstates 1 --s0 0 --rwm0 1", watermelon()).value();
+  const Profile profile = built_in_profile("argos3").value();
+  Instance instance = instance_of(mission, 1).value();
+  const auto score = [&] {
+    return simulate({straight, watermelon(), profile, mission, instance, 1}).score;
+  };
+  EXPECT_EQ(score(), 1);
+  instance.starts.pop_back();
+  EXPECT_EQ(score(), 0);
 }
 
 TEST(Examples, OfAMazeHaveWallsThatAreNotConvexAndObstacles) {

@@ -39,6 +39,33 @@ TEST(RobotSenses, ReadWhatIsThere) {
   EXPECT_DOUBLE_EQ(senses.neighbours()[0].direction_x, 1);
 }
 
+TEST(RobotSenses, RaysPassOverWhatIsLow) {
+  const std::vector<Pose> poses = {{0, 0, 0}};
+  Arena arena = dodecagon_of_the_thesis();
+  arena.obstacles = {{.outline = BoxOutline{0.2, 0.4}, .pose = {0.5, 0, 0}, .height_m = 0.3}};
+  arena.objects = {{.outline = CircleOutline{0.1}, .start = {-0.5, 0, 0}, .height_m = 0.3}};
+  const Profile profile;
+  const auto look = [&](double height_m) {
+    arena.obstacles[0].height_m = height_m;
+    arena.objects[0].height_m = height_m;
+    const World world(arena, BoxOutline{kBodySide_m, kBodySide_m}, poses, ContactModel::Exact);
+    RobotSenses senses(world, arena, profile, 0, Rng(1));
+    senses.begin_cycle({.number = 1});
+    return senses.read(Sensor::Proximity | Sensor::Lidar);
+  };
+  const Readings high = look(0.3);
+  EXPECT_NEAR(high.proximity_m[1], 0.4 - 0.143, 1e-12);
+  EXPECT_NEAR(high.proximity_m[5], 0.4 - 0.143, 1e-12);
+  EXPECT_NEAR(high.lidar_m[0], 0.4, 1e-9);
+  // Between the two: proximity rays run at 32 mm, the lidar's at 40 mm.
+  const Readings middle = look(0.036);
+  EXPECT_NEAR(middle.proximity_m[1], 0.4 - 0.143, 1e-12);
+  EXPECT_NEAR(middle.lidar_m[0], 1.226, 1e-9);
+  const Readings low = look(0.03);
+  EXPECT_EQ(low.proximity_m[1], kInfinity);
+  EXPECT_EQ(low.proximity_m[5], kInfinity);
+}
+
 TEST(RobotSenses, TheDirectionOfANeighbourIsInTheRobotsFrame) {
   const Scene scene;
   RobotSenses senses = scene.senses(1);
