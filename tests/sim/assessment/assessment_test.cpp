@@ -48,6 +48,12 @@ TEST(Assessment, AllModulesOfTheThesisPassWithoutNoise) {
   }
 }
 
+TEST(Assessment, AllModulesOfChocolatePass) {
+  const Report report = assessed("chocolate", "rvr");
+  EXPECT_EQ(report.modules.size(), 12U);
+  EXPECT_THAT(failing(report), IsEmpty());
+}
+
 // The published program counts centimetres: 1.2 x 3 / (1 + 50) = 0.07 is too short a vector to be
 // followed, and nearer the neighbour is an obstacle. Its Attraction gathers nobody.
 TEST(Assessment, TheAttractionOfThePublishedProgramFails) {
