@@ -106,8 +106,8 @@ Command explore(const Exploration& exploration, Senses& senses, const Flavour& f
     memory.turn_cycles_left =
         draw_turn_cycles(exploration.tau, flavour.exploration.turn_length, rng);
     if (flavour.exploration.turn_clock == TurnClock::Seconds) {
-      // Commands change only at cycles: the half makes the turn end at the one that is nearest to
-      // T = r * 0.1 s, whatever the clock rounds.
+      // Commands change only at cycles. The half makes T = r * 0.1 s end between two nominal ones,
+      // whatever the clock rounds; with another period the turn is right to a cycle.
       memory.turn_end_s = senses.time_s() + (memory.turn_cycles_left + 0.5) * kControlPeriod_s;
     }
   }

@@ -41,8 +41,8 @@ struct Rgb {
   friend bool operator==(const Rgb&, const Rgb&) = default;
 };
 
-/// Another robot, as seen from this one: distance between the centres, and the unit vector towards
-/// it in the robot's frame.
+/// Another robot, as seen from this one: distance of its centre (by lidar, of its turret's near
+/// side), and the unit vector towards it in the robot's frame.
 struct Neighbour {
   double distance_m = 0;
   double direction_x = 1;

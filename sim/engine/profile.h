@@ -19,8 +19,8 @@ enum class ContactModel {
   Box2d,
 };
 
-/// Eight rays (thesis 4.2.9, 7.1). Of a reading, in this order: missed, or misjudged, or a phantom;
-/// then the limits hold again.
+/// Eight rays (thesis 4.2.9, 7.1). A reading is a phantom, whatever is there; else a hit may be
+/// missed; else a distance is misjudged, and the limits hold again.
 struct ProximitySensing {
   double range_m = kProximityRange_m;  ///< R: beyond it a reading is +infinity
   double sd_m = 0;                     ///< normal noise on finite distances

@@ -14,8 +14,9 @@
 // in rvr-automode facts, section 9. Rows that no flavour decides, and where they are tested:
 //   1 robot size, 2 arena area      the same robot and walls: tests/sim/mission/arena_test.cpp
 //   13 sign of the grid score       tests/sim/mission/score_test.cpp, recorded_scores_test.cpp
-//   14 ground noise, 15 ray noise   of the profile: tests/sim/engine/profile_test.cpp; that the
-//                                   program's black does not bear it, row 11 and `check`'s warning
+//   14 ground noise, 15 ray noise   of the profile: tests/sim/engine/sensor_faults_test.cpp,
+//                                   proximity_noise_test.cpp, lidar_test.cpp; that the program's
+//                                   black does not bear it, row 11 and `check`'s warning
 //   20 budget                       of the campaign: tests/coordinator/campaign
 //   22 designs with Attraction      a count in the thesis' own tables, nothing that is built
 

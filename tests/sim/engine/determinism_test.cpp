@@ -8,6 +8,7 @@
 
 #include "base/hash.h"
 #include "sim/control/machine_text.h"
+#include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
 
@@ -126,6 +127,11 @@ constexpr const char* kTable =
 
 TEST(Determinism, TheTrajectoriesHaveTheirFixedHashes) {
   EXPECT_EQ(table_of_hashes(), kTable);
+}
+
+TEST(Determinism, TheSelfTestOfWorkersHasItsFixedDigest) {
+  // Also with Box2D and with neighbours from the lidar, which the table above leaves out.
+  EXPECT_EQ(self_test_digest(), "c5ced327cd00f045361f073e48598c8e");
 }
 
 TEST(Determinism, ThreadsChangeNothing) {

@@ -155,9 +155,17 @@ TEST_P(LoggedRuns, ItsOwnCommandsDriveItAgainUntilTheFirstContact) {
   EXPECT_LT(again.worst_m, 1e-3);
 }
 
-TEST(ClosedLoop, AMachineWithoutRandomDrawsFollowsTheOriginalForAllTwelveHundredTicks) {
+class ClosedLoop : public testing::TestWithParam<ContactModel> {};
+INSTANTIATE_TEST_SUITE_P(Both, ClosedLoop,
+                         testing::Values(ContactModel::Exact, ContactModel::Box2d),
+                         [](const auto& instance) {
+                           return instance.param == ContactModel::Exact ? "Exact" : "Box2d";
+                         });
+
+TEST_P(ClosedLoop, AMachineWithoutRandomDrawsFollowsTheOriginalForAllTwelveHundredTicks) {
   const LoggedRun logged = logged_run("grid-hG5-seed1");
-  const ReferenceRuns runs("grid_exploration");
+  ReferenceRuns runs("grid_exploration");
+  runs.profile.contacts = GetParam();
   std::string text;
   for (const ReferenceMachine& machine : reference_machines()) {
     if (machine.id == "hG5") text = machine.text;

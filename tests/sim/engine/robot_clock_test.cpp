@@ -9,6 +9,7 @@
 
 #include "sim/engine/simulate.h"
 #include "tests/sim/engine/reference_runs.h"
+#include "tests/sim/engine/statistics.h"
 
 namespace swarmsmith {
 namespace {
@@ -77,6 +78,22 @@ TEST(RobotClock, JitterStaysWithinItsBounds) {
     irregular += period == 10 ? 0 : 1;
   }
   EXPECT_GT(irregular, 100);
+}
+
+TEST(RobotClock, JitterIsUniformFromCycleToCycle) {
+  // Periods of a second, so that whole sub-steps blur the law little: U(50, 150) sub-steps.
+  const ControlTiming timing{.least_period = 10, .most_period = 10, .jitter = 0.5};
+  RobotClock clock(timing, Rng(7), 0);
+  std::vector<double> periods;
+  for (int i = 0; i < 2000; ++i) {
+    const std::int64_t before = clock.next();
+    clock.next_cycle();
+    periods.push_back(static_cast<double>(clock.next() - before));
+  }
+  // Rounding shifts what is counted below a value by half a sub-step, a 200th, at most.
+  const double rounding = std::sqrt(static_cast<double>(periods.size())) / 200;
+  EXPECT_LT(ks_statistic(periods, [](double x) { return std::clamp((x - 50) / 100, 0.0, 1.0); }),
+            kKsLimit + rounding);
 }
 
 TEST(RobotClock, DelaysHaveTheirProbabilities) {
