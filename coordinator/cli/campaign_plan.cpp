@@ -43,27 +43,40 @@ std::vector<Machine> some_machines(const Campaign& campaign, const Method& metho
 }
 
 /// Mean seconds of an evaluation of the method on the mission, by as many as fit into `budget_s`.
+/// Of a mission that is too long for that, its beginning is simulated: as much as fits.
 double measure(const Campaign& campaign, const Method& method, const Mission& mission,
                double budget_s) {
   const Flavour flavour = find_flavour(method.flavour, method.turn_clock).value();
   const std::vector<Machine> machines = some_machines(campaign, method);
-  const auto begin = SteadyClock::now();
-  double elapsed_s = 0;
+  constexpr int kFirstCycles = 50;
+  constexpr int kGrowth = 4;
+  Mission piece = mission;
+  piece.cycles = std::min(mission.cycles, kFirstCycles);
+  double elapsed_s = 0;  // of all runs
+  double counted_s = 0;  // of those as long as the last
   std::int64_t runs = 0;
   for (std::int64_t seed = 1; !machines.empty() && (runs == 0 || elapsed_s < budget_s); ++seed) {
     const Machine& machine = machines[static_cast<std::size_t>(seed) % machines.size()];
     const auto instance = instance_of(mission, seed);
     if (!instance) continue;
+    const auto begin = SteadyClock::now();
     simulate({.machine = machine,
               .flavour = flavour,
               .profile = campaign.profile,
-              .mission = mission,
+              .mission = piece,
               .instance = *instance,
               .seed = seed});
+    const double run_s = std::chrono::duration<double>(SteadyClock::now() - begin).count();
+    elapsed_s += run_s;
+    if (runs == 0 && piece.cycles < mission.cycles && kGrowth * run_s < budget_s - elapsed_s) {
+      piece.cycles = std::min(mission.cycles, kGrowth * piece.cycles);
+      continue;
+    }
+    counted_s += run_s;
     ++runs;
-    elapsed_s = std::chrono::duration<double>(SteadyClock::now() - begin).count();
   }
-  return runs == 0 ? 0 : elapsed_s / static_cast<double>(runs);
+  if (runs == 0) return 0;
+  return counted_s / static_cast<double>(runs) * mission.cycles / piece.cycles;
 }
 
 }  // namespace

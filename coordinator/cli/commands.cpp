@@ -79,8 +79,8 @@ stored; exit code 1 when they have not. Writes it down on the way: poses, comman
 readings as CSV, a picture as SVG (docs/trajectories.md).
 
 Examples:
-  swarmsmith replay e100007 demo.db
-  swarmsmith replay e100007 demo.db --csv run.csv --readings ground_color,proximity
+  swarmsmith replay e100001 demo.db
+  swarmsmith replay e100001 demo.db --csv run.csv --readings ground_color,proximity
   swarmsmith replay c1 demo.db --seed 7 --svg run.svg
   swarmsmith replay c1 demo.db --seed 7 --svg - --at 60 > minute.svg
   swarmsmith replay --sample 100 demo.db)";

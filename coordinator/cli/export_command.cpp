@@ -97,8 +97,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
   stream << text;
   stream.close();
   if (stream) return ExitCode::Done;
-  return fail(output, ExitCode::Failed,
-              Error{ErrorKind::Unavailable, "cannot be written", arguments.file});
+  return fail(output, ExitCode::Failed, cannot_write(arguments.file));
 }
 
 }  // namespace

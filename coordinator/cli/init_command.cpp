@@ -28,8 +28,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
   stream << campaign_template(arguments.mission, arguments.flavour);
   stream.close();
   if (!stream) {
-    return fail(output, ExitCode::Failed,
-                Error{ErrorKind::Unavailable, "cannot be written", file.string()});
+    return fail(output, ExitCode::Failed, cannot_write(file.string()));
   }
   if (output.json) {
     output.out << "{\"file\":" << json_text(file.string()) << "}\n";

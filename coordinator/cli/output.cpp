@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
+#include <filesystem>
 #include <iostream>
 
 namespace swarmsmith::cli {
@@ -71,6 +72,18 @@ ExitCode fail(Output& output, ExitCode code, const std::string& message) {
 ExitCode fail(Output& output, ExitCode code, const Error& error) {
   print_error(output, error);
   return code;
+}
+
+Error cannot_write(const std::string& file) {
+  Error error{ErrorKind::Unavailable, "cannot be written", file};
+  std::error_code trouble;
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  if (std::filesystem::is_directory(file, trouble)) {
+    error.message += ": this is a folder; name a file";
+  } else if (!folder.empty() && !std::filesystem::exists(folder, trouble) && !trouble) {
+    error.message += ": there is no folder " + folder.string();
+  }
+  return error;
 }
 
 std::string json_text(std::string_view text) {

@@ -34,6 +34,9 @@ void print_note(Output& output, std::string_view text);
 ExitCode fail(Output& output, ExitCode code, const std::string& message);
 ExitCode fail(Output& output, ExitCode code, const Error& error);
 
+/// Unavailable: the file cannot be written, and why, as far as can be seen.
+Error cannot_write(const std::string& file);
+
 /// A text as a JSON string, in quotes.
 std::string json_text(std::string_view text);
 /// A number in the shortest form that reads back to the same value; null for what JSON lacks.

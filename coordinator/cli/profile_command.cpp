@@ -31,8 +31,7 @@ ExitCode write(const Arguments& arguments, std::string_view text, Output& output
   stream << text;
   stream.close();
   if (!stream) {
-    return fail(output, ExitCode::Failed,
-                Error{ErrorKind::Unavailable, "cannot be written", arguments.file});
+    return fail(output, ExitCode::Failed, cannot_write(arguments.file));
   }
   print_note(output, arguments.file + " can be named in a campaign file: [simulator] profile = \"" +
                          arguments.file + "\"");

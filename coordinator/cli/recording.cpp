@@ -63,8 +63,7 @@ Expected<void> Recording::Sink::close() const {
   const bool good = stream->good();
   if (file) file->close();
   if (good && (!file || file->good())) return {};
-  return unexpected(ErrorKind::Unavailable, "cannot be written",
-                    name == "-" ? "standard output" : name);
+  return Unexpected(cannot_write(name == "-" ? "standard output" : name));
 }
 
 Expected<Recording::Sink> Recording::open(const std::string& name, Output& output) {
@@ -75,7 +74,7 @@ Expected<Recording::Sink> Recording::open(const std::string& name, Output& outpu
     return sink;
   }
   sink.file = std::make_unique<std::ofstream>(name, std::ios::binary);
-  if (!*sink.file) return unexpected(ErrorKind::Unavailable, "cannot be written", name);
+  if (!*sink.file) return Unexpected(cannot_write(name));
   sink.stream = sink.file.get();
   return sink;
 }

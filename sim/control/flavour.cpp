@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <limits>
+#include <vector>
+
+#include "base/suggestion.h"
 
 namespace swarmsmith {
 namespace {
@@ -46,13 +49,14 @@ std::string_view name_of(TurnClock clock) {
 }
 
 Expected<const Flavour*> find_flavour(std::string_view name) {
-  std::string known;
+  std::vector<std::string> known;
   for (const Flavour* flavour : all_flavours()) {
     if (flavour->name == name) return flavour;
-    known += (known.empty() ? "" : ", ") + flavour->name;
+    known.push_back(flavour->name);
   }
-  return unexpected(ErrorKind::NotFound,
-                    "there is no flavour `" + std::string(name) + "`; known are: " + known);
+  return unexpected(ErrorKind::NotFound, "there is no flavour `" + std::string(name) + "`" +
+                                             did_you_mean(name, known) +
+                                             "; known are: " + joined(known));
 }
 
 Expected<Flavour> find_flavour(std::string_view name, TurnClock turn_clock) {

@@ -2,7 +2,9 @@
 
 #include <charconv>
 #include <cstdint>
+#include <vector>
 
+#include "base/suggestion.h"
 #include "sim/mission/colors.h"
 
 namespace swarmsmith {
@@ -38,11 +40,12 @@ std::string color_key(Rgb color) {
   return text.front() == '#' ? "\"" + text + "\"" : text;
 }
 
-std::string known_colors() {
-  std::string text;
+std::string no_such_color(const std::string& text) {
+  std::vector<std::string> names;
   for (const NamedColor& named : kNamedColors)
-    text += std::string(named.name) + ", ";
-  return text + "\"#rrggbb\"";
+    names.emplace_back(named.name);
+  return "there is no colour \"" + text + "\"" + did_you_mean(text, names) +
+         "; known are: " + joined(names) + ", \"#rrggbb\"";
 }
 
 }  // namespace swarmsmith

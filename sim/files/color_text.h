@@ -17,7 +17,7 @@ std::string color_text(Rgb color);
 /// The colour as a TOML key: names are bare, numbers need quotes.
 std::string color_key(Rgb color);
 
-/// What may be written for a colour, for sentences.
-std::string known_colors();
+/// The sentence about a text that is no colour: a likely one, and what may be written.
+std::string no_such_color(const std::string& text);
 
 }  // namespace swarmsmith

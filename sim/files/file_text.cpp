@@ -17,7 +17,7 @@ Expected<std::string> read_file(const std::filesystem::path& file, const std::st
                                 std::size_t most) {
   std::error_code trouble;
   if (std::filesystem::is_directory(file, trouble)) {
-    return bad_input("this is a folder; a " + what + " is a file", file.string());
+    return bad_input("this is a folder, not a " + what + " file", file.string());
   }
   if (!std::filesystem::exists(file, trouble) && !trouble) {
     return unexpected(ErrorKind::NotFound, "there is no such " + what + " file", file.string());

@@ -66,10 +66,9 @@ std::optional<MissionEntry> read_base(TableReader& table, const std::string& nam
   const bool built_in = std::ranges::find(kPresets, name) != kPresets.end();
   if (!given && !built_in) {
     if (table.has("preset") || table.has("score")) return empty_mission(name);
-    table.complain(
-        "name",
-        "mission \"" + name + "\" is not built in" + did_you_mean(name, kPresets) +
-            ", so it needs a `preset` or a [mission.score]; built in are: " + joined(kPresets));
+    table.complain("name",
+                   "mission \"" + name + "\" is not built in" + did_you_mean(name, kPresets) +
+                       ", so it needs a `preset` or a `score`; built in are: " + joined(kPresets));
     return empty_mission(name);
   }
   const std::string preset = given.value_or(name);

@@ -107,6 +107,8 @@ void TableReader::complain(std::string_view key, std::string message) {
 }
 
 void TableReader::complain_foreign(std::string_view key, Error error) {
+  // A file that is not there has no line of its own to show: the name is what is wrong.
+  if (error.kind == ErrorKind::NotFound) return complain(key, error.where + ": " + error.message);
   complaints_->add_foreign(place_of(key), std::move(error));
 }
 
@@ -227,7 +229,7 @@ std::optional<std::vector<std::string>> TableReader::texts(std::string_view key)
   return texts;
 }
 
-std::optional<Limits<double>> TableReader::interval(std::string_view key) {
+std::optional<Limits<double>> TableReader::interval(std::string_view key, std::string_view wanted) {
   const Node* node = take(key);
   if (node == nullptr) return std::nullopt;
   const auto* array = std::get_if<Array>(&node->value);
@@ -235,7 +237,7 @@ std::optional<Limits<double>> TableReader::interval(std::string_view key) {
   const auto least = pair ? as_number(array->items[0]) : std::nullopt;
   const auto most = pair ? as_number(array->items[1]) : std::nullopt;
   if (least && most) return Limits<double>{*least, *most};
-  complain(key, "`" + std::string(key) + "` must be a range of two numbers, such as [1, 100]");
+  complain(key, "`" + std::string(key) + "` must be " + std::string(wanted));
   return std::nullopt;
 }
 

@@ -61,7 +61,8 @@ class TableReader {
   void complain(std::string_view key, std::string message);
   /// How much was wrong so far, in all tables of the file.
   std::size_t complaints() const { return complaints_->count(); }
-  /// Something wrong in another file, which the key names.
+  /// Something wrong in another file, which the key names; when that is not there, the key's value
+  /// is what is wrong.
   void complain_foreign(std::string_view key, Error error);
 
   std::optional<bool> boolean(std::string_view key);
@@ -75,7 +76,8 @@ class TableReader {
   /// "30 s", "2 min", "500 ms", "1 h" as seconds.
   std::optional<double> seconds(std::string_view key, Limits<double> limits);
   std::optional<std::vector<std::string>> texts(std::string_view key);
-  std::optional<Limits<double>> interval(std::string_view key);
+  std::optional<Limits<double>> interval(
+      std::string_view key, std::string_view wanted = "a range of two numbers, such as [1, 100]");
   /// A list of lists of `width` numbers each; `example` shows one in complaints.
   std::optional<std::vector<std::vector<double>>> number_rows(std::string_view key,
                                                               std::size_t width,

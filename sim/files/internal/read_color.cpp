@@ -16,7 +16,7 @@ std::optional<Rgb> read_color(TableReader& table, std::string_view key) {
   if (!text) return std::nullopt;
   const auto color = parse_color(*text);
   if (!color) {
-    table.complain(key, "there is no colour \"" + *text + "\"; known are: " + known_colors());
+    table.complain(key, no_such_color(*text));
   }
   return color;
 }
@@ -26,7 +26,7 @@ std::vector<std::pair<std::string, Rgb>> read_color_keys(TableReader& table) {
   for (const auto& [key, node] : table.take_all()) {
     const auto color = parse_color(key);
     if (!color) {
-      table.complain(key, "there is no colour \"" + key + "\"; known are: " + known_colors());
+      table.complain(key, no_such_color(key));
       continue;
     }
     if (!by_name.try_emplace(color_text(*color), key, *color).second) {

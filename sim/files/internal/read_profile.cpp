@@ -59,7 +59,7 @@ class FieldReader {
     for (const std::string& text : *texts) {
       const auto color = parse_color(text);
       if (!color) {
-        table->complain(key, "there is no colour \"" + text + "\"; known are: " + known_colors());
+        table->complain(key, no_such_color(text));
       }
       colors.push_back(color.value_or(Rgb{}));
     }
@@ -68,6 +68,7 @@ class FieldReader {
     TableReader* table = current();
     if (table == nullptr || !table->has(key)) return;
     delays.clear();
+    const std::size_t before = table->complaints();
     for (TableReader& item : table->tables(key)) {
       for (const char* wanted : {"time", "probability"}) {
         if (!item.has(wanted))
@@ -82,7 +83,8 @@ class FieldReader {
       delays.push_back({static_cast<int>(std::lround(steps)), probability.value_or(0)});
       item.finish();
     }
-    if (is_distribution(delays)) return;
+    // A sum over probabilities that could not be read would only confuse.
+    if (table->complaints() > before || is_distribution(delays)) return;
     double sum = 0;
     for (const ControlTiming::Delay& delay : delays)
       sum += delay.probability;
@@ -106,7 +108,8 @@ class FieldReader {
   }
   void point(std::string_view key, Point& point, FieldLimits limits) {
     TableReader* table = current();
-    const auto pair = table == nullptr ? std::nullopt : table->interval(key);
+    if (table == nullptr) return;
+    const auto pair = table->interval(key, "a place of two numbers in metres, such as [0.1, 0]");
     if (!pair) return;
     if (!limits.contain(pair->least) || !limits.contain(pair->most)) {
       table->complain(key, "both numbers of `" + std::string(key) + "` must be from " +

@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <chrono>
 #include <nlohmann/json.hpp>
 
 #include "coordinator/cli/commands.h"
@@ -106,6 +107,19 @@ TEST(Check, ShowsThePlanAsJson) {
   EXPECT_EQ(plan["experiments"], 10'000);
   EXPECT_EQ(plan["tests"], 100);
   EXPECT_GT(plan["evaluation_ms"], 0);
+}
+
+TEST(Check, SimulatesOnlyTheBeginningOfALongMission) {
+  const TemporaryFolder folder;
+  write_file(folder / "x.toml",
+             "format = 1\n[[mission]]\nname = \"day\"\npreset = \"aggregation\"\n"
+             "duration = \"24 h\"\nrobots = 100\n[mission.arena]\nshape = \"square\"\nside = 10\n"
+             "[[method]]\nname = \"watermelon\"\n[race]\nmax_experiments = 2000\n");
+  const auto begin = std::chrono::steady_clock::now();
+  const Ran ran = run({"check", (folder / "x.toml").string(), "--json"});
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));  // whole: minutes
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_GT(json::parse(ran.out)["evaluation_ms"], 10'000);
 }
 
 TEST(Check, PrintsAllThatIsWrongAndExitsWithTwo) {

@@ -269,7 +269,9 @@ TEST_F(Replay, ExplainsWhatIsWrongWithItsArguments) {
       {{"e100001", "--svg", "x", "--at", "1", "--to", "2"}, "--at: draws one instant"},
       {{"e100001", "--svg", "x", "--from", "3", "--to", "2"}, "--to: the span ends before"},
       {{"e100001", "--svg", "x", "--width", "3mm"}, "--width: a picture is 40mm to 1000mm"},
-      {{"e100001", "--svg", "/nowhere/x.svg"}, "/nowhere/x.svg: cannot be written", 1},
+      {{"e100001", "--svg", "/nowhere/x.svg"},
+       "/nowhere/x.svg: cannot be written: there is no folder /nowhere",
+       1},
       {{"--sample", "2", "--csv", "x"}, "--sample: replays many evaluations"},
       {{"e100001", "other.db", "--sample", "2"}, "--sample: takes no ID"},
   };

@@ -23,6 +23,8 @@ TEST(Flavour, AnUnknownNameListsTheKnownOnes) {
   EXPECT_EQ(flavour.error().kind, ErrorKind::NotFound);
   EXPECT_EQ(flavour.error().message,
             "there is no flavour `melon`; known are: watermelon, watermelon-argos3, chocolate");
+  EXPECT_THAT(find_flavour("chocolat").error().message,
+              HasSubstr("`chocolat` (did you mean \"chocolate\"?); known are: "));
 }
 
 std::string numbers_of(const Flavour& flavour) {

@@ -66,6 +66,12 @@ TEST(MissionFile, HasTheNameOfItsFileUnlessItSaysOne) {
   EXPECT_EQ(read("", "name = \"other\"\n").name, "other");
 }
 
+TEST(MissionFile, NeedsAScoreUnlessItBeginsWithABuiltInOne) {
+  const auto entry = parse_mission("format = 1\nrobots = 5\n", "x.toml");
+  ASSERT_FALSE(entry);
+  EXPECT_THAT(entry.error().front().message, HasSubstr("needs a `preset` or a `score`; built in"));
+}
+
 TEST(MissionFile, BeginsWithABuiltInOneIfItSaysSo) {
   const auto entry = parse_mission("format = 1\npreset = \"aggregation\"\nrobots = 5\n", "x.toml");
   ASSERT_TRUE(entry);

@@ -111,9 +111,13 @@ TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
       {"[proximity]\nphantom_rate = 1.1\n", "mine.toml:3:16: `phantom_rate` must be from 0 to 1"},
       {"[ground_color]\nlabeler = 1\n", "mine.toml:3:11: `labeler` must be true or false"},
       {"[ground_color]\nlabels = [\"pink\"]\n", "mine.toml:3:10: there is no colour \"pink\""},
+      {"[ground_color]\nlabels = [\"blak\"]\n",
+       "there is no colour \"blak\" (did you mean \"black\"?); known are: black, gray"},
       {"[ground_color]\nlabels = []\n", "mine.toml:3:10: `labels` names no colour"},
       {"[neighbours]\nsource = \"lidr\"\n", "mine.toml:3:10: `source` cannot be \"lidr\" (did you"},
       {"[tracking]\nscore_point = \"tags\"\n", "mine.toml:3:15: `score_point` cannot be \"tags\""},
+      {"[tracking]\ntag = [0.1]\n",
+       "mine.toml:3:7: `tag` must be a place of two numbers in metres"},
       {"[tracking]\ntag = [5, 0]\n", "mine.toml:3:7: both numbers of `tag` must be from -1 to 1"},
       {"[timing]\ndelays = [ { time = \"105 ms\", probability = 1 } ]\n",
        "mine.toml:3:21: `time` must be a multiple of 10 ms"},
@@ -132,6 +136,8 @@ TEST(ProfileFile, GetsASentenceWithLineAndColumnForEachMistake) {
                          "{ time = \"0 ms\", probability = 0.5 } ]\n"),
               ElementsAre("mine.toml:3:10: the probabilities of `delays` must sum to 1, these sum "
                           "to 0.75"));
+  EXPECT_THAT(complaints("[timing]\ndelays = [ { time = \"100 ms\", probability = nan } ]\n"),
+              ElementsAre("mine.toml:3:45: `probability` must be from 0 to 1, this is nan"));
 }
 
 }  // namespace
