@@ -55,7 +55,9 @@ double measure(const Campaign& campaign, const Method& method, const Mission& mi
   double elapsed_s = 0;  // of all runs
   double counted_s = 0;  // of those as long as the last
   std::int64_t runs = 0;
-  for (std::int64_t seed = 1; !machines.empty() && (runs == 0 || elapsed_s < budget_s); ++seed) {
+  constexpr std::int64_t kMostSeeds = 100'000;  // also where no seed should find room for the swarm
+  for (std::int64_t seed = 1;
+       seed <= kMostSeeds && !machines.empty() && (runs == 0 || elapsed_s < budget_s); ++seed) {
     const Machine& machine = machines[static_cast<std::size_t>(seed) % machines.size()];
     const auto instance = instance_of(mission, seed);
     if (!instance) continue;

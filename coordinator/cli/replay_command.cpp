@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/counter.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/recording.h"
 #include "coordinator/cli/store_argument.h"
@@ -114,7 +115,11 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
   if (!ids) return fail(output, ExitCode::Store, ids.error());
   std::size_t different = 0;
   std::string different_json;
+  const auto of = static_cast<std::int64_t>(ids->size());
+  std::int64_t replayed = 0;
+  Counter counter(output, "replayed", "evaluations");
   for (const std::string& id : *ids) {
+    counter.tell(replayed++, of);
     const auto run = runs.evaluation(*parse_thing_id(id));
     if (!run) return fail(output, ExitCode::Store, run.error());
     const SimulationResult result = simulate(run->setup());
@@ -124,6 +129,7 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
     print_error(output,
                 {ErrorKind::Conflict, difference_text(*run, result, runs.engine_version()), ""});
   }
+  counter.tell(replayed, of);
   if (output.json) {
     output.out << "{\"replayed\":" << ids->size() << ",\"same_bits\":" << ids->size() - different
                << ",\"different\":[" << different_json << "]}\n";

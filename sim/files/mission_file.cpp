@@ -103,7 +103,8 @@ void check_room(TableReader& table, const Mission& mission) {
   for (int seed = 1; seed <= kPlacementTrials; ++seed) {
     const auto instance = instance_of(mission, seed);
     if (instance) continue;
-    table.complain("robots", "mission \"" + mission.name + "\": " + instance.error().message);
+    table.complain(table.has("instances") ? "instances" : "robots",
+                   "mission \"" + mission.name + "\": " + instance.error().message);
     return;
   }
 }

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "coordinator/campaign/campaign_text.h"
-#include "sim/files/table_reader.h"
 #include "sim/files/color_text.h"
+#include "sim/files/table_reader.h"
 #include "tests/coordinator/campaign/campaign_support.h"
 #include "tests/support/score_rules.h"
 

@@ -1,0 +1,32 @@
+#include "coordinator/cli/counter.h"
+
+#include <string_view>
+#include <utility>
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::string_view kClearLine = "\r\x1b[2K";
+
+}  // namespace
+
+Counter::Counter(Output& output, std::string verb, std::string noun)
+    : output_(&output),
+      verb_(std::move(verb)),
+      noun_(std::move(noun)),
+      next_(std::chrono::steady_clock::now() + std::chrono::seconds(2)) {}
+
+void Counter::tell(std::int64_t done, std::int64_t of) {
+  const auto now = std::chrono::steady_clock::now();
+  if (output_->quiet || now < next_) return;
+  const std::string text =
+      verb_ + " " + std::to_string(done) + " of " + std::to_string(of) + " " + noun_;
+  if (output_->err_is_terminal) {
+    output_->err << kClearLine << (done < of ? text : std::string()) << std::flush;
+  } else {
+    next_ = now + std::chrono::seconds(30);
+    output_->err << text << '\n' << std::flush;
+  }
+}
+
+}  // namespace swarmsmith::cli
