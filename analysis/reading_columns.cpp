@@ -160,6 +160,19 @@ ReadingColumns::ReadingColumns(Sensors sensors, int robots) : sensors_(sensors) 
   }
 }
 
+std::string leds_text(const Leds& leds) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string text;
+  for (const Rgb led : leds) {
+    text += text.empty() ? "#" : " #";
+    for (const unsigned channel : {led.r, led.g, led.b}) {
+      text += kDigits[channel / 16];
+      text += kDigits[channel % 16];
+    }
+  }
+  return text;
+}
+
 void ReadingColumns::append_cells(std::string& line, const Readings* readings) const {
   Values values;
   auto width = widths_.begin();

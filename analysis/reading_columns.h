@@ -20,6 +20,9 @@ Expected<Sensors> sensors_from_names(std::string_view list);
 /// The names of the known sensors, in the order of their columns.
 std::vector<std::string> sensor_names();
 
+/// What the five LEDs show, "#000000 #000000 #ff0000 ...": one cell, in the order of `Leds`.
+std::string leds_text(const Leds& leds);
+
 /// Names and cells of the columns of some sensors.
 class ReadingColumns {
  public:

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/counter.h"
 #include "coordinator/cli/machine_argument.h"
 #include "coordinator/cli/mean_interval.h"
 #include "coordinator/cli/progress_text.h"
@@ -158,6 +159,18 @@ std::vector<std::string> details_of(const Arguments& arguments, std::int64_t see
   return {name, "seed " + std::to_string(seed), "score " + score_text(score)};
 }
 
+/// Also counts the cycles of a run that takes seconds; for others it would cost more than it says.
+Recorder counted(Recorder recorder, const Mission& mission, Counter& counter) {
+  constexpr std::int64_t kLongRun = 500'000;  // robots times cycles
+  if (std::int64_t{mission.robots} * mission.cycles < kLongRun) return recorder;
+  const Sensors sensors = recorder.sensors;
+  return {[observe = std::move(recorder.observe), &mission, &counter](const Snapshot& now) {
+            counter.tell(now.cycle, mission.cycles);
+            if (observe) observe(now);
+          },
+          sensors};
+}
+
 ExitCode run(const Arguments& arguments, Output& output) {
   const auto plan = make_plan(arguments, output);
   if (!plan) {
@@ -184,13 +197,15 @@ ExitCode run(const Arguments& arguments, Output& output) {
   std::ostream& answer = arguments.recording.takes_standard_output() ? output.err : output.out;
   std::vector<double> scores;
   for (std::size_t i = 0; i < instances.size(); ++i) {
-    const SimulationResult result = simulate({.machine = plan->machine,
-                                              .flavour = plan->flavour,
-                                              .profile = plan->profile,
-                                              .mission = plan->mission,
-                                              .instance = instances[i],
-                                              .seed = plan->seeds[i]},
-                                             recording->recorder());
+    Counter counter(output, "simulated", "cycles of seed " + std::to_string(plan->seeds[i]));
+    const SimulationResult result =
+        simulate({.machine = plan->machine,
+                  .flavour = plan->flavour,
+                  .profile = plan->profile,
+                  .mission = plan->mission,
+                  .instance = instances[i],
+                  .seed = plan->seeds[i]},
+                 counted(recording->recorder(), plan->mission, counter));
     scores.push_back(result.score);
     const std::string score = json_number(result.score);
     if (output.json) {

@@ -146,7 +146,7 @@ Expected<Recording> Recording::start(const RecordingArguments& arguments, const 
 
 void Recording::write_headers() {
   if (csv_.stream != nullptr) {
-    std::string line = std::string(kTrajectoryColumns) + ",cmd_left,cmd_right,state,behaviour";
+    std::string line = std::string(kTrajectoryColumns) + ",cmd_left,cmd_right,state,behaviour,leds";
     for (const std::string& name : columns_->names())
       line += "," + name;
     *csv_.stream << line << kCsvLineEnd;
@@ -192,7 +192,8 @@ void Recording::write_rows(const Snapshot& snapshot) {
         text += ',';
         append_number(text, speed);
       }
-      text += "," + std::to_string(robot.state) + "," + behaviour_of(robot.state);
+      text += "," + std::to_string(robot.state) + "," + behaviour_of(robot.state) + "," +
+              leds_text(robot.command.leds);
       columns_->append_cells(text, robot.readings);
       text += kCsvLineEnd;
     }

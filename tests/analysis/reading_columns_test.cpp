@@ -70,5 +70,10 @@ TEST(ReadingColumns, OfAllSensorsAreDistinctAndFilled) {
   EXPECT_THAT(line, HasSubstr(",-inf,0.25,"));
 }
 
+TEST(LedsText, HasTheFiveInTheirOrder) {
+  const Leds leds = {Rgb{255, 0, 0}, {0, 255, 16}, {}, {}, {1, 2, 3}};
+  EXPECT_EQ(leds_text(leds), "#ff0000 #00ff10 #000000 #000000 #010203");
+}
+
 }  // namespace
 }  // namespace swarmsmith
