@@ -156,6 +156,7 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](const OutcomeRepeated& a) { repeat(a); },
           [&](ConflictFound& a) { own_rows_.emplace_back(std::move(a.row)); },
           [&](WorkerChanged& a) { own_rows_.emplace_back(std::move(a.row)); },
+          [&](FailureKept& a) { own_rows_.emplace_back(std::move(a.row)); },
           [&](Noted& a) { own_rows_.emplace_back(std::move(a.row)); },
           [&](StopCampaign& a) {
             if (!stopped_) stopped_ = std::move(a.reason);

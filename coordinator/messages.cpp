@@ -49,7 +49,10 @@ void results_of(const pb::Results& results, std::vector<WorkerResult>& out) {
                    .score = result.score() + 0.0,  // stores know one zero only
                    .state_digest = result.state_digest(),
                    .wall_us = result.wall_us(),
-                   .failure = result.failure()});
+                   .rejected = result.rejected(),
+                   .time = result.time(),
+                   .failure = result.failure(),
+                   .details = {result.command(), result.output(), result.errors()}});
   }
 }
 
@@ -105,6 +108,9 @@ std::string frame_of(const SendTasks& action, const CampaignFacts& facts,
     out.set_instance(task.instance);
     out.set_seed(task.seed);
     out.set_machine(task.machine);
+    out.set_bound(task.bound);
+    for (const std::int64_t number : task.alive)
+      out.add_alive(number);
   }
   return encode(message);
 }

@@ -262,13 +262,15 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
     ++entry.done;
     const auto spent_us = static_cast<double>(std::max<std::int64_t>(result.wall_us, 0));
     estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
-    accept(result.key, {.key = record->task.key,
-                        .status = EvaluationStatus::Ok,
-                        .score = result.score,
-                        .state_digest = result.state_digest,
-                        .wall_us = result.wall_us,
-                        .worker = entry.number,
-                        .attempt = std::max<std::int64_t>(record->attempts, 1)});
+    accept(result.key,
+           {.key = record->task.key,
+            .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
+            .score = result.rejected ? 0 : result.score,
+            .state_digest = result.state_digest,
+            .wall_us = result.wall_us,
+            .worker = entry.number,
+            .attempt = std::max<std::int64_t>(record->attempts, 1),
+            .time = result.time});
     return;
   }
   if (const DoneEntry* known = done_.find(result.key); known != nullptr) {

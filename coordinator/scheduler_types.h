@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "coordinator/task.h"
 #include "coordinator/task_key.h"
+#include "proto/failure_details.h"
 #include "proto/socket.h"
 
 namespace swarmsmith {
@@ -36,7 +37,10 @@ struct WorkerResult {
   double score = 0;
   std::uint64_t state_digest = 0;
   std::int64_t wall_us = 0;
+  bool rejected = false;
+  double time = 0;
   std::string failure;
+  FailureDetails details;
 };
 
 struct RunningReport {
@@ -108,6 +112,9 @@ struct WorkerChanged {
 struct Noted {
   EventRow row;
 };
+struct FailureKept {
+  FailureRow row;
+};
 /// The campaign cannot go on.
 struct StopCampaign {
   std::string reason;
@@ -116,7 +123,7 @@ struct StopCampaign {
 using SchedulerAction =
     std::variant<SendWelcome, SendReject, SendTasks, SendAcknowledged, SendHeartbeat, SendWhoAreYou,
                  SendDrain, OutcomeAccepted, OutcomeRepeated, ConflictFound, WorkerChanged, Noted,
-                 StopCampaign>;
+                 FailureKept, StopCampaign>;
 
 struct SchedulerOptions {
   Duration heartbeat = std::chrono::seconds(1);
@@ -131,6 +138,9 @@ struct SchedulerOptions {
   Duration task_timeout = std::chrono::seconds(30);
   std::int64_t retries = 2;      ///< after time-outs, before the campaign stops
   bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
+  /// Evaluations by programs: none is run a second time while a worker that runs it is alive, a
+  /// first failure is final, and two results of one evaluation may differ.
+  bool evaluates_programs = false;
   std::uint32_t max_credit = 4096;
   std::size_t max_workers = 10'000;
   int engine_version = 0;

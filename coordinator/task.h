@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "storage/rows.h"
 
@@ -14,7 +15,11 @@ struct Task {
   std::uint32_t method = 0;   ///< index into the scenario's methods
   std::int64_t instance = 0;
   std::int64_t seed = 0;
-  std::string machine;  ///< text of the grammar
+  /// Text of the grammar; for a target the switches and values of its configuration.
+  std::string machine;
+  double bound = 0;  ///< most time that a target's run may take; 0 for none
+  /// Numbers of the candidates that a targetEvaluator is told (purpose Evaluator); else empty.
+  std::vector<std::int64_t> alive{};
 };
 
 /// How a task ended, as a worker reported it.
@@ -26,6 +31,7 @@ struct Outcome {
   std::int64_t wall_us = 0;
   std::int64_t worker = 0;  ///< WorkerRow::id
   std::int64_t attempt = 1;
+  double time = 0;  ///< as a target says it; 0 where it does not
 };
 
 }  // namespace swarmsmith

@@ -34,10 +34,11 @@ std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario)
 }
 
 Expected<IteratedRace> IteratedRace::start(ParameterSpace space, Scenario scenario,
-                                           std::vector<Configuration> initial) {
+                                           std::vector<Configuration> initial, Repair repair) {
   if (auto checked = check(scenario); !checked) return Unexpected(checked.error());
   if (auto checked = check_initial(space, initial); !checked) return Unexpected(checked.error());
-  auto state = std::make_unique<State>(std::move(space), scenario, std::move(initial));
+  auto state =
+      std::make_unique<State>(std::move(space), scenario, std::move(initial), std::move(repair));
   if (auto begun = state->begin(); !begun) return Unexpected(begun.error());
   return IteratedRace(std::move(state));
 }
@@ -57,15 +58,26 @@ std::span<const Experiment> IteratedRace::wanted() const {
   return state_->wanted;
 }
 
-void IteratedRace::tell(std::span<const double> costs) {
-  if (costs.size() != state_->wanted.size()) {
-    throw std::invalid_argument("got " + std::to_string(costs.size()) + " costs for " +
+void IteratedRace::tell(std::span<const Measurement> measurements) {
+  if (measurements.size() != state_->wanted.size()) {
+    throw std::invalid_argument("got " + std::to_string(measurements.size()) + " costs for " +
                                 std::to_string(state_->wanted.size()) + " wanted experiments");
   }
-  for (const double cost : costs) {
-    if (std::isnan(cost)) throw std::invalid_argument("a cost is not a number");
+  for (const Measurement& measurement : measurements) {
+    if (std::isnan(measurement.cost)) throw std::invalid_argument("a cost is not a number");
   }
-  state_->tell(costs);
+  state_->tell(measurements);
+}
+
+void IteratedRace::tell(std::span<const double> costs) {
+  std::vector<Measurement> measurements;
+  for (const double cost : costs)
+    measurements.push_back({cost, 0});
+  tell(measurements);
+}
+
+std::vector<std::int64_t> IteratedRace::alive() const {
+  return state_->race ? state_->race->alive_ids() : std::vector<std::int64_t>{};
 }
 
 std::vector<RaceEvent> IteratedRace::take_events() {

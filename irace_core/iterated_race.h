@@ -1,28 +1,23 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "base/expected.h"
+#include "irace_core/experiment.h"
 #include "irace_core/parameter_space.h"
 #include "irace_core/race_event.h"
 #include "irace_core/scenario.h"
 
 namespace swarmsmith {
 
-/// (configuration, instance, seed): the unit of the budget. All ids start at 1; `pair` is the row
-/// of the list of (instance, seed) pairs, which all configurations share.
-struct Experiment {
-  std::int64_t configuration = 0;
-  std::int64_t pair = 0;
-  std::int64_t instance = 0;
-  std::int64_t seed = 0;
-
-  friend bool operator==(const Experiment&, const Experiment&) = default;
-};
+/// Changes a configuration that was sampled into one that makes sense (irace's
+/// repairConfiguration); a pure function.
+using Repair = std::function<Expected<Configuration>(const Configuration&)>;
 
 /// The budget of a design: max_experiments, or what min_experiments makes of it.
 std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario);
@@ -49,7 +44,7 @@ class IteratedRace {
   /// from 1 in their order, and forbidden ones take no part. A budget that is too small is an error
   /// that says the smallest one that works.
   static Expected<IteratedRace> start(ParameterSpace space, Scenario scenario,
-                                      std::vector<Configuration> initial = {});
+                                      std::vector<Configuration> initial = {}, Repair repair = {});
 
   IteratedRace(IteratedRace&&) noexcept;
   IteratedRace& operator=(IteratedRace&&) noexcept;
@@ -66,7 +61,11 @@ class IteratedRace {
   /// Costs of all wanted() in the same order, smaller is better. An infinite cost rejects the
   /// configuration; what was wanted of it on later tasks is then neither counted nor used. Throws
   /// std::invalid_argument for NaN or a wrong number of costs.
+  void tell(std::span<const Measurement> measurements);
+  /// The same of a target that does not measure its time.
   void tell(std::span<const double> costs);
+  /// Ids of all that are alive in the current race, ascending: what a targetEvaluator is told.
+  std::vector<std::int64_t> alive() const;
   /// What happened since the last call, in order.
   std::vector<RaceEvent> take_events();
 

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -28,12 +29,14 @@ struct IterationStarted {
   std::int64_t new_pairs = 0;         ///< pairs that come first since nobody has seen them
   std::vector<std::int64_t> elites;
   bool soft_restart = false;
+  bool postselection = false;
   std::uint64_t model_digest = 0;  ///< of the models that were sampled from; 0 in the first race
 };
 
 enum class EliminationReason {
   Test,       ///< worse by the statistical test
   Rejection,  ///< an infinite cost
+  Capping,    ///< slower than the elites
 };
 
 /// A configuration that left the race.
@@ -50,8 +53,8 @@ struct RaceStep {
   std::int64_t iteration = 0;
   std::int64_t task = 0;  ///< from 1 in each race
   std::int64_t pair = 0;
-  /// x no test, = nobody dropped, - some dropped, ! only protected elites would have been, . nobody
-  /// had to be run
+  /// x no test, = nobody dropped, - some dropped, ! only protected elites would have been, c
+  /// capping alone dropped some, . nobody had to be run, : only elites had to be (capping)
   char marker = 'x';
   std::int64_t alive_before = 0;
   std::int64_t alive_after = 0;
@@ -63,6 +66,7 @@ struct RaceStep {
   std::optional<double> kendall_w;
   std::optional<double> spearman_rho;
   std::optional<double> qvar;
+  std::optional<double> bound;          ///< of the times on this pair, the largest of the task
   std::vector<std::int64_t> evaluated;  ///< configurations that were run, in order
   std::vector<Elimination> eliminations;
   std::uint64_t digest = 0;  ///< of alive set, rank sums, statistic and generators
@@ -87,13 +91,30 @@ struct IterationEnded {
   std::vector<Elite> elites;  ///< best first
 };
 
+/// How many experiments the time that is left is good for (max_time; irace facts, 16): after each
+/// batch of the first estimate, and after each race.
+struct TimeEstimated {
+  std::int64_t runs = 0;       ///< experiments so far
+  double used = 0;             ///< their time
+  double mean_time = 0;        ///< of an experiment, rounded up to bound_digits
+  std::int64_t remaining = 0;  ///< experiments
+  double bound_max = 0;        ///< from here on
+  /// (configuration, pair) of the batch, in order; empty after races.
+  std::vector<std::pair<std::int64_t, std::int64_t>> evaluated;
+};
+
+/// Something that a person should know: an option was changed, a given configuration is forbidden.
+struct RaceWarning {
+  std::string text;
+};
+
 /// The last event of a design.
 struct RaceFinished {
   std::string reason;
   std::vector<Elite> elites;  ///< best first; empty after a failure
 };
 
-using RaceEvent =
-    std::variant<ConfigurationSampled, IterationStarted, RaceStep, IterationEnded, RaceFinished>;
+using RaceEvent = std::variant<ConfigurationSampled, IterationStarted, RaceStep, IterationEnded,
+                               TimeEstimated, RaceWarning, RaceFinished>;
 
 }  // namespace swarmsmith

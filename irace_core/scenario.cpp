@@ -47,4 +47,13 @@ Expected<void> check(const Scenario& scenario) {
   return {};
 }
 
+bool uses_capping(const Scenario& scenario) {
+  return scenario.capping.value_or(scenario.elitist && scenario.max_time > 0 &&
+                                   scenario.bound_max > 0);
+}
+
+TestType test_type_of(const Scenario& scenario) {
+  return scenario.test_type.value_or(uses_capping(scenario) ? TestType::TTest : TestType::FTest);
+}
+
 }  // namespace swarmsmith

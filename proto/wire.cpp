@@ -86,12 +86,16 @@ bool is_fine(const pb::Hello& hello) {
 }
 
 bool is_result(const pb::Result& result) {
-  return is_key(result.key()) && result.failure().size() <= kMaxTextBytes &&
+  const bool fits =
+      result.failure().size() <= kMaxTextBytes && result.command().size() <= kMaxTextBytes &&
+      result.output().size() <= kMaxTextBytes && result.errors().size() <= kMaxTextBytes;
+  return is_key(result.key()) && fits && std::isfinite(result.time()) && result.time() >= 0 &&
          (!result.failure().empty() || std::isfinite(result.score()));
 }
 
 bool is_task(const pb::Task& task) {
-  return is_key(task.key()) && task.machine().size() <= kMaxMachineBytes;
+  return is_key(task.key()) && task.machine().size() <= kMaxMachineBytes &&
+         std::isfinite(task.bound()) && task.alive_size() <= kMaxItemsPerMessage;
 }
 
 bool is_fine(const pb::Heartbeat& heartbeat) {

@@ -78,6 +78,10 @@ void visit_fields(const Row& row, Field&& field) {
             field("pair", r.key.pair), field("kept_score", r.kept_score);
             field("other_score", r.other_score);
           },
+          [&](const FailureRow& r) {
+            field("candidate", r.key.candidate), field("purpose", r.key.purpose);
+            field("pair", r.key.pair), field("attempt", r.attempt), field("reason", r.reason);
+          },
           [&](const EventRow& r) {
             field("severity", r.severity), field("kind", r.kind), field("text", r.text);
           },
@@ -153,6 +157,7 @@ std::string title(const Row& row) {
           [](const CampaignStateRow&) { return std::string("state of campaign"); },
           [](const WorkerRow&) { return std::string("worker"); },
           [](const ConflictRow& r) { return "conflict on evaluation " + to_string(r.key); },
+          [](const FailureRow& r) { return "failure of evaluation " + to_string(r.key); },
           [](const EventRow&) { return std::string("event"); },
       },
       row);
@@ -179,6 +184,7 @@ bool in_answer(const Row& row) {
           [](const CampaignStateRow&) { return false; },
           [](const WorkerRow&) { return false; },
           [](const ConflictRow&) { return false; },
+          [](const FailureRow&) { return false; },
           [](const EventRow&) { return false; },
       },
       row);
@@ -203,7 +209,7 @@ std::string describe(const Row& row) {
 }
 
 std::string to_string(const EvaluationKey& key) {
-  constexpr std::string_view kLetters[] = {"", "l", "t", "a", "s"};
+  constexpr std::string_view kLetters[] = {"", "l", "t", "a", "s", "v"};
   return fmt::format("e{}{}", key.candidate.value * kPairsPerCandidate + key.pair,
                      kLetters[static_cast<std::size_t>(key.purpose)]);
 }

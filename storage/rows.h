@@ -14,8 +14,16 @@ namespace swarmsmith {
 /// marked "not part of the answer" is a pure function of campaign and scores, equal for any number
 /// of workers and any history of crashes, and covered by the store's digest.
 
-/// Why an evaluation was made. The numbers are stored.
-enum class Purpose : std::int8_t { Race = 0, LookAhead = 1, Test = 2, Audit = 3, Score = 4 };
+/// Why an evaluation was made. The numbers are stored. Evaluator: a call of a targetEvaluator,
+/// whose pair is numbered by the design's tasks (irace facts, 18.4).
+enum class Purpose : std::int8_t {
+  Race = 0,
+  LookAhead = 1,
+  Test = 2,
+  Audit = 3,
+  Score = 4,
+  Evaluator = 5
+};
 
 /// How an evaluation ended. The numbers are stored. A rejected one has no score.
 enum class EvaluationStatus : std::int8_t { Ok = 0, Rejected = 1 };
@@ -98,6 +106,8 @@ struct EvaluationRow {
   EvaluationStatus status = EvaluationStatus::Ok;
   double score = 0;  ///< larger is better; finite
   std::uint64_t state_digest = 0;
+  double time = 0;           ///< as a target says it; 0 where it does not
+  double bound = 0;          ///< on that time; 0 for none
   std::string source;        ///< the simulator profile
   std::int64_t wall_us = 0;  ///< not part of the answer
   std::int64_t worker = 0;   ///< not part of the answer; 0 when unknown
@@ -118,6 +128,7 @@ struct IterationRow {
   std::int64_t configurations = 0;  ///< elites included
   std::int64_t elites = 0;
   bool soft_restart = false;
+  bool postselection = false;
   std::uint64_t model_digest = 0;
 };
 
@@ -140,7 +151,8 @@ struct RaceStepRow {
   std::optional<double> kendall_w;
   std::optional<double> spearman_rho;
   std::optional<double> qvar;
-  std::uint64_t digest = 0;  ///< alive set, ranks, statistic, generator
+  std::optional<double> bound;  ///< of the times on this pair, when capping
+  std::uint64_t digest = 0;     ///< alive set, ranks, statistic, generator
 };
 
 struct EliminationRow {
@@ -206,6 +218,17 @@ struct ConflictRow {
   std::int64_t other_worker = 0;
 };
 
+/// An attempt that gave no score: what was run, and what it wrote. Not part of the answer.
+struct FailureRow {
+  EvaluationKey key;
+  std::int64_t attempt = 1;
+  std::int64_t worker = 0;
+  std::string reason;
+  std::string command;
+  std::string output;
+  std::string errors;
+};
+
 /// Something that a person may want to know afterwards. Not part of the answer.
 struct EventRow {
   std::string severity;  ///< "info", "warning", "error"
@@ -215,7 +238,7 @@ struct EventRow {
 
 using Row = std::variant<CandidateRow, PairRow, EvaluationRow, UnusedRow, IterationRow, RaceStepRow,
                          EliminationRow, EliteRow, CandidateTotalsRow, DesignStateRow,
-                         CampaignStateRow, WorkerRow, ConflictRow, EventRow>;
+                         CampaignStateRow, WorkerRow, ConflictRow, FailureRow, EventRow>;
 
 /// What a resumed campaign needs of an evaluation.
 struct StoredScore {
@@ -223,6 +246,7 @@ struct StoredScore {
   EvaluationStatus status = EvaluationStatus::Ok;
   double score = 0;
   std::uint64_t state_digest = 0;
+  double time = 0;
 };
 
 /// What is compared while a campaign is replayed.

@@ -22,7 +22,14 @@ class Simulation {
         flavours_(std::move(flavours)),
         machines_(flavours_.size()) {}
 
-  Expected<Measured> operator()(const WorkItem& item) {
+  tl::expected<Measured, Failure> operator()(const WorkItem& item) {
+    auto measured = simulate_item(item);
+    if (!measured) return tl::unexpected(Failure{to_string(measured.error())});
+    return *measured;
+  }
+
+ private:
+  Expected<Measured> simulate_item(const WorkItem& item) {
     if (item.mission >= scenario_.missions.size() || item.method >= flavours_.size()) {
       return bad_input("a task for a mission or method that the scenario does not have");
     }
@@ -38,10 +45,9 @@ class Simulation {
                                               .mission = mission,
                                               .instance = *instance,
                                               .seed = item.seed});
-    return Measured{result.score, result.state_digest};
+    return Measured{.score = result.score, .state_digest = result.state_digest};
   }
 
- private:
   Expected<const Machine*> machine_of(const WorkItem& item) {
     auto& known = machines_[item.method];
     if (const auto at = known.find(item.machine); at != known.end()) return &at->second;

@@ -13,14 +13,19 @@ Evaluated evaluate(const Evaluator& evaluator, const WorkItem& item) {
   Evaluated evaluated{.key = item.key, .attempt = item.attempt};
   const auto begin = std::chrono::steady_clock::now();
   try {
-    const Expected<Measured> measured = evaluator(item);
+    const auto measured = evaluator(item);
     if (!measured) {
-      evaluated.failure = to_string(measured.error());
+      evaluated.failure = measured.error().reason;
+      evaluated.details = measured.error().details;
+    } else if (measured->rejected) {
+      evaluated.rejected = true;
+      evaluated.time = measured->time;
     } else if (!std::isfinite(measured->score)) {
       evaluated.failure = "the score is not finite";
     } else {
       evaluated.score = measured->score;
       evaluated.state_digest = measured->state_digest;
+      evaluated.time = measured->time;
     }
   } catch (const std::exception& error) {
     evaluated.failure = error.what();

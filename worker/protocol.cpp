@@ -216,7 +216,9 @@ void WorkerProtocol::on_tasks(const pb::Tasks& tasks, TimePoint now) {
                          .method = task.method(),
                          .instance = task.instance(),
                          .seed = task.seed(),
-                         .machine = task.machine()});
+                         .machine = task.machine(),
+                         .bound = task.bound(),
+                         .alive = {task.alive().begin(), task.alive().end()}});
   }
   if (!run.items.empty()) actions_.emplace_back(std::move(run));
   if (!refused.empty()) on_taken_back(refused, now);
@@ -283,7 +285,13 @@ void WorkerProtocol::send_results(std::span<const PackedKey> keys, TimePoint now
     out.set_score(evaluated.score);
     out.set_state_digest(evaluated.state_digest);
     out.set_wall_us(evaluated.wall_us);
+    out.set_time(evaluated.time);
+    out.set_rejected(evaluated.rejected);
+    if (evaluated.failure.empty()) continue;
     out.set_failure(clipped(evaluated.failure));
+    out.set_command(clipped(evaluated.details.command));
+    out.set_output(clipped(evaluated.details.output));
+    out.set_errors(clipped(evaluated.details.errors));
   }
   if (results.results_size() > 0) send(message, now);
 }

@@ -11,10 +11,17 @@
 #include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
 #include "sim/files/mission_file.h"
+#include "target/target.h"
 
 namespace swarmsmith {
 
-using CampaignMission = MissionEntry;
+/// A mission and how its designs are judged; with a target only its name counts, and what its
+/// programs are given.
+struct CampaignMission : MissionEntry {
+  InstanceTexts instances;
+
+  friend bool operator==(const CampaignMission&, const CampaignMission&) = default;
+};
 
 /// A parameter's range that differs from the flavour's own.
 struct RangeOverride {
@@ -36,6 +43,10 @@ struct Method {
   std::vector<std::string> behaviours;  ///< names; all of the flavour's when the file has none
   std::vector<std::string> conditions;
   std::vector<RangeOverride> ranges;
+  /// Text of an irace parameter file; empty for a flavour's machines. Only with a target.
+  std::string parameters;
+  /// Text of an irace configurations file: the first configurations; empty for none.
+  std::string configurations;
 
   friend bool operator==(const Method&, const Method&) = default;
 };
@@ -54,6 +65,12 @@ struct Campaign {
   Scenario race;
   std::int64_t digits = 2;  ///< decimals of the real parameters
   Profile profile;
+  std::optional<Target> target;  ///< evaluates in place of the simulator, and its profile
+  /// Program that repairs sampled configurations (irace's repairConfiguration), absolute; empty for
+  /// none.
+  std::string repair;
+  std::int64_t test_nb_elites = 1;     ///< how many elites are tested after the last race
+  bool test_iteration_elites = false;  ///< those of every iteration too
 
   // Outside the digest: other values neither stop a resume nor change the answer.
   std::filesystem::path store;

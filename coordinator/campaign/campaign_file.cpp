@@ -195,7 +195,8 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   Campaign campaign;
   read_format(root);
   read_identity(root, campaign, file);
-  campaign.missions = read_missions(root, file.parent_path());
+  for (MissionEntry& entry : read_missions(root, file.parent_path()))
+    campaign.missions.push_back({std::move(entry), {}});
   check_pictures(root, campaign);
   campaign.methods = read_methods(root);
   read_race(root, campaign.race, campaign.digits);

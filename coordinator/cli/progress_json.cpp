@@ -152,6 +152,7 @@ std::string event_json(const Row& row) {
                    return EventText("campaign").add("state", campaign.state).str();
                  },
                  [&](const CandidateRow& row_) { return no_event(row_); },
+                 [&](const FailureRow& row_) { return no_event(row_); },
                  [&](const PairRow& row_) { return no_event(row_); },
                  [&](const UnusedRow& row_) { return no_event(row_); },
                  [&](const EliminationRow& row_) { return no_event(row_); },

@@ -186,6 +186,8 @@ Expected<void> DesignRunner::record_events(std::vector<Row>& rows) {
                                 record_iteration_end(ended, rows);
                                 return {};
                               },
+                              [&](const TimeEstimated&) -> Expected<void> { return {}; },
+                              [&](const RaceWarning&) -> Expected<void> { return {}; },
                               [&](const RaceFinished& finished) -> Expected<void> {
                                 reason_ = finished.reason;
                                 return {};

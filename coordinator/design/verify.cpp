@@ -45,6 +45,7 @@ std::optional<DesignId> design_of(const Row& row) {
                  [](const CampaignStateRow&) { return std::optional<DesignId>(); },
                  [](const WorkerRow&) { return std::optional<DesignId>(); },
                  [](const ConflictRow&) { return std::optional<DesignId>(); },
+                 [](const FailureRow&) { return std::optional<DesignId>(); },
                  [](const EventRow&) { return std::optional<DesignId>(); }},
       row);
 }

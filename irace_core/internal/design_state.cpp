@@ -24,9 +24,10 @@ std::int64_t ceil_divide(std::int64_t a, std::int64_t b) {
 }  // namespace
 
 IteratedRace::State::State(ParameterSpace space_in, Scenario scenario_in,
-                           std::vector<Configuration> initial)
+                           std::vector<Configuration> initial, Repair repair)
     : space(std::move(space_in)),
       scenario(scenario_in),
+      repair_(std::move(repair)),
       schedule_(scenario, space.variable_count()),
       models_(space),
       forbidden_(space),
@@ -63,9 +64,9 @@ Expected<void> IteratedRace::State::begin() {
   return {};
 }
 
-void IteratedRace::State::tell(std::span<const double> costs) {
+void IteratedRace::State::tell(std::span<const Measurement> measurements) {
   if (finished) return;
-  race->tell(costs);
+  race->tell(measurements);
   report_steps();
   if (!race->finished()) {
     ask();
@@ -223,7 +224,7 @@ void IteratedRace::State::start_race(const RacePlan& plan,
   if (instances_.size() - pairs_seen_ < enough) instances_.append(enough);
   const bool first = races_ == 1;
   const std::int64_t past = first ? 0 : pairs_seen_;
-  irace::RaceSettings settings{.test_type = scenario.test_type,
+  irace::RaceSettings settings{.test_type = test_type_of(scenario),
                                .first_test = scenario.first_test,
                                .pairs_between_tests = scenario.each_test,
                                .elitist_limit = scenario.elitist_limit,
@@ -281,8 +282,12 @@ void IteratedRace::State::ask() {
   wanted.clear();
   for (const irace::RaceRun& run : race->wanted()) {
     const std::int64_t pair = race->pair_of(run.task);
-    wanted.push_back(
-        {race->contestant(run.column).id, pair, instances_[pair].instance, instances_[pair].seed});
+    wanted.push_back({.configuration = race->contestant(run.column).id,
+                      .pair = pair,
+                      .instance = instances_[pair].instance,
+                      .seed = instances_[pair].seed,
+                      .bound = run.bound,
+                      .is_evaluation = run.is_evaluation});
   }
 }
 

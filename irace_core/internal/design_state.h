@@ -33,14 +33,14 @@ struct Candidate {
 /// Everything behind an IteratedRace: the loop over races (irace facts, 2).
 class IteratedRace::State {
  public:
-  State(ParameterSpace space, Scenario scenario, std::vector<Configuration> initial);
+  State(ParameterSpace space, Scenario scenario, std::vector<Configuration> initial, Repair repair);
   // The models and the forbidden list point to the space.
   State(const State&) = delete;
   State& operator=(const State&) = delete;
 
   /// Makes the first race. Trouble is the caller's, not an event.
   Expected<void> begin();
-  void tell(std::span<const double> costs);
+  void tell(std::span<const Measurement> measurements);
 
   bool finished = false;
   std::optional<Error> failure;
@@ -91,6 +91,7 @@ class IteratedRace::State {
     return candidates[static_cast<std::size_t>(id - 1)];
   }
 
+  Repair repair_;
   irace::Schedule schedule_;
   irace::SamplingModels models_;
   irace::ForbiddenList forbidden_;

@@ -48,7 +48,7 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
     progress_.results.push_back(known);
   }
   find_uncovered();
-  tell({});
+  tell(std::span<const Measurement>{});
 }
 
 bool Race::has_result(std::size_t column, std::size_t task) const {
@@ -139,8 +139,8 @@ void Race::plan() {
   }
 }
 
-void Race::tell(std::span<const double> costs) {
-  SWARMSMITH_ASSERT(costs.size() == wanted_.size(), "one cost for every wanted run");
+void Race::tell(std::span<const Measurement> measurements) {
+  SWARMSMITH_ASSERT(measurements.size() == wanted_.size(), "one cost for every wanted run");
   std::size_t at = 0;
   while (!stop_) {
     if (progress_.task == settings_.pairs.size()) {
@@ -157,7 +157,7 @@ void Race::tell(std::span<const double> costs) {
       const std::size_t c = wanted_[at].column;
       if (rejected_[c]) continue;
       costs_[c].resize(std::max(costs_[c].size(), progress_.task + 1), kNoResult);
-      costs_[c][progress_.task] = costs[at];
+      costs_[c][progress_.task] = measurements[at].cost;
     }
     do_task(columns, steps_.emplace_back());
   }
@@ -234,6 +234,9 @@ std::vector<std::size_t> Race::worse_by_test(RaceStep& step) {
   const double alpha = 1 - settings_.confidence;
   switch (settings_.test_type) {
     case TestType::FTest:
+    case TestType::TTest:
+    case TestType::TTestBonferroni:
+    case TestType::TTestHolm:
       break;
   }
   if (alive_.size() > 2) {
@@ -309,6 +312,14 @@ std::uint64_t Race::digest(const RaceStep& step) const {
   digest.add(step.statistic.value_or(-1));
   digest.add(step.p_value.value_or(-1));
   return digest.value64();
+}
+
+std::vector<std::int64_t> Race::alive_ids() const {
+  std::vector<std::int64_t> ids;
+  for (const std::size_t c : alive_)
+    ids.push_back(contestants_[c].id);
+  std::sort(ids.begin(), ids.end());
+  return ids;
 }
 
 std::vector<RaceStep> Race::take_steps() {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "irace_core/experiment.h"
 #include "irace_core/internal/agreement.h"
 #include "irace_core/internal/elimination.h"
 #include "irace_core/internal/ranks.h"
@@ -16,6 +17,7 @@ namespace swarmsmith::irace {
 
 /// What one race is asked to do.
 struct RaceSettings {
+  bool elitist = true;
   TestType test_type = TestType::FTest;
   std::int64_t first_test = 5;           ///< T_f, in pairs
   std::int64_t pairs_between_tests = 1;  ///< T_e
@@ -28,6 +30,23 @@ struct RaceSettings {
   std::vector<std::int64_t> pairs;
   std::int64_t new_pairs = 0;
   std::int64_t past_pairs = 0;
+  /// One task at a time is asked for.
+  bool one_task_at_a_time = false;
+  /// The costs come from calls of the targetEvaluator, for all who are alive, after each task's
+  /// runs.
+  bool target_evaluator = false;
+
+  /// Bounds on times and capping (irace facts, 17); without `capping` every run is bounded by
+  /// `bound_max`, if that is not 0.
+  bool capping = false;
+  bool capping_after_first_test = false;
+  CappingType capping_type = CappingType::Median;
+  BoundType bound_type = BoundType::Candidate;
+  double bound_max = 0;
+  std::int64_t bound_digits = 0;
+  double bound_par = 1;
+  bool bound_as_timeout = true;
+  double min_measurable_time = 0.01;
 };
 
 /// A configuration that takes part. `past` holds what an elite cost on the past pairs, in the order
@@ -35,12 +54,15 @@ struct RaceSettings {
 struct Contestant {
   std::int64_t id;
   std::vector<double> past;
+  std::vector<double> past_times;  ///< as `past`, for capping
 };
 
 /// One experiment that the race asks for.
 struct RaceRun {
-  std::size_t task;    ///< 0-based
-  std::size_t column;  ///< position among the contestants
+  std::size_t task;            ///< 0-based
+  std::size_t column;          ///< position among the contestants
+  double bound = 0;            ///< most time of the run; 0 for none
+  bool is_evaluation = false;  ///< a call of the targetEvaluator after the runs of the task
 
   friend bool operator==(const RaceRun&, const RaceRun&) = default;
 };
@@ -62,13 +84,14 @@ class Race {
   bool nobody_left() const { return alive_.empty(); }
 
   std::span<const RaceRun> wanted() const { return wanted_; }
-  /// Costs of all wanted runs, in their order; infinite ones reject. Adds to the steps.
-  void tell(std::span<const double> costs);
+  /// What came of all wanted runs, in their order; infinite costs reject. Adds to the steps.
+  void tell(std::span<const Measurement> measurements);
   /// The tasks since the last call; ids are filled in, iteration and generators are the caller's.
   std::vector<RaceStep> take_steps();
 
   std::int64_t used() const { return used_; }
   std::size_t alive_count() const { return alive_.size(); }
+  std::vector<std::int64_t> alive_ids() const;  ///< ascending
   const Contestant& contestant(std::size_t column) const { return contestants_[column]; }
   std::int64_t pair_of(std::size_t task) const { return settings_.pairs[task]; }
   std::size_t size() const { return contestants_.size(); }
@@ -77,6 +100,7 @@ class Race {
   struct Result {
     std::int64_t pair;
     double cost;
+    double time = 0;
   };
   /// All results of a contestant that were run in this race, in the order of the tasks.
   std::vector<Result> results(std::size_t column) const;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
 #include "sim/mission/mission.h"
+#include "target/target.h"
 
 namespace swarmsmith {
 
@@ -26,6 +28,10 @@ struct WorkerScenario {
   std::vector<Mission> missions;      ///< Task::mission is an index
   std::vector<WorkerMethod> methods;  ///< Task::method is an index
   Profile profile;
+  /// Programs that evaluate in place of the simulator; missions, methods and profile are then
+  /// empty.
+  std::optional<Target> target;
+  std::vector<InstanceTexts> instances;  ///< with a target: Task::mission is an index
 
   friend bool operator==(const WorkerScenario&, const WorkerScenario&) = default;
 };

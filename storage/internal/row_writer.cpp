@@ -45,6 +45,9 @@ constexpr char kWorker[] =
 constexpr char kConflict[] =
     "INSERT OR IGNORE INTO conflict (candidate, purpose, pair, kept_score, other_score,"
     " other_state_digest, other_worker) VALUES (?,?,?,?,?,?,?)";
+constexpr char kFailure[] =
+    "INSERT INTO failure (candidate, purpose, pair, attempt, worker, reason, command, output,"
+    " errors) VALUES (?,?,?,?,?,?,?,?,?)";
 constexpr char kEvent[] = "INSERT INTO event (severity, kind, text) VALUES (?,?,?)";
 
 std::optional<std::int64_t> unless_zero(std::int64_t value) {
@@ -76,6 +79,7 @@ RowWriter::RowWriter(sqlite::Connection& connection)
       campaign_state_(connection, kCampaignState),
       worker_(connection, kWorker),
       conflict_(connection, kConflict),
+      failure_(connection, kFailure),
       event_(connection, kEvent),
       new_source_(connection, "INSERT OR IGNORE INTO source (name) VALUES (?)"),
       find_source_(connection, "SELECT id FROM source WHERE name = ?") {}
@@ -145,6 +149,11 @@ void RowWriter::put(const WorkerRow& row) {
 void RowWriter::put(const ConflictRow& row) {
   conflict_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair, row.kept_score,
                 row.other_score, row.other_state_digest, row.other_worker);
+}
+
+void RowWriter::put(const FailureRow& row) {
+  failure_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair, row.attempt,
+               row.worker, row.reason, row.command, row.output, row.errors);
 }
 
 void RowWriter::put(const EventRow& row) {

@@ -36,14 +36,15 @@ class RowWriter {
   void put(const CampaignStateRow& row);
   void put(const WorkerRow& row);
   void put(const ConflictRow& row);
+  void put(const FailureRow& row);
   void put(const EventRow& row);
 
   /// The number of a source, made when it is new.
   std::int64_t source_id(const std::string& name);
 
   sqlite::Statement candidate_, pair_, evaluation_, unused_, iteration_, race_step_, elimination_,
-      elite_, totals_, design_state_, campaign_state_, worker_, conflict_, event_, new_source_,
-      find_source_;
+      elite_, totals_, design_state_, campaign_state_, worker_, conflict_, failure_, event_,
+      new_source_, find_source_;
   std::unordered_map<std::string, std::int64_t> sources_;
 };
 

@@ -164,6 +164,21 @@ CREATE TABLE conflict (
   PRIMARY KEY (candidate, purpose, pair, other_state_digest, other_score)
 ) STRICT, WITHOUT ROWID;
 
+-- What programs did that gave no score (docs/storage.md).
+CREATE TABLE failure (
+  seq       INTEGER PRIMARY KEY,
+  time      TEXT NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ', 'now')),
+  candidate INTEGER NOT NULL,
+  purpose   INTEGER NOT NULL,
+  pair      INTEGER NOT NULL,
+  attempt   INTEGER NOT NULL,
+  worker    INTEGER NOT NULL,
+  reason    TEXT NOT NULL,
+  command   TEXT NOT NULL,
+  output    TEXT NOT NULL,
+  errors    TEXT NOT NULL
+) STRICT;
+
 CREATE TABLE event (
   seq      INTEGER PRIMARY KEY,
   time     TEXT NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ', 'now')),

@@ -55,7 +55,7 @@ SimulatedDisk::RowKey SimulatedDisk::key_of(const Row& row) {
                    return Key{r.id, 0, 0};
                  },
                  [&](const ConflictRow& r) { return of_evaluation(r.key); },
-                 [](const EventRow&) { return Key{}; }},
+                 [](const FailureRow&) { return Key{}; }, [](const EventRow&) { return Key{}; }},
       row);
   return std::tuple_cat(std::tuple(row.index()), key);
 }
@@ -69,7 +69,7 @@ std::string SimulatedDisk::commit(const std::vector<Row>& rows) {
 }
 
 std::string SimulatedDisk::put(const Row& row) {
-  if (std::holds_alternative<EventRow>(row)) return {};
+  if (std::holds_alternative<EventRow>(row) || std::holds_alternative<FailureRow>(row)) return {};
   if (std::holds_alternative<ConflictRow>(row)) return "two results with other bits";
   if (std::string complaint = missing_reference(row); !complaint.empty()) return complaint;
   if (const auto* unused = std::get_if<UnusedRow>(&row)) {

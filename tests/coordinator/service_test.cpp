@@ -20,7 +20,7 @@ using cluster::SyntheticCampaign;
 /// Evaluates a synthetic campaign in this process.
 EvaluatorFactory honest(const CampaignShape& shape) {
   return [shape](const std::string&) -> Expected<Evaluator> {
-    return Evaluator([shape](const WorkItem& item) -> Expected<Measured> {
+    return Evaluator([shape](const WorkItem& item) -> tl::expected<Measured, Failure> {
       const cluster::Truth truth = cluster::truth_of(shape, unpack(item.key));
       if (truth.kind != cluster::Truth::Kind::Score) return bad_input("planted");
       return Measured{truth.score, truth.state_digest};

@@ -39,6 +39,14 @@ inline std::vector<RaceEvent> run_to_end(IteratedRace& race, const Cost& cost) {
   return events;
 }
 
+/// Costs as a race takes them.
+inline std::vector<Measurement> measured(const std::vector<double>& costs) {
+  std::vector<Measurement> measurements;
+  for (const double cost : costs)
+    measurements.push_back({cost, 0});
+  return measurements;
+}
+
 /// All events of one kind.
 template <class Event>
 std::vector<Event> only(const std::vector<RaceEvent>& events) {

@@ -5,6 +5,7 @@
 
 #include "irace_core/internal/race.h"
 #include "irace_core/internal/rounding.h"
+#include "tests/irace_core/costs.h"
 #include "tests/irace_core/golden.h"
 
 namespace swarmsmith::irace {
@@ -64,7 +65,7 @@ void run(Race& race, const std::vector<std::vector<double>>& costs) {
       answers.push_back(
           costs[static_cast<std::size_t>(race.pair_of(wanted.task) - 1)][wanted.column]);
     }
-    race.tell(answers);
+    race.tell(testing::measured(answers));
   }
 }
 

@@ -1,4 +1,5 @@
 #include "irace_core/internal/race.h"
+#include "tests/irace_core/costs.h"
 
 #include <gmock/gmock.h>
 
@@ -45,7 +46,7 @@ void answer(Race& race, Cost cost) {
   for (const RaceRun& run : race.wanted()) {
     costs.push_back(cost(race.contestant(run.column).id, race.pair_of(run.task)));
   }
-  race.tell(costs);
+  race.tell(testing::measured(costs));
 }
 
 /// Smaller ids are better on every pair.
