@@ -89,11 +89,12 @@ class FlatCampaign final : public WorkSource {
 
 Expected<Evaluator> make_spinner(const std::string& work_us) {
   const std::chrono::microseconds work(std::stol(work_us));
-  return Evaluator([work](const WorkItem& item) -> Expected<Measured> {
+  return Evaluator([work](const WorkItem& item) -> tl::expected<Measured, Failure> {
     const auto until = std::chrono::steady_clock::now() + work;
     while (work.count() > 0 && std::chrono::steady_clock::now() < until) {
     }
-    return Measured{static_cast<double>(item.seed), mix64(static_cast<std::uint64_t>(item.seed))};
+    return Measured{.score = static_cast<double>(item.seed),
+                    .state_digest = mix64(static_cast<std::uint64_t>(item.seed))};
   });
 }
 

@@ -22,8 +22,8 @@ EvaluatorFactory honest(const CampaignShape& shape) {
   return [shape](const std::string&) -> Expected<Evaluator> {
     return Evaluator([shape](const WorkItem& item) -> tl::expected<Measured, Failure> {
       const cluster::Truth truth = cluster::truth_of(shape, unpack(item.key));
-      if (truth.kind != cluster::Truth::Kind::Score) return bad_input("planted");
-      return Measured{truth.score, truth.state_digest};
+      if (truth.kind != cluster::Truth::Kind::Score) return tl::unexpected(Failure{"planted"});
+      return Measured{.score = truth.score, .state_digest = truth.state_digest};
     });
   };
 }

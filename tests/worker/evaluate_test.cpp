@@ -44,7 +44,7 @@ TEST(Evaluate, GivesWhatTheSimulatorGives) {
                                               .mission = scenario.missions[0],
                                               .instance = instance,
                                               .seed = seed});
-    const Expected<Measured> measured = (*evaluator)(item(seed));
+    const auto measured = (*evaluator)(item(seed));
     ASSERT_TRUE(measured);
     EXPECT_EQ(measured->score, wanted.score);
     EXPECT_EQ(measured->state_digest, wanted.state_digest);

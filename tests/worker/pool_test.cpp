@@ -14,11 +14,11 @@ namespace {
 /// Does what the item's machine says.
 Expected<Evaluator> make_obedient(const std::string& scenario) {
   if (scenario == "bad") return bad_input("a bad scenario");
-  return Evaluator([](const WorkItem& item) -> Expected<Measured> {
+  return Evaluator([](const WorkItem& item) -> tl::expected<Measured, Failure> {
     if (item.machine == "throw") throw std::runtime_error("thrown");
-    if (item.machine == "error") return bad_input("an error");
-    if (item.machine == "nan") return Measured{std::numeric_limits<double>::quiet_NaN(), 0};
-    return Measured{static_cast<double>(item.seed) * 2, 9};
+    if (item.machine == "error") return tl::unexpected(Failure{"an error"});
+    if (item.machine == "nan") return Measured{.score = std::numeric_limits<double>::quiet_NaN()};
+    return Measured{.score = static_cast<double>(item.seed) * 2, .state_digest = 9};
   });
 }
 
@@ -77,10 +77,10 @@ TEST_F(Pools, GiveBackWhatIsNotStarted) {
   Pool pool(
       1,
       [&](const std::string&) -> Expected<Evaluator> {
-        return Evaluator([&](const WorkItem&) -> Expected<Measured> {
+        return Evaluator([&](const WorkItem&) -> tl::expected<Measured, Failure> {
           started.release();
           go.acquire();
-          return Measured{1, 1};
+          return Measured{.score = 1, .state_digest = 1};
         });
       },
       [this] { woken.release(); });

@@ -59,7 +59,7 @@ TEST(NormalisedText, OfMissionsAndProfilesWithEverythingReadsBackToThem) {
   Campaign campaign = parsed(FileText{}.text());
   campaign.missions.clear();
   for (std::uint64_t seed = 1; seed <= 5; ++seed)
-    campaign.missions.push_back({.mission = random_mission(seed)});
+    campaign.missions.push_back({{.mission = random_mission(seed)}, {}});
   campaign.profile = every_noise();
   const Campaign again = parsed(normalised_text(campaign));
   EXPECT_EQ(again.missions, campaign.missions);
