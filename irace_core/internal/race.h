@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/expected.h"
 #include "irace_core/experiment.h"
 #include "irace_core/internal/agreement.h"
 #include "irace_core/internal/elimination.h"
@@ -21,6 +22,7 @@ struct RaceSettings {
   TestType test_type = TestType::FTest;
   std::int64_t first_test = 5;           ///< T_f, in pairs
   std::int64_t pairs_between_tests = 1;  ///< T_e
+  std::int64_t block_size = 1;           ///< pairs in a block; capping drops after whole blocks
   std::int64_t elitist_limit = 2;
   double confidence = 0.95;
   std::int64_t min_survival = 1;
@@ -82,6 +84,9 @@ class Race {
   const std::string& stop_reason() const { return *stop_; }
   /// All contestants were rejected: there is no result.
   bool nobody_left() const { return alive_.empty(); }
+  /// What a target did that no race can go on with: a time above its bound, or none where bounds
+  /// need one. The race is finished then, and its survivors mean nothing.
+  const std::optional<Error>& failure() const { return failure_; }
 
   std::span<const RaceRun> wanted() const { return wanted_; }
   /// What came of all wanted runs, in their order; infinite costs reject. Adds to the steps.
@@ -101,8 +106,12 @@ class Race {
     std::int64_t pair;
     double cost;
     double time = 0;
+    /// Not run here: the targetEvaluator was called again for a past pair, and `cost` takes the
+    /// place of the one that was known.
+    bool replaces = false;
   };
-  /// All results of a contestant that were run in this race, in the order of the tasks.
+  /// All results of a contestant that were run in this race (or replaced, see `replaces`), in the
+  /// order of the tasks.
   std::vector<Result> results(std::size_t column) const;
   bool is_rejected(std::size_t column) const { return rejected_[column]; }
 
@@ -171,6 +180,7 @@ class Race {
   std::vector<RaceRun> wanted_;
   std::vector<RaceStep> steps_;
   std::optional<std::string> stop_;
+  std::optional<Error> failure_;
 };
 
 }  // namespace swarmsmith::irace
