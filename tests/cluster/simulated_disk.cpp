@@ -38,8 +38,8 @@ SimulatedDisk::RowKey SimulatedDisk::key_of(const Row& row) {
                  [](const RaceStepRow& r) {
                    return Key{r.design.value, r.step, 0};
                  },
-                 [](const EliminationRow& r) {
-                   return Key{r.candidate.value, 0, 0};
+                 [](const EliminationRow& r) {  // who was dropped may come back in the last race
+                   return Key{r.candidate.value, r.iteration, 0};
                  },
                  [](const EliteRow& r) {
                    return Key{r.design.value, r.iteration, r.rank};
