@@ -88,13 +88,13 @@ ExitCode show_result(Output& output, const Campaign& campaign) {
 /// A campaign that is being run: everything that must live while the service does.
 class CampaignRun {
  public:
-  CampaignRun(Output& output, const Campaign& campaign, const RunOptions& options, Store& store)
+  CampaignRun(Output& output, const Campaign& campaign, const RunOptions& options, Store& store,
+              RunListener& listener)
       : output_(output),
         campaign_(campaign),
         options_(options),
         store_(store),
-        designs_(design_rows(campaign)),
-        progress_(output, designs_, clock_.now()) {}
+        listener_(listener) {}
 
   ExitCode run() {
     catch_signals();
@@ -107,8 +107,9 @@ class CampaignRun {
     if (options_.announce) announce((*service)->endpoint());
     const int processes = local_processes(campaign_, options_);
     if (processes == 0) return serve(**service, runner, nullptr);
-    auto workers =
-        LocalWorkers::start({.endpoint = (*service)->endpoint(), .processes = processes});
+    auto workers = LocalWorkers::start({.endpoint = (*service)->endpoint(),
+                                        .processes = processes,
+                                        .slots = static_cast<int>(options_.slots)});
     if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
     return serve(**service, runner, &*workers);
   }
@@ -133,7 +134,7 @@ class CampaignRun {
   CampaignRunner replay(std::vector<DesignPlan> plans) {
     std::vector<DesignId> finished;
     for (const DesignStateRow& state : store_.design_states()) {
-      progress_.restore(state);
+      listener_.restore(state);
       if (state.state == DesignState::Finished) finished.push_back(state.design);
     }
     const auto scores = store_.scores();
@@ -151,12 +152,12 @@ class CampaignRun {
         .on_rows =
             [&](const std::vector<Row>& rows) {
               for (const Row& row : rows)
-                progress_.add(row, clock_.now());
+                listener_.add(row, clock_.now());
             },
         .on_status =
             [&](const LiveStatus& live) {
               last_ = live;
-              progress_.update(live, clock_.now());
+              listener_.update(live, clock_.now());
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
               }
@@ -165,7 +166,7 @@ class CampaignRun {
     };
     const ServiceEnd end = service.run(stop.get_token(), hooks);
     if (workers != nullptr) workers->stop(std::chrono::seconds(2));
-    progress_.finish(last_);
+    listener_.finish(last_);
     if (runner.error()) return fail_of(*runner.error());
     if (!worker_trouble.empty()) return fail(output_, ExitCode::Unreachable, worker_trouble);
     return exit_code_of(end);
@@ -209,8 +210,7 @@ class CampaignRun {
   const RunOptions& options_;
   Store& store_;
   SystemClock clock_;
-  std::vector<DesignRow> designs_;
-  Progress progress_;
+  RunListener& listener_;
   LiveStatus last_;
 };
 
@@ -243,15 +243,19 @@ std::optional<Campaign> CampaignFlags::read(Output& output) const {
   return campaign;
 }
 
-ExitCode run_campaign(Output& output, const Campaign& campaign, const RunOptions& options) {
+ExitCode carry_out(Output& output, const Campaign& campaign, const RunOptions& options,
+                   RunListener& listener) {
   auto store = Store::open(campaign.store, campaign_row(campaign), design_rows(campaign));
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  if (!(*store)->finished()) {
-    const ExitCode ended = CampaignRun(output, campaign, options, **store).run();
-    if (ended != ExitCode::Done) return ended;
-  }
-  store->reset();
-  return show_result(output, campaign);
+  if ((*store)->finished()) return ExitCode::Done;
+  return CampaignRun(output, campaign, options, **store, listener).run();
+}
+
+ExitCode run_campaign(Output& output, const Campaign& campaign, const RunOptions& options) {
+  const std::vector<DesignRow> designs = design_rows(campaign);
+  Progress progress(output, designs, SystemClock().now());
+  const ExitCode ended = carry_out(output, campaign, options, progress);
+  return ended == ExitCode::Done ? show_result(output, campaign) : ended;
 }
 
 }  // namespace swarmsmith::cli
