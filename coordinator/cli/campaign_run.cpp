@@ -201,6 +201,7 @@ class CampaignRun {
   }
 
   void print_resume() {
+    if (!options_.keeps_store) return;
     print_note(output_, "everything so far is in " + campaign_.store.string() +
                             "; the same command goes on from there");
   }

@@ -35,6 +35,8 @@ struct RunOptions {
   bool announce = false;
   /// When another program listens on the port of `bind`, one of the next ones will do.
   bool next_port = false;
+  /// Whether an interrupted run goes on later; else its store is thrown away.
+  bool keeps_store = true;
 };
 
 /// Runs the campaign to its end, going on where its store stands, and prints its result. SIGINT and

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "coordinator/cli/irace/irace_command.h"
+
 namespace swarmsmith::cli {
 namespace {
 
@@ -135,6 +137,19 @@ number of workers and the history of crashes.
 Example:
   swarmsmith digest demo.db)";
 
+constexpr std::string_view kIraceDetails =
+    R"(Takes the place of irace: reads the same scenario, parameter, instance and configuration files, calls
+the same target-runner, means the same by the same options, and ends with the same report. All that
+happens is in the store that logFile names; after Ctrl-C, kill -9 or a failing target the same command
+goes on where it was, and comes to the same answer with any number of workers.
+
+Examples:
+  swarmsmith irace --init
+  swarmsmith irace --check
+  swarmsmith irace --scenario scenario.txt --max-experiments 1000 --seed 42 --parallel 8
+  swarmsmith irace --only-test configurations.txt
+  swarmsmith irace -s scenario.txt | sed '1,/as commandlines/d')";
+
 constexpr std::array kCommands = {
     Command{"run", "Run a campaign, or go on with it", kRunDetails, declare_run},
     Command{"init", "Write a commented campaign file", kInitDetails, declare_init},
@@ -143,6 +158,8 @@ constexpr std::array kCommands = {
             declare_profile},
     Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
     Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
+    Command{"irace", "Configure an algorithm as irace does, from irace's files", kIraceDetails,
+            nullptr, run_irace},
     Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},
     Command{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
             declare_ls},

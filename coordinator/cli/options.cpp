@@ -169,6 +169,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, Output& output) 
   const Command* command = find_command(first);
   if (command == nullptr) return unknown_command(first, output);
   std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  if (command->run_words != nullptr) return command->run_words(rest, output);
   if (first == "evaluate") rest = with_machine_as_one_word(rest);
   return run_command(*command, std::move(rest), output);
 }

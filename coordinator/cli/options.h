@@ -54,6 +54,8 @@ struct Command {
   std::string_view details;  ///< examples and what else a person needs, below the options
   /// Declares the command's options and returns what runs when they were read.
   std::function<ExitCode(Output&)> (*declare)(Options& options);
+  /// In place of `declare`, for a command that reads its words, help and flags itself.
+  ExitCode (*run_words)(const std::vector<std::string>& words, Output& output) = nullptr;
 };
 
 /// Runs the program with the words after its name. Output goes to `output`, whose flags (`--json`,

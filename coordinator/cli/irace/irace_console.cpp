@@ -145,8 +145,6 @@ void IraceConsole::add(const Row& row, TimePoint now) {
     last_ = now;
   } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
     add_state(*state);
-  } else if (const auto* failure = std::get_if<FailureRow>(&row)) {
-    failure_ = *failure;
   } else if (const auto* event = std::get_if<EventRow>(&row)) {
     if (event->severity != "info" || output_.verbose) write("# " + event_line(*event) + "\n");
   }

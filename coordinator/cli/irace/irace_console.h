@@ -48,9 +48,6 @@ class IraceConsole final : public RunListener {
   void update(const LiveStatus& live, TimePoint now) override;
   void finish(const LiveStatus& live) override;
 
-  /// The last attempt that gave no cost.
-  const std::optional<FailureRow>& failure() const { return failure_; }
-
  private:
   void write(const std::string& text);
   void begin_iteration(const IterationRow& row);
@@ -72,7 +69,6 @@ class IraceConsole final : public RunListener {
   TimePoint last_;                ///< when the last line of the table was written
   std::string reason_;            ///< why it ended, once that was said
   std::string trouble_;
-  std::optional<FailureRow> failure_;
 };
 
 }  // namespace swarmsmith::cli

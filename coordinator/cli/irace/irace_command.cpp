@@ -1,0 +1,106 @@
+#include "coordinator/cli/irace/irace_command.h"
+
+#include <filesystem>
+#include <optional>
+
+#include "base/log.h"
+#include "coordinator/campaign/irace_campaign.h"
+#include "coordinator/campaign/programs.h"
+#include "coordinator/cli/commands.h"
+#include "coordinator/cli/irace/irace_check.h"
+#include "coordinator/cli/irace/irace_console.h"
+#include "coordinator/cli/irace/irace_run.h"
+#include "irace_core/files/command_line.h"
+#include "irace_core/files/setup.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// irace ends with 1, whatever is wrong.
+ExitCode complain(Output& output, const std::vector<Error>& errors) {
+  for (const Error& error : errors)
+    print_error(output, error);
+  return ExitCode::Failed;
+}
+
+/// Flags of ours, which hold from the first line on.
+void read_flags(const IraceSettings& settings, Output& output) {
+  output.json = settings.is_on("--json");
+  output.verbose = settings.is_on("--verbose");
+  if (settings.is_on("--no-color")) output.color = false;
+  if (output.verbose) set_log_level(LogLevel::Debug);
+}
+
+const Command& this_command() {
+  for (const Command& command : commands()) {
+    if (command.run_words == run_irace) return command;
+  }
+  throw std::logic_error("irace is no command");
+}
+
+void print_help(Output& output) {
+  const Command& command = this_command();
+  output.out << command.summary << "\nUsage: swarmsmith irace [OPTIONS]\n\n"
+             << irace_option_help() << '\n'
+             << command.details << '\n';
+}
+
+/// --store, else the log file, else a place that goes afterwards.
+Expected<StorePlace> place_of(const IraceCommandLine& line, const IraceSetup& setup) {
+  if (const IraceSetting* store = line.settings.find("--store")) {
+    const auto text = line.settings.text("--store");
+    if (text && !text->empty()) return StorePlace::at(absolute_path(*text, store->folder));
+  }
+  if (!setup.log_file.empty()) return StorePlace::at(setup.log_file);
+  return StorePlace::temporary();
+}
+
+ExitCode check(Output& output, const IraceSetup& setup) {
+  const Campaign campaign = campaign_of(setup, setup.seed.value_or(1));
+  output.out << "# " << irace_date() << ": Checking scenario\n"
+             << setup_text(setup) << "# " << irace_date() << ": Reading parameters\n"
+             << setup.parameter_text;
+  return check_target(output, setup, campaign);
+}
+
+ExitCode carry_out(Output& output, const IraceCommandLine& line) {
+  auto setup = read_irace_setup(line, surroundings_of_process());
+  if (!setup) return complain(output, setup.error());
+  output.quiet = setup->quiet;
+  if (output.quiet) set_log_level(LogLevel::Error);
+  for (const std::string& warning : setup->warnings)
+    print_note(output, "warning: " + warning);
+  if (const auto faults = check_programs(campaign_of(*setup, 1)); !faults.empty())
+    return complain(output, faults);
+  if (line.action == IraceAction::Check) return check(output, *setup);
+  const auto place = place_of(line, *setup);
+  if (!place) return fail(output, ExitCode::Failed, place.error());
+  const IraceSlots slots{.workers = line.settings.number("--workers"), .parallel = setup->parallel};
+  return run_scenario(output, *setup, *place, slots);
+}
+
+}  // namespace
+
+ExitCode run_irace(const std::vector<std::string>& words, Output& output) {
+  const auto line = read_irace_command_line(words, std::filesystem::current_path());
+  if (!line) return complain(output, line.error());
+  read_flags(line->settings, output);
+  for (const std::string& warning : line->warnings)
+    print_note(output, "warning: " + warning);
+  switch (line->action) {
+    case IraceAction::Help:
+      print_help(output);
+      return ExitCode::Done;
+    case IraceAction::Version:
+      return run_program({"version"}, output);
+    case IraceAction::Init:
+      return ExitCode::Failed;
+    case IraceAction::Run:
+    case IraceAction::Check:
+    case IraceAction::OnlyTest:
+      break;
+  }
+  return carry_out(output, *line);
+}
+
+}  // namespace swarmsmith::cli
