@@ -4,8 +4,8 @@ namespace swarmsmith {
 namespace {
 
 using enum IraceKind;
-using G = IraceGroup;
 using enum IraceMeaning;
+using G = IraceGroup;
 
 // name, short switch, long switch, kind, initial, words, group, meaning, help, remark
 constexpr IraceOption kOptions[] = {
@@ -136,8 +136,8 @@ constexpr IraceOption kOptions[] = {
      "widen the model when new configurations are too alike", ""},
     {"softRestartThreshold", "", "--soft-restart-threshold", Real, "1e-04", "", G::Race, Supported,
      "what counts as alike, as a share of a domain", ""},
-    {"postselection", "", "--postselection", Bool, "1", "", G::Race, Supported,
-     "spend what is left on a last race of the best", ""},
+    {"postselection", "", "--postselection", Real, "1", "", G::Race, Supported,
+     "1: spend what is left on a last race of the best; 0: don't", ""},
 
     {"capping", "", "--capping", Bool, "NA", "", G::Capping, Supported,
      "stop runs that are slower than the elites; not given: with maxTime and boundMax", ""},

@@ -79,6 +79,12 @@ std::optional<std::string> irace_remark(const IraceOption& option, const IraceVa
   if (option.meaning == IraceMeaning::Ignored && !is_default(option, value)) {
     return title + " means nothing here: " + std::string(option.remark);
   }
+  const auto* share = std::get_if<double>(&value);
+  if (option.name == "postselection" && share != nullptr && *share > 0 && *share < 1) {
+    return title +
+           " is a share of the budget in irace 3.5; here, as in irace 4, the last race gets what "
+           "the others leave";
+  }
   return std::nullopt;
 }
 
