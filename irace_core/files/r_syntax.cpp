@@ -206,10 +206,7 @@ Expected<Tree> Parser::named() {
     if (name.text == "TRUE") return literal({Logical{true}, name.place});
     if (name.text == "FALSE") return literal({Logical{false}, name.place});
     if (name.text == "NULL") return literal({Null{}, name.place});
-    if (name.text == "NA" || name.text == "NA_integer_" || name.text == "NA_real_" ||
-        name.text == "NA_character_") {
-      return literal({Logical{}, name.place});
-    }
+    if (name.text == "NA") return literal({Logical{}, name.place});
     using Limits = std::numeric_limits<double>;
     if (name.text == "Inf") return literal({Number{Limits::infinity()}, name.place});
     if (name.text == "NaN") return literal({Number{Limits::quiet_NaN()}, name.place});

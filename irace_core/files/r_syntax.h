@@ -33,7 +33,8 @@ struct Number {
 struct Text {
   std::string value;  ///< without quotes, escapes resolved
 };
-/// T and F are names, as in R: a parameter may be called so; see `logical_of`.
+/// Also T and F, as in R, so that a parameter may be called so (see `logical_of`), and NA_real_ and
+/// its sisters.
 struct Name {
   std::string value;
 };
