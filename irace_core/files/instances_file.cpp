@@ -63,8 +63,7 @@ Expected<std::vector<std::string>> read_instances_file(const fs::path& file,
 Expected<std::vector<std::string>> list_instances(const fs::path& folder) {
   std::error_code ignored;
   if (!fs::is_directory(folder, ignored)) {
-    return unexpected(ErrorKind::NotFound, "there is no such folder of instances",
-                      folder.string());
+    return unexpected(ErrorKind::NotFound, "there is no such folder of instances", folder.string());
   }
   std::vector<std::string> files;
   if (const auto error = add_files(folder, 0, files)) {
@@ -78,7 +77,8 @@ Expected<std::vector<std::string>> list_instances(const fs::path& folder) {
 Expected<std::string> print_instances(std::span<const std::string> instances) {
   std::string text;
   for (const std::string& instance : instances) {
-    const bool can_be_said = !instance.empty() && kBlanks.find(instance.front()) == std::string_view::npos &&
+    const bool can_be_said = !instance.empty() &&
+                             kBlanks.find(instance.front()) == std::string_view::npos &&
                              instance.find_first_of("#\r\n") == std::string::npos;
     if (!can_be_said) {
       return bad_input(

@@ -29,8 +29,7 @@ constexpr IraceOption kOptions[] = {
     {"logFile", "-l", "--log-file", File, "./irace.Rdata", "", G::Files, Supported,
      "names the store, which holds all that happens; relative to execDir",
      "an SQLite file: `.db` takes the place of `.Rdata`; empty keeps nothing"},
-    {"recoveryFile", "", "--recovery-file", File, "", "", G::Files, Refused,
-     "log of a broken run",
+    {"recoveryFile", "", "--recovery-file", File, "", "", G::Files, Refused, "log of a broken run",
      "there is none to name: give the same command again, and it goes on from its store"},
     {"parameters", "", "", Anything, "", "", G::Files, Refused, "parameters as an object of R",
      "write them into a file and name it in parameterFile"},
@@ -81,8 +80,7 @@ constexpr IraceOption kOptions[] = {
      "program that repairs new configurations",
      "a program in place of irace's R function; see docs/irace.md"},
     {"parallel", "", "--parallel", Natural, "0", "", G::Target, Supported,
-     "calls at a time; not given: as many as there are cores",
-     "the result does not depend on it"},
+     "calls at a time; not given: as many as there are cores", "the result does not depend on it"},
     {"loadBalancing", "", "--load-balancing", Bool, "1", "", G::Target, Ignored,
      "hand out calls one by one", "this is always so"},
     {"mpi", "", "--mpi", Bool, "0", "", G::Target, Refused, "use MPI",
@@ -197,6 +195,8 @@ constexpr IraceOption kOptions[] = {
 
 }  // namespace
 
-std::span<const IraceOption> irace_options() { return kOptions; }
+std::span<const IraceOption> irace_options() {
+  return kOptions;
+}
 
 }  // namespace swarmsmith

@@ -34,7 +34,9 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
   }
 }
 
-std::string found(std::string_view text) { return ", found \"" + std::string(text) + "\""; }
+std::string found(std::string_view text) {
+  return ", found \"" + std::string(text) + "\"";
+}
 
 Expected<IraceValue> bool_of(std::string_view text) {
   const std::string word = lower_case(text);
@@ -147,21 +149,20 @@ Expected<IraceValue> irace_value_of(const IraceOption& option, std::string_view 
 }
 
 std::string irace_value_text(const IraceValue& value) {
-  return std::visit(
-      Overloaded{
-          [](std::monostate) { return std::string("NULL"); },
-          [](bool on) { return std::string(on ? "1" : "0"); },
-          [](std::int64_t number) { return std::to_string(number); },
-          [](double number) { return shortest_text(number); },
-          [](const std::string& text) { return quoted(text); },
-          [](const std::vector<std::string>& texts) {
-            std::string list;
-            for (const std::string& text : texts)
-              list += (list.empty() ? "" : ", ") + quoted(text);
-            return "c(" + list + ")";
-          },
-      },
-      value);
+  return std::visit(Overloaded{
+                        [](std::monostate) { return std::string("NULL"); },
+                        [](bool on) { return std::string(on ? "1" : "0"); },
+                        [](std::int64_t number) { return std::to_string(number); },
+                        [](double number) { return shortest_text(number); },
+                        [](const std::string& text) { return quoted(text); },
+                        [](const std::vector<std::string>& texts) {
+                          std::string list;
+                          for (const std::string& text : texts)
+                            list += (list.empty() ? "" : ", ") + quoted(text);
+                          return "c(" + list + ")";
+                        },
+                    },
+                    value);
 }
 
 }  // namespace swarmsmith

@@ -42,7 +42,7 @@ enum class IraceGroup { Do, Files, Instances, Target, Budget, Race, Capping, Her
 
 /// An option of irace or of `swarmsmith irace` (irace facts, 22).
 struct IraceOption {
-  std::string_view name;  ///< in scenario files; empty for what only a command line can say
+  std::string_view name;          ///< in scenario files; empty for what only a command line can say
   std::string_view short_switch;  ///< "-s", or empty
   std::string_view long_switch;   ///< "--scenario", or empty for what only a file can say
   IraceKind kind;
@@ -80,8 +80,8 @@ std::string irace_option_table();
 
 /// A value of an option, of the kind's type: nothing (unset, the default), bool (Action, Flag,
 /// Bool), integer (Natural), double (Real), texts (Texts), a text (all others).
-using IraceValue = std::variant<std::monostate, bool, std::int64_t, double, std::string,
-                                std::vector<std::string>>;
+using IraceValue =
+    std::variant<std::monostate, bool, std::int64_t, double, std::string, std::vector<std::string>>;
 
 /// The value that a text stands for, as on a command line: an empty text and NA unset an option of
 /// a number, a bool or a choice. The error says what was wanted and has no place.

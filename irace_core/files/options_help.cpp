@@ -177,8 +177,8 @@ std::string irace_option_table() {
       here += remark;
     }
     text += "| " + code(option.name) + " | " + code(switches(option)) + " | " +
-            code(default_of(option)) + " | " + cell(std::string(option.help)) + " | " +
-            cell(here) + " |\n";
+            code(default_of(option)) + " | " + cell(std::string(option.help)) + " | " + cell(here) +
+            " |\n";
   }
   return text;
 }

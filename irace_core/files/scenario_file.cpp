@@ -125,8 +125,7 @@ class Reader {
     return value ? std::optional(std::move(*value)) : std::nullopt;
   }
 
-  void read_option(const IraceOption& option, const r::Statement& statement,
-                   const fs::path& file) {
+  void read_option(const IraceOption& option, const r::Statement& statement, const fs::path& file) {
     IraceValue value;
     if (option.kind == IraceKind::Anything) {
       // Whatever it is, it is for R; only its absence means something.
@@ -187,8 +186,8 @@ class Reader {
     if (++files_ > kMostFiles) return complain(file, where, "includes too many files");
     const auto text = surroundings_.read(included);
     if (!text) {
-      return complain(file, where, "cannot include " + included.string() + ": " +
-                                       text.error().message);
+      return complain(file, where,
+                      "cannot include " + included.string() + ": " + text.error().message);
     }
     read(*text, included);
   }

@@ -15,7 +15,9 @@ bool is_default(const IraceOption& option, const IraceValue& value) {
   return initial && *initial == value;
 }
 
-std::string in_backticks(std::string_view text) { return "`" + std::string(text) + "`"; }
+std::string in_backticks(std::string_view text) {
+  return "`" + std::string(text) + "`";
+}
 
 }  // namespace
 
@@ -71,10 +73,8 @@ std::optional<std::string> irace_refusal(const IraceOption& option, const IraceV
 
 std::optional<std::string> irace_remark(const IraceOption& option, const IraceValue& value) {
   const std::string title = in_backticks(option.title());
-  if (option.meaning == IraceMeaning::Removed &&
-      !std::holds_alternative<std::monostate>(value)) {
-    return title + " is read, but newer versions of irace refuse it: " +
-           std::string(option.remark);
+  if (option.meaning == IraceMeaning::Removed && !std::holds_alternative<std::monostate>(value)) {
+    return title + " is read, but newer versions of irace refuse it: " + std::string(option.remark);
   }
   if (option.meaning == IraceMeaning::Ignored && !is_default(option, value)) {
     return title + " means nothing here: " + std::string(option.remark);

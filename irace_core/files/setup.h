@@ -25,7 +25,8 @@ SetupSurroundings surroundings_of_process();
 /// file, and that over irace's default (irace facts, 21 and 22). What is wrong is reported together
 /// as far as possible; `where` is file:line:column, a switch, an option's name or a file.
 ///
-/// OnlyTest needs test instances, but neither a budget nor training instances.
+/// OnlyTest needs test instances, but neither a budget nor training instances. The command line's
+/// own warnings are not repeated in the setup's.
 IraceSetupOrErrors read_irace_setup(const IraceCommandLine& line,
                                     const SetupSurroundings& surroundings);
 

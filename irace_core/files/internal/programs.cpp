@@ -10,10 +10,9 @@ namespace swarmsmith::irace {
 
 namespace fs = std::filesystem;
 
-fs::path find_program(std::string_view name, const fs::path& folder,
-                      std::string_view search_path) {
-  const bool is_bare = !name.empty() && name.find('/') == std::string_view::npos &&
-                       !name.starts_with('.');
+fs::path find_program(std::string_view name, const fs::path& folder, std::string_view search_path) {
+  const bool is_bare =
+      !name.empty() && name.find('/') == std::string_view::npos && !name.starts_with('.');
   while (is_bare && !search_path.empty()) {
     const std::size_t end = std::min(search_path.find(':'), search_path.size());
     const fs::path in = fs::path(search_path.substr(0, end));
@@ -31,8 +30,8 @@ std::optional<std::string> complaint_about_program(const fs::path& program) {
   if (!fs::exists(status)) return "there is no such program: " + program.string();
   if (fs::is_directory(status)) return program.string() + " is a folder; a program is wanted";
   if (::access(program.c_str(), X_OK) != 0) {
-    return program.string() + " cannot be run; make it a program by `chmod +x " +
-           program.string() + "`";
+    return program.string() + " cannot be run; make it a program by `chmod +x " + program.string() +
+           "`";
   }
   return std::nullopt;
 }

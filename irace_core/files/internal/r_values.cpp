@@ -196,8 +196,8 @@ class Evaluator {
     std::vector<std::string> known;
     for (const auto& entry : environment_.variables)
       known.push_back(entry.first);
-    return wrong(node, "nothing was assigned to `" + name + "` before" +
-                           did_you_mean(name, known) + "; texts need quotes");
+    return wrong(node, "nothing was assigned to `" + name + "` before" + did_you_mean(name, known) +
+                           "; texts need quotes");
   }
 
   Expected<Vector> call(const Node& node, const Call& call) const {

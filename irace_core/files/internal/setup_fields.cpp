@@ -24,9 +24,15 @@ constexpr std::array<std::pair<BoundType, std::string_view>, 2> kBoundTypes = {{
     {BoundType::Candidate, "candidate"},
     {BoundType::Instance, "instance"},
 }};
-constexpr const auto& words_of(TestType) { return kTestTypes; }
-constexpr const auto& words_of(CappingType) { return kCappingTypes; }
-constexpr const auto& words_of(BoundType) { return kBoundTypes; }
+constexpr const auto& words_of(TestType) {
+  return kTestTypes;
+}
+constexpr const auto& words_of(CappingType) {
+  return kCappingTypes;
+}
+constexpr const auto& words_of(BoundType) {
+  return kBoundTypes;
+}
 
 template <class T>
 constexpr bool kIsOptional = false;
@@ -172,6 +178,8 @@ constexpr std::array kFields = {
 
 }  // namespace
 
-std::span<const SetupField> setup_fields() { return kFields; }
+std::span<const SetupField> setup_fields() {
+  return kFields;
+}
 
 }  // namespace swarmsmith::irace
