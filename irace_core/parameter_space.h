@@ -67,6 +67,8 @@ class Assignment;
 /// value.
 class ParameterSpace {
  public:
+  /// Without parameters: only to be assigned to.
+  ParameterSpace() = default;
   /// Checks names, domains, unknown and circular references; `where` of an error is the parameter's
   /// name. A bound without parameters in it is evaluated at once. `digits`: decimals of reals.
   static Expected<ParameterSpace> make(std::vector<Parameter> parameters,
@@ -120,7 +122,6 @@ class ParameterSpace {
     bool holds_when_inactive;
   };
 
-  ParameterSpace() = default;
   /// Tabulates what can be, and notes what the other expressions read.
   void prepare_conditions();
   void mark_as_read(const Expression& expression);
