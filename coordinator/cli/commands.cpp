@@ -125,10 +125,13 @@ Examples:
 
 constexpr std::string_view kExportDetails =
     R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
+With --format irace the campaign, from its file or its store, becomes a folder of irace's files in which
+`irace --scenario scenario.txt` does one of its designs, with this simulator behind the target-runner.
 
 Examples:
   swarmsmith export demo.db -o best.fsm
-  swarmsmith export demo.db --what elites --format json)";
+  swarmsmith export demo.db --what elites --format json
+  swarmsmith export campaign.toml --format irace --design d1 -o folder)";
 
 constexpr std::string_view kDigestDetails =
     R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
