@@ -25,7 +25,7 @@ std::string reason_text(EliminationReason reason) {
 }  // namespace
 
 Expected<void> DesignRunner::record_events(std::vector<Row>& rows) {
-  for (const RaceEvent& event : race_.take_events()) {
+  for (const RaceEvent& event : race_->take_events()) {
     auto recorded =
         std::visit(Overloaded{[&](const ConfigurationSampled& sampled) -> Expected<void> {
                                 record_candidate(sampled, rows);

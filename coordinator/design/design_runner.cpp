@@ -33,16 +33,19 @@ std::uint64_t key_of(const EvaluationKey& key) {
 }  // namespace
 
 Expected<DesignRunner> DesignRunner::start(DesignPlan plan, StoredDesign stored) {
+  if (plan.only_test) return DesignRunner(std::move(plan), std::move(stored), std::nullopt);
   auto race = IteratedRace::start(plan.space, plan.scenario, plan.initial, plan.repair);
   if (!race) return Unexpected(race.error());
   return DesignRunner(std::move(plan), std::move(stored), std::move(*race));
 }
 
-DesignRunner::DesignRunner(DesignPlan plan, StoredDesign stored, IteratedRace race)
+DesignRunner::DesignRunner(DesignPlan plan, StoredDesign stored, std::optional<IteratedRace> race)
     : plan_(std::move(plan)), stored_(std::move(stored)), race_(std::move(race)) {}
 
 Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  if (state_ == DesignState::Waiting) {
+  if (state_ == DesignState::Waiting && plan_.only_test) {
+    test_the_given(tasks, rows);
+  } else if (state_ == DesignState::Waiting) {
     state_ = DesignState::Racing;
     if (auto recorded = record_events(rows); !recorded) return recorded;
     want_batch(tasks, rows);
@@ -65,10 +68,10 @@ Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>&
 Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks, std::vector<Row>& rows) {
   while (awaited_.empty()) {
     if (fault_) return Unexpected(*fault_);
-    if (race_.finished()) return finish_race(tasks, rows);
+    if (race_->finished()) return finish_race(tasks, rows);
     // Runs before a targetEvaluator are all used; the step comes with its word on them.
     consumed_ = awaits_judgement() ? batch_.size() : 0;
-    race_.tell(measurements_);
+    race_->tell(measurements_);
     if (auto recorded = record_events(rows); !recorded) return recorded;
     record_unused(batch_.size(), rows);
     want_batch(tasks, rows);
@@ -76,11 +79,23 @@ Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks, std::vector<
   return {};
 }
 
+void DesignRunner::test_the_given(std::vector<Task>& tasks, std::vector<Row>& rows) {
+  std::vector<std::int64_t>& numbers = elites_.emplace_back();
+  for (const Configuration& configuration : plan_.initial) {
+    numbers.push_back(static_cast<std::int64_t>(numbers.size()) + 1);
+    record_candidate({.id = numbers.back(), .configuration = configuration}, rows);
+  }
+  plan_.tests.elites = static_cast<std::int64_t>(numbers.size());
+  state_ = DesignState::Testing;
+  record_state(rows);
+  want_tests(tasks, rows);
+}
+
 Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks, std::vector<Row>& rows) {
   if (steps_ < stored_.step_digests.size()) return Unexpected(other_way());
-  if (race_.failure()) {
+  if (race_->failure()) {
     state_ = DesignState::Stopped;
-    reason_ = to_string(*race_.failure());
+    reason_ = to_string(*race_->failure());
     record_state(rows);
     return {};
   }
@@ -101,7 +116,7 @@ void DesignRunner::begin_batch(std::vector<Experiment> batch) {
 }
 
 void DesignRunner::want_batch(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  const auto wanted = race_.wanted();
+  const auto wanted = race_->wanted();
   begin_batch({wanted.begin(), wanted.end()});
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     const Experiment& experiment = batch_[i];
@@ -225,7 +240,7 @@ void DesignRunner::want(std::size_t position, const EvaluationKey& key,
             .machine = machines_[static_cast<std::size_t>(experiment.configuration - 1)],
             .bound = experiment.bound};
   if (experiment.is_evaluation) {
-    task.alive = state_ == DesignState::Testing ? testing_ : race_.alive();
+    task.alive = state_ == DesignState::Testing ? testing_ : race_->alive();
   }
   tasks.push_back(std::move(task));
 }

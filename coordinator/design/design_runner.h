@@ -38,6 +38,7 @@ struct DesignPlan {
   std::string source;                    ///< the simulator profile's name; "command" for programs
   std::vector<Configuration> initial{};  ///< that the first race begins with
   Repair repair{};                       ///< of sampled configurations; empty for none
+  bool only_test = false;                ///< no race: the initial configurations are tested
 };
 
 /// What a store knows of one design, for replay.
@@ -87,12 +88,14 @@ class DesignRunner {
     double score_squares = 0;
   };
 
-  DesignRunner(DesignPlan plan, StoredDesign stored, IteratedRace race);
+  DesignRunner(DesignPlan plan, StoredDesign stored, std::optional<IteratedRace> race);
 
   /// Races on until something is awaited or the race is over.
   Expected<void> go_on_racing(std::vector<Task>& tasks, std::vector<Row>& rows);
   /// To the tests of the elites; or to an end without, when every configuration was rejected.
   Expected<void> finish_race(std::vector<Task>& tasks, std::vector<Row>& rows);
+  /// In place of a race.
+  void test_the_given(std::vector<Task>& tasks, std::vector<Row>& rows);
   void want_batch(std::vector<Task>& tasks, std::vector<Row>& rows);
   /// Who is tested: the last iteration's elites, best first, then those of the others.
   std::vector<std::int64_t> tested() const;
@@ -133,7 +136,7 @@ class DesignRunner {
 
   DesignPlan plan_;
   StoredDesign stored_;
-  IteratedRace race_;
+  std::optional<IteratedRace> race_;  ///< none when only given configurations are tested
   DesignState state_ = DesignState::Waiting;
 
   /// What is waited for, in the race's order: a batch of the race, or the tests.

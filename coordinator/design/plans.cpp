@@ -30,7 +30,8 @@ DesignPlan plan_of(const Campaign& campaign, const DesignRow& row, std::size_t m
                             .elites = campaign.test_nb_elites,
                             .every_iteration = campaign.test_iteration_elites},
                   .source = campaign.target ? "command" : campaign.profile.name,
-                  .initial = space->initial()};
+                  .initial = space->initial(),
+                  .only_test = campaign.only_test};
   if (!campaign.repair.empty()) {
     const std::string folder = campaign.target ? campaign.target->folder : "";
     plan.repair = repair_by(campaign.repair, folder, space);

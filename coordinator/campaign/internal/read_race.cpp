@@ -76,6 +76,10 @@ void read_race(TableReader& root, const std::filesystem::path& folder, Campaign&
       race->integer("test_nb_elites", {0, 1000}).value_or(campaign.test_nb_elites);
   campaign.test_iteration_elites =
       race->boolean("test_iteration_elites").value_or(campaign.test_iteration_elites);
+  campaign.only_test = race->boolean("only_test").value_or(false);
+  if (campaign.only_test && !campaign.target) {
+    race->complain("only_test", "`only_test` needs [simulator] with kind = \"command\"");
+  }
   if (const auto repair = race->text("repair_configuration"); repair && !repair->empty()) {
     campaign.repair = program_path(*repair, folder);
   }

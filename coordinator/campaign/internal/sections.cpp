@@ -79,6 +79,7 @@ Section race_section(const Campaign& campaign) {
   section.lines.push_back({"digits", std::to_string(campaign.digits)});
   section.lines.push_back({"test_nb_elites", std::to_string(campaign.test_nb_elites)});
   section.lines.push_back({"test_iteration_elites", flag_text(campaign.test_iteration_elites)});
+  if (campaign.only_test) section.lines.push_back({"only_test", flag_text(true)});
   if (!campaign.repair.empty()) {
     section.lines.push_back({"repair_configuration", quoted_text(campaign.repair)});
   }

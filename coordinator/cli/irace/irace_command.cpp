@@ -9,6 +9,7 @@
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/irace/irace_check.h"
 #include "coordinator/cli/irace/irace_console.h"
+#include "coordinator/cli/irace/irace_only_test.h"
 #include "coordinator/cli/irace/irace_run.h"
 #include "irace_core/files/command_line.h"
 #include "irace_core/files/setup.h"
@@ -51,7 +52,13 @@ Expected<StorePlace> place_of(const IraceCommandLine& line, const IraceSetup& se
     const auto text = line.settings.text("--store");
     if (text && !text->empty()) return StorePlace::at(absolute_path(*text, store->folder));
   }
-  if (!setup.log_file.empty()) return StorePlace::at(setup.log_file);
+  if (!setup.log_file.empty()) {
+    std::filesystem::path file = setup.log_file;
+    // Tests without a run are a campaign of their own.
+    if (line.action == IraceAction::OnlyTest)
+      file.replace_filename(file.stem().string() + "-test" + file.extension().string());
+    return StorePlace::at(file);
+  }
   return StorePlace::temporary();
 }
 
@@ -76,6 +83,8 @@ ExitCode carry_out(Output& output, const IraceCommandLine& line) {
   const auto place = place_of(line, *setup);
   if (!place) return fail(output, ExitCode::Failed, place.error());
   const IraceSlots slots{.workers = line.settings.number("--workers"), .parallel = setup->parallel};
+  if (line.action == IraceAction::OnlyTest)
+    return only_test(output, *setup, line.only_test, *place, slots);
   return run_scenario(output, *setup, *place, slots);
 }
 

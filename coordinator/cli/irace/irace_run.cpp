@@ -22,17 +22,6 @@ namespace {
 
 constexpr std::int64_t kLargestSeed = 2'147'483'647;  // irace's
 
-RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
-  RunOptions options{.workers = std::max<std::int64_t>(slots.workers.value_or(1), 1),
-                     .keeps_store = store.is_kept()};
-  if (slots.parallel) {
-    const std::int64_t all = std::max<std::int64_t>(*slots.parallel, 1);
-    options.workers = std::min(*options.workers, all);
-    options.slots = (all + *options.workers - 1) / *options.workers;
-  }
-  return options;
-}
-
 std::string times_line(TimePoint begin) {
   rusage own{};
   rusage children{};
@@ -74,7 +63,7 @@ class ScenarioRun {
         return fail(output_, ExitCode::Failed, told.error());
     }
     const ExitCode ended = carry_out(output_, campaign_, options, watch);
-    return ended == ExitCode::Done ? report() : explain(ended, watch.last());
+    return ended == ExitCode::Done ? report() : explain_end(output_, ended, watch.last());
   }
 
  private:
@@ -149,20 +138,6 @@ class ScenarioRun {
                             file);
   }
 
-  /// irace ends with 1, whatever went wrong.
-  ExitCode explain(ExitCode ended, const std::optional<FailureRow>& failure) {
-    if (ended == ExitCode::Interrupted || ended == ExitCode::Terminated) return ended;
-    if (ended == ExitCode::OverFailureLimit && failure) {
-      output_.err << message_of(failure->reason,
-                                {failure->command, failure->output, failure->errors})
-                  << '\n';
-    } else if (ended == ExitCode::Store) {
-      output_.err << "Give the options that made this store, or another one: --log-file NAME, or "
-                     "--store PATH.\n";
-    }
-    return ExitCode::Failed;
-  }
-
   Output& output_;
   const IraceSetup& setup_;
   const StorePlace& place_;
@@ -172,6 +147,29 @@ class ScenarioRun {
 };
 
 }  // namespace
+
+RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
+  RunOptions options{.workers = std::max<std::int64_t>(slots.workers.value_or(1), 1),
+                     .keeps_store = store.is_kept()};
+  if (slots.parallel) {
+    const std::int64_t all = std::max<std::int64_t>(*slots.parallel, 1);
+    options.workers = std::min(*options.workers, all);
+    options.slots = (all + *options.workers - 1) / *options.workers;
+  }
+  return options;
+}
+
+ExitCode explain_end(Output& output, ExitCode ended, const std::optional<FailureRow>& failure) {
+  if (ended == ExitCode::Interrupted || ended == ExitCode::Terminated) return ended;
+  if (ended == ExitCode::OverFailureLimit && failure) {
+    output.err << message_of(failure->reason, {failure->command, failure->output, failure->errors})
+               << '\n';
+  } else if (ended == ExitCode::Store) {
+    output.err << "Give the options that made this store, or another one: --log-file NAME, or "
+                  "--store PATH.\n";
+  }
+  return ExitCode::Failed;
+}
 
 std::uint64_t seed_of(const IraceSetup& setup, const StorePlace& store) {
   if (setup.seed) return *setup.seed;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "coordinator/cli/campaign_run.h"
 #include "coordinator/cli/irace/store_place.h"
 #include "coordinator/cli/output.h"
 #include "irace_core/files/irace_setup.h"
@@ -14,6 +15,13 @@ struct IraceSlots {
   std::optional<std::int64_t> workers;   ///< processes
   std::optional<std::int64_t> parallel;  ///< evaluations of all of them together
 };
+
+/// Both as the worker processes of `carry_out`.
+RunOptions run_options(const IraceSlots& slots, const StorePlace& store);
+
+/// What to exit with after `carry_out` did not come to its end: 1 for all errors, as irace. Shows
+/// the call that failed, and what to do.
+ExitCode explain_end(Output& output, ExitCode ended, const std::optional<FailureRow>& failure);
 
 /// Runs the scenario into its store, or goes on with it, and prints irace's report. Failed for
 /// whatever goes wrong, as irace; Interrupted and Terminated as `run`.
