@@ -229,7 +229,9 @@ TEST(ModelGolden, OverallRanksAreThoseOfIrace) {
       for (std::size_t c = 0; c < row.size(); ++c)
         by_configuration[c].push_back(row[c]);
     }
-    EXPECT_EQ(overall_ranks(by_configuration), as_vector<double>(json["friedman"]));
+    EXPECT_EQ(overall_ranks(by_configuration, TestType::FTest),
+              as_vector<double>(json["friedman"]));
+    EXPECT_EQ(overall_ranks(by_configuration, TestType::TTest), as_vector<double>(json["t"]));
   }
 }
 
