@@ -127,7 +127,7 @@ std::vector<Elite> IteratedRace::State::ranked(std::span<const std::int64_t> ids
     for (const Candidate::Result& result : candidate(id).results)
       row[static_cast<std::size_t>(result.pair - 1)] = result.cost;
   }
-  const std::vector<double> ranks = irace::overall_ranks(costs);
+  const std::vector<double> ranks = irace::overall_ranks(costs, test_type_of(scenario));
   std::vector<Elite> ranked;
   for (std::size_t i = 0; i < ids.size(); ++i)
     ranked.push_back(candidate(ids[i]).as_elite(ids[i], ranks[i]));

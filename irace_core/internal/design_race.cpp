@@ -1,9 +1,9 @@
 #include <algorithm>
 #include <limits>
-#include <map>
 #include <numeric>
 #include <utility>
 
+#include "base/assert.h"
 #include "irace_core/internal/design_state.h"
 
 namespace swarmsmith {
@@ -107,7 +107,7 @@ void IteratedRace::State::start_race(irace::RaceSettings settings,
     all.push_back(settings.past_pairs > 0 ? contestant(id, past) : irace::Contestant{id, {}, {}});
   }
   repeated_ = 0;
-  runs_.clear();
+  told_.clear();
   race = std::make_unique<Race>(std::move(settings), std::move(all));
   report_steps();
 }
@@ -144,22 +144,34 @@ void IteratedRace::State::ask() {
   }
 }
 
-/// Adds up the times of what was run and counted, and leaves out of the step what was known.
-void IteratedRace::State::count_runs(RaceStep& step) {
-  std::map<std::int64_t, std::size_t> position;  // in `runs_`, by configuration
-  for (std::size_t i = 0; i < runs_.size(); ++i) {
-    if (runs_[i].is_evaluation || race->pair_of(runs_[i].task) != step.pair) continue;
-    position[race->contestant(runs_[i].column).id] = i;
+void IteratedRace::State::answer_race() {
+  if (keeps_track()) {
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (runs_[i].is_evaluation) continue;
+      const std::int64_t id = race->contestant(runs_[i].column).id;
+      told_[{race->pair_of(runs_[i].task), id}] = {answers_[i].time, is_known(runs_[i])};
+    }
   }
+  race->tell(answers_);
+  report_steps();
+}
+
+bool IteratedRace::State::keeps_track() const {
+  return time || (scenario.deterministic && !scenario.elitist);
+}
+
+/// Adds up the times of what was run and counts, and leaves out of the step what was known.
+void IteratedRace::State::count_runs(RaceStep& step) {
   std::vector<std::int64_t> evaluated;
   for (const std::int64_t id : step.evaluated) {
-    const auto found = position.find(id);
-    if (found != position.end() && is_known(runs_[found->second])) {
+    const auto told = told_.extract({step.pair, id});
+    SWARMSMITH_ASSERT(!told.empty(), "what a step evaluated was told");
+    if (told.mapped().was_known) {
       ++repeated_;
       continue;
     }
     evaluated.push_back(id);
-    if (found != position.end() && time) time->count(answers_[found->second].time);
+    if (time) time->count(told.mapped().time);
   }
   step.evaluated = std::move(evaluated);
   step.experiments_used -= repeated_;
@@ -167,7 +179,7 @@ void IteratedRace::State::count_runs(RaceStep& step) {
 
 void IteratedRace::State::report_steps() {
   for (RaceStep& step : race->take_steps()) {
-    if (time || (scenario.deterministic && !scenario.elitist)) count_runs(step);
+    if (keeps_track()) count_runs(step);
     step.iteration = iteration;
     step.experiments_used += used_before_race_;
     Digest digest;

@@ -116,8 +116,7 @@ void IteratedRace::State::tell(std::span<const Measurement> measurements) {
   }
   for (std::size_t i = 0; i < asked_.size(); ++i)
     answers_[asked_[i]] = (*raised)[i];
-  race->tell(answers_);
-  report_steps();
+  answer_race();
   advance();
 }
 
@@ -135,8 +134,7 @@ void IteratedRace::State::advance() {
     }
     ask();
     if (!wanted.empty()) return;
-    race->tell(answers_);
-    report_steps();
+    answer_race();
   }
 }
 

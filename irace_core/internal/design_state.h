@@ -1,9 +1,11 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/rng.h"
@@ -80,6 +82,12 @@ class IteratedRace::State {
     std::vector<Measurement> runs;  ///< of the batch, while the targetEvaluator is asked for costs
     std::int64_t pairs = 0;
   };
+  /// A run that the race was told of and that no step has reported yet; most become steps, those of
+  /// rejected ones are void.
+  struct ToldRun {
+    double time;
+    bool was_known;
+  };
   /// A run that the race wants and that was made before: a deterministic target of a run without
   /// elitism would only repeat itself.
   bool is_known(const irace::RaceRun& run) const;
@@ -124,6 +132,10 @@ class IteratedRace::State {
   irace::Contestant contestant(std::int64_t id, std::span<const std::int64_t> pairs) const;
   /// Translates what the race wants into experiments.
   void ask();
+  /// Tells the race the answers to all that it wants.
+  void answer_race();
+  /// Whether single runs matter: their times, or that they were known.
+  bool keeps_track() const;
   /// Completes the race's steps by iteration, budget and generators, and counts their times.
   void report_steps();
   void count_runs(RaceStep& step);
@@ -182,7 +194,8 @@ class IteratedRace::State {
   std::vector<irace::RaceRun> runs_;  ///< what the race wants, known ones included
   std::vector<Measurement> answers_;  ///< to `runs_`
   std::vector<std::size_t> asked_;    ///< positions in `runs_`, one for each of `wanted`
-  std::int64_t repeated_ = 0;         ///< runs of this race that were known and cost nothing
+  std::map<std::pair<std::int64_t, std::int64_t>, ToldRun> told_;  ///< by (pair, configuration)
+  std::int64_t repeated_ = 0;  ///< runs of this race that were known and cost nothing
 };
 
 }  // namespace swarmsmith
