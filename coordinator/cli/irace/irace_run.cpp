@@ -149,8 +149,9 @@ class ScenarioRun {
 }  // namespace
 
 RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
-  RunOptions options{.workers = std::max<std::int64_t>(slots.workers.value_or(1), 1),
-                     .keeps_store = store.is_kept()};
+  RunOptions options;
+  options.keeps_store = store.is_kept();
+  options.workers = std::max<std::int64_t>(slots.workers.value_or(1), 1);
   if (slots.parallel) {
     const std::int64_t all = std::max<std::int64_t>(*slots.parallel, 1);
     options.workers = std::min(*options.workers, all);
