@@ -240,6 +240,11 @@ Expected<Expression> parse_expression(std::string_view text, std::span<const std
   return Reader(names, use, warnings).read(*tree);
 }
 
+Expected<Expression> to_expression(const r::Node& node, std::span<const std::string> names,
+                                   ExpressionUse use, std::vector<Error>& warnings) {
+  return Reader(names, use, warnings).read(node);
+}
+
 std::string print(const Expression& expression) {
   const std::span<const Expression> operands = expression.operands();
   const Operation operation = expression.operation();

@@ -25,6 +25,10 @@ Expected<Expression> parse_expression(std::string_view text, std::span<const std
                                       ExpressionUse use, r::Place start,
                                       std::vector<Error>& warnings);
 
+/// The same for what is parsed already.
+Expected<Expression> to_expression(const r::Node& node, std::span<const std::string> names,
+                                   ExpressionUse use, std::vector<Error>& warnings);
+
 /// R text that reads back as the same expression, where its names are known. The only trees that
 /// cannot are a minus applied to a constant that is not negative, which reads back as the negative
 /// constant, and constants of text with zero bytes in them.
