@@ -21,11 +21,11 @@ Expected<MethodSpace> MethodSpace::make(const Method& method, int digits) {
     made.flavour_ = *flavour;
     return made;
   }
-  auto parameters = parse_parameters(method.parameters);
+  auto parameters = parse_parameter_file({.parameters = {method.parameters, "parameters"}});
   if (!parameters) return Unexpected(parameters.error());
   made.parameters_ = std::move(parameters->space);
   if (method.configurations.empty()) return made;
-  auto initial = parse_configurations(method.configurations, *made.parameters_);
+  auto initial = parse_configurations({method.configurations, "configurations"}, *made.parameters_);
   if (!initial) return Unexpected(initial.error());
   made.initial_ = std::move(*initial);
   return made;

@@ -4,7 +4,7 @@
 #include <map>
 #include <vector>
 
-#include "coordinator/campaign/cost.h"
+#include "target/cost.h"
 #include "coordinator/cli/mean_interval.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/query_output.h"

@@ -2,7 +2,7 @@
 
 #include "base/assert.h"
 #include "base/overloaded.h"
-#include "coordinator/campaign/cost.h"
+#include "target/cost.h"
 #include "coordinator/design/design_runner.h"
 #include "sim/files/toml_text.h"
 

@@ -6,7 +6,7 @@
 
 #include "base/assert.h"
 #include "base/rng.h"
-#include "coordinator/campaign/cost.h"
+#include "target/cost.h"
 
 namespace swarmsmith {
 namespace {

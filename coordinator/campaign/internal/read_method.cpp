@@ -165,17 +165,12 @@ std::string read_text(TableReader& table, const std::string& key,
   return {};
 }
 
-/// Complaints about a file name it and its line; those about a text in the campaign file, its key.
-void complain_about_text(TableReader& table, const std::string& key,
-                         const std::filesystem::path& folder, Error error) {
-  const bool inline_text = table.has(key + "_text");
-  if (inline_text) {
-    const std::string where = error.where.empty() ? "" : "line " + error.where + ": ";
-    return table.complain(key + "_text", where + error.message);
-  }
-  const auto* name = std::get_if<std::string>(&table.take(key)->value);
-  error.where = (folder / *name).string() + (error.where.empty() ? "" : ":" + error.where);
-  table.complain_foreign(key, std::move(error));
+/// What errors call the text that a key gives: the file's path, or the key of a text in this file.
+std::string text_name(TableReader& table, const std::string& key,
+                      const std::filesystem::path& folder) {
+  const Node* node = table.take(key);
+  const auto* name = node != nullptr ? std::get_if<std::string>(&node->value) : nullptr;
+  return name != nullptr ? (folder / *name).string() : key + "_text";
 }
 
 /// A method whose space is that of an irace parameter file.
@@ -187,15 +182,14 @@ void read_parameter_file(TableReader& table, const std::filesystem::path& folder
   method.configurations = read_text(table, "configurations", folder, "configurations");
   table.finish();
   if (table.complaints() > before) return;
-  auto parameters = parse_parameters(method.parameters);
-  if (!parameters) {
-    return complain_about_text(table, "parameters", folder, std::move(parameters.error()));
-  }
+  auto parameters = parse_parameter_file(
+      {.parameters = {method.parameters, text_name(table, "parameters", folder)}});
+  if (!parameters) return table.complain_foreign("parameters", std::move(parameters.error()));
   if (method.configurations.empty()) return;
-  auto initial = parse_configurations(method.configurations, parameters->space);
-  if (!initial) {
-    complain_about_text(table, "configurations", folder, std::move(initial.error()));
-  }
+  auto initial =
+      parse_configurations({method.configurations, text_name(table, "configurations", folder)},
+                           parameters->space);
+  if (!initial) table.complain_foreign("configurations", std::move(initial.error()));
 }
 
 /// Whether the method names a parameter file instead of a flavour.
