@@ -9,9 +9,11 @@
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/irace/irace_check.h"
 #include "coordinator/cli/irace/irace_console.h"
+#include "coordinator/cli/irace/irace_init.h"
 #include "coordinator/cli/irace/irace_only_test.h"
 #include "coordinator/cli/irace/irace_run.h"
 #include "irace_core/files/command_line.h"
+#include "irace_core/files/scenario_text.h"
 #include "irace_core/files/setup.h"
 
 namespace swarmsmith::cli {
@@ -62,11 +64,23 @@ Expected<StorePlace> place_of(const IraceCommandLine& line, const IraceSetup& se
   return StorePlace::temporary();
 }
 
+std::string instances_text(const std::string& what, const std::vector<std::string>& instances) {
+  std::string text = "# " + std::to_string(instances.size()) + " " + what + " instances\n";
+  for (const std::string& instance : instances)
+    text += "#   " + instance + "\n";
+  return text;
+}
+
 ExitCode check(Output& output, const IraceSetup& setup) {
   const Campaign campaign = campaign_of(setup, setup.seed.value_or(1));
-  output.out << "# " << irace_date() << ": Checking scenario\n"
-             << setup_text(setup) << "# " << irace_date() << ": Reading parameters\n"
-             << setup.parameter_text;
+  const IraceFileNames names{.parameters = setup.parameter_file.string(),
+                             .training = "",
+                             .configurations = setup.configurations_file.string()};
+  output.out << "# " << irace_date() << ": Checking scenario\n## irace scenario:\n"
+             << print_irace_scenario(setup, IraceVersion::V4, names).text
+             << instances_text("training", setup.training) << instances_text("test", setup.test)
+             << "## end of irace scenario\n## parameters:\n"
+             << setup.parameter_text << "## end of parameters\n";
   return check_target(output, setup, campaign);
 }
 
@@ -103,7 +117,7 @@ ExitCode run_irace(const std::vector<std::string>& words, Output& output) {
     case IraceAction::Version:
       return run_program({"version"}, output);
     case IraceAction::Init:
-      return ExitCode::Failed;
+      return write_templates(output);
     case IraceAction::Run:
     case IraceAction::Check:
     case IraceAction::OnlyTest:

@@ -8,9 +8,9 @@
 #include <utility>
 #include <variant>
 
-#include "coordinator/campaign/cost.h"
 #include "coordinator/cli/irace/race_table.h"
 #include "coordinator/cli/progress_text.h"
+#include "target/cost.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <variant>
 
-#include "coordinator/campaign/cost.h"
+#include "target/cost.h"
 
 namespace swarmsmith::cli {
 

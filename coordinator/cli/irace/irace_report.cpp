@@ -6,10 +6,10 @@
 #include <set>
 #include <variant>
 
-#include "coordinator/campaign/cost.h"
 #include "coordinator/cli/irace/aligned_table.h"
 #include "coordinator/cli/irace/irace_console.h"
 #include "coordinator/cli/output.h"
+#include "target/cost.h"
 
 namespace swarmsmith::cli {
 namespace {
