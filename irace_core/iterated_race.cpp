@@ -77,7 +77,7 @@ void IteratedRace::tell(std::span<const double> costs) {
 }
 
 std::vector<std::int64_t> IteratedRace::alive() const {
-  return state_->race ? state_->race->alive_ids() : std::vector<std::int64_t>{};
+  return state_->alive();
 }
 
 std::vector<RaceEvent> IteratedRace::take_events() {
@@ -99,11 +99,14 @@ std::span<const Elite> IteratedRace::elites() const {
 }
 
 std::int64_t IteratedRace::experiments_used() const {
-  return state_->used_before_race + (state_->race ? state_->race->used() : 0);
+  return state_->used();
 }
 
 std::int64_t IteratedRace::budget() const {
-  return state_->budget;
+  return state_->budget();
+}
+double IteratedRace::time_used() const {
+  return state_->time ? state_->time->used() : 0;
 }
 std::int64_t IteratedRace::iteration() const {
   return state_->iteration;

@@ -19,7 +19,13 @@ namespace swarmsmith {
 /// repairConfiguration); a pure function.
 using Repair = std::function<Expected<Configuration>(const Configuration&)>;
 
-/// The budget of a design: max_experiments, or what min_experiments makes of it.
+/// Changes with what a race answers to the same space, scenario and costs. Stores keep it: one of
+/// another version can be read, but not continued or played again.
+/// 2: Sobol points at the beginning, a post-selection race at the end, blocks.
+inline constexpr int kRaceVersion = 2;
+
+/// The budget of a design: max_experiments, or what min_experiments makes of it; 0 with max_time,
+/// which only running turns into experiments.
 std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario);
 
 /// Elitist iterated racing (Lopez-Ibanez et al., "The irace package", Operations Research
@@ -29,15 +35,20 @@ std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario)
 /// The rules are those of irace 4.4 with these differences, where irace's users would expect ours:
 /// - Ordinal values are drawn so that all can be drawn (irace 4 never draws the last one).
 /// - A dependent domain is evaluated only where its parameter is active.
-/// - The first configurations are independent uniform draws instead of Sobol points.
+/// - Sobol points reach to 1111 parameters (irace fails above 1024); the first configurations of
+///   more parameters are uniform draws. Further points continue the sequence, and never repeat one.
+/// - Past pairs are shuffled by blocks (irace: one by one).
+/// - Without elitism a deterministic target is not run again on a pair that it has seen.
+/// - nb_experiments_per_iteration gives no more than what is left.
+/// - Post-selection never ends a design without its elites.
 /// - The cap of 1024 configurations a race is an option.
 /// - Runs of a rejected configuration on later tasks of a batch are void, so that the answer does
 ///   not depend on how much was run at once.
 ///
 /// All randomness comes from streams split by name from the scenario's seed: "instances" (order
-/// and seeds of the pairs, in rows), "initial" (the first configurations), "sampling" by iteration
-/// (parents and values, one configuration after the other, parameters in hierarchy order), "order"
-/// by iteration (past pairs).
+/// and seeds of the pairs, in rows), "initial" (the seed of the Sobol sequence), "sampling" by
+/// iteration (parents and values, one configuration after the other, parameters in hierarchy
+/// order), "order" by iteration (past pairs).
 class IteratedRace {
  public:
   /// `initial` configurations take part in the first race, before sampled ones; they get the ids
@@ -51,8 +62,9 @@ class IteratedRace {
   ~IteratedRace();
 
   bool finished() const;
-  /// Why there is no result: every configuration was rejected, a dependent domain was empty, or
-  /// nothing that is not forbidden could be sampled. Only once finished.
+  /// Why there is no result: every configuration was rejected, a dependent domain was empty,
+  /// nothing that is not forbidden could be sampled, a repair made something that is not in the
+  /// space, a time is missing, or the time is too short for one race. Only once finished.
   const std::optional<Error>& failure() const;
 
   /// Everything that the race certainly needs before its next test, in canonical order (task, then
@@ -77,7 +89,10 @@ class IteratedRace {
   /// Elites of the last iteration that ended, best first.
   std::span<const Elite> elites() const;
   std::int64_t experiments_used() const;  ///< counted so far, those of the current race included
-  std::int64_t budget() const;            ///< of the whole design
+  /// Of the whole design; with max_time what was used and what the rest of the time is good for, as
+  /// estimated last.
+  std::int64_t budget() const;
+  double time_used() const;  ///< with max_time: of all experiments that count
   std::int64_t remaining() const { return budget() - experiments_used(); }
   std::int64_t iteration() const;         ///< of the current race
   std::int64_t n_iterations() const;      ///< as planned now

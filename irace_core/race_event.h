@@ -15,7 +15,7 @@ namespace swarmsmith {
 struct ConfigurationSampled {
   std::int64_t id = 0;
   std::int64_t parent = 0;     ///< the elite whose model it was drawn from; 0 for none
-  std::int64_t iteration = 0;  ///< 0 for those that were given
+  std::int64_t iteration = 0;  ///< 0 for those that were given, forbidden ones included
   Configuration configuration;
 };
 
@@ -27,9 +27,9 @@ struct IterationStarted {
   std::int64_t budget = 0;            ///< of them for this iteration
   std::int64_t n_configurations = 0;  ///< in the race, elites included
   std::int64_t new_pairs = 0;         ///< pairs that come first since nobody has seen them
-  std::vector<std::int64_t> elites;
+  std::vector<std::int64_t> elites;   ///< that the race starts with, best first
   bool soft_restart = false;
-  bool postselection = false;
+  bool postselection = false;      ///< the last race; all who take part are its elites
   std::uint64_t model_digest = 0;  ///< of the models that were sampled from; 0 in the first race
 };
 

@@ -1,48 +1,119 @@
 #include "irace_core/scenario.h"
 
+#include <span>
 #include <string>
+
+#include "irace_core/expression.h"
 
 namespace swarmsmith {
 namespace {
 
-struct Limit {
+struct Range {
   const char* option;
-  std::int64_t value;
-  std::int64_t least;
+  double value;
+  double least;
+  double most;
 };
+
+constexpr double kMost = 2147483647;  // irace's numbers are 32 bits wide
+constexpr double kMany = 1e6;         // of what gets multiplied
+
+Expected<void> check_ranges(std::span<const Range> ranges) {
+  for (const Range& range : ranges) {
+    if (range.value >= range.least && range.value <= range.most) continue;
+    const bool too_little = !(range.value >= range.least);
+    return bad_input("must be " + to_fixed_text(too_little ? range.least : range.most) +
+                         (too_little ? " or more" : " or less") + ", and is " +
+                         to_fixed_text(range.value),
+                     range.option);
+  }
+  return {};
+}
+
+Expected<void> check_numbers(const Scenario& s) {
+  const auto number = [](std::int64_t value) { return static_cast<double>(value); };
+  const Range ranges[] = {
+      {"max_experiments", number(s.max_experiments), 0, kMost},
+      {"min_experiments", number(s.min_experiments.value_or(0)), 0, kMost},
+      {"n_instances", number(s.n_instances), 1, kMost},
+      {"first_test", number(s.first_test), 1, kMany},
+      {"each_test", number(s.each_test), 1, kMany},
+      {"block_size", number(s.block_size), 1, kMany},
+      {"nb_iterations", number(s.nb_iterations), 0, kMany},
+      {"min_nb_survival", number(s.min_nb_survival), 0, kMany},
+      {"nb_configurations", number(s.nb_configurations), 0, kMost},
+      {"nb_experiments_per_iteration", number(s.nb_experiments_per_iteration), 0, kMost},
+      {"mu", number(s.mu), 1, kMost},
+      {"elitist_new_instances", number(s.elitist_new_instances), 0, kMany},
+      {"elitist_limit", number(s.elitist_limit), 0, kMost},
+      {"max_configurations_per_race", number(s.max_configurations_per_race), 2, kMost},
+      {"soft_restart_threshold", s.soft_restart_threshold, 0, 1},
+      {"max_time", s.max_time, 0, 1e15},
+      {"min_measurable_time", s.min_measurable_time, 0, 1},
+      {"parallel", number(s.parallel), 0, kMost},
+      {"bound_max", s.bound_max, 0, 1e15},
+      {"bound_digits", number(s.bound_digits), 0, 15},
+      {"bound_par", s.bound_par, 1, kMost},
+  };
+  return check_ranges(ranges);
+}
+
+Expected<void> check_budget(const Scenario& s) {
+  const bool counts = s.max_experiments > 0 || s.min_experiments.value_or(0) > 0;
+  if (!counts && s.max_time == 0) {
+    return bad_input("must be 1 or more (or give max_time), and is 0", "max_experiments");
+  }
+  if (s.max_time == 0) return {};
+  if (counts) {
+    return bad_input(
+        "the budget is either a number of experiments or a time: give one of max_experiments (or "
+        "min_experiments) and max_time",
+        "max_time");
+  }
+  if (!s.elitist) return bad_input("needs elitist", "max_time");
+  if (!(s.budget_estimation > 0 && s.budget_estimation < 1)) {
+    return bad_input("must lie between 0 and 1", "budget_estimation");
+  }
+  return {};
+}
+
+Expected<void> check_blocks(const Scenario& s) {
+  if (s.first_test % s.each_test != 0) {
+    return bad_input("must be a multiple of each_test", "first_test");
+  }
+  if (s.n_instances % s.block_size != 0) {
+    return bad_input("must divide the number of instances, which is " +
+                         std::to_string(s.n_instances) + ", and is " + std::to_string(s.block_size),
+                     "block_size");
+  }
+  const std::int64_t pairs = s.first_test * s.block_size;
+  if (s.mu > pairs && s.mu % s.block_size != 0) {
+    return bad_input("must be a multiple of block_size", "mu");
+  }
+  if (s.deterministic && pairs > s.n_instances) {
+    return bad_input("uses each instance once, so that a first test after " +
+                         std::to_string(pairs) + " needs as many instances; there are " +
+                         std::to_string(s.n_instances) +
+                         ": give more instances or a smaller first_test",
+                     "deterministic");
+  }
+  return {};
+}
 
 }  // namespace
 
 Expected<void> check(const Scenario& scenario) {
-  const Limit limits[] = {
-      {"max_experiments", scenario.max_experiments, 1},
-      {"min_experiments", scenario.min_experiments.value_or(0), 0},
-      {"n_instances", scenario.n_instances, 1},
-      {"first_test", scenario.first_test, 1},
-      {"each_test", scenario.each_test, 1},
-      {"nb_iterations", scenario.nb_iterations, 0},
-      {"min_nb_survival", scenario.min_nb_survival, 0},
-      {"nb_configurations", scenario.nb_configurations, 0},
-      {"nb_experiments_per_iteration", scenario.nb_experiments_per_iteration, 0},
-      {"mu", scenario.mu, 1},
-      {"elitist_new_instances", scenario.elitist_new_instances, 0},
-      {"elitist_limit", scenario.elitist_limit, 0},
-      {"max_configurations_per_race", scenario.max_configurations_per_race, 2},
-  };
-  for (const Limit& limit : limits) {
-    if (limit.value >= limit.least) continue;
-    return bad_input("must be " + std::to_string(limit.least) + " or more, and is " +
-                         std::to_string(limit.value),
-                     limit.option);
-  }
-  if (scenario.first_test % scenario.each_test != 0) {
-    return bad_input("must be a multiple of each_test", "first_test");
-  }
+  if (auto checked = check_numbers(scenario); !checked) return checked;
+  if (auto checked = check_budget(scenario); !checked) return checked;
+  if (auto checked = check_blocks(scenario); !checked) return checked;
   if (!(scenario.confidence > 0 && scenario.confidence < 1)) {
     return bad_input("must lie between 0 and 1", "confidence");
   }
-  if (!(scenario.soft_restart_threshold >= 0 && scenario.soft_restart_threshold <= 1)) {
-    return bad_input("must lie in 0..1", "soft_restart_threshold");
+  if (scenario.capping.value_or(false)) {
+    if (!scenario.elitist) return bad_input("needs elitist", "capping");
+    if (scenario.bound_max == 0) {
+      return bad_input("needs a bound_max above 0, which bounds the first runs", "capping");
+    }
   }
   return {};
 }

@@ -3,9 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
+#include <optional>
 
 #include "base/assert.h"
 #include "base/math.h"
+#include "irace_core/internal/means.h"
 
 namespace swarmsmith::irace {
 namespace {
@@ -37,6 +40,38 @@ double exact_p(double v, int n) {
   const double tail =
       v > n * (n + 1) / 4.0 ? signed_rank_upper_tail(sum, n) : signed_rank_lower_tail(sum, n);
   return std::min(1.0, 2 * tail);
+}
+
+/// As R's all.equal with its own tolerance: relative to the first, unless that is nearly zero.
+bool nearly_equal(double first, double second) {
+  constexpr double kTolerance = 0x1p-26;
+  const double difference = std::fabs(first - second);
+  const double size = std::fabs(first);
+  return (size > kTolerance ? difference / size : difference) <= kTolerance;
+}
+
+/// Whether a column's costs differ at all, for a t-test.
+bool varies(std::span<const double> costs, double mean) {
+  constexpr double kLeastVariance = 10 * std::numeric_limits<double>::epsilon();
+  return variance_of(costs, mean) >= kLeastVariance;
+}
+
+/// Student's t of the differences; nothing where a difference is certain without a test: one does
+/// not vary, or the best is at least as good in every row.
+std::optional<double> paired_t(std::span<const double> best, double best_mean,
+                               std::span<const double> other, double other_mean,
+                               std::vector<double>& differences) {
+  if (!varies(best, best_mean) || !varies(other, other_mean)) return std::nullopt;
+  bool never_worse = true;
+  for (std::size_t i = 0; i < best.size(); ++i) {
+    differences[i] = best[i] - other[i];
+    never_worse = never_worse && differences[i] <= 0;
+  }
+  if (never_worse) return std::nullopt;
+  const double mean = mean_of(differences);
+  const double error =
+      std::sqrt(variance_of(differences, mean) / static_cast<double>(differences.size()));
+  return std::fabs(mean) / error;
 }
 
 }  // namespace
@@ -105,6 +140,52 @@ PairedResult wilcoxon_test(std::span<const double> first, std::span<const double
   const bool first_is_better = pseudo_median(differences) <= 0;
   result.drops_first = !first_is_better;
   result.drops_second = first_is_better;
+  return result;
+}
+
+std::vector<double> adjusted(std::vector<double> p_values, TestType type) {
+  const std::size_t k = p_values.size();
+  if (type == TestType::TTestBonferroni) {
+    for (double& p : p_values)
+      p = std::min(1.0, static_cast<double>(k) * p);
+  }
+  if (type == TestType::TTestHolm) {
+    std::vector<std::size_t> order(k);
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return p_values[a] < p_values[b]; });
+    double largest = 0;
+    for (std::size_t i = 0; i < k; ++i) {
+      double& p = p_values[order[i]];
+      largest = std::max(largest, std::min(1.0, static_cast<double>(k - i) * p));
+      p = largest;
+    }
+  }
+  return p_values;
+}
+
+TestResult paired_t_tests(std::span<const std::span<const double>> costs,
+                          std::span<const double> means, std::span<const std::size_t> columns,
+                          double alpha, TestType type) {
+  SWARMSMITH_ASSERT(columns.size() >= 2 && costs.size() == columns.size(), "columns to compare");
+  const auto best =
+      static_cast<std::size_t>(std::min_element(means.begin(), means.end()) - means.begin());
+  const std::size_t rows = costs[best].size();
+  std::vector<double> differences(rows);
+  std::vector<double> p_values(columns.size(), 1);
+  TestResult result;
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (nearly_equal(means[best], means[i])) continue;
+    const std::optional<double> t =
+        paired_t(costs[best], means[best], costs[i], means[i], differences);
+    p_values[i] = t ? student_t_two_sided_tail(*t, static_cast<double>(rows) - 1) : 0;
+    result.statistic = std::max(result.statistic, t.value_or(0));
+  }
+  p_values = adjusted(std::move(p_values), type);
+  result.p_value = *std::min_element(p_values.begin(), p_values.end());
+  for (std::size_t i = 0; i < columns.size(); ++i) {
+    if (p_values[i] < alpha) result.dropped.push_back(columns[i]);
+  }
   return result;
 }
 

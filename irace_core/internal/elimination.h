@@ -6,13 +6,15 @@
 
 #include "irace_core/internal/ranks.h"
 #include "irace_core/internal/special_functions.h"
+#include "irace_core/scenario.h"
 
 namespace swarmsmith::irace {
 
 /// What an elimination test found.
 struct TestResult {
   double statistic = 0;
-  double p_value = 1;  ///< 0 when decided without a test; NaN when the statistic is undefined
+  double p_value = 1;  ///< 0 when decided without a test; NaN when the statistic is undefined;
+                       ///< of several tests the smallest, adjusted
   std::vector<std::size_t> dropped;  ///< columns, ascending
 };
 
@@ -35,5 +37,17 @@ struct PairedResult {
 /// that is never better is dropped without a test; of two equal ones the second.
 PairedResult wilcoxon_test(std::span<const double> first, std::span<const double> second,
                            double alpha);
+
+/// Paired t-tests of each column against that with the smallest mean (irace facts, 10.3), two
+/// columns or more. `costs[i]` holds the costs of `columns[i]` on the same pairs and `means[i]`
+/// their mean; `type` says how p-values are adjusted. The statistic is the largest |t| of all tests
+/// that were made.
+TestResult paired_t_tests(std::span<const std::span<const double>> costs,
+                          std::span<const double> means, std::span<const std::size_t> columns,
+                          double alpha, TestType type);
+
+/// p-values for that many tests at once: as they are, or by Bonferroni or Holm (A simple
+/// sequentially rejective multiple test procedure, Scandinavian Journal of Statistics 6, 1979).
+std::vector<double> adjusted(std::vector<double> p_values, TestType type);
 
 }  // namespace swarmsmith::irace

@@ -4,11 +4,12 @@
 #include <vector>
 
 #include "base/rng.h"
+#include "irace_core/scenario.h"
 
 namespace swarmsmith::irace {
 
 /// The growing list of (instance, seed) pairs on which configurations are tried; a pair's number is
-/// its row, from 1. Every configuration sees the same seed on a pair.
+/// its row, from 1. Every configuration sees the same seed on a pair (irace facts, 4).
 class InstanceLog {
  public:
   struct Pair {
@@ -16,12 +17,15 @@ class InstanceLog {
     std::int64_t seed;      ///< 1..2147483647
   };
 
-  InstanceLog(std::int64_t instances, bool shuffle, Rng rng)
-      : instances_(instances), shuffle_(shuffle), rng_(rng) {}
+  /// Takes the instances' number, blocks and order from the scenario.
+  InstanceLog(const Scenario& scenario, Rng rng);
 
-  /// Appends whole repetitions of the list of instances, at least `pairs` pairs; each repetition
-  /// in an order of its own when shuffling.
+  /// Appends whole repetitions of the list of instances, at least `pairs` pairs; when shuffling,
+  /// each has its blocks in an order of its own. With deterministic targets there is only the first
+  /// repetition, whatever is asked for.
   void append(std::int64_t pairs);
+  /// Appends until there are `pairs` pairs or more, if that can be.
+  void extend_to(std::int64_t pairs);
 
   std::int64_t size() const { return static_cast<std::int64_t>(pairs_.size()); }
   const Pair& operator[](std::int64_t pair) const {
@@ -31,7 +35,9 @@ class InstanceLog {
 
  private:
   std::int64_t instances_;
+  std::int64_t block_size_;
   bool shuffle_;
+  bool deterministic_;
   Rng rng_;
   std::vector<Pair> pairs_;
 };

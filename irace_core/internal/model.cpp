@@ -71,11 +71,12 @@ double initial_sd(const ParameterSpace& space, std::size_t parameter) {
 }
 
 UpdateStrength update_strength(std::int64_t iteration, std::int64_t iterations,
-                               std::int64_t new_configurations, int variable_parameters) {
+                               std::int64_t new_configurations, int variable_parameters,
+                               bool elitist) {
   const double root = 1.0 / variable_parameters;
   return {.fraction = static_cast<double>(iteration - 1) / static_cast<double>(iterations),
           .shrink = pow(1.0 / static_cast<double>(new_configurations), root),
-          .most = pow(0.2, root)};
+          .most = elitist ? pow(0.2, root) : 1};
 }
 
 void update_probabilities(std::span<double> probabilities, std::size_t chosen,

@@ -19,14 +19,15 @@ namespace swarmsmith::irace {
 double initial_sd(const ParameterSpace& space, std::size_t parameter);
 
 /// How strongly an update moves the models: `fraction` is (i-1)/I, `shrink` is (1/N')^(1/d),
-/// `most` caps probabilities at 0.2^(1/d).
+/// `most` caps probabilities at 0.2^(1/d), in elitist runs only.
 struct UpdateStrength {
   double fraction;
   double shrink;
   double most;
 };
 UpdateStrength update_strength(std::int64_t iteration, std::int64_t iterations,
-                               std::int64_t new_configurations, int variable_parameters);
+                               std::int64_t new_configurations, int variable_parameters,
+                               bool elitist = true);
 
 /// Moves probabilities towards the value that the elite has, and caps the largest.
 void update_probabilities(std::span<double> probabilities, std::size_t chosen,

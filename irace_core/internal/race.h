@@ -6,8 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "base/expected.h"
 #include "irace_core/experiment.h"
 #include "irace_core/internal/agreement.h"
+#include "irace_core/internal/capping.h"
 #include "irace_core/internal/elimination.h"
 #include "irace_core/internal/ranks.h"
 #include "irace_core/race_event.h"
@@ -21,6 +23,7 @@ struct RaceSettings {
   TestType test_type = TestType::FTest;
   std::int64_t first_test = 5;           ///< T_f, in pairs
   std::int64_t pairs_between_tests = 1;  ///< T_e
+  std::int64_t block_size = 1;           ///< pairs in a block; capping drops after whole blocks
   std::int64_t elitist_limit = 2;
   double confidence = 0.95;
   std::int64_t min_survival = 1;
@@ -37,7 +40,7 @@ struct RaceSettings {
   bool target_evaluator = false;
 
   /// Bounds on times and capping (irace facts, 17); without `capping` every run is bounded by
-  /// `bound_max`, if that is not 0.
+  /// `bound_max`, if that is not 0, and costs are taken as they come.
   bool capping = false;
   bool capping_after_first_test = false;
   CappingType capping_type = CappingType::Median;
@@ -47,6 +50,10 @@ struct RaceSettings {
   double bound_par = 1;
   bool bound_as_timeout = true;
   double min_measurable_time = 0.01;
+
+  TimeRules time_rules() const {
+    return {bound_max, bound_digits, bound_par, bound_as_timeout, min_measurable_time};
+  }
 };
 
 /// A configuration that takes part. `past` holds what an elite cost on the past pairs, in the order
@@ -54,7 +61,7 @@ struct RaceSettings {
 struct Contestant {
   std::int64_t id;
   std::vector<double> past;
-  std::vector<double> past_times;  ///< as `past`, for capping
+  std::vector<double> past_times;  ///< as `past`; needed only for capping
 };
 
 /// One experiment that the race asks for.
@@ -67,11 +74,16 @@ struct RaceRun {
   friend bool operator==(const RaceRun&, const RaceRun&) = default;
 };
 
-/// One elitist race (irace facts, 9), as ask and tell.
+/// One race (irace facts, 9), as ask and tell; elitist or not.
 ///
 /// Nothing is dropped between two tests, so that all runs up to the next test are asked for at
 /// once. Results are consumed in the order (task, id). After a rejection the runs of the rejected
 /// one on later tasks, and all runs that follow a stop, are void: neither counted nor used.
+///
+/// Where the next question depends on the last answers, less is asked for: one task at a time if
+/// that is wanted; with a targetEvaluator a task's runs and then its calls; with capping the
+/// protected elites that have not seen the pair first, bounded by bound_max, then the others,
+/// bounded by the elites' times.
 class Race {
  public:
   /// Elites come first among the contestants.
@@ -82,9 +94,13 @@ class Race {
   const std::string& stop_reason() const { return *stop_; }
   /// All contestants were rejected: there is no result.
   bool nobody_left() const { return alive_.empty(); }
+  /// What a target did that no race can go on with: a time above its bound, or none where bounds
+  /// need one. The race is finished then, and its survivors mean nothing.
+  const std::optional<Error>& failure() const { return failure_; }
 
   std::span<const RaceRun> wanted() const { return wanted_; }
-  /// What came of all wanted runs, in their order; infinite costs reject. Adds to the steps.
+  /// What came of all wanted runs, in their order; infinite costs reject. Times below
+  /// min_measurable_time are raised to it, 0 is an unknown time. Adds to the steps.
   void tell(std::span<const Measurement> measurements);
   /// The tasks since the last call; ids are filled in, iteration and generators are the caller's.
   std::vector<RaceStep> take_steps();
@@ -101,8 +117,12 @@ class Race {
     std::int64_t pair;
     double cost;
     double time = 0;
+    /// Not run here: the targetEvaluator was called again for a past pair, and `cost` takes the
+    /// place of the one that was known, from which it differs. The time stays as it was.
+    bool replaces = false;
   };
-  /// All results of a contestant that were run in this race, in the order of the tasks.
+  /// All results of a contestant that were run in this race (or replaced, see `replaces`), in the
+  /// order of the tasks.
   std::vector<Result> results(std::size_t column) const;
   bool is_rejected(std::size_t column) const { return rejected_[column]; }
 
@@ -123,32 +143,67 @@ class Race {
     std::vector<std::int64_t> results;     ///< by column: pairs with a result
   };
 
+  /// A task that has begun. `due` is what has to be answered now, `later` what is run after it.
+  struct OpenTask {
+    RaceStep step;
+    std::vector<std::size_t> due;    ///< columns, in the order in which they are asked for
+    std::vector<std::size_t> later;  ///< the same
+    bool evaluates = false;          ///< `due` are calls of the targetEvaluator
+    bool only_elites = false;        ///< only protected ones are run; with capping
+    std::vector<std::size_t> ran;    ///< columns
+    std::vector<double> bounds;      ///< by column: of the run in this task, 0 for none
+  };
+
+  // race.cpp: how a task goes on
+  /// Begins the next task unless a rule stops the race.
+  bool open_task();
+  /// Uses the answers from `at` on to all that is due; moves `at` behind them.
+  void take_in(std::span<const Measurement> measurements, std::size_t& at);
+  void take_run(const RaceRun& run, const Measurement& measurement);
+  void take_evaluation(std::size_t column, double cost);
+  /// After all that was due has been answered: asks for more of the task, or closes it.
+  void go_on();
+  /// Rules 9.3.4 to 9.3.10, whose results are in place.
+  void close_task();
+  void reject_infinite(std::span<const std::size_t> columns, RaceStep& step);
+  void fail(const RaceRun& run, const std::string& what);
+  /// The task's costs of all who are alive enter the rank sums.
+  void add_ranked_row(std::size_t task);
+  /// Takes columns out of the race and out of all sums.
+  void drop(const std::vector<std::size_t>& columns);
+  void find_uncovered();
+
+  // race_plan.cpp: who has to be run, and when a race ends
   /// Known from before or run in this race.
   bool has_result(std::size_t column, std::size_t task) const;
   bool anybody_protected(const Progress& progress) const;
-  /// Columns that are alive and have no result on the next task (rule 9.3.1).
+  /// Columns that are alive and have no result on the next task, by id (rule 9.3.1).
   std::vector<std::size_t> to_run(const Progress& progress) const;
-  std::vector<std::size_t> by_id(std::span<const std::size_t> columns) const;
+  std::vector<std::size_t> by_id(std::vector<std::size_t> columns) const;
   /// Rule 9.3.2, before a task on which `runs` would be run.
   std::optional<std::string> reason_to_stop(const Progress& progress, std::size_t runs) const;
   bool elites_are_done(const Progress& progress) const;
   /// Whether a test follows the first `task` tasks.
   bool is_test_point(std::size_t task) const;
   void pass(Progress& progress, std::span<const std::size_t> ran) const;
-
   void plan();
-  /// Rules 9.3.3 to 9.3.10 for the next task, whose results are in place.
-  void do_task(std::span<const std::size_t> ran, RaceStep& step);
-  /// Whether anybody was rejected.
-  bool reject_infinite(std::span<const std::size_t> ran, RaceStep& step);
-  /// The task's costs of all who are alive enter the rank sums.
-  void add_ranked_row(std::size_t task);
-  void run_test(RaceStep& step);
+  /// Sets the bounds of all that is due.
+  void set_bounds();
+  /// What the bounds of others are taken from; nothing without protected elites.
+  std::optional<double> elite_time() const;
+
+  // race_elimination.cpp: who is dropped
+  void eliminate(RaceStep& step);
   /// Whom the test would drop, protected ones included; ascending.
   std::vector<std::size_t> worse_by_test(RaceStep& step);
-  /// Takes columns out of the race and out of all sums.
-  void drop(const std::vector<std::size_t>& columns);
-  void find_uncovered();
+  TestResult test_of_two();
+  TestResult t_tests();
+  /// Whom capping would drop, protected ones included; ascending.
+  std::vector<std::size_t> worse_by_times() const;
+  bool is_capping_point() const;
+  std::span<const double> costs_so_far(std::size_t column) const;
+  /// Means of all who are alive over the tasks that are done.
+  std::vector<double> means() const;
   void describe_best(RaceStep& step) const;
   void describe_agreement(RaceStep& step) const;
   std::uint64_t digest(const RaceStep& step) const;
@@ -156,6 +211,7 @@ class Race {
   RaceSettings settings_;
   std::vector<Contestant> contestants_;
   std::vector<std::vector<double>> costs_;  ///< by column, then task
+  std::vector<std::vector<double>> times_;  ///< the same
   std::vector<bool> rejected_;
   std::vector<std::size_t> alive_;  ///< columns, ascending
   Progress progress_;
@@ -168,9 +224,11 @@ class Race {
   QualityVariance quality_;
   StudentQuantiles quantiles_;
 
+  std::optional<OpenTask> open_;
   std::vector<RaceRun> wanted_;
   std::vector<RaceStep> steps_;
   std::optional<std::string> stop_;
+  std::optional<Error> failure_;
 };
 
 }  // namespace swarmsmith::irace

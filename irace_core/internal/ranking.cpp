@@ -5,34 +5,68 @@
 #include <functional>
 #include <map>
 
+#include "irace_core/internal/means.h"
 #include "irace_core/internal/ranks.h"
 
 namespace swarmsmith::irace {
 namespace {
 
-/// Rank sums of the configurations in `group`, by position in it; 1 for a group of one.
-std::vector<double> group_ranks(const std::vector<std::vector<double>>& costs,
-                                const std::vector<std::size_t>& group) {
-  if (group.size() == 1) return {1.0};
-  RankTable table(group.size());
+using Group = std::vector<std::size_t>;
+
+/// The rows that all of `group` have.
+std::vector<std::size_t> common_rows(const std::vector<std::vector<double>>& costs,
+                                     const Group& group) {
+  std::vector<std::size_t> rows;
   for (std::size_t row = 0; row < costs[group.front()].size(); ++row) {
+    if (std::none_of(group.begin(), group.end(),
+                     [&](std::size_t c) { return std::isnan(costs[c][row]); })) {
+      rows.push_back(row);
+    }
+  }
+  return rows;
+}
+
+std::vector<double> rank_sums(const std::vector<std::vector<double>>& costs, const Group& group,
+                              const std::vector<std::size_t>& rows) {
+  RankTable table(group.size());
+  for (const std::size_t row : rows) {
     std::vector<Entry> entries;
     for (std::size_t i = 0; i < group.size(); ++i) {
-      const double cost = costs[group[i]][row];
-      if (!std::isnan(cost)) entries.push_back({cost, static_cast<std::uint32_t>(i)});
+      entries.push_back({costs[group[i]][row], static_cast<std::uint32_t>(i)});
     }
-    if (entries.size() == group.size()) table.add_row(std::move(entries));
+    table.add_row(std::move(entries));
   }
-  std::vector<double> ranks;
+  std::vector<double> sums;
   for (std::size_t i = 0; i < group.size(); ++i)
-    ranks.push_back(table.rank_sum(i));
-  return ranks;
+    sums.push_back(table.rank_sum(i));
+  return sums;
+}
+
+std::vector<double> ranks_of_means(const std::vector<std::vector<double>>& costs,
+                                   const Group& group, const std::vector<std::size_t>& rows) {
+  std::vector<double> means(group.size(), 0);
+  for (std::size_t i = 0; i < group.size() && !rows.empty(); ++i) {
+    std::vector<double> values;
+    for (const std::size_t row : rows)
+      values.push_back(costs[group[i]][row]);
+    means[i] = mean_of(values);
+  }
+  return average_ranks(means).ranks;
+}
+
+/// By position in the group; 1 for a group of one.
+std::vector<double> group_ranks(const std::vector<std::vector<double>>& costs, const Group& group,
+                                TestType type) {
+  if (group.size() == 1) return {1.0};
+  const std::vector<std::size_t> rows = common_rows(costs, group);
+  return type == TestType::FTest ? rank_sums(costs, group, rows)
+                                 : ranks_of_means(costs, group, rows);
 }
 
 }  // namespace
 
-std::vector<double> overall_ranks(const std::vector<std::vector<double>>& costs) {
-  std::map<std::ptrdiff_t, std::vector<std::size_t>, std::greater<>> groups;
+std::vector<double> overall_ranks(const std::vector<std::vector<double>>& costs, TestType type) {
+  std::map<std::ptrdiff_t, Group, std::greater<>> groups;
   for (std::size_t c = 0; c < costs.size(); ++c) {
     const auto known = std::count_if(costs[c].begin(), costs[c].end(),
                                      [](double cost) { return !std::isnan(cost); });
@@ -41,7 +75,7 @@ std::vector<double> overall_ranks(const std::vector<std::vector<double>>& costs)
   std::vector<double> ranks(costs.size(), 0);
   double shift = 0;
   for (const auto& [known, group] : groups) {
-    const std::vector<double> within = group_ranks(costs, group);
+    const std::vector<double> within = group_ranks(costs, group, type);
     for (std::size_t i = 0; i < group.size(); ++i)
       ranks[group[i]] = shift + within[i];
     shift += *std::max_element(within.begin(), within.end());

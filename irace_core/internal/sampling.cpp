@@ -2,7 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <string>
+#include <utility>
 
 #include "base/math.h"
 #include "irace_core/internal/rounding.h"
@@ -10,20 +11,18 @@
 namespace swarmsmith::irace {
 namespace {
 
-/// One batch of uniform configurations without duplicates and forbidden ones.
-Expected<std::vector<Configuration>> sample_batch(const ParameterSpace& space,
-                                                  const ForbiddenList& forbidden, std::int64_t size,
-                                                  Rng& rng) {
-  std::vector<Configuration> batch;
-  std::set<std::uint64_t> seen;  // digests of 64 bits: equal ones are compared in full
-  for (std::int64_t i = 0; i < size; ++i) {
-    auto sampled = sample_uniform(space, rng);
-    if (!sampled) return Unexpected(sampled.error());
-    const bool is_new = seen.insert(sampled->digest()).second ||
-                        std::find(batch.begin(), batch.end(), *sampled) == batch.end();
-    if (is_new && !forbidden.contains(*sampled)) batch.push_back(std::move(*sampled));
+/// The active parameters with their values.
+std::string show(const ParameterSpace& space, const Configuration& configuration) {
+  std::string shown;
+  for (std::size_t i = 0; i < space.size() && i < configuration.size(); ++i) {
+    if (!configuration.is_active(i)) continue;
+    const bool is_value =
+        space.is_numeric(i) ||
+        (configuration[i] >= 0 && configuration[i] < static_cast<double>(space.value_count(i)));
+    shown += (shown.empty() ? "" : ", ") + space[i].name + " = " +
+             (is_value ? to_text(space.scalar(i, configuration[i])) : "?");
   }
-  return batch;
+  return shown;
 }
 
 }  // namespace
@@ -79,27 +78,64 @@ bool ForbiddenList::contains(const Configuration& configuration) const {
   return space_->is_forbidden(configuration);
 }
 
-Expected<std::vector<Configuration>> sample_initial(const ParameterSpace& space,
-                                                    const ForbiddenList& forbidden,
-                                                    std::int64_t wanted, Rng& rng) {
-  auto batch = sample_batch(space, forbidden, wanted, rng);
-  if (!batch) return batch;
-  const auto have = static_cast<std::int64_t>(batch->size());
-  if (have < wanted) {
+Expected<Configuration> repaired(const ParameterSpace& space, const Repair& repair,
+                                 Configuration sampled) {
+  if (!repair) return sampled;
+  auto changed = repair(sampled);
+  if (!changed) return changed;
+  const auto checked = changed->size() == space.size()
+                           ? space.check(*changed)
+                           : Expected<void>(bad_input("has not one value for each parameter"));
+  if (checked) return changed;
+  const Error& error = checked.error();
+  return bad_input("the repair made (" + show(space, *changed) + ") of (" + show(space, sampled) +
+                       "), which is not a configuration of this space: " +
+                       (error.where.empty() ? "" : error.where + ": ") + error.message,
+                   "repairConfiguration");
+}
+
+InitialSampler::InitialSampler(const ParameterSpace& space, Rng rng)
+    : space_(&space), rng_(rng), dimension_(space.size(), 0) {
+  std::size_t dimensions = 0;
+  for (std::size_t i = 0; i < space.size(); ++i) {
+    if (!space.is_fixed(i)) dimension_[i] = dimensions++;
+  }
+  constexpr std::int64_t kLargestSeed = 2147483647;
+  const auto seed = static_cast<std::uint32_t>(rng_.uniform_int(1, kLargestSeed));
+  if (dimensions == 0 || dimensions > SobolSequence::most_dimensions()) return;
+  sequence_.emplace(dimensions, seed);
+  point_.resize(dimensions);
+}
+
+Expected<Configuration> InitialSampler::next_point() {
+  const std::uint32_t index = position_++;
+  if (!sequence_) return sample_uniform(*space_, rng_);
+  sequence_->point(index, point_);
+  return sample_configuration(*space_, [&](std::size_t parameter, const Interval& domain) {
+    return quantile_value(*space_, parameter, domain, point_[dimension_[parameter]]);
+  });
+}
+
+Expected<std::vector<Configuration>> InitialSampler::sample(std::int64_t wanted,
+                                                            const ForbiddenList& forbidden,
+                                                            const Repair& repair) {
+  std::vector<Configuration> batch;
+  std::int64_t size = wanted;
+  for (std::int64_t i = 0; i < size; ++i) {
+    auto sampled = next_point();
+    if (sampled) sampled = repaired(*space_, repair, std::move(*sampled));
+    if (!sampled) return Unexpected(sampled.error());
+    if (seen_.insert(sampled->digest()).second && !forbidden.contains(*sampled)) {
+      batch.push_back(std::move(*sampled));
+    }
+    const auto have = static_cast<std::int64_t>(batch.size());
+    if (have == wanted) break;
+    if (i + 1 != wanted) continue;
     const auto n = static_cast<double>(wanted);
-    const auto missing = static_cast<double>(wanted - have);
-    const double larger = std::ceil(n + missing * (2 - static_cast<double>(have) / n));
-    const auto size = std::max(static_cast<std::int64_t>(larger),
-                               std::min<std::int64_t>(5 * space.variable_count(), 100));
-    batch = sample_batch(space, forbidden, size, rng);
-    if (!batch) return batch;
-  }
-  if (batch->empty()) {
-    return bad_input(
-        "no configuration that is not forbidden was found: the constraints are too strict");
-  }
-  if (static_cast<std::int64_t>(batch->size()) > wanted) {
-    batch->resize(static_cast<std::size_t>(wanted));
+    const double larger =
+        std::ceil(n + (n - static_cast<double>(have)) * (2 - static_cast<double>(have) / n));
+    size = std::max(static_cast<std::int64_t>(larger),
+                    std::min<std::int64_t>(5 * space_->variable_count(), 100));
   }
   return batch;
 }

@@ -1,10 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <set>
 #include <vector>
 
 #include "base/expected.h"
 #include "base/rng.h"
+#include "irace_core/internal/sobol.h"
+#include "irace_core/iterated_race.h"
 #include "irace_core/parameter_space.h"
 
 namespace swarmsmith::irace {
@@ -60,11 +64,39 @@ class ForbiddenList {
   std::vector<Configuration> rejected_;
 };
 
-/// The first configurations of a design: `wanted` uniform ones, less duplicates and forbidden ones.
-/// When some are lost a second and larger batch replaces the first (irace facts, 5). Fewer than
-/// wanted may result; none at all is an error.
-Expected<std::vector<Configuration>> sample_initial(const ParameterSpace& space,
-                                                    const ForbiddenList& forbidden,
-                                                    std::int64_t wanted, Rng& rng);
+/// What the repair makes of a configuration that was sampled, or the configuration itself without a
+/// repair (irace facts, 8.5). One that is not in the space then is an error that shows it.
+Expected<Configuration> repaired(const ParameterSpace& space, const Repair& repair,
+                                 Configuration sampled);
+
+/// Gives the first configurations of a design: points of a Sobol sequence, one dimension for each
+/// parameter that is not fixed, in declaration order; independent uniform ones where there are more
+/// parameters than the sequence has dimensions (irace facts, 5). Nothing comes twice.
+class InitialSampler {
+ public:
+  /// `space` must outlive the sampler. One number is drawn from `rng` at once: the sequence's seed.
+  InitialSampler(const ParameterSpace& space, Rng rng);
+
+  bool uses_sobol() const { return sequence_.has_value(); }
+  /// The next `wanted` points, repaired, without forbidden ones and those that came before. When
+  /// some are lost the sequence is followed further, as far as irace's second and larger batch
+  /// would reach; fewer than wanted may result, even none. Fails with a bad repair, and when a
+  /// dependent domain is empty.
+  Expected<std::vector<Configuration>> sample(std::int64_t wanted, const ForbiddenList& forbidden,
+                                              const Repair& repair);
+  /// How many points were looked at.
+  std::uint32_t position() const { return position_; }
+
+ private:
+  Expected<Configuration> next_point();
+
+  const ParameterSpace* space_;
+  Rng rng_;
+  std::optional<SobolSequence> sequence_;
+  std::vector<std::size_t> dimension_;  ///< by parameter
+  std::vector<double> point_;
+  std::uint32_t position_ = 0;
+  std::set<std::uint64_t> seen_;  ///< digests; with 64 bits, equal ones are equal configurations
+};
 
 }  // namespace swarmsmith::irace

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <limits>
 
 #include "base/assert.h"
 
@@ -21,25 +22,32 @@ std::int64_t race_size(const RaceSizeQuestion& q) {
 }
 
 std::int64_t minimum_budget(const MinimumBudgetQuestion& q) {
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
   const std::int64_t te = q.pairs_between_tests;
-  const std::int64_t base = (q.min_survival + 1) * q.iterations;
   const std::int64_t step = std::max(te, q.new_pairs);
-  if (q.iterations > 5) return base * (q.mu + te + (q.iterations - 5) * q.new_pairs + 5 * step);
-  return base * (q.mu + te + (q.iterations - 1) * step);
+  std::int64_t each = q.mu + 5 * te;
+  if (q.elitist) {
+    each = q.iterations > 5 ? q.mu + te + (q.iterations - 5) * q.new_pairs + 5 * step
+                            : q.mu + te + (q.iterations - 1) * step;
+  }
+  const std::int64_t base = (q.min_survival + 1) * q.iterations;
+  return base > kMost / each ? kMost : base * each;
 }
 
-Schedule::Schedule(const Scenario& scenario, int variable_parameters, std::int64_t block_size)
+Schedule::Schedule(const Scenario& scenario, int variable_parameters)
     : scenario_(scenario),
-      pairs_between_tests_(scenario.each_test * block_size),
-      mu_(std::max(scenario.mu, scenario.first_test * block_size)),
-      new_pairs_(scenario.elitist_new_instances * block_size),
+      pairs_before_test_(scenario.first_test * scenario.block_size),
+      pairs_between_tests_(scenario.each_test * scenario.block_size),
+      mu_(std::max(scenario.mu, pairs_before_test_)),
+      new_pairs_(scenario.elitist ? scenario.elitist_new_instances * scenario.block_size : 0),
       iterations_(scenario.nb_iterations > 0 ? scenario.nb_iterations
                                              : default_count(variable_parameters)),
       min_survival_(scenario.min_nb_survival > 0 ? scenario.min_nb_survival
                                                  : default_count(variable_parameters)) {}
 
 std::int64_t Schedule::minimum_budget() const {
-  return irace::minimum_budget({.iterations = iterations_,
+  return irace::minimum_budget({.elitist = scenario_.elitist,
+                                .iterations = iterations_,
                                 .min_survival = min_survival_,
                                 .mu = mu_,
                                 .pairs_between_tests = pairs_between_tests_,
@@ -47,27 +55,55 @@ std::int64_t Schedule::minimum_budget() const {
 }
 
 std::int64_t Schedule::total_budget() const {
+  if (scenario_.max_time > 0) return 0;
   if (!scenario_.min_experiments) return scenario_.max_experiments;
   return std::max(*scenario_.min_experiments, minimum_budget());
 }
 
+Expected<bool> Schedule::shrink_to(std::int64_t remaining) {
+  bool changed = false;
+  for (; minimum_budget() > remaining; changed = true) {
+    if (iterations_ == 1) {
+      return bad_input("the time that is left is good for about " + std::to_string(remaining) +
+                           " experiments, and a single iteration needs " +
+                           std::to_string(minimum_budget()) + ": give more time",
+                       "max_time");
+    }
+    --iterations_;
+    const std::int64_t few = 2 * min_survival_;
+    scenario_.nb_configurations =
+        scenario_.nb_configurations > 0 ? std::min(few, scenario_.nb_configurations) : few;
+  }
+  return changed;
+}
+
+void Schedule::limit_new_pairs(std::int64_t unused) {
+  new_pairs_ = std::min(new_pairs_, std::max<std::int64_t>(0, unused));
+}
+
+/// More than what is left is never given, which irace does where nb_experiments_per_iteration says
+/// so.
 std::int64_t Schedule::iteration_budget(std::int64_t remaining) const {
-  if (scenario_.nb_experiments_per_iteration > 0) return scenario_.nb_experiments_per_iteration;
+  if (scenario_.nb_experiments_per_iteration > 0) {
+    return std::min(remaining, scenario_.nb_experiments_per_iteration);
+  }
   return remaining / (iterations_ - iteration_ + 1);
 }
 
-std::int64_t Schedule::size_with_shortage_rules(std::int64_t budget, std::int64_t elites,
-                                                std::int64_t old_pairs) {
+std::int64_t Schedule::race_size_for(std::int64_t budget, std::int64_t elites,
+                                     std::int64_t old_pairs) {
+  const bool keeps = raced_ && scenario_.elitist;
   RaceSizeQuestion question{.budget = budget,
                             .iteration = iteration_,
                             .mu = mu_,
                             .pairs_between_tests = pairs_between_tests_,
-                            .elites = raced_ ? elites : 0,
-                            .old_pairs = raced_ ? old_pairs : 0,
-                            .new_pairs = raced_ ? new_pairs_ : 0,
+                            .elites = keeps ? elites : 0,
+                            .old_pairs = keeps ? old_pairs : 0,
+                            .new_pairs = keeps ? new_pairs_ : 0,
                             .most = scenario_.max_configurations_per_race};
   std::int64_t size = race_size(question);
-  if (size > min_survival_) return size;
+  if (size > min_survival_ || !scenario_.elitist) return size;
+  // The shortage rules.
   new_pairs_ = 0;
   question.new_pairs = 0;
   size = race_size(question);
@@ -75,6 +111,12 @@ std::int64_t Schedule::size_with_shortage_rules(std::int64_t budget, std::int64_
   question.iteration = 1;
   question.mu = 1;
   return race_size(question);
+}
+
+std::int64_t Schedule::needed(std::int64_t size, std::int64_t elites) const {
+  if (!scenario_.elitist) return size * mu_;
+  const std::int64_t known = std::min(elites, size);
+  return (size - known) * mu_ + known * std::min(new_pairs_, mu_);
 }
 
 std::variant<RacePlan, NoMoreRaces> Schedule::next(std::int64_t remaining, std::int64_t elites,
@@ -86,11 +128,11 @@ std::variant<RacePlan, NoMoreRaces> Schedule::next(std::int64_t remaining, std::
       iterations_ = iteration_;
     }
     const std::int64_t budget = iteration_budget(remaining);
-    std::int64_t size = size_with_shortage_rules(budget, elites, old_pairs);
+    std::int64_t size = race_size_for(budget, elites, old_pairs);
     if (scenario_.nb_configurations > 0) {
       if (scenario_.nb_configurations <= size) {
         size = scenario_.nb_configurations;
-      } else if (budget < remaining) {
+      } else if (budget < remaining && scenario_.nb_experiments_per_iteration == 0) {
         continue;  // leave the budget to the next iteration
       } else {
         return NoMoreRaces{"not enough budget for the number of configurations asked for"};
@@ -101,9 +143,10 @@ std::variant<RacePlan, NoMoreRaces> Schedule::next(std::int64_t remaining, std::
           "not enough budget to race more than the minimum number of configurations"};
     }
     if (raced_ && size <= elites) return NoMoreRaces{"not enough budget for a new configuration"};
+    if (needed(size, elites) > budget) {
+      return NoMoreRaces{"not enough budget for the first test of a race"};
+    }
     const std::int64_t new_pairs = raced_ ? new_pairs_ : 0;
-    const std::int64_t needed = (size - elites) * mu_ + elites * std::min(new_pairs, mu_);
-    if (needed > budget) return NoMoreRaces{"not enough budget for the first test of a race"};
     raced_ = true;
     return RacePlan{iteration_++, iterations_, budget, size, new_pairs};
   }

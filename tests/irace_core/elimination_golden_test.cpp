@@ -4,6 +4,7 @@
 
 #include "irace_core/internal/agreement.h"
 #include "irace_core/internal/elimination.h"
+#include "irace_core/internal/means.h"
 #include "tests/irace_core/golden.h"
 
 namespace swarmsmith::irace {
@@ -55,17 +56,37 @@ struct Case {
   RankTable table;
 };
 
-/// Survivors as column numbers from 1, and the p-value, by the F-test.
+/// Survivors as column numbers from 1, and the p-value.
 struct Decision {
   std::vector<int> survivors;
   double p_value;
 };
 
-Decision decide(const Case& given, double confidence) {
+std::vector<double> means_of(const Case& given) {
+  std::vector<double> means;
+  for (const std::size_t column : given.columns)
+    means.push_back(mean_of(given.column(column)));
+  return means;
+}
+
+TestResult t_tests(const Case& given, double alpha, TestType type) {
+  std::vector<std::vector<double>> costs;
+  for (const std::size_t column : given.columns)
+    costs.push_back(given.column(column));
+  const std::vector<std::span<const double>> views(costs.begin(), costs.end());
+  return paired_t_tests(views, means_of(given), given.columns, alpha, type);
+}
+
+Decision decide(const Case& given, double confidence, TestType type) {
   const double alpha = 1 - confidence;
   std::vector<bool> drops(given.alive.size(), false);
   double p_value = 0;
-  if (given.alive.size() == 2) {
+  if (type != TestType::FTest) {
+    const TestResult result = t_tests(given, alpha, type);
+    for (const std::size_t column : result.dropped)
+      drops[column] = true;
+    p_value = result.p_value;
+  } else if (given.alive.size() == 2) {
     const PairedResult result = wilcoxon_test(given.column(0), given.column(1), alpha);
     drops = {result.drops_first, result.drops_second};
     p_value = result.p_value;
@@ -86,25 +107,32 @@ Decision decide(const Case& given, double confidence) {
 TEST(EliminationGolden, DropsWhomIraceDropsAtEveryConfidence) {
   const std::vector<std::pair<std::string, double>> confidences = {
       {"confidence_0.95", 0.95}, {"confidence_0.99", 0.99}, {"confidence_0.80", 0.80}};
+  const std::vector<std::pair<std::string, TestType>> types = {
+      {"F_test", TestType::FTest},
+      {"t_test", TestType::TTest},
+      {"t_test_bonferroni", TestType::TTestBonferroni},
+      {"t_test_holm", TestType::TTestHolm}};
   int compared = 0;
   for (const auto& json : golden("elimination.json")) {
     const Case given(json);
     for (const auto& [name, confidence] : confidences) {
       if (!json.contains(name)) continue;
-      SCOPED_TRACE("case " + json["id"].dump() + " " + name);
-      const auto& expected = json[name]["F_test"];
-      const Decision decision = decide(given, confidence);
-      // irace lists survivors best first or in order; who they are is what counts.
-      auto survivors = as_vector<int>(expected["survivors"]);
-      std::sort(survivors.begin(), survivors.end());
-      EXPECT_EQ(decision.survivors, survivors);
-      const double p = expected["p_value"].get<double>();
-      EXPECT_NEAR(decision.p_value, p, 1e-12 + 1e-11 * p);
-      EXPECT_EQ(decision.survivors.size() < given.alive.size(), expected["dropped_any"]);
-      ++compared;
+      for (const auto& [test, type] : types) {
+        SCOPED_TRACE("case " + json["id"].dump() + " " + name + " " + test);
+        const auto& expected = json[name][test];
+        const Decision decision = decide(given, confidence, type);
+        // irace lists survivors best first or in order; who they are is what counts.
+        auto survivors = as_vector<int>(expected["survivors"]);
+        std::sort(survivors.begin(), survivors.end());
+        EXPECT_EQ(decision.survivors, survivors);
+        const double p = expected["p_value"].get<double>();
+        EXPECT_NEAR(decision.p_value, p, 1e-12 + 1e-11 * p);
+        EXPECT_EQ(decision.survivors.size() < given.alive.size(), expected["dropped_any"]);
+        ++compared;
+      }
     }
   }
-  EXPECT_EQ(compared, 63 * 3 + 10);
+  EXPECT_EQ(compared, (63 * 3 + 10) * 4);
 }
 
 TEST(EliminationGolden, RanksAndFindsTheBestAsIraceDoes) {
@@ -119,6 +147,10 @@ TEST(EliminationGolden, RanksAndFindsTheBestAsIraceDoes) {
     EXPECT_EQ(sums, as_vector<double>(json["friedman_ranks"]));
     const auto best = std::min_element(sums.begin(), sums.end()) - sums.begin();
     EXPECT_EQ(best + 1, json["best_friedman"]);
+    const std::vector<double> means = means_of(given);
+    EXPECT_EQ(average_ranks(means).ranks, as_vector<double>(json["mean_ranks"]));
+    const auto least = std::min_element(means.begin(), means.end()) - means.begin();
+    EXPECT_EQ(least + 1, json["best_mean"]);
     ++compared;
   }
   EXPECT_EQ(compared, 63);

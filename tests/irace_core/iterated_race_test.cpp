@@ -372,7 +372,10 @@ TEST(IteratedRace, StopsAtTheIterationsThatWereAskedFor) {
   Scenario scenario = small_scenario();
   scenario.nb_iterations = 2;
   const auto events = run(scenario);
-  EXPECT_EQ(only<IterationStarted>(events).size(), 2U);
+  const auto starts = only<IterationStarted>(events);
+  ASSERT_EQ(starts.size(), 3U);
+  EXPECT_FALSE(starts[1].postselection);
+  EXPECT_TRUE(starts[2].postselection);
   EXPECT_EQ(only<RaceFinished>(events).front().reason, "limit of iterations");
 }
 

@@ -52,13 +52,12 @@ ParameterSpace parse_space(const std::string& definition) {
 
 UpdateStrength strength_of(const nlohmann::json& json) {
   return update_strength(json["iteration"], json["n_iterations"], json["n_new_configurations"],
-                         json["n_variable"]);
+                         json["n_variable"], json["elitist"]);
 }
 
 TEST(ModelGolden, UpdatesProbabilitiesAndSpreads) {
   int compared = 0;
   for (const auto& json : golden("model.json", "update")) {
-    if (!json["elitist"].get<bool>()) continue;
     auto p = as_vector<double>(json["prob_before"]);
     const UpdateStrength strength = strength_of(json);
     update_probabilities(p, json["chosen_index"].get<std::size_t>() - 1, strength);
@@ -68,7 +67,20 @@ TEST(ModelGolden, UpdatesProbabilitiesAndSpreads) {
     EXPECT_NEAR(json["sd_before"].get<double>() * strength.shrink, json["sd_after"], 1e-13);
     ++compared;
   }
-  EXPECT_GT(compared, 10);
+  EXPECT_EQ(compared, 40);
+}
+
+TEST(ModelGolden, SobolPointsAreThoseOfIrace) {
+  for (const std::uint32_t seed : {0U, 12345U}) {
+    const auto expected = golden("model.json", "sobol_seed" + std::to_string(seed) + "_8x5");
+    const SobolSequence sequence(5, seed);
+    std::vector<double> point(5);
+    for (std::uint32_t i = 0; i < 8; ++i) {
+      sequence.point(i, point);
+      for (std::size_t d = 0; d < 5; ++d)
+        EXPECT_NEAR(point[d], expected[i][d].get<double>(), 1e-14) << "seed " << seed;
+    }
+  }
 }
 
 TEST(ModelGolden, StartsWithTheSpreadsOfIrace) {
@@ -229,7 +241,9 @@ TEST(ModelGolden, OverallRanksAreThoseOfIrace) {
       for (std::size_t c = 0; c < row.size(); ++c)
         by_configuration[c].push_back(row[c]);
     }
-    EXPECT_EQ(overall_ranks(by_configuration), as_vector<double>(json["friedman"]));
+    EXPECT_EQ(overall_ranks(by_configuration, TestType::FTest),
+              as_vector<double>(json["friedman"]));
+    EXPECT_EQ(overall_ranks(by_configuration, TestType::TTest), as_vector<double>(json["t"]));
   }
 }
 

@@ -54,26 +54,106 @@ TEST(TruncatedNormal, GivesTheMeanWithoutSpread) {
 
 TEST(Sampling, DropsDuplicatesAndMayGiveFewer) {
   const ParameterSpace space = space_of({make_categorical("c", {"a", "b", "c"})});
-  Rng rng(5);
-  const auto sampled = sample_initial(space, ForbiddenList(space), 20, rng).value();
-  EXPECT_EQ(sampled.size(), 3U);
+  InitialSampler sampler(space, Rng(5));
+  EXPECT_EQ(sampler.sample(20, ForbiddenList(space), {}).value().size(), 3U);
+  EXPECT_EQ(sampler.sample(20, ForbiddenList(space), {}).value().size(), 0U);
 }
 
-TEST(Sampling, ReplacesForbiddenOnesFromALargerBatch) {
+TEST(Sampling, FollowsTheSequenceFurtherForForbiddenOnes) {
   const ParameterSpace space = space_of({make_real("x", 0, 1), make_real("y", 0, 1)},
                                         {call(Operation::Less, name("x"), number(0.5))});
-  Rng rng(6);
-  const auto sampled = sample_initial(space, ForbiddenList(space), 40, rng).value();
-  EXPECT_GT(sampled.size(), 30U);
+  InitialSampler sampler(space, Rng(6));
+  // Half are lost: 40 + 20 * 1.5 = 70 points give 35.
+  const auto sampled = sampler.sample(40, ForbiddenList(space), {}).value();
+  EXPECT_EQ(sampler.position(), 70U);
+  EXPECT_EQ(sampled.size(), 35U);
   for (const Configuration& configuration : sampled)
     EXPECT_GE(configuration[0], 0.5);
 }
 
-TEST(Sampling, FailsWhenEverythingIsForbidden) {
+TEST(Sampling, GivesNothingWhenEverythingIsForbidden) {
   const ParameterSpace space =
       space_of({make_real("x", 0, 1)}, {call(Operation::LessEqual, name("x"), number(1))});
-  Rng rng(7);
-  EXPECT_FALSE(sample_initial(space, ForbiddenList(space), 5, rng).has_value());
+  InitialSampler sampler(space, Rng(7));
+  EXPECT_TRUE(sampler.sample(5, ForbiddenList(space), {}).value().empty());
+}
+
+TEST(Sampling, SpreadsTheFirstConfigurationsEvenly) {
+  // Of a Sobol sequence, 64 points lie in the 64 parts of each domain, one in each.
+  const ParameterSpace space = space_of(
+      {make_integer("a", 0, 63), make_categorical("fixed", {"x"}), make_integer("b", 0, 63)}, {});
+  InitialSampler sampler(space, Rng(8));
+  const auto sampled = sampler.sample(64, ForbiddenList(space), {}).value();
+  for (const std::size_t parameter : {0U, 2U}) {
+    std::set<double> values;
+    for (const Configuration& configuration : sampled)
+      values.insert(configuration[parameter]);
+    EXPECT_EQ(values.size(), 64U);
+  }
+}
+
+TEST(Sampling, IsUniformAboveTheDimensionsOfTheTable) {
+  std::vector<Parameter> parameters;
+  for (std::size_t i = 0; i <= SobolSequence::most_dimensions(); ++i)
+    parameters.push_back(make_real("p" + std::to_string(i), 0, 1));
+  const ParameterSpace space = space_of(std::move(parameters));
+  InitialSampler sampler(space, Rng(9));
+  EXPECT_FALSE(sampler.uses_sobol());
+  const auto sampled = sampler.sample(3, ForbiddenList(space), {}).value();
+  ASSERT_EQ(sampled.size(), 3U);
+  double sum = 0;
+  for (std::size_t i = 0; i < space.size(); ++i)
+    sum += sampled[2][i];
+  EXPECT_NEAR(sum / static_cast<double>(space.size()), 0.5, 0.05);
+}
+
+TEST(Sobol, HasEveryDimensionOfItsTable) {
+  // In each dimension the first 2^k points fall into the 2^k parts of equal width: the direction
+  // numbers are those of a sequence.
+  const SobolSequence sequence(SobolSequence::most_dimensions(), 1);
+  std::vector<std::set<int>> parts(sequence.dimensions());
+  std::vector<double> point(sequence.dimensions());
+  for (std::uint32_t i = 0; i < 64; ++i) {
+    sequence.point(i, point);
+    for (std::size_t d = 0; d < point.size(); ++d)
+      parts[d].insert(static_cast<int>(point[d] * 64));
+  }
+  for (std::size_t d = 0; d < parts.size(); ++d)
+    EXPECT_EQ(parts[d].size(), 64U) << d;
+}
+
+TEST(Repair, ComesBeforeTheForbiddenTest) {
+  const ParameterSpace space = space_of({make_real("x", 0, 1), make_real("y", 0, 1)},
+                                        {call(Operation::Less, name("x"), number(0.5))});
+  InitialSampler sampler(space, Rng(6));
+  const Repair mirror = [](const Configuration& sampled) -> Expected<Configuration> {
+    Configuration changed = sampled;
+    if (changed[0] < 0.5) changed.set(0, 1 - changed[0]);
+    return changed;
+  };
+  EXPECT_EQ(sampler.sample(40, ForbiddenList(space), mirror).value().size(), 40U);
+  EXPECT_EQ(sampler.position(), 40U);
+}
+
+TEST(Repair, MustStayInTheSpace) {
+  const ParameterSpace space = space_of({make_real("x", 0, 1), make_categorical("c", {"a", "b"})});
+  const auto refused = [&](const Repair& repair) {
+    return InitialSampler(space, Rng(6)).sample(4, ForbiddenList(space), repair).error();
+  };
+  const Error outside = refused([](Configuration changed) -> Expected<Configuration> {
+    changed.set(0, 1.5);
+    return changed;
+  });
+  EXPECT_EQ(outside.where, "repairConfiguration");
+  EXPECT_THAT(outside.message, ::testing::HasSubstr("the repair made (x = 1.5, c = "));
+  EXPECT_THAT(outside.message, ::testing::HasSubstr("x: "));
+  const Error short_one =
+      refused([](const Configuration&) -> Expected<Configuration> { return Configuration(1); });
+  EXPECT_THAT(short_one.message, ::testing::HasSubstr("not one value for each parameter"));
+  const Error failed = refused([](const Configuration&) -> Expected<Configuration> {
+    return bad_input("no such luck", "the program");
+  });
+  EXPECT_EQ(failed.where, "the program");
 }
 
 TEST(ForbiddenList, ContainsWhatHasAllValuesOfARejectedOne) {
@@ -90,8 +170,15 @@ TEST(ForbiddenList, ContainsWhatHasAllValuesOfARejectedOne) {
   EXPECT_FALSE(forbidden.contains(other));
 }
 
+Scenario with_instances(std::int64_t count, std::int64_t block_size = 1) {
+  Scenario scenario;
+  scenario.n_instances = count;
+  scenario.block_size = block_size;
+  return scenario;
+}
+
 TEST(InstanceLog, RepeatsTheListInFreshOrders) {
-  InstanceLog log(4, true, Rng(8));
+  InstanceLog log(with_instances(4), Rng(8));
   log.append(10);
   EXPECT_EQ(log.size(), 12);  // whole repetitions
   for (std::int64_t repetition = 0; repetition < 3; ++repetition) {
@@ -103,11 +190,53 @@ TEST(InstanceLog, RepeatsTheListInFreshOrders) {
 }
 
 TEST(InstanceLog, KeepsTheOrderOfTheFileWhenAskedTo) {
-  InstanceLog log(3, false, Rng(9));
+  Scenario scenario = with_instances(3);
+  scenario.sample_instances = false;
+  InstanceLog log(scenario, Rng(9));
   log.append(6);
   for (std::int64_t pair = 1; pair <= 6; ++pair)
     EXPECT_EQ(log[pair].instance, (pair - 1) % 3 + 1);
   EXPECT_NE(log[1].seed, log[4].seed);
+}
+
+TEST(InstanceLog, ShufflesWholeBlocks) {
+  InstanceLog log(with_instances(6, 2), Rng(10));
+  log.append(120);
+  ASSERT_EQ(log.size(), 120);
+  std::set<std::vector<std::int64_t>> orders;
+  for (std::int64_t repetition = 0; repetition < 20; ++repetition) {
+    std::vector<std::int64_t> order;
+    for (std::int64_t i = 1; i <= 6; i += 2) {
+      const std::int64_t first = log[6 * repetition + i].instance;
+      EXPECT_EQ(first % 2, 1);
+      EXPECT_EQ(log[6 * repetition + i + 1].instance, first + 1);
+      order.push_back(first);
+    }
+    orders.insert(order);
+    std::sort(order.begin(), order.end());
+    EXPECT_EQ(order, (std::vector<std::int64_t>{1, 3, 5}));
+  }
+  EXPECT_EQ(orders.size(), 6U);  // all of them, in twenty repetitions
+}
+
+TEST(InstanceLog, HasEachInstanceOnceForADeterministicTarget) {
+  Scenario scenario = with_instances(5);
+  scenario.deterministic = true;
+  InstanceLog log(scenario, Rng(11));
+  log.extend_to(50);
+  log.append(50);
+  EXPECT_EQ(log.size(), 5);
+}
+
+TEST(InstanceLog, IsTheSameHoweverItGrows) {
+  InstanceLog at_once(with_instances(4), Rng(12));
+  InstanceLog in_steps(with_instances(4), Rng(12));
+  at_once.extend_to(20);
+  for (std::int64_t size = 1; size <= 20; ++size)
+    in_steps.extend_to(size);
+  ASSERT_EQ(at_once.size(), in_steps.size());
+  for (std::int64_t pair = 1; pair <= 20; ++pair)
+    EXPECT_EQ(at_once[pair].seed, in_steps[pair].seed);
 }
 
 TEST(SamplingModels, KeepTheLastMeanOfAnInactiveParameter) {

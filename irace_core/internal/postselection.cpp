@@ -1,0 +1,64 @@
+#include "irace_core/internal/postselection.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace swarmsmith::irace {
+namespace {
+
+constexpr std::size_t kMostConsidered = 16;
+
+std::int64_t sum_of_smallest(std::span<const std::int64_t> needs, std::size_t count) {
+  std::vector<std::int64_t> sorted(needs.begin(), needs.end());
+  std::sort(sorted.begin(), sorted.end());
+  return std::accumulate(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(count),
+                         std::int64_t{0});
+}
+
+}  // namespace
+
+std::vector<std::size_t> largest_set_that_fits(std::span<const std::int64_t> needs,
+                                               std::int64_t budget) {
+  std::size_t size = needs.size();
+  while (size > 0 && sum_of_smallest(needs, size) > budget)
+    --size;
+  // Greedily in order: each position is taken if the cheapest completion behind it still fits.
+  std::vector<std::size_t> chosen;
+  for (std::size_t i = 0; i < needs.size() && chosen.size() < size; ++i) {
+    const std::size_t open = size - chosen.size() - 1;
+    const auto behind = needs.subspan(i + 1);
+    if (behind.size() < open || needs[i] + sum_of_smallest(behind, open) > budget) continue;
+    chosen.push_back(i);
+    budget -= needs[i];
+  }
+  return chosen;
+}
+
+std::vector<std::size_t> choose_for_postselection(
+    std::span<const PostselectionCandidate> candidates, std::int64_t remaining, std::int64_t step) {
+  std::vector<std::size_t> complete;
+  std::vector<std::size_t> considered;
+  for (std::size_t i = 0; i < candidates.size(); ++i) {
+    if (candidates[i].missing > remaining) continue;
+    if (candidates[i].missing == 0) complete.push_back(i);
+    const bool asks = step > 0 || candidates[i].missing > 0;
+    if (asks && considered.size() < kMostConsidered) considered.push_back(i);
+  }
+  if (step > 0) {
+    const auto q = static_cast<std::size_t>(remaining / step);
+    if (q > 1 && complete.size() >= q) {
+      complete.resize(q);
+      return complete;
+    }
+  }
+  std::vector<std::int64_t> needs;
+  for (const std::size_t i : considered)
+    needs.push_back(candidates[i].missing + step);
+  std::vector<std::size_t> chosen = step > 0 ? std::vector<std::size_t>{} : complete;
+  for (const std::size_t i : largest_set_that_fits(needs, remaining))
+    chosen.push_back(considered[i]);
+  std::sort(chosen.begin(), chosen.end());
+  return chosen;
+}
+
+}  // namespace swarmsmith::irace

@@ -1,0 +1,152 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "base/hash.h"
+#include "irace_core/internal/means.h"
+#include "irace_core/internal/race.h"
+
+namespace swarmsmith::irace {
+namespace {
+
+bool contains(std::span<const std::size_t> sorted, std::size_t column) {
+  return std::binary_search(sorted.begin(), sorted.end(), column);
+}
+
+std::vector<std::size_t> united(const std::vector<std::size_t>& a,
+                                const std::vector<std::size_t>& b) {
+  std::vector<std::size_t> both;
+  std::set_union(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(both));
+  return both;
+}
+
+}  // namespace
+
+void Race::eliminate(RaceStep& step) {
+  const bool tests = is_test_point(progress_.task) && alive_.size() > 1;
+  const bool caps = is_capping_point();
+  if (!tests && !caps) return;
+  std::vector<std::size_t> slower;
+  if (caps) slower = worse_by_times();
+  std::vector<std::size_t> worse;
+  if (tests) worse = worse_by_test(step);
+  // Where nobody passes both, capping alone counts (irace facts, 17).
+  std::vector<std::size_t> losers = united(worse, slower);
+  if (losers.size() == alive_.size()) losers = slower;
+  std::vector<double> ranks;
+  if (settings_.test_type != TestType::FTest) ranks = average_ranks(means()).ranks;
+  std::vector<std::size_t> dropped;
+  for (std::size_t i = 0; i < alive_.size(); ++i) {
+    const std::size_t c = alive_[i];
+    if (!contains(losers, c) || progress_.protection[c] > 0) continue;
+    dropped.push_back(c);
+    step.eliminations.push_back(
+        {contestants_[c].id, ranks.empty() ? ranks_.rank_sum(c) : ranks[i],
+         contains(worse, c) ? EliminationReason::Test : EliminationReason::Capping});
+  }
+  step.marker = losers.empty() ? '=' : (dropped.empty() ? '!' : (worse.empty() ? 'c' : '-'));
+  if (!dropped.empty()) drop(dropped);
+}
+
+std::vector<std::size_t> Race::worse_by_test(RaceStep& step) {
+  TestResult result;
+  if (settings_.test_type != TestType::FTest) {
+    result = t_tests();
+  } else if (alive_.size() == 2) {
+    result = test_of_two();
+  } else {
+    result = friedman_test(ranks_, alive_, 1 - settings_.confidence, quantiles_);
+  }
+  if (!std::isnan(result.p_value)) {
+    step.statistic = result.statistic;
+    step.p_value = result.p_value;
+  }
+  return std::move(result.dropped);
+}
+
+TestResult Race::test_of_two() {
+  const PairedResult result =
+      wilcoxon_test(costs_so_far(alive_[0]), costs_so_far(alive_[1]), 1 - settings_.confidence);
+  TestResult found{result.statistic, result.p_value, {}};
+  if (result.drops_first) found.dropped.push_back(alive_[0]);
+  if (result.drops_second) found.dropped.push_back(alive_[1]);
+  return found;
+}
+
+TestResult Race::t_tests() {
+  std::vector<std::span<const double>> costs;
+  for (const std::size_t c : alive_)
+    costs.push_back(costs_so_far(c));
+  return paired_t_tests(costs, means(), alive_, 1 - settings_.confidence, settings_.test_type);
+}
+
+std::vector<std::size_t> Race::worse_by_times() const {
+  std::vector<std::size_t> elites;
+  for (std::size_t i = 0; i < alive_.size(); ++i) {
+    if (progress_.protection[alive_[i]] > 0) elites.push_back(i);
+  }
+  std::vector<std::size_t> found =
+      dominated(means(), elites, settings_.capping_type, settings_.min_survival);
+  for (std::size_t& c : found)
+    c = alive_[c];
+  return found;
+}
+
+bool Race::is_capping_point() const {
+  const auto task = static_cast<std::int64_t>(progress_.task);
+  return settings_.capping && static_cast<std::int64_t>(alive_.size()) > settings_.min_survival &&
+         task % settings_.block_size == 0 &&
+         (!settings_.capping_after_first_test || task >= settings_.first_test);
+}
+
+std::span<const double> Race::costs_so_far(std::size_t column) const {
+  return std::span(costs_[column]).first(progress_.task);
+}
+
+std::vector<double> Race::means() const {
+  std::vector<double> means;
+  means.reserve(alive_.size());
+  for (const std::size_t c : alive_)
+    means.push_back(mean_of(costs_so_far(c)));
+  return means;
+}
+
+void Race::describe_best(RaceStep& step) const {
+  std::size_t best = alive_.front();
+  if (settings_.test_type == TestType::FTest) {
+    best = *std::min_element(alive_.begin(), alive_.end(), [&](auto a, auto b) {
+      return ranks_.rank_sum(a) < ranks_.rank_sum(b);
+    });
+  } else {
+    const std::vector<double> all = means();
+    best = alive_[static_cast<std::size_t>(std::min_element(all.begin(), all.end()) - all.begin())];
+  }
+  double sum = 0;
+  for (const double cost : costs_so_far(best))
+    sum += cost;
+  step.best = contestants_[best].id;
+  step.mean_best = sum / static_cast<double>(progress_.task);
+}
+
+void Race::describe_agreement(RaceStep& step) const {
+  step.kendall_w = kendall_w(ranks_, alive_);
+  step.spearman_rho = spearman_rho(ranks_, alive_);
+  step.qvar = quality_.value(alive_);
+}
+
+std::uint64_t Race::digest(const RaceStep& step) const {
+  Digest digest;
+  digest.add(step.task);
+  for (const std::size_t c : alive_) {
+    digest.add(contestants_[c].id);
+    digest.add(ranks_.rank_sum(c));
+    // Ranks do not tell everything that means decide on.
+    if (settings_.test_type != TestType::FTest) digest.add(costs_[c][progress_.task - 1]);
+    if (settings_.capping) digest.add(times_[c][progress_.task - 1]);
+  }
+  digest.add(step.statistic.value_or(-1));
+  digest.add(step.p_value.value_or(-1));
+  return digest.value64();
+}
+
+}  // namespace swarmsmith::irace

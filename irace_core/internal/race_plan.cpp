@@ -1,0 +1,156 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "irace_core/internal/race.h"
+
+namespace swarmsmith::irace {
+namespace {
+
+/// Why a rule ended the race, with both sides of its comparison.
+std::string compared(const char* what, std::int64_t left, const char* sign, const char* other,
+                     std::int64_t right) {
+  return std::string(what) + " (" + std::to_string(left) + ") " + sign + " " + other + " (" +
+         std::to_string(right) + ")";
+}
+
+/// The mean of the first `tasks` values.
+double mean_of_first(const std::vector<double>& values, std::size_t tasks) {
+  double sum = 0;
+  for (std::size_t task = 0; task < tasks; ++task)
+    sum += values[task];
+  return sum / static_cast<double>(tasks);
+}
+
+}  // namespace
+
+bool Race::has_result(std::size_t column, std::size_t task) const {
+  return task < costs_[column].size() && !std::isnan(costs_[column][task]);
+}
+
+bool Race::anybody_protected(const Progress& progress) const {
+  return std::any_of(alive_.begin(), alive_.end(),
+                     [&](std::size_t c) { return progress.protection[c] > 0; });
+}
+
+std::vector<std::size_t> Race::to_run(const Progress& progress) const {
+  std::vector<std::size_t> columns;
+  for (const std::size_t c : alive_) {
+    if (!has_result(c, progress.task)) columns.push_back(c);
+  }
+  return by_id(std::move(columns));
+}
+
+/// The canonical order within a task; that of the columns has the elites by rank.
+std::vector<std::size_t> Race::by_id(std::vector<std::size_t> columns) const {
+  std::sort(columns.begin(), columns.end(),
+            [&](std::size_t a, std::size_t b) { return contestants_[a].id < contestants_[b].id; });
+  return columns;
+}
+
+bool Race::is_test_point(std::size_t task) const {
+  const auto t = static_cast<std::int64_t>(task);
+  return t >= settings_.first_test && t % settings_.pairs_between_tests == 0;
+}
+
+/// The last pair that the elites brought along, or that comes first as a new one, must have been
+/// seen by somebody alive, and everybody must have seen whole steps between tests.
+bool Race::elites_are_done(const Progress& progress) const {
+  if (settings_.past_pairs == 0) return true;  // the first race, or not an elitist one
+  if (progress.task < uncovered_) return false;
+  return std::all_of(alive_.begin(), alive_.end(), [&](std::size_t c) {
+    return progress.results[c] % settings_.pairs_between_tests == 0;
+  });
+}
+
+std::optional<std::string> Race::reason_to_stop(const Progress& progress, std::size_t runs) const {
+  if (!elites_are_done(progress)) return std::nullopt;
+  const auto alive = static_cast<std::int64_t>(alive_.size());
+  if (alive <= settings_.min_survival) {
+    return compared("configurations alive", alive, "<=", "those that survive",
+                    settings_.min_survival);
+  }
+  const std::int64_t next_test =
+      progress.used + static_cast<std::int64_t>(runs) * settings_.pairs_between_tests;
+  if (is_test_point(progress.task) && next_test > settings_.max_experiments) {
+    return compared("experiments up to the next test", next_test, ">", "budget of the race",
+                    settings_.max_experiments);
+  }
+  if (settings_.elitist && settings_.elitist_limit > 0 &&
+      tests_without_drop_ >= settings_.elitist_limit) {
+    return compared("tests without elimination", tests_without_drop_, ">=", "limit",
+                    settings_.elitist_limit);
+  }
+  return std::nullopt;
+}
+
+/// Counts a task on which `ran` (ascending) were run; protected ones that were not have used up a
+/// known pair.
+void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
+  for (const std::size_t c : alive_) {
+    if (std::binary_search(ran.begin(), ran.end(), c)) {
+      ++progress.results[c];
+    } else if (progress.protection[c] > 0) {
+      --progress.protection[c];
+    }
+  }
+  progress.used += static_cast<std::int64_t>(ran.size());
+  ++progress.task;
+}
+
+/// Asks for all that is due, and, where nothing that follows depends on it, for all runs up to the
+/// next test, supposing that none of them is a rejection.
+void Race::plan() {
+  for (const std::size_t c : open_->due) {
+    wanted_.push_back({progress_.task, c, open_->bounds[c], open_->evaluates});
+  }
+  if (settings_.one_task_at_a_time || settings_.target_evaluator || settings_.capping) return;
+  Progress ahead = progress_;
+  std::vector<std::size_t> columns = open_->due;
+  while (columns.empty() || !is_test_point(ahead.task + 1)) {
+    std::sort(columns.begin(), columns.end());
+    pass(ahead, columns);
+    if (ahead.task == settings_.pairs.size()) return;
+    columns = to_run(ahead);
+    if (!columns.empty() && reason_to_stop(ahead, columns.size())) return;
+    for (const std::size_t c : columns)
+      wanted_.push_back({ahead.task, c, settings_.bound_max, false});
+  }
+}
+
+void Race::set_bounds() {
+  OpenTask& task = *open_;
+  if (task.due.empty() || settings_.bound_max <= 0) return;
+  task.step.bound = settings_.bound_max;
+  // Protected elites that are run are those that the others are measured by.
+  const bool elites = progress_.protection[task.due.front()] > 0;
+  const std::optional<double> standard = settings_.capping && !elites ? elite_time() : std::nullopt;
+  if (standard) task.step.bound = std::min(*standard, settings_.bound_max);
+  for (const std::size_t c : task.due) {
+    double& bound = task.bounds[c];
+    bound = settings_.bound_max;
+    if (!standard) continue;
+    if (settings_.bound_type == BoundType::Instance) {
+      bound = instance_bound(*standard, settings_.time_rules());
+      continue;
+    }
+    double spent = 0;
+    for (std::size_t before = 0; before < progress_.task; ++before)
+      spent += times_[c][before];
+    bound = candidate_bound(*task.step.bound, progress_.task + 1, spent, settings_.time_rules());
+  }
+}
+
+std::optional<double> Race::elite_time() const {
+  std::vector<double> times;
+  for (const std::size_t c : alive_) {
+    if (progress_.protection[c] == 0) continue;
+    times.push_back(settings_.bound_type == BoundType::Instance
+                        ? times_[c][progress_.task]
+                        : mean_of_first(times_[c], progress_.task + 1));
+  }
+  if (times.empty()) return std::nullopt;
+  return summarise(std::move(times), settings_.capping_type);
+}
+
+}  // namespace swarmsmith::irace
