@@ -66,6 +66,18 @@ TEST_F(ProgramSchedulers, NeverLeaseTwiceWhileTheWorkerRuns) {
   EXPECT_TRUE(all<StopCampaign>().empty());
 }
 
+TEST_F(ProgramSchedulers, LeaveWhatWaitsBehindALongProgram) {
+  hello(1, 1);
+  credit(1, 4);
+  want(1, 4);
+  answer(1, {.key = key(1), .attempt = 1, .score = 1, .wall_us = 3000});
+  ASSERT_EQ(given[1], (std::vector<std::int64_t>{1, 2, 3}));
+  hello(2, 1);
+  run_for(1, seconds(100), {2});  // and 3 waits
+  EXPECT_EQ(given[1], (std::vector<std::int64_t>{1, 2, 3}));
+  EXPECT_EQ(scheduler.leases().queued(), 1U);
+}
+
 TEST_F(ProgramSchedulers, LeaseAgainWhatNeverCame) {
   hello(1, 2);
   credit(1, 4);
