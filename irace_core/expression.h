@@ -136,6 +136,9 @@ class Expression {
   /// The value as a number; nothing when it is missing or no single number.
   std::optional<double> to_number(std::span<const Scalar> parameters) const;
 
+  /// The same tree over the same names, bound or not.
+  friend bool operator==(const Expression& a, const Expression& b);
+
  private:
   Expression() = default;
 
