@@ -11,7 +11,7 @@
 #include <string>
 
 #include "coordinator/campaign/campaign_file.h"
-#include "coordinator/campaign/cost.h"
+#include "target/cost.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
 

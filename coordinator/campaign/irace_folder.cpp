@@ -1,9 +1,11 @@
 #include "coordinator/campaign/irace_folder.h"
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
 #include "coordinator/campaign/campaign_text.h"
-#include "coordinator/campaign/machine_space.h"
+#include "coordinator/campaign/method_space.h"
 #include "irace_core/files/parameter_file.h"
 
 namespace swarmsmith {
@@ -98,6 +100,39 @@ Expected<IraceSetup> setup_of_machines(const Campaign& campaign, const Method& m
   return setup;
 }
 
+/// The word of irace's option batchmode.
+std::string_view word_of(BatchMode mode) {
+  constexpr std::array<std::string_view, 6> kWords = {"0",      "sge",   "pbs",
+                                                      "torque", "slurm", "htcondor"};
+  return kWords.at(static_cast<std::size_t>(mode));
+}
+
+/// The reverse of `campaign_of`: what irace is told of a design that programs evaluate.
+Expected<IraceSetup> setup_of_target(const Campaign& campaign, const Method& method,
+                                     const CampaignMission& mission) {
+  const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
+  if (!space) return Unexpected(space.error());
+  const Target& target = *campaign.target;
+  IraceSetup setup;
+  setup.space = space->parameters();
+  setup.training = mission.instances.training;
+  setup.test = mission.instances.test;
+  setup.exec_dir = target.folder;
+  setup.target_runner = target.runner;
+  setup.target_runner_launcher = target.launcher;
+  setup.target_cmdline = target.command_line;
+  setup.target_evaluator = target.evaluator;
+  setup.target_runner_retries = target.retries;
+  setup.target_runner_timeout = target.timeout_s;
+  setup.aclib = target.aclib;
+  setup.batchmode = word_of(target.batch_mode);
+  setup.debug_level = target.debug_level;
+  setup.repair_configuration = campaign.repair;
+  setup.test_nb_elites = campaign.test_nb_elites;
+  setup.test_iteration_elites = campaign.test_iteration_elites;
+  return setup;
+}
+
 /// Everything but the parameter file.
 void add_files(const IraceSetup& setup, IraceVersion version, IraceFileNames names,
                IraceFolder& folder) {
@@ -139,21 +174,22 @@ Expected<IraceFolder> irace_folder(const Campaign& campaign, const DesignRow& de
   const CampaignMission& mission = *std::ranges::find_if(
       campaign.missions,
       [&](const CampaignMission& candidate) { return candidate.mission.name == design.mission; });
-  if (campaign.target) {
-    return bad_input(
-        "the campaign's target is not the simulator: its own scenario is what irace reads",
-        "[simulator]");
-  }
-  auto setup = setup_of_machines(campaign, method, mission);
+  auto setup = campaign.target ? setup_of_target(campaign, method, mission)
+                               : setup_of_machines(campaign, method, mission);
   if (!setup) return Unexpected(setup.error());
   setup->race = campaign.race;
   setup->race.max_experiments = design.budget;
   setup->race.min_experiments.reset();
   setup->log_file = "./irace.Rdata";
   IraceFolder folder;
-  const auto names = add_parameters(setup->space, version, folder);
+  auto names = add_parameters(setup->space, version, folder);
   if (!names) return Unexpected(names.error());
+  if (!method.configurations.empty()) {
+    names->configurations = "configurations.txt";
+    folder.files.push_back({names->configurations, method.configurations});
+  }
   add_files(*setup, version, *names, folder);
+  if (campaign.target) return folder;
   folder.files.push_back({"README", readme(campaign, design, version)});
   folder.files.push_back({"campaign.toml", normalised_text(campaign)});
   folder.files.push_back({"target-runner", target_runner(design, program), true});

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/assert.h"
+#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -296,7 +297,7 @@ std::string parameters_json(const ParameterSpace& space, const Configuration& co
     text += "\"" + space[i].name + "\":";
     const Scalar value = space.scalar(i, configuration[i]);
     const bool is_text = value.type == Scalar::Type::Text;
-    text += is_text ? "\"" + value.text + "\"" : to_fixed_text(value.number);
+    text += is_text ? quoted_text(value.text) : to_fixed_text(value.number);
   }
   return text + "}";
 }

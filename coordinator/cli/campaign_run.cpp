@@ -44,7 +44,13 @@ void catch_signals() {
 WorkerScenario scenario_of(const Campaign& campaign) {
   WorkerScenario scenario{.campaign_digest = campaign_digest(campaign),
                           .engine_version = kEngineVersion,
-                          .profile = campaign.profile};
+                          .profile = campaign.profile,
+                          .target = campaign.target};
+  if (campaign.target) {
+    for (const CampaignMission& mission : campaign.missions)
+      scenario.instances.push_back(mission.instances);
+    return scenario;
+  }
   for (const CampaignMission& mission : campaign.missions) {
     scenario.missions.push_back(mission.mission);
   }
@@ -64,6 +70,7 @@ ServiceOptions service_options(const Campaign& campaign, const RunOptions& optio
       std::chrono::duration_cast<Duration>(std::chrono::duration<double>(campaign.task_timeout_s));
   scheduler.retries = campaign.retries;
   scheduler.stop_on_failure = campaign.stop_on_failure;
+  scheduler.evaluates_programs = campaign.target.has_value();
   if (!options.bind.empty()) {
     const bool has_scheme = options.bind.find("://") != std::string::npos;
     service.bind = (has_scheme ? "" : "tcp://") + options.bind;
@@ -108,7 +115,10 @@ class CampaignRun {
     const int processes = local_processes(campaign_, options_);
     if (processes == 0) return serve(**service, runner, nullptr);
     auto workers =
-        LocalWorkers::start({.endpoint = (*service)->endpoint(), .processes = processes});
+        LocalWorkers::start({.endpoint = (*service)->endpoint(),
+                             .processes = processes,
+                             .arguments = campaign_.target ? allow_arguments(*campaign_.target)
+                                                           : std::vector<std::string>{}});
     if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
     return serve(**service, runner, &*workers);
   }

@@ -131,6 +131,15 @@ Examples:
   swarmsmith export demo.db --what elites --format json
   swarmsmith export campaign.toml --format irace --design d1 -o folder)";
 
+constexpr std::string_view kImportDetails =
+    R"(Turns a scenario of irace, with the files that it names, into a campaign file that runs the same race:
+`swarmsmith run` it, change it, add missions, methods and repetitions. `swarmsmith irace` runs a
+scenario as it is.
+
+Examples:
+  swarmsmith import scenario.txt -o campaign.toml
+  swarmsmith import tuning/scenario.txt > campaign.toml)";
+
 constexpr std::string_view kDigestDetails =
     R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
 number of workers and the history of crashes.
@@ -157,6 +166,8 @@ constexpr std::array kCommands = {
     Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
             declare_replay},
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
+    Command{"import", "Turn a scenario of irace into a campaign file", kImportDetails,
+            declare_import},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
     Command{"version", "Print the version", "", declare_version},

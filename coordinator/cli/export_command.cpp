@@ -49,7 +49,8 @@ enum Column {
   kModules
 };
 
-/// A comment line with where the machine comes from, then its text.
+/// A comment line with where the machine comes from, then its text; of a configuration of a
+/// parameter file its switches and values.
 std::string as_fsm_config(const Rows& rows) {
   std::string text;
   for (const auto& cells : rows.cells) {
@@ -58,7 +59,8 @@ std::string as_fsm_config(const Rows& rows) {
     if (!cells[kMean].text.empty()) {
       text += ", mean " + cells[kMean].text + " over " + cells[kRuns].text + " runs";
     }
-    text += "\n--fsm-config " + cells[kText].text + "\n";
+    const bool is_machine = cells[kModules].text != "{}";
+    text += std::string("\n") + (is_machine ? "--fsm-config " : "") + cells[kText].text + "\n";
   }
   return text;
 }

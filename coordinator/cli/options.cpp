@@ -126,6 +126,11 @@ void Options::text(const std::string& names, std::string& value, const std::stri
   need_it(app_->add_option(names, value, help), need);
 }
 
+void Options::texts(const std::string& names, std::vector<std::string>& values,
+                    const std::string& help) {
+  app_->add_option(names, values, help)->allow_extra_args(false);
+}
+
 void Options::words(const std::string& name, std::vector<std::string>& values,
                     const std::string& help, Need need) {
   need_it(app_->add_option(name, values, help), need);

@@ -28,6 +28,8 @@ class Options {
   void flag(const std::string& names, bool& value, const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& help,
             Need need = Need::Optional);
+  /// One text each time that the option is there.
+  void texts(const std::string& names, std::vector<std::string>& values, const std::string& help);
   /// All further words.
   void words(const std::string& name, std::vector<std::string>& values, const std::string& help,
              Need need = Need::Optional);
