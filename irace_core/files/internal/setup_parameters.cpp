@@ -67,14 +67,12 @@ void read_parameters(SetupWork& work) {
   const bool has_space = read_space(work);
   const auto text = text_of(work, "configurationsFile", work.setup.configurations_file);
   if (!has_space || !text) return;
-  auto file = parse_configurations_file(*text, work.setup.space);
-  if (!file) {
-    work.errors.push_back(file.error());
+  auto configurations = parse_configurations_file(*text, work.setup.space);
+  if (!configurations) {
+    work.errors.push_back(configurations.error());
     return;
   }
-  for (std::string& warning : file->warnings)
-    work.warn(std::move(warning));
-  work.setup.initial = std::move(file->configurations);
+  work.setup.initial = std::move(*configurations);
   work.setup.configurations_text = text->text;
 }
 
