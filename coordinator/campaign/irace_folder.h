@@ -6,13 +6,10 @@
 
 #include "base/expected.h"
 #include "coordinator/campaign/campaign.h"
+#include "irace_core/files/scenario_text.h"
 #include "storage/rows.h"
 
 namespace swarmsmith {
-
-/// Which irace reads the files; they differ in where the digits stand, and in some options (irace
-/// facts, 26).
-enum class IraceVersion { V3_5, V4 };
 
 /// A file of a folder that is to be written.
 struct NamedText {
@@ -21,12 +18,16 @@ struct NamedText {
   bool is_program = false;
 };
 
-/// A folder in which R's irace tunes what the design tunes, against this simulator: scenario,
-/// parameters (switches and values are the text grammar's), instances, and a target-runner that
-/// calls `program evaluate`. `program` is absolute. Fails for what irace, or that version of it,
-/// cannot express: the sentence names the option.
-Expected<std::vector<NamedText>> irace_folder(const Campaign& campaign, const DesignRow& design,
-                                              IraceVersion version,
-                                              const std::filesystem::path& program);
+struct IraceFolder {
+  std::vector<NamedText> files;
+  std::vector<std::string> remarks;  ///< what that irace cannot be told, a sentence each
+};
+
+/// A folder in which R's irace tunes what the design tunes: scenario, parameters, instances. A
+/// design of machines is tuned against this simulator: switches and values are the text grammar's,
+/// and the folder's target-runner calls `program evaluate` (`program` is absolute). A design with a
+/// target calls the target's programs. Fails for what irace cannot express.
+Expected<IraceFolder> irace_folder(const Campaign& campaign, const DesignRow& design,
+                                   IraceVersion version, const std::filesystem::path& program);
 
 }  // namespace swarmsmith

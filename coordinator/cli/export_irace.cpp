@@ -50,12 +50,14 @@ ExitCode export_irace(const std::string& source, const IraceExport& what, const 
   std::error_code unknown;
   const auto program = std::filesystem::read_symlink("/proc/self/exe", unknown);
   const auto version = what.version == "4" ? IraceVersion::V4 : IraceVersion::V3_5;
-  const auto files = irace_folder(*campaign, *design, version, program);
-  if (!files) return fail(output, ExitCode::Usage, files.error());
-  if (const auto written = write(folder, *files); !written) {
+  const auto made = irace_folder(*campaign, *design, version, program);
+  if (!made) return fail(output, ExitCode::Usage, made.error());
+  if (const auto written = write(folder, made->files); !written) {
     const bool bad = written.error().kind == ErrorKind::BadInput;
     return fail(output, bad ? ExitCode::Usage : ExitCode::Failed, written.error());
   }
+  for (const std::string& remark : made->remarks)
+    print_note(output, remark);
   if (output.json) {
     output.out << "{\"folder\":" << json_text(folder) << "}\n";
   } else {
