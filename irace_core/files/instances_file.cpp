@@ -13,21 +13,26 @@ namespace fs = std::filesystem;
 constexpr std::string_view kBlanks = " \t\v\f\r\n";
 constexpr std::string_view kLineEnds = "\r\n";
 
-/// Adds what is in a folder, and then what is in its folders. `depth` ends circles of links.
-std::error_code add_files(const fs::path& folder, int depth, std::vector<std::string>& files) {
-  constexpr int kDeepest = 40;
+/// Adds what is in a folder, and then what is in its folders. `above` are the folders that it lies
+/// in, as they really are: a link to one of them is not followed.
+std::error_code add_files(const fs::path& folder, std::vector<fs::path>& above,
+                          std::vector<std::string>& files) {
   std::error_code error;
+  const fs::path real = fs::canonical(folder, error);
+  if (error || std::ranges::find(above, real) != above.end()) return error;
+  above.push_back(real);
   for (fs::directory_iterator entry(folder, error), end; !error && entry != end;
        entry.increment(error)) {
     const fs::path path = entry->path();
     if (path.filename().string().starts_with('.')) continue;
     std::error_code gone;  // a link to nothing is no file
-    if (!entry->is_directory(gone)) {
-      if (entry->exists(gone)) files.push_back(path.string());
-    } else if (depth < kDeepest) {
-      if (const auto deeper = add_files(path, depth + 1, files)) return deeper;
+    if (entry->is_directory(gone)) {
+      if (const auto deeper = add_files(path, above, files)) return deeper;
+    } else if (entry->exists(gone)) {
+      files.push_back(path.string());
     }
   }
+  above.pop_back();
   return error;
 }
 
@@ -66,7 +71,8 @@ Expected<std::vector<std::string>> list_instances(const fs::path& folder) {
     return unexpected(ErrorKind::NotFound, "there is no such folder of instances", folder.string());
   }
   std::vector<std::string> files;
-  if (const auto error = add_files(folder, 0, files)) {
+  std::vector<fs::path> above;
+  if (const auto error = add_files(folder, above, files)) {
     return bad_input("cannot be listed: " + error.message(), folder.string());
   }
   if (files.empty()) return bad_input("has no files in it: no instances", folder.string());

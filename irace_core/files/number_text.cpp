@@ -8,9 +8,8 @@ namespace swarmsmith {
 
 std::optional<double> number_of(std::string_view text) {
   if (text.ends_with('L')) text.remove_suffix(1);
-  if (text.starts_with('+')) text.remove_prefix(1);
   const bool negative = text.starts_with('-');
-  if (negative) text.remove_prefix(1);
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
   auto format = std::chars_format::general;
   if (text.starts_with("0x") || text.starts_with("0X")) {
     text.remove_prefix(2);

@@ -79,7 +79,7 @@ constexpr IraceOption kOptions[] = {
     {"repairConfiguration", "", "", Program, "", "", G::Target, Supported,
      "program that repairs new configurations",
      "a program in place of irace's R function; see docs/irace.md"},
-    {"parallel", "", "--parallel", Natural, "0", "", G::Target, Supported,
+    {"parallel", "", "--parallel", Natural, "NA", "", G::Target, Supported,
      "calls at a time; not given: as many as there are cores", "the result does not depend on it"},
     {"loadBalancing", "", "--load-balancing", Bool, "1", "", G::Target, Ignored,
      "hand out calls one by one", "this is always so"},

@@ -33,10 +33,12 @@ std::optional<Vector> take(std::vector<Part>& parts, std::string_view name) {
   return value;
 }
 
-/// The text that separates, `initial` when the argument is missing; nothing for NULL.
+/// The text that separates: `initial` when the argument is missing, or has no name because it
+/// cannot be given; nothing for NULL.
 Expected<std::optional<std::string>> take_separator(const Node& node, std::vector<Part>& parts,
                                                     std::string_view name,
                                                     std::optional<std::string> initial) {
+  if (name.empty()) return initial;
   const std::optional<Vector> value = take(parts, name);
   if (!value) return initial;
   if (value->empty()) return std::optional<std::string>{};
@@ -164,6 +166,10 @@ std::optional<Operation> operation_of(const std::string& name, std::size_t opera
   return std::nullopt;
 }
 
+/// Functions that conditions do not have.
+constexpr std::array<std::string_view, 5> kOthers = {"paste", "paste0", "file.path", "list",
+                                                     "Sys.getenv"};
+
 class Evaluator {
  public:
   explicit Evaluator(const Environment& environment) : environment_(environment) {}
@@ -201,27 +207,28 @@ class Evaluator {
   }
 
   Expected<Vector> call(const Node& node, const Call& call) const {
+    // Before the arguments: library(x) is not to be blamed for x.
+    const std::string& name = call.function;
+    const auto operation = operation_of(name, call.arguments.size());
+    if (!operation && std::ranges::find(kOthers, name) == kOthers.end()) {
+      return wrong(node, "found the function `" + name +
+                             "`: programs in R are not read here, only values, made with " +
+                             "list paste paste0 file.path Sys.getenv " +
+                             std::string(irace::function_names()));
+    }
     std::vector<Part> parts;
     for (const Argument& argument : call.arguments) {
       auto part = value(argument.value);
       if (!part) return part;
       parts.push_back({argument.name, std::move(*part)});
     }
-    const std::string& name = call.function;
     if (name == "paste") return paste(node, std::move(parts), "sep", " ");
-    // Its separator cannot be changed: no argument has the empty name of what takes it.
-    if (name == "paste0") return paste(node, std::move(parts), "sep.", "");
+    if (name == "paste0") return paste(node, std::move(parts), "", "");
     if (name == "file.path") return paste(node, std::move(parts), "fsep", "/");
     if (name == "c" || name == "list") return combine(node, parts, name == "c");
     if (name == "Sys.getenv") return environment_variable(node, std::move(parts), environment_);
     if (name == "+" && parts.size() == 1) return parts.front().value;
-    if (const auto operation = operation_of(name, parts.size())) {
-      return apply(node, name, *operation, parts);
-    }
-    return wrong(node, "found the function `" + name +
-                           "`: programs in R are not read here, only values, made with paste0, "
-                           "paste, file.path, c, list, Sys.getenv, " +
-                           std::string(irace::function_names()));
+    return apply(node, name, *operation, parts);
   }
 
   const Environment& environment_;
