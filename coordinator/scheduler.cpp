@@ -58,7 +58,8 @@ void Scheduler::note(const char* severity, const char* kind,
 
 void Scheduler::stop(const std::string& reason) {
   held_ = true;
-  note("error", "campaign stopped", {{"reason", reason}});
+  // What a program wrote may be long; it is in the table of failures.
+  note("error", "campaign stopped", {{"reason", reason.substr(0, reason.find('\n'))}});
   actions_.emplace_back(StopCampaign{reason});
 }
 
