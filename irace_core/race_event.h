@@ -42,7 +42,7 @@ enum class EliminationReason {
 /// A configuration that left the race.
 struct Elimination {
   std::int64_t configuration = 0;
-  double rank_sum = 0;  ///< when it was dropped; 0 for a rejection
+  double rank_sum = 0;  ///< when it was dropped; by t-tests the rank of its mean; 0: a rejection
   EliminationReason reason = EliminationReason::Test;
 
   friend bool operator==(const Elimination&, const Elimination&) = default;
@@ -61,12 +61,13 @@ struct RaceStep {
   std::int64_t best = 0;
   double mean_best = 0;               ///< cost over the tasks so far
   std::int64_t experiments_used = 0;  ///< in the whole design so far
-  std::optional<double> statistic;    ///< Friedman's S, or Wilcoxon's V for two
-  std::optional<double> p_value;
+  std::optional<double> statistic;    ///< Friedman's S, Wilcoxon's V for two, or the largest |t|
+  std::optional<double> p_value;      ///< of t-tests the smallest, adjusted
   std::optional<double> kendall_w;
   std::optional<double> spearman_rho;
   std::optional<double> qvar;
-  std::optional<double> bound;          ///< of the times on this pair, the largest of the task
+  /// Where the bounds of the task's runs come from: the elites' time when capping, or bound_max.
+  std::optional<double> bound;
   std::vector<std::int64_t> evaluated;  ///< configurations that were run, in order
   std::vector<Elimination> eliminations;
   std::uint64_t digest = 0;  ///< of alive set, rank sums, statistic and generators
