@@ -25,7 +25,8 @@ Expected<MethodSpace> MethodSpace::make(const Method& method, int digits) {
   if (!parameters) return Unexpected(parameters.error());
   made.parameters_ = std::move(parameters->space);
   if (method.configurations.empty()) return made;
-  auto initial = parse_configurations({method.configurations, "configurations"}, *made.parameters_);
+  auto initial =
+      parse_configurations_file({method.configurations, "configurations"}, *made.parameters_);
   if (!initial) return Unexpected(initial.error());
   made.initial_ = std::move(*initial);
   return made;

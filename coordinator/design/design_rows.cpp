@@ -221,7 +221,7 @@ void DesignRunner::record_warning(const RaceWarning& warning, std::vector<Row>& 
 void DesignRunner::record_unused(std::size_t until, std::vector<Row>& rows) {
   for (; consumed_ < until; ++consumed_) {
     const StoredScore& score = scores_[consumed_];
-    unused_.emplace(swarmsmith::key_of(score.key), score);
+    unused_.emplace(DesignRunner::key_of(number_of(score.key.candidate), score.key.pair), score);
     record(UnusedRow{score.key}, rows);
   }
 }

@@ -32,17 +32,18 @@ Repair repair_by(const std::string& program, const std::string& folder,
   return [program, folder, space = std::move(space),
           interrupt = std::move(interrupt)](const Configuration& given) -> Expected<Configuration> {
     const ParameterSpace& parameters = space->parameters();
-    const std::string table = print_configurations(parameters, std::span(&given, 1));
+    const auto table = print_configurations_file(parameters, std::span(&given, 1));
+    if (!table) return Unexpected(table.error());
     // Programs have no input but what a shell gives them.
     const ProcessCall call{
-        .words = {"/bin/sh", "-c", "printf '%s' \"$1\" | \"$0\"", program, table},
+        .words = {"/bin/sh", "-c", "printf '%s' \"$1\" | \"$0\"", program, *table},
         .folder = folder};
     const auto end = run_process(call, *interrupt);
     if (!end) return Unexpected(end.error());
     if (end->signal != 0 || end->exit_code != 0) {
       return Unexpected(failure(program, "the program failed", *end));
     }
-    auto repaired = parse_configurations({end->output.text, "its output"}, parameters);
+    auto repaired = parse_configurations_file({end->output.text, "its output"}, parameters);
     if (!repaired) {
       return Unexpected(failure(
           program, "the program printed no configuration: " + to_string(repaired.error()), *end));

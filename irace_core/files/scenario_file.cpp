@@ -129,8 +129,10 @@ class Reader {
     IraceValue value;
     if (option.kind == IraceKind::Anything) {
       // Whatever it is, it is for R; only its absence means something.
-      const bool is_null = std::holds_alternative<r::Null>(statement.value.what);
-      if (!is_null) value = "R";
+      const auto* text = std::get_if<r::Text>(&statement.value.what);
+      const bool is_nothing = std::holds_alternative<r::Null>(statement.value.what) ||
+                              (text != nullptr && text->value.empty());
+      if (!is_nothing) value = "R";
     } else {
       const auto vector = assign(statement, file);
       if (!vector) return;

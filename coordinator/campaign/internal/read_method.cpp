@@ -186,9 +186,8 @@ void read_parameter_file(TableReader& table, const std::filesystem::path& folder
       {.parameters = {method.parameters, text_name(table, "parameters", folder)}});
   if (!parameters) return table.complain_foreign("parameters", std::move(parameters.error()));
   if (method.configurations.empty()) return;
-  auto initial =
-      parse_configurations({method.configurations, text_name(table, "configurations", folder)},
-                           parameters->space);
+  auto initial = parse_configurations_file(
+      {method.configurations, text_name(table, "configurations", folder)}, parameters->space);
   if (!initial) table.complain_foreign("configurations", std::move(initial.error()));
 }
 

@@ -10,9 +10,8 @@ namespace {
 
 /// One side, with its quotes if it has any.
 Piece side(LineReader line, std::size_t bytes) {
+  const std::string_view text = trimmed(line.rest().substr(0, bytes));
   line.skip_blanks();
-  const std::string_view rest = line.rest();
-  std::string_view text = trimmed(rest.substr(0, std::min(bytes, rest.size())));
   Piece piece{std::string(text), line.place()};
   if (text.size() > 1 && text.front() == '"' && text.back() == '"') {
     piece.text = std::string(text.substr(1, text.size() - 2));
