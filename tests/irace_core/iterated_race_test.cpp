@@ -57,8 +57,8 @@ TEST(IteratedRace, DecisionsAreFixed) {
   Digest all;
   for (const std::uint64_t digest : digests(events))
     all.add(digest);
-  EXPECT_EQ(all.value64(), 6834764683246221259U);
-  EXPECT_EQ(only<RaceFinished>(events).front().elites.front().configuration, 229);
+  EXPECT_EQ(all.value64(), 15617215254616353560U);
+  EXPECT_EQ(only<RaceFinished>(events).front().elites.front().configuration, 287);
 }
 
 TEST(IteratedRace, ImprovesOnItsFirstConfigurations) {
