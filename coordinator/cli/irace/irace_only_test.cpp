@@ -19,12 +19,8 @@ Expected<Campaign> campaign_for(const IraceSetup& setup, const std::filesystem::
   auto text = read_whole_file(file);
   if (!text) return Unexpected(text.error());
   Campaign campaign = campaign_of(setup, seed_of(setup, store));
-  const auto configurations = parse_configurations(*text, setup.space);
-  if (!configurations) {
-    Error error = configurations.error();
-    error.where = file.string() + (error.where.empty() ? "" : ":" + error.where);
-    return Unexpected(error);
-  }
+  const auto configurations = parse_configurations_file({*text, file.string()}, setup.space);
+  if (!configurations) return Unexpected(configurations.error());
   campaign.only_test = true;
   campaign.race = {.max_experiments = 1};
   campaign.repair.clear();
