@@ -48,18 +48,31 @@ void print_help(Output& output) {
              << command.details << '\n';
 }
 
+/// R's files and the store are no copies of each other: .Rdata becomes .db.
+std::filesystem::path store_file(std::filesystem::path log_file) {
+  const std::string ending = log_file.extension().string();
+  if (ending == ".Rdata" || ending == ".RData" || ending == ".rda")
+    log_file.replace_extension(".db");
+  return log_file;
+}
+
 /// --store, else the log file, else a place that goes afterwards.
-Expected<StorePlace> place_of(const IraceCommandLine& line, const IraceSetup& setup) {
+Expected<StorePlace> place_of(Output& output, const IraceCommandLine& line,
+                              const IraceSetup& setup) {
   if (const IraceSetting* store = line.settings.find("--store")) {
     const auto text = line.settings.text("--store");
     if (text && !text->empty()) return StorePlace::at(absolute_path(*text, store->folder));
   }
   if (!setup.log_file.empty()) {
-    std::filesystem::path file = setup.log_file;
+    const std::filesystem::path file = store_file(setup.log_file);
+    if (file != setup.log_file && file.filename() != "irace.db") {
+      print_note(output, "the store is " + file.string() + ": an SQLite file in place of R's " +
+                             setup.log_file.string());
+    }
     // Tests without a run are a campaign of their own.
-    if (line.action == IraceAction::OnlyTest)
-      file.replace_filename(file.stem().string() + "-test" + file.extension().string());
-    return StorePlace::at(file);
+    if (line.action != IraceAction::OnlyTest) return StorePlace::at(file);
+    const std::string name = file.stem().string() + "-test" + file.extension().string();
+    return StorePlace::at(file.parent_path() / name);
   }
   return StorePlace::temporary();
 }
@@ -94,7 +107,7 @@ ExitCode carry_out(Output& output, const IraceCommandLine& line) {
   if (const auto faults = check_programs(campaign_of(*setup, 1)); !faults.empty())
     return complain(output, faults);
   if (line.action == IraceAction::Check) return check(output, *setup);
-  const auto place = place_of(line, *setup);
+  const auto place = place_of(output, line, *setup);
   if (!place) return fail(output, ExitCode::Failed, place.error());
   const IraceSlots slots{.workers = line.settings.number("--workers"), .parallel = setup->parallel};
   if (line.action == IraceAction::OnlyTest)
