@@ -52,6 +52,8 @@ Campaign campaign_of(const IraceSetup& setup, std::uint64_t seed) {
   // Both are the design's: they follow from the mission and the campaign's seed.
   campaign.race.n_instances = Scenario{}.n_instances;
   campaign.race.seed = Scenario{}.seed;
+  // Only the first estimate of a time depends on it; else it must not stop a run from going on.
+  if (campaign.race.max_time == 0) campaign.race.parallel = Scenario{}.parallel;
   campaign.race.target_evaluator = Scenario{}.target_evaluator;
   campaign.race.one_task_at_a_time = Scenario{}.one_task_at_a_time;
   campaign.digits = setup.space.digits();

@@ -22,7 +22,7 @@ y       "--y "   r     (0,1)   | mode == "fast"
 # Costs are whole numbers, so that a shell is enough. The instances' files hold a number.
 RUNNER = """\
 #!/bin/sh
-id=$1; instance=$2; seed=$3; file=$4
+id=$1; instance=$2; seed=$3; file=$4; bound=$5
 shift 4
 echo "$id $instance $seed $file $*" >> calls.txt
 x=0; mode=10
@@ -35,7 +35,6 @@ while [ $# -gt 0 ]; do
 done
 read -r bias < "$file"
 cost=$(( (x - 30) * (x - 30) + mode + seed % 50 + bias ))
-%s
 """
 PRINT = "echo $cost"
 
@@ -72,7 +71,7 @@ class Irace(unittest.TestCase):
         file.chmod(0o755)
 
     def write_runner(self, last):
-        self.write_program("target-runner", RUNNER % last)
+        self.write_program("target-runner", RUNNER + last + "\n")
 
     def write_scenario(self, **options):
         (self.folder / "scenario.txt").write_text(scenario_text({**DEFAULTS, **options}))
@@ -296,13 +295,16 @@ class Failures(Irace):
                             'exit 3; fi; echo $cost', "--parallel", "1")
         for text in ("exit", "3", "target-runner ", " --x ", "oops", "bad", "the same command"):
             self.assertIn(text, errors)
-        self.assertEqual(len(self.calls()), 41)
+        # What a worker had in hand when the run ended may have been called.
+        self.assertIn(len(self.calls()), (41, 42))
+        failed = self.calls()[40:]
         self.write_runner(PRINT)
         done = self.irace()
         self.assertIn("Going on after", done.stdout)
-        self.assertEqual(len(set(self.calls())), len(self.calls()) - 1)
+        again = [line for line in set(self.calls()) if self.calls().count(line) > 1]
+        self.assertEqual(set(again), set(failed))
         self.assert_clean()
-        self.assertEqual(self.query("SELECT count(*) AS n FROM v_failures")[0]["n"], 1)
+        self.assertGreaterEqual(self.query("SELECT count(*) AS n FROM v_failures")[0]["n"], 1)
 
     def test_output_that_is_no_cost_is_shown(self):
         for last in ("echo cost: $cost", "echo 1 2 3", "true", "echo NaN"):
@@ -427,7 +429,8 @@ class Variants(Irace):
                             for line in self.calls()))
 
     def test_a_budget_of_time_with_capping(self):
-        self.write_runner("echo $cost $(( 1 + cost % 7 ))")
+        self.write_runner("time=$(( 1 + cost % 7 )); [ $time -le $bound ] || time=$bound; "
+                          "echo $cost $time")
         text = self.runs(maxExperiments=0, maxTime=2000, boundMax=8, capping=1)
         self.assertIn("|   Bound|", text)
         self.assertIn("# capping: median", text)
@@ -438,12 +441,16 @@ class Variants(Irace):
         self.runs(targetEvaluator="./target-evaluator")
 
     def test_repair_by_a_program(self):
+        # Two lines, names and values: odd values of x become even.
         self.write_program("repair.sh", """\
 #!/bin/sh
-sed 's/"x":[0-9]*\\([02468]\\)\\b/"x":\\1/'
+exec awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^"?x"?$/) x = i }
+          NR == 2 { $x -= $x % 2 }
+          { print }'
 """)
-        help_text = self.irace("--help").stdout
-        self.assertIn("repair", help_text)
+        self.runs(repairConfiguration="./repair.sh")
+        self.assertTrue(all(int(re.search(r"--x (\d+)", line).group(1)) % 2 == 0
+                            for line in self.calls()))
 
 
 if __name__ == "__main__":

@@ -31,7 +31,8 @@ void read_flags(const IraceSettings& settings, Output& output) {
   output.json = settings.is_on("--json");
   output.verbose = settings.is_on("--verbose");
   if (settings.is_on("--no-color")) output.color = false;
-  if (output.verbose) set_log_level(LogLevel::Debug);
+  // irace's lines tell what a person wants to know, and errors are explained.
+  set_log_level(output.verbose ? LogLevel::Debug : LogLevel::None);
 }
 
 const Command& this_command() {
@@ -101,7 +102,6 @@ ExitCode carry_out(Output& output, const IraceCommandLine& line) {
   auto setup = read_irace_setup(line, surroundings_of_process());
   if (!setup) return complain(output, setup.error());
   output.quiet = setup->quiet;
-  if (output.quiet) set_log_level(LogLevel::Error);
   for (const std::string& warning : setup->warnings)
     print_note(output, "warning: " + warning);
   if (const auto faults = check_programs(campaign_of(*setup, 1)); !faults.empty())

@@ -146,7 +146,7 @@ void IraceConsole::add(const Row& row, TimePoint now) {
   } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
     add_state(*state);
   } else if (const auto* event = std::get_if<EventRow>(&row)) {
-    if (event->severity != "info" || output_.verbose) write("# " + event_line(*event) + "\n");
+    add_event(*event);
   }
 }
 
@@ -159,7 +159,9 @@ void IraceConsole::begin_iteration(const IterationRow& row) {
     text = fmt::format("# {}: Iteration {} of {}\n", date_(), row.number, row.of);
   }
   text += fmt::format("# experimentsUsed: {}\n", used_);
-  if (run_.budget > 0) text += fmt::format("# remainingBudget: {}\n", run_.budget - used_);
+  const std::optional<std::int64_t> remaining =
+      run_.budget > 0 ? std::optional(run_.budget - used_) : remaining_;
+  if (remaining) text += fmt::format("# remainingBudget: {}\n", *remaining);
   text +=
       fmt::format("# currentBudget: {}\n# nbConfigurations: {}\n", row.budget, row.configurations);
   if (row.soft_restart) {
@@ -223,6 +225,35 @@ void IraceConsole::add_state(const DesignStateRow& row) {
                                  date_(), row.reason, row.iteration, row.used);
   if (run_.budget > 0) text += fmt::format("# remainingBudget: {}\n", run_.budget - row.used);
   write(text);
+}
+
+void IraceConsole::add_event(const EventRow& event) {
+  // A failure is shown in full where the command ends.
+  if (event.kind == "evaluation failed" || event.kind == "campaign stopped") return;
+  const auto values = parse_parameter_values(event.text);
+  const auto text = [&](const char* key) {
+    const auto* found = values && values->contains(key)
+                            ? std::get_if<std::string>(&values->find(key)->second)
+                            : nullptr;
+    return found == nullptr ? std::string() : *found;
+  };
+  const auto number = [&](const char* key) {
+    const auto* found =
+        values && values->contains(key) ? std::get_if<double>(&values->find(key)->second) : nullptr;
+    return found == nullptr ? 0.0 : *found;
+  };
+  if (event.kind == "time estimated") {
+    remaining_ = static_cast<std::int64_t>(number("remaining"));
+    write(
+        fmt::format("# {}: Estimated execution time is {:.15g} based on {:.0f} runs. Used time: "
+                    "{:.15g}, remaining time: {:.15g}, remaining budget (experiments): {}\n",
+                    date_(), number("mean"), number("runs"), number("time"),
+                    run_.race.max_time - number("time"), *remaining_));
+  } else if (event.kind == "race") {
+    write("# Warning: " + text("text") + "\n");
+  } else if (event.severity != "info" || output_.verbose) {
+    write("# " + event_line(event) + "\n");
+  }
 }
 
 void IraceConsole::update(const LiveStatus& live, TimePoint /*now*/) {

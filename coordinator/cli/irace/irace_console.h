@@ -55,6 +55,7 @@ class IraceConsole final : public RunListener {
   /// The end of a race's table, its best and its elites, once they are known.
   void end_race();
   void add_state(const DesignStateRow& row);
+  void add_event(const EventRow& event);
 
   Output& output_;
   IraceRun run_;
@@ -63,11 +64,12 @@ class IraceConsole final : public RunListener {
   bool bounds_;  ///< whether there is a column for them
   bool in_table_ = false;
   std::optional<RaceStepRow> last_step_;
-  std::vector<EliteRow> elites_;  ///< of the race that ends
-  std::int64_t used_ = 0;         ///< experiments of the run
-  std::int64_t used_before_ = 0;  ///< the current race
-  TimePoint last_;                ///< when the last line of the table was written
-  std::string reason_;            ///< why it ended, once that was said
+  std::vector<EliteRow> elites_;           ///< of the race that ends
+  std::int64_t used_ = 0;                  ///< experiments of the run
+  std::int64_t used_before_ = 0;           ///< the current race
+  std::optional<std::int64_t> remaining_;  ///< experiments, as max_time is good for
+  TimePoint last_;                         ///< when the last line of the table was written
+  std::string reason_;                     ///< why it ended, once that was said
   std::string trouble_;
 };
 

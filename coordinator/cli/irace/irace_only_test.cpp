@@ -4,8 +4,8 @@
 
 #include "coordinator/campaign/irace_campaign.h"
 #include "coordinator/cli/campaign_run.h"
+#include "coordinator/cli/irace/cost_events.h"
 #include "coordinator/cli/irace/irace_console.h"
-#include "coordinator/cli/irace/irace_listeners.h"
 #include "coordinator/cli/irace/irace_report.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/whole_file.h"
@@ -41,9 +41,9 @@ ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesyste
   IraceConsole console(output, {.race = campaign->race, .space = setup.space}, begin);
   Progress progress(output, {}, begin);
   CostEvents events(progress);
-  FailureWatch watch(output.json ? static_cast<RunListener&>(events) : console);
-  const ExitCode ended = carry_out(output, *campaign, run_options(slots, store), watch);
-  if (ended != ExitCode::Done) return explain_end(output, ended, watch.last());
+  RunListener& teller = output.json ? static_cast<RunListener&>(events) : console;
+  const ExitCode ended = carry_out(output, *campaign, run_options(slots, store), teller);
+  if (ended != ExitCode::Done) return explain_end(output, ended);
   const auto reader = StoreReader::open(store.file());
   if (!reader) return fail(output, ExitCode::Failed, reader.error());
   const auto result = read_irace_result(**reader, setup.space);

@@ -11,11 +11,10 @@
 #include "coordinator/campaign/irace_campaign.h"
 #include "coordinator/campaign/method_space.h"
 #include "coordinator/cli/campaign_run.h"
+#include "coordinator/cli/irace/cost_events.h"
 #include "coordinator/cli/irace/irace_console.h"
-#include "coordinator/cli/irace/irace_listeners.h"
 #include "coordinator/cli/irace/irace_report.h"
 #include "irace_core/iterated_race.h"
-#include "target/runner.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -56,14 +55,13 @@ class ScenarioRun {
     Progress progress(output_, design_rows(campaign_), begin_);
     CostEvents events(progress);
     RunListener& teller = output_.json ? static_cast<RunListener&>(events) : *console;
-    FailureWatch watch(teller);
     if (!is_finished() && !output_.json) {
       console->write_begin();
       if (auto told = tell_what_was(*console); !told)
         return fail(output_, ExitCode::Failed, told.error());
     }
-    const ExitCode ended = carry_out(output_, campaign_, options, watch);
-    return ended == ExitCode::Done ? report() : explain_end(output_, ended, watch.last());
+    const ExitCode ended = carry_out(output_, campaign_, options, teller);
+    return ended == ExitCode::Done ? report() : explain_end(output_, ended);
   }
 
  private:
@@ -160,12 +158,9 @@ RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
   return options;
 }
 
-ExitCode explain_end(Output& output, ExitCode ended, const std::optional<FailureRow>& failure) {
+ExitCode explain_end(Output& output, ExitCode ended) {
   if (ended == ExitCode::Interrupted || ended == ExitCode::Terminated) return ended;
-  if (ended == ExitCode::OverFailureLimit && failure) {
-    output.err << message_of(failure->reason, {failure->command, failure->output, failure->errors})
-               << '\n';
-  } else if (ended == ExitCode::Store) {
+  if (ended == ExitCode::Store) {
     output.err << "Give the options that made this store, or another one: --log-file NAME, or "
                   "--store PATH.\n";
   }

@@ -19,9 +19,9 @@ struct IraceSlots {
 /// Both as the worker processes of `carry_out`.
 RunOptions run_options(const IraceSlots& slots, const StorePlace& store);
 
-/// What to exit with after `carry_out` did not come to its end: 1 for all errors, as irace. Shows
-/// the call that failed, and what to do.
-ExitCode explain_end(Output& output, ExitCode ended, const std::optional<FailureRow>& failure);
+/// What to exit with after `carry_out` did not come to its end: 1 for all errors, as irace. Says
+/// what to do about a store of another scenario.
+ExitCode explain_end(Output& output, ExitCode ended);
 
 /// Runs the scenario into its store, or goes on with it, and prints irace's report. Failed for
 /// whatever goes wrong, as irace; Interrupted and Terminated as `run`.

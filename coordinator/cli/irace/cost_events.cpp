@@ -1,15 +1,10 @@
-#include "coordinator/cli/irace/irace_listeners.h"
+#include "coordinator/cli/irace/cost_events.h"
 
 #include <variant>
 
 #include "target/cost.h"
 
 namespace swarmsmith::cli {
-
-void FailureWatch::add(const Row& row, TimePoint now) {
-  if (const auto* failure = std::get_if<FailureRow>(&row)) last_ = *failure;
-  next_.add(row, now);
-}
 
 void CostEvents::add(const Row& row, TimePoint now) {
   Row told = row;
