@@ -203,6 +203,25 @@ TEST_F(IraceSetupFiles, FilesOfOlderVersionsAreWorkedIn) {
   EXPECT_THAT(read.warnings, Contains(HasSubstr("under [forbidden]")));
 }
 
+TEST_F(IraceSetupFiles, ScenariosOfAutoModeAreReadWithTheirDependencyFile) {
+  write("scenario.txt",
+        "parameterFile = \"./automode.txt\"\ndependencyFile = \"./dependencies.txt\"\n"
+        "execDir = \"./run\"\ntrainInstancesDir = \"./missions\"\nmaxExperiments = 200\n"
+        "nbIterations = 2\ndigits = 2\n");
+  write("automode.txt",
+        "NumStates \"--nstates \" i (1, 4)\n"
+        "N0x0 \"--n0x0 \" i (0, 3) | as.numeric(NumStates)>1\n");
+  write("dependencies.txt", "N0x0 (|NumStates-2)\n");
+  write("missions/aggregation.argos", "");
+  fs::create_directories(folder_ / "run");
+  const IraceSetup read = setup();
+  EXPECT_EQ(read.race.nb_iterations, 2);
+  EXPECT_THAT(read.training, ElementsAre(path("missions/aggregation.argos")));
+  EXPECT_EQ(read.space.constant_interval(1), nullptr);  // it depends on NumStates
+  EXPECT_THAT(read.parameter_text, HasSubstr("NumStates - 2"));
+  EXPECT_THAT(read.warnings, Contains(HasSubstr("`dependencyFile` is read")));
+}
+
 TEST_F(IraceSetupFiles, EverythingWrongIsReportedTogether) {
   write("scenario.txt",
         "maxExperiments = 500\ntrainInstancesFile = \"none.txt\"\nexecDir = \"nowhere\"\n"
