@@ -1,6 +1,7 @@
 #include "coordinator/campaign/campaign_text.h"
 
 #include "coordinator/campaign/internal/sections.h"
+#include "irace_core/iterated_race.h"
 #include "sim/engine/simulate.h"
 
 namespace swarmsmith {
@@ -17,6 +18,7 @@ Deciding deciding(const Campaign& campaign) {
     }
   }
   entries.emplace_back("engine.version", std::to_string(kEngineVersion));
+  entries.emplace_back("race.version", std::to_string(kRaceVersion));
   return entries;
 }
 

@@ -14,7 +14,7 @@ namespace swarmsmith {
 std::string normalised_text(const Campaign& campaign);
 
 /// Exactly what decides the campaign's answer, as (key, value) in a fixed order: missions, methods,
-/// profile, race options, seed, budget, repetitions, version of the engine. Keys read like
+/// profile, race options, seed, budget, repetitions, versions of engine and race. Keys read like
 /// `mission.aggregation.robots`.
 using Deciding = std::vector<std::pair<std::string, std::string>>;
 Deciding deciding(const Campaign& campaign);

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -68,6 +69,16 @@ void IteratedRace::State::fall_back() {
     std::copy_if(ended->begin(), ended->end(), std::back_inserter(elites),
                  [&](const Elite& elite) { return candidate(elite.configuration).takes_part; });
   }
+  if (!elites.empty()) return;
+  std::vector<std::int64_t> ids;
+  for (std::int64_t id = 1; id <= static_cast<std::int64_t>(candidates.size()); ++id) {
+    if (candidate(id).takes_part && !candidate(id).results.empty()) ids.push_back(id);
+  }
+  elites = ranked(ids);
+  std::stable_sort(elites.begin(), elites.end(),
+                   [](const Elite& a, const Elite& b) { return a.rank < b.rank; });
+  const auto most = static_cast<std::size_t>(schedule_.min_survival());
+  if (elites.size() > most) elites.resize(most);
 }
 
 }  // namespace swarmsmith

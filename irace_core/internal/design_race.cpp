@@ -36,7 +36,7 @@ irace::RaceSettings IteratedRace::State::common_settings(std::int64_t race_budge
 }
 
 irace::RaceSettings IteratedRace::State::settings_of(const irace::RacePlan& plan) {
-  irace::RaceSettings settings = common_settings(plan.budget);
+  irace::RaceSettings settings = common_settings(std::min(plan.budget, remaining()));
   settings.new_pairs = plan.new_pairs;
   order_pairs(settings);
   return settings;

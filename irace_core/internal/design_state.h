@@ -152,18 +152,20 @@ class IteratedRace::State {
   /// Asks for so many configurations that were not tried yet; false when there are none.
   Expected<bool> ask_estimate(std::int64_t count);
   void tell_estimate(std::span<const Measurement> measurements);
+  Expected<void> check_bounds(std::span<const Measurement> measurements) const;
   /// The batch is told: its results, and what follows.
   Expected<void> end_batch(std::span<const Measurement> costs);
   Expected<void> end_estimate();
   void lower_bound_max(double bound);
-  /// Of a configuration that was tried, as the race of first_contestants starts with it.
+  /// Configurations that were tried with their overall ranks, in the order of `ids`.
   std::vector<Elite> ranked(std::span<const std::int64_t> ids) const;
 
   // Post-selection.
   /// False when there is nothing to do.
   bool begin_postselection();
   std::vector<std::int64_t> preferred() const;
-  /// The elites after a post-selection race that rejected all of its own.
+  /// The elites after a post-selection race that rejected all who took part: those of the last
+  /// iteration that has any left, or else the best of all others that were tried.
   void fall_back();
 
   Candidate& candidate(std::int64_t id) { return candidates[static_cast<std::size_t>(id - 1)]; }

@@ -60,6 +60,9 @@ void Race::tell(std::span<const Measurement> measurements) {
   while (!stop_) {
     if (!open_ && !open_task()) break;
     if (!open_->due.empty()) {
+      // Left over from tasks that only rejected ones were to be run on.
+      while (at < wanted_.size() && wanted_[at].task < progress_.task)
+        ++at;
       if (at == wanted_.size()) break;
       take_in(measurements, at);
     }

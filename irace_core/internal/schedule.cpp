@@ -65,7 +65,7 @@ Expected<bool> Schedule::shrink_to(std::int64_t remaining) {
   for (; minimum_budget() > remaining; changed = true) {
     if (iterations_ == 1) {
       return bad_input("the time that is left is good for about " + std::to_string(remaining) +
-                           " experiments, and a single iteration needs " +
+                           " experiments, and a single iteration needs at least " +
                            std::to_string(minimum_budget()) + ": give more time",
                        "max_time");
     }
@@ -81,12 +81,8 @@ void Schedule::limit_new_pairs(std::int64_t unused) {
   new_pairs_ = std::min(new_pairs_, std::max<std::int64_t>(0, unused));
 }
 
-/// More than what is left is never given, which irace does where nb_experiments_per_iteration says
-/// so.
 std::int64_t Schedule::iteration_budget(std::int64_t remaining) const {
-  if (scenario_.nb_experiments_per_iteration > 0) {
-    return std::min(remaining, scenario_.nb_experiments_per_iteration);
-  }
+  if (scenario_.nb_experiments_per_iteration > 0) return scenario_.nb_experiments_per_iteration;
   return remaining / (iterations_ - iteration_ + 1);
 }
 
@@ -143,7 +139,8 @@ std::variant<RacePlan, NoMoreRaces> Schedule::next(std::int64_t remaining, std::
           "not enough budget to race more than the minimum number of configurations"};
     }
     if (raced_ && size <= elites) return NoMoreRaces{"not enough budget for a new configuration"};
-    if (needed(size, elites) > budget) {
+    // Asked for by the iteration, a budget may be more than what is left, and irace spends it.
+    if (needed(size, elites) > std::min(budget, remaining)) {
       return NoMoreRaces{"not enough budget for the first test of a race"};
     }
     const std::int64_t new_pairs = raced_ ? new_pairs_ : 0;

@@ -4,6 +4,7 @@
 #include <map>
 #include <sstream>
 
+#include "irace_core/internal/postselection.h"
 #include "irace_core/internal/schedule.h"
 #include "tests/irace_core/golden.h"
 
@@ -124,7 +125,7 @@ TEST(ScheduleGolden, PlansTheRacesThatIracePlanned) {
     replay(schedule, run);
     races += static_cast<int>(run["iterations"].size());
   }
-  EXPECT_EQ(errors, 6);
+  EXPECT_EQ(errors, 7);
   EXPECT_GT(races, 60);
 }
 
@@ -156,6 +157,27 @@ TEST(ScheduleGolden, EndsWhereIraceEnded) {
     ++ends;
   }
   EXPECT_GT(ends, 10);
+}
+
+/// Real runs: the elites miss nothing, and so do all who were alive at the end.
+TEST(ScheduleGolden, PostselectionChoosesAsManyAsIrace) {
+  int compared = 0;
+  for (const auto& run : golden("schedule_runs.json")) {
+    if (!run.contains("iterations") || !run["iterations"].back()["postselection"]) continue;
+    SCOPED_TRACE("seed " + run["seed"].dump());
+    const auto& race = run["iterations"].back()["race"];
+    const auto& last = run["iterations"][run["iterations"].size() - 2]["race"];
+    const std::int64_t complete = last["n_alive_end"];
+    const std::int64_t step = run["options"].value("blockSize", 1);
+    const std::int64_t budget = race["max_experiments"];
+    if (budget / step > complete) continue;  // then what the others have seen matters
+    const auto chosen = choose_for_postselection(
+        std::vector<PostselectionCandidate>(static_cast<std::size_t>(complete), {1, 0}), budget,
+        step);
+    EXPECT_EQ(chosen.size(), race["n_configurations"].get<std::size_t>());
+    ++compared;
+  }
+  EXPECT_EQ(compared, 6);
 }
 
 }  // namespace

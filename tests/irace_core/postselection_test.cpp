@@ -1,0 +1,189 @@
+#include "irace_core/internal/postselection.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <set>
+
+#include "tests/irace_core/costs.h"
+#include "tests/irace_core/spaces.h"
+
+namespace swarmsmith {
+namespace {
+
+using namespace swarmsmith::testing;
+using irace::choose_for_postselection;
+using irace::largest_set_that_fits;
+using irace::PostselectionCandidate;
+using ::testing::IsEmpty;
+using Positions = std::vector<std::size_t>;
+
+std::vector<PostselectionCandidate> missing(const std::vector<std::int64_t>& counts) {
+  std::vector<PostselectionCandidate> candidates;
+  for (const std::int64_t count : counts)
+    candidates.push_back({static_cast<std::int64_t>(candidates.size()) + 1, count});
+  return candidates;
+}
+
+TEST(Postselection, FindsTheFirstOfTheLargestSets) {
+  const auto set = [](const std::vector<std::int64_t>& needs, std::int64_t budget) {
+    return largest_set_that_fits(needs, budget);
+  };
+  EXPECT_EQ(set({5, 1, 1, 4}, 6), (Positions{1, 2, 3}));
+  EXPECT_EQ(set({3, 3, 3}, 6), (Positions{0, 1}));
+  EXPECT_EQ(set({3, 2, 3, 1}, 5), (Positions{0, 1}));
+  EXPECT_THAT(set({7, 8}, 6), IsEmpty());
+  EXPECT_THAT(set({}, 6), IsEmpty());
+}
+
+/// The greedy choice against all subsets.
+TEST(Postselection, FindsWhatTryingAllSetsFinds) {
+  Rng rng(4);
+  for (int round = 0; round < 300; ++round) {
+    std::vector<std::int64_t> needs(1 + rng.below(9));
+    for (std::int64_t& need : needs)
+      need = rng.uniform_int(0, 12);
+    const std::int64_t budget = rng.uniform_int(0, 30);
+    Positions best;
+    for (std::uint64_t mask = 0; mask < (1U << needs.size()); ++mask) {
+      Positions chosen;
+      std::int64_t sum = 0;
+      for (std::size_t i = 0; i < needs.size(); ++i) {
+        if ((mask >> i & 1U) == 0) continue;
+        chosen.push_back(i);
+        sum += needs[i];
+      }
+      if (sum > budget) continue;
+      if (chosen.size() > best.size() || (chosen.size() == best.size() && chosen < best)) {
+        best = chosen;
+      }
+    }
+    EXPECT_EQ(largest_set_that_fits(needs, budget), best);
+  }
+}
+
+TEST(Postselection, TakesThoseThatMissNothingWhenTheyUseUpTheBudget) {
+  EXPECT_EQ(choose_for_postselection(missing({0, 3, 0, 0, 0}), 3, 1), (Positions{0, 2, 3}));
+  EXPECT_EQ(choose_for_postselection(missing({0, 3, 0, 0, 0}), 7, 2), (Positions{0, 2, 3}));
+}
+
+TEST(Postselection, TakesTheMostThatFitOtherwise) {
+  // q = 11, and only two miss nothing: 1 + 1 + 4 + 3, and then 2 are left for one that needs 7.
+  EXPECT_EQ(choose_for_postselection(missing({0, 6, 0, 3, 2}), 11, 1), (Positions{0, 2, 3, 4}));
+  // What needs more than all that is left is not among the sixteen.
+  std::vector<std::int64_t> counts(40, 100);
+  counts[0] = counts[20] = counts[39] = 0;
+  EXPECT_EQ(choose_for_postselection(missing(counts), 30, 1), (Positions{0, 20, 39}));
+  EXPECT_EQ(choose_for_postselection(missing(std::vector<std::int64_t>(40, 0)), 60, 1).size(), 16U);
+}
+
+TEST(Postselection, ComparesWhatIsThereWhenNoPairIsLeft) {
+  EXPECT_EQ(choose_for_postselection(missing({0, 3, 0, 9, 2}), 6, 0), (Positions{0, 1, 2, 4}));
+  EXPECT_EQ(choose_for_postselection(missing({0}), 6, 0), (Positions{0}));
+}
+
+ParameterSpace small_space() {
+  return space_of({make_categorical("kind", {"a", "b", "c"}), make_real("x", 0, 10),
+                   make_integer("n", 1, 100, true), make_ordinal("size", {"s", "m", "l"})});
+}
+
+Scenario small_scenario(std::uint64_t seed) {
+  Scenario scenario;
+  scenario.max_experiments = 1000;
+  scenario.n_instances = 7;
+  scenario.seed = seed;
+  return scenario;
+}
+
+TEST(PostselectionRace, UsesWhatIsLeftAndProtectsNobodyLonger) {
+  int raced = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    auto race = IteratedRace::start(small_space(), small_scenario(seed)).value();
+    const auto events = run_to_end(race, synthetic_cost);
+    const auto starts = only<IterationStarted>(events);
+    const auto ends = only<IterationEnded>(events);
+    EXPECT_LE(race.experiments_used(), 1000);
+    for (std::size_t i = 0; i + 1 < starts.size(); ++i)
+      EXPECT_FALSE(starts[i].postselection);
+    if (!starts.back().postselection) {
+      EXPECT_LE(ends.back().remaining, 1);
+      continue;
+    }
+    ++raced;
+    EXPECT_EQ(starts.back().budget, ends[ends.size() - 2].remaining);
+    EXPECT_EQ(starts.back().iteration, ends[ends.size() - 2].iteration + 1);
+    EXPECT_GE(starts.back().n_configurations, 2);
+    EXPECT_EQ(static_cast<std::int64_t>(starts.back().elites.size()),
+              starts.back().n_configurations);
+    EXPECT_EQ(starts.back().new_pairs, 0);
+    EXPECT_GT(ends.back().used, 0);
+    EXPECT_FALSE(ends.back().elites.empty());
+    EXPECT_EQ(only<RaceFinished>(events).front().elites, ends.back().elites);
+    // Nobody is dropped before all the pairs are covered.
+    for (const RaceStep& step : only<RaceStep>(events)) {
+      if (step.iteration != starts.back().iteration || step.eliminations.empty()) continue;
+      for (const Elite& elite : ends.back().elites)
+        EXPECT_GE(elite.n, step.task);
+    }
+  }
+  EXPECT_GT(raced, 10);
+}
+
+TEST(PostselectionRace, CanBeTurnedOff) {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+    Scenario scenario = small_scenario(seed);
+    scenario.postselection = false;
+    auto race = IteratedRace::start(small_space(), scenario).value();
+    for (const auto& started : only<IterationStarted>(run_to_end(race, synthetic_cost)))
+      EXPECT_FALSE(started.postselection);
+  }
+}
+
+TEST(PostselectionRace, KeepsElitesWhenEverythingElseFails) {
+  int rejected_all = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    auto race = IteratedRace::start(small_space(), small_scenario(seed)).value();
+    bool last_race = false;
+    std::set<std::int64_t> rejected;
+    while (!race.finished()) {
+      std::vector<double> costs;
+      for (const Experiment& wanted : race.wanted()) {
+        costs.push_back(last_race
+                            ? std::numeric_limits<double>::infinity()
+                            : synthetic_cost(race.configuration(wanted.configuration), wanted));
+      }
+      race.tell(costs);
+      for (const RaceEvent& event : race.take_events()) {
+        if (const auto* step = std::get_if<RaceStep>(&event)) {
+          for (const Elimination& dropped : step->eliminations) {
+            if (dropped.reason == EliminationReason::Rejection) {
+              rejected.insert(dropped.configuration);
+            }
+          }
+        }
+        const auto* started = std::get_if<IterationStarted>(&event);
+        last_race = last_race || (started != nullptr && started->postselection);
+      }
+    }
+    if (!last_race) continue;
+    ++rejected_all;
+    EXPECT_FALSE(race.failure().has_value());
+    ASSERT_FALSE(race.elites().empty());
+    for (const Elite& elite : race.elites())
+      EXPECT_FALSE(rejected.contains(elite.configuration));
+  }
+  EXPECT_GT(rejected_all, 3);
+}
+
+TEST(PostselectionRace, IsOffWithAWarningWithoutElitism) {
+  Scenario scenario = small_scenario(1);
+  scenario.elitist = false;
+  auto race = IteratedRace::start(small_space(), scenario).value();
+  const auto events = run_to_end(race, synthetic_cost);
+  EXPECT_THAT(only<RaceWarning>(events).front().text, ::testing::HasSubstr("post-selection"));
+  for (const auto& started : only<IterationStarted>(events))
+    EXPECT_FALSE(started.postselection);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,205 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <limits>
+#include <map>
+#include <set>
+
+#include "tests/irace_core/costs.h"
+#include "tests/irace_core/spaces.h"
+
+namespace swarmsmith {
+namespace {
+
+using namespace swarmsmith::testing;
+
+/// Options that can be mixed freely; most mixes are nonsense that nobody would ask for.
+Scenario random_scenario(Rng& rng) {
+  Scenario s;
+  s.seed = rng.next();
+  s.block_size = rng.bernoulli(0.3) ? rng.uniform_int(2, 3) : 1;
+  s.n_instances = s.block_size * rng.uniform_int(1, 8);
+  s.each_test = rng.bernoulli(0.3) ? 2 : 1;
+  s.first_test = s.each_test * rng.uniform_int(1, 4);
+  s.sample_instances = rng.bernoulli(0.7);
+  s.elitist = rng.bernoulli(0.7);
+  s.deterministic = rng.bernoulli(0.3);
+  s.elitist_new_instances = rng.uniform_int(0, 2);
+  s.elitist_limit = rng.uniform_int(0, 3);
+  s.soft_restart = rng.bernoulli(0.7);
+  s.soft_restart_threshold = rng.bernoulli(0.5) ? 1e-4 : 0.1;
+  s.postselection = rng.bernoulli(0.7);
+  s.one_task_at_a_time = rng.bernoulli(0.3);
+  s.target_evaluator = rng.bernoulli(0.15);
+  s.test_type = static_cast<TestType>(rng.below(4));
+  s.nb_iterations = rng.bernoulli(0.2) ? rng.uniform_int(1, 5) : 0;
+  s.min_nb_survival = rng.bernoulli(0.2) ? rng.uniform_int(1, 5) : 0;
+  s.nb_configurations = rng.bernoulli(0.2) ? rng.uniform_int(4, 25) : 0;
+  s.nb_experiments_per_iteration = rng.bernoulli(0.15) ? rng.uniform_int(20, 300) : 0;
+  s.mu = rng.bernoulli(0.2) ? s.block_size * rng.uniform_int(1, 10) : 5;
+  if (rng.bernoulli(0.3)) {
+    s.elitist = true;
+    s.max_time = rng.uniform(20, 900);
+    s.parallel = rng.uniform_int(0, 40);
+    s.bound_max = rng.bernoulli(0.5) ? rng.uniform(1, 10) : 0;
+    s.bound_digits = rng.uniform_int(0, 2);
+  } else {
+    s.max_experiments = rng.uniform_int(20, 700);
+  }
+  return s;
+}
+
+ParameterSpace random_space(Rng& rng) {
+  std::vector<Parameter> parameters{make_categorical("kind", {"a", "b", "c"}),
+                                    make_real("x", 0, 10)};
+  if (rng.bernoulli(0.7)) parameters.push_back(make_integer("n", 1, 40, rng.bernoulli(0.5)));
+  if (rng.bernoulli(0.7)) parameters.push_back(make_ordinal("size", {"s", "m", "l"}));
+  if (rng.bernoulli(0.5)) {
+    parameters.push_back(active_when(make_real("y", -1, 1), equals("kind", "b")));
+  }
+  std::vector<Expression> forbidden;
+  if (rng.bernoulli(0.4)) {
+    forbidden.push_back(
+        call(Operation::And, equals("kind", "c"), call(Operation::Less, name("x"), number(4))));
+  }
+  return space_of(std::move(parameters), std::move(forbidden));
+}
+
+Measurement answer(const Configuration& configuration, const Experiment& experiment,
+                   double rejects) {
+  Rng noise(configuration.digest() * 3 + static_cast<std::uint64_t>(experiment.instance));
+  double time = 0.2 + 3 * noise.uniform();
+  if (experiment.bound > 0) time = std::min(time, experiment.bound);
+  if (noise.bernoulli(rejects)) return {std::numeric_limits<double>::infinity(), time};
+  return {synthetic_cost(configuration, experiment), time};
+}
+
+/// What a design did, as far as the properties look at it.
+struct Played {
+  std::uint64_t digest = 0;
+  std::string end;
+};
+
+/// (configuration, pair) of what was run and counted; void runs may be asked for again.
+using Counted = std::set<std::pair<std::int64_t, std::int64_t>>;
+
+void check_wanted(const IteratedRace& race, const Counted& counted) {
+  ASSERT_FALSE(race.wanted().empty());
+  for (const Experiment& wanted : race.wanted()) {
+    const bool known = counted.contains({wanted.configuration, wanted.pair});
+    EXPECT_FALSE(known && !wanted.is_evaluation)
+        << "configuration " << wanted.configuration << " on pair " << wanted.pair;
+    EXPECT_FALSE(race.scenario().deterministic && wanted.pair > race.scenario().n_instances);
+  }
+}
+
+void check_elites(const IteratedRace& race) {
+  if (race.failure()) {
+    EXPECT_GT(to_string(*race.failure()).size(), 20U);
+    EXPECT_TRUE(race.elites().empty());
+    return;
+  }
+  EXPECT_FALSE(race.elites().empty());
+  for (const Elite& elite : race.elites())
+    EXPECT_GT(elite.n, 0);
+}
+
+/// A race may go over its budget by the tasks up to its first test, and a task (irace facts, 9.3).
+void check_budget(const IteratedRace& race, std::int64_t most_alive) {
+  const Scenario& s = race.scenario();
+  if (s.max_time > 0) return;
+  const std::int64_t slack = most_alive * (s.each_test + s.elitist_new_instances) * s.block_size;
+  EXPECT_LE(race.experiments_used(), s.max_experiments + slack);
+}
+
+void play(const ParameterSpace& space, const Scenario& scenario, double rejects, Played& played) {
+  auto race = IteratedRace::start(space, scenario);
+  if (!race) {
+    played.end = to_string(race.error());
+    EXPECT_GT(played.end.size(), 20U);
+    return;
+  }
+  Counted counted;
+  Digest digest;
+  std::int64_t most_alive = 0;
+  for (int batches = 0; !race->finished(); ++batches) {
+    ASSERT_LT(batches, 20'000);
+    check_wanted(*race, counted);
+    if (::testing::Test::HasFailure()) return;
+    most_alive = std::max(most_alive, race->n_alive());
+    std::vector<Measurement> answers;
+    for (const Experiment& wanted : race->wanted())
+      answers.push_back(answer(race->configuration(wanted.configuration), wanted, rejects));
+    race->tell(answers);
+    for (const RaceEvent& event : race->take_events()) {
+      if (const auto* step = std::get_if<RaceStep>(&event)) {
+        digest.add(step->digest);
+        for (const std::int64_t id : step->evaluated)
+          EXPECT_TRUE(counted.emplace(id, step->pair).second) << id << " on " << step->pair;
+        EXPECT_EQ(step->experiments_used, static_cast<std::int64_t>(counted.size()));
+      }
+      if (const auto* estimated = std::get_if<TimeEstimated>(&event)) {
+        digest.add(estimated->used);
+        counted.insert(estimated->evaluated.begin(), estimated->evaluated.end());
+      }
+      if (const auto* finished = std::get_if<RaceFinished>(&event)) played.end = finished->reason;
+    }
+  }
+  EXPECT_EQ(race->experiments_used(), static_cast<std::int64_t>(counted.size()));
+  check_elites(*race);
+  check_budget(*race, most_alive);
+  played.digest = digest.value64();
+}
+
+TEST(RandomDesigns, EndWithElitesOrASentence) {
+  Rng rng(2024);
+  std::map<std::string, int> ends;
+  int finished = 0;
+  for (int round = 0; round < 1500; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    const Scenario scenario = random_scenario(rng);
+    const ParameterSpace space = random_space(rng);
+    const double rejects = rng.bernoulli(0.3) ? rng.uniform(0, 0.3) : 0;
+    Played played;
+    play(space, scenario, rejects, played);
+    if (HasFailure()) break;
+    finished += played.digest != 0;
+    ++ends[played.end.substr(0, 50)];
+    if (round % 10 != 0) continue;
+    Played again;
+    play(space, scenario, rejects, again);
+    EXPECT_EQ(again.digest, played.digest);
+    EXPECT_EQ(again.end, played.end);
+  }
+  EXPECT_GT(finished, 400);
+  for (const auto& [end, count] : ends)
+    RecordProperty(end.empty() ? "none" : end, count);
+  EXPECT_GT(ends.size(), 5U);
+}
+
+/// Whether tasks are asked for one by one or many at once decides nothing; only what is run after a
+/// rejection, and does not count, differs.
+TEST(RandomDesigns, AreTheSameHoweverMuchIsAskedForAtOnce) {
+  Rng rng(77);
+  int compared = 0;
+  for (int round = 0; round < 300; ++round) {
+    SCOPED_TRACE("round " + std::to_string(round));
+    Scenario scenario = random_scenario(rng);
+    const ParameterSpace space = random_space(rng);
+    const double rejects = rng.bernoulli(0.3) ? rng.uniform(0, 0.3) : 0;
+    Played one;
+    Played many;
+    scenario.one_task_at_a_time = true;
+    play(space, scenario, rejects, one);
+    scenario.one_task_at_a_time = false;
+    play(space, scenario, rejects, many);
+    EXPECT_EQ(one.digest, many.digest);
+    EXPECT_EQ(one.end, many.end);
+    if (HasFailure()) break;
+    compared += one.digest != 0;
+  }
+  EXPECT_GT(compared, 80);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,257 @@
+#include "irace_core/internal/time_budget.h"
+
+#include <gmock/gmock.h>
+
+#include <limits>
+#include <set>
+
+#include "tests/irace_core/costs.h"
+#include "tests/irace_core/spaces.h"
+
+namespace swarmsmith {
+namespace {
+
+using namespace swarmsmith::testing;
+using irace::TimeBudget;
+using ::testing::HasSubstr;
+
+Scenario timed_scenario(double max_time) {
+  Scenario scenario;
+  scenario.max_time = max_time;
+  scenario.n_instances = 10;
+  scenario.seed = 3;
+  return scenario;
+}
+
+ParameterSpace small_space() {
+  return space_of({make_categorical("kind", {"a", "b", "c"}), make_real("x", 0, 10),
+                   make_integer("n", 1, 100, true)});
+}
+
+/// Times between 0.5 and 2.5, which differ by configuration and seed.
+double time_of(const Configuration& configuration, const Experiment& experiment) {
+  Rng noise(configuration.digest() + static_cast<std::uint64_t>(experiment.seed));
+  return 0.5 + 2 * noise.uniform();
+}
+
+struct TimedRun {
+  std::vector<RaceEvent> events;
+  double time = 0;  ///< of all that was asked for
+  std::int64_t runs = 0;
+};
+
+TimedRun run_timed(IteratedRace& race) {
+  TimedRun run{race.take_events()};
+  while (!race.finished()) {
+    std::vector<Measurement> answers;
+    for (const Experiment& wanted : race.wanted()) {
+      const Configuration& configuration = race.configuration(wanted.configuration);
+      double time = time_of(configuration, wanted);
+      if (wanted.bound > 0) time = std::min(time, wanted.bound);
+      answers.push_back({synthetic_cost(configuration, wanted), time});
+      run.time += time;
+      ++run.runs;
+    }
+    race.tell(answers);
+    for (RaceEvent& event : race.take_events())
+      run.events.push_back(std::move(event));
+  }
+  return run;
+}
+
+TEST(TimeBudget, EstimatesAsTheFactsSay) {
+  Scenario scenario = timed_scenario(1000);
+  scenario.parallel = 20;
+  TimeBudget budget(scenario, 5);
+  EXPECT_EQ(budget.first_configurations(), 4);  // 20 at once, 5 pairs
+  EXPECT_EQ(budget.bound_for_estimate(), 0);    // 50 >= 1 * 4 * 5
+  for (int i = 0; i < 20; ++i)
+    budget.count(0.5);
+  EXPECT_EQ(budget.mean_time(), 1);  // rounded up, no decimals
+  budget.estimate();
+  EXPECT_EQ(budget.remaining(), 990);
+  EXPECT_EQ(budget.more_configurations(4), 4);  // time for 40 runs, but 4 at once
+  for (int i = 0; i < 70; ++i)
+    budget.count(0.5);
+  EXPECT_EQ(budget.more_configurations(18), 1);  // time for 5 runs
+  EXPECT_EQ(budget.more_configurations(1024), 0);
+  for (int i = 0; i < 10; ++i)
+    budget.count(0.5);
+  EXPECT_EQ(budget.more_configurations(20), 0);  // 50 of 50
+  budget.end_estimate();
+  budget.estimate();
+  EXPECT_EQ(budget.mean_time(), 0.5);
+  EXPECT_EQ(budget.remaining(), 1900);
+  budget.count(5000);
+  budget.estimate();
+  EXPECT_EQ(budget.remaining(), 0);
+}
+
+TEST(TimeBudget, LowersTheBoundOfAnEstimateThatWouldTakeTooLong) {
+  Scenario scenario = timed_scenario(1000);
+  scenario.bound_max = 60;
+  // 50 for two configurations on five pairs: 5 each.
+  EXPECT_EQ(TimeBudget(scenario, 5).bound_for_estimate(), 5);
+  scenario.bound_max = 4;
+  EXPECT_EQ(TimeBudget(scenario, 5).bound_for_estimate(), 0);
+}
+
+TEST(TimedRace, BeginsWithAnEstimateWhoseRunsAreUsedAgain) {
+  auto race = IteratedRace::start(small_space(), timed_scenario(3000)).value();
+  EXPECT_EQ(race.wanted().size(), 10U);  // two configurations on five pairs
+  EXPECT_EQ(race.alive(), (std::vector<std::int64_t>{1, 2}));
+  const TimedRun run = run_timed(race);
+  ASSERT_FALSE(race.failure().has_value());
+  std::set<std::pair<std::int64_t, std::int64_t>> ran;
+  std::int64_t batches = 0;
+  const IterationStarted* first = nullptr;
+  for (const RaceEvent& event : run.events) {
+    if (const auto* estimated = std::get_if<TimeEstimated>(&event)) {
+      for (const auto& one : estimated->evaluated)
+        EXPECT_TRUE(ran.insert(one).second);
+      batches += estimated->evaluated.empty() ? 0 : 1;
+    }
+    if (const auto* started = std::get_if<IterationStarted>(&event); started && !first) {
+      first = started;
+    }
+    if (const auto* step = std::get_if<RaceStep>(&event)) {
+      for (const std::int64_t id : step->evaluated)
+        EXPECT_TRUE(ran.emplace(id, step->pair).second) << id << " on " << step->pair;
+    }
+  }
+  EXPECT_GT(batches, 1);
+  ASSERT_NE(first, nullptr);
+  EXPECT_EQ(first->new_pairs, 0);
+  // 150 for the estimate, at a mean of 1.5 (2, rounded up): about 20 configurations.
+  EXPECT_GT(first->elites.size(), 10U);
+  EXPECT_EQ(static_cast<std::int64_t>(ran.size()), race.experiments_used());
+  EXPECT_EQ(run.runs, race.experiments_used());  // nothing is void without rejections
+  EXPECT_NEAR(race.time_used(), run.time, 1e-9 * run.time);
+}
+
+TEST(TimedRace, UsesAboutItsTime) {
+  for (const double max_time : {800.0, 3000.0}) {
+    auto race = IteratedRace::start(small_space(), timed_scenario(max_time)).value();
+    const TimedRun run = run_timed(race);
+    EXPECT_LT(run.time, 1.05 * max_time);
+    EXPECT_GT(run.time, 0.75 * max_time);
+    EXPECT_FALSE(race.elites().empty());
+    const auto estimates = only<TimeEstimated>(run.events);
+    EXPECT_NEAR(estimates.back().used, run.time, 1e-9 * run.time);
+    EXPECT_NEAR(estimates.back().mean_time, 1.5, 0.3);
+    EXPECT_EQ(estimates.back().remaining, race.remaining());
+  }
+}
+
+TEST(TimedRace, PlansFewerIterationsWhenTheTimeIsShort) {
+  auto race = IteratedRace::start(small_space(), timed_scenario(150)).value();
+  const TimedRun run = run_timed(race);
+  EXPECT_FALSE(race.failure().has_value());
+  const auto warnings = only<RaceWarning>(run.events);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings.front().text, HasSubstr("random search"));
+  // Twice as many as survive.
+  EXPECT_EQ(only<IterationStarted>(run.events).front().n_configurations, 6);
+}
+
+TEST(TimedRace, FailsWithASentenceWhenTheTimeIsMuchTooShort) {
+  auto race = IteratedRace::start(small_space(), timed_scenario(20)).value();
+  run_timed(race);
+  ASSERT_TRUE(race.failure().has_value());
+  EXPECT_EQ(race.failure()->where, "max_time");
+  EXPECT_THAT(race.failure()->message, HasSubstr("give more time"));
+}
+
+TEST(TimedRace, NeedsTimes) {
+  auto race = IteratedRace::start(small_space(), timed_scenario(3000)).value();
+  race.tell(std::vector<double>(race.wanted().size(), 1.0));
+  ASSERT_TRUE(race.failure().has_value());
+  EXPECT_TRUE(race.finished());
+  EXPECT_THAT(race.failure()->message, HasSubstr("configuration 1 on pair 1"));
+}
+
+TEST(TimedRace, EndsWhenATargetDoesNotStopAtItsBound) {
+  Scenario scenario = timed_scenario(3000);
+  scenario.bound_max = 12;
+  auto race = IteratedRace::start(small_space(), scenario).value();
+  std::vector<Measurement> answers(race.wanted().size(), {1, 12});
+  answers[3].time = 12.5;
+  race.tell(answers);
+  ASSERT_TRUE(race.failure().has_value());
+  EXPECT_THAT(race.failure()->message, HasSubstr("12.5, more than its bound of 12"));
+}
+
+TEST(TimedRace, RaisesTimesThatCannotBeMeasured) {
+  auto race = IteratedRace::start(small_space(), timed_scenario(100)).value();
+  const auto runs = race.wanted().size();
+  race.tell(std::vector<Measurement>(runs, {1, 1e-6}));
+  EXPECT_NEAR(race.time_used(), 0.01 * static_cast<double>(runs), 1e-12);
+}
+
+TEST(TimedRace, LowersBoundMaxToTwiceTheMean) {
+  Scenario scenario = timed_scenario(3000);
+  scenario.bound_max = 12;
+  auto race = IteratedRace::start(small_space(), scenario).value();
+  EXPECT_EQ(race.wanted().front().bound, 12);  // 150 for the estimate is enough for 10 runs
+  const TimedRun run = run_timed(race);
+  ASSERT_FALSE(race.failure().has_value()) << to_string(*race.failure());
+  const auto warnings = only<RaceWarning>(run.events);
+  ASSERT_EQ(warnings.size(), 1U);
+  EXPECT_THAT(warnings.front().text, HasSubstr("lowered from 12 to 4"));
+  EXPECT_EQ(only<TimeEstimated>(run.events).back().bound_max, 4);
+}
+
+TEST(TimedRace, TakesGivenConfigurationsFirst) {
+  const ParameterSpace space = small_space();
+  std::vector<Configuration> given(3, Configuration(3));
+  for (std::size_t i = 0; i < 3; ++i) {
+    given[i].set(0, static_cast<double>(i));
+    given[i].set(1, 1);
+    given[i].set(2, 1);
+  }
+  auto race = IteratedRace::start(space, timed_scenario(3000), given).value();
+  const auto first = only<ConfigurationSampled>(race.take_events());
+  EXPECT_EQ(first.size(), 3U);
+  race.tell(std::vector<Measurement>(race.wanted().size(), {1, 1}));
+  // The third given one alone: as many as run at once.
+  EXPECT_EQ(race.alive(), std::vector<std::int64_t>{3});
+}
+
+TEST(TimedRace, LeavesOutWhatTheEstimateRejects) {
+  auto race = IteratedRace::start(small_space(), timed_scenario(3000)).value();
+  std::vector<Measurement> answers(race.wanted().size(), {1, 1.5});
+  for (std::size_t i = 0; i < answers.size(); ++i) {
+    if (race.wanted()[i].configuration == 2) {
+      answers[i].cost = std::numeric_limits<double>::infinity();
+    }
+  }
+  race.tell(answers);
+  const TimedRun run = run_timed(race);
+  for (const IterationStarted& started : only<IterationStarted>(run.events))
+    EXPECT_THAT(started.elites, ::testing::Not(::testing::Contains(2)));
+  for (const RaceStep& step : only<RaceStep>(run.events))
+    EXPECT_THAT(step.evaluated, ::testing::Not(::testing::Contains(2)));
+}
+
+TEST(TimedRace, AsksTheEvaluatorInTheEstimateToo) {
+  Scenario scenario = timed_scenario(3000);
+  scenario.target_evaluator = true;
+  auto race = IteratedRace::start(small_space(), scenario).value();
+  const std::vector<Experiment> runs(race.wanted().begin(), race.wanted().end());
+  race.tell(std::vector<Measurement>(runs.size(), {0, 1.5}));
+  ASSERT_EQ(race.wanted().size(), runs.size());
+  for (std::size_t i = 0; i < runs.size(); ++i) {
+    EXPECT_TRUE(race.wanted()[i].is_evaluation);
+    EXPECT_EQ(race.wanted()[i].task, 0);
+    EXPECT_EQ(race.wanted()[i].pair, runs[i].pair);
+  }
+  race.tell(std::vector<Measurement>(runs.size(), {7, 0}));
+  EXPECT_EQ(race.experiments_used(), static_cast<std::int64_t>(runs.size()));
+  const auto events = run_timed(race).events;
+  EXPECT_FALSE(race.failure().has_value());
+  // A step's calls carry its number.
+  EXPECT_GT(only<RaceStep>(events).size(), 10U);
+}
+
+}  // namespace
+}  // namespace swarmsmith
