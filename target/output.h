@@ -1,6 +1,5 @@
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 
@@ -16,10 +15,6 @@ struct Reading {
 
   friend bool operator==(const Reading&, const Reading&) = default;
 };
-
-/// Number as R's as.numeric reads it: decimal with e or E, hexadecimal with p or P, Inf and
-/// infinity in any case, with a sign or without. NaN and NA give NaN; other texts nothing.
-std::optional<double> parse_number(std::string_view text);
 
 /// Output of a targetRunner: cost, or cost and time; before a targetEvaluator nothing, or a time
 /// (irace facts, 18.2); with aclib the line of GenericWrapper4AC (18.5). `bound` is the run's, 0

@@ -2,6 +2,9 @@
 
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+
+#include "target/number.h"
 
 namespace swarmsmith {
 namespace {

@@ -168,6 +168,35 @@ TEST_F(ProgramWorkers, RejectWhatFails) {
   EXPECT_EQ(store.rows_of<FailureRow>().size(), 1U);
 }
 
+/// The script of docs/targets.md, with a simulator behind it that talks on both outputs and has
+/// threads of its own kind.
+TEST_F(ProgramWorkers, RunAScriptWithASimulatorBehindIt) {
+  std::ofstream(folder / "automode_main")
+      << "#!/bin/sh\necho '[INFO] loaded'; echo '[WARNING] no light' >&2; (sleep 0.01) &\n"
+         "printf '[%s]' \"$@\" >> calls; echo >> calls; wait; echo \"Score $8.5\"\n";
+  std::filesystem::permissions(folder / "automode_main", std::filesystem::perms::owner_all);
+  script(
+      "SEED=$3; INSTANCE=$4; shift 4\n"
+      "OUT=$(./automode_main -n -c \"$INSTANCE\" --seed \"$SEED\" --fsm-config \"$@\" 2> "
+      "run.$$.log) || exit 1\n"
+      "echo \"$OUT\" | grep -a '^Score' | tail -1 | awk '{print -$2}'\n");
+  scenario.instances = {{{"mission.argos"}, {}}};
+  open(8);
+  const std::jthread loop = run();
+  auto started = LocalWorkers::start(local());
+  ASSERT_TRUE(started);
+  ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  ASSERT_EQ(store.rows_of<EvaluationRow>().size(), 8U);
+  for (const EvaluationRow& row : store.rows_of<EvaluationRow>()) {
+    EXPECT_EQ(row.score, static_cast<double>(row.key.candidate.value) + 0.5);
+  }
+  std::ifstream in(folder / "calls");
+  const std::string calls(std::istreambuf_iterator<char>(in), {});
+  EXPECT_NE(calls.find("[-n][-c][mission.argos][--seed][3][--fsm-config][-n][3]"),
+            std::string::npos)
+      << calls;
+}
+
 /// The program, and what it started, in all slots.
 TEST_F(ProgramWorkers, TakeTheirProgramsWithThemWhenKilled) {
   script("trap '' TERM; sleep 1000 & echo $! >> log; wait\n");

@@ -5,6 +5,10 @@
 #include <limits>
 #include <map>
 
+#include "base/rng.h"
+#include "target/number.h"
+#include "target/words.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -153,6 +157,40 @@ TEST(Aclib, ReadsTheResultLine) {
   EXPECT_TRUE(mentions(fault("hello", target), "no line"));
   target.prints_time = true;
   EXPECT_FALSE(read(R"({"status": "SUCCESS", "cost": 1.5})"));
+}
+
+/// Whatever a program prints, it is read or refused; what is read is fit for a race.
+TEST(Output, MayBeAnything) {
+  constexpr std::string_view kPieces[] = {
+      "1",          " ",           "\n",   "-",   "Inf", "NaN",  "0x",
+      "p",          "e",           ".",    "NA",  "{",   "}",    "\"",
+      ":",          "\xff",        "\xc3", "1e9", "\t",  "cost", "Result of this algorithm run:",
+      "\"status\"", "\"SUCCESS\"", ",",    "'",   "\\",  "$"};
+  Rng rng(3);
+  Target aclib;
+  aclib.aclib = true;
+  for (int round = 0; round < 20'000; ++round) {
+    std::string text;
+    for (std::int64_t i = rng.uniform_int(0, 9); i > 0; --i) {
+      text += kPieces[static_cast<std::size_t>(
+          rng.uniform_int(0, static_cast<std::int64_t>(std::size(kPieces)) - 1))];
+    }
+    for (const Target& target : {plain(), with_time(), with_evaluator(), aclib}) {
+      const auto reading = parse_runner_output(text, target, 2);
+      if (!reading) continue;
+      ASSERT_FALSE(std::isnan(reading->cost)) << text;
+      ASSERT_TRUE(reading->time == 0 || (reading->time >= 0.01 && reading->time <= 2.01)) << text;
+    }
+    const std::string shown = printable(text, 12);
+    ASSERT_LE(shown.size(), 12U) << text;
+    ASSERT_EQ(printable(shown, 100), shown) << text;
+    if (const auto split = split_words(text); split && !split->needs_shell) {
+      std::string again;
+      for (const std::string& word : split->words)
+        again += shell_quoted(word) + " ";
+      ASSERT_EQ(split_words(again)->words, split->words) << text;
+    }
+  }
 }
 
 TEST(JobId, IsOneWord) {
