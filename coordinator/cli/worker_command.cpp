@@ -45,9 +45,9 @@ Run declare_worker(Options& options) {
       words.emplace_back("--slots");
       words.push_back(std::to_string(*arguments->slots));
     }
-    for (const std::string& program : arguments->allow) {
+    for (const std::string& allowed : arguments->allow) {
       words.emplace_back("--allow");
-      words.push_back(program);
+      words.push_back(allowed);
     }
     if (arguments->allow_shell) words.emplace_back("--allow-shell");
     std::vector<char*> pointers;

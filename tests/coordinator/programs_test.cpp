@@ -173,7 +173,7 @@ TEST_F(ProgramWorkers, RejectWhatFails) {
 TEST_F(ProgramWorkers, RunAScriptWithASimulatorBehindIt) {
   std::ofstream(folder / "automode_main")
       << "#!/bin/sh\necho '[INFO] loaded'; echo '[WARNING] no light' >&2; (sleep 0.01) &\n"
-         "printf '[%s]' \"$@\" >> calls; echo >> calls; wait; echo \"Score $9.5\"\n";
+         "printf '[%s]' \"$@\" >> calls; echo >> calls; wait; echo \"Score $8.5\"\n";
   std::filesystem::permissions(folder / "automode_main", std::filesystem::perms::owner_all);
   script(
       "SEED=$3; INSTANCE=$4; shift 4\n"
@@ -186,6 +186,7 @@ TEST_F(ProgramWorkers, RunAScriptWithASimulatorBehindIt) {
   auto started = LocalWorkers::start(local());
   ASSERT_TRUE(started);
   ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  ASSERT_EQ(store.rows_of<EvaluationRow>().size(), 8U);
   for (const EvaluationRow& row : store.rows_of<EvaluationRow>()) {
     EXPECT_EQ(row.score, static_cast<double>(row.key.candidate.value) + 0.5);
   }
