@@ -6,6 +6,7 @@
 #include "base/rng.h"
 #include "irace_core/files/internal/setup_fields.h"
 #include "irace_core/files/number_text.h"
+#include "irace_core/files/whole_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -118,6 +119,13 @@ TEST(IraceOptions, HelpListsEverySwitchThatCanBeUsedWithinEightyColumns) {
     EXPECT_LE(line.size(), 80U) << line;
     begin = end + 1;
   }
+}
+
+TEST(IraceOptions, TheDocumentationHasTheTable) {
+  const auto page =
+      read_whole_file(std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "docs/irace-options.md");
+  ASSERT_TRUE(page);
+  EXPECT_THAT(*page, HasSubstr(irace_option_table()));
 }
 
 TEST(NumberText, ShortestTextsReadBack) {

@@ -65,11 +65,10 @@ IraceSetup random_setup(Rng& rng) {
 }
 
 IraceScenarioFile parse(const std::string& text) {
-  const ScenarioSurroundings nothing = {
-      [](const std::filesystem::path&) -> Expected<std::string> {
-        return bad_input("no files here");
-      },
-      [](const std::string&) { return std::nullopt; }};
+  const ScenarioSurroundings nothing = {[](const std::filesystem::path&) -> Expected<std::string> {
+                                          return bad_input("no files here");
+                                        },
+                                        [](const std::string&) { return std::nullopt; }};
   auto file = parse_irace_scenario(text, "/elsewhere/scenario.txt", nothing);
   EXPECT_TRUE(file) << to_string(file.error().front()) << "\n" << text;
   return file.value_or(IraceScenarioFile{});
@@ -113,10 +112,10 @@ TEST(ScenarioText, For35SaysWhatHasAnotherDefaultThereAndLeavesOutWhatIsNew) {
   setup.target_runner_timeout = 30;
   const auto printed =
       print_irace_scenario(setup, IraceVersion::V3_5, {.forbidden = "forbidden.txt"});
-  EXPECT_THAT(printed.text, AllOf(HasSubstr("softRestartThreshold = 1e-04\n"),
-                                  HasSubstr("budgetEstimation = 0.05\n"),
-                                  HasSubstr("capping = 0\n"), HasSubstr("digits = 4\n"),
-                                  HasSubstr("forbiddenFile = \"forbidden.txt\"\n")));
+  EXPECT_THAT(printed.text,
+              AllOf(HasSubstr("softRestartThreshold = 1e-04\n"),
+                    HasSubstr("budgetEstimation = 0.05\n"), HasSubstr("capping = 0\n"),
+                    HasSubstr("digits = 4\n"), HasSubstr("forbiddenFile = \"forbidden.txt\"\n")));
   for (const char* name : {"blockSize", "targetRunnerTimeout", "postselection"}) {
     EXPECT_THAT(printed.text, Not(HasSubstr(name)));
     EXPECT_THAT(printed.remarks, Contains(HasSubstr(name)));

@@ -100,8 +100,7 @@ TEST_F(IraceSetupFiles, AScenarioThatNobodyNamedIsReadWithAWarning) {
 
 TEST_F(IraceSetupFiles, WithoutAScenarioTheCommandLineSaysAll) {
   fs::remove(folder_ / "scenario.txt");
-  const IraceSetup read =
-      setup({"--max-experiments", "300", "--train-instances-file", "list.txt"});
+  const IraceSetup read = setup({"--max-experiments", "300", "--train-instances-file", "list.txt"});
   EXPECT_TRUE(read.scenario_file.empty());
   EXPECT_EQ(read.race.max_experiments, 300);
   EXPECT_EQ(read.seed, std::nullopt);
@@ -204,20 +203,38 @@ TEST_F(IraceSetupFiles, FilesOfOlderVersionsAreWorkedIn) {
   EXPECT_THAT(read.warnings, Contains(HasSubstr("under [forbidden]")));
 }
 
+TEST_F(IraceSetupFiles, ScenariosOfAutoModeAreReadWithTheirDependencyFile) {
+  write("scenario.txt",
+        "parameterFile = \"./automode.txt\"\ndependencyFile = \"./dependencies.txt\"\n"
+        "execDir = \"./run\"\ntrainInstancesDir = \"./missions\"\nmaxExperiments = 200\n"
+        "nbIterations = 2\ndigits = 2\n");
+  write("automode.txt",
+        "NumStates \"--nstates \" i (1, 4)\n"
+        "N0x0 \"--n0x0 \" i (0, 3) | as.numeric(NumStates)>1\n");
+  write("dependencies.txt", "N0x0 (|NumStates-2)\n");
+  write("missions/aggregation.argos", "");
+  fs::create_directories(folder_ / "run");
+  const IraceSetup read = setup();
+  EXPECT_EQ(read.race.nb_iterations, 2);
+  EXPECT_THAT(read.training, ElementsAre(path("missions/aggregation.argos")));
+  EXPECT_EQ(read.space.constant_interval(1), nullptr);  // it depends on NumStates
+  EXPECT_THAT(read.parameter_text, HasSubstr("NumStates - 2"));
+  EXPECT_THAT(read.warnings, Contains(HasSubstr("`dependencyFile` is read")));
+}
+
 TEST_F(IraceSetupFiles, EverythingWrongIsReportedTogether) {
   write("scenario.txt",
         "maxExperiments = 500\ntrainInstancesFile = \"none.txt\"\nexecDir = \"nowhere\"\n"
         "targetRunner = \"./missing\"\ntargetCmdline = \"{seed} {targetRunnerArgs}\"\n"
         "firstTest = 5\neachTest = 2\nbatchmode = \"slurm\"\n");
   write("parameters.txt", "a \"--a \" r (1, 0)\n");
-  EXPECT_THAT(errors(),
-              ElementsAre(HasSubstr("scenario.txt:2:1: " + path("none.txt")),
-                          HasSubstr("parameters.txt:1:"),
-                          HasSubstr("scenario.txt:3:1: there is no such folder"),
-                          HasSubstr("scenario.txt:4:1: there is no such program"),
-                          HasSubstr("scenario.txt:8:1: needs `targetEvaluator`"),
-                          HasSubstr("scenario.txt:5:1: must contain {instance}"),
-                          "scenario.txt:6:1: must be a multiple of eachTest"));
+  EXPECT_THAT(errors(), ElementsAre(HasSubstr("scenario.txt:2:1: " + path("none.txt")),
+                                    HasSubstr("parameters.txt:1:"),
+                                    HasSubstr("scenario.txt:3:1: there is no such folder"),
+                                    HasSubstr("scenario.txt:4:1: there is no such program"),
+                                    HasSubstr("scenario.txt:8:1: needs `targetEvaluator`"),
+                                    HasSubstr("scenario.txt:5:1: must contain {instance}"),
+                                    "scenario.txt:6:1: must be a multiple of eachTest"));
 }
 
 TEST_F(IraceSetupFiles, AProgramMustBeExecutable) {
@@ -226,8 +243,7 @@ TEST_F(IraceSetupFiles, AProgramMustBeExecutable) {
               ElementsAre(AllOf(HasSubstr("--target-runner: "), HasSubstr("chmod +x"))));
   // What a launcher starts need not be.
   write_program("bin/launch");
-  const IraceSetup read =
-      setup({"--target-runner", "plain", "--target-runner-launcher", "launch"});
+  const IraceSetup read = setup({"--target-runner", "plain", "--target-runner-launcher", "launch"});
   EXPECT_EQ(read.target_runner_launcher, path("bin/launch"));
 }
 
@@ -275,8 +291,8 @@ TEST(IraceTemplates, AreReadWithoutAnError) {
     if (file.is_program) fs::permissions(folder / file.name, fs::perms::owner_all);
   }
   const std::vector<std::string> words = {"--scenario", "scenario.txt"};
-  const auto setup = read_irace_setup(*read_irace_command_line(words, folder.path()),
-                                      {folder.path(), ""});
+  const auto setup =
+      read_irace_setup(*read_irace_command_line(words, folder.path()), {folder.path(), ""});
   ASSERT_TRUE(setup) << to_string(setup.error().front());
   EXPECT_EQ(setup->space.size(), 4U);
   EXPECT_EQ(setup->space.forbidden().size(), 1U);
@@ -293,8 +309,8 @@ TEST(IraceTemplates, EveryCommentedOptionOfTheScenarioCanBeSwitchedOn) {
     const std::size_t end = scenario.find('\n', begin);
     std::string line = scenario.substr(begin, end - begin);
     const std::size_t equals = line.find(" = ");
-    const bool is_option = line.starts_with("# ") && equals != std::string::npos &&
-                           line.find(' ', 2) == equals;
+    const bool is_option =
+        line.starts_with("# ") && equals != std::string::npos && line.find(' ', 2) == equals;
     if (is_option) all += line.substr(2) + "\n";
     begin = end + 1;
   }
