@@ -32,6 +32,7 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
       ranks_(contestants_.size()),
       quality_(contestants_.size()),
       quantiles_((1 - settings_.confidence) / 2) {
+  SWARMSMITH_ASSERT(!settings_.capping || settings_.bound_max > 0, "capping has a largest bound");
   const auto new_pairs = static_cast<std::size_t>(settings_.new_pairs);
   for (std::size_t c = 0; c < contestants_.size(); ++c) {
     const std::vector<double>& past = contestants_[c].past;
@@ -223,44 +224,6 @@ void Race::fail(const RaceRun& run, const std::string& what) {
                        " on pair " + std::to_string(pair_of(run.task)) + " " + what,
                    ""};
   stop_ = failure_->message;
-}
-
-void Race::add_ranked_row(std::size_t task) {
-  std::vector<Entry> row;
-  row.reserve(alive_.size());
-  for (const std::size_t c : alive_) {
-    row.push_back({costs_[c][task], static_cast<std::uint32_t>(c)});
-  }
-  quality_.add_row(row);
-  ranks_.add_row(std::move(row));
-}
-
-void Race::drop(const std::vector<std::size_t>& columns) {
-  std::erase_if(alive_, [&](std::size_t c) { return contains(columns, c); });
-  std::vector<bool> keeps(contestants_.size(), false);
-  for (const std::size_t c : alive_)
-    keeps[c] = true;
-  ranks_.keep(keeps);
-  find_uncovered();
-  quality_.reset();
-  std::vector<Entry> row;
-  for (std::size_t task = 0; task < static_cast<std::size_t>(ranks_.rows()); ++task) {
-    row.clear();
-    for (const std::size_t c : alive_) {
-      row.push_back({costs_[c][task], static_cast<std::uint32_t>(c)});
-    }
-    quality_.add_row(row);
-  }
-}
-
-void Race::find_uncovered() {
-  uncovered_ = static_cast<std::size_t>(settings_.new_pairs + settings_.past_pairs);
-  const auto anybody_has = [&](std::size_t task) {
-    return std::any_of(alive_.begin(), alive_.end(),
-                       [&](std::size_t c) { return has_result(c, task); });
-  };
-  while (uncovered_ > 0 && anybody_has(uncovered_ - 1))
-    --uncovered_;
 }
 
 }  // namespace swarmsmith::irace

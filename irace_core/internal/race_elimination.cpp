@@ -111,6 +111,44 @@ std::vector<double> Race::means() const {
   return means;
 }
 
+void Race::add_ranked_row(std::size_t task) {
+  std::vector<Entry> row;
+  row.reserve(alive_.size());
+  for (const std::size_t c : alive_) {
+    row.push_back({costs_[c][task], static_cast<std::uint32_t>(c)});
+  }
+  quality_.add_row(row);
+  ranks_.add_row(std::move(row));
+}
+
+void Race::drop(const std::vector<std::size_t>& columns) {
+  std::erase_if(alive_, [&](std::size_t c) { return contains(columns, c); });
+  std::vector<bool> keeps(contestants_.size(), false);
+  for (const std::size_t c : alive_)
+    keeps[c] = true;
+  ranks_.keep(keeps);
+  find_uncovered();
+  quality_.reset();
+  std::vector<Entry> row;
+  for (std::size_t task = 0; task < static_cast<std::size_t>(ranks_.rows()); ++task) {
+    row.clear();
+    for (const std::size_t c : alive_) {
+      row.push_back({costs_[c][task], static_cast<std::uint32_t>(c)});
+    }
+    quality_.add_row(row);
+  }
+}
+
+void Race::find_uncovered() {
+  uncovered_ = static_cast<std::size_t>(settings_.new_pairs + settings_.past_pairs);
+  const auto anybody_has = [&](std::size_t task) {
+    return std::any_of(alive_.begin(), alive_.end(),
+                       [&](std::size_t c) { return has_result(c, task); });
+  };
+  while (uncovered_ > 0 && anybody_has(uncovered_ - 1))
+    --uncovered_;
+}
+
 void Race::describe_best(RaceStep& step) const {
   std::size_t best = alive_.front();
   if (settings_.test_type == TestType::FTest) {
