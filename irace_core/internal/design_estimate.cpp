@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "irace_core/expression.h"
+#include "irace_core/internal/capping.h"
 #include "irace_core/internal/design_state.h"
 #include "irace_core/internal/ranking.h"
 
@@ -55,7 +56,25 @@ Expected<bool> IteratedRace::State::ask_estimate(std::int64_t count) {
   return !batch.empty();
 }
 
+/// As in a race, where the race looks.
+Expected<void> IteratedRace::State::check_bounds(std::span<const Measurement> measurements) const {
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Experiment& run = wanted[i];
+    const double took = measurements[i].time;
+    if (run.bound == 0 || took <= run.bound + scenario.min_measurable_time) continue;
+    return bad_input("the run of configuration " + std::to_string(run.configuration) + " on pair " +
+                     std::to_string(run.pair) + " took " + to_fixed_text(took) +
+                     ", more than its bound of " + to_fixed_text(run.bound) +
+                     ": a target must stop by itself at the bound");
+  }
+  return {};
+}
+
 void IteratedRace::State::tell_estimate(std::span<const Measurement> measurements) {
+  if (auto checked = check_bounds(measurements); !checked) {
+    fail(checked.error());
+    return;
+  }
   if (scenario.target_evaluator && estimate_->runs.empty()) {
     estimate_->runs.assign(measurements.begin(), measurements.end());
     for (Experiment& experiment : wanted) {
@@ -69,15 +88,16 @@ void IteratedRace::State::tell_estimate(std::span<const Measurement> measurement
 }
 
 Expected<void> IteratedRace::State::end_batch(std::span<const Measurement> costs) {
+  const irace::TimeRules rules = common_settings(0).time_rules();
   std::vector<std::pair<std::int64_t, std::int64_t>> evaluated;
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const auto [id, pair] = std::pair(wanted[i].configuration, wanted[i].pair);
     evaluated.emplace_back(id, pair);
     time->count(estimate_->runs[i].time);
-    double cost = costs[i].cost;
-    if (uses_capping(scenario) && cost >= bound_max_ && std::isfinite(cost)) {
-      cost = bound_max_ * scenario.bound_par;
-    }
+    const double cost =
+        uses_capping(scenario)
+            ? irace::capped_cost(costs[i].cost, estimate_->runs[i].time, bound_max_, rules)
+            : costs[i].cost;
     if (std::isinf(cost) && candidate(id).takes_part) reject(id);
     if (candidate(id).takes_part) candidate(id).know({pair, cost, estimate_->runs[i].time});
     pairs_seen_ = std::max(pairs_seen_, pair);

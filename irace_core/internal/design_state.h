@@ -152,6 +152,7 @@ class IteratedRace::State {
   /// Asks for so many configurations that were not tried yet; false when there are none.
   Expected<bool> ask_estimate(std::int64_t count);
   void tell_estimate(std::span<const Measurement> measurements);
+  Expected<void> check_bounds(std::span<const Measurement> measurements) const;
   /// The batch is told: its results, and what follows.
   Expected<void> end_batch(std::span<const Measurement> costs);
   Expected<void> end_estimate();

@@ -65,7 +65,7 @@ Expected<bool> Schedule::shrink_to(std::int64_t remaining) {
   for (; minimum_budget() > remaining; changed = true) {
     if (iterations_ == 1) {
       return bad_input("the time that is left is good for about " + std::to_string(remaining) +
-                           " experiments, and a single iteration needs " +
+                           " experiments, and a single iteration needs at least " +
                            std::to_string(minimum_budget()) + ": give more time",
                        "max_time");
     }

@@ -3,16 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "irace_core/internal/capping.h"
 #include "irace_core/internal/rounding.h"
 
 namespace swarmsmith::irace {
-
-double ceil_to_digits(double x, std::int64_t digits) {
-  double power = 1;
-  for (std::int64_t i = 0; i < digits; ++i)
-    power *= 10;
-  return std::ceil(x * power) / power;
-}
 
 TimeBudget::TimeBudget(const Scenario& scenario, std::int64_t pairs)
     : max_time_(scenario.max_time),
@@ -36,7 +30,7 @@ double TimeBudget::estimate_time() const {
 double TimeBudget::bound_for_estimate() const {
   const auto runs = static_cast<double>(first_ * pairs_);
   if (estimate_time() >= bound_ * runs) return 0;
-  return std::max(ceil_to_digits(estimate_time() / runs, digits_), least_);
+  return std::max(round_up(estimate_time() / runs, digits_), least_);
 }
 
 std::int64_t TimeBudget::first_configurations() const {
@@ -53,7 +47,7 @@ std::int64_t TimeBudget::more_configurations(std::int64_t tried) const {
 
 double TimeBudget::mean_time() const {
   const double mean = used_ / static_cast<double>(runs_);
-  return estimating_ ? std::max(ceil_to_digits(mean, digits_), least_) : mean;
+  return estimating_ ? std::max(round_up(mean, digits_), least_) : mean;
 }
 
 void TimeBudget::estimate() {

@@ -10,9 +10,6 @@ namespace swarmsmith::irace {
 /// The estimate tries no more configurations than a race of irace holds.
 inline constexpr std::int64_t kMostForEstimate = 1024;
 
-/// `x` rounded up to so many decimals.
-double ceil_to_digits(double x, std::int64_t digits);
-
 /// How many experiments max_time is good for (irace facts, 16): the sum of all times so far, and
 /// before the first race an estimate from a part of the time.
 class TimeBudget {

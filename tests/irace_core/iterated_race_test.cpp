@@ -379,5 +379,123 @@ TEST(IteratedRace, StopsAtTheIterationsThatWereAskedFor) {
   EXPECT_EQ(only<RaceFinished>(events).front().reason, "limit of iterations");
 }
 
+TEST(IteratedRace, ReportsForbiddenGivenConfigurationsWithoutRacingThem) {
+  const ParameterSpace space = space_of(
+      {make_categorical("kind", {"a", "b"}), make_real("x", 0, 10)}, {equals("kind", "b")});
+  std::vector<Configuration> given(2, Configuration(2));
+  given[0].set(0, 1);
+  given[0].set(1, 3);
+  given[1].set(0, 0);
+  given[1].set(1, 3);
+  auto race = IteratedRace::start(space, small_scenario(), given).value();
+  const auto events = run_to_end(race, synthetic_cost);
+  ASSERT_EQ(only<RaceWarning>(events).size(), 1U);
+  EXPECT_THAT(only<RaceWarning>(events).front().text, HasSubstr("configuration 1 is forbidden"));
+  EXPECT_EQ(only<ConfigurationSampled>(events).front().id, 1);  // ids have no gaps
+  std::set<std::int64_t> raced;
+  for (const RaceStep& step : only<RaceStep>(events))
+    raced.insert(step.evaluated.begin(), step.evaluated.end());
+  EXPECT_FALSE(raced.contains(1));
+  EXPECT_TRUE(raced.contains(2));
+}
+
+TEST(IteratedRace, UsesFreshPairsInEachRaceWithoutElitism) {
+  Scenario scenario = small_scenario();
+  scenario.elitist = false;
+  std::map<std::int64_t, std::int64_t> iteration_of;
+  const auto events = run(scenario);
+  for (const RaceStep& step : only<RaceStep>(events)) {
+    EXPECT_EQ(iteration_of.emplace(step.pair, step.iteration).first->second, step.iteration);
+  }
+  EXPECT_GE(only<IterationStarted>(events).size(), 3U);
+  for (const IterationStarted& started : only<IterationStarted>(events))
+    EXPECT_EQ(started.new_pairs, 0);
+}
+
+TEST(IteratedRace, RunsADeterministicTargetOnceOnEachInstance) {
+  for (const bool elitist : {true, false}) {
+    Scenario scenario = small_scenario();
+    scenario.deterministic = true;
+    scenario.elitist = elitist;
+    std::set<std::pair<std::int64_t, std::int64_t>> ran;  // (configuration, instance)
+    std::map<std::int64_t, std::set<std::int64_t>> races_of;
+    auto race = IteratedRace::start(small_space(), scenario).value();
+    const auto events = run_to_end(race, [&](const Configuration& c, const Experiment& wanted) {
+      EXPECT_TRUE(ran.emplace(wanted.configuration, wanted.instance).second);
+      return synthetic_cost(c, wanted);
+    });
+    EXPECT_GE(only<IterationStarted>(events).size(), 3U);
+    EXPECT_EQ(static_cast<std::int64_t>(ran.size()), race.experiments_used());
+    std::set<std::int64_t> instances;
+    for (const auto& [configuration, instance] : ran)
+      instances.insert(instance);
+    EXPECT_EQ(instances.size(), 7U);
+  }
+}
+
+/// Blocks of the past are never torn apart, nor are those of the list.
+TEST(IteratedRace, KeepsBlocksTogether) {
+  Scenario scenario = small_scenario();
+  scenario.n_instances = 8;
+  scenario.block_size = 2;
+  scenario.max_experiments = 3000;
+  std::int64_t steps = 0;
+  std::int64_t last = 0;
+  bool shuffled = false;
+  std::int64_t iteration = 0;
+  for (const RaceStep& step : only<RaceStep>(run(scenario))) {
+    ++steps;
+    if (step.task % 2 == 0) {
+      EXPECT_EQ(step.pair, last + 1);
+      EXPECT_EQ(step.pair % 2, 0);
+    } else if (step.iteration == iteration && step.pair < last) {
+      shuffled = true;
+    }
+    last = step.pair;
+    iteration = step.iteration;
+  }
+  EXPECT_GT(steps, 20);
+  EXPECT_TRUE(shuffled);
+}
+
+TEST(IteratedRace, NumbersTheCallsOfTheEvaluatorByTheStepsThatTheyGet) {
+  Scenario scenario = small_scenario();
+  scenario.target_evaluator = true;
+  auto race = IteratedRace::start(small_space(), scenario).value();
+  std::int64_t steps = 0;
+  std::int64_t calls = 0;
+  while (!race.finished()) {
+    std::int64_t task = 0;
+    std::vector<double> costs;
+    for (const Experiment& wanted : race.wanted()) {
+      if (wanted.is_evaluation) {
+        task = wanted.task;
+        ++calls;
+      }
+      costs.push_back(synthetic_cost(race.configuration(wanted.configuration), wanted));
+    }
+    race.tell(costs);
+    const auto reported = only<RaceStep>(race.take_events());
+    if (task > 0 && !reported.empty()) EXPECT_EQ(task, steps + 1);
+    steps += static_cast<std::int64_t>(reported.size());
+  }
+  EXPECT_GT(calls, race.experiments_used());
+  EXPECT_LE(race.experiments_used(), 1500);
+}
+
+TEST(IteratedRace, EndsWithTheRepairThatLeavesTheSpace) {
+  int calls = 0;
+  const Repair repair = [&](const Configuration& sampled) -> Expected<Configuration> {
+    Configuration changed = sampled;
+    if (++calls > 400) changed.set(1, 11);
+    return changed;
+  };
+  auto race = IteratedRace::start(small_space(), small_scenario(), {}, repair).value();
+  run_to_end(race, synthetic_cost);
+  ASSERT_TRUE(race.failure().has_value());
+  EXPECT_THAT(to_string(*race.failure()), HasSubstr("x = 11"));
+  EXPECT_EQ(calls, 401);
+}
+
 }  // namespace
 }  // namespace swarmsmith

@@ -2,6 +2,10 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <functional>
+#include <string>
+
 namespace swarmsmith::irace {
 namespace {
 
@@ -83,6 +87,55 @@ TEST(Schedule, AddsIterationsWhileBudgetIsLeft) {
   EXPECT_EQ(third.budget, 800);
 }
 
+TEST(Schedule, StopsWhereConfigurationsAskedForNeverFit) {
+  // Each iteration has the same budget, so that waiting for a later one does not help.
+  Scenario scenario;
+  scenario.max_experiments = 1000;
+  scenario.nb_experiments_per_iteration = 50;
+  scenario.nb_configurations = 60;
+  EXPECT_THAT(reason(Schedule(scenario, 4).next(1000, 0, 0)), HasSubstr("asked for"));
+}
+
+TEST(Schedule, BeginsNoRaceThatWouldSpendMoreThanIsLeft) {
+  Scenario scenario;
+  scenario.max_experiments = 1000;
+  scenario.nb_experiments_per_iteration = 500;
+  scenario.elitist = false;
+  // 500 / 6 = 83 configurations need 415 up to the first test.
+  EXPECT_THAT(reason(Schedule(scenario, 4).next(414, 0, 0)), HasSubstr("first test"));
+  EXPECT_EQ(std::get<RacePlan>(Schedule(scenario, 4).next(415, 0, 0)).configurations, 83);
+}
+
+TEST(Schedule, ShrinksToTheTimeThatIsLeft) {
+  Scenario scenario;
+  scenario.max_time = 100;
+  Schedule schedule(scenario, 8);  // five iterations
+  EXPECT_EQ(schedule.shrink_to(schedule.minimum_budget()).value(), false);
+  // With four: (5 + 1) * 4 * (5 + 1 + 3) = 216; with three 144.
+  EXPECT_EQ(schedule.shrink_to(215).value(), true);
+  EXPECT_EQ(schedule.iterations(), 3);
+  EXPECT_EQ(std::get<RacePlan>(schedule.next(215, 0, 0)).configurations, 10);
+  EXPECT_THAT(Schedule(scenario, 8).shrink_to(35).error().message, HasSubstr("at least 36"));
+  scenario.nb_configurations = 7;
+  Schedule smaller(scenario, 8);
+  ASSERT_TRUE(smaller.shrink_to(215).value());
+  EXPECT_EQ(std::get<RacePlan>(smaller.next(215, 0, 0)).configurations, 7);
+}
+
+TEST(Schedule, HasNoNewPairsWithoutUnusedOnes) {
+  Scenario scenario;
+  scenario.max_experiments = 1000;
+  scenario.elitist_new_instances = 2;
+  Schedule schedule(scenario, 4);
+  (void)schedule.next(1000, 0, 0);
+  EXPECT_EQ(std::get<RacePlan>(schedule.next(800, 4, 6)).new_pairs, 2);
+  schedule.limit_new_pairs(1);
+  EXPECT_EQ(std::get<RacePlan>(schedule.next(600, 4, 8)).new_pairs, 1);
+  schedule.limit_new_pairs(0);
+  schedule.limit_new_pairs(5);
+  EXPECT_EQ(std::get<RacePlan>(schedule.next(400, 4, 9)).new_pairs, 0);
+}
+
 TEST(Scenario, IsCheckedOptionByOption) {
   Scenario scenario;
   scenario.max_experiments = 100;
@@ -96,6 +149,40 @@ TEST(Scenario, IsCheckedOptionByOption) {
   scenario.max_experiments = 100;
   scenario.confidence = 1;
   EXPECT_EQ(check(scenario).error().where, "confidence");
+}
+
+/// The option that is complained of; "" for none.
+std::string complaint(const std::function<void(Scenario&)>& change) {
+  Scenario scenario;
+  scenario.max_experiments = 1000;
+  scenario.n_instances = 10;
+  change(scenario);
+  const auto checked = check(scenario);
+  return checked ? "" : checked.error().where;
+}
+
+TEST(Scenario, IsCheckedForWhatFitsTogether) {
+  EXPECT_EQ(complaint([](Scenario& s) { s.block_size = 5; }), "");
+  EXPECT_EQ(complaint([](Scenario& s) { s.block_size = 3; }), "block_size");
+  EXPECT_EQ(complaint([](Scenario& s) { s.block_size = 2; }), "");  // mu is raised to 10
+  EXPECT_EQ(complaint([](Scenario& s) { s.block_size = 2, s.mu = 11; }), "mu");
+  EXPECT_EQ(complaint([](Scenario& s) { s.deterministic = true; }), "");
+  EXPECT_EQ(complaint([](Scenario& s) { s.deterministic = true, s.n_instances = 4; }),
+            "deterministic");
+  EXPECT_EQ(complaint([](Scenario& s) { s.max_time = 10; }), "max_time");
+  const auto timed = [](Scenario& s) { s.max_experiments = 0, s.max_time = 10; };
+  EXPECT_EQ(complaint(timed), "");
+  EXPECT_EQ(complaint([&](Scenario& s) { timed(s), s.min_experiments = 10; }), "max_time");
+  EXPECT_EQ(complaint([&](Scenario& s) { timed(s), s.elitist = false; }), "max_time");
+  EXPECT_EQ(complaint([&](Scenario& s) { timed(s), s.budget_estimation = 1; }),
+            "budget_estimation");
+  EXPECT_EQ(complaint([](Scenario& s) { s.capping = true; }), "capping");
+  EXPECT_EQ(complaint([](Scenario& s) { s.capping = true, s.bound_max = 3; }), "");
+  EXPECT_EQ(complaint([](Scenario& s) { s.capping = true, s.bound_max = 3, s.elitist = false; }),
+            "capping");
+  EXPECT_EQ(complaint([](Scenario& s) { s.max_experiments = 0, s.min_experiments = 3; }), "");
+  EXPECT_EQ(complaint([](Scenario& s) { s.bound_par = 0.5; }), "bound_par");
+  EXPECT_EQ(complaint([](Scenario& s) { s.max_time = std::nan(""); }), "max_time");
 }
 
 }  // namespace

@@ -59,12 +59,6 @@ TimedRun run_timed(IteratedRace& race) {
   return run;
 }
 
-TEST(TimeBudget, RoundsUpToDigits) {
-  EXPECT_EQ(irace::ceil_to_digits(0.2, 0), 1);
-  EXPECT_EQ(irace::ceil_to_digits(0.21, 1), 0.3);
-  EXPECT_EQ(irace::ceil_to_digits(3, 0), 3);
-}
-
 TEST(TimeBudget, EstimatesAsTheFactsSay) {
   Scenario scenario = timed_scenario(1000);
   scenario.parallel = 20;
@@ -174,6 +168,17 @@ TEST(TimedRace, NeedsTimes) {
   ASSERT_TRUE(race.failure().has_value());
   EXPECT_TRUE(race.finished());
   EXPECT_THAT(race.failure()->message, HasSubstr("configuration 1 on pair 1"));
+}
+
+TEST(TimedRace, EndsWhenATargetDoesNotStopAtItsBound) {
+  Scenario scenario = timed_scenario(3000);
+  scenario.bound_max = 12;
+  auto race = IteratedRace::start(small_space(), scenario).value();
+  std::vector<Measurement> answers(race.wanted().size(), {1, 12});
+  answers[3].time = 12.5;
+  race.tell(answers);
+  ASSERT_TRUE(race.failure().has_value());
+  EXPECT_THAT(race.failure()->message, HasSubstr("12.5, more than its bound of 12"));
 }
 
 TEST(TimedRace, RaisesTimesThatCannotBeMeasured) {
