@@ -89,6 +89,10 @@ enum class Operation {
   Log,
 };
 
+/// from:to lists fewer numbers than this; longer ones are missing, but for `x %in% from:to`, which
+/// needs no list.
+inline constexpr double kLongestRange = 10'000;
+
 /// How many operands an operation takes.
 struct Arity {
   std::size_t least;

@@ -66,6 +66,16 @@ Expected<std::vector<int>> hierarchy(std::span<const Parameter> parameters,
   return find_levels(depends_on, names);
 }
 
+/// Whether a range of numbers is listed somewhere, which may take long.
+bool has_list(const Expression& expression) {
+  const auto operands = expression.operands();
+  const bool searched =
+      expression.operation() == Operation::In && operands[1].operation() == Operation::Range;
+  if (expression.operation() == Operation::Range) return true;
+  if (searched) return has_list(operands[0]);
+  return std::any_of(operands.begin(), operands.end(), has_list);
+}
+
 }  // namespace
 
 Expected<ParameterSpace> ParameterSpace::make(std::vector<Parameter> parameters,
@@ -141,7 +151,7 @@ std::optional<ParameterSpace::ConditionTable> ParameterSpace::tabulate(
     const Expression& condition) const {
   constexpr double kMostValues = 1000;
   const std::vector<std::string> names = condition.names();
-  if (names.size() != 1) return std::nullopt;
+  if (names.size() != 1 || has_list(condition)) return std::nullopt;
   const std::size_t index = *index_of(names.front());
   ConditionTable table{index, 0, {}, condition.is_true(inactive_)};
   auto count = static_cast<double>(value_count(index));

@@ -18,6 +18,17 @@ Unexpected wrong(std::string message, const r::Node& node) {
   return bad_input(std::move(message), r::to_string(node.place));
 }
 
+/// Whether the expression lists more numbers than are evaluated, as far as can be told here.
+bool is_long_range(const Expression& expression) {
+  if (expression.operation() != Operation::Range) return false;
+  for (const Expression& end : expression.operands()) {
+    if (end.operation() != Operation::Constant) return false;
+  }
+  const auto first = expression.operands()[0].to_number({});
+  const auto last = expression.operands()[1].to_number({});
+  return first && last && std::fabs(*first - *last) >= kLongestRange;
+}
+
 /// Turns a tree of R into an expression.
 class Reader {
  public:
@@ -110,6 +121,10 @@ Expected<std::vector<Expression>> Reader::read_arguments(const r::Call& call) {
   for (const r::Argument& argument : call.arguments) {
     auto operand = read(argument.value);
     if (!operand) return Unexpected(operand.error());
+    const bool searched = call.function == "%in%" && !operands.empty();
+    if (!searched && is_long_range(*operand)) {
+      return wrong("a range of 10000 numbers or more may only stand behind %in%", argument.value);
+    }
     operands.push_back(std::move(*operand));
   }
   return operands;

@@ -231,21 +231,19 @@ struct Sequence {
   }
 };
 
-/// Nothing when an end is missing or no number, or when it is too long to be meant.
+/// Nothing when an end is missing or no number.
 std::optional<Sequence> sequence(const Values& from, const Values& to) {
-  constexpr double kLongest = 1e6;
   const Scalar first = convert(from[0], Type::Real);
   const Scalar last = convert(to[0], Type::Real);
-  if (first.missing || last.missing) return std::nullopt;
   const double width = std::fabs(first.number - last.number);
-  if (!(width <= kLongest)) return std::nullopt;
+  if (first.missing || last.missing || !std::isfinite(width)) return std::nullopt;
   return Sequence{first.number, first.number <= last.number ? 1.0 : -1.0, std::floor(width + 1e-10),
                   first.number == std::floor(first.number)};
 }
 
 Values range(const Values& from, const Values& to) {
   const std::optional<Sequence> numbers = sequence(from, to);
-  if (!numbers) return Scalar::missing_of(Type::Integer);
+  if (!numbers || numbers->steps >= kLongestRange) return Scalar::missing_of(Type::Integer);
   std::vector<Scalar> result;
   for (double i = 0; i <= numbers->steps; ++i)
     result.push_back(numbers->at(i));
@@ -260,9 +258,11 @@ bool matches(const Scalar& x, const Scalar& candidate) {
 }
 
 /// x %in% from:to without listing the numbers.
-bool is_in_sequence(const Scalar& x, const Sequence& numbers) {
-  const double i = std::floor(std::fabs(x.number - numbers.first) + 0.5);
-  return i <= numbers.steps && matches(x, numbers.at(i));
+Scalar is_in_sequence(const Scalar& x, const Sequence& numbers) {
+  const Scalar number = convert(x, Type::Real);
+  if (number.missing) return Scalar::logical(false);
+  const double i = std::floor(std::fabs(number.number - numbers.first) + 0.5);
+  return Scalar::logical(i <= numbers.steps && matches(x, numbers.at(i)));
 }
 
 /// x %in% table, for each element of x. Every element of a vector has the same type, so that all
@@ -347,10 +347,14 @@ Values Expression::evaluate_in(std::span<const Scalar> parameters) const {
     }
     return Scalar::logical(false);
   }
-  if (x != nullptr && !x->missing && is_number(*x) && operands_[1].operation_ == Operation::Range) {
+  if (operands_[1].operation_ == Operation::Range) {
     const std::span<const Expression> ends = operands_[1].operands_;
     const auto numbers = sequence(ends[0].evaluate(parameters), ends[1].evaluate(parameters));
-    return Scalar::logical(numbers && is_in_sequence(*x, *numbers));
+    if (!numbers) return Scalar::logical(false);
+    return elementwise(operands_[0].evaluate(parameters), missing_logical(),
+                       [&numbers](const Scalar& element, const Scalar&) {
+                         return is_in_sequence(element, *numbers);
+                       });
   }
   const Values table = operands_[1].evaluate(parameters);
   const Values elements = operands_[0].evaluate(parameters);

@@ -72,6 +72,29 @@ TEST(ExpressionText, SaysWhatToWriteInstead) {
   EXPECT_EQ(error_of("a ==").substr(0, 20), "3:14: found the end,");
 }
 
+TEST(ExpressionText, RangesAreSearchedWithoutListingThem) {
+  const auto value = [](std::string_view text) {
+    auto expression = read(text).expression;
+    EXPECT_TRUE(expression && expression->bind(kNames)) << text;
+    const std::vector<Scalar> values(kNames.size(), Scalar::integer(7));
+    return to_text(expression->evaluate(values)[0]);
+  };
+  EXPECT_EQ(value("a %in% 1:1e9"), "TRUE");
+  EXPECT_EQ(value("a %in% 9:-1e9"), "TRUE");
+  EXPECT_EQ(value("a %in% 8:1e9"), "FALSE");
+  EXPECT_EQ(value("a + 0.5 %in% 1:10"), "7");
+  EXPECT_EQ(value("(a + 0.5) %in% 1:10"), "FALSE");
+  EXPECT_EQ(value("(a + 0.5) %in% 1.5:10"), "TRUE");
+  EXPECT_EQ(value("as.character(a) %in% 1:20"), "TRUE");
+  EXPECT_EQ(value("'7.0' %in% 1:20"), "FALSE") << "compared as texts";
+  EXPECT_EQ(value("NA %in% 1:20"), "FALSE");
+  EXPECT_EQ(value("c(3, a) %in% 1:6"), "TRUE");
+  EXPECT_EQ(value("a %in% c(1:6, 7)"), "TRUE");
+  EXPECT_EQ(value("c('7', 'x') %in% c(5, a, 9)"), "TRUE");
+  EXPECT_EQ(error_of("a %in% c(0, 1:20000)"),
+            "3:23: a range of 10000 numbers or more may only stand behind %in%");
+}
+
 TEST(ExpressionText, ForbiddenLinesMayHaveDoubledOperators) {
   const Read result = read("a == 1 && b.c == 2 || T", ExpressionUse::Forbidden);
   ASSERT_TRUE(result.expression);

@@ -59,9 +59,13 @@ Expression RandomExpressions::any(int depth) {
   std::vector<Expression> operands;
   for (int i = 0; i < count; ++i)
     operands.push_back(any(depth - 1));
-  // Minus before a plain number reads back as a negative constant.
-  const bool negated_constant = operation == Negate && operands[0].operation() == Constant;
-  return Expression::call(negated_constant ? Not : operation, std::move(operands));
+  // Minus before a plain number reads back as a negative constant; ranges of constants may be long.
+  const auto is_constant = [](const Expression& one) { return one.operation() == Constant; };
+  if (operation == Negate && is_constant(operands[0])) return operands[0];
+  if (operation == Range && is_constant(operands[0]) && is_constant(operands[1])) {
+    return Expression::call(Add, std::move(operands));
+  }
+  return Expression::call(operation, std::move(operands));
 }
 
 Expression RandomExpressions::bound(int depth) {
