@@ -2,9 +2,9 @@
 
 #include "base/assert.h"
 #include "base/overloaded.h"
-#include "target/cost.h"
 #include "coordinator/design/design_runner.h"
 #include "sim/files/toml_text.h"
+#include "target/cost.h"
 
 namespace swarmsmith {
 
@@ -95,6 +95,7 @@ void DesignRunner::record_iteration_start(const IterationStarted& started, std::
 }
 
 Expected<void> DesignRunner::record_step(const RaceStep& step, std::vector<Row>& rows) {
+  reported_ = true;
   record_consumed(step, rows);
   const auto number = static_cast<std::int64_t>(steps_) + 1;
   used_ = step.experiments_used;
@@ -155,15 +156,16 @@ void DesignRunner::record_consumed(const RaceStep& step, std::vector<Row>& rows)
 
 void DesignRunner::consume(std::int64_t configuration, std::int64_t pair, std::vector<Row>& rows) {
   std::size_t position = consumed_;
-  while (position < batch_.size() &&
-         (batch_[position].configuration != configuration || batch_[position].pair != pair)) {
+  while (position < given_.size() &&
+         (given_[position].configuration != configuration || given_[position].pair != pair)) {
     ++position;
   }
-  SWARMSMITH_ASSERT(position < batch_.size(), "a race uses what it asked for, in that order");
+  SWARMSMITH_ASSERT(position < given_.size(), "a race uses what it asked for, in that order");
   record_unused(position, rows);
   consumed_ = position + 1;
-  if (scores_[position].status != EvaluationStatus::Ok) return;
-  const double score = to_score(measurements_[position].cost);
+  const StoredScore& given = given_[position].score;
+  if (given.status != EvaluationStatus::Ok) return;
+  const double score = to_score(to_cost(given.score));
   Totals& totals = totals_[static_cast<std::size_t>(configuration - 1)];
   totals.runs += 1;
   totals.score_sum += score;
@@ -189,10 +191,10 @@ void DesignRunner::record_judged(std::vector<Row>& rows) {
     }
     record(totals, rows);
   }
-  consumed_ = batch_.size();
 }
 
 void DesignRunner::record_estimate(const TimeEstimated& estimated, std::vector<Row>& rows) {
+  reported_ = true;
   if (!plan_.scenario.target_evaluator) {
     for (const auto& [configuration, pair] : estimated.evaluated)
       consume(configuration, pair, rows);
@@ -220,7 +222,7 @@ void DesignRunner::record_warning(const RaceWarning& warning, std::vector<Row>& 
 
 void DesignRunner::record_unused(std::size_t until, std::vector<Row>& rows) {
   for (; consumed_ < until; ++consumed_) {
-    const StoredScore& score = scores_[consumed_];
+    const StoredScore& score = given_[consumed_].score;
     unused_.emplace(DesignRunner::key_of(number_of(score.key.candidate), score.key.pair), score);
     record(UnusedRow{score.key}, rows);
   }

@@ -70,10 +70,19 @@ Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks, std::vector<
     if (fault_) return Unexpected(*fault_);
     if (race_->finished()) return finish_race(tasks, rows);
     // Runs before a targetEvaluator are all used; the step comes with its word on them.
-    consumed_ = awaits_judgement() ? batch_.size() : 0;
+    if (!plan_.scenario.target_evaluator) {
+      for (std::size_t i = 0; i < batch_.size(); ++i)
+        given_.push_back({batch_[i].configuration, batch_[i].pair, scores_[i]});
+    }
+    reported_ = false;
     race_->tell(measurements_);
     if (auto recorded = record_events(rows); !recorded) return recorded;
-    record_unused(batch_.size(), rows);
+    // A task may take several batches (capping): nothing of it is unused before its step.
+    if (reported_ || race_->finished()) {
+      record_unused(given_.size(), rows);
+      given_.clear();
+      consumed_ = 0;
+    }
     want_batch(tasks, rows);
   }
   return {};
@@ -103,10 +112,6 @@ Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks, std::vector<R
   record_state(rows);
   want_tests(tasks, rows);
   return {};
-}
-
-bool DesignRunner::awaits_judgement() const {
-  return plan_.scenario.target_evaluator && !batch_.empty() && !batch_.front().is_evaluation;
 }
 
 void DesignRunner::begin_batch(std::vector<Experiment> batch) {

@@ -108,8 +108,6 @@ class DesignRunner {
             std::vector<Task>& tasks, std::vector<Row>& rows);
   /// What is stored under the key of this purpose and was not asked for.
   std::unordered_map<std::uint64_t, StoredScore>& known(Purpose purpose);
-  /// Whether the batch is runs that a targetEvaluator has yet to judge.
-  bool awaits_judgement() const;
   void put(std::size_t position, const StoredScore& score);
   void record_pair(Purpose purpose, const Experiment& experiment, std::vector<Row>& rows) const;
   Expected<void> record_events(std::vector<Row>& rows);
@@ -117,7 +115,7 @@ class DesignRunner {
   void record_estimate(const TimeEstimated& estimated, std::vector<Row>& rows);
   void record_warning(const RaceWarning& warning, std::vector<Row>& rows);
   void record_consumed(const RaceStep& step, std::vector<Row>& rows);
-  /// The batch's next use of this result, from where the last was; before it nothing was used.
+  /// The race's next use of a result that it was given; those before it were not used.
   void consume(std::int64_t configuration, std::int64_t pair, std::vector<Row>& rows);
   /// Costs that replace those of earlier tasks.
   void record_judged(std::vector<Row>& rows);
@@ -146,7 +144,15 @@ class DesignRunner {
   std::unordered_map<std::uint64_t, std::size_t> awaited_;  ///< position by key
   /// Scores that the race wanted and did not use; it may want them again, in a later iteration.
   std::unordered_map<std::uint64_t, StoredScore> unused_;
-  std::size_t consumed_ = 0;  ///< of the last batch, by the race's steps
+  /// Results that the race was told and has not reported the use of.
+  struct Given {
+    std::int64_t configuration;
+    std::int64_t pair;
+    StoredScore score;
+  };
+  std::vector<Given> given_;
+  std::size_t consumed_ = 0;  ///< of them, by the race's steps
+  bool reported_ = false;     ///< a step or an estimate came with the last batch
   std::int64_t pairs_known_ = 0;
   std::int64_t calls_known_ = 0;  ///< tasks of the targetEvaluator
   bool test_calls_wanted_ = false;

@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <fstream>
 #include <functional>
 #include <set>
 
@@ -8,6 +10,7 @@
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
 #include "tests/coordinator/design/memory.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -26,8 +29,8 @@ name = "tuning"
 [[method]]
 name = "all"
 parameters_text = '''
-)" + kParameters + "'''\n[race]\n" + race +
-                           "\n[simulator]\nkind = \"command\"\ncommand = [\"./runner\"]\n" +
+)" + kParameters + "'''\n[race]\n" +
+                           race + "\n[simulator]\nkind = \"command\"\ncommand = [\"./runner\"]\n" +
                            simulator;
   auto campaign = parse_campaign(text, "x.toml");
   if (campaign) return *campaign;
@@ -121,7 +124,8 @@ TEST(TargetDesign, GivesProgramsSwitchesAndValuesAndCountsInstances) {
   ASSERT_FALSE(ran.tasks.empty());
   std::set<std::int64_t> instances;
   for (const Task& task : ran.tasks) {
-    EXPECT_THAT(task.machine, testing::MatchesRegex("--a [0-9.]+ --b [0-9]+ --c [xyz] --d [0-9.]+"));
+    EXPECT_THAT(task.machine,
+                testing::MatchesRegex("--a [0-9.]+ --b [0-9]+ --c [xyz] --d [0-9.]+"));
     instances.insert(task.instance);
   }
   EXPECT_EQ(instances, (std::set<std::int64_t>{1, 2, 3}));
@@ -161,9 +165,9 @@ TEST(TargetDesign, TestsTheBestOnEachTestInstanceOnce) {
 }
 
 TEST(TargetDesign, TestsTheElitesOfEveryIterationInOneBatchEachOnce) {
-  const Campaign campaign = campaign_with(
-      "max_experiments = 600\ntest_nb_elites = 2\ntest_iteration_elites = true", "",
-      "test = [\"t1\", \"t2\", \"t3\"]\n");
+  const Campaign campaign =
+      campaign_with("max_experiments = 600\ntest_nb_elites = 2\ntest_iteration_elites = true", "",
+                    "test = [\"t1\", \"t2\", \"t3\"]\n");
   const Ran ran = undisturbed(campaign);
   std::map<std::int64_t, std::vector<CandidateId>> elites;
   for (const EliteRow& row : ran.memory.only<EliteRow>()) {
@@ -186,8 +190,7 @@ TEST(TargetDesign, TestsTheElitesOfEveryIterationInOneBatchEachOnce) {
 }
 
 TEST(TargetDesign, TestsOnFreshSeedsOfTheTrainingInstancesWithoutTestInstances) {
-  const Ran ran =
-      undisturbed(campaign_with("max_experiments = 300", "", "test = { count = 4 }\n"));
+  const Ran ran = undisturbed(campaign_with("max_experiments = 300", "", "test = { count = 4 }\n"));
   std::vector<std::int64_t> instances;
   for (const Task& task : of_purpose(ran.tasks, Purpose::Test))
     instances.push_back(task.instance);
@@ -216,6 +219,110 @@ TEST(TargetDesign, AStoredBoundThatTheRaceDidNotSetIsFound) {
   const CampaignRunner runner(plans(campaign), by_design(scores, ran.memory.steps(), {}), {});
   ASSERT_TRUE(runner.error());
   EXPECT_EQ(runner.error()->kind, ErrorKind::Corrupt);
+}
+
+/// As with a targetEvaluator: a run says its time alone, a call the cost.
+Outcome judged(const Task& task) {
+  Outcome outcome = honest(task);
+  if (task.key.purpose != Purpose::Evaluator) outcome.score = 0;
+  return outcome;
+}
+
+TEST(TargetDesign, AnEvaluatorIsToldWhoIsAliveAndItsWordIsTheCost) {
+  const Campaign campaign = campaign_with("max_experiments = 300\n", "evaluator = \"./e\"\n",
+                                          "test = [\"t1\", \"t2\"]\n");
+  const Ran ran = undisturbed(campaign, judged);
+  const auto calls = of_purpose(ran.tasks, Purpose::Evaluator);
+  ASSERT_FALSE(calls.empty());
+  for (const Task& call : calls) {
+    EXPECT_TRUE(std::ranges::is_sorted(call.alive));
+    EXPECT_TRUE(std::ranges::binary_search(call.alive, number_of(call.key.candidate)));
+  }
+  // The tests' calls come last, one a test instance, and say so by their sign.
+  ASSERT_GE(calls.size(), 2U);
+  EXPECT_EQ(calls[calls.size() - 2].instance, -1);
+  EXPECT_EQ(calls[calls.size() - 1].instance, -2);
+  std::int64_t runs = 0;
+  for (const Task& task : ran.tasks)
+    runs += task.key.purpose == Purpose::Race;
+  EXPECT_EQ(runs, ran.memory.only<DesignStateRow>().back().used) << "calls are not counted";
+  const auto totals = ran.memory.only<CandidateTotalsRow>();
+  EXPECT_LT(totals.back().score_sum, 0);
+  EXPECT_TRUE(ran.memory.only<UnusedRow>().empty());
+}
+
+TEST(TargetDesign, GoesOnAmongCallsOfAnEvaluator) {
+  expect_resumable(campaign_with("max_experiments = 300\n", "evaluator = \"./e\"\n",
+                                 "test = [\"t1\", \"t2\"]\n"),
+                   judged);
+}
+
+TEST(TargetDesign, ATimeIsABudgetThatStoredTimesReplay) {
+  const Campaign campaign = campaign_with("max_time = 2500\n");
+  const Ran ran = undisturbed(campaign);
+  double time = 0;
+  std::int64_t counted = 0;
+  for (const EvaluationRow& row : ran.memory.only<EvaluationRow>()) {
+    EXPECT_GT(row.iteration, 0);
+    time += row.time;
+    ++counted;
+  }
+  EXPECT_GT(time, 1000);
+  EXPECT_LT(time, 3000);
+  EXPECT_EQ(ran.memory.only<DesignStateRow>().back().used, counted);
+  const auto events = ran.memory.only<EventRow>();
+  EXPECT_TRUE(std::ranges::any_of(
+      events, [](const EventRow& event) { return event.kind == "time estimated"; }));
+  expect_resumable(campaign);
+}
+
+TEST(TargetDesign, BoundsReachProgramsAndTheStore) {
+  const Campaign campaign = campaign_with("max_time = 2500\nbound_max = 12\ncapping = true\n");
+  const auto stops_at_bound = [](const Task& task) {
+    Outcome outcome = honest(task);
+    if (task.bound > 0) outcome.time = std::min(outcome.time, task.bound);
+    return outcome;
+  };
+  const Ran ran = undisturbed(campaign, stops_at_bound);
+  std::set<double> bounds;
+  for (const EvaluationRow& row : ran.memory.only<EvaluationRow>())
+    bounds.insert(row.bound);
+  EXPECT_GT(bounds.size(), 1U) << "elites bound the others";
+  EXPECT_EQ(bounds.count(0), 0U);
+  const auto steps = ran.memory.only<RaceStepRow>();
+  EXPECT_TRUE(std::ranges::any_of(steps, [](const RaceStepRow& s) { return s.bound.has_value(); }));
+  expect_resumable(campaign, stops_at_bound);
+}
+
+TEST(TargetDesign, TheRaceAfterTheLastIsMarkedAndResumable) {
+  const Campaign campaign = campaign_with("max_experiments = 420\n");
+  const Ran ran = undisturbed(campaign);
+  const auto iterations = ran.memory.only<IterationRow>();
+  ASSERT_FALSE(iterations.empty());
+  EXPECT_TRUE(iterations.back().postselection);
+  EXPECT_FALSE(iterations.front().postselection);
+  expect_resumable(campaign);
+}
+
+TEST(TargetDesign, AProgramRepairsWhatIsSampled) {
+  const TemporaryFolder folder;
+  const std::filesystem::path program = folder / "repair.awk";
+  std::ofstream(program)
+      << "#!/usr/bin/awk -f\nNR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"b\")"
+         " b = i; print; next }\n{ if ($b > 50) $b = 50; print }\n";
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  Campaign campaign = campaign_with("max_experiments = 300\n");
+  campaign.repair = program;
+  campaign.target->folder = folder.path();
+  const Ran ran = undisturbed(campaign);
+  for (const Task& task : ran.tasks) {
+    const std::string b = task.machine.substr(task.machine.find("--b ") + 4);
+    EXPECT_LE(std::stoi(b), 50);
+  }
+  std::filesystem::remove(program);
+  const auto made = plans_of(campaign);
+  ASSERT_TRUE(made);
+  EXPECT_FALSE(DesignRunner::start(made->front(), {})) << "without its program nothing is sampled";
 }
 
 }  // namespace
