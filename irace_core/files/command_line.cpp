@@ -32,6 +32,9 @@ class Reader {
     const IraceOption* option = find_irace_switch(name);
     if (option == nullptr) {
       complain_unknown(name);
+      // What follows is most likely its value, and needs no complaint of its own.
+      const bool is_alone = equals == std::string::npos;
+      if (is_alone && next_ < words_.size() && !words_[next_].starts_with('-')) ++next_;
       return;
     }
     if (equals != std::string::npos) {

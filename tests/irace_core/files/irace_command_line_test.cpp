@@ -83,10 +83,10 @@ TEST(IraceCommandLine, OurOwnOptionsAreFoundByTheirSwitches) {
 
 TEST(IraceCommandLine, EverythingWrongIsReportedTogether) {
   EXPECT_THAT(
-      errors_of({"--max-experiment", "5", "--seed", "x", "--elitist"}),
+      errors_of({"--max-experiment", "5", "6", "--seed", "x", "--elitist"}),
       ElementsAre("--max-experiment: is no option (did you mean \"--max-experiments\"?); --help "
                   "lists all of them",
-                  HasSubstr("5: is no option and belongs to none"),
+                  HasSubstr("6: is no option and belongs to none"),
                   "--seed: must be a whole number, 0 or more, found \"x\"",
                   "--elitist: needs a value after it"));
 }
