@@ -10,6 +10,7 @@
 
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/programs.h"
 #include "coordinator/cli/campaign_argument.h"
 #include "coordinator/cli/campaign_result.h"
 #include "coordinator/cli/progress.h"
@@ -47,8 +48,11 @@ WorkerScenario scenario_of(const Campaign& campaign) {
                           .profile = campaign.profile,
                           .target = campaign.target};
   if (campaign.target) {
-    for (const CampaignMission& mission : campaign.missions)
-      scenario.instances.push_back(mission.instances);
+    for (const CampaignMission& mission : campaign.missions) {
+      InstanceTexts& texts = scenario.instances.emplace_back(mission.instances);
+      // Without test instances elites are tested on fresh seeds of the training instances.
+      if (texts.test.empty() && mission.test_count > 0) texts.test = texts.training;
+    }
     return scenario;
   }
   for (const CampaignMission& mission : campaign.missions) {
@@ -104,6 +108,10 @@ class CampaignRun {
         progress_(output, designs_, clock_.now()) {}
 
   ExitCode run() {
+    const std::vector<Error> faults = check_programs(campaign_);
+    for (const Error& fault : faults)
+      print_error(output_, fault);
+    if (!faults.empty()) return ExitCode::Usage;
     catch_signals();
     auto plans = plans_of(campaign_);
     if (!plans) return fail(output_, ExitCode::Usage, plans.error());

@@ -30,7 +30,7 @@ std::string shortest_text(double number) {
   return {text.data(), end};
 }
 
-std::string quoted(std::string_view text) {
+std::string quoted_in_r(std::string_view text) {
   std::string result = "\"";
   for (const char c : text) {
     if (c == '\n') {

@@ -15,6 +15,6 @@ std::string shortest_text(double number);
 
 /// In double quotes, with backslashes before quotes and backslashes, and \n and \t for what they
 /// stand for: a text of R.
-std::string quoted(std::string_view text);
+std::string quoted_in_r(std::string_view text);
 
 }  // namespace swarmsmith

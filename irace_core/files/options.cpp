@@ -154,11 +154,11 @@ std::string irace_value_text(const IraceValue& value) {
                         [](bool on) { return std::string(on ? "1" : "0"); },
                         [](std::int64_t number) { return std::to_string(number); },
                         [](double number) { return shortest_text(number); },
-                        [](const std::string& text) { return quoted(text); },
+                        [](const std::string& text) { return quoted_in_r(text); },
                         [](const std::vector<std::string>& texts) {
                           std::string list;
                           for (const std::string& text : texts)
-                            list += (list.empty() ? "" : ", ") + quoted(text);
+                            list += (list.empty() ? "" : ", ") + quoted_in_r(text);
                           return "c(" + list + ")";
                         },
                     },

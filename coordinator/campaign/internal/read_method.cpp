@@ -209,6 +209,8 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
       table.complain("parameters",
                      "a parameter file needs programs that evaluate: [simulator] with kind = "
                      "\"command\"");
+      table.take_all();
+      return method;
     }
     read_parameter_file(table, folder, method);
     return method;

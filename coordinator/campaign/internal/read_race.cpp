@@ -42,8 +42,8 @@ void read_numbers(TableReader& race, Scenario& scenario) {
       read_choice<BoundType>(race, "bound_type", kBoundTypes).value_or(scenario.bound_type);
 }
 
-/// Exactly one of the two budgets; time only where programs say what theirs was.
-void check_budgets(TableReader& race, const Scenario& scenario, bool has_target) {
+/// Whether there is exactly one of the two budgets; time only where programs say what theirs was.
+bool check_budgets(TableReader& race, const Scenario& scenario, bool has_target) {
   if (scenario.max_time > 0 && !has_target) {
     race.complain("max_time",
                   "`max_time` needs a target that says how long its runs took: [simulator] with "
@@ -54,7 +54,10 @@ void check_budgets(TableReader& race, const Scenario& scenario, bool has_target)
     race.complain("max_experiments",
                   "[race] needs `max_experiments`, the number of experiments "
                   "that each design may use");
+  } else {
+    return true;
   }
+  return false;
 }
 
 }  // namespace
@@ -80,11 +83,9 @@ void read_race(TableReader& root, const std::filesystem::path& folder, Campaign&
     campaign.repair = program_path(*repair, folder);
   }
   race->finish();
-  if (race->complaints() == before) {
-    check_budgets(*race, campaign.race, campaign.target.has_value());
-  }
+  if (race->complaints() > before) return;
+  if (!check_budgets(*race, campaign.race, campaign.target.has_value())) return;
   Scenario judged = campaign.race;
-  if (judged.max_experiments == 0 && judged.max_time == 0) judged.max_experiments = 1;
   // What depends on the number of instances is judged mission by mission.
   judged.n_instances = judged.block_size * judged.first_test;
   if (const auto checked = check(judged); !checked && race->has(checked.error().where)) {

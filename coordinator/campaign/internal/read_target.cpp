@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 constexpr std::int64_t kMostInstances = 99'999;
 
 fs::path absolute_in(const fs::path& folder, const fs::path& path) {
-  fs::path whole = fs::absolute(folder / path).lexically_normal();
+  fs::path whole = (fs::current_path() / folder / path).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();
 }
 
