@@ -80,10 +80,10 @@ std::string file_of(const std::vector<NamedText>& files, const std::string& name
 }
 
 std::vector<NamedText> folder_of(const Campaign& campaign, IraceVersion version) {
-  const auto files =
+  const auto folder =
       irace_folder(campaign, design_rows(campaign).front(), version, "/opt/it's here/swarmsmith");
-  EXPECT_TRUE(files) << to_string(files.error());
-  return files.value_or(std::vector<NamedText>{});
+  EXPECT_TRUE(folder) << to_string(folder.error());
+  return folder.value_or(IraceFolder{}).files;
 }
 
 TEST(IraceFolder, SaysForEachVersionWhereItsDigitsStand) {
@@ -124,17 +124,37 @@ TEST(IraceFolder, QuotesTheProgramForTheShell) {
               HasSubstr("program='/opt/it'\\''s here/swarmsmith'\n"));
 }
 
-TEST(IraceFolder, RefusesWhatIraceCannotExpress) {
+TEST(IraceFolder, SaysWhatThatIraceCannotBeTold) {
   Campaign campaign = parsed(FileText{}.text());
   const DesignRow design = design_rows(campaign).front();
   campaign.race.block_size = 2;
-  const auto blocks = irace_folder(campaign, design, IraceVersion::V3_5, "/swarmsmith");
-  ASSERT_FALSE(blocks);
-  EXPECT_EQ(blocks.error().where, "block_size");
-  campaign.target = Target{};
-  const auto target = irace_folder(campaign, design, IraceVersion::V4, "/swarmsmith");
-  ASSERT_FALSE(target);
-  EXPECT_THAT(target.error().message, HasSubstr("not the simulator"));
+  const auto old = irace_folder(campaign, design, IraceVersion::V3_5, "/swarmsmith");
+  ASSERT_TRUE(old);
+  EXPECT_THAT(old->remarks, testing::Contains(HasSubstr("`blockSize` does not exist")));
+  const auto late = irace_folder(campaign, design, IraceVersion::V4, "/swarmsmith");
+  ASSERT_TRUE(late);
+  EXPECT_THAT(late->remarks, testing::IsEmpty());
+  EXPECT_THAT(file_of(late->files, "scenario.txt"), HasSubstr("blockSize = 2\n"));
+  campaign.race.max_time = 100;
+  const auto timed = irace_folder(campaign, design, IraceVersion::V4, "/swarmsmith");
+  ASSERT_FALSE(timed);
+  EXPECT_EQ(timed.error().where, "max_time");
+}
+
+TEST(IraceFolder, OfATargetCallsItsPrograms) {
+  const Campaign campaign =
+      parsed(FileText{.mission = "name = \"tuning\"\ninstances.training = [\"a b\", \"c\"]\n",
+                      .method = "name = \"all\"\nparameters_text = \"\"\"\n"
+                                "a \\\"--a \\\" r (0, 10)\nb \\\"-b\\\" c (x, y)\n\"\"\"\n",
+                      .race = "max_experiments = 400\n",
+                      .rest = "[simulator]\nkind = \"command\"\ncommand = [\"/opt/run.sh\"]\n"}
+                 .text());
+  const auto files = folder_of(campaign, IraceVersion::V4);
+  EXPECT_THAT(file_of(files, "parameters.txt"), HasSubstr("b \"-b\" c (x, y)\n"));
+  EXPECT_EQ(file_of(files, "instances.txt"), "a b\nc\n");
+  EXPECT_THAT(file_of(files, "scenario.txt"), HasSubstr("targetRunner = \"/opt/run.sh\"\n"));
+  for (const NamedText& file : files)
+    EXPECT_NE(file.name, "target-runner");
 }
 
 }  // namespace
