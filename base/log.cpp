@@ -70,6 +70,8 @@ spdlog::level::level_enum to_spdlog(LogLevel level) {
       return spdlog::level::warn;
     case LogLevel::Error:
       return spdlog::level::err;
+    case LogLevel::None:
+      return spdlog::level::off;
   }
   return spdlog::level::err;
 }

@@ -6,7 +6,7 @@
 
 namespace swarmsmith {
 
-enum class LogLevel { Debug, Info, Warning, Error };
+enum class LogLevel { Debug, Info, Warning, Error, None };
 
 /// One key and its value in a log line.
 struct LogField {
@@ -20,7 +20,7 @@ struct LogField {
 void log(LogLevel level, std::string_view component, std::string_view event,
          std::initializer_list<LogField> fields = {});
 
-/// Lines below this level are dropped; starts at Info.
+/// Lines below this level are dropped, all of them at None; starts at Info.
 void set_log_level(LogLevel level);
 
 }  // namespace swarmsmith

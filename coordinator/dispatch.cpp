@@ -9,6 +9,9 @@ namespace swarmsmith {
 namespace {
 
 constexpr Duration kForgetEvery = std::chrono::minutes(1);
+constexpr int kResendsOfAProgram = 3;
+/// Programs that take less are leased one ahead for each slot.
+constexpr double kShortProgramUs = 20'000;
 /// What a task takes on the wire besides its machine.
 constexpr std::size_t kTaskBytes = 48;
 
@@ -53,7 +56,13 @@ void Scheduler::pardon(TimePoint now) {
 /// Workers hold little more than they run, so a task that is neither done nor running by now never
 /// arrived, or its result did not.
 void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
-  const Duration time = lease_time();
+  // A program is not run a second time while it may run. With a slot free, what the worker was
+  // given either runs or never came, and a result that went astray was sent again by now.
+  if (options_.evaluates_programs && entry.running >= static_cast<std::size_t>(entry.hello.slots)) {
+    return;
+  }
+  const Duration time =
+      options_.evaluates_programs ? kResendsOfAProgram * options_.resend : lease_time();
   std::vector<PackedKey> late;
   for (const PackedKey key : leases_.leases_of(entry.number)) {
     const Lease& lease = *leases_.find(key)->lease;
@@ -118,6 +127,15 @@ void Scheduler::dispatch_alone(TimePoint now) {
   }
 }
 
+/// What a worker may hold. A program may take hours, and what waits behind it is lost time: a
+/// worker holds what it runs, and one more for each slot when that is soon done.
+std::int64_t Scheduler::most_for(const WorkerEntry& entry, std::int64_t share) const {
+  const std::int64_t wanted = std::min<std::int64_t>(entry.credit, share * entry.hello.slots);
+  if (!options_.evaluates_programs) return wanted;
+  const bool short_ones = estimate_us_ > 0 && estimate_us_ < kShortProgramUs;
+  return std::min<std::int64_t>(wanted, (short_ones ? 2 : 1) * entry.hello.slots);
+}
+
 /// False when nothing is left that could be leased.
 bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
   if (entry.reserved) {
@@ -128,7 +146,7 @@ bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
     entry.reserved = false;
   }
   const auto held = static_cast<std::int64_t>(leases_.leases_of(entry.number).size());
-  std::int64_t room = std::min<std::int64_t>(entry.credit, share * entry.hello.slots) - held;
+  std::int64_t room = most_for(entry, share) - held;
   if (room <= 0) return true;
   const bool elsewhere = workers_.connected() > 1;
   SendTasks message{entry.peer, entry.hello.incarnation, {}};

@@ -36,6 +36,17 @@ int available_cpus() {
 
 }  // namespace
 
+std::vector<std::string> allow_arguments(const Target& target) {
+  std::vector<std::string> arguments;
+  for (const std::string& program : {target.runner, target.launcher, target.evaluator}) {
+    if (program.empty()) continue;
+    arguments.emplace_back("--allow");
+    arguments.push_back(program);
+  }
+  arguments.emplace_back("--allow-shell");
+  return arguments;
+}
+
 Expected<std::filesystem::path> find_worker_program() {
   std::filesystem::path program;
   if (const char* named = std::getenv("SWARMSMITH_WORKER"); named != nullptr && *named != '\0') {

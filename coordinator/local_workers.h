@@ -7,6 +7,7 @@
 
 #include "base/clock.h"
 #include "base/expected.h"
+#include "target/target.h"
 
 namespace swarmsmith {
 
@@ -17,6 +18,9 @@ struct LocalWorkersOptions {
   std::filesystem::path program;       ///< empty: `find_worker_program`
   std::vector<std::string> arguments;  ///< more of them, for the program
 };
+
+/// Arguments that let a worker run a user's own programs, and a shell for their command lines.
+std::vector<std::string> allow_arguments(const Target& target);
 
 /// The program `swarmsmith-worker`: SWARMSMITH_WORKER names it, else it lies beside this program.
 Expected<std::filesystem::path> find_worker_program();

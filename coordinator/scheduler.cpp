@@ -4,6 +4,7 @@
 #include <unordered_set>
 
 #include "base/assert.h"
+#include "target/runner.h"
 
 namespace swarmsmith {
 namespace {
@@ -57,7 +58,8 @@ void Scheduler::note(const char* severity, const char* kind,
 
 void Scheduler::stop(const std::string& reason) {
   held_ = true;
-  note("error", "campaign stopped", {{"reason", reason}});
+  // What a program wrote may be long; it is in the table of failures.
+  note("error", "campaign stopped", {{"reason", reason.substr(0, reason.find('\n'))}});
   actions_.emplace_back(StopCampaign{reason});
 }
 
@@ -224,6 +226,10 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
 }
 
 void Scheduler::suspect(WorkerEntry& entry, TaskRecord& record, Loss loss) {
+  // A program that goes wrong does not take its worker with it: its first death is an accident.
+  const bool accident = options_.evaluates_programs && loss == Loss::Death &&
+                        !record.lease->alone && ++record.losses < kLossesUntilAlone;
+  if (accident) return;
   if (loss == Loss::Death) {
     if (record.lease->alone) {
       ++record.deaths;
@@ -292,6 +298,8 @@ void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
                        const WorkerResult& result) {
   ++counters_.duplicates;
   actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
+  // Two runs of a program may differ, in its time at least: the first one counts.
+  if (options_.evaluates_programs) return;
   if (DoneTable::same(known, EvaluationStatus::Ok, result.score, result.state_digest)) return;
   ++counters_.conflicts;
   const EvaluationKey key = unpack(result.key);
@@ -319,9 +327,17 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
        {{"evaluation", name_of(record->task.key)},
         {"worker", entry.number},
         {"reason", result.failure}});
+  actions_.emplace_back(FailureKept{{.key = record->task.key,
+                                     .attempt = record->lease->attempt,
+                                     .worker = entry.number,
+                                     .reason = result.failure,
+                                     .command = result.details.command,
+                                     .output = result.details.output,
+                                     .errors = result.details.errors}});
   record->avoid = entry.number;
-  if (record->failures >= kFailuresOfARejection) {
-    reject(*record, entry.number, result.failure);
+  // A program's worker has tried again by itself, as often as the campaign allows.
+  if (options_.evaluates_programs || record->failures >= kFailuresOfARejection) {
+    reject(*record, entry.number, result.failure, result.details);
   } else {
     leases_.requeue(*record);
   }
@@ -333,12 +349,15 @@ void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
   if (entry == nullptr || sender.sequence <= entry->last_sequence) return;
   entry->last_sequence = sender.sequence;
   entry->credit = std::min(credit, options_.max_credit);
+  entry->running = running.size();
   const auto limit_ms =
       std::chrono::duration_cast<std::chrono::milliseconds>(options_.task_timeout).count();
   for (const RunningReport& report : running) {
     TaskRecord* record = leases_.find(report.key);
     if (record == nullptr || !record->lease || record->lease->worker != entry->number) continue;
     record->lease->renewed = now;
+    // Of a program the worker itself keeps the time.
+    if (options_.evaluates_programs) continue;
     if (report.elapsed_ms > limit_ms) on_timeout(*entry, *record);
   }
 }
@@ -362,10 +381,14 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
 }
 
 /// `record` is gone afterwards, unless the campaign stops.
-void Scheduler::reject(TaskRecord& record, WorkerNumber worker, const std::string& reason) {
+void Scheduler::reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
+                       const FailureDetails& details) {
   const EvaluationKey key = record.task.key;
   if (options_.stop_on_failure) {
-    return stop("the evaluation of " + name_of(key) + " failed: " + reason);
+    std::string message = "the evaluation of " + name_of(key) + " failed: ";
+    message += message_of(reason, details);
+    if (!details.command.empty()) message += "It is kept in the table `failure` of the store.";
+    return stop(message);
   }
   note("warning", "evaluation rejected", {{"evaluation", name_of(key)}, {"reason", reason}});
   accept(pack(key), {.key = key,

@@ -25,7 +25,9 @@ namespace swarmsmith {
 /// When a worker disappears nobody is blamed yet. Workers start tasks in the order of their leases
 /// and report 64 results at most at a time, so what ran is among the first (slots + 64) leases:
 /// after a death each of these is tried again *alone*, on a worker that has nothing else, and only
-/// a death there counts. Three such are a rejection.
+/// a death there counts. Three such are a rejection. With programs in place of the simulator the
+/// second death is the first that makes it so, and other rules keep their calls few: see
+/// SchedulerOptions::evaluates_programs.
 class Scheduler {
  public:
   /// `known` have an outcome that is on disk: their results are acknowledged when they come again.
@@ -80,12 +82,14 @@ class Scheduler {
   void on_timeout(WorkerEntry& entry, TaskRecord& record);
   void accept(PackedKey key, const Outcome& outcome);
   void repeat(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
-  void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason);
+  void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
+              const FailureDetails& details = {});
   void stop(const std::string& reason);
 
   void pardon(TimePoint now);
   void expire(WorkerEntry& entry, TimePoint now);
   void dispatch_alone(TimePoint now);
+  std::int64_t most_for(const WorkerEntry& entry, std::int64_t share) const;
   bool fill(WorkerEntry& entry, std::int64_t share, TimePoint now);
   void send_tasks(WorkerEntry& entry, SendTasks& message, TimePoint now);
   Duration lease_time() const;

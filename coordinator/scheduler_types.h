@@ -8,7 +8,7 @@
 #include "base/clock.h"
 #include "coordinator/task.h"
 #include "coordinator/task_key.h"
-#include "proto/failure_details.h"
+#include "target/failure_details.h"
 #include "proto/socket.h"
 
 namespace swarmsmith {

@@ -13,6 +13,7 @@ struct Task {
   EvaluationKey key;
   std::uint32_t mission = 0;  ///< index into the scenario's missions
   std::uint32_t method = 0;   ///< index into the scenario's methods
+  /// From 1; of a call of a targetEvaluator in testing the negative of it.
   std::int64_t instance = 0;
   std::int64_t seed = 0;
   /// Text of the grammar; for a target the switches and values of its configuration.

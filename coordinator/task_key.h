@@ -5,6 +5,11 @@
 
 namespace swarmsmith {
 
+static_assert(kTestPurpose == static_cast<std::int32_t>(Purpose::Test) &&
+                  kEvaluatorPurpose == static_cast<std::int32_t>(Purpose::Evaluator) &&
+                  kMostCandidates == kCandidatesPerDesign,
+              "workers count as the store does");
+
 /// Keys of the store to one word and back; the caller has a key that came from a campaign.
 constexpr PackedKey pack(const EvaluationKey& key) {
   return pack(key.candidate.value, static_cast<std::int32_t>(key.purpose), key.pair);

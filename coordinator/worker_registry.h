@@ -24,6 +24,7 @@ struct WorkerEntry {
   TimePoint last_heard;
   TimePoint last_sent;
   std::uint32_t credit = 0;  ///< tasks that it wants to hold
+  std::size_t running = 0;   ///< tasks that ran when it last said so
   /// Nothing more goes to it until it is idle, and then one task that must run alone.
   bool reserved = false;
   std::int64_t done = 0;

@@ -155,4 +155,9 @@ std::optional<double> Expression::to_number(std::span<const Scalar> parameters) 
   return values[0].number;
 }
 
+bool operator==(const Expression& a, const Expression& b) {
+  return a.operation_ == b.operation_ && a.name_ == b.name_ && a.constant_ == b.constant_ &&
+         a.operands_ == b.operands_;
+}
+
 }  // namespace swarmsmith

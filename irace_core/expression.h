@@ -89,6 +89,10 @@ enum class Operation {
   Log,
 };
 
+/// from:to lists fewer numbers than this; longer ones are missing, but for `x %in% from:to`, which
+/// needs no list.
+inline constexpr double kLongestRange = 10'000;
+
 /// How many operands an operation takes.
 struct Arity {
   std::size_t least;
@@ -135,6 +139,9 @@ class Expression {
   bool is_true(std::span<const Scalar> parameters) const;
   /// The value as a number; nothing when it is missing or no single number.
   std::optional<double> to_number(std::span<const Scalar> parameters) const;
+
+  /// The same tree over the same names, bound or not.
+  friend bool operator==(const Expression& a, const Expression& b);
 
  private:
   Expression() = default;

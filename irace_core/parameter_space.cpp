@@ -22,8 +22,9 @@ std::vector<std::string> dependencies(const Parameter& parameter) {
   return names;
 }
 
-/// Levels by repeated relaxation; an empty result means that there is a cycle.
-std::vector<int> find_levels(const std::vector<std::vector<std::size_t>>& depends_on) {
+/// Levels by repeated relaxation; an error names the first parameter that waits for itself.
+Expected<std::vector<int>> find_levels(const std::vector<std::vector<std::size_t>>& depends_on,
+                                       std::span<const std::string> names) {
   const std::size_t n = depends_on.size();
   std::vector<int> levels(n, 1);
   for (std::size_t round = 0; round <= n; ++round) {
@@ -37,7 +38,19 @@ std::vector<int> find_levels(const std::vector<std::vector<std::size_t>>& depend
     }
     if (!changed) return levels;
   }
-  return {};
+  // Whoever waits for a circle without being in it has a larger level than the circle's members at
+  // some point, so we follow the dependencies until one comes twice.
+  std::vector<bool> seen(n, false);
+  auto at =
+      static_cast<std::size_t>(std::max_element(levels.begin(), levels.end()) - levels.begin());
+  while (!seen[at]) {
+    seen[at] = true;
+    at = *std::max_element(
+        depends_on[at].begin(), depends_on[at].end(),
+        [&levels](std::size_t a, std::size_t b) { return levels[a] < levels[b]; });
+  }
+  return bad_input("depends on itself, by its condition or domain or through other parameters",
+                   names[at]);
 }
 
 Expected<std::vector<int>> hierarchy(std::span<const Parameter> parameters,
@@ -50,9 +63,17 @@ Expected<std::vector<int>> hierarchy(std::span<const Parameter> parameters,
       mine.push_back(static_cast<std::size_t>(found - names.begin()));
     }
   }
-  std::vector<int> levels = find_levels(depends_on);
-  if (levels.empty()) return bad_input("parameters depend on each other in a circle");
-  return levels;
+  return find_levels(depends_on, names);
+}
+
+/// Whether a range of numbers is listed somewhere, which may take long.
+bool has_list(const Expression& expression) {
+  const auto operands = expression.operands();
+  const bool searched =
+      expression.operation() == Operation::In && operands[1].operation() == Operation::Range;
+  if (expression.operation() == Operation::Range) return true;
+  if (searched) return has_list(operands[0]);
+  return std::any_of(operands.begin(), operands.end(), has_list);
 }
 
 }  // namespace
@@ -130,7 +151,7 @@ std::optional<ParameterSpace::ConditionTable> ParameterSpace::tabulate(
     const Expression& condition) const {
   constexpr double kMostValues = 1000;
   const std::vector<std::string> names = condition.names();
-  if (names.size() != 1) return std::nullopt;
+  if (names.size() != 1 || has_list(condition)) return std::nullopt;
   const std::size_t index = *index_of(names.front());
   ConditionTable table{index, 0, {}, condition.is_true(inactive_)};
   auto count = static_cast<double>(value_count(index));

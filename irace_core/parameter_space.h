@@ -17,11 +17,15 @@ namespace swarmsmith {
 /// Unordered values.
 struct Categorical {
   std::vector<std::string> values;
+
+  friend bool operator==(const Categorical&, const Categorical&) = default;
 };
 
 /// Ordered values.
 struct Ordinal {
   std::vector<std::string> values;
+
+  friend bool operator==(const Ordinal&, const Ordinal&) = default;
 };
 
 /// End of a numeric domain: a constant, or an expression of other numeric parameters ("dependent
@@ -34,6 +38,8 @@ struct Integer {
   Bound lower;
   Bound upper;
   bool log = false;
+
+  friend bool operator==(const Integer&, const Integer&) = default;
 };
 
 /// Reals from `lower` to `upper`, rounded to the digits of the space.
@@ -41,6 +47,8 @@ struct Real {
   Bound lower;
   Bound upper;
   bool log = false;
+
+  friend bool operator==(const Real&, const Real&) = default;
 };
 
 using Domain = std::variant<Categorical, Ordinal, Integer, Real>;
@@ -51,6 +59,8 @@ struct Parameter {
   std::string switch_text;  ///< stands before the value on a command line, for instance "--alpha "
   Domain domain;
   std::optional<Expression> condition;  ///< active only where this is TRUE; always, without one
+
+  friend bool operator==(const Parameter&, const Parameter&) = default;
 };
 
 /// The ends of a numeric domain in one configuration.
@@ -67,6 +77,8 @@ class Assignment;
 /// value.
 class ParameterSpace {
  public:
+  /// Without parameters: only to be assigned to.
+  ParameterSpace() = default;
   /// Checks names, domains, unknown and circular references; `where` of an error is the parameter's
   /// name. A bound without parameters in it is evaluated at once. `digits`: decimals of reals.
   static Expected<ParameterSpace> make(std::vector<Parameter> parameters,
@@ -120,7 +132,6 @@ class ParameterSpace {
     bool holds_when_inactive;
   };
 
-  ParameterSpace() = default;
   /// Tabulates what can be, and notes what the other expressions read.
   void prepare_conditions();
   void mark_as_read(const Expression& expression);

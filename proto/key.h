@@ -15,6 +15,11 @@ inline constexpr std::int64_t kMaxCandidate = (std::int64_t{1} << 41) - 1;
 inline constexpr std::int64_t kMaxPair = (std::int64_t{1} << 20) - 1;
 inline constexpr std::int32_t kMaxPurpose = 7;
 
+/// Purposes and numbers that a worker must know, as the store counts them (storage/rows.h).
+inline constexpr std::int32_t kTestPurpose = 2;
+inline constexpr std::int32_t kEvaluatorPurpose = 5;
+inline constexpr std::int64_t kMostCandidates = 1'000'000;  ///< of a design
+
 constexpr bool is_valid_key(std::int64_t candidate, std::int32_t purpose, std::int64_t pair) {
   return candidate > 0 && candidate <= kMaxCandidate && purpose >= 0 && purpose <= kMaxPurpose &&
          pair >= 0 && pair <= kMaxPair;
@@ -24,6 +29,14 @@ constexpr bool is_valid_key(std::int64_t candidate, std::int32_t purpose, std::i
 constexpr PackedKey pack(std::int64_t candidate, std::int32_t purpose, std::int64_t pair) {
   return static_cast<PackedKey>(candidate) << 23U | static_cast<PackedKey>(pair) << 3U |
          static_cast<PackedKey>(purpose);
+}
+
+constexpr std::int32_t purpose_of(PackedKey key) {
+  return static_cast<std::int32_t>(key & 7U);
+}
+/// The candidate's number within its design: irace's id of the configuration, from 1.
+constexpr std::int64_t number_of(PackedKey key) {
+  return (static_cast<std::int64_t>(key >> 23U) - 1) % kMostCandidates + 1;
 }
 
 /// Nothing for a key that cannot be one.

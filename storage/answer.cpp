@@ -10,7 +10,8 @@ namespace swarmsmith {
 namespace {
 
 /// The one list of what counts: calls `field` with the name and value of every field of the row
-/// that is part of the answer, keys first.
+/// that is part of the answer, keys first. What only some campaigns have is left out where it is
+/// not there, so that it changes no other campaign's digest.
 template <class Field>
 void visit_fields(const Row& row, Field&& field) {
   std::visit(
@@ -31,6 +32,7 @@ void visit_fields(const Row& row, Field&& field) {
             field("score",
                   r.status == EvaluationStatus::Ok ? std::optional(r.score) : std::nullopt);
             field("state_digest", r.state_digest), field("source", r.source);
+            if (r.time != 0 || r.bound != 0) field("time", r.time), field("bound", r.bound);
           },
           [&](const UnusedRow& r) {
             field("candidate", r.key.candidate), field("purpose", r.key.purpose);
@@ -41,6 +43,7 @@ void visit_fields(const Row& row, Field&& field) {
             field("budget", r.budget), field("configurations", r.configurations);
             field("elites", r.elites), field("soft_restart", r.soft_restart);
             field("model_digest", r.model_digest);
+            if (r.postselection) field("postselection", r.postselection);
           },
           [&](const RaceStepRow& r) {
             field("design", r.design), field("step", r.step), field("iteration", r.iteration);
@@ -51,6 +54,7 @@ void visit_fields(const Row& row, Field&& field) {
             field("statistic", r.statistic), field("p_value", r.p_value);
             field("kendall_w", r.kendall_w), field("spearman_rho", r.spearman_rho);
             field("qvar", r.qvar), field("digest", r.digest);
+            if (r.bound) field("bound", r.bound);
           },
           [&](const EliminationRow& r) {
             field("candidate", r.candidate), field("iteration", r.iteration);
@@ -172,22 +176,25 @@ Digest digest_of(const Row& row) {
 }  // namespace
 
 bool in_answer(const Row& row) {
-  return std::visit(
-      Overloaded{
-          [](const auto&) { return true; },
-          [](const EvaluationRow& r) {
-            return r.key.purpose == Purpose::Test ||
-                   (r.key.purpose == Purpose::Race && r.iteration != 0);
-          },
-          [](const PairRow& r) { return r.purpose == Purpose::Test || r.purpose == Purpose::Race; },
-          [](const UnusedRow&) { return false; },
-          [](const CampaignStateRow&) { return false; },
-          [](const WorkerRow&) { return false; },
-          [](const ConflictRow&) { return false; },
-          [](const FailureRow&) { return false; },
-          [](const EventRow&) { return false; },
-      },
-      row);
+  return std::visit(Overloaded{
+                        [](const auto&) { return true; },
+                        [](const EvaluationRow& r) {
+                          return r.key.purpose == Purpose::Test ||
+                                 r.key.purpose == Purpose::Evaluator ||
+                                 (r.key.purpose == Purpose::Race && r.iteration != 0);
+                        },
+                        [](const PairRow& r) {
+                          return r.purpose == Purpose::Test || r.purpose == Purpose::Race ||
+                                 r.purpose == Purpose::Evaluator;
+                        },
+                        [](const UnusedRow&) { return false; },
+                        [](const CampaignStateRow&) { return false; },
+                        [](const WorkerRow&) { return false; },
+                        [](const ConflictRow&) { return false; },
+                        [](const FailureRow&) { return false; },
+                        [](const EventRow&) { return false; },
+                    },
+                    row);
 }
 
 void add_answer(Digest& digest, const Row& row) {

@@ -247,6 +247,7 @@ struct StoredScore {
   double score = 0;
   std::uint64_t state_digest = 0;
   double time = 0;
+  double bound = 0;
 };
 
 /// What is compared while a campaign is replayed.

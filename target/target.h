@@ -22,7 +22,9 @@ struct Target {
   std::string folder;     ///< in which all of them run
   std::int64_t retries = 0;
   std::int64_t timeout_s = 0;  ///< of a call; 0 for none
-  bool aclib = false;          ///< GenericWrapper4AC's convention in place of irace's
+  /// A run that takes longer is a rejection of its configuration, in place of a failure.
+  bool timeout_is_rejection = false;
+  bool aclib = false;  ///< GenericWrapper4AC's convention in place of irace's
   BatchMode batch_mode = BatchMode::None;
   bool prints_time = false;  ///< max_time: a time must follow the cost
   /// Shorter times are raised to this; bounded runs may overrun by it.

@@ -1,85 +1,44 @@
 #include "worker/evaluate.h"
 
-#include <unordered_map>
+#include <memory>
 #include <utility>
-#include <vector>
 
-#include "sim/control/flavour.h"
-#include "sim/control/machine_text.h"
-#include "sim/engine/simulate.h"
 #include "sim/messages/scenario_messages.h"
+#include "worker/simulation_evaluator.h"
 
 namespace swarmsmith {
 namespace {
 
-/// Candidates meet many pairs, so that their machines come again; bounded, since races go on.
-constexpr std::size_t kMaxMachines = 1024;
-
-class Simulation {
+/// The scenario that is in use, read once for all slots.
+class Evaluators {
  public:
-  Simulation(WorkerScenario scenario, std::vector<Flavour> flavours)
-      : scenario_(std::move(scenario)),
-        flavours_(std::move(flavours)),
-        machines_(flavours_.size()) {}
+  explicit Evaluators(AllowedPrograms allowed) : allowed_(std::move(allowed)) {}
 
-  tl::expected<Measured, Failure> operator()(const WorkItem& item) {
-    auto measured = simulate_item(item);
-    if (!measured) return tl::unexpected(Failure{to_string(measured.error())});
-    return *measured;
+  Expected<Evaluator> operator()(const std::string& bytes) {
+    if (scenario_ == nullptr || bytes != bytes_) {
+      if (interrupt_ != nullptr) interrupt_->trigger();
+      scenario_.reset();
+      Expected<WorkerScenario> scenario = scenario_from_bytes(bytes);
+      if (!scenario) return Unexpected(scenario.error());
+      scenario_ = std::make_shared<const WorkerScenario>(std::move(*scenario));
+      interrupt_ = std::make_shared<Interrupt>();
+      bytes_ = bytes;
+    }
+    if (!scenario_->target) return make_simulation_evaluator(*scenario_);
+    return make_target_evaluator(scenario_, allowed_, interrupt_);
   }
 
  private:
-  Expected<Measured> simulate_item(const WorkItem& item) {
-    if (item.mission >= scenario_.missions.size() || item.method >= flavours_.size()) {
-      return bad_input("a task for a mission or method that the scenario does not have");
-    }
-    const Mission& mission = scenario_.missions[item.mission];
-    const Flavour& flavour = flavours_[item.method];
-    const Expected<const Machine*> machine = machine_of(item);
-    if (!machine) return Unexpected(machine.error());
-    const Expected<Instance> instance = instance_of(mission, item.seed);
-    if (!instance) return Unexpected(instance.error());
-    const SimulationResult result = simulate({.machine = **machine,
-                                              .flavour = flavour,
-                                              .profile = scenario_.profile,
-                                              .mission = mission,
-                                              .instance = *instance,
-                                              .seed = item.seed});
-    return Measured{.score = result.score, .state_digest = result.state_digest};
-  }
-
-  Expected<const Machine*> machine_of(const WorkItem& item) {
-    auto& known = machines_[item.method];
-    if (const auto at = known.find(item.machine); at != known.end()) return &at->second;
-    Expected<Machine> machine = parse_machine(item.machine, flavours_[item.method]);
-    if (!machine) return Unexpected(machine.error());
-    if (known.size() >= kMaxMachines) known.clear();
-    return &known.emplace(item.machine, std::move(*machine)).first->second;
-  }
-
-  WorkerScenario scenario_;
-  std::vector<Flavour> flavours_;                                   ///< by method
-  std::vector<std::unordered_map<std::string, Machine>> machines_;  ///< by method and text
+  AllowedPrograms allowed_;
+  std::string bytes_;
+  std::shared_ptr<const WorkerScenario> scenario_;
+  std::shared_ptr<Interrupt> interrupt_;
 };
 
 }  // namespace
 
-Expected<Evaluator> make_simulation(const std::string& scenario) {
-  Expected<WorkerScenario> read = scenario_from_bytes(scenario);
-  if (!read) return Unexpected(read.error());
-  if (read->engine_version != kEngineVersion) {
-    return unexpected(ErrorKind::Conflict, "the campaign wants version " +
-                                               std::to_string(read->engine_version) +
-                                               " of the simulator, this program has version " +
-                                               std::to_string(kEngineVersion));
-  }
-  std::vector<Flavour> flavours;
-  for (const WorkerMethod& method : read->methods) {
-    Expected<Flavour> flavour = find_flavour(method.flavour, method.turn_clock);
-    if (!flavour) return Unexpected(flavour.error());
-    flavours.push_back(std::move(*flavour));
-  }
-  return Evaluator(Simulation(std::move(*read), std::move(flavours)));
+EvaluatorFactory make_evaluators(AllowedPrograms allowed) {
+  return Evaluators(std::move(allowed));
 }
 
 }  // namespace swarmsmith

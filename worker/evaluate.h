@@ -1,14 +1,13 @@
 #pragma once
 
-#include <string>
-
+#include "worker/target_evaluator.h"
 #include "worker/work_item.h"
 
 namespace swarmsmith {
 
-/// Evaluators that run the simulator: the machine is read in the method's flavour, the instance
-/// made from mission and seed. Errors: bytes that are no scenario, another engine version, a
-/// flavour that this program does not have.
-Expected<Evaluator> make_simulation(const std::string& scenario);
+/// Evaluators for whatever a scenario asks for: its programs, as far as they are allowed, or the
+/// simulator. Programs of one scenario that still run when another one comes are ended. The
+/// factory's errors: bytes that are no scenario, and those of the makers.
+EvaluatorFactory make_evaluators(AllowedPrograms allowed = {});
 
 }  // namespace swarmsmith

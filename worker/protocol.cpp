@@ -233,6 +233,8 @@ void WorkerProtocol::on_evaluated(Evaluated evaluated, TimePoint now) {
   const PackedKey key = evaluated.key;
   const auto held = held_.find(key);
   if (held == held_.end()) return;  // of a campaign that is over
+  // What ends this worker ends its programs too: such a failure says nothing of the evaluation.
+  if (drain_until_ && !evaluated.failure.empty()) return on_taken_back({&key, 1}, now);
   evaluated.attempt = held->second.attempt;
   held_.erase(held);
   const auto spent_us = static_cast<double>(evaluated.wall_us);

@@ -57,9 +57,10 @@ class Loop {
       protocol_.on_frame(frame, now);
       carry_out();
     }
+    // Before the events: programs that died of the same signal did not fail.
+    if (drain.load()) protocol_.on_drain(now);
     take_events(now);
     if (socket_.lost()) protocol_.on_connection_lost(now);
-    if (drain.load()) protocol_.on_drain(now);
     protocol_.on_tick(now);
     carry_out();
     tell_when_alone(now);

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "proto/failure_details.h"
 #include "proto/key.h"
+#include "target/failure_details.h"
 
 namespace swarmsmith {
 
@@ -18,6 +18,7 @@ struct WorkItem {
   std::int64_t attempt = 0;
   std::uint32_t mission = 0;
   std::uint32_t method = 0;
+  /// From 1; of a call of a targetEvaluator in testing the negative of it.
   std::int64_t instance = 0;
   std::int64_t seed = 0;
   /// Text of the grammar; for a target the switches and values of its configuration.

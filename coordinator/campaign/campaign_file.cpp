@@ -4,7 +4,8 @@
 #include <limits>
 
 #include "coordinator/campaign/internal/read_method.h"
-#include "coordinator/campaign/machine_space.h"
+#include "coordinator/campaign/internal/read_target.h"
+#include "coordinator/campaign/method_space.h"
 #include "irace_core/iterated_race.h"
 #include "sim/files/file_text.h"
 #include "sim/files/profile_file.h"
@@ -85,15 +86,37 @@ Profile read_profile(TableReader& simulator, const std::filesystem::path& folder
 
 /// [simulator]: who evaluates.
 void read_simulator(TableReader& root, Campaign& campaign, const std::filesystem::path& folder) {
-  static const std::vector<std::string> kKinds = {"builtin"};
-  static const std::vector<std::string> kKindsNotYet = {"argos", "command"};
-  static const std::vector<std::string> kKeysNotYet = {"command"};
+  static const std::vector<std::string> kKinds = {"builtin", "command"};
+  static const std::vector<std::string> kKindsNotYet = {"argos"};
   campaign.profile = built_in_profile("rvr").value();
   auto table = root.table("simulator");
   if (!table) return;
-  table->choice("kind", kKinds, kKindsNotYet);
-  campaign.profile = read_profile(*table, folder);
-  table->finish(kKeysNotYet);
+  if (table->choice("kind", kKinds, kKindsNotYet) == "command") {
+    campaign.target = read_target(*table, folder);
+    campaign.profile = {};
+  } else {
+    campaign.profile = read_profile(*table, folder);
+  }
+  table->finish();
+}
+
+/// [[mission]]: worlds of the simulator, or names and instances for programs.
+void read_campaign_missions(TableReader& root, Campaign& campaign,
+                            const std::filesystem::path& folder) {
+  if (campaign.target) {
+    campaign.missions = read_target_missions(root, folder);
+    return;
+  }
+  for (MissionEntry& entry : read_missions(root, folder))
+    campaign.missions.push_back({std::move(entry), {}});
+  check_pictures(root, campaign);
+}
+
+/// What the race's options say about the programs.
+void complete_target(Campaign& campaign) {
+  if (!campaign.target) return;
+  campaign.target->prints_time = campaign.race.max_time > 0;
+  campaign.target->min_measurable_time = campaign.race.min_measurable_time;
 }
 
 /// "127.0.0.1:5555", "[::1]:5555"; port 0 is any free one.
@@ -133,6 +156,8 @@ void read_local(TableReader& table, Campaign& campaign) {
 
 /// [workers]: nothing here decides the answer.
 void read_workers(TableReader& root, Campaign& campaign) {
+  // What a program did wrong is for its user to see (irace facts, 18.3).
+  campaign.stop_on_failure = campaign.target.has_value();
   auto table = root.table("workers");
   if (!table) return;
   read_local(*table, campaign);
@@ -140,7 +165,9 @@ void read_workers(TableReader& root, Campaign& campaign) {
   campaign.task_timeout_s = table->seconds("timeout", {0.1, 1e6}).value_or(campaign.task_timeout_s);
   campaign.retries = table->integer("retries", {0, 1000}).value_or(campaign.retries);
   static const std::vector<std::string> kOnFailure = {"reject", "stop"};
-  campaign.stop_on_failure = table->choice("on_failure", kOnFailure) == "stop";
+  if (const auto action = table->choice("on_failure", kOnFailure)) {
+    campaign.stop_on_failure = action == "stop";
+  }
   table->finish();
 }
 
@@ -152,14 +179,23 @@ void read_dashboard(TableReader& root) {
   table->finish();
 }
 
-/// Why the method's race cannot run, if so.
+/// Why the method's race cannot run on one of the missions, if so.
 std::optional<Error> check_race(const Campaign& campaign, const Method& method) {
-  const auto flavour = find_flavour(method.flavour);
-  if (!flavour) return flavour.error();
-  auto space = MachineSpace::make(method, **flavour, static_cast<int>(campaign.digits));
+  const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
   if (!space) return space.error();
-  const auto race = IteratedRace::start(space->parameters(), campaign.race);
-  if (!race) return race.error();
+  std::optional<std::int64_t> checked;  // missions differ in their number of instances alone
+  for (const CampaignMission& mission : campaign.missions) {
+    const Scenario scenario = race_on(campaign, mission);
+    if (checked == scenario.n_instances) continue;
+    checked = scenario.n_instances;
+    const auto race = IteratedRace::start(space->parameters(), scenario, space->initial());
+    if (race) continue;
+    Error error = race.error();
+    if (campaign.missions.size() > 1) {
+      error.message = "mission \"" + mission.mission.name + "\": " + error.message;
+    }
+    return error;
+  }
   return std::nullopt;
 }
 
@@ -174,6 +210,7 @@ void complain_about_races(TableReader& root, Campaign& campaign) {
 
 std::vector<Error> check_budget(const Campaign& campaign) {
   std::vector<Error> errors;
+  if (campaign.only_test) return errors;
   for (const Method& method : campaign.methods) {
     auto error = check_race(campaign, method);
     if (!error) continue;
@@ -195,17 +232,18 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   Campaign campaign;
   read_format(root);
   read_identity(root, campaign, file);
-  for (MissionEntry& entry : read_missions(root, file.parent_path()))
-    campaign.missions.push_back({std::move(entry), {}});
-  check_pictures(root, campaign);
-  campaign.methods = read_methods(root);
-  read_race(root, campaign.race, campaign.digits);
-  read_simulator(root, campaign, file.parent_path());
+  const std::filesystem::path folder = file.parent_path();
+  read_simulator(root, campaign, folder);
+  read_campaign_missions(root, campaign, folder);
+  campaign.methods = read_methods(root, folder, campaign.target.has_value());
+  read_race(root, folder, campaign);
+  complete_target(campaign);
   read_workers(root, campaign);
   read_dashboard(root);
   root.finish();
   if (budget) {
     campaign.race.max_experiments = *budget;
+    campaign.race.max_time = 0;
     campaign.race.min_experiments.reset();
   } else if (complaints.empty()) {
     complain_about_races(root, campaign);

@@ -6,7 +6,7 @@
 #include "base/rng.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/internal/sections.h"
-#include "coordinator/campaign/machine_space.h"
+#include "coordinator/campaign/method_space.h"
 #include "irace_core/iterated_race.h"
 
 namespace swarmsmith {
@@ -18,13 +18,13 @@ std::int64_t design_seed(std::uint64_t campaign_seed, std::int64_t id) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(rng.next() >> 1U));
 }
 
-/// What each design of the method may use.
-std::int64_t design_budget(const Campaign& campaign, const Method& method) {
+/// What each design of the method may use; 0 when a time is its budget.
+std::int64_t design_budget(const Campaign& campaign, const CampaignMission& mission,
+                           const Method& method) {
   if (!campaign.race.min_experiments) return campaign.race.max_experiments;
-  const auto flavour = find_flavour(method.flavour);
-  if (!flavour) return campaign.race.max_experiments;
-  const auto space = MachineSpace::make(method, **flavour, static_cast<int>(campaign.digits));
-  return space ? total_budget(space->parameters(), campaign.race) : campaign.race.max_experiments;
+  const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
+  if (!space) return campaign.race.max_experiments;
+  return total_budget(space->parameters(), race_on(campaign, mission));
 }
 
 /// In the digest's order, so that a person can compare two campaigns line by line.
@@ -60,7 +60,7 @@ std::vector<DesignRow> design_rows(const Campaign& campaign) {
   std::vector<DesignRow> rows;
   for (const CampaignMission& mission : campaign.missions) {
     for (const Method& method : campaign.methods) {
-      const std::int64_t budget = design_budget(campaign, method);
+      const std::int64_t budget = design_budget(campaign, mission, method);
       for (std::int64_t repetition = 1; repetition <= campaign.repetitions; ++repetition) {
         const auto id = static_cast<std::int64_t>(rows.size()) + 1;
         rows.push_back({.id = {id},

@@ -6,6 +6,7 @@
 #include <variant>
 
 #include "base/assert.h"
+#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -22,13 +23,11 @@ std::vector<const ModuleSpec*> chosen(const std::vector<ModuleSpec>& table,
   return modules;
 }
 
-/// A choice among modules, by name.
-Categorical ids_of(const std::vector<const ModuleSpec*>& modules) {
-  Categorical domain;
-  for (const ModuleSpec* module : modules)
-    domain.values.emplace_back(id_of(module->module));
-  return domain;
-}
+/// How a space's values are written.
+enum class Words {
+  Names,    ///< modules by name, nothing that has one value alone
+  Grammar,  ///< as the text grammar wants them
+};
 
 /// The condition `parameter > value`.
 Expression more_than(const std::string& parameter, int value) {
@@ -56,16 +55,20 @@ SearchRange range_of(const Method& method, Module module, const ParameterSpec& p
 /// Adds the parameters one by one and remembers where they are.
 class MachineSpace::Builder {
  public:
-  Builder(const Method& method, const Flavour& flavour)
+  Builder(const Method& method, const Flavour& flavour, Words words)
       : method_(method),
+        words_(words),
         behaviours_(chosen(flavour.behaviours, method.behaviours)),
         conditions_(chosen(flavour.conditions, method.conditions)) {}
 
   /// All states, in the order of the original's file: NumStates first.
   void build() {
     const auto max_states = static_cast<int>(method_.max_states);
-    if (max_states > 1)
+    if (max_states > 1) {
       state_count_ = add("NumStates", "nstates", Integer{1.0, double(max_states)});
+    } else {
+      add_fixed("NumStates", "nstates", 1, std::nullopt);
+    }
     for (int i = 0; i < max_states; ++i)
       add_state(i);
   }
@@ -83,6 +86,27 @@ class MachineSpace::Builder {
     return parameters.size() - 1;
   }
 
+  /// What has one value alone is for the text grammar only.
+  void add_fixed(std::string name, const std::string& token, int value,
+                 std::optional<Expression> condition) {
+    if (words_ == Words::Names) return;
+    add(std::move(name), token, Categorical{{std::to_string(value)}}, std::move(condition));
+  }
+
+  /// A module as a value of the space.
+  std::string word_of(const ModuleSpec& module) const {
+    return words_ == Words::Names ? std::string(id_of(module.module))
+                                  : std::to_string(module.number);
+  }
+
+  /// A choice among modules.
+  Categorical choice_of(const std::vector<const ModuleSpec*>& modules) const {
+    Categorical domain;
+    for (const ModuleSpec* module : modules)
+      domain.values.push_back(word_of(*module));
+    return domain;
+  }
+
   /// True while the machine has more states than `i`; nothing when it always has.
   std::optional<Expression> has_state(int i) const {
     if (i == 0) return std::nullopt;
@@ -93,15 +117,17 @@ class MachineSpace::Builder {
   void add_state(int i) {
     const std::string suffix = std::to_string(i);
     StateSlot& state = states_.emplace_back();
-    state.behaviour = add("S" + suffix, "s" + suffix, ids_of(behaviours_), has_state(i));
+    state.behaviour = add("S" + suffix, "s" + suffix, choice_of(behaviours_), has_state(i));
     state.modules = add_modules(behaviours_, "S" + suffix, suffix);
     state.transition_count = kNone;
     if (method_.max_states == 1) return;
     // A machine of one state has no transition, hence at least 1 even for state 0.
+    const Expression has_other = more_than("NumStates", std::max(i, 1));
     if (method_.max_transitions > 1) {
       state.transition_count = add("NumConnections" + suffix, "n" + suffix,
-                                   Integer{1.0, double(method_.max_transitions)},
-                                   more_than("NumStates", std::max(i, 1)));
+                                   Integer{1.0, double(method_.max_transitions)}, has_other);
+    } else {
+      add_fixed("NumConnections" + suffix, "n" + suffix, 1, has_other);
     }
     for (int j = 0; j < method_.max_transitions; ++j)
       add_transition(state, i, j);
@@ -116,13 +142,21 @@ class MachineSpace::Builder {
     TransitionSlot& transition = state.transitions.emplace_back();
     transition.target = kNone;
     if (method_.max_states > 2) {
-      // Counts the other states, hence NumStates - 2.
-      const Expression last = Expression::call(
-          Operation::Subtract, {Expression::parameter("NumStates"), Expression::integer(2)});
-      transition.target = add("N" + suffix, "n" + suffix, Integer{0.0, last}, active);
+      transition.target = add("N" + suffix, "n" + suffix, Integer{0.0, last_target()}, active);
+    } else {
+      add_fixed("N" + suffix, "n" + suffix, 0, active);
     }
-    transition.condition = add("C" + suffix, "c" + suffix, ids_of(conditions_), active);
+    transition.condition = add("C" + suffix, "c" + suffix, choice_of(conditions_), active);
     transition.modules = add_modules(conditions_, "C" + suffix, suffix);
+  }
+
+  /// Targets count the other states, hence NumStates - 2. R evaluates this for machines of one
+  /// state too, and stops at a negative bound.
+  Expression last_target() const {
+    Expression last = Expression::call(
+        Operation::Subtract, {Expression::parameter("NumStates"), Expression::integer(2)});
+    if (words_ == Words::Names) return last;
+    return Expression::call(Operation::Max, {Expression::integer(0), std::move(last)});
   }
 
   /// The parameters of the modules among which `chooser` chooses. Modules share a parameter of the
@@ -182,7 +216,7 @@ class MachineSpace::Builder {
     for (const ModuleSpec* module : modules) {
       for (const ParameterSpec& parameter : module->parameters) {
         if (name_of(*module, parameter) != name) continue;
-        users.push_back(Expression::text(std::string(id_of(module->module))));
+        users.push_back(Expression::text(word_of(*module)));
       }
     }
     if (users.size() > 1) return Expression::in(Expression::parameter(chooser), std::move(users));
@@ -190,13 +224,14 @@ class MachineSpace::Builder {
   }
 
   const Method& method_;
+  Words words_;
   std::vector<const ModuleSpec*> behaviours_;
   std::vector<const ModuleSpec*> conditions_;
 };
 
 Expected<MachineSpace> MachineSpace::make(const Method& method, const Flavour& flavour,
                                           int digits) {
-  Builder builder(method, flavour);
+  Builder builder(method, flavour, Words::Names);
   builder.build();
   auto space = ParameterSpace::make(std::move(builder.parameters), {}, digits);
   if (!space) return Unexpected(space.error());
@@ -205,6 +240,13 @@ Expected<MachineSpace> MachineSpace::make(const Method& method, const Flavour& f
   built.state_count_ = builder.state_count_;
   built.states_ = std::move(builder.states_);
   return built;
+}
+
+Expected<ParameterSpace> MachineSpace::in_grammar(const Method& method, const Flavour& flavour,
+                                                  int digits) {
+  Builder builder(method, flavour, Words::Grammar);
+  builder.build();
+  return ParameterSpace::make(std::move(builder.parameters), {}, digits);
 }
 
 std::vector<double> MachineSpace::values_of(const Configuration& configuration,
@@ -255,7 +297,7 @@ std::string parameters_json(const ParameterSpace& space, const Configuration& co
     text += "\"" + space[i].name + "\":";
     const Scalar value = space.scalar(i, configuration[i]);
     const bool is_text = value.type == Scalar::Type::Text;
-    text += is_text ? "\"" + value.text + "\"" : to_fixed_text(value.number);
+    text += is_text ? quoted_text(value.text) : to_fixed_text(value.number);
   }
   return text + "}";
 }

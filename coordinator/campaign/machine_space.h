@@ -25,6 +25,13 @@ class MachineSpace {
   /// `digits`: decimals of reals. Fails when a range cannot be kept with these digits.
   static Expected<MachineSpace> make(const Method& method, const Flavour& flavour, int digits);
 
+  /// The same space in the words of the text grammar, as AutoMoDe's irace files have it: switches
+  /// and values of the active parameters, put together, are the text of a machine. Modules are
+  /// values by the flavour's number, what could have one value alone is there too, and bounds can
+  /// be computed for inactive parameters, which R does (irace facts, 8.3).
+  static Expected<ParameterSpace> in_grammar(const Method& method, const Flavour& flavour,
+                                             int digits);
+
   const ParameterSpace& parameters() const { return space_; }
 
   /// The machine of a configuration of this space, which must be valid (`ParameterSpace::check`).

@@ -93,21 +93,25 @@ CampaignPlan plan_of(const Campaign& campaign) {
     plan.largest_budget = std::max(plan.largest_budget, design.budget);
   }
   for (const CampaignMission& mission : campaign.missions) {
-    plan.tests += mission.test_count * methods * campaign.repetitions;
+    plan.tests += mission.test_count * campaign.test_nb_elites * methods * campaign.repetitions;
   }
   const auto cores = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
   plan.slots = std::max<std::int64_t>(1, campaign.local_workers.value_or(cores));
-  const auto pairs = static_cast<double>(missions * methods);
-  for (const CampaignMission& mission : campaign.missions) {
-    for (const Method& method : campaign.methods) {
-      plan.evaluation_s += measure(campaign, method, mission.mission, kMeasured_s / pairs) / pairs;
-    }
-  }
   const auto evaluations = static_cast<double>(plan.experiments + plan.tests);
-  const auto busy = static_cast<double>(std::min(plan.slots, cores));
-  plan.time_s = evaluations * (plan.evaluation_s + kOverhead_s) / busy;
   plan.disk_bytes = evaluations * kBytesPerEvaluation;
   plan.warnings = warnings_about(campaign);
+  // How long programs take, they alone know.
+  if (campaign.target) return plan;
+  const auto pairs = static_cast<double>(missions * methods);
+  double sum_s = 0;
+  for (const CampaignMission& mission : campaign.missions) {
+    for (const Method& method : campaign.methods) {
+      sum_s += measure(campaign, method, mission.mission, kMeasured_s / pairs);
+    }
+  }
+  plan.evaluation_s = sum_s / pairs;
+  const auto busy = static_cast<double>(std::min(plan.slots, cores));
+  plan.time_s = evaluations * (*plan.evaluation_s + kOverhead_s) / busy;
   return plan;
 }
 

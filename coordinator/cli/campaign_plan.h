@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,15 +14,17 @@ struct CampaignPlan {
   std::int64_t designs = 0;
   std::int64_t experiments = 0;     ///< of all races, at most
   std::int64_t largest_budget = 0;  ///< of a design
-  std::int64_t tests = 0;           ///< evaluations of winners, outside the budgets
+  std::int64_t tests = 0;           ///< evaluations of winners, outside the budgets, at least
   std::int64_t slots = 1;
-  double evaluation_s = 0;  ///< mean over machines and missions, measured here on one core
-  double time_s = 0;
+  /// Mean over machines and missions, measured here on one core; nothing where programs evaluate.
+  std::optional<double> evaluation_s;
+  double time_s = 0;  ///< only with evaluation_s
   double disk_bytes = 0;
   std::vector<std::string> warnings;  ///< what runs, but hardly as wanted
 };
 
-/// Measures some simulations of random machines (for about half a second) and adds up.
+/// Measures some simulations of random machines (for about half a second) and adds up. Programs are
+/// not run.
 CampaignPlan plan_of(const Campaign& campaign);
 
 /// "1h02m", "3m20s", "12s".

@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "target/cost.h"
 #include "coordinator/cli/mean_interval.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/query_output.h"
@@ -53,26 +54,35 @@ void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tes
   }
 }
 
-/// A cell of numbers as people read it.
-std::string shown(const std::string& text) {
-  return score_text(std::strtod(text.c_str(), nullptr));
+/// Programs say costs; a store's scores are the negative of them, and people want to see theirs
+/// again.
+Expected<bool> shows_costs(StoreReader& store) {
+  const auto rows = select(store, "SELECT 1 FROM v_evaluations WHERE source = 'command' LIMIT 1");
+  if (!rows) return Unexpected(rows.error());
+  return !rows->cells.empty();
+}
+
+/// A mean as people read it.
+std::string shown(const std::string& text, bool as_cost = false) {
+  const double score = std::strtod(text.c_str(), nullptr);
+  return score_text(as_cost ? to_cost(score) : score);
 }
 
 /// One paragraph a design: what it is, how good its machine is, the machine.
-void write_text(Output& output, const Rows& rows) {
+void write_text(Output& output, const Rows& rows, bool costs) {
   for (const auto& cells : rows.cells) {
     output.out << cells[0].text << "  " << cells[1].text << ", " << cells[2].text << ", repetition "
                << cells[3].text << ": " << cells[4].text << " after " << cells[5].text
                << " experiments\n";
     if (cells[6].type == Cell::Type::Null) continue;
-    output.out << "  best " << cells[6].text << ", mean score " << shown(cells[7].text)
-               << " in the race";
+    output.out << "  best " << cells[6].text << ", mean " << (costs ? "cost " : "score ")
+               << shown(cells[7].text, costs) << " in the race";
     if (cells[8].type != Cell::Type::Null) {
-      output.out << ", " << shown(cells[8].text);
+      output.out << ", " << shown(cells[8].text, costs);
       if (cells[9].type != Cell::Type::Null) {
         output.out << " +- " << shown(cells[9].text) << " (95 %)";
       }
-      output.out << " on " << cells[10].text << " fresh seeds";
+      output.out << " on " << cells[10].text << (costs ? " test instances" : " fresh seeds");
     }
     output.out << "\n  " << cells[11].text << "\n";
   }
@@ -85,12 +95,14 @@ ExitCode write_result(Output& output, StoreReader& store) {
   if (!rows) return fail(output, ExitCode::Store, rows.error());
   const auto tests = tests_by_design(store);
   if (!tests) return fail(output, ExitCode::Store, tests.error());
+  const auto costs = shows_costs(store);
+  if (!costs) return fail(output, ExitCode::Store, costs.error());
   add_tests(*rows, *tests);
   letter_ids(*rows);
   if (output.json) {
     output.out << "{\"v\":1,\"event\":\"done\",\"designs\":" << rows_as_json(*rows) << "}\n";
   } else {
-    write_text(output, *rows);
+    write_text(output, *rows, *costs);
   }
   return ExitCode::Done;
 }

@@ -10,6 +10,7 @@
 
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/programs.h"
 #include "coordinator/cli/campaign_argument.h"
 #include "coordinator/cli/campaign_result.h"
 #include "coordinator/cli/progress.h"
@@ -44,7 +45,16 @@ void catch_signals() {
 WorkerScenario scenario_of(const Campaign& campaign) {
   WorkerScenario scenario{.campaign_digest = campaign_digest(campaign),
                           .engine_version = kEngineVersion,
-                          .profile = campaign.profile};
+                          .profile = campaign.profile,
+                          .target = campaign.target};
+  if (campaign.target) {
+    for (const CampaignMission& mission : campaign.missions) {
+      InstanceTexts& texts = scenario.instances.emplace_back(mission.instances);
+      // Without test instances elites are tested on fresh seeds of the training instances.
+      if (texts.test.empty() && mission.test_count > 0) texts.test = texts.training;
+    }
+    return scenario;
+  }
   for (const CampaignMission& mission : campaign.missions) {
     scenario.missions.push_back(mission.mission);
   }
@@ -64,6 +74,7 @@ ServiceOptions service_options(const Campaign& campaign, const RunOptions& optio
       std::chrono::duration_cast<Duration>(std::chrono::duration<double>(campaign.task_timeout_s));
   scheduler.retries = campaign.retries;
   scheduler.stop_on_failure = campaign.stop_on_failure;
+  scheduler.evaluates_programs = campaign.target.has_value();
   if (!options.bind.empty()) {
     const bool has_scheme = options.bind.find("://") != std::string::npos;
     service.bind = (has_scheme ? "" : "tcp://") + options.bind;
@@ -88,15 +99,19 @@ ExitCode show_result(Output& output, const Campaign& campaign) {
 /// A campaign that is being run: everything that must live while the service does.
 class CampaignRun {
  public:
-  CampaignRun(Output& output, const Campaign& campaign, const RunOptions& options, Store& store)
+  CampaignRun(Output& output, const Campaign& campaign, const RunOptions& options, Store& store,
+              RunListener& listener)
       : output_(output),
         campaign_(campaign),
         options_(options),
         store_(store),
-        designs_(design_rows(campaign)),
-        progress_(output, designs_, clock_.now()) {}
+        listener_(listener) {}
 
   ExitCode run() {
+    const std::vector<Error> faults = check_programs(campaign_);
+    for (const Error& fault : faults)
+      print_error(output_, fault);
+    if (!faults.empty()) return ExitCode::Usage;
     catch_signals();
     auto plans = plans_of(campaign_);
     if (!plans) return fail(output_, ExitCode::Usage, plans.error());
@@ -108,7 +123,11 @@ class CampaignRun {
     const int processes = local_processes(campaign_, options_);
     if (processes == 0) return serve(**service, runner, nullptr);
     auto workers =
-        LocalWorkers::start({.endpoint = (*service)->endpoint(), .processes = processes});
+        LocalWorkers::start({.endpoint = (*service)->endpoint(),
+                             .processes = processes,
+                             .slots = static_cast<int>(options_.slots),
+                             .arguments = campaign_.target ? allow_arguments(*campaign_.target)
+                                                           : std::vector<std::string>{}});
     if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
     return serve(**service, runner, &*workers);
   }
@@ -133,7 +152,7 @@ class CampaignRun {
   CampaignRunner replay(std::vector<DesignPlan> plans) {
     std::vector<DesignId> finished;
     for (const DesignStateRow& state : store_.design_states()) {
-      progress_.restore(state);
+      listener_.restore(state);
       if (state.state == DesignState::Finished) finished.push_back(state.design);
     }
     const auto scores = store_.scores();
@@ -151,12 +170,12 @@ class CampaignRun {
         .on_rows =
             [&](const std::vector<Row>& rows) {
               for (const Row& row : rows)
-                progress_.add(row, clock_.now());
+                listener_.add(row, clock_.now());
             },
         .on_status =
             [&](const LiveStatus& live) {
               last_ = live;
-              progress_.update(live, clock_.now());
+              listener_.update(live, clock_.now());
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
               }
@@ -165,7 +184,7 @@ class CampaignRun {
     };
     const ServiceEnd end = service.run(stop.get_token(), hooks);
     if (workers != nullptr) workers->stop(std::chrono::seconds(2));
-    progress_.finish(last_);
+    listener_.finish(last_);
     if (runner.error()) return fail_of(*runner.error());
     if (!worker_trouble.empty()) return fail(output_, ExitCode::Unreachable, worker_trouble);
     return exit_code_of(end);
@@ -200,6 +219,7 @@ class CampaignRun {
   }
 
   void print_resume() {
+    if (!options_.keeps_store) return;
     print_note(output_, "everything so far is in " + campaign_.store.string() +
                             "; the same command goes on from there");
   }
@@ -209,8 +229,7 @@ class CampaignRun {
   const RunOptions& options_;
   Store& store_;
   SystemClock clock_;
-  std::vector<DesignRow> designs_;
-  Progress progress_;
+  RunListener& listener_;
   LiveStatus last_;
 };
 
@@ -243,15 +262,19 @@ std::optional<Campaign> CampaignFlags::read(Output& output) const {
   return campaign;
 }
 
-ExitCode run_campaign(Output& output, const Campaign& campaign, const RunOptions& options) {
+ExitCode carry_out(Output& output, const Campaign& campaign, const RunOptions& options,
+                   RunListener& listener) {
   auto store = Store::open(campaign.store, campaign_row(campaign), design_rows(campaign));
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  if (!(*store)->finished()) {
-    const ExitCode ended = CampaignRun(output, campaign, options, **store).run();
-    if (ended != ExitCode::Done) return ended;
-  }
-  store->reset();
-  return show_result(output, campaign);
+  if ((*store)->finished()) return ExitCode::Done;
+  return CampaignRun(output, campaign, options, **store, listener).run();
+}
+
+ExitCode run_campaign(Output& output, const Campaign& campaign, const RunOptions& options) {
+  const std::vector<DesignRow> designs = design_rows(campaign);
+  Progress progress(output, designs, SystemClock().now());
+  const ExitCode ended = carry_out(output, campaign, options, progress);
+  return ended == ExitCode::Done ? show_result(output, campaign) : ended;
 }
 
 }  // namespace swarmsmith::cli

@@ -6,6 +6,7 @@
 
 #include "coordinator/campaign/campaign.h"
 #include "coordinator/cli/options.h"
+#include "coordinator/cli/run_listener.h"
 
 namespace swarmsmith::cli {
 
@@ -28,14 +29,22 @@ struct CampaignFlags {
 struct RunOptions {
   /// Worker processes that this one starts; none: the campaign's number, 0: none at all.
   std::optional<std::int64_t> workers;
+  /// Evaluations at a time of each; 0: the cores, shared among the processes.
+  std::int64_t slots = 0;
   std::string bind;  ///< host:port; empty: a free port on loopback
   bool announce = false;
   /// When another program listens on the port of `bind`, one of the next ones will do.
   bool next_port = false;
+  /// Whether an interrupted run goes on later; else its store is thrown away.
+  bool keeps_store = true;
 };
 
 /// Runs the campaign to its end, going on where its store stands, and prints its result. SIGINT and
 /// SIGTERM end it so that the same command goes on later; a second one ends it at once.
 ExitCode run_campaign(Output& output, const Campaign& campaign, const RunOptions& options);
+
+/// The same without printing a result: `listener` is told how it goes, errors are explained.
+ExitCode carry_out(Output& output, const Campaign& campaign, const RunOptions& options,
+                   RunListener& listener);
 
 }  // namespace swarmsmith::cli

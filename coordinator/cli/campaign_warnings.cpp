@@ -58,6 +58,7 @@ void warn_about_light(const Method& method, const Campaign& campaign,
 
 std::vector<std::string> warnings_about(const Campaign& campaign) {
   std::vector<std::string> warnings;
+  if (campaign.target) return warnings;  // what its programs do of modules is theirs
   for (const Method& method : campaign.methods) {
     const Flavour& flavour = **find_flavour(method.flavour);
     warn_about_black(method, flavour, campaign.profile, warnings);

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/programs.h"
 #include "coordinator/cli/campaign_argument.h"
 #include "coordinator/cli/campaign_plan.h"
 #include "coordinator/cli/commands.h"
@@ -28,6 +29,22 @@ std::string decimals(double value, const char* format) {
   return {buffer, static_cast<std::size_t>(size)};
 }
 
+/// What all races may use: experiments, or the programs' own time.
+std::string budget_text(const Campaign& campaign, const CampaignPlan& plan) {
+  if (campaign.race.max_time > 0) {
+    return "as many as a time of " + json_number(campaign.race.max_time) + " a design is good for";
+  }
+  return grouped(plan.experiments) + " (at most " + grouped(plan.largest_budget) + " a design)";
+}
+
+/// Who evaluates, and how fast.
+std::string evaluation_text(const Campaign& campaign, const CampaignPlan& plan) {
+  if (plan.evaluation_s) {
+    return decimals(*plan.evaluation_s * 1e3, "%.3g") + " ms on one core of this machine";
+  }
+  return "by " + campaign.target->runner + ", up to " + std::to_string(plan.slots) + " at a time";
+}
+
 /// The plan for people.
 void write_text(Output& output, const Campaign& campaign, const CampaignPlan& plan) {
   const std::string megabytes = decimals(plan.disk_bytes / 1e6, "%.1f");
@@ -35,14 +52,14 @@ void write_text(Output& output, const Campaign& campaign, const CampaignPlan& pl
              << "store        " << campaign.store.string() << "\n"
              << "designs      " << plan.designs << " = " << names_of(campaign) << " x "
              << campaign.repetitions << " repetitions\n"
-             << "experiments  " << grouped(plan.experiments) << " (at most "
-             << grouped(plan.largest_budget) << " a design), and " << grouped(plan.tests)
+             << "experiments  " << budget_text(campaign, plan) << ", and " << grouped(plan.tests)
              << " tests of winners\n"
-             << "evaluation   " << decimals(plan.evaluation_s * 1e3, "%.3g")
-             << " ms on one core of this machine\n"
-             << "time         about " << duration_text(plan.time_s) << " on " << plan.slots
-             << (plan.slots == 1 ? " slot\n" : " slots\n") << "disk         about " << megabytes
-             << " MB\n"
+             << "evaluation   " << evaluation_text(campaign, plan) << "\n";
+  if (plan.evaluation_s) {
+    output.out << "time         about " << duration_text(plan.time_s) << " on " << plan.slots
+               << (plan.slots == 1 ? " slot\n" : " slots\n");
+  }
+  output.out << "disk         about " << megabytes << " MB\n"
              << "digest       " << campaign_digest(campaign) << "\n";
 }
 
@@ -56,9 +73,9 @@ void write_json(Output& output, const Campaign& campaign, const CampaignPlan& pl
              << ",\"store\":" << json_text(campaign.store.string())
              << ",\"digest\":" << json_text(campaign_digest(campaign))
              << ",\"designs\":" << plan.designs << ",\"experiments\":" << plan.experiments
-             << ",\"tests\":" << plan.tests << ",\"slots\":" << plan.slots
-             << ",\"evaluation_ms\":" << json_number(plan.evaluation_s * 1e3)
-             << ",\"time_s\":" << json_number(plan.time_s)
+             << ",\"tests\":" << plan.tests << ",\"slots\":" << plan.slots << ",\"evaluation_ms\":"
+             << (plan.evaluation_s ? json_number(*plan.evaluation_s * 1e3) : "null")
+             << ",\"time_s\":" << (plan.evaluation_s ? json_number(plan.time_s) : "null")
              << ",\"disk_bytes\":" << json_number(plan.disk_bytes) << ",\"warnings\":[" << warnings
              << "]}\n";
 }
@@ -66,6 +83,10 @@ void write_json(Output& output, const Campaign& campaign, const CampaignPlan& pl
 ExitCode run(const std::string& file, Output& output) {
   const auto campaign = read_or_complain(file, output);
   if (!campaign) return ExitCode::Usage;
+  const std::vector<Error> faults = check_programs(*campaign);
+  for (const Error& fault : faults)
+    print_error(output, fault);
+  if (!faults.empty()) return ExitCode::Usage;
   const CampaignPlan plan = plan_of(*campaign);
   for (const std::string& warning : plan.warnings) {
     print_note(output, "warning: " + file + ": " + warning);

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "coordinator/cli/irace/irace_command.h"
+
 namespace swarmsmith::cli {
 namespace {
 
@@ -123,10 +125,22 @@ Examples:
 
 constexpr std::string_view kExportDetails =
     R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
+With --format irace the campaign, from its file or its store, becomes a folder of irace's files in which
+`irace --scenario scenario.txt` does one of its designs, with this simulator behind the target-runner.
 
 Examples:
   swarmsmith export demo.db -o best.fsm
-  swarmsmith export demo.db --what elites --format json)";
+  swarmsmith export demo.db --what elites --format json
+  swarmsmith export campaign.toml --format irace --design d1 -o folder)";
+
+constexpr std::string_view kImportDetails =
+    R"(Turns a scenario of irace, with the files that it names, into a campaign file that runs the same race:
+`swarmsmith run` it, change it, add missions, methods and repetitions. `swarmsmith irace` runs a
+scenario as it is.
+
+Examples:
+  swarmsmith import scenario.txt -o campaign.toml
+  swarmsmith import tuning/scenario.txt > campaign.toml)";
 
 constexpr std::string_view kDigestDetails =
     R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
@@ -134,6 +148,19 @@ number of workers and the history of crashes.
 
 Example:
   swarmsmith digest demo.db)";
+
+constexpr std::string_view kIraceDetails =
+    R"(Takes the place of irace: reads the same scenario, parameter, instance and configuration files, calls
+the same target-runner, means the same by the same options, and ends with the same report. All that
+happens is in the store that logFile names; after Ctrl-C, kill -9 or a failing target the same command
+goes on where it was, and comes to the same answer with any number of workers.
+
+Examples:
+  swarmsmith irace --init
+  swarmsmith irace --check
+  swarmsmith irace --scenario scenario.txt --max-experiments 1000 --seed 42 --parallel 8
+  swarmsmith irace --only-test configurations.txt
+  swarmsmith irace -s scenario.txt | sed '1,/as commandlines/d')";
 
 constexpr std::array kCommands = {
     Command{"run", "Run a campaign, or go on with it", kRunDetails, declare_run},
@@ -143,6 +170,8 @@ constexpr std::array kCommands = {
             declare_profile},
     Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
     Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
+    Command{"irace", "Configure an algorithm as irace does, from irace's files", kIraceDetails,
+            nullptr, run_irace},
     Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},
     Command{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
             declare_ls},
@@ -154,6 +183,8 @@ constexpr std::array kCommands = {
     Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
             declare_replay},
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
+    Command{"import", "Turn a scenario of irace into a campaign file", kImportDetails,
+            declare_import},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
     Command{"version", "Print the version", "", declare_version},

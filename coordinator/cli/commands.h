@@ -29,6 +29,7 @@ Run declare_show(Options& options);
 Run declare_query(Options& options);
 Run declare_assess(Options& options);
 Run declare_export(Options& options);
+Run declare_import(Options& options);
 Run declare_digest(Options& options);
 Run declare_verify(Options& options);
 Run declare_version(Options& options);

@@ -4,6 +4,7 @@
 
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/counter.h"
+#include "coordinator/cli/design_argument.h"
 #include "coordinator/cli/machine_argument.h"
 #include "coordinator/cli/mean_interval.h"
 #include "coordinator/cli/progress_text.h"
@@ -23,6 +24,8 @@ struct Arguments {
   std::string flavour;
   std::string profile;
   std::string mission;
+  std::string campaign;
+  std::string design;
   std::string seeds = "1-10";
   std::string starts;
   std::string patches;
@@ -113,8 +116,15 @@ Expected<void> read_instances(const Arguments& arguments, Plan& plan, Output& ou
 /// Everything that the command line says, read and checked.
 Expected<Plan> make_plan(const Arguments& arguments, Output& output) {
   Plan plan;
-  const auto named = find_machine(arguments.machine, arguments.store);
+  auto named = find_machine(arguments.machine, arguments.store);
   if (!named) return Unexpected(named.error());
+  if (!arguments.campaign.empty()) {
+    auto source = campaign_of(arguments.campaign, output);
+    if (!source) return Unexpected(source.error());
+    const auto design = find_design(*source, arguments.design);
+    if (!design) return Unexpected(design.error());
+    put_into_world(*named, *source, *design);
+  }
   auto flavour = flavour_of(arguments, *named);
   if (!flavour) return bad_input(flavour.error().message, "--flavour");
   plan.flavour = std::move(*flavour);
@@ -238,6 +248,11 @@ Run declare_evaluate(Options& options) {
   options.text(
       "--mission", arguments->mission,
       "aggregation, grid_exploration, color_selection or a file (default: the candidate's)");
+  options.text("--campaign", arguments->campaign,
+               "Campaign file or store that says flavour, profile and mission");
+  options.text(
+      "--design", arguments->design,
+      "Which of the campaign's designs (default: d1, when they differ in repetition alone)");
   options.text("--seeds", arguments->seeds, "Seeds of the runs: 1-10 or 1,4,7-9 (default 1-10)");
   options.text("--starts", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
   options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/export_irace.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
 
@@ -13,6 +14,7 @@ struct Arguments {
   std::string what = "best";
   std::string format = "fsm-config";
   std::string file;
+  IraceExport irace;
 };
 
 /// Machines with what a person wants to know of each; `selected` gives (design, candidate).
@@ -47,7 +49,8 @@ enum Column {
   kModules
 };
 
-/// A comment line with where the machine comes from, then its text.
+/// A comment line with where the machine comes from, then its text; of a configuration of a
+/// parameter file its switches and values.
 std::string as_fsm_config(const Rows& rows) {
   std::string text;
   for (const auto& cells : rows.cells) {
@@ -56,7 +59,8 @@ std::string as_fsm_config(const Rows& rows) {
     if (!cells[kMean].text.empty()) {
       text += ", mean " + cells[kMean].text + " over " + cells[kRuns].text + " runs";
     }
-    text += "\n--fsm-config " + cells[kText].text + "\n";
+    const bool is_machine = cells[kModules].text != "{}";
+    text += std::string("\n") + (is_machine ? "--fsm-config " : "") + cells[kText].text + "\n";
   }
   return text;
 }
@@ -81,6 +85,11 @@ std::string as_json(const Rows& rows) {
 }
 
 ExitCode run(const Arguments& arguments, Output& output) {
+  if (arguments.format == "irace") {
+    const auto source = arguments.store.path();
+    if (!source) return fail(output, ExitCode::Usage, source.error());
+    return export_irace(*source, arguments.irace, arguments.file, output);
+  }
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   auto rows = select(**store, statement(arguments.what), {.rows = 1'000'000'000, .seconds = 600});
@@ -107,9 +116,16 @@ Run declare_export(Options& options) {
   arguments->store.declare(options);
   options.choice("--what", arguments->what, {"best", "elites", "all"},
                  "Each design's best machine, its last elites, or every candidate");
-  options.choice("--format", arguments->format, {"fsm-config", "json"},
-                 "Text of the grammar with comment lines, or JSON");
-  options.text("-o,--output", arguments->file, "Write to this file");
+  options.choice(
+      "--format", arguments->format, {"fsm-config", "json", "irace"},
+      "Text of the grammar with comment lines, JSON, or a folder in which R's irace does "
+      "the same design");
+  options.text("-o,--output", arguments->file, "Write to this file, or folder");
+  options.text("--design", arguments->irace.design,
+               "With --format irace: which design (default: d1, when they differ in repetition "
+               "alone)");
+  options.choice("--irace", arguments->irace.version, {"3.5", "4"},
+                 "With --format irace: the irace that reads the files (default 4)");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

@@ -62,12 +62,16 @@ Expected<NamedMachine> machine_of_store(const std::string& id, const StoreArgume
   NamedMachine machine{.text = cells[0].text};
   const auto campaign = parse_campaign((*store)->campaign().file, "campaign.toml");
   if (!campaign) return machine;  // of another method, imported: flags must say it
-  machine.profile = campaign->profile;
+  if (!campaign->target) machine.profile = campaign->profile;
   for (const CampaignMission& mission : campaign->missions) {
+    if (campaign->target) break;  // its world is its programs'
     if (mission.mission.name == cells[1].text) machine.mission = mission;
   }
   for (const Method& method : campaign->methods) {
     if (method.name != cells[2].text) continue;
+    if (!method.parameters.empty()) {
+      return bad_input(id + " is a configuration of the method's parameter file, and no machine");
+    }
     machine.flavour = method.flavour;
     machine.turn_clock = method.turn_clock;
   }

@@ -126,6 +126,11 @@ void Options::text(const std::string& names, std::string& value, const std::stri
   need_it(app_->add_option(names, value, help), need);
 }
 
+void Options::texts(const std::string& names, std::vector<std::string>& values,
+                    const std::string& help) {
+  app_->add_option(names, values, help)->allow_extra_args(false);
+}
+
 void Options::words(const std::string& name, std::vector<std::string>& values,
                     const std::string& help, Need need) {
   need_it(app_->add_option(name, values, help), need);
@@ -169,6 +174,7 @@ ExitCode run_program(const std::vector<std::string>& arguments, Output& output) 
   const Command* command = find_command(first);
   if (command == nullptr) return unknown_command(first, output);
   std::vector<std::string> rest(arguments.begin() + 1, arguments.end());
+  if (command->run_words != nullptr) return command->run_words(rest, output);
   if (first == "evaluate") rest = with_machine_as_one_word(rest);
   return run_command(*command, std::move(rest), output);
 }

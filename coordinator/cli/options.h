@@ -28,6 +28,8 @@ class Options {
   void flag(const std::string& names, bool& value, const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& help,
             Need need = Need::Optional);
+  /// One text each time that the option is there.
+  void texts(const std::string& names, std::vector<std::string>& values, const std::string& help);
   /// All further words.
   void words(const std::string& name, std::vector<std::string>& values, const std::string& help,
              Need need = Need::Optional);
@@ -54,6 +56,8 @@ struct Command {
   std::string_view details;  ///< examples and what else a person needs, below the options
   /// Declares the command's options and returns what runs when they were read.
   std::function<ExitCode(Output&)> (*declare)(Options& options);
+  /// In place of `declare`, for a command that reads its words, help and flags itself.
+  ExitCode (*run_words)(const std::vector<std::string>& words, Output& output) = nullptr;
 };
 
 /// Runs the program with the words after its name. Output goes to `output`, whose flags (`--json`,

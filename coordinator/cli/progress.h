@@ -8,6 +8,7 @@
 #include "base/clock.h"
 #include "coordinator/cli/output.h"
 #include "coordinator/cli/progress_model.h"
+#include "coordinator/cli/run_listener.h"
 
 namespace swarmsmith::cli {
 
@@ -18,20 +19,19 @@ namespace swarmsmith::cli {
 /// With --json: events on standard output, one a line. With --quiet: nothing but errors.
 ///
 /// Not thread-safe: rows and updates come from one thread.
-class Progress {
+class Progress final : public RunListener {
  public:
   /// `width` gives the columns of the terminal; asked again for each line.
   Progress(Output& output, std::span<const DesignRow> designs, TimePoint begin,
            std::function<std::size_t()> width = terminal_width);
 
-  /// How far a design was when the campaign goes on from its store; prints nothing.
-  void restore(const DesignStateRow& row) { model_.add(row); }
-  /// A row that became due, in order.
-  void add(const Row& row, TimePoint now);
-  /// Call often; redraws at most ten times a second.
-  void update(const LiveStatus& live, TimePoint now);
+  /// Prints nothing.
+  void restore(const DesignStateRow& row) override { model_.add(row); }
+  void add(const Row& row, TimePoint now) override;
+  /// Redraws at most ten times a second.
+  void update(const LiveStatus& live, TimePoint now) override;
   /// Writes the last status and leaves the line.
-  void finish(const LiveStatus& live);
+  void finish(const LiveStatus& live) override;
 
   const ProgressModel& model() const { return model_; }
 

@@ -149,9 +149,14 @@ Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
 }
 
 Expected<Profile> StoredRuns::profile_of(const std::string& source) const {
-  if (source == campaign_.profile.name) return campaign_.profile;
+  if (!campaign_.target && source == campaign_.profile.name) return campaign_.profile;
   if (source == "real") {
     return bad_input("it was filmed, not simulated: there is nothing to simulate again");
+  }
+  if (campaign_.target) {
+    return bad_input(
+        "a program scored it: there is nothing to simulate again; `show` has its seed "
+        "and what was given to the program");
   }
   return built_in_profile(source);
 }

@@ -13,6 +13,8 @@ Run declare_worker(Options& options) {
   struct Arguments {
     std::string connect;
     std::optional<std::int64_t> slots;
+    std::vector<std::string> allow;
+    bool allow_shell = false;
   };
   auto arguments = std::make_shared<Arguments>();
   options.text("--connect", arguments->connect, "Address and port of the coordinator",
@@ -20,6 +22,11 @@ Run declare_worker(Options& options) {
   options.integer("--slots", arguments->slots, {1, 1024},
                   "Evaluations at the same time (default: SLURM_CPUS_PER_TASK, else the CPUs that "
                   "this process may use)");
+  options.texts("--allow", arguments->allow,
+                "A program that campaigns may run here in place of the simulator; repeatable");
+  options.flag("--allow-shell", arguments->allow_shell,
+               "Give command lines that only a shell understands to /bin/sh: then campaigns may "
+               "run anything");
   return [arguments](Output& output) {
     const auto program = find_worker_program();
     if (!program) return fail(output, ExitCode::Unreachable, program.error());
@@ -38,6 +45,11 @@ Run declare_worker(Options& options) {
       words.emplace_back("--slots");
       words.push_back(std::to_string(*arguments->slots));
     }
+    for (const std::string& allowed : arguments->allow) {
+      words.emplace_back("--allow");
+      words.push_back(allowed);
+    }
+    if (arguments->allow_shell) words.emplace_back("--allow-shell");
     std::vector<char*> pointers;
     for (std::string& word : words)
       pointers.push_back(word.data());

@@ -75,11 +75,14 @@ std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& score
   };
   for (const StoredScore& score : scores) {
     const DesignId id = design_of(score.key.candidate);
-    const bool is_test = score.key.purpose == Purpose::Test;
-    if (skipped(id) || (!is_test && score.key.purpose != Purpose::Race)) continue;
+    if (skipped(id)) continue;
     StoredDesign& design = designs[id];
-    auto& known = is_test ? design.test_scores : design.race_scores;
-    known.emplace(DesignRunner::key_of(number_of(score.key.candidate), score.key.pair), score);
+    auto* known = score.key.purpose == Purpose::Race        ? &design.race_scores
+                  : score.key.purpose == Purpose::Test      ? &design.test_scores
+                  : score.key.purpose == Purpose::Evaluator ? &design.evaluator_scores
+                                                            : nullptr;
+    if (known == nullptr) continue;
+    known->emplace(DesignRunner::key_of(number_of(score.key.candidate), score.key.pair), score);
   }
   for (const StoredStep& step : steps) {
     if (skipped(step.design)) continue;

@@ -5,43 +5,48 @@
 
 #include "base/assert.h"
 #include "coordinator/campaign/campaign_rows.h"
-#include "coordinator/campaign/machine_space.h"
-#include "sim/control/machine_text.h"
+#include "coordinator/campaign/method_space.h"
+#include "coordinator/design/repair.h"
 
 namespace swarmsmith {
 namespace {
 
 /// Shared by the plans of one method, which may outlive each other.
-struct MethodSpace {
-  MachineSpace space;
-  const Flavour* flavour = nullptr;
-};
+using SharedSpace = std::shared_ptr<const MethodSpace>;
 
-Expected<std::shared_ptr<const MethodSpace>> space_of(const Method& method, int digits) {
-  auto flavour = find_flavour(method.flavour);
-  if (!flavour) return Unexpected(flavour.error());
-  auto space = MachineSpace::make(method, **flavour, digits);
-  if (!space) return Unexpected(space.error());
-  return std::make_shared<const MethodSpace>(MethodSpace{std::move(*space), *flavour});
-}
-
-CandidateText text_of(const MethodSpace& method, const Configuration& configuration) {
-  const Machine machine = method.space.to_machine(configuration);
-  return {.parameters = parameters_json(method.space.parameters(), configuration),
-          .machine = print_machine(machine, *method.flavour),
-          .modules = modules_json(machine),
-          .states = static_cast<std::int64_t>(machine.states.size()),
-          .transitions = transition_count(machine)};
+DesignPlan plan_of(const Campaign& campaign, const DesignRow& row, std::size_t mission,
+                   std::size_t method, const SharedSpace& space) {
+  const CampaignMission& on = campaign.missions[mission];
+  Scenario scenario = race_on(campaign, on);
+  scenario.seed = static_cast<std::uint64_t>(row.seed);
+  DesignPlan plan{.row = row,
+                  .mission = static_cast<std::uint32_t>(mission),
+                  .method = static_cast<std::uint32_t>(method),
+                  .space = space->parameters(),
+                  .scenario = scenario,
+                  .describe = [space](const Configuration& c) { return space->text_of(c); },
+                  .tests = {.count = on.test_count,
+                            .on_test_instances = !on.instances.test.empty(),
+                            .elites = campaign.test_nb_elites,
+                            .every_iteration = campaign.test_iteration_elites},
+                  .source = campaign.target ? "command" : campaign.profile.name,
+                  .initial = space->initial(),
+                  .only_test = campaign.only_test};
+  if (!campaign.repair.empty()) {
+    const std::string folder = campaign.target ? campaign.target->folder : "";
+    plan.repair = repair_by(campaign.repair, folder, space);
+  }
+  return plan;
 }
 
 }  // namespace
 
 Expected<std::vector<DesignPlan>> plans_of(const Campaign& campaign) {
-  std::vector<std::shared_ptr<const MethodSpace>> spaces;
+  std::vector<SharedSpace> spaces;
   for (const Method& method : campaign.methods) {
-    auto space = space_of(method, static_cast<int>(campaign.digits));
+    auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
     if (!space) return Unexpected(space.error());
-    spaces.push_back(std::move(*space));
+    spaces.push_back(std::make_shared<const MethodSpace>(std::move(*space)));
   }
   std::vector<DesignPlan> plans;
   const std::vector<DesignRow> rows = design_rows(campaign);
@@ -53,19 +58,7 @@ Expected<std::vector<DesignPlan>> plans_of(const Campaign& campaign) {
                               row.method == campaign.methods[method].name &&
                               row.repetition == repetition,
                           "designs are in the order of missions, methods, repetitions");
-        Scenario scenario = campaign.race;
-        scenario.seed = static_cast<std::uint64_t>(row.seed);
-        plans.push_back({.row = row,
-                         .mission = static_cast<std::uint32_t>(mission),
-                         .method = static_cast<std::uint32_t>(method),
-                         .space = spaces[method]->space.parameters(),
-                         .scenario = scenario,
-                         .describe =
-                             [space = spaces[method]](const Configuration& configuration) {
-                               return text_of(*space, configuration);
-                             },
-                         .test_count = campaign.missions[mission].test_count,
-                         .source = campaign.profile.name});
+        plans.push_back(plan_of(campaign, row, mission, method, spaces[method]));
       }
     }
   }

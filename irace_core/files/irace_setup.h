@@ -33,15 +33,19 @@ struct IraceSetup {
   std::filesystem::path exec_dir;
   std::filesystem::path target_runner;
   std::filesystem::path target_runner_launcher;  ///< empty for none
-  std::string target_cmdline;
+  std::string target_cmdline =
+      "{configurationID} {instanceID} {seed} {instance} {bound} {targetRunnerArgs}";
   std::filesystem::path target_evaluator;      ///< empty for none
   std::filesystem::path repair_configuration;  ///< a program; empty for none
   std::int64_t target_runner_retries = 0;
   std::int64_t target_runner_timeout = 0;
   bool aclib = false;
-  std::string batchmode;  ///< "0", "sge", "pbs", "torque", "slurm", "htcondor"
+  std::string batchmode = "0";  ///< "0", "sge", "pbs", "torque", "slurm", "htcondor"
 
-  std::filesystem::path log_file;  ///< names the store; empty for none that is kept
+  std::filesystem::path log_file;  ///< irace's; empty for none
+  /// The file of --store, else the log file with `.db` in place of `.Rdata`; empty: nothing is
+  /// kept.
+  std::filesystem::path store;
   std::int64_t test_nb_elites = 1;
   bool test_iteration_elites = false;
   /// Runs at a time; nothing when no file and no switch says it: as many as there are cores.

@@ -30,14 +30,18 @@ void QualityVariance::add_row(std::span<const Entry> row) {
   const auto k = static_cast<double>(row.size());
   double mean = 0;
   for (const Entry& entry : row)
-    mean += entry.cost / k;
+    mean += entry.cost;
+  mean /= k;
   double square = 0;
   for (const Entry& entry : row)
     square += (entry.cost - mean) * (entry.cost - mean);
-  const double sd = std::sqrt(square / (k - 1));
+  // The mean of equal costs may be off by a rounding, which must not be standardised.
+  const bool is_constant =
+      std::ranges::all_of(row, [&](const Entry& entry) { return entry.cost == row.front().cost; });
+  const double sd = is_constant ? 0 : std::sqrt(square / (k - 1));
   rows_ += 1;
   for (const Entry& entry : row) {
-    const double z = sd > 0 ? (entry.cost - mean) / sd : entry.cost - mean;
+    const double z = sd > 0 ? (entry.cost - mean) / sd : 0;
     const double step = z - mean_[entry.column];
     mean_[entry.column] += step / rows_;
     square_[entry.column] += step * (z - mean_[entry.column]);

@@ -20,16 +20,31 @@ bool is_numeric_domain(const Domain& domain) {
   return std::holds_alternative<Integer>(domain) || std::holds_alternative<Real>(domain);
 }
 
-/// Bounds may use + - * / %% min max round floor ceiling trunc.
-bool only_arithmetic(const Expression& expression) {
-  constexpr Operation kAllowed[] = {Operation::Constant, Operation::Parameter, Operation::Add,
-                                    Operation::Subtract, Operation::Multiply,  Operation::Divide,
-                                    Operation::Modulo,   Operation::Negate,    Operation::Min,
-                                    Operation::Max,      Operation::Round,     Operation::Floor,
-                                    Operation::Ceiling,  Operation::Truncate};
-  const auto* end = std::end(kAllowed);
-  if (std::find(std::begin(kAllowed), end, expression.operation()) == end) return false;
-  return std::all_of(expression.operands().begin(), expression.operands().end(), only_arithmetic);
+bool is_number_or_parameter(const Expression& expression) {
+  if (expression.operation() == Operation::Parameter) return true;
+  return expression.operation() == Operation::Constant &&
+         expression.evaluate({})[0].type != Scalar::Type::Text;
+}
+
+/// Bounds may use + - * / %% min max round floor ceiling trunc; constant ones also what gives one
+/// number from one or two.
+bool only_arithmetic(const Expression& expression, bool is_constant) {
+  constexpr Operation kAllowed[] = {Operation::Add,    Operation::Subtract, Operation::Multiply,
+                                    Operation::Divide, Operation::Modulo,   Operation::Negate,
+                                    Operation::Min,    Operation::Max,      Operation::Round,
+                                    Operation::Floor,  Operation::Ceiling,  Operation::Truncate};
+  constexpr Operation kConstant[] = {Operation::Power, Operation::IntegerDivide,
+                                     Operation::Abs,   Operation::SquareRoot,
+                                     Operation::Exp,   Operation::Log};
+  const auto is_among = [&expression](std::span<const Operation> operations) {
+    return std::find(operations.begin(), operations.end(), expression.operation()) !=
+           operations.end();
+  };
+  if (expression.operands().empty()) return is_number_or_parameter(expression);
+  if (!is_among(kAllowed) && !(is_constant && is_among(kConstant))) return false;
+  return std::all_of(
+      expression.operands().begin(), expression.operands().end(),
+      [is_constant](const Expression& operand) { return only_arithmetic(operand, is_constant); });
 }
 
 /// Binds one bound and checks what it mentions.
@@ -41,14 +56,14 @@ Expected<void> bind_bound(Bound& bound, const std::string& owner,
     return bad_input(bound_names.error().message, owner);
   }
   const std::vector<std::string> mentioned = expression->names();
+  if (!only_arithmetic(*expression, mentioned.empty())) {
+    return bad_input("a bound may use + - * / %% min max round floor ceiling trunc", owner);
+  }
   if (mentioned.empty()) {
     const std::optional<double> value = expression->to_number({});
     if (!value) return bad_input("a bound is not a number", owner);
     bound = *value;
     return {};
-  }
-  if (!only_arithmetic(*expression)) {
-    return bad_input("a bound may use + - * / %% min max round floor ceiling trunc", owner);
   }
   for (const std::string& name : mentioned) {
     const auto at = std::find(names.begin(), names.end(), name) - names.begin();
@@ -83,17 +98,24 @@ Expected<void> check_increasing(const std::vector<std::string>& values, const st
   return bad_input("the values of an ordinal parameter must increase", name);
 }
 
-/// A constant bound must survive rounding to the digits of the space, and must not vanish.
-Expected<void> check_decimals(double bound, int digits, const std::string& name) {
-  const double tolerance = 1.5e-8 * std::max(1.0, std::fabs(bound));
-  if (digits >= 15 || bound == 0) return {};
+/// Whether a constant bound survives rounding to that many digits, and does not vanish.
+bool fits_digits(double bound, int digits) {
+  if (digits >= 15 || bound == 0) return true;
   double smallest = 1;
   for (int i = 0; i < digits; ++i)
     smallest /= 10;
-  const bool vanishes = std::fabs(bound) < smallest * (1 - 1e-9);
-  if (!vanishes && std::fabs(round_to_digits(bound, digits) - bound) <= tolerance) return {};
-  return bad_input("the bound " + to_fixed_text(bound) + " needs more than " +
-                       std::to_string(digits) + " digits",
+  if (std::fabs(bound) < smallest * (1 - 1e-9)) return false;
+  const double tolerance = 1.5e-8 * std::max(1.0, std::fabs(bound));
+  return std::fabs(round_to_digits(bound, digits) - bound) <= tolerance;
+}
+
+Expected<void> check_decimals(double bound, int digits, const std::string& name) {
+  if (fits_digits(bound, digits)) return {};
+  int needed = digits;
+  while (!fits_digits(bound, needed))
+    ++needed;
+  return bad_input("the bound " + to_fixed_text(bound) + " does not fit digits = " +
+                       std::to_string(digits) + "; it needs digits = " + std::to_string(needed),
                    name);
 }
 

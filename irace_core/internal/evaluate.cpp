@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <optional>
 
 #include "base/assert.h"
 #include "base/math.h"
@@ -218,21 +219,34 @@ Values extreme(Operation operation, const std::vector<Values>& parts) {
 }
 
 /// from:to in steps of one, up or down; integers when `from` is whole.
-Values range(const Values& from, const Values& to) {
-  constexpr double kLongest = 1e6;
+struct Sequence {
+  double first = 0;
+  double step = 1;
+  double steps = 0;
+  bool whole = true;
+
+  Scalar at(double i) const {
+    const double value = first + step * i;
+    return whole ? Scalar::integer(value) : Scalar::real(value);
+  }
+};
+
+/// Nothing when an end is missing or no number.
+std::optional<Sequence> sequence(const Values& from, const Values& to) {
   const Scalar first = convert(from[0], Type::Real);
   const Scalar last = convert(to[0], Type::Real);
-  if (first.missing || last.missing || std::fabs(first.number - last.number) > kLongest) {
-    return Scalar::missing_of(Type::Integer);
-  }
-  const double step = first.number <= last.number ? 1 : -1;
-  const auto steps = static_cast<int>(std::floor(std::fabs(last.number - first.number) + 1e-10));
-  const bool whole = first.number == std::floor(first.number);
+  const double width = std::fabs(first.number - last.number);
+  if (first.missing || last.missing || !std::isfinite(width)) return std::nullopt;
+  return Sequence{first.number, first.number <= last.number ? 1.0 : -1.0, std::floor(width + 1e-10),
+                  first.number == std::floor(first.number)};
+}
+
+Values range(const Values& from, const Values& to) {
+  const std::optional<Sequence> numbers = sequence(from, to);
+  if (!numbers || numbers->steps >= kLongestRange) return Scalar::missing_of(Type::Integer);
   std::vector<Scalar> result;
-  for (int i = 0; i <= steps; ++i) {
-    const double value = first.number + step * i;
-    result.push_back(whole ? Scalar::integer(value) : Scalar::real(value));
-  }
+  for (double i = 0; i <= numbers->steps; ++i)
+    result.push_back(numbers->at(i));
   return Values(std::move(result));
 }
 
@@ -241,6 +255,33 @@ bool matches(const Scalar& x, const Scalar& candidate) {
   if (x.missing || candidate.missing) return x.missing && candidate.missing;
   if (x.type == Type::Text && candidate.type == Type::Text) return x.text == candidate.text;
   return order(x, candidate) == 0;
+}
+
+/// x %in% from:to without listing the numbers.
+Scalar is_in_sequence(const Scalar& x, const Sequence& numbers) {
+  const Scalar number = convert(x, Type::Real);
+  if (number.missing) return Scalar::logical(false);
+  const double i = std::floor(std::fabs(number.number - numbers.first) + 0.5);
+  return Scalar::logical(i <= numbers.steps && matches(x, numbers.at(i)));
+}
+
+/// x %in% table, for each element of x. Every element of a vector has the same type, so that all
+/// comparisons are between numbers, or all between texts.
+Values find_each(const Values& x, const Values& table) {
+  const bool as_texts = x.type() == Type::Text || table.type() == Type::Text;
+  const auto less = [as_texts](const Scalar& a, const Scalar& b) {
+    if (a.missing || b.missing) return a.missing && !b.missing;
+    return as_texts ? to_text(a) < to_text(b) : a.number < b.number;
+  };
+  std::vector<Scalar> sorted;
+  for (std::size_t i = 0; i < table.size(); ++i)
+    sorted.push_back(as_texts ? convert(table[i], Type::Text) : table[i]);
+  std::sort(sorted.begin(), sorted.end(), less);
+  std::vector<Scalar> found;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    found.push_back(Scalar::logical(std::binary_search(sorted.begin(), sorted.end(), x[i], less)));
+  }
+  return Values(std::move(found));
 }
 
 /// ifelse(): element by element, `yes` and `no` repeated as needed.
@@ -306,14 +347,19 @@ Values Expression::evaluate_in(std::span<const Scalar> parameters) const {
     }
     return Scalar::logical(false);
   }
+  if (operands_[1].operation_ == Operation::Range) {
+    const std::span<const Expression> ends = operands_[1].operands_;
+    const auto numbers = sequence(ends[0].evaluate(parameters), ends[1].evaluate(parameters));
+    if (!numbers) return Scalar::logical(false);
+    return elementwise(operands_[0].evaluate(parameters), missing_logical(),
+                       [&numbers](const Scalar& element, const Scalar&) {
+                         return is_in_sequence(element, *numbers);
+                       });
+  }
   const Values table = operands_[1].evaluate(parameters);
-  return elementwise(operands_[0].evaluate(parameters), missing_logical(),
-                     [&table](const Scalar& element, const Scalar&) {
-                       for (std::size_t i = 0; i < table.size(); ++i) {
-                         if (matches(element, table[i])) return Scalar::logical(true);
-                       }
-                       return Scalar::logical(false);
-                     });
+  const Values elements = operands_[0].evaluate(parameters);
+  if (table.size() > 1 || elements.size() > 1) return find_each(elements, table);
+  return Scalar::logical(matches(elements[0], table[0]));
 }
 
 }  // namespace swarmsmith

@@ -1,5 +1,6 @@
 #include "sim/files/file_text.h"
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <fstream>
@@ -27,9 +28,15 @@ Expected<std::string> read_file(const std::filesystem::path& file, const std::st
     return bad_input("the " + what + " file cannot be read: " + std::strerror(errno),
                      file.string());
   }
-  std::string bytes(most + 1, '\0');
-  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  // Piece by piece: the whole of `most` would cost more than the rest of a short command.
+  constexpr std::size_t kPiece = 64U << 10U;
+  std::string bytes;
+  while (stream && bytes.size() <= most) {
+    const std::size_t before = bytes.size();
+    bytes.resize(before + std::min(kPiece, most + 1 - before));
+    stream.read(bytes.data() + before, static_cast<std::streamsize>(bytes.size() - before));
+    bytes.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
   if (bytes.size() > most) {
     return bad_input("the file is larger than " + std::to_string(most >> 20U) + " MB",
                      file.string());

@@ -20,8 +20,17 @@ std::string text_of(const std::vector<Section>& sections) {
 std::string quoted_text(std::string_view text) {
   std::string quoted = "\"";
   for (const char letter : text) {
+    const auto code = static_cast<unsigned char>(letter);
     if (letter == '"' || letter == '\\') quoted += '\\';
-    quoted += letter;
+    if (letter == '\n') {
+      quoted += "\\n";
+    } else if (code < 0x20 || code == 0x7f) {
+      constexpr std::string_view kDigits = "0123456789abcdef";
+      quoted += "\\u00";
+      quoted += {kDigits[code >> 4U], kDigits[code & 0xfU]};
+    } else {
+      quoted += letter;
+    }
   }
   return quoted + "\"";
 }

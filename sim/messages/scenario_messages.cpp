@@ -3,6 +3,7 @@
 #include "proto/scenario.pb.h"
 #include "sim/messages/mission_messages.h"
 #include "sim/messages/profile_messages.h"
+#include "sim/messages/target_messages.h"
 
 namespace swarmsmith {
 namespace {
@@ -32,7 +33,13 @@ std::string to_bytes(const WorkerScenario& scenario) {
     to_message(mission, *message.add_missions());
   for (const WorkerMethod& method : scenario.methods)
     write(method, *message.add_methods());
-  to_message(scenario.profile, *message.mutable_profile());
+  if (scenario.target) {
+    to_message(*scenario.target, *message.mutable_target());
+    for (const InstanceTexts& instances : scenario.instances)
+      to_message(instances, *message.add_instances());
+  } else {
+    to_message(scenario.profile, *message.mutable_profile());
+  }
   return message.SerializeAsString();
 }
 
@@ -59,6 +66,17 @@ Expected<WorkerScenario> scenario_from_bytes(std::string_view bytes) {
       return bad_input(method.error().message, path + method.error().where);
     }
     scenario.methods.push_back(std::move(*method));
+  }
+  for (const pb::InstanceTexts& texts : message.instances()) {
+    Expected<InstanceTexts> instances = from_message(texts);
+    if (!instances) return bad_input(instances.error().message, "instances");
+    scenario.instances.push_back(std::move(*instances));
+  }
+  if (message.has_target()) {
+    Expected<Target> target = from_message(message.target());
+    if (!target) return bad_input(target.error().message, "target." + target.error().where);
+    scenario.target = std::move(*target);
+    return scenario;
   }
   Expected<Profile> profile = from_message(message.profile());
   if (!profile) return bad_input(profile.error().message, "profile." + profile.error().where);

@@ -1,5 +1,7 @@
 #include "storage/internal/row_reader.h"
 
+#include <string>
+
 #include "base/assert.h"
 
 namespace swarmsmith {
@@ -19,9 +21,15 @@ EvaluationKey key_at(const Statement& row, int column) {
           row.integer(column + 2)};
 }
 
+/// A store of schema 1, which has none of the columns that targets brought: read as it is.
+bool is_first_schema(const sqlite::Connection& connection) {
+  return sqlite::integer_of(connection, "PRAGMA user_version") == 1;
+}
+
 /// Runs `sql` and hands on what `make` makes of each row.
 template <class Make>
-void each(const sqlite::Connection& connection, const char* sql, const OnRow& on_row, Make make) {
+void each(const sqlite::Connection& connection, const std::string& sql, const OnRow& on_row,
+          Make make) {
   Statement row(connection, sql);
   while (row.step())
     on_row(make(row));
@@ -48,6 +56,7 @@ IterationRow iteration(const Statement& row) {
           .configurations = row.integer(4),
           .elites = row.integer(5),
           .soft_restart = row.integer(6) != 0,
+          .postselection = row.integer(8) != 0,
           .model_digest = row.bits(7)};
 }
 
@@ -76,6 +85,8 @@ EvaluationRow evaluation(const Statement& row) {
           .status = static_cast<EvaluationStatus>(row.integer(4)),
           .score = row.real(5),
           .state_digest = row.bits(6),
+          .time = row.real(11),
+          .bound = row.real(12),
           .source = row.text(7),
           .wall_us = row.integer(8),
           .worker = row.integer(9),
@@ -100,6 +111,7 @@ RaceStepRow race_step(const Statement& row) {
           .kendall_w = row.optional_real(13),
           .spearman_rho = row.optional_real(14),
           .qvar = row.optional_real(15),
+          .bound = row.optional_real(17),
           .digest = row.bits(16)};
 }
 
@@ -156,14 +168,16 @@ std::vector<DesignRow> read_designs(const sqlite::Connection& connection) {
 
 std::vector<StoredScore> read_scores(const sqlite::Connection& connection) {
   std::vector<StoredScore> scores;
-  Statement row(connection,
-                "SELECT candidate, purpose, pair, status, score, state_digest FROM evaluation"
-                " ORDER BY candidate, purpose, pair");
+  const std::string times = is_first_schema(connection) ? "NULL, NULL" : "time, bound";
+  Statement row(connection, "SELECT candidate, purpose, pair, status, score, state_digest, " +
+                                times + " FROM evaluation ORDER BY candidate, purpose, pair");
   while (row.step()) {
     scores.push_back({.key = key_at(row, 0),
                       .status = static_cast<EvaluationStatus>(row.integer(3)),
                       .score = row.real(4),
-                      .state_digest = row.bits(5)});
+                      .state_digest = row.bits(5),
+                      .time = row.real(6),
+                      .bound = row.real(7)});
   }
   return scores;
 }
@@ -197,26 +211,32 @@ bool is_finished(const sqlite::Connection& connection) {
 
 void read_answer(const sqlite::Connection& connection, const OnRow& on_row) {
   each(connection, kDesignStates, on_row, design_state);
-  each(connection, "SELECT * FROM iteration ORDER BY design, number", on_row, iteration);
+  const bool first = is_first_schema(connection);
+  each(connection,
+       std::string("SELECT *") + (first ? ", 0" : "") + " FROM iteration ORDER BY design, number",
+       on_row, iteration);
   each(connection,
        "SELECT id, iteration, parent, parameters, machine, modules, states, transitions"
        " FROM candidate ORDER BY id",
        on_row, candidate);
   // A pair that only look-ahead has touched so far is not part of the answer.
   each(connection,
-       "SELECT * FROM pair WHERE purpose = 2"
+       "SELECT * FROM pair WHERE purpose IN (2, 5)"
        " OR purpose = 0 AND (design, number) IN (SELECT design, pair FROM race_step)"
        " ORDER BY design, purpose, number",
        on_row, pair);
   each(connection,
-       "SELECT candidate, purpose, pair, iteration, status, score, state_digest,"
-       " (SELECT name FROM source WHERE id = evaluation.source), wall_us, worker, attempt FROM "
-       "evaluation"
-       " WHERE purpose = 2 OR purpose = 0 AND iteration IS NOT NULL"
-       " ORDER BY candidate, purpose, pair",
+       std::string("SELECT candidate, purpose, pair, iteration, status, score, state_digest,"
+                   " (SELECT name FROM source WHERE id = evaluation.source), wall_us, worker,"
+                   " attempt, ") +
+           (first ? "NULL, NULL" : "time, bound") +
+           " FROM evaluation WHERE purpose IN (2, 5) OR purpose = 0 AND iteration IS NOT NULL"
+           " ORDER BY candidate, purpose, pair",
        on_row, evaluation);
-  each(connection, "SELECT * FROM race_step ORDER BY design, step", on_row, race_step);
-  each(connection, "SELECT * FROM elimination ORDER BY candidate", on_row, elimination);
+  each(connection,
+       std::string("SELECT *") + (first ? ", NULL" : "") + " FROM race_step ORDER BY design, step",
+       on_row, race_step);
+  each(connection, "SELECT * FROM elimination ORDER BY candidate, iteration", on_row, elimination);
   each(connection, "SELECT * FROM elite ORDER BY design, iteration, rank", on_row, elite);
   each(connection, "SELECT * FROM candidate_totals ORDER BY candidate", on_row, totals);
 }

@@ -15,16 +15,16 @@ constexpr char kPair[] = "INSERT OR IGNORE INTO pair VALUES (?,?,?,?,?)";
 // The first result stays, whatever comes later. Only a race that asks for what was computed ahead
 // may still write its iteration, if the bits agree.
 constexpr char kEvaluation[] =
-    "INSERT INTO evaluation VALUES (?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO UPDATE"
+    "INSERT INTO evaluation VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO UPDATE"
     " SET iteration = excluded.iteration"
     " WHERE evaluation.iteration IS NULL AND excluded.iteration IS NOT NULL"
     " AND status = excluded.status AND score IS excluded.score"
-    " AND state_digest = excluded.state_digest";
+    " AND state_digest = excluded.state_digest AND time IS excluded.time";
 constexpr char kUnused[] =
     "UPDATE evaluation SET iteration = NULL WHERE candidate = ? AND purpose = ? AND pair = ?";
-constexpr char kIteration[] = "INSERT OR IGNORE INTO iteration VALUES (?,?,?,?,?,?,?,?)";
+constexpr char kIteration[] = "INSERT OR IGNORE INTO iteration VALUES (?,?,?,?,?,?,?,?,?)";
 constexpr char kRaceStep[] =
-    "INSERT OR IGNORE INTO race_step VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
+    "INSERT OR IGNORE INTO race_step VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?,?)";
 constexpr char kElimination[] = "INSERT OR IGNORE INTO elimination VALUES (?,?,?,?,?)";
 constexpr char kElite[] = "INSERT OR IGNORE INTO elite VALUES (?,?,?,?,?,?)";
 constexpr char kTotals[] =
@@ -51,6 +51,10 @@ constexpr char kFailure[] =
 constexpr char kEvent[] = "INSERT INTO event (severity, kind, text) VALUES (?,?,?)";
 
 std::optional<std::int64_t> unless_zero(std::int64_t value) {
+  return value == 0 ? std::nullopt : std::optional(value);
+}
+
+std::optional<double> unless_zero(double value) {
   return value == 0 ? std::nullopt : std::optional(value);
 }
 
@@ -101,7 +105,8 @@ void RowWriter::put(const EvaluationRow& row) {
   const double* score = row.status == EvaluationStatus::Ok ? &row.score : nullptr;
   evaluation_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair,
                   unless_zero(row.iteration), number(row.status), score, row.state_digest,
-                  source_id(row.source), row.wall_us, row.worker, row.attempt);
+                  source_id(row.source), row.wall_us, row.worker, row.attempt,
+                  unless_zero(row.time), unless_zero(row.bound));
 }
 
 void RowWriter::put(const UnusedRow& row) {
@@ -110,14 +115,14 @@ void RowWriter::put(const UnusedRow& row) {
 
 void RowWriter::put(const IterationRow& row) {
   iteration_.run(row.design.value, row.number, row.of, row.budget, row.configurations, row.elites,
-                 row.soft_restart, row.model_digest);
+                 row.soft_restart, row.model_digest, row.postselection);
 }
 
 void RowWriter::put(const RaceStepRow& row) {
   race_step_.run(row.design.value, row.step, row.iteration, row.pair,
                  std::string_view(&row.marker, 1), row.evaluated, row.alive_before, row.alive_after,
                  unless_zero(row.best.value), row.mean_best, row.used, row.statistic, row.p_value,
-                 row.kendall_w, row.spearman_rho, row.qvar, row.digest);
+                 row.kendall_w, row.spearman_rho, row.qvar, row.digest, row.bound);
 }
 
 void RowWriter::put(const EliminationRow& row) {
@@ -178,11 +183,12 @@ void require_finite(const Row& row) {
                  nothing,
                  [&](const EvaluationRow& r) {
                    require(r.status != EvaluationStatus::Ok || std::isfinite(r.score), row);
+                   require(std::isfinite(r.time) && std::isfinite(r.bound), row);
                  },
                  [&](const RaceStepRow& r) {
                    require(std::isfinite(r.mean_best), row);
                    for (const auto& value :
-                        {r.statistic, r.p_value, r.kendall_w, r.spearman_rho, r.qvar}) {
+                        {r.statistic, r.p_value, r.kendall_w, r.spearman_rho, r.qvar, r.bound}) {
                      require(!value || std::isfinite(*value), row);
                    }
                  },

@@ -1,11 +1,13 @@
 #include "storage/internal/schema.h"
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "embedded/kInitialSchema.h"
+#include "embedded/kTargetsSchema.h"
 #include "embedded/kViews.h"
 
 namespace swarmsmith {
@@ -27,7 +29,10 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  return {};
+  static const std::array<Migration, 1> kMigrations = {
+      Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
+  };
+  return kMigrations;
 }
 
 void configure_writer(sqlite::Connection& connection) {
@@ -47,6 +52,8 @@ void configure_reader(sqlite::Connection& connection) {
 
 void create_schema(sqlite::Connection& connection) {
   connection.execute(kInitialSchema);
+  for (const Migration& step : migrations())
+    step.apply(connection);
   connection.execute(kViews);
   connection.execute(fmt::format("PRAGMA application_id = {}", kApplicationId));
   set_version(connection, kSchemaVersion);

@@ -1,4 +1,4 @@
--- Schema 1: the tables of a store. They may change between versions; the views (views.sql) are what
+-- Schema 1: the tables of a store; later files add to them. They may change between versions; the views (views.sql) are what
 -- people and scripts read. Columns are explained in docs/storage.md.
 --
 -- Enumerations are stored with the numbers of storage/rows.h. 64-bit digests are stored as signed
@@ -163,21 +163,6 @@ CREATE TABLE conflict (
   time               TEXT NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ', 'now')),
   PRIMARY KEY (candidate, purpose, pair, other_state_digest, other_score)
 ) STRICT, WITHOUT ROWID;
-
--- What programs did that gave no score (docs/storage.md).
-CREATE TABLE failure (
-  seq       INTEGER PRIMARY KEY,
-  time      TEXT NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ', 'now')),
-  candidate INTEGER NOT NULL,
-  purpose   INTEGER NOT NULL,
-  pair      INTEGER NOT NULL,
-  attempt   INTEGER NOT NULL,
-  worker    INTEGER NOT NULL,
-  reason    TEXT NOT NULL,
-  command   TEXT NOT NULL,
-  output    TEXT NOT NULL,
-  errors    TEXT NOT NULL
-) STRICT;
 
 CREATE TABLE event (
   seq      INTEGER PRIMARY KEY,

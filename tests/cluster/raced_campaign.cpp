@@ -90,7 +90,7 @@ std::vector<DesignPlan> plans_of(const CampaignShape& shape) {
                      .space = space(),
                      .scenario = scenario,
                      .describe = text_of,
-                     .test_count = shape.tests,
+                     .tests = {.count = shape.tests},
                      .source = "test"});
   }
   return plans;

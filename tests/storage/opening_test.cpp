@@ -204,15 +204,15 @@ TEST_F(OpeningTest, MigratesStepByStepAfterACopy) {
   make_store();
   sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
   const std::vector<Migration> steps{
-      {2, [](sqlite::Connection& c) { c.execute("ALTER TABLE design ADD COLUMN note TEXT"); }},
-      {3, [](sqlite::Connection& c) { c.execute("UPDATE design SET note = 'moved'"); }},
+      {3, [](sqlite::Connection& c) { c.execute("ALTER TABLE design ADD COLUMN note TEXT"); }},
+      {4, [](sqlite::Connection& c) { c.execute("UPDATE design SET note = 'moved'"); }},
   };
   migrate(connection, path, steps);
-  EXPECT_EQ(sqlite::integer_of(connection, "PRAGMA user_version"), 3);
+  EXPECT_EQ(sqlite::integer_of(connection, "PRAGMA user_version"), 4);
   EXPECT_EQ(sqlite::text_of(connection, "SELECT note FROM design"), "moved");
   EXPECT_EQ(sqlite::text_of(connection, "SELECT state FROM v_designs"), "finished");
-  const sqlite::Connection copy(path.string() + ".before-v3", SQLITE_OPEN_READONLY);
-  EXPECT_EQ(sqlite::integer_of(copy, "PRAGMA user_version"), 1);
+  const sqlite::Connection copy(path.string() + ".before-v4", SQLITE_OPEN_READONLY);
+  EXPECT_EQ(sqlite::integer_of(copy, "PRAGMA user_version"), kSchemaVersion);
   EXPECT_EQ(sqlite::text_of(copy, "PRAGMA integrity_check"), "ok");
 }
 
@@ -221,12 +221,12 @@ TEST_F(OpeningTest, LeavesTheVersionBeforeWhenAMigrationFails) {
   const std::string before = digest_of(path);
   {
     sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
-    const std::vector<Migration> steps{{2, [](sqlite::Connection& c) {
+    const std::vector<Migration> steps{{3, [](sqlite::Connection& c) {
                                           c.execute("DELETE FROM evaluation");
                                           c.execute("a mistake");
                                         }}};
     EXPECT_THROW(migrate(connection, path, steps), sqlite::SqliteError);
-    EXPECT_EQ(sqlite::integer_of(connection, "PRAGMA user_version"), 1);
+    EXPECT_EQ(sqlite::integer_of(connection, "PRAGMA user_version"), kSchemaVersion);
   }
   EXPECT_EQ(digest_of(path), before);
 }

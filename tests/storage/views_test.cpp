@@ -27,13 +27,20 @@ const std::map<std::string, std::string> kColumns{
      "reason"},
     {"v_eliminations", "design candidate iteration step pair rank_sum reason"},
     {"v_evaluations",
-     "id design candidate purpose pair instance seed iteration status score wall_ms worker attempt "
-     "source used state_digest"},
-    {"v_failures", "id design candidate purpose pair instance seed iteration attempt worker host"},
+     "id design candidate purpose pair instance seed iteration status score time bound wall_ms "
+     "worker attempt source used state_digest"},
+    {"v_failures",
+     "id design candidate purpose pair instance seed iteration attempt worker host reason command "
+     "output errors at"},
+    {"v_iterations",
+     "design iteration planned budget configurations elites soft_restart postselection"},
     {"v_leaderboard",
      "mission rank design method repetition candidate test_mean test_runs race_mean"},
     {"v_module_frequency", "mission method module avg_occurrences occurrence_rate"},
     {"v_parameters", "candidate design iteration parameter value"},
+    {"v_race_steps",
+     "design step iteration pair marker bound alive_before alive_after best mean_best evaluated "
+     "used statistic p_value kendall_w spearman_rho qvar"},
     {"v_race_matrix", "design iteration step pair instance seed candidate score rank"},
     {"v_workers", "worker identity host pid slots build state done failed first_seen last_seen"},
 };

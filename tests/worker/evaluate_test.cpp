@@ -33,7 +33,7 @@ WorkItem item(std::int64_t seed, const std::string& machine = kMachine) {
 
 TEST(Evaluate, GivesWhatTheSimulatorGives) {
   const WorkerScenario scenario = short_aggregation();
-  const Expected<Evaluator> evaluator = make_simulation(to_bytes(scenario));
+  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes(scenario));
   ASSERT_TRUE(evaluator);
   const Machine machine = *parse_machine(kMachine, watermelon());
   for (std::int64_t seed = 1; seed <= 5; ++seed) {
@@ -57,7 +57,7 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
   scenario.methods = {{.flavour = "watermelon"}, {"watermelon", TurnClock::Seconds}};
   scenario.profile = *built_in_profile("pseudo-reality");  // control periods below 0.1 s
   const std::string bytes = to_bytes(scenario);
-  const Expected<Evaluator> evaluator = make_simulation(bytes);
+  const Expected<Evaluator> evaluator = make_evaluators()(bytes);
   ASSERT_TRUE(evaluator);
   const Machine machine = *parse_machine(kMachine, watermelon());
   const Instance instance = *instance_of(scenario.missions[0], 1);
@@ -77,7 +77,7 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
 }
 
 TEST(Evaluate, FailsWithASentence) {
-  const Expected<Evaluator> evaluator = make_simulation(to_bytes(short_aggregation()));
+  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes(short_aggregation()));
   ASSERT_TRUE(evaluator);
   EXPECT_FALSE((*evaluator)(item(1, "--nstates nonsense")));
   WorkItem strange = item(1);
@@ -86,13 +86,13 @@ TEST(Evaluate, FailsWithASentence) {
 }
 
 TEST(Evaluate, RefusesScenariosThatItCannotRun) {
-  EXPECT_FALSE(make_simulation("rubbish"));
+  EXPECT_FALSE(make_evaluators()("rubbish"));
   WorkerScenario scenario = short_aggregation();
   scenario.methods = {{.flavour = "vinegar"}};
-  EXPECT_FALSE(make_simulation(to_bytes(scenario)));
+  EXPECT_FALSE(make_evaluators()(to_bytes(scenario)));
   scenario = short_aggregation();
   scenario.engine_version = kEngineVersion + 1;
-  EXPECT_FALSE(make_simulation(to_bytes(scenario)));
+  EXPECT_FALSE(make_evaluators()(to_bytes(scenario)));
 }
 
 TEST(Evaluate, TheSelfTestRuns) {

@@ -248,6 +248,18 @@ TEST_F(Protocol, DrainsByGivingBackAndWaitingForTheDisk) {
   EXPECT_EQ(left->code, ExitCode::Done);
 }
 
+TEST_F(Protocol, GivesBackWhatFailedWhileDraining) {
+  be_welcome();
+  get_tasks(1, 1);
+  protocol.on_drain(now);
+  take();
+  finish(1, "killed by SIGTERM");
+  EXPECT_EQ(results_said(), 0);
+  EXPECT_TRUE(said_body(pb::ToCoordinator::kReturned));
+  ASSERT_TRUE(left);
+  EXPECT_EQ(left->code, ExitCode::Done);
+}
+
 TEST_F(Protocol, DrainsNoLongerThanTheGraceTime) {
   be_welcome();
   get_tasks(1, 1);

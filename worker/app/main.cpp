@@ -1,17 +1,21 @@
 // swarmsmith-worker: evaluates for one coordinator until it is sent home.
 
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <string>
+#include <vector>
 
 #include "base/log.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
+#include "target/guard.h"
 #include "worker/evaluate.h"
 #include "worker/service.h"
 #include "worker/slots.h"
@@ -47,7 +51,33 @@ struct Arguments {
   int slots = 0;
   bool die_with_parent = false;
   pid_t parent = 0;
+  std::vector<std::string> allow;
+  bool allow_shell = false;
 };
+
+/// A running program takes three descriptors, and the usual limit of 1,024 is short for hundreds.
+void raise_descriptor_limit() {
+  struct rlimit limit = {};
+  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
+  const rlim_t wanted = 4 * kMaxSlots;
+  if (limit.rlim_cur >= wanted) return;
+  limit.rlim_cur = std::min(limit.rlim_max, wanted);
+  setrlimit(RLIMIT_NOFILE, &limit);
+}
+
+Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
+  AllowedPrograms allowed;
+  allowed.shell = arguments.allow_shell;
+  for (const std::string& path : arguments.allow) {
+    Expected<std::string> program = allowed_program(path);
+    if (!program) return Unexpected(program.error());
+    allowed.programs.push_back(std::move(*program));
+  }
+  if (allowed.programs.empty()) return allowed;
+  raise_descriptor_limit();
+  if (auto started = start_guard(); !started) return Unexpected(started.error());
+  return allowed;
+}
 
 int run(const Arguments& arguments) {
   if (arguments.die_with_parent) die_with_parent(arguments.parent);
@@ -55,9 +85,14 @@ int run(const Arguments& arguments) {
   WorkerIdentity identity = identity_of_this_process(slots, SWARMSMITH_VERSION);
   identity.engine_version = kEngineVersion;
   identity.self_test = self_test_digest();
+  Expected<AllowedPrograms> allowed = allowed_programs(arguments);
+  if (!allowed) {
+    log(LogLevel::Error, "worker", "failed", {{"reason", to_string(allowed.error())}});
+    return static_cast<int>(ExitCode::Usage);
+  }
   Wakeup wakeup;
   handle_signals(wakeup);
-  Pool pool(slots, make_simulation, [&wakeup] { wakeup.notify(); });
+  Pool pool(slots, make_evaluators(std::move(*allowed)), [&wakeup] { wakeup.notify(); });
   log(LogLevel::Debug, "worker", "started",
       {{"coordinator", arguments.connect}, {"slots", std::to_string(slots)}});
   const WorkerEnd end = serve({.endpoint = arguments.connect, .protocol = {}, .socket = {}},
@@ -87,6 +122,14 @@ int main(int argc, char** argv) {
   app.add_flag("--die-with-parent", arguments.die_with_parent,
                "Be killed when the process that started this one ends");
   app.add_option("--parent", arguments.parent, "Process id of that process")->group("");
+  app.add_option("--allow", arguments.allow,
+                 "A program that campaigns may run here in place of the simulator; repeatable. "
+                 "It is run with whatever arguments the campaign has")
+      ->type_name("PROGRAM")
+      ->allow_extra_args(false);
+  app.add_flag("--allow-shell", arguments.allow_shell,
+               "Give command lines that only a shell understands to /bin/sh: then campaigns may "
+               "run anything");
   app.set_version_flag("--version", SWARMSMITH_VERSION);
   try {
     app.parse(argc, argv);

@@ -4,8 +4,11 @@
 #include <optional>
 
 #include "base/suggestion.h"
+#include "irace_core/files/configurations_file.h"
+#include "irace_core/files/parameter_file.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
+#include "sim/files/file_text.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith {
@@ -150,11 +153,68 @@ void read_ranges(TableReader& table, const Flavour& flavour, Method& method) {
   }
 }
 
+/// The text of a file that the key names, or of the key with `_text`, as stores have it.
+std::string read_text(TableReader& table, const std::string& key,
+                      const std::filesystem::path& folder, const std::string& what) {
+  if (auto text = table.text(key + "_text")) return std::move(*text);
+  const auto name = table.text(key);
+  if (!name) return {};
+  auto text = read_file(folder / *name, what);
+  if (text) return std::move(*text);
+  table.complain_foreign(key, text.error());
+  return {};
+}
+
+/// What errors call the text that a key gives: the file's path, or the key of a text in this file.
+std::string text_name(TableReader& table, const std::string& key,
+                      const std::filesystem::path& folder) {
+  const Node* node = table.take(key);
+  const auto* name = node != nullptr ? std::get_if<std::string>(&node->value) : nullptr;
+  return name != nullptr ? (folder / *name).string() : key + "_text";
+}
+
+/// A method whose space is that of an irace parameter file.
+void read_parameter_file(TableReader& table, const std::filesystem::path& folder, Method& method) {
+  method.flavour.clear();
+  method.max_states = method.max_transitions = 0;
+  const std::size_t before = table.complaints();
+  method.parameters = read_text(table, "parameters", folder, "parameters");
+  method.configurations = read_text(table, "configurations", folder, "configurations");
+  table.finish();
+  if (table.complaints() > before) return;
+  auto parameters = parse_parameter_file(
+      {.parameters = {method.parameters, text_name(table, "parameters", folder)}});
+  if (!parameters) return table.complain_foreign("parameters", std::move(parameters.error()));
+  if (method.configurations.empty()) return;
+  auto initial = parse_configurations_file(
+      {method.configurations, text_name(table, "configurations", folder)}, parameters->space);
+  if (!initial) table.complain_foreign("configurations", std::move(initial.error()));
+}
+
+/// Whether the method names a parameter file instead of a flavour.
+bool has_parameter_file(TableReader& table) {
+  if (table.has("parameters_text")) return true;
+  if (!table.has("parameters")) return false;
+  return std::holds_alternative<std::string>(table.take("parameters")->value);
+}
+
 /// One [[method]]; `taken` are the names of those before it.
-Method read_method(TableReader& table, const std::vector<std::string>& taken) {
+Method read_method(TableReader& table, const std::vector<std::string>& taken,
+                   const std::filesystem::path& folder, bool has_target) {
   Method method;
   method.name = table.text("name").value_or("");
   if (!check_name(table, method.name, taken)) method.name.clear();
+  if (has_parameter_file(table)) {
+    if (!has_target) {
+      table.complain("parameters",
+                     "a parameter file needs programs that evaluate: [simulator] with kind = "
+                     "\"command\"");
+      table.take_all();
+      return method;
+    }
+    read_parameter_file(table, folder, method);
+    return method;
+  }
   const Flavour* flavour = read_flavour(table, method);
   method.max_states = table.integer("max_states", {1, kMaxStates}).value_or(kMaxStates);
   method.max_transitions =
@@ -174,11 +234,12 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken) {
 
 }  // namespace
 
-std::vector<Method> read_methods(TableReader& root) {
+std::vector<Method> read_methods(TableReader& root, const std::filesystem::path& folder,
+                                 bool has_target) {
   std::vector<Method> methods;
   std::vector<std::string> names;
   for (TableReader& table : root.tables("method")) {
-    methods.push_back(read_method(table, names));
+    methods.push_back(read_method(table, names, folder, has_target));
     names.push_back(methods.back().name);
   }
   if (!root.has("method")) {

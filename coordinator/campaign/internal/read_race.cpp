@@ -1,35 +1,22 @@
+#include <algorithm>
 #include <string>
 #include <vector>
 
 #include "coordinator/campaign/internal/race_options.h"
 #include "coordinator/campaign/internal/read_method.h"
+#include "coordinator/campaign/internal/read_target.h"
 
 namespace swarmsmith {
 namespace {
 
-/// Options of irace that this version knows of and lacks. (Those that say how programs are called,
-/// or how many at a time, have no meaning here at all.)
-const std::vector<std::string> kNotYet = {"max_time",
-                                          "budget_estimation",
-                                          "min_measurable_time",
-                                          "capping",
-                                          "capping_type",
-                                          "bound_type",
-                                          "bound_max",
-                                          "bound_digits",
-                                          "bound_par",
-                                          "bound_as_timeout",
-                                          "postselection",
-                                          "deterministic",
-                                          "block_size",
-                                          "test_nb_elites",
-                                          "test_iteration_elites",
-                                          "configurations_file",
-                                          "repair_configuration"};
-
-/// The tests that irace has, those that are here first.
-const std::vector<std::string> kTests = {"F-test"};
-const std::vector<std::string> kTestsNotYet = {"t-test", "t-test-holm", "t-test-bonferroni"};
+/// The enumerator that a text names by its place in `names`.
+template <class Enum>
+std::optional<Enum> read_choice(TableReader& race, std::string_view key,
+                                const std::vector<std::string>& names) {
+  const auto name = race.choice(key, names);
+  if (!name) return std::nullopt;
+  return static_cast<Enum>(std::ranges::find(names, *name) - names.begin());
+}
 
 /// All options that are one number or one flag.
 void read_numbers(TableReader& race, Scenario& scenario) {
@@ -40,18 +27,42 @@ void read_numbers(TableReader& race, Scenario& scenario) {
     if (value) scenario.*option.member = *value;
   }
   for (const RealOption& option : kRealOptions) {
-    const auto value = race.number(option.key, {0, 1});
+    const auto value = race.number(option.key, {option.least, option.most});
     if (value) scenario.*option.member = *value;
   }
   for (const FlagOption& option : kFlagOptions) {
     if (const auto value = race.boolean(option.key)) scenario.*option.member = *value;
   }
   scenario.min_experiments = race.integer("min_experiments", {1, kLargestBudget});
+  scenario.test_type = read_choice<TestType>(race, "test_type", kTestTypes);
+  scenario.capping = race.boolean("capping");
+  scenario.capping_type =
+      read_choice<CappingType>(race, "capping_type", kCappingTypes).value_or(scenario.capping_type);
+  scenario.bound_type =
+      read_choice<BoundType>(race, "bound_type", kBoundTypes).value_or(scenario.bound_type);
+}
+
+/// Whether there is exactly one of the two budgets; time only where programs say what theirs was.
+bool check_budgets(TableReader& race, const Scenario& scenario, bool has_target) {
+  if (scenario.max_time > 0 && !has_target) {
+    race.complain("max_time",
+                  "`max_time` needs a target that says how long its runs took: [simulator] with "
+                  "kind = \"command\"; the simulator's budget is `max_experiments`");
+  } else if (scenario.max_time > 0 && scenario.max_experiments > 0) {
+    race.complain("max_time", "give `max_experiments` or `max_time`, not both");
+  } else if (scenario.max_time == 0 && scenario.max_experiments == 0) {
+    race.complain("max_experiments",
+                  "[race] needs `max_experiments`, the number of experiments "
+                  "that each design may use");
+  } else {
+    return true;
+  }
+  return false;
 }
 
 }  // namespace
 
-void read_race(TableReader& root, Scenario& scenario, std::int64_t& digits) {
+void read_race(TableReader& root, const std::filesystem::path& folder, Campaign& campaign) {
   auto race = root.table("race");
   if (!race) {
     if (!root.has("race")) {
@@ -61,20 +72,26 @@ void read_race(TableReader& root, Scenario& scenario, std::int64_t& digits) {
     }
     return;
   }
-  read_numbers(*race, scenario);
-  digits = race->integer("digits", {1, 15}).value_or(digits);
-  race->choice("test_type", kTests, kTestsNotYet);
-  if (race->boolean("elitist") == false) {
-    race->complain("elitist", "elitist = false is not there yet; races are elitist");
+  const std::size_t before = race->complaints();
+  read_numbers(*race, campaign.race);
+  campaign.digits = race->integer("digits", {1, 15}).value_or(campaign.digits);
+  campaign.test_nb_elites =
+      race->integer("test_nb_elites", {0, 1000}).value_or(campaign.test_nb_elites);
+  campaign.test_iteration_elites =
+      race->boolean("test_iteration_elites").value_or(campaign.test_iteration_elites);
+  campaign.only_test = race->boolean("only_test").value_or(false);
+  if (campaign.only_test && !campaign.target) {
+    race->complain("only_test", "`only_test` needs [simulator] with kind = \"command\"");
   }
-  if (!race->has("max_experiments")) {
-    race->complain("max_experiments",
-                   "[race] needs `max_experiments`, the number of experiments "
-                   "that each design may use");
+  if (const auto repair = race->text("repair_configuration"); repair && !repair->empty()) {
+    campaign.repair = program_path(*repair, folder);
   }
-  race->finish(kNotYet);
-  Scenario judged = scenario;
-  if (judged.max_experiments == 0) judged.max_experiments = 1;  // was complained about above
+  race->finish();
+  if (race->complaints() > before) return;
+  if (!check_budgets(*race, campaign.race, campaign.target.has_value())) return;
+  Scenario judged = campaign.race;
+  // What depends on the number of instances is judged mission by mission.
+  judged.n_instances = judged.block_size * judged.first_test;
   if (const auto checked = check(judged); !checked && race->has(checked.error().where)) {
     race->complain(checked.error().where,
                    "`" + checked.error().where + "` " + checked.error().message);

@@ -4,17 +4,13 @@
 #include <iterator>
 
 #include "coordinator/campaign/internal/race_options.h"
+#include "coordinator/campaign/internal/target_sections.h"
 #include "sim/control/flavour.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith {
 namespace {
-
-/// A TOML array of texts.
-std::string array_of(const std::vector<std::string>& texts) {
-  return "[" + list_of(texts, [](const std::string& text) { return quoted_text(text); }) + "]";
-}
 
 void append(std::vector<Section>& sections, std::vector<Section> more) {
   std::ranges::move(more, std::back_inserter(sections));
@@ -23,6 +19,10 @@ void append(std::vector<Section>& sections, std::vector<Section> more) {
 /// A method with the modules that it uses, by name.
 void add_method(const Method& method, std::vector<Section>& sections) {
   const std::string prefix = "method." + method.name + ".";
+  if (!method.parameters.empty()) {
+    sections.push_back(parameter_file_section(method));
+    return;
+  }
   sections.push_back({"[[method]]",
                       prefix,
                       {{"name", quoted_text(method.name)},
@@ -49,6 +49,12 @@ void add_method(const Method& method, std::vector<Section>& sections) {
   sections.push_back(std::move(parameters));
 }
 
+/// A choice by its name.
+template <class Enum>
+SectionLine choice_line(std::string_view key, const std::vector<std::string>& names, Enum value) {
+  return {std::string(key), quoted_text(names.at(static_cast<std::size_t>(value)))};
+}
+
 /// [race] with every option, also those that have their defaults.
 Section race_section(const Campaign& campaign) {
   const Scenario& race = campaign.race;
@@ -59,7 +65,11 @@ Section race_section(const Campaign& campaign) {
   if (race.min_experiments) {
     section.lines.push_back({"min_experiments", std::to_string(*race.min_experiments)});
   }
-  section.lines.push_back({"test_type", "\"F-test\""});
+  if (race.test_type)
+    section.lines.push_back(choice_line("test_type", kTestTypes, *race.test_type));
+  if (race.capping) section.lines.push_back({"capping", flag_text(*race.capping)});
+  section.lines.push_back(choice_line("capping_type", kCappingTypes, race.capping_type));
+  section.lines.push_back(choice_line("bound_type", kBoundTypes, race.bound_type));
   for (const RealOption& option : kRealOptions) {
     section.lines.push_back({std::string(option.key), number_text(race.*option.member)});
   }
@@ -67,6 +77,12 @@ Section race_section(const Campaign& campaign) {
     section.lines.push_back({std::string(option.key), flag_text(race.*option.member)});
   }
   section.lines.push_back({"digits", std::to_string(campaign.digits)});
+  section.lines.push_back({"test_nb_elites", std::to_string(campaign.test_nb_elites)});
+  section.lines.push_back({"test_iteration_elites", flag_text(campaign.test_iteration_elites)});
+  if (campaign.only_test) section.lines.push_back({"only_test", flag_text(true)});
+  if (!campaign.repair.empty()) {
+    section.lines.push_back({"repair_configuration", quoted_text(campaign.repair)});
+  }
   return section;
 }
 
@@ -80,13 +96,19 @@ std::vector<Section> sections_of(const Campaign& campaign) {
                       {{"name", quoted_text(campaign.name), false},
                        {"seed", std::to_string(campaign.seed)},
                        {"repetitions", std::to_string(campaign.repetitions)}}});
-  for (const CampaignMission& mission : campaign.missions)
-    append(sections, mission_sections(mission));
+  for (const CampaignMission& mission : campaign.missions) {
+    append(sections,
+           campaign.target ? target_mission_sections(mission) : mission_sections(mission));
+  }
   for (const Method& method : campaign.methods)
     add_method(method, sections);
   sections.push_back(race_section(campaign));
-  sections.push_back({"[simulator]", "simulator.", {{"kind", "\"builtin\""}}});
-  append(sections, profile_sections(campaign.profile, "simulator.profile"));
+  if (campaign.target) {
+    sections.push_back(target_section(*campaign.target));
+  } else {
+    sections.push_back({"[simulator]", "simulator.", {{"kind", "\"builtin\""}}});
+    append(sections, profile_sections(campaign.profile, "simulator.profile"));
+  }
   return sections;
 }
 

@@ -2,11 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "base/rng.h"
 #include "coordinator/campaign/campaign_file.h"
+#include "irace_core/parameter_space.h"
 
 namespace swarmsmith {
 
@@ -45,6 +48,25 @@ inline std::vector<std::string> complaints(const std::string& text) {
   for (const Error& error : campaign.error())
     lines.push_back(to_string(error));
   return lines;
+}
+
+/// Every active parameter uniform in its domain, reals with two decimals.
+inline Configuration random_configuration(const ParameterSpace& space, Rng& rng) {
+  Assignment values(space);
+  for (const std::size_t i : space.hierarchy_order()) {
+    if (!space.is_active(i, values)) continue;
+    if (!space.is_numeric(i)) {
+      values.set(i, static_cast<double>(rng.below(space.value_count(i))));
+      continue;
+    }
+    const Interval interval = space.interval(i, values)->value();
+    const bool whole = std::holds_alternative<Integer>(space[i].domain);
+    values.set(
+        i, whole ? static_cast<double>(rng.uniform_int(static_cast<std::int64_t>(interval.lower),
+                                                       static_cast<std::int64_t>(interval.upper)))
+                 : std::round(rng.uniform(interval.lower, interval.upper) * 100) / 100);
+  }
+  return values.configuration();
 }
 
 }  // namespace swarmsmith

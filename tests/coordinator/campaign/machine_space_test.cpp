@@ -2,9 +2,6 @@
 
 #include <gmock/gmock.h>
 
-#include <cmath>
-
-#include "base/rng.h"
 #include "sim/control/machine_text.h"
 #include "tests/coordinator/campaign/campaign_support.h"
 
@@ -29,25 +26,6 @@ std::vector<std::string> names_of(const ParameterSpace& space) {
   for (const Parameter& parameter : space.parameters())
     names.push_back(parameter.name);
   return names;
-}
-
-/// Every active parameter uniform in its domain, reals rounded.
-Configuration random_configuration(const ParameterSpace& space, Rng& rng) {
-  Assignment values(space);
-  for (const std::size_t i : space.hierarchy_order()) {
-    if (!space.is_active(i, values)) continue;
-    if (!space.is_numeric(i)) {
-      values.set(i, static_cast<double>(rng.below(space.value_count(i))));
-      continue;
-    }
-    const Interval interval = space.interval(i, values)->value();
-    const bool whole = std::holds_alternative<Integer>(space[i].domain);
-    values.set(
-        i, whole ? static_cast<double>(rng.uniform_int(static_cast<std::int64_t>(interval.lower),
-                                                       static_cast<std::int64_t>(interval.upper)))
-                 : std::round(rng.uniform(interval.lower, interval.upper) * 100) / 100);
-  }
-  return values.configuration();
 }
 
 TEST(MachineSpace, OfWatermelonHasTheOneHundredAndFortyNineParametersOfTheOriginalInItsOrder) {

@@ -11,7 +11,7 @@
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/plans.h"
-#include "storage/answer.h"
+#include "tests/coordinator/design/memory.h"
 
 namespace swarmsmith {
 namespace {
@@ -38,45 +38,6 @@ std::vector<DesignPlan> small_plans(std::int64_t repetitions) {
   EXPECT_TRUE(plans) << to_string(plans.error());
   return *plans;
 }
-
-/// Keeps the rows as a store would: the first evaluation counts, absolute values are replaced.
-struct Memory {
-  std::vector<Row> rows;
-
-  std::vector<StoredScore> scores() const {
-    std::vector<StoredScore> found;
-    for (const Row& row : rows) {
-      if (const auto* e = std::get_if<EvaluationRow>(&row)) {
-        found.push_back({e->key, e->status, e->score, e->state_digest});
-      }
-    }
-    return found;
-  }
-  std::vector<StoredStep> steps() const {
-    std::vector<StoredStep> found;
-    for (const Row& row : rows) {
-      if (const auto* s = std::get_if<RaceStepRow>(&row)) {
-        found.push_back({s->design, s->step, s->digest});
-      }
-    }
-    std::ranges::stable_sort(found, {}, &StoredStep::design);
-    return found;
-  }
-  /// What `verify` and `digest` look at, as texts in an order of their own.
-  std::vector<std::string> answer() const {
-    std::vector<std::string> texts;
-    for (const Row& row : rows) {
-      if (in_answer(row) && !std::holds_alternative<DesignStateRow>(row) &&
-          !std::holds_alternative<CandidateTotalsRow>(row)) {
-        texts.push_back(describe(row));
-      }
-    }
-    std::ranges::sort(texts);
-    const auto [first, last] = std::ranges::unique(texts);
-    texts.erase(first, last);
-    return texts;
-  }
-};
 
 /// Runs until finished or `limit` outcomes, telling outcomes in an order drawn from `order`.
 void run(CampaignRunner& runner, Memory& memory, Rng order, std::size_t limit = ~std::size_t{0}) {

@@ -70,6 +70,53 @@ TEST(ScenarioMessages, RefuseBytesAndProfilesThatMakeNoSense) {
   EXPECT_EQ(complaint([](Profile& p) { p.tracking.tag.y = 7; }), "profile.tracking.tag");
 }
 
+WorkerScenario with_programs() {
+  WorkerScenario scenario{.campaign_digest = "d", .engine_version = 3};
+  scenario.target = Target{.runner = "/r",
+                           .launcher = "/l",
+                           .command_line = "{seed}",
+                           .evaluator = "/e",
+                           .folder = "/f",
+                           .retries = 2,
+                           .timeout_s = 60,
+                           .timeout_is_rejection = true,
+                           .aclib = true,
+                           .batch_mode = BatchMode::HtCondor,
+                           .prints_time = true,
+                           .min_measurable_time = 0.5,
+                           .debug_level = 3};
+  scenario.instances = {{{"a", "b c"}, {"t\xff"}}, {}};
+  return scenario;
+}
+
+TEST(TargetMessages, GiveBackThePrograms) {
+  EXPECT_EQ(scenario_from_bytes(to_bytes(with_programs())), with_programs());
+}
+
+TEST(TargetMessages, AreCheckedWhenTheyCome) {
+  const auto complaint = [](const std::function<void(Target&)>& spoil) {
+    WorkerScenario scenario = with_programs();
+    spoil(*scenario.target);
+    const auto read = scenario_from_bytes(to_bytes(scenario));
+    return read ? "fine" : read.error().where;
+  };
+  EXPECT_EQ(complaint([](Target& t) { t.runner = "r"; }), "target.runner");
+  EXPECT_EQ(complaint([](Target& t) { t.launcher = "l"; }), "target.launcher");
+  EXPECT_EQ(complaint([](Target& t) { t.folder = ""; }), "target.folder");
+  EXPECT_EQ(complaint([](Target& t) { t.command_line += '\0'; }), "target.command_line");
+  EXPECT_EQ(complaint([](Target& t) { t.retries = -1; }), "target.retries");
+  EXPECT_EQ(complaint([](Target& t) { t.timeout_s = -1; }), "target.timeout_s");
+  EXPECT_EQ(complaint([](Target& t) { t.min_measurable_time = std::nan(""); }),
+            "target.min_measurable_time");
+  EXPECT_EQ(complaint([](Target& t) { t.debug_level = 4; }), "target.debug_level");
+  EXPECT_EQ(complaint([](Target& t) { t.batch_mode = static_cast<BatchMode>(9); }),
+            "target.batch_mode");
+  EXPECT_EQ(complaint([](Target& t) { t.evaluator.clear(); }), "target.evaluator");
+  WorkerScenario scenario = with_programs();
+  scenario.instances[0].test[0] += '\0';
+  EXPECT_EQ(scenario_from_bytes(to_bytes(scenario)).error().where, "instances");
+}
+
 TEST(ProfileMessages, NeedEveryFieldAndNoOther) {
   pb::Profile message;
   to_message(every_noise(), message);

@@ -1,0 +1,199 @@
+#include "coordinator/campaign/irace_folder.h"
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "coordinator/campaign/campaign_text.h"
+#include "coordinator/campaign/method_space.h"
+#include "irace_core/files/parameter_file.h"
+
+namespace swarmsmith {
+namespace {
+
+/// In single quotes for a shell.
+std::string shell_quoted(const std::string& text) {
+  std::string quoted = "'";
+  for (const char c : text)
+    quoted += c == '\'' ? "'\\''" : std::string(1, c);
+  return quoted + "'";
+}
+
+/// irace's calling convention (irace facts, 18.1); a POSIX shell needs no other program for it.
+std::string target_runner(const DesignRow& design, const std::filesystem::path& program) {
+  return "#!/bin/sh\n"
+         "# One experiment of irace: simulates a machine once and prints its cost, minus the "
+         "score.\n"
+         "# irace calls: target-runner CONFIGURATION INSTANCE-NUMBER SEED INSTANCE MACHINE...\n"
+         "# SWARMSMITH names another program.\n"
+         "program=" +
+         shell_quoted(program.string()) +
+         "\n"
+         "seed=$3\n"
+         "shift 4\n"
+         "answer=$(\"${SWARMSMITH:-$program}\" evaluate --json --campaign "
+         "\"${0%/*}/campaign.toml\" \\\n"
+         "  --design " +
+         to_string(design.id) +
+         " --seeds \"$seed\" -- \"$@\") || exit\n"
+         "score=${answer##*:}\n"
+         "score=${score%\\}}\n"
+         "case $score in\n"
+         "  -*) echo \"${score#-}\" ;;\n"
+         "  0) echo 0 ;;\n"
+         "  *) echo \"-$score\" ;;\n"
+         "esac\n";
+}
+
+std::string readme(const Campaign& campaign, const DesignRow& design, IraceVersion version) {
+  const std::string name = version == IraceVersion::V4 ? "4" : "3.5";
+  return "Design " + to_string(design.id) + " of campaign " + campaign.name + ": mission " +
+         design.mission + ", method " + design.method +
+         ",\n"
+         "for irace " +
+         name +
+         " of R.\n"
+         "\n"
+         "    irace --scenario scenario.txt            (R's)\n"
+         "    swarmsmith irace --scenario scenario.txt (the same files, without R)\n"
+         "\n"
+         "started in this folder. --parallel N runs N simulations at a time, --seed S draws\n"
+         "others.\n"
+         "\n"
+         "parameters.txt  the machines of the method; switches and values are AutoMoDe's text\n"
+         "scenario.txt    the options of the race\n"
+         "instances.txt   the mission: each run has a new seed\n"
+         "target-runner   simulates one machine once with `swarmsmith evaluate`; prints minus\n"
+         "                the score\n"
+         "campaign.toml   what the target-runner reads: mission, flavour, simulator profile\n"
+         "\n"
+         "The last line of irace's report, from --nstates on, is the machine that was found:\n"
+         "\n"
+         "    swarmsmith evaluate --campaign campaign.toml --design " +
+         to_string(design.id) + " --seeds 1-200 -- --nstates ...\n";
+}
+
+/// A text a line.
+std::string lines_of(const std::vector<std::string>& texts) {
+  std::string lines;
+  for (const std::string& text : texts)
+    lines += text + "\n";
+  return lines;
+}
+
+/// What irace is told of a design of machines: one instance, the mission, whose runs differ in
+/// their seeds; as many test instances as the winner is tested on seeds.
+Expected<IraceSetup> setup_of_machines(const Campaign& campaign, const Method& method,
+                                       const CampaignMission& mission) {
+  if (campaign.race.max_time > 0) {
+    return bad_input("a simulation prints no time, which max_time needs", "max_time");
+  }
+  const auto flavour = find_flavour(method.flavour, method.turn_clock);
+  if (!flavour) return Unexpected(flavour.error());
+  auto space = MachineSpace::in_grammar(method, *flavour, static_cast<int>(campaign.digits));
+  if (!space) return Unexpected(space.error());
+  IraceSetup setup;
+  setup.space = std::move(*space);
+  setup.target_runner = "./target-runner";
+  setup.training = {mission.mission.name};
+  setup.test.assign(static_cast<std::size_t>(mission.test_count), mission.mission.name);
+  return setup;
+}
+
+/// The word of irace's option batchmode.
+std::string_view word_of(BatchMode mode) {
+  constexpr std::array<std::string_view, 6> kWords = {"0",      "sge",   "pbs",
+                                                      "torque", "slurm", "htcondor"};
+  return kWords.at(static_cast<std::size_t>(mode));
+}
+
+/// The reverse of `campaign_of`: what irace is told of a design that programs evaluate.
+Expected<IraceSetup> setup_of_target(const Campaign& campaign, const Method& method,
+                                     const CampaignMission& mission) {
+  const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
+  if (!space) return Unexpected(space.error());
+  const Target& target = *campaign.target;
+  IraceSetup setup;
+  setup.space = space->parameters();
+  setup.training = mission.instances.training;
+  setup.test = mission.instances.test;
+  setup.exec_dir = target.folder;
+  setup.target_runner = target.runner;
+  setup.target_runner_launcher = target.launcher;
+  setup.target_cmdline = target.command_line;
+  setup.target_evaluator = target.evaluator;
+  setup.target_runner_retries = target.retries;
+  setup.target_runner_timeout = target.timeout_s;
+  setup.aclib = target.aclib;
+  setup.batchmode = word_of(target.batch_mode);
+  setup.debug_level = target.debug_level;
+  setup.repair_configuration = campaign.repair;
+  setup.test_nb_elites = campaign.test_nb_elites;
+  setup.test_iteration_elites = campaign.test_iteration_elites;
+  return setup;
+}
+
+/// Everything but the parameter file.
+void add_files(const IraceSetup& setup, IraceVersion version, IraceFileNames names,
+               IraceFolder& folder) {
+  folder.files.push_back({names.training, lines_of(setup.training)});
+  if (!setup.test.empty()) {
+    names.test = "test-instances.txt";
+    folder.files.push_back({names.test, lines_of(setup.test)});
+  }
+  const IraceScenarioText scenario = print_irace_scenario(setup, version, names);
+  folder.files.push_back({"scenario.txt", scenario.text});
+  folder.remarks = scenario.remarks;
+}
+
+/// The parameter file, and the names of what belongs to it.
+Expected<IraceFileNames> add_parameters(const ParameterSpace& space, IraceVersion version,
+                                        IraceFolder& folder) {
+  IraceFileNames names;
+  names.training = "instances.txt";
+  if (version == IraceVersion::V4) {
+    auto text = print_parameter_file(space);
+    if (!text) return Unexpected(text.error());
+    folder.files.push_back({names.parameters, std::move(*text)});
+    return names;
+  }
+  auto files = print_irace_35_files(space);
+  if (!files) return Unexpected(files.error());
+  folder.files.push_back({names.parameters, std::move(files->parameters)});
+  if (files->forbidden.empty()) return names;
+  names.forbidden = "forbidden.txt";
+  folder.files.push_back({names.forbidden, std::move(files->forbidden)});
+  return names;
+}
+
+}  // namespace
+
+Expected<IraceFolder> irace_folder(const Campaign& campaign, const DesignRow& design,
+                                   IraceVersion version, const std::filesystem::path& program) {
+  const Method& method = *std::ranges::find(campaign.methods, design.method, &Method::name);
+  const CampaignMission& mission = *std::ranges::find_if(
+      campaign.missions,
+      [&](const CampaignMission& candidate) { return candidate.mission.name == design.mission; });
+  auto setup = campaign.target ? setup_of_target(campaign, method, mission)
+                               : setup_of_machines(campaign, method, mission);
+  if (!setup) return Unexpected(setup.error());
+  setup->race = campaign.race;
+  setup->race.max_experiments = design.budget;
+  setup->race.min_experiments.reset();
+  setup->log_file = "./irace.Rdata";
+  IraceFolder folder;
+  auto names = add_parameters(setup->space, version, folder);
+  if (!names) return Unexpected(names.error());
+  if (!method.configurations.empty()) {
+    names->configurations = "configurations.txt";
+    folder.files.push_back({names->configurations, method.configurations});
+  }
+  add_files(*setup, version, *names, folder);
+  if (campaign.target) return folder;
+  folder.files.push_back({"README", readme(campaign, design, version)});
+  folder.files.push_back({"campaign.toml", normalised_text(campaign)});
+  folder.files.push_back({"target-runner", target_runner(design, program), true});
+  return folder;
+}
+
+}  // namespace swarmsmith

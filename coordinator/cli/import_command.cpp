@@ -1,0 +1,104 @@
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <random>
+
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/campaign/campaign_text.h"
+#include "coordinator/campaign/irace_campaign.h"
+#include "coordinator/cli/commands.h"
+#include "irace_core/files/command_line.h"
+#include "irace_core/files/setup.h"
+#include "sim/files/toml_text.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Arguments {
+  std::string file;
+  std::string out;
+};
+
+/// What a campaign file begins with: where it came from, and what can be changed in it.
+std::string heading(const fs::path& scenario, const Campaign& campaign) {
+  return "# The race of irace's scenario " + scenario.string() +
+         ",\n"
+         "# by `swarmsmith import`. Parameters, instances and options are all in this file; the\n"
+         "# programs are named by their paths. Every key: docs/campaign-file.md\n"
+         "#   swarmsmith check campaign.toml    what it will do\n"
+         "#   swarmsmith run campaign.toml      runs it; kill it at any time, the same command goes "
+         "on\n" +
+         normalised_text(campaign);
+}
+
+/// [workers], which no normalised text has.
+std::string workers_text(const Campaign& campaign) {
+  if (!campaign.local_workers) return "";
+  return "\n[workers]\nlocal = " + std::to_string(*campaign.local_workers) + "\n";
+}
+
+Expected<void> write_file(const std::string& file, const std::string& text) {
+  std::ofstream stream(file, std::ios::binary);
+  stream << text;
+  stream.close();
+  if (!stream) return Unexpected(cannot_write(file));
+  return {};
+}
+
+ExitCode import_scenario(const Arguments& arguments, Output& output) {
+  const std::vector<std::string> words{"--scenario", arguments.file};
+  const SetupSurroundings surroundings = surroundings_of_process();
+  const auto line = read_irace_command_line(words, surroundings.folder);
+  const auto setup = line ? read_irace_setup(*line, surroundings)
+                          : IraceSetupOrErrors(tl::unexpected(line.error()));
+  if (!setup) {
+    for (const Error& error : setup.error())
+      print_error(output, error);
+    return ExitCode::Usage;
+  }
+  for (const std::string& warning : setup->warnings)
+    print_note(output, "warning: " + warning);
+  const std::uint64_t drawn = std::random_device()();
+  if (!setup->seed) {
+    print_note(output, "the scenario has no seed; the campaign gets " + std::to_string(drawn));
+  }
+  const Campaign campaign = campaign_of(*setup, drawn);
+  const std::vector<Error> faults = check_budget(campaign);
+  for (const Error& fault : faults)
+    print_error(output, fault);
+  if (!faults.empty()) return ExitCode::Usage;
+  const std::string text = heading(setup->scenario_file, campaign) + workers_text(campaign);
+  if (arguments.out.empty()) {
+    output.out << text;
+    return ExitCode::Done;
+  }
+  if (auto written = write_file(arguments.out, text); !written) {
+    return fail(output, ExitCode::Failed, written.error());
+  }
+  print_note(output, "wrote " + arguments.out);
+  return ExitCode::Done;
+}
+
+/// What is imported shows in the file's name.
+ExitCode run(const Arguments& arguments, Output& output) {
+  const std::string ending = fs::path(arguments.file).extension().string();
+  if (ending == ".csv" || ending == ".Rdata") {
+    return fail(output, ExitCode::Usage,
+                "importing a " + ending + " file is not there yet; scenarios of irace are");
+  }
+  return import_scenario(arguments, output);
+}
+
+}  // namespace
+
+Run declare_import(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  options.text("FILE", arguments->file, "A scenario of irace", Options::Need::Required);
+  options.text("-o,--output", arguments->out, "The campaign file (default: standard output)");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

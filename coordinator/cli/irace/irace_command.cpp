@@ -1,0 +1,142 @@
+#include "coordinator/cli/irace/irace_command.h"
+
+#include <filesystem>
+#include <optional>
+
+#include "base/log.h"
+#include "coordinator/campaign/irace_campaign.h"
+#include "coordinator/campaign/programs.h"
+#include "coordinator/cli/commands.h"
+#include "coordinator/cli/irace/irace_check.h"
+#include "coordinator/cli/irace/irace_console.h"
+#include "coordinator/cli/irace/irace_init.h"
+#include "coordinator/cli/irace/irace_only_test.h"
+#include "coordinator/cli/irace/irace_run.h"
+#include "irace_core/files/command_line.h"
+#include "irace_core/files/scenario_text.h"
+#include "irace_core/files/setup.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// irace ends with 1, whatever is wrong.
+ExitCode complain(Output& output, const std::vector<Error>& errors) {
+  for (const Error& error : errors)
+    print_error(output, error);
+  return ExitCode::Failed;
+}
+
+/// Flags of ours, which hold from the first line on.
+void read_flags(const IraceSettings& settings, Output& output) {
+  output.json = settings.is_on("--json");
+  output.verbose = settings.is_on("--verbose");
+  if (settings.is_on("--no-color")) output.color = false;
+  // irace's lines tell what a person wants to know, and errors are explained.
+  set_log_level(output.verbose ? LogLevel::Debug : LogLevel::None);
+}
+
+const Command& this_command() {
+  for (const Command& command : commands()) {
+    if (command.run_words == run_irace) return command;
+  }
+  throw std::logic_error("irace is no command");
+}
+
+void print_help(Output& output) {
+  const Command& command = this_command();
+  output.out << command.summary << "\nUsage: swarmsmith irace [OPTIONS]\n\n"
+             << irace_option_help() << '\n'
+             << command.details << '\n';
+}
+
+/// R's files and the store are no copies of each other: .Rdata becomes .db.
+std::filesystem::path store_file(std::filesystem::path log_file) {
+  const std::string ending = log_file.extension().string();
+  if (ending == ".Rdata" || ending == ".RData" || ending == ".rda")
+    log_file.replace_extension(".db");
+  return log_file;
+}
+
+/// --store, else the log file, else a place that goes afterwards.
+Expected<StorePlace> place_of(Output& output, const IraceCommandLine& line,
+                              const IraceSetup& setup) {
+  if (const IraceSetting* store = line.settings.find("--store")) {
+    const auto text = line.settings.text("--store");
+    if (text && !text->empty()) return StorePlace::at(absolute_path(*text, store->folder));
+  }
+  if (!setup.log_file.empty()) {
+    const std::filesystem::path file = store_file(setup.log_file);
+    if (file != setup.log_file && file.filename() != "irace.db") {
+      print_note(output, "the store is " + file.string() + ": an SQLite file in place of R's " +
+                             setup.log_file.string());
+    }
+    // Tests without a run are a campaign of their own.
+    if (line.action != IraceAction::OnlyTest) return StorePlace::at(file);
+    const std::string name = file.stem().string() + "-test" + file.extension().string();
+    return StorePlace::at(file.parent_path() / name);
+  }
+  return StorePlace::temporary();
+}
+
+std::string instances_text(const std::string& what, const std::vector<std::string>& instances) {
+  std::string text = "# " + std::to_string(instances.size()) + " " + what + " instances\n";
+  for (const std::string& instance : instances)
+    text += "#   " + instance + "\n";
+  return text;
+}
+
+ExitCode check(Output& output, const IraceSetup& setup) {
+  const Campaign campaign = campaign_of(setup, setup.seed.value_or(1));
+  const IraceFileNames names{.parameters = setup.parameter_file.string(),
+                             .training = "",
+                             .configurations = setup.configurations_file.string()};
+  output.out << "# " << irace_date() << ": Checking scenario\n## irace scenario:\n"
+             << print_irace_scenario(setup, IraceVersion::V4, names).text
+             << instances_text("training", setup.training) << instances_text("test", setup.test)
+             << "## end of irace scenario\n## parameters:\n"
+             << setup.parameter_text << "## end of parameters\n";
+  return check_target(output, setup, campaign);
+}
+
+ExitCode carry_out(Output& output, const IraceCommandLine& line) {
+  auto setup = read_irace_setup(line, surroundings_of_process());
+  if (!setup) return complain(output, setup.error());
+  output.quiet = setup->quiet;
+  for (const std::string& warning : setup->warnings)
+    print_note(output, "warning: " + warning);
+  if (const auto faults = check_programs(campaign_of(*setup, 1)); !faults.empty())
+    return complain(output, faults);
+  if (line.action == IraceAction::Check) return check(output, *setup);
+  const auto place = place_of(output, line, *setup);
+  if (!place) return fail(output, ExitCode::Failed, place.error());
+  const IraceSlots slots{.workers = line.settings.number("--workers"), .parallel = setup->parallel};
+  if (line.action == IraceAction::OnlyTest)
+    return only_test(output, *setup, line.only_test, *place, slots);
+  return run_scenario(output, *setup, *place, slots);
+}
+
+}  // namespace
+
+ExitCode run_irace(const std::vector<std::string>& words, Output& output) {
+  const auto line = read_irace_command_line(words, std::filesystem::current_path());
+  if (!line) return complain(output, line.error());
+  read_flags(line->settings, output);
+  for (const std::string& warning : line->warnings)
+    print_note(output, "warning: " + warning);
+  switch (line->action) {
+    case IraceAction::Help:
+      print_help(output);
+      return ExitCode::Done;
+    case IraceAction::Version:
+      return run_program({"version"}, output);
+    case IraceAction::Init:
+      return write_templates(output);
+    case IraceAction::Run:
+    case IraceAction::Check:
+    case IraceAction::OnlyTest:
+      break;
+  }
+  return carry_out(output, *line);
+}
+
+}  // namespace swarmsmith::cli

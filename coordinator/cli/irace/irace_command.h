@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "coordinator/cli/output.h"
+
+namespace swarmsmith::cli {
+
+/// `swarmsmith irace`: the words after it are irace's own and those of docs/command-line.md.
+ExitCode run_irace(const std::vector<std::string>& words, Output& output);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,182 @@
+#include "coordinator/cli/irace/irace_run.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <utility>
+
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/irace_campaign.h"
+#include "coordinator/campaign/method_space.h"
+#include "coordinator/cli/campaign_run.h"
+#include "coordinator/cli/irace/cost_events.h"
+#include "coordinator/cli/irace/irace_console.h"
+#include "coordinator/cli/irace/irace_report.h"
+#include "irace_core/iterated_race.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::int64_t kLargestSeed = 2'147'483'647;  // irace's
+
+std::string times_line(TimePoint begin) {
+  rusage own{};
+  rusage children{};
+  getrusage(RUSAGE_SELF, &own);
+  getrusage(RUSAGE_CHILDREN, &children);
+  const auto seconds = [](const timeval& a, const timeval& b) {
+    return static_cast<double>(a.tv_sec + b.tv_sec) +
+           1e-6 * static_cast<double>(a.tv_usec + b.tv_usec);
+  };
+  const std::chrono::duration<double> wall = SystemClock().now() - begin;
+  return fmt::format(
+      "# Total CPU user time: {:.3f}, CPU sys time: {:.3f}, Wall-clock time: {:.3f}\n",
+      seconds(own.ru_utime, children.ru_utime), seconds(own.ru_stime, children.ru_stime),
+      wall.count());
+}
+
+/// A run of one scenario, from its first line to its report.
+class ScenarioRun {
+ public:
+  ScenarioRun(Output& output, const IraceSetup& setup, const StorePlace& store)
+      : output_(output),
+        setup_(setup),
+        place_(store),
+        campaign_(campaign_of(setup, seed_of(setup, store))) {
+    campaign_.store = store.file();
+  }
+
+  ExitCode run(const RunOptions& options) {
+    race_ = race_on(campaign_, campaign_.missions.front());
+    auto console = make_console();
+    if (!console) return fail(output_, ExitCode::Failed, console.error());
+    Progress progress(output_, design_rows(campaign_), begin_);
+    CostEvents events(progress);
+    RunListener& teller = output_.json ? static_cast<RunListener&>(events) : *console;
+    if (!is_finished() && !output_.json) {
+      console->write_begin();
+      if (auto told = tell_what_was(*console); !told)
+        return fail(output_, ExitCode::Failed, told.error());
+    }
+    const ExitCode ended = carry_out(output_, campaign_, options, teller);
+    return ended == ExitCode::Done ? report() : explain_end(output_, ended);
+  }
+
+ private:
+  Expected<IraceConsole> make_console() {
+    const auto race = IteratedRace::start(setup_.space, race_, setup_.initial);
+    if (!race) return Unexpected(race.error());
+    return IraceConsole(output_,
+                        {.race = race_,
+                         .space = setup_.space,
+                         .seed = campaign_.seed,
+                         .n_iterations = race->n_iterations(),
+                         .budget = race_.max_time > 0 ? 0 : race->budget()},
+                        begin_);
+  }
+
+  /// Whether the store holds this run, to its end.
+  bool is_finished() const {
+    const auto store = reader();
+    return store != nullptr && store->finished();
+  }
+
+  /// The store, when it is this run's; who opens it to write says what is wrong with it.
+  std::unique_ptr<StoreReader> reader() const {
+    std::error_code trouble;
+    if (!std::filesystem::exists(place_.file(), trouble)) return nullptr;
+    auto store = StoreReader::open(place_.file());
+    if (!store || (*store)->campaign().digest != campaign_digest(campaign_)) return nullptr;
+    return std::move(*store);
+  }
+
+  Expected<void> tell_what_was(IraceConsole& console) const {
+    const auto store = reader();
+    if (store == nullptr) return {};
+    return console.go_on_from(*store);
+  }
+
+  ExitCode report() {
+    const auto store = StoreReader::open(place_.file());
+    if (!store) return fail(output_, ExitCode::Failed, store.error());
+    const auto result = read_irace_result(**store, setup_.space);
+    if (!result) return fail(output_, ExitCode::Failed, result.error());
+    const auto seed = static_cast<std::int64_t>(campaign_.seed);
+    if (output_.json) {
+      output_.out << result_json(*result, place_.is_kept() ? place_.file().string() : "", seed);
+    } else if (!output_.quiet) {
+      output_.out << times_line(begin_) << best_text(*result, race_) << tests_text(*result)
+                  << std::flush;
+      print_whereabouts();
+    }
+    return ExitCode::Done;
+  }
+
+  std::string tests_text(const IraceResult& result) const {
+    std::string text = fmt::format(
+        "\n\n# Testing of elite configurations: {}\n"
+        "# Testing iteration configurations: {}\n",
+        campaign_.test_nb_elites, campaign_.test_iteration_elites ? "TRUE" : "FALSE");
+    if (setup_.test.empty()) {
+      return text + fmt::format("# {}: No test instances, skip testing\n", irace_date());
+    }
+    return text + testing_text(result) + fmt::format("# {}: Finished testing\n", irace_date());
+  }
+
+  void print_whereabouts() {
+    if (!place_.is_kept()) {
+      print_note(output_, "nothing is kept: the log file has no name (logFile, --log-file)");
+      return;
+    }
+    const std::string file = place_.file().string();
+    print_note(output_, "\nEverything is in " + file + ". How to go on:\n  swarmsmith ls elites " +
+                            file + "\n  swarmsmith query " + file + "\n  swarmsmith verify " +
+                            file);
+  }
+
+  Output& output_;
+  const IraceSetup& setup_;
+  const StorePlace& place_;
+  Campaign campaign_;
+  Scenario race_;
+  TimePoint begin_ = SystemClock().now();
+};
+
+}  // namespace
+
+RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
+  RunOptions options;
+  options.keeps_store = store.is_kept();
+  options.workers = std::max<std::int64_t>(slots.workers.value_or(1), 1);
+  if (slots.parallel) {
+    const std::int64_t all = std::max<std::int64_t>(*slots.parallel, 1);
+    options.workers = std::min(*options.workers, all);
+    options.slots = (all + *options.workers - 1) / *options.workers;
+  }
+  return options;
+}
+
+ExitCode explain_end(Output& output, ExitCode ended) {
+  if (ended == ExitCode::Interrupted || ended == ExitCode::Terminated) return ended;
+  if (ended == ExitCode::Store) {
+    output.err << "Give the options that made this store, or another one: --log-file NAME, or "
+                  "--store PATH.\n";
+  }
+  return ExitCode::Failed;
+}
+
+std::uint64_t seed_of(const IraceSetup& setup, const StorePlace& store) {
+  if (setup.seed) return *setup.seed;
+  if (const auto stored = store.seed()) return *stored;
+  std::random_device device;
+  return 1 + device() % static_cast<std::uint64_t>(kLargestSeed);
+}
+
+ExitCode run_scenario(Output& output, const IraceSetup& setup, const StorePlace& store,
+                      const IraceSlots& slots) {
+  return ScenarioRun(output, setup, store).run(run_options(slots, store));
+}
+
+}  // namespace swarmsmith::cli

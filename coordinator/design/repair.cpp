@@ -1,0 +1,58 @@
+#include "coordinator/design/repair.h"
+
+#include <memory>
+#include <utility>
+
+#include "irace_core/files/configurations_file.h"
+#include "target/interrupt.h"
+#include "target/process.h"
+
+namespace swarmsmith {
+namespace {
+
+/// The end of what a program wrote, for messages.
+std::string excerpt(const Captured& captured) {
+  constexpr std::size_t kMost = 500;
+  const std::string& text = captured.text;
+  return text.size() > kMost ? "..." + text.substr(text.size() - kMost) : text;
+}
+
+Error failure(const std::string& program, const std::string& reason, const ProcessEnd& end) {
+  return {ErrorKind::BadInput,
+          reason + "; it printed \"" + excerpt(end.output) + "\" and, as errors, \"" +
+              excerpt(end.errors) + "\"",
+          "repair_configuration " + program};
+}
+
+}  // namespace
+
+Repair repair_by(const std::string& program, const std::string& folder,
+                 std::shared_ptr<const MethodSpace> space) {
+  auto interrupt = std::make_shared<Interrupt>();
+  return [program, folder, space = std::move(space),
+          interrupt = std::move(interrupt)](const Configuration& given) -> Expected<Configuration> {
+    const ParameterSpace& parameters = space->parameters();
+    const auto table = print_configurations_file(parameters, std::span(&given, 1));
+    if (!table) return Unexpected(table.error());
+    // Programs have no input but what a shell gives them.
+    const ProcessCall call{
+        .words = {"/bin/sh", "-c", "printf '%s' \"$1\" | \"$0\"", program, *table},
+        .folder = folder};
+    const auto end = run_process(call, *interrupt);
+    if (!end) return Unexpected(end.error());
+    if (end->signal != 0 || end->exit_code != 0) {
+      return Unexpected(failure(program, "the program failed", *end));
+    }
+    auto repaired = parse_configurations_file({end->output.text, "its output"}, parameters);
+    if (!repaired) {
+      return Unexpected(failure(
+          program, "the program printed no configuration: " + to_string(repaired.error()), *end));
+    }
+    if (repaired->size() != 1) {
+      return Unexpected(failure(program, "the program must print one configuration", *end));
+    }
+    return std::move(repaired->front());
+  };
+}
+
+}  // namespace swarmsmith

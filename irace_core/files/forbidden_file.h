@@ -1,0 +1,19 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "irace_core/expression.h"
+#include "irace_core/files/irace_text.h"
+
+namespace swarmsmith {
+
+/// Reads irace 3.5's forbiddenFile: one expression a line, comments and blank lines between them
+/// (irace facts, 23.5). Errors and warnings: `where` is file:line:column.
+Expected<std::vector<Expression>> parse_forbidden_file(const IraceText& source,
+                                                       std::span<const std::string> names,
+                                                       std::vector<Error>& warnings);
+
+}  // namespace swarmsmith

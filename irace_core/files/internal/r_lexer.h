@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/expected.h"
+#include "irace_core/files/r_syntax.h"
+
+namespace swarmsmith::r {
+
+enum class TokenKind {
+  Number,
+  Text,
+  Name,      ///< also reserved words
+  Operator,  ///< also parentheses, comma and semicolon
+  LineEnd,
+  End,
+};
+
+struct Token {
+  TokenKind kind = TokenKind::End;
+  std::string text;  ///< of a Text its value, otherwise as written (names without backticks)
+  Number number;
+  bool quoted = false;  ///< a name in backticks, which is never a reserved word
+  Place place;
+
+  bool is(std::string_view op) const { return kind == TokenKind::Operator && text == op; }
+};
+
+/// How a message names a token: `"x"`, `'+'`, `the end of the line`.
+std::string describe(const Token& token);
+
+/// Cuts R into tokens, one at a time; comments and blanks are skipped.
+class Lexer {
+ public:
+  Lexer(std::string_view text, Place start) : rest_(text), place_(start) {}
+  Expected<Token> next();
+
+ private:
+  void advance(std::size_t bytes);
+  void skip_blanks();
+  Expected<Token> number();
+  Expected<Token> quoted();
+  Expected<Token> name();
+  Expected<Token> operation();
+  Token take(TokenKind kind, std::size_t bytes);
+
+  std::string_view rest_;
+  Place place_;
+};
+
+}  // namespace swarmsmith::r

@@ -1,0 +1,134 @@
+#include <array>
+#include <cctype>
+#include <system_error>
+#include <utility>
+
+#include "irace_core/files/internal/programs.h"
+#include "irace_core/files/internal/setup_work.h"
+
+namespace swarmsmith::irace {
+namespace {
+
+namespace fs = std::filesystem;
+
+void check_programs(SetupWork& work) {
+  const IraceSetup& setup = work.setup;
+  std::error_code ignored;
+  if (setup.target_runner_launcher.empty()) {
+    if (const auto complaint = complaint_about_program(setup.target_runner)) {
+      work.complain("targetRunner", *complaint);
+    }
+  } else {
+    // The launcher is what is run.
+    if (!fs::exists(setup.target_runner, ignored)) {
+      work.complain("targetRunner", "there is no such file: " + setup.target_runner.string());
+    }
+    if (const auto complaint = complaint_about_program(setup.target_runner_launcher)) {
+      work.complain("targetRunnerLauncher", *complaint);
+    }
+  }
+  const std::array<std::pair<std::string_view, const fs::path*>, 2> others = {
+      {{"targetEvaluator", &setup.target_evaluator},
+       {"repairConfiguration", &setup.repair_configuration}}};
+  for (const auto& [option, program] : others) {
+    if (program->empty()) continue;
+    if (const auto complaint = complaint_about_program(*program)) work.complain(option, *complaint);
+  }
+  if (setup.batchmode != "0" && setup.target_evaluator.empty()) {
+    work.complain("batchmode",
+                  "needs `targetEvaluator`: the program that says the costs when the "
+                  "jobs are done");
+  }
+}
+
+void check_command_line(SetupWork& work) {
+  const std::string& line = work.setup.target_cmdline;
+  const bool bounded = uses_capping(work.setup.race);
+  for (const std::string_view word : {"{seed}", "{instance}", "{targetRunnerArgs}", "{bound}"}) {
+    if (word == "{bound}" && !bounded) continue;
+    if (line.find(word) != std::string::npos) continue;
+    const bool is_old = work.settings.find("targetRunnerLauncherArgs") != nullptr;
+    work.complain(is_old ? "targetRunnerLauncherArgs" : "targetCmdline",
+                  "must contain " + std::string(word) + ", found \"" + line + "\"");
+  }
+}
+
+void check_folders(SetupWork& work) {
+  std::error_code ignored;
+  if (!fs::is_directory(work.setup.exec_dir, ignored)) {
+    work.complain("execDir",
+                  "there is no such folder: " + work.setup.exec_dir.string() + "; make it first");
+    return;  // the log begins from it
+  }
+  const fs::path folder = work.setup.store.parent_path();
+  if (!work.setup.store.empty() && !fs::is_directory(folder, ignored)) {
+    const bool is_ours = work.settings.find("--store") != nullptr;
+    work.complain(is_ours ? "--store" : "logFile",
+                  "there is no folder " + folder.string() + " for it; make it first");
+  }
+}
+
+/// The option that `check(Scenario)` means: there names are written first_test.
+std::string option_named(const std::string& name) {
+  std::string option;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    if (name[i] == '_' && i + 1 < name.size()) {
+      ++i;
+      option += static_cast<char>(std::toupper(static_cast<unsigned char>(name[i])));
+    } else {
+      option += name[i];
+    }
+  }
+  return option;
+}
+
+/// Sentences of `check(Scenario)` name options as its fields: `each_test`.
+std::string with_option_names(const std::string& message) {
+  std::string result;
+  std::string word;
+  const auto flush = [&] {
+    const std::string option = option_named(word);
+    result += find_irace_option(option) != nullptr ? option : word;
+    word.clear();
+  };
+  for (const char c : message) {
+    if (c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0) {
+      word += c;
+    } else {
+      flush();
+      result += c;
+    }
+  }
+  flush();
+  return result;
+}
+
+void check_race(SetupWork& work) {
+  const Scenario& race = work.setup.race;
+  const bool tunes = work.action != IraceAction::OnlyTest;
+  if (tunes && race.max_experiments == 0 && race.max_time <= 0) {
+    work.complain("maxExperiments",
+                  "there is no budget: set maxExperiments (--max-experiments) or maxTime "
+                  "(--max-time)");
+    return;
+  }
+  if (race.max_experiments > 0 && race.max_time > 0) {
+    work.complain("maxTime", "stands beside `maxExperiments`: a budget is one of the two");
+    return;
+  }
+  const auto checked = check(race);
+  if (!checked && tunes) {
+    work.complain(option_named(checked.error().where), with_option_names(checked.error().message));
+  }
+}
+
+}  // namespace
+
+void check_setup(SetupWork& work) {
+  check_folders(work);
+  check_programs(work);
+  check_command_line(work);
+  check_race(work);
+}
+
+}  // namespace swarmsmith::irace

@@ -1,0 +1,212 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/campaign_text.h"
+#include "coordinator/campaign/irace_campaign.h"
+#include "coordinator/campaign/method_space.h"
+#include "coordinator/campaign/programs.h"
+#include "tests/coordinator/campaign/campaign_support.h"
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+
+const std::string kSimulator = "[simulator]\nkind = \"command\"\ncommand = [\"./run.sh\"]\n";
+
+std::string with_parameters(const std::string& race = "max_experiments = 400\n",
+                            const std::string& rest = kSimulator) {
+  return FileText{
+      .mission = "name = \"tuning\"\ninstances.training = [\"a b\", \"c\"]\n",
+      .method = std::string("name = \"all\"\nparameters_text = '''\n") +
+                "a \"--a \" r (0, 10)\nb \"-b\" c (x, y)\nd \"\" i (1, 5) | b == \"x\"\n"
+                "e \"--e=\" r (0.1, 1)\n'''\n",
+      .race = race,
+      .rest = rest}
+      .text();
+}
+
+/// Reading what was written must give the same campaign, which needs no other file.
+void expect_kept(const Campaign& campaign) {
+  const auto again = parse_campaign(normalised_text(campaign), "elsewhere/y.toml");
+  ASSERT_TRUE(again) << to_string(again.error().front()) << "\n" << normalised_text(campaign);
+  EXPECT_EQ(normalised_text(*again), normalised_text(campaign));
+  EXPECT_EQ(campaign_digest(*again), campaign_digest(campaign));
+  EXPECT_EQ(again->target, campaign.target);
+  EXPECT_EQ(again->missions, campaign.missions);
+  EXPECT_EQ(again->methods, campaign.methods);
+}
+
+TEST(TargetCampaign, KeepsInstancesParametersAndPrograms) {
+  const Campaign campaign = parsed(with_parameters());
+  ASSERT_TRUE(campaign.target);
+  EXPECT_THAT(campaign.target->runner, testing::EndsWith("/in/run.sh"));
+  EXPECT_EQ(campaign.missions[0].instances.training, (std::vector<std::string>{"a b", "c"}));
+  EXPECT_EQ(campaign.missions[0].test_count, 0);
+  EXPECT_TRUE(campaign.stop_on_failure);
+  const auto space = MethodSpace::make(campaign.methods[0], 2);
+  ASSERT_TRUE(space);
+  EXPECT_EQ(space->parameters().size(), 4U);
+  EXPECT_EQ(race_on(campaign, campaign.missions[0]).n_instances, 2);
+  EXPECT_TRUE(race_on(campaign, campaign.missions[0]).one_task_at_a_time);
+  expect_kept(campaign);
+}
+
+TEST(TargetCampaign, KeepsEveryKeyOfTheTargetAndOfTheRace) {
+  const std::string race =
+      "max_time = 5000\nparallel = 4\ntest_type = \"t-test-holm\"\ncapping = true\n"
+      "bound_max = 20\nbound_digits = 1\nbound_par = 2\nbound_as_timeout = false\n"
+      "capping_type = \"worst\"\nbound_type = \"instance\"\ncapping_after_first_test = true\n"
+      "budget_estimation = 0.1\nmin_measurable_time = 0.5\npostselection = false\n"
+      "test_nb_elites = 3\ntest_iteration_elites = true\nrepair_configuration = \"fix.sh\"\n";
+  const std::string target =
+      kSimulator +
+      "launcher = \"/bin/sh\"\nevaluator = \"eval.sh\"\n"
+      "command_line = \"{seed} \\\"{instance}\\\" {bound} {targetRunnerArgs}\"\n"
+      "folder = \"runs\"\nretries = 2\ntimeout = \"2 min\"\n"
+      "on_timeout = \"reject\"\naclib = false\nbatch_mode = \"slurm\"\n";
+  const Campaign campaign = parsed(with_parameters(race, target));
+  ASSERT_TRUE(campaign.target);
+  EXPECT_EQ(campaign.target->launcher, "/bin/sh");
+  EXPECT_EQ(campaign.target->timeout_s, 120);
+  EXPECT_TRUE(campaign.target->timeout_is_rejection);
+  EXPECT_EQ(campaign.target->batch_mode, BatchMode::Slurm);
+  EXPECT_TRUE(campaign.target->prints_time);
+  EXPECT_EQ(campaign.target->min_measurable_time, 0.5);
+  EXPECT_EQ(campaign.race.test_type, TestType::TTestHolm);
+  EXPECT_EQ(campaign.race.capping_type, CappingType::Worst);
+  EXPECT_EQ(campaign.race.bound_type, BoundType::Instance);
+  EXPECT_EQ(campaign.test_nb_elites, 3);
+  EXPECT_THAT(campaign.repair, testing::EndsWith("/in/fix.sh"));
+  expect_kept(campaign);
+}
+
+TEST(TargetCampaign, ReadsFilesBesideTheCampaignOnce) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "p.txt") << "a \"--a \" r (0, 1)\nb \"--b \" i (1, 3)\n";
+  std::ofstream(folder / "c.txt") << "a b\n0.5 2\n";
+  std::ofstream(folder / "i.txt") << "# sizes\n one two\nthree # with a comment\n\n";
+  std::ofstream(folder / "x.toml")
+      << FileText{.mission =
+                      "name = \"t\"\n[mission.instances]\ntraining_file = \"i.txt\"\n"
+                      "test = { count = 3 }\n",
+                  .method = "name = \"m\"\nparameters = \"p.txt\"\nconfigurations = \"c.txt\"\n",
+                  .race = "max_experiments = 500\n",
+                  .rest = kSimulator}
+             .text();
+  const auto campaign = read_campaign(folder / "x.toml");
+  ASSERT_TRUE(campaign) << to_string(campaign.error().front());
+  EXPECT_EQ(campaign->missions[0].instances.training,
+            (std::vector<std::string>{"one two", "three "}));
+  EXPECT_EQ(campaign->missions[0].test_count, 3);
+  const auto space = MethodSpace::make(campaign->methods[0], 2);
+  ASSERT_TRUE(space);
+  ASSERT_EQ(space->initial().size(), 1U);
+  EXPECT_EQ(space->initial()[0][1], 2);
+  std::filesystem::remove(folder / "p.txt");
+  std::filesystem::remove(folder / "c.txt");
+  std::filesystem::remove(folder / "i.txt");
+  expect_kept(*campaign);
+}
+
+TEST(TargetCampaign, FaultsOfAFileAreShownInThatFile) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "p.txt") << "a \"--a \" r (0, 1)\nb \"--b \" i (3, 1)\n";
+  const auto campaign = parse_campaign(FileText{.mission = "name = \"t\"\n",
+                                                .method = "name = \"m\"\nparameters = \"p.txt\"\n",
+                                                .rest = kSimulator}
+                                           .text(),
+                                       folder / "x.toml");
+  ASSERT_FALSE(campaign);
+  EXPECT_THAT(to_string(campaign.error().front()), HasSubstr("p.txt:2:"));
+}
+
+TEST(TargetCampaign, WhatDecidesIsCoveredByTheDigestAndWhatDoesNotIsNot) {
+  const std::string plain = campaign_digest(parsed(with_parameters()));
+  const auto digest_with = [](const std::string& more) {
+    return campaign_digest(parsed(with_parameters("max_experiments = 400\n", kSimulator + more)));
+  };
+  EXPECT_EQ(digest_with("retries = 3\n"), plain);
+  EXPECT_EQ(digest_with("timeout = \"9 s\"\n"), plain);
+  EXPECT_NE(digest_with("timeout = \"9 s\"\non_timeout = \"reject\"\n"), plain);
+  EXPECT_NE(digest_with("evaluator = \"e.sh\"\n"), plain);
+  EXPECT_NE(digest_with("command_line = \"{seed} {instance} {targetRunnerArgs}\"\n"), plain);
+  EXPECT_NE(
+      campaign_digest(parsed(with_parameters("max_experiments = 400\npostselection = false\n"))),
+      plain);
+}
+
+TEST(TargetCampaign, AFlavoursMachinesAreGivenAsTextOfTheGrammar) {
+  const Campaign campaign =
+      parsed(FileText{.mission = "name = \"foraging.argos\"\n", .rest = kSimulator}.text());
+  EXPECT_EQ(campaign.missions[0].instances.training, (std::vector<std::string>{"foraging.argos"}));
+  const auto space = MethodSpace::make(campaign.methods[0], 2);
+  ASSERT_TRUE(space);
+  EXPECT_NE(space->machines(), nullptr);
+  expect_kept(campaign);
+}
+
+TEST(TargetCampaign, ABudgetIsJudgedWithTheParameterFilesSpace) {
+  EXPECT_THAT(complaints(with_parameters("max_experiments = 50\n")),
+              testing::ElementsAre(HasSubstr("too small")));
+  EXPECT_THAT(complaints(with_parameters("max_experiments = 400\nblock_size = 3\nmu = 15\n")),
+              testing::ElementsAre(HasSubstr("block_size")));
+}
+
+TEST(TargetCampaign, ProgramsAreLookedForBeforeTheyRun) {
+  const TemporaryFolder folder;
+  Campaign campaign = parsed(with_parameters());
+  campaign.target->folder = folder.path();
+  ASSERT_EQ(check_programs(campaign).size(), 1U);
+  EXPECT_THAT(check_programs(campaign)[0].message, HasSubstr("no such program"));
+  campaign.target->runner = folder / "run.sh";
+  std::ofstream(folder / "run.sh") << "#!/bin/sh\n";
+  ASSERT_EQ(check_programs(campaign).size(), 1U);
+  EXPECT_THAT(check_programs(campaign)[0].message, HasSubstr("chmod +x"));
+  std::filesystem::permissions(folder / "run.sh", std::filesystem::perms::owner_all);
+  EXPECT_TRUE(check_programs(campaign).empty());
+  campaign.target->command_line = "{seed}";
+  EXPECT_FALSE(check_programs(campaign).empty());
+}
+
+TEST(TargetCampaign, TextsWithAnyBytesComeBack) {
+  Campaign campaign = parsed(with_parameters());
+  campaign.missions[0].instances.training = {"quote \" and \\", "tab\there", "'''", "\x01", ""};
+  campaign.methods[0].parameters += "# a comment with ''' in it\r\n";
+  expect_kept(campaign);
+}
+
+TEST(IraceCampaign, IsTheRaceOfTheScenario) {
+  IraceSetup setup{
+      .race = {},
+      .seed = 7,
+      .space = ParameterSpace::make({{"a", "--a ", Real{0.0, 10.0}, {}}}, {}, 3).value()};
+  setup.parameter_text = "a \"--a \" r (0, 10)\n\n[global]\ndigits = 3\n";
+  setup.race.max_experiments = 500;
+  setup.race.n_instances = 2;
+  setup.race.seed = 7;
+  setup.training = {"x", "y"};
+  setup.test = {"t"};
+  setup.exec_dir = "/somewhere";
+  setup.target_runner = "/somewhere/target-runner";
+  setup.batchmode = "0";
+  setup.target_runner_retries = 1;
+  setup.test_nb_elites = 2;
+  const Campaign campaign = campaign_of(setup, 99);
+  EXPECT_EQ(campaign.seed, 7U);
+  EXPECT_EQ(campaign.missions[0].mission.name, "tuning");
+  EXPECT_EQ(campaign.methods[0].name, "irace");
+  EXPECT_EQ(race_on(campaign, campaign.missions[0]).n_instances, 2);
+  EXPECT_EQ(campaign.missions[0].test_count, 1);
+  EXPECT_EQ(campaign.target->retries, 1);
+  EXPECT_EQ(campaign.target->batch_mode, BatchMode::None);
+  expect_kept(campaign);
+  setup.seed.reset();
+  EXPECT_EQ(campaign_of(setup, 99).seed, 99U);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,329 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <algorithm>
+#include <fstream>
+#include <functional>
+#include <set>
+
+#include "base/rng.h"
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/design/campaign_runner.h"
+#include "coordinator/design/plans.h"
+#include "tests/coordinator/design/memory.h"
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr const char* kParameters =
+    "a \"--a \" r (0, 10)\nb \"--b \" i (1, 100)\nc \"--c \" c (x, y, z)\nd \"--d \" r (0, 1)\n";
+
+Campaign campaign_with(const std::string& race, const std::string& simulator = "",
+                       const std::string& test = "") {
+  const std::string text = std::string(R"(format = 1
+[[mission]]
+name = "tuning"
+  [mission.instances]
+  training = ["i1", "i2", "i3"]
+)") + test + R"(
+[[method]]
+name = "all"
+parameters_text = '''
+)" + kParameters + "'''\n[race]\n" +
+                           race + "\n[simulator]\nkind = \"command\"\ncommand = [\"./runner\"]\n" +
+                           simulator;
+  auto campaign = parse_campaign(text, "x.toml");
+  if (campaign) return *campaign;
+  for (const Error& error : campaign.error())
+    ADD_FAILURE() << to_string(error);
+  return {};
+}
+
+std::vector<DesignPlan> plans(const Campaign& campaign) {
+  auto made = plans_of(campaign);
+  EXPECT_TRUE(made) << to_string(made.error());
+  return *made;
+}
+
+/// A cost and a time that depend on nothing but what a program would be told.
+Outcome honest(const Task& task) {
+  Digest digest;
+  digest.add(task.machine);
+  Rng quality(digest.value64());
+  Rng noise = quality.split("noise", static_cast<std::uint64_t>(task.seed + task.instance));
+  const double cost = 10 * quality.uniform() + noise.uniform();
+  return {.key = task.key, .score = -cost, .state_digest = 7, .worker = 1, .time = 1 + cost};
+}
+
+using Answer = std::function<Outcome(const Task&)>;
+
+/// Runs until finished, or so many outcomes; gives all tasks that were taken.
+std::vector<Task> run(CampaignRunner& runner, Memory& memory, Rng order,
+                      const Answer& answer = honest, std::size_t limit = ~std::size_t{0}) {
+  std::vector<Task> ready, all;
+  const auto keep = [&] {
+    for (Row& row : runner.take_rows())
+      memory.rows.push_back(std::move(row));
+  };
+  while (limit > 0) {
+    for (Task& task : runner.take_tasks()) {
+      all.push_back(task);
+      ready.push_back(std::move(task));
+    }
+    keep();
+    if (ready.empty()) break;
+    std::swap(ready[order.below(ready.size())], ready.back());
+    const Task task = std::move(ready.back());
+    ready.pop_back();
+    runner.tell(answer(task));
+    --limit;
+  }
+  keep();
+  EXPECT_FALSE(runner.error()) << to_string(*runner.error());
+  return all;
+}
+
+struct Ran {
+  Memory memory;
+  std::vector<Task> tasks;
+};
+
+Ran undisturbed(const Campaign& campaign, const Answer& answer = honest) {
+  Ran ran;
+  CampaignRunner runner(plans(campaign), {}, {});
+  ran.tasks = run(runner, ran.memory, Rng(1), answer);
+  EXPECT_TRUE(runner.finished());
+  return ran;
+}
+
+/// The campaign, left and taken up again five times, must come to the same answer.
+void expect_resumable(const Campaign& campaign, const Answer& answer = honest) {
+  const auto whole = undisturbed(campaign, answer).memory.answer();
+  Rng rng(3);
+  Memory memory;
+  for (std::uint64_t restart = 0; restart < 6; ++restart) {
+    CampaignRunner runner(plans(campaign), by_design(memory.scores(), memory.steps(), {}), {});
+    ASSERT_FALSE(runner.error()) << to_string(*runner.error());
+    const bool last = restart == 5;
+    run(runner, memory, rng.split("order", restart), answer,
+        last ? ~std::size_t{0} : rng.below(150));
+  }
+  EXPECT_EQ(memory.answer(), whole);
+}
+
+std::vector<Task> of_purpose(const std::vector<Task>& tasks, Purpose purpose) {
+  std::vector<Task> found;
+  for (const Task& task : tasks) {
+    if (task.key.purpose == purpose) found.push_back(task);
+  }
+  return found;
+}
+
+TEST(TargetDesign, GivesProgramsSwitchesAndValuesAndCountsInstances) {
+  const Ran ran = undisturbed(campaign_with("max_experiments = 300"));
+  ASSERT_FALSE(ran.tasks.empty());
+  std::set<std::int64_t> instances;
+  for (const Task& task : ran.tasks) {
+    EXPECT_THAT(task.machine,
+                testing::MatchesRegex("--a [0-9.]+ --b [0-9]+ --c [xyz] --d [0-9.]+"));
+    instances.insert(task.instance);
+  }
+  EXPECT_EQ(instances, (std::set<std::int64_t>{1, 2, 3}));
+  const auto candidates = ran.memory.only<CandidateRow>();
+  EXPECT_EQ(candidates.front().modules, "{}");
+  EXPECT_EQ(candidates.front().states, 0);
+  EXPECT_LE(static_cast<std::int64_t>(ran.tasks.size()), 300);
+  EXPECT_EQ(ran.memory.only<EvaluationRow>().front().source, "command");
+}
+
+TEST(TargetDesign, AsksForOneTaskAtATime) {
+  const Campaign campaign = campaign_with("max_experiments = 300");
+  CampaignRunner runner(plans(campaign), {}, {});
+  std::set<std::int64_t> pairs;
+  for (const Task& task : runner.take_tasks())
+    pairs.insert(task.key.pair);
+  EXPECT_EQ(pairs.size(), 1U);
+}
+
+TEST(TargetDesign, KeepsTimesInTheStore) {
+  const Ran ran = undisturbed(campaign_with("max_experiments = 300"));
+  for (const EvaluationRow& row : ran.memory.only<EvaluationRow>())
+    EXPECT_EQ(row.time, 1 - row.score);
+}
+
+TEST(TargetDesign, TestsTheBestOnEachTestInstanceOnce) {
+  const Ran ran =
+      undisturbed(campaign_with("max_experiments = 300", "", "test = [\"t1\", \"t2\"]\n"));
+  const auto tests = of_purpose(ran.tasks, Purpose::Test);
+  ASSERT_EQ(tests.size(), 2U);
+  EXPECT_EQ(tests[0].instance, 1);
+  EXPECT_EQ(tests[1].instance, 2);
+  EXPECT_NE(tests[0].seed, tests[1].seed);
+  const auto last = ran.memory.only<DesignStateRow>().back();
+  EXPECT_EQ(last.state, DesignState::Finished);
+  EXPECT_EQ(tests[0].key.candidate, last.best);
+}
+
+TEST(TargetDesign, TestsTheElitesOfEveryIterationInOneBatchEachOnce) {
+  const Campaign campaign =
+      campaign_with("max_experiments = 600\ntest_nb_elites = 2\ntest_iteration_elites = true", "",
+                    "test = [\"t1\", \"t2\", \"t3\"]\n");
+  const Ran ran = undisturbed(campaign);
+  std::map<std::int64_t, std::vector<CandidateId>> elites;
+  for (const EliteRow& row : ran.memory.only<EliteRow>()) {
+    if (row.rank <= 2) elites[row.iteration].push_back(row.candidate);
+  }
+  ASSERT_GE(elites.size(), 2U);
+  std::set<CandidateId> expected;
+  for (const auto& [iteration, ids] : elites)
+    expected.insert(ids.begin(), ids.end());
+  std::multiset<CandidateId> tested;
+  for (const Task& task : of_purpose(ran.tasks, Purpose::Test))
+    tested.insert(task.key.candidate);
+  EXPECT_EQ(tested.size(), 3 * expected.size());
+  for (const CandidateId id : expected)
+    EXPECT_EQ(tested.count(id), 3U) << to_string(id);
+  EXPECT_EQ(tested.begin() == tested.end(), false);
+  EXPECT_EQ(of_purpose(ran.tasks, Purpose::Test).front().key.candidate,
+            elites.rbegin()->second.front());
+  expect_resumable(campaign);
+}
+
+TEST(TargetDesign, TestsOnFreshSeedsOfTheTrainingInstancesWithoutTestInstances) {
+  const Ran ran = undisturbed(campaign_with("max_experiments = 300", "", "test = { count = 4 }\n"));
+  std::vector<std::int64_t> instances;
+  for (const Task& task : of_purpose(ran.tasks, Purpose::Test))
+    instances.push_back(task.instance);
+  EXPECT_THAT(instances, testing::ElementsAre(1, 2, 3, 1));
+}
+
+TEST(TargetDesign, GoesOnFromAStoreAsIfNothingHadHappened) {
+  expect_resumable(campaign_with("max_experiments = 300", "", "test = [\"t1\", \"t2\"]\n"));
+}
+
+TEST(TargetDesign, ARejectionIsARejectionAfterAResumeToo) {
+  expect_resumable(campaign_with("max_experiments = 300"), [](const Task& task) {
+    Outcome outcome = honest(task);
+    if (number_of(task.key.candidate) % 7 != 3) return outcome;
+    outcome.status = EvaluationStatus::Rejected;
+    outcome.score = 0;
+    return outcome;
+  });
+}
+
+TEST(TargetDesign, AStoredBoundThatTheRaceDidNotSetIsFound) {
+  const Campaign campaign = campaign_with("max_experiments = 300");
+  const Ran ran = undisturbed(campaign);
+  auto scores = ran.memory.scores();
+  scores[scores.size() / 2].bound = 3;
+  const CampaignRunner runner(plans(campaign), by_design(scores, ran.memory.steps(), {}), {});
+  ASSERT_TRUE(runner.error());
+  EXPECT_EQ(runner.error()->kind, ErrorKind::Corrupt);
+}
+
+/// As with a targetEvaluator: a run says its time alone, a call the cost.
+Outcome judged(const Task& task) {
+  Outcome outcome = honest(task);
+  if (task.key.purpose != Purpose::Evaluator) outcome.score = 0;
+  return outcome;
+}
+
+TEST(TargetDesign, AnEvaluatorIsToldWhoIsAliveAndItsWordIsTheCost) {
+  const Campaign campaign = campaign_with("max_experiments = 300\n", "evaluator = \"./e\"\n",
+                                          "test = [\"t1\", \"t2\"]\n");
+  const Ran ran = undisturbed(campaign, judged);
+  const auto calls = of_purpose(ran.tasks, Purpose::Evaluator);
+  ASSERT_FALSE(calls.empty());
+  for (const Task& call : calls) {
+    EXPECT_TRUE(std::ranges::is_sorted(call.alive));
+    EXPECT_TRUE(std::ranges::binary_search(call.alive, number_of(call.key.candidate)));
+  }
+  // The tests' calls come last, one a test instance, and say so by their sign.
+  ASSERT_GE(calls.size(), 2U);
+  EXPECT_EQ(calls[calls.size() - 2].instance, -1);
+  EXPECT_EQ(calls[calls.size() - 1].instance, -2);
+  std::int64_t runs = 0;
+  for (const Task& task : ran.tasks)
+    runs += task.key.purpose == Purpose::Race;
+  EXPECT_EQ(runs, ran.memory.only<DesignStateRow>().back().used) << "calls are not counted";
+  const auto totals = ran.memory.only<CandidateTotalsRow>();
+  EXPECT_LT(totals.back().score_sum, 0);
+  EXPECT_TRUE(ran.memory.only<UnusedRow>().empty());
+}
+
+TEST(TargetDesign, GoesOnAmongCallsOfAnEvaluator) {
+  expect_resumable(campaign_with("max_experiments = 300\n", "evaluator = \"./e\"\n",
+                                 "test = [\"t1\", \"t2\"]\n"),
+                   judged);
+}
+
+TEST(TargetDesign, ATimeIsABudgetThatStoredTimesReplay) {
+  const Campaign campaign = campaign_with("max_time = 2500\n");
+  const Ran ran = undisturbed(campaign);
+  double time = 0;
+  std::int64_t counted = 0;
+  for (const EvaluationRow& row : ran.memory.only<EvaluationRow>()) {
+    EXPECT_GT(row.iteration, 0);
+    time += row.time;
+    ++counted;
+  }
+  EXPECT_GT(time, 1000);
+  EXPECT_LT(time, 3000);
+  EXPECT_EQ(ran.memory.only<DesignStateRow>().back().used, counted);
+  const auto events = ran.memory.only<EventRow>();
+  EXPECT_TRUE(std::ranges::any_of(
+      events, [](const EventRow& event) { return event.kind == "time estimated"; }));
+  expect_resumable(campaign);
+}
+
+TEST(TargetDesign, BoundsReachProgramsAndTheStore) {
+  const Campaign campaign = campaign_with("max_time = 2500\nbound_max = 12\ncapping = true\n");
+  const auto stops_at_bound = [](const Task& task) {
+    Outcome outcome = honest(task);
+    if (task.bound > 0) outcome.time = std::min(outcome.time, task.bound);
+    return outcome;
+  };
+  const Ran ran = undisturbed(campaign, stops_at_bound);
+  std::set<double> bounds;
+  for (const EvaluationRow& row : ran.memory.only<EvaluationRow>())
+    bounds.insert(row.bound);
+  EXPECT_GT(bounds.size(), 1U) << "elites bound the others";
+  EXPECT_EQ(bounds.count(0), 0U);
+  const auto steps = ran.memory.only<RaceStepRow>();
+  EXPECT_TRUE(std::ranges::any_of(steps, [](const RaceStepRow& s) { return s.bound.has_value(); }));
+  expect_resumable(campaign, stops_at_bound);
+}
+
+TEST(TargetDesign, TheRaceAfterTheLastIsMarkedAndResumable) {
+  const Campaign campaign = campaign_with("max_experiments = 420\n");
+  const Ran ran = undisturbed(campaign);
+  const auto iterations = ran.memory.only<IterationRow>();
+  ASSERT_FALSE(iterations.empty());
+  EXPECT_TRUE(iterations.back().postselection);
+  EXPECT_FALSE(iterations.front().postselection);
+  expect_resumable(campaign);
+}
+
+TEST(TargetDesign, AProgramRepairsWhatIsSampled) {
+  const TemporaryFolder folder;
+  const std::filesystem::path program = folder / "repair.awk";
+  std::ofstream(program)
+      << "#!/usr/bin/awk -f\nNR == 1 { for (i = 1; i <= NF; ++i) if ($i == \"b\")"
+         " b = i; print; next }\n{ if ($b > 50) $b = 50; print }\n";
+  std::filesystem::permissions(program, std::filesystem::perms::owner_all);
+  Campaign campaign = campaign_with("max_experiments = 300\n");
+  campaign.repair = program;
+  campaign.target->folder = folder.path();
+  const Ran ran = undisturbed(campaign);
+  for (const Task& task : ran.tasks) {
+    const std::string b = task.machine.substr(task.machine.find("--b ") + 4);
+    EXPECT_LE(std::stoi(b), 50);
+  }
+  std::filesystem::remove(program);
+  const auto made = plans_of(campaign);
+  ASSERT_TRUE(made);
+  EXPECT_FALSE(DesignRunner::start(made->front(), {})) << "without its program nothing is sampled";
+}
+
+}  // namespace
+}  // namespace swarmsmith

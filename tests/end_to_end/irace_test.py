@@ -1,0 +1,457 @@
+"""`swarmsmith irace` as irace's users know it: their files, their scripts, their target-runner."""
+import json
+import os
+import pathlib
+import random
+import re
+import signal
+import subprocess
+import tempfile
+import time
+import unittest
+
+from programs import SWARMSMITH, call, send, start
+
+PARAMETERS = """\
+# name  switch   type  domain    condition
+x       "--x "   i     (0,100)
+mode    "--"     c     (slow,fast)
+y       "--y "   r     (0,1)   | mode == "fast"
+"""
+
+# Costs are whole numbers, so that a shell is enough. The instances' files hold a number.
+RUNNER = """\
+#!/bin/sh
+id=$1; instance=$2; seed=$3; file=$4; bound=$5
+shift 4
+echo "$id $instance $seed $file $*" >> calls.txt
+x=0; mode=10
+while [ $# -gt 0 ]; do
+  case $1 in
+    --x) x=$2; shift ;;
+    --fast) mode=0 ;;
+  esac
+  shift
+done
+read -r bias < "$file"
+cost=$(( (x - 30) * (x - 30) + mode + seed % 50 + bias ))
+"""
+PRINT = "echo $cost"
+
+DEFAULTS = {"parameterFile": "parameters.txt", "trainInstancesDir": "Instances",
+            "maxExperiments": 180, "seed": 42}
+
+
+def scenario_text(options):
+    lines = []
+    for name, value in options.items():
+        text = f'"{value}"' if isinstance(value, str) else value
+        lines.append(f"{name} = {text}\n")
+    return "# A scenario\n" + "".join(lines)
+
+
+class Irace(unittest.TestCase):
+    """A folder with a scenario, and the checks that the tests share."""
+
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="swarmsmith-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+        for name in ("Instances", "Tests"):
+            (self.folder / name).mkdir()
+            for number in range(1, 7):
+                (self.folder / name / f"i{number}").write_text(f"{number}\n")
+        (self.folder / "parameters.txt").write_text(PARAMETERS)
+        self.write_runner(PRINT)
+        self.write_scenario()
+
+    def write_program(self, name, text):
+        file = self.folder / name
+        file.write_text(text)
+        file.chmod(0o755)
+
+    def write_runner(self, last):
+        self.write_program("target-runner", RUNNER + last + "\n")
+
+    def write_scenario(self, **options):
+        (self.folder / "scenario.txt").write_text(scenario_text({**DEFAULTS, **options}))
+
+    def irace(self, *words, code=0, timeout=120):
+        done = call("irace", *words, cwd=self.folder, timeout=timeout)
+        self.assertEqual(done.returncode, code, done.stdout[-3000:] + done.stderr[-3000:])
+        return done
+
+    def calls(self):
+        file = self.folder / "calls.txt"
+        return file.read_text().splitlines() if file.exists() else []
+
+    def digest(self, store="irace.db"):
+        done = call("digest", self.folder / store)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.strip()
+
+    def assert_clean(self, store="irace.db"):
+        done = call("verify", self.folder / store)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def query(self, sql, store="irace.db"):
+        done = call("query", self.folder / store, sql, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return json.loads(done.stdout)["rows"]
+
+    def best_lines(self, output):
+        """What scripts do: everything below the headline, up to the first empty line."""
+        text = output.split("# Best configurations as commandlines", 1)[1].split("\n", 1)[1]
+        lines = []
+        for line in text.splitlines():
+            if not line or line.startswith("#"):
+                break
+            lines.append(line)
+        return lines
+
+
+class Usual(Irace):
+    def test_a_run_ends_with_the_report_that_scripts_read(self):
+        done = self.irace("--scenario", "scenario.txt")
+        lines = self.best_lines(done.stdout)
+        self.assertGreaterEqual(len(lines), 1)
+        for line in lines:
+            self.assertRegex(line, r"^\d+ +  --x \d+ --(slow|fast)( --y [0-9.]+)?$|"
+                                   r"^\d+  --x \d+ --(slow|fast)( --y [0-9.]+)?$")
+        best = int(re.search(r"--x (\d+)", lines[0]).group(1))
+        self.assertLess(abs(best - 30), 12, done.stdout)
+        for text in ("# nbIterations: 3\n", "# seed: 42\n", "# budget: 180\n",
+                     "|x|          1|", "Best-so-far configuration: ",
+                     "# Best configurations (first number is the configuration ID; listed from "
+                     "best to worst according to the sum of ranks):\n"):
+            self.assertIn(text, done.stdout)
+        self.assertLessEqual(len(self.calls()), 180)
+        self.assertGreater(len(self.calls()), 90)
+        self.assertEqual(len(set(self.calls())), len(self.calls()), "a run was made twice")
+        self.assert_clean()
+
+    def test_the_target_is_called_as_irace_calls_it(self):
+        self.irace()
+        for line in self.calls():
+            number, instance, seed, file, rest = line.split(" ", 4)
+            self.assertEqual(file, str(self.folder / "Instances" / f"i{instance}"))
+            self.assertTrue(1 <= int(seed) <= 2147483647)
+            self.assertRegex(rest, r"^--x \d+ --(slow|fast --y [01](\.\d{1,4})?)$")
+        pairs = {tuple(line.split()[1:3]) for line in self.calls()}
+        self.assertEqual(len({seed for _, seed in pairs}), len(pairs))
+
+    def test_a_finished_store_prints_the_report_again(self):
+        first = self.irace()
+        made = len(self.calls())
+        again = self.irace()
+        self.assertEqual(self.best_lines(first.stdout), self.best_lines(again.stdout))
+        self.assertEqual(len(self.calls()), made)
+
+    def test_without_a_seed_the_store_keeps_one(self):
+        self.write_scenario(seed="")
+        first = self.irace()
+        again = self.irace()
+        self.assertEqual(self.best_lines(first.stdout), self.best_lines(again.stdout))
+        self.assertEqual(first.stdout.count("# seed: "), 1)
+
+    def test_another_scenario_is_refused_with_what_differs(self):
+        self.irace()
+        refused = self.irace("--first-test", "6", code=1)
+        self.assertIn("first_test", refused.stderr)
+        self.assertIn("--log-file", refused.stderr)
+        self.irace("--first-test", "6", "--log-file", "other.Rdata")
+        self.assertTrue((self.folder / "other.db").exists())
+
+    def test_without_a_log_file_nothing_stays(self):
+        before = sorted(os.listdir(self.folder))
+        done = self.irace("--log-file=")
+        self.assertEqual(sorted(os.listdir(self.folder)), sorted([*before, "calls.txt"]))
+        self.assertIn("nothing is kept", done.stderr)
+
+    def test_quiet_prints_nothing(self):
+        done = self.irace("-q")
+        self.assertEqual((done.stdout, done.stderr), ("", ""))
+
+    def test_json_is_a_line_an_event_and_the_result(self):
+        done = self.irace("--json")
+        events = [json.loads(line) for line in done.stdout.splitlines()]
+        self.assertTrue(all(event["v"] == 1 for event in events))
+        result = events[-1]
+        self.assertEqual(result["event"], "done")
+        self.assertEqual(result["experiments"], len(self.calls()))
+        best = result["best"][0]
+        self.assertEqual(best["parameters"]["x"], int(best["command_line"].split()[1]))
+        self.assertGreaterEqual(best["mean_cost"], 0)
+        steps = [event for event in events if event["event"] == "race_step"]
+        self.assertGreaterEqual(min(step["mean_best"] for step in steps), 0)
+
+    def test_other_commands_read_the_store(self):
+        self.irace()
+        rows = self.query("SELECT count(*) AS n FROM v_evaluations")
+        self.assertEqual(rows[0]["n"], len(self.calls()))
+        shown = call("show", "c1", self.folder / "irace.db")
+        self.assertEqual(shown.returncode, 0, shown.stderr)
+        self.assertIn("--x", shown.stdout)
+        for words in (("ls", "elites"), ("ls", "candidates"), ("show", "d1"), ("status",)):
+            done = call(*words, self.folder / "irace.db")
+            self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_what_is_wrong_is_said_and_exits_with_1(self):
+        unknown = self.irace("--max-experiment", "100", code=1)
+        self.assertIn("--max-experiments", unknown.stderr)
+        self.write_scenario(maxExperiment=5)
+        self.assertIn("scenario.txt:", self.irace(code=1).stderr)
+        self.write_scenario(maxExperiments=20)
+        self.assertRegex(self.irace(code=1).stderr, r"\b\d\d\d?\b")
+        self.assertIn("Usage: swarmsmith irace", self.irace("--help").stdout)
+        self.assertIn("swarmsmith", self.irace("--version").stdout)
+
+
+class Survival(Irace):
+    def test_any_number_of_workers_gives_one_answer(self):
+        answers = set()
+        for parallel in (1, 2, 4):
+            store = f"{parallel}.db"
+            self.irace("--parallel", parallel, "--log-file", store)
+            self.assert_clean(store)
+            answers.add(self.digest(store))
+        self.irace("--workers", "3", "--log-file", "w.db")
+        answers.add(self.digest("w.db"))
+        self.assertEqual(len(answers), 1)
+        self.assertLessEqual(len(self.calls()), 4 * 180)
+
+    def test_killed_at_any_moment_it_goes_on_where_it_was(self):
+        self.irace("--log-file", "reference.db")
+        undisturbed = len(self.calls())
+        (self.folder / "calls.txt").unlink()
+        rng = random.Random(3)
+        kills = 0
+        for _ in range(8):
+            process = start("irace", "--parallel", "2", cwd=self.folder)
+            try:
+                process.wait(timeout=rng.uniform(0.02, 0.5))
+                break
+            except subprocess.TimeoutExpired:
+                send(process.pid, signal.SIGKILL)
+                process.wait()
+                kills += 1
+        self.assertGreater(kills, 0)
+        done = self.irace()
+        self.assert_clean()
+        self.assertEqual(self.digest(), self.digest("reference.db"))
+        # What ran when it was killed, or was not on the disk yet.
+        self.assertLessEqual(len(self.calls()), undisturbed + kills * 4)
+        self.assertGreaterEqual(len(self.best_lines(done.stdout)), 1)
+
+    def test_nothing_that_was_started_outlives_it(self):
+        self.write_runner("sleep 600 & echo $! >> children.txt; wait; echo $cost")
+        process = start("irace", "--parallel", "2", cwd=self.folder)
+        children = self.folder / "children.txt"
+        deadline = time.monotonic() + 20
+        while not (children.exists() and len(children.read_text().split()) >= 2):
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.02)
+        send(process.pid, signal.SIGKILL)
+        process.wait()
+        deadline = time.monotonic() + 20
+        while any(self.is_alive(pid) for pid in children.read_text().split()):
+            self.assertLess(time.monotonic(), deadline, "a target's child is still there")
+            time.sleep(0.02)
+
+    @staticmethod
+    def is_alive(pid):
+        try:
+            state = pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
+        except (FileNotFoundError, ProcessLookupError):
+            return False
+        return state != "Z"
+
+    def test_interrupted_it_says_how_to_go_on(self):
+        process = subprocess.Popen([SWARMSMITH, "irace"], cwd=self.folder, text=True,
+                                   stdout=subprocess.PIPE, stderr=subprocess.PIPE)
+        deadline = time.monotonic() + 20
+        while len(self.calls()) < 20:
+            self.assertLess(time.monotonic(), deadline)
+            time.sleep(0.01)
+        process.send_signal(signal.SIGINT)
+        _, errors = process.communicate(timeout=60)
+        self.assertEqual(process.returncode, 130)
+        self.assertIn("the same command goes on", errors)
+        done = self.irace()
+        self.assertIn(": Going on after ", done.stdout)
+        self.assertEqual(len(set(self.calls())), len(self.query(
+            "SELECT * FROM v_evaluations")))
+
+
+class Failures(Irace):
+    def fails(self, last, *words, **options):
+        self.write_runner(last)
+        if options:
+            self.write_scenario(**options)
+        return self.irace(*words, code=1).stderr
+
+    def test_a_failing_target_is_shown_and_nothing_is_lost(self):
+        errors = self.fails('if [ $(wc -l < calls.txt) -gt 40 ]; then echo oops; echo bad >&2; '
+                            'exit 3; fi; echo $cost', "--parallel", "1")
+        for text in ("exit", "3", "target-runner ", " --x ", "oops", "bad", "the same command"):
+            self.assertIn(text, errors)
+        # What a worker had in hand when the run ended may have been called.
+        self.assertIn(len(self.calls()), (41, 42))
+        failed = self.calls()[40:]
+        self.write_runner(PRINT)
+        done = self.irace()
+        self.assertIn("Going on after", done.stdout)
+        again = [line for line in set(self.calls()) if self.calls().count(line) > 1]
+        self.assertEqual(set(again), set(failed))
+        self.assert_clean()
+        self.assertGreaterEqual(self.query("SELECT count(*) AS n FROM v_failures")[0]["n"], 1)
+
+    def test_output_that_is_no_cost_is_shown(self):
+        for last in ("echo cost: $cost", "echo 1 2 3", "true", "echo NaN"):
+            errors = self.fails(last, f"--log-file={len(self.calls())}.db")
+            self.assertIn("target-runner ", errors, last)
+
+    def test_a_target_that_takes_too_long_is_ended(self):
+        began = time.monotonic()
+        errors = self.fails("sleep 600", targetRunnerTimeout=1)
+        self.assertLess(time.monotonic() - began, 60)
+        self.assertRegex(errors, r"1 s")
+
+    def test_a_failed_call_is_repeated_when_asked_for(self):
+        self.write_runner('if [ $(wc -l < calls.txt) -eq 30 ]; then exit 1; fi; echo $cost')
+        self.irace("--target-runner-retries", "1", "--parallel", "1")
+        self.assertEqual(len(set(self.calls())), len(self.calls()) - 1)
+
+    def test_an_infinite_cost_rejects_the_configuration(self):
+        self.write_runner("if [ $x -gt 60 ]; then echo Inf; else echo $cost; fi")
+        self.irace()
+        self.assert_clean()
+        tried = {}
+        for line in self.calls():
+            number, x = re.match(r"(\d+) .*--x (\d+)", line).groups()
+            tried.setdefault((number, int(x)), 0)
+            tried[number, int(x)] += 1
+        rejected = [count for (_, x), count in tried.items() if x > 60]
+        self.assertGreater(len(rejected), 0)
+        self.assertEqual(set(rejected), {1})
+
+
+class Parts(Irace):
+    def test_check_tries_the_target_and_prints_each_call(self):
+        (self.folder / "configurations.txt").write_text("x mode y\n7 fast 0.5\n")
+        self.write_scenario(configurationsFile="configurations.txt")
+        done = self.irace("--check")
+        calls = self.calls()
+        self.assertEqual(len(calls), 3)
+        self.assertIn("--x 7 --fast --y 0.5", calls[0])
+        self.assertTrue(all(line.split()[2] == "1234567" for line in calls))
+        self.assertIn("--x 7 --fast --y 0.5", done.stdout)
+        self.assertIn("Check successful", done.stdout)
+        self.assertFalse((self.folder / "irace.db").exists())
+        self.write_runner("echo oops")
+        self.assertIn("oops", self.irace("--check", code=1).stderr)
+
+    def test_init_writes_what_runs(self):
+        folder = self.folder / "new"
+        folder.mkdir()
+        done = call("irace", "--init", cwd=folder)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        written = {file: (folder / file).read_text() for file in os.listdir(folder)
+                   if (folder / file).is_file()}
+        self.assertIn("scenario.txt", written)
+        again = call("irace", "--init", cwd=folder)
+        self.assertIn("scenario.txt", again.stdout + again.stderr)
+        for file, text in written.items():
+            self.assertEqual((folder / file).read_text(), text)
+        done = call("irace", "--check", cwd=folder)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        done = call("irace", "--max-experiments", "200", "--seed", "1", cwd=folder)
+        self.assertEqual(done.returncode, 0, done.stdout[-2000:] + done.stderr)
+        self.assertGreaterEqual(len(self.best_lines(done.stdout)), 1)
+
+    def test_only_test_evaluates_a_file_of_configurations(self):
+        (self.folder / "two.txt").write_text("x mode y\n30 fast 0.5\n90 slow NA\n")
+        self.write_scenario(testInstancesDir="Tests")
+        done = self.irace("--only-test", "two.txt")
+        self.assertEqual(len(self.calls()), 12)
+        self.assertEqual({line.split()[1] for line in self.calls()},
+                         {f"{number}t" for number in range(1, 7)})
+        table = done.stdout.split("Testing results", 1)[1].splitlines()[1:8]
+        self.assertEqual(table[0].split(), ["1", "2"])
+        self.assertEqual(table[1].split()[0], "1t")
+        self.assertTrue(all(float(line.split()[2]) - float(line.split()[1]) == 3600 + 10
+                            for line in table[1:7]), table)
+        again = self.irace("--only-test", "two.txt")
+        self.assertEqual(len(self.calls()), 12)
+        self.assertIn(table[1], again.stdout)
+
+
+class Variants(Irace):
+    """One small run each; the rules themselves are tested in irace_core."""
+
+    def runs(self, *words, **options):
+        self.write_scenario(**options)
+        done = self.irace(*words)
+        self.assert_clean()
+        self.assertGreaterEqual(len(self.best_lines(done.stdout)), 1)
+        return done.stdout
+
+    def test_test_instances(self):
+        text = self.runs(testInstancesDir="Tests", testNbElites=2, testIterationElites=1)
+        self.assertIn("# Testing of elite configurations: 2\n", text)
+        table = text.split("# Testing iteration configurations: TRUE\n")[1].splitlines()
+        self.assertRegex(table[1], r"^ +\d+ +\d+")
+        self.assertRegex(table[2], r"^1t +\d+")
+        tests = [line for line in self.calls() if "/Tests/" in line]
+        self.assertEqual(len(tests), 6 * len(table[1].split()))
+
+    def test_races_without_elites_that_are_kept(self):
+        self.assertIn("# Non-elitist race\n", self.runs(elitist=0, maxExperiments=300))
+
+    def test_t_tests(self):
+        self.assertIn("according to the mean value)", self.runs(testType="t-test"))
+
+    def test_blocks(self):
+        self.runs(blockSize=2, firstTest=2, mu=4, maxExperiments=400)
+
+    def test_deterministic_targets(self):
+        self.write_runner("echo $(( (x - 30) * (x - 30) + mode + bias ))")
+        self.runs(deterministic=1)
+        for line in self.calls():
+            self.assertEqual(sum(1 for other in self.calls()
+                                 if other.split()[:2] == line.split()[:2]), 1)
+
+    def test_initial_configurations_come_first(self):
+        (self.folder / "first.txt").write_text("x mode y\n30 fast 0.5\n31 slow NA\n")
+        text = self.runs(configurationsFile="first.txt")
+        self.assertRegex(self.best_lines(text)[0], r"^\d+ +--x (2[789]|3[0123])")
+        self.assertTrue(any(re.match(r"1 .* --x 30 --fast --y 0.5$", line)
+                            for line in self.calls()))
+
+    def test_a_budget_of_time_with_capping(self):
+        self.write_runner("time=$(( 1 + cost % 7 )); [ $time -le $bound ] || time=$bound; "
+                          "echo $cost $time")
+        text = self.runs(maxExperiments=0, maxTime=2000, boundMax=8, capping=1)
+        self.assertIn("|   Bound|", text)
+        self.assertIn("# capping: median", text)
+
+    def test_a_target_evaluator(self):
+        self.write_runner("echo $cost > cost-$id-$seed; echo 1")
+        self.write_program("target-evaluator", "#!/bin/sh\ncat cost-$1-$3\n")
+        self.runs(targetEvaluator="./target-evaluator")
+
+    def test_repair_by_a_program(self):
+        # Two lines, names and values: odd values of x become even.
+        self.write_program("repair.sh", """\
+#!/bin/sh
+exec awk 'NR == 1 { for (i = 1; i <= NF; i++) if ($i ~ /^"?x"?$/) x = i }
+          NR == 2 { $x -= $x % 2 }
+          { print }'
+""")
+        self.runs(repairConfiguration="./repair.sh")
+        self.assertTrue(all(int(re.search(r"--x (\d+)", line).group(1)) % 2 == 0
+                            for line in self.calls()))
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,149 @@
+#include "irace_core/files/options.h"
+
+#include <gmock/gmock.h>
+#include <set>
+
+#include "base/rng.h"
+#include "irace_core/files/internal/setup_fields.h"
+#include "irace_core/files/number_text.h"
+#include "irace_core/files/whole_file.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+
+TEST(IraceOptions, NamesAndSwitchesOccurOnce) {
+  std::set<std::string_view> seen;
+  for (const IraceOption& option : irace_options()) {
+    for (const std::string_view word : {option.name, option.short_switch, option.long_switch}) {
+      EXPECT_TRUE(word.empty() || seen.insert(word).second) << word;
+    }
+    EXPECT_FALSE(option.title().empty());
+  }
+}
+
+TEST(IraceOptions, DefaultsAreValuesOfTheirKind) {
+  for (const IraceOption& option : irace_options()) {
+    if (!option.takes_value() || option.initial.empty()) continue;
+    EXPECT_TRUE(irace_value_of(option, option.initial)) << option.title();
+  }
+}
+
+TEST(IraceOptions, TheTablesDefaultsAreThoseOfASetup) {
+  const IraceSetup fresh;
+  for (const irace::SetupField& field : irace::setup_fields()) {
+    const IraceOption* option = find_irace_option(field.name);
+    ASSERT_NE(option, nullptr) << field.name;
+    if (option->is_path()) continue;  // they depend on the folder
+    IraceSetup set;
+    const auto value = irace_value_of(*option, option->initial);
+    ASSERT_TRUE(value) << field.name;
+    field.set(set, *value);
+    EXPECT_EQ(irace_value_text(field.get(set)), irace_value_text(field.get(fresh))) << field.name;
+  }
+}
+
+TEST(IraceOptions, EverySupportedOptionOfScenarioFilesHasAPlaceInTheSetup) {
+  std::set<std::string_view> placed = {"scenarioFile",       "instances",     "trainInstancesDir",
+                                       "trainInstancesFile", "testInstances", "testInstancesDir",
+                                       "testInstancesFile"};
+  for (const irace::SetupField& field : irace::setup_fields())
+    placed.insert(field.name);
+  for (const IraceOption& option : irace_options()) {
+    if (option.meaning != IraceMeaning::Supported || option.name.empty()) continue;
+    EXPECT_TRUE(placed.contains(option.name)) << option.name;
+  }
+}
+
+TEST(IraceOptions, OlderNamesLeadToOptionsThatExist) {
+  for (const IraceOption& option : irace_options()) {
+    if (option.meaning != IraceMeaning::Gone) continue;
+    EXPECT_NE(find_irace_option(option.remark), nullptr) << option.name;
+  }
+}
+
+struct Case {
+  const char* option;
+  const char* text;
+  const char* value;  ///< as a scenario file writes it; null for an error
+};
+
+class IraceOptionValues : public testing::TestWithParam<Case> {};
+
+TEST_P(IraceOptionValues, AreCheckedByKind) {
+  const IraceOption& option = *find_irace_option(GetParam().option);
+  const auto value = irace_value_of(option, GetParam().text);
+  ASSERT_EQ(value.has_value(), GetParam().value != nullptr) << GetParam().text;
+  if (value) {
+    EXPECT_EQ(irace_value_text(*value), GetParam().value);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    All, IraceOptionValues,
+    testing::Values(
+        Case{"elitist", "1", "1"}, Case{"elitist", "0", "0"}, Case{"elitist", "TRUE", "1"},
+        Case{"elitist", "2", nullptr}, Case{"elitist", "", "NULL"}, Case{"capping", "NA", "NULL"},
+        Case{"maxExperiments", "1e3", "1000"}, Case{"maxExperiments", "1000L", "1000"},
+        Case{"maxExperiments", "1000.5", nullptr}, Case{"maxExperiments", "-1", nullptr},
+        Case{"maxExperiments", "1e17", nullptr}, Case{"maxExperiments", "many", nullptr},
+        Case{"maxExperiments", "", "NULL"}, Case{"maxExperiments", "inf", nullptr},
+        Case{"maxExperiments", "0x10", "16"}, Case{"confidence", "0.99", "0.99"},
+        Case{"confidence", "1.5", nullptr}, Case{"confidence", "nan", nullptr},
+        Case{"testType", "friedman", "\"F-test\""}, Case{"testType", "T.Holm", "\"t-test-holm\""},
+        Case{"testType", "z-test", nullptr}, Case{"testType", "", "NULL"},
+        Case{"batchmode", "0", "\"0\""}, Case{"batchmode", "SLURM", "\"slurm\""},
+        Case{"boundMax", "2.5", nullptr}, Case{"postselection", "0.1", "0.1"},
+        Case{"logFile", "", "\"\""}, Case{"targetRunner", "a \"b\"", "\"a \\\"b\\\"\""}));
+
+TEST(IraceOptions, WrongWordsGetASuggestion) {
+  const auto value = irace_value_of(*find_irace_option("cappingType"), "medain");
+  ASSERT_FALSE(value);
+  EXPECT_THAT(value.error().message, HasSubstr("median, mean, worst, best"));
+  EXPECT_THAT(value.error().message, HasSubstr("did you mean \"median\""));
+}
+
+TEST(IraceOptions, HelpListsEverySwitchThatCanBeUsedWithinEightyColumns) {
+  const std::string help = irace_option_help();
+  for (const IraceOption& option : irace_options()) {
+    if (option.long_switch.empty()) continue;
+    const bool is_listed = help.find(std::string(option.long_switch)) != std::string::npos;
+    EXPECT_EQ(is_listed, option.meaning != IraceMeaning::Gone) << option.long_switch;
+  }
+  std::size_t begin = 0;
+  while (begin < help.size()) {
+    const std::size_t end = help.find('\n', begin);
+    const std::string line = help.substr(begin, end - begin);
+    // Only the default of targetCmdline is a long line of its own words.
+    EXPECT_LE(line.size(), 80U) << line;
+    begin = end + 1;
+  }
+}
+
+TEST(IraceOptions, TheDocumentationHasTheTable) {
+  const auto page =
+      read_whole_file(std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "docs/irace-options.md");
+  ASSERT_TRUE(page);
+  EXPECT_THAT(*page, HasSubstr(irace_option_table()));
+}
+
+TEST(NumberText, ShortestTextsReadBack) {
+  Rng rng(1);
+  for (int i = 0; i < 2000; ++i) {
+    const double number = rng.uniform(-1, 1) * static_cast<double>(rng.below(1'000'000) + 1);
+    EXPECT_EQ(number_of(shortest_text(number)), number);
+  }
+}
+
+TEST(NumberText, WhatIsNoNumberIsNothing) {
+  for (const char* text :
+       {"", " 1", "1 ", "--1", "+-1", "-", "0x", "1e", "1,5", "inf", "nan", "L", "1LL", "1e999"}) {
+    EXPECT_EQ(number_of(text), std::nullopt) << text;
+  }
+  EXPECT_EQ(number_of("+1"), 1);
+  EXPECT_EQ(number_of("-1e-2"), -0.01);
+}
+
+}  // namespace
+}  // namespace swarmsmith

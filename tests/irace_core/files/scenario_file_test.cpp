@@ -1,0 +1,214 @@
+#include "irace_core/files/scenario_file.h"
+
+#include <gmock/gmock.h>
+#include <map>
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Files and environment of a test.
+struct World {
+  std::map<std::string, std::string> files;
+  std::map<std::string, std::string> variables;
+
+  IraceScenarioFileOrErrors parse(const std::string& text) const {
+    const auto look_up = [](const auto& map, const std::string& key) -> std::optional<std::string> {
+      const auto found = map.find(key);
+      return found == map.end() ? std::nullopt : std::optional(found->second);
+    };
+    const ScenarioSurroundings surroundings = {
+        [this, look_up](const std::filesystem::path& file) -> Expected<std::string> {
+          if (auto found = look_up(files, file.string())) return *found;
+          return unexpected(ErrorKind::NotFound, "there is no such file");
+        },
+        [this, look_up](const std::string& name) { return look_up(variables, name); }};
+    return parse_irace_scenario(text, "/tune/scenario.txt", surroundings);
+  }
+
+  /// The value as a scenario file writes it.
+  std::string value(const std::string& text, const std::string& option) const {
+    const auto file = parse(text);
+    if (!file) return to_string(file.error().front());
+    const IraceSetting* setting = file->settings.find(option);
+    return setting == nullptr ? "unset" : irace_value_text(setting->value);
+  }
+
+  std::vector<std::string> errors(const std::string& text) const {
+    const auto file = parse(text);
+    std::vector<std::string> errors;
+    if (file) return errors;
+    for (const Error& error : file.error())
+      errors.push_back(to_string(error));
+    return errors;
+  }
+};
+
+TEST(ScenarioFile, ReadsAssignmentsInEveryForm) {
+  const World world;
+  const std::string text =
+      "# a comment\nmaxExperiments = 1e3 # another\nfirstTest <- 6; eachTest = 2L\n"
+      "testType = 't-test'\nelitist = FALSE; sampleInstances = T\n\"seed\" = 42";
+  EXPECT_EQ(world.value(text, "maxExperiments"), "1000");
+  EXPECT_EQ(world.value(text, "firstTest"), "6");
+  EXPECT_EQ(world.value(text, "eachTest"), "2");
+  EXPECT_EQ(world.value(text, "testType"), "\"t-test\"");
+  EXPECT_EQ(world.value(text, "elitist"), "0");
+  EXPECT_EQ(world.value(text, "sampleInstances"), "1");
+  EXPECT_EQ(world.value(text, "seed"), "42");
+}
+
+TEST(ScenarioFile, NullMissingAndEmptyValuesUnset) {
+  const World world;
+  for (const char* nothing : {"NULL", "NA", "\"\"", "c()", "list()"}) {
+    EXPECT_EQ(world.value(std::string("seed = 3\nseed = ") + nothing, "seed"), "unset") << nothing;
+  }
+  EXPECT_EQ(world.value("logFile = \"\"", "logFile"), "\"\"");
+  EXPECT_EQ(world.value("logFile = NULL", "logFile"), "unset");
+}
+
+TEST(ScenarioFile, ComputesValues) {
+  World world;
+  world.variables = {{"HOME", "/home/me"}};
+  EXPECT_EQ(world.value(".n = 5\nmaxExperiments = 2 * .n ^ 2 * 10", "maxExperiments"), "500");
+  EXPECT_EQ(world.value("firstTest = 6; mu = firstTest + 4", "mu"), "10");
+  EXPECT_EQ(world.value("parameterFile = paste0(\"p\", 2L, \".txt\")", "parameterFile"),
+            "\"p2.txt\"");
+  EXPECT_EQ(world.value("execDir = file.path(Sys.getenv(\"HOME\"), \"x\", 'y')", "execDir"),
+            "\"/home/me/x/y\"");
+  EXPECT_EQ(world.value("execDir = Sys.getenv(\"NONE\", unset = \"z\")", "execDir"), "\"z\"");
+  EXPECT_EQ(world.value("execDir = Sys.getenv(\"NONE\")", "execDir"), "\"\"");
+  EXPECT_EQ(world.value("execDir = paste(\"a\", 1.50, TRUE, sep = \"-\")", "execDir"),
+            "\"a-1.5-TRUE\"");
+  EXPECT_EQ(world.value("execDir = paste(c(\"a\", \"b\"), 1:2, collapse = \"+\")", "execDir"),
+            "\"a 1+b 2\"");
+  EXPECT_EQ(world.value("confidence = max(0.5, 1 - 0.01)", "confidence"), "0.99");
+  EXPECT_EQ(
+      world.value(".fast = TRUE\nmaxExperiments = ifelse(.fast, 100, 1000)", "maxExperiments"),
+      "100");
+}
+
+TEST(ScenarioFile, InstancesMayBeAVector) {
+  const World world;
+  EXPECT_EQ(world.value("instances = c(\"a b\", 'c')", "instances"), "c(\"a b\", \"c\")");
+  EXPECT_EQ(world.value("instances = 1:3", "instances"), "c(\"1\", \"2\", \"3\")");
+  EXPECT_EQ(world.value("instances = list(\"a\", 0.5)", "instances"), "c(\"a\", \"0.5\")");
+  EXPECT_EQ(world.value("testInstances = \"one\"", "testInstances"), "c(\"one\")");
+}
+
+TEST(ScenarioFile, UnknownNamesAreErrorsWithSuggestions) {
+  const World world;
+  EXPECT_THAT(
+      world.errors("\n  parametersFile = \"p.txt\""),
+      ElementsAre("scenario.txt:2:3: there is no option `parametersFile` (did you mean "
+                  "\"parameterFile\"?); names of your own variables must begin with a dot"));
+}
+
+TEST(ScenarioFile, EverythingWrongIsReportedTogether) {
+  const World world;
+  EXPECT_THAT(world.errors("firstTest = 2.5\nelitist = 3\nexecDir = 5\nseed = c(1, 2)\n"
+                           "mu = .nothing\nfirstTst = 1\n"),
+              ElementsAre("scenario.txt:1:13: `firstTest` must be a whole number, 0 or more, found "
+                          "\"2.5\"",
+                          HasSubstr("scenario.txt:2:11: `elitist` must be 0 or 1"),
+                          "scenario.txt:3:11: `execDir` must be a text in quotes, found 5",
+                          "scenario.txt:4:8: `seed` must be a single value, found 2",
+                          HasSubstr("scenario.txt:5:6: nothing was assigned to `.nothing`"),
+                          HasSubstr("did you mean \"firstTest\"")));
+}
+
+TEST(ScenarioFile, ErrorsThatFollowFromOthersAreNotReported) {
+  const World world;
+  EXPECT_THAT(world.errors(".a = foo(1)\nmu = .a + 1\nfirstTest = .a\n"),
+              ElementsAre(HasSubstr("1:6: found the function `foo`")));
+}
+
+TEST(ScenarioFile, FunctionsOfRAreRefusedWithAWayOut) {
+  const World world;
+  const auto errors = world.errors("targetRunner = function(experiment, scenario) {\n  1\n}\n");
+  ASSERT_EQ(errors.size(), 1U);
+  EXPECT_THAT(errors[0], HasSubstr("scenario.txt:1:16"));
+  EXPECT_THAT(errors[0], HasSubstr("write a program"));
+  EXPECT_THAT(world.errors("library(matlabr)\nmu = 5"),
+              ElementsAre(HasSubstr("programs in R are not read")));
+}
+
+TEST(ScenarioFile, ValuesThatGoNowhereAreErrors) {
+  const World world;
+  EXPECT_THAT(world.errors("5 + 5"), ElementsAre(HasSubstr("this value goes nowhere")));
+}
+
+TEST(ScenarioFile, OptionsWithoutAMeaningHereAreRefusedOrIgnored) {
+  const World world;
+  EXPECT_THAT(world.errors("recoveryFile = \"irace.Rdata\""),
+              ElementsAre(HasSubstr("give the same command again")));
+  EXPECT_THAT(world.errors("mpi = 1"), ElementsAre(HasSubstr("set `parallel`")));
+  EXPECT_THAT(world.errors("initConfigurations = .x"),
+              ElementsAre(HasSubstr("configurationsFile")));
+  EXPECT_THAT(world.errors("forbiddenExps = c(\"a == 1\")"),
+              ElementsAre(HasSubstr("under [forbidden]")));
+  EXPECT_THAT(world.errors("mpi = FALSE; recoveryFile = NULL; recoveryFile = \"\"\n"
+                           "initConfigurations = NULL; targetRunnerParallel = NULL"),
+              IsEmpty());
+  const auto file = world.parse("targetRunnerData = list(1)\nloadBalancing = 0\nmpi = 0");
+  ASSERT_TRUE(file);
+  EXPECT_THAT(file->warnings,
+              ElementsAre(HasSubstr("scenario.txt:1:1: `targetRunnerData` means nothing here"),
+                          HasSubstr("scenario.txt:2:1: `loadBalancing`")));
+}
+
+TEST(ScenarioFile, OptionsOfOlderVersionsAreReadWithAWarning) {
+  const World world;
+  const auto file = world.parse("digits = 2\nforbiddenFile = \"f.txt\"\npostselection = 0.1");
+  ASSERT_TRUE(file);
+  EXPECT_EQ(file->settings.number("digits"), 2);
+  EXPECT_EQ(file->settings.text("forbiddenFile"), "f.txt");
+  EXPECT_THAT(file->warnings,
+              ElementsAre(HasSubstr("under [global]"), HasSubstr("under [forbidden]"),
+                          HasSubstr("a share of the budget in irace 3.5")));
+  EXPECT_THAT(world.errors("instanceDir = \"a\""),
+              ElementsAre(HasSubstr("write `trainInstancesDir`")));
+}
+
+TEST(ScenarioFile, IncludesOtherFiles) {
+  World world;
+  world.files = {{"/tune/common/base.txt", ".runs = 50\nfirstTest = 7\nparameterFile = \"p\""}};
+  const auto file =
+      world.parse("include.scenario(\"common/base.txt\")\nmaxExperiments = .runs * 10");
+  ASSERT_TRUE(file) << to_string(file.error().front());
+  EXPECT_EQ(file->settings.number("maxExperiments"), 500);
+  EXPECT_EQ(file->settings.number("firstTest"), 7);
+  EXPECT_EQ(file->settings.find("firstTest")->where, "common/base.txt:2:1");
+  // As in R, every path is relative to the first file.
+  EXPECT_EQ(file->settings.find("parameterFile")->folder, "/tune");
+}
+
+TEST(ScenarioFile, IncludesInACircleAreErrors) {
+  World world;
+  world.files = {{"/tune/a.txt", "include.scenario(\"b.txt\")"},
+                 {"/tune/b.txt", "mu = 6\ninclude.scenario(\"./a.txt\")"}};
+  EXPECT_THAT(world.errors("include.scenario('a.txt')"),
+              ElementsAre(HasSubstr("b.txt:2:1: /tune/a.txt includes itself")));
+  EXPECT_THAT(
+      world.errors("include.scenario('none.txt')"),
+      ElementsAre("scenario.txt:1:1: cannot include /tune/none.txt: there is no such file"));
+  EXPECT_THAT(world.errors("include.scenario()"), ElementsAre(HasSubstr("the name of one file")));
+}
+
+TEST(ScenarioFile, EndlessTextsAndVectorsAreRefused) {
+  const World world;
+  std::string text = ".a = \"0123456789\"\n";
+  for (int i = 0; i < 40; ++i)
+    text += ".a = paste0(.a, .a)\n";
+  EXPECT_THAT(world.errors(text).front(), HasSubstr("too long a text"));
+  text = ".a = 1:1000\n";
+  for (int i = 0; i < 40; ++i)
+    text += ".a = c(.a, .a)\n";
+  EXPECT_THAT(world.errors(text).front(), HasSubstr("too long a vector"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

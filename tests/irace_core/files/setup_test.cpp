@@ -1,0 +1,327 @@
+#include "irace_core/files/setup.h"
+
+#include <gmock/gmock.h>
+#include <fstream>
+
+#include "irace_core/files/templates.h"
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::AllOf;
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+namespace fs = std::filesystem;
+
+/// A folder with a small tuning task, which tests change and then read.
+class IraceSetupFiles : public testing::Test {
+ protected:
+  IraceSetupFiles() {
+    write("parameters.txt", "a \"--a \" r (0, 1)\nb \"--b \" c (x, y)\n");
+    write("list.txt", "one\ntwo three\n");
+    write_program("target-runner");
+    write("scenario.txt", "maxExperiments = 500\ntrainInstancesFile = \"list.txt\"\n");
+  }
+
+  void write(const std::string& name, const std::string& text) const {
+    fs::create_directories((folder_ / name).parent_path());
+    std::ofstream(folder_ / name) << text;
+  }
+  void write_program(const std::string& name) const {
+    write(name, "#!/bin/sh\necho 1\n");
+    fs::permissions(folder_ / name, fs::perms::owner_all);
+  }
+  std::string path(const std::string& name) const { return (folder_ / name).string(); }
+
+  IraceSetupOrErrors read_in(const fs::path& folder, const std::vector<std::string>& words) const {
+    const auto line = read_irace_command_line(words, folder);
+    EXPECT_TRUE(line) << to_string(line.error().front());
+    return read_irace_setup(*line, {folder, path("bin") + ":relative"});
+  }
+  IraceSetupOrErrors read(const std::vector<std::string>& words = {}) const {
+    return read_in(folder_.path(), words);
+  }
+
+  IraceSetup setup(const std::vector<std::string>& words = {}) const {
+    auto setup = read(words);
+    if (setup) return std::move(*setup);
+    ADD_FAILURE() << to_string(setup.error().front());
+    return {};
+  }
+  std::vector<std::string> errors(const std::vector<std::string>& words = {}) const {
+    const auto setup = read(words);
+    std::vector<std::string> errors;
+    if (setup) return errors;
+    for (const Error& error : setup.error())
+      errors.push_back(to_string(error));
+    return errors;
+  }
+
+  TemporaryFolder folder_;
+};
+
+TEST_F(IraceSetupFiles, AScenarioAndWhatItNamesIsRead) {
+  write("scenario.txt",
+        "maxExperiments = 500\ntrainInstancesFile = \"list.txt\"\nfirstTest = 2\nseed = 9\n"
+        "testInstances = c(\"t1\", \"t2\")\ncappingType = \"worst\"\nparallel = 4\n"
+        "configurationsFile = \"first.txt\"\ntestType = \"t-test\"\n");
+  write("first.txt", "a b\n0.5 y\n");
+  const IraceSetup read = setup();
+  EXPECT_EQ(read.race.max_experiments, 500);
+  EXPECT_EQ(read.race.first_test, 2);
+  EXPECT_EQ(read.race.n_instances, 2);
+  EXPECT_EQ(read.race.seed, 9U);
+  EXPECT_EQ(read.seed, 9U);
+  EXPECT_EQ(read.race.test_type, TestType::TTest);
+  EXPECT_EQ(read.race.capping_type, CappingType::Worst);
+  EXPECT_EQ(read.parallel, 4);
+  EXPECT_EQ(read.race.parallel, 4);
+  EXPECT_THAT(read.training, ElementsAre("one", "two three"));
+  EXPECT_THAT(read.test, ElementsAre("t1", "t2"));
+  EXPECT_EQ(read.space.size(), 2U);
+  EXPECT_EQ(read.parameter_text, "a \"--a \" r (0, 1)\nb \"--b \" c (x, y)\n");
+  ASSERT_EQ(read.initial.size(), 1U);
+  EXPECT_EQ(read.initial[0][0], 0.5);
+  EXPECT_EQ(read.target_runner, path("target-runner"));
+  EXPECT_EQ(read.exec_dir, folder_.path());
+  EXPECT_EQ(read.log_file, path("irace.Rdata"));
+  EXPECT_EQ(read.store, path("irace.db"));
+  EXPECT_EQ(read.scenario_file, path("scenario.txt"));
+}
+
+TEST_F(IraceSetupFiles, AScenarioThatNobodyNamedIsReadWithAWarning) {
+  EXPECT_THAT(setup().warnings, ElementsAre(HasSubstr("because it is there")));
+  EXPECT_THAT(setup({"--scenario", "scenario.txt"}).warnings, IsEmpty());
+}
+
+TEST_F(IraceSetupFiles, WithoutAScenarioTheCommandLineSaysAll) {
+  fs::remove(folder_ / "scenario.txt");
+  const IraceSetup read = setup({"--max-experiments", "300", "--train-instances-file", "list.txt"});
+  EXPECT_TRUE(read.scenario_file.empty());
+  EXPECT_EQ(read.race.max_experiments, 300);
+  EXPECT_EQ(read.seed, std::nullopt);
+  EXPECT_EQ(read.parallel, std::nullopt);
+  EXPECT_THAT(errors(), Contains(HasSubstr("there is no budget")));
+}
+
+TEST_F(IraceSetupFiles, AnEmptyScenarioNameMeansNone) {
+  EXPECT_THAT(errors({"--scenario="}), Contains(HasSubstr("there is no budget")));
+}
+
+TEST_F(IraceSetupFiles, TheCommandLineWinsOverTheFile) {
+  write("scenario.txt",
+        "maxExperiments = 500\ntrainInstancesFile = \"list.txt\"\nseed = 1\nfirstTest = 2\n");
+  const IraceSetup read = setup({"--seed", "2", "--first-test=", "--max-experiments=600"});
+  EXPECT_EQ(read.seed, 2U);
+  EXPECT_EQ(read.race.first_test, 5);
+  EXPECT_EQ(read.race.max_experiments, 600);
+}
+
+TEST_F(IraceSetupFiles, PathsBeginWhereTheyAreWritten) {
+  write("sub/scenario.txt",
+        "maxExperiments = 500\ntrainInstancesFile = \"../list.txt\"\nexecDir = \"work\"\n"
+        "targetRunner = \"./run\"\nlogFile = \"log/mine.Rdata\"\nparameterFile = \"p.txt\"\n");
+  write("sub/p.txt", "z \"\" i (1, 9)\n");
+  write_program("sub/run");
+  fs::create_directories(folder_ / "sub/work/log");
+  const IraceSetup read = setup({"-s", "sub/scenario.txt", "-p", "parameters.txt"});
+  EXPECT_EQ(read.exec_dir, path("sub/work"));
+  EXPECT_EQ(read.target_runner, path("sub/run"));
+  EXPECT_EQ(read.log_file, path("sub/work/log/mine.Rdata"));
+  EXPECT_EQ(read.store, path("sub/work/log/mine.db"));
+  EXPECT_EQ(read.parameter_file, path("parameters.txt"));
+  EXPECT_EQ(setup({"-s", "sub/scenario.txt"}).space[0].name, "z");
+}
+
+TEST_F(IraceSetupFiles, DefaultsThatLieBesideTheScenarioAreFoundThere) {
+  fs::create_directories(folder_ / "elsewhere");
+  const auto read = read_in(folder_ / "elsewhere", {"-s", "../scenario.txt"});
+  ASSERT_TRUE(read) << to_string(read.error().front());
+  EXPECT_EQ(read->target_runner, path("target-runner"));
+  EXPECT_EQ(read->exec_dir, path("elsewhere"));
+  EXPECT_THAT(read->warnings, ElementsAre(HasSubstr("`parameterFile` is not set"),
+                                          HasSubstr("`targetRunner` is not set")));
+}
+
+TEST_F(IraceSetupFiles, ProgramsWithoutASlashAreLookedForInThePath) {
+  write_program("bin/solve");
+  const std::vector<std::string> words = {"--target-runner", "solve"};
+  EXPECT_EQ(setup(words).target_runner, path("bin/solve"));
+  write_program("solve");
+  EXPECT_EQ(setup(words).target_runner, path("bin/solve"));
+  EXPECT_THAT(setup(words).warnings, Contains(HasSubstr("write `./solve`")));
+  EXPECT_EQ(setup({"--target-runner", "./solve"}).target_runner, path("solve"));
+  EXPECT_EQ(setup({"--target-runner", "target-runner"}).target_runner, path("target-runner"));
+}
+
+TEST_F(IraceSetupFiles, TheStoreMayBeNamedOrLeftOut) {
+  EXPECT_EQ(setup({"--store", "s.db", "--log-file="}).store, path("s.db"));
+  EXPECT_TRUE(setup({"--log-file="}).store.empty());
+  EXPECT_EQ(setup({"--log-file=x.sqlite"}).store, path("x.sqlite"));
+  EXPECT_THAT(errors({"--log-file=none/x.Rdata"}),
+              ElementsAre(AllOf(HasSubstr("--log-file: there is no folder"), HasSubstr("none"))));
+}
+
+TEST_F(IraceSetupFiles, InstancesOfAFolderAndWithAFolder) {
+  write("data/b", "");
+  write("data/a", "");
+  EXPECT_THAT(setup({"--train-instances-dir", "data", "--train-instances-file="}).training,
+              ElementsAre(path("data/a"), path("data/b")));
+  EXPECT_THAT(setup({"--train-instances-dir", "data"}).training,
+              ElementsAre(path("data/one"), path("data/two three")));
+}
+
+TEST_F(IraceSetupFiles, TheFolderOfOlderVersionsIsUsedWithAWarning) {
+  write("Instances/i1", "");
+  write("scenario.txt", "maxExperiments = 500\n");
+  const IraceSetup read = setup({"-s", "scenario.txt"});
+  EXPECT_THAT(read.training, ElementsAre(path("Instances/i1")));
+  EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("as irace 3.5 does")));
+  fs::remove_all(folder_ / "Instances");
+  EXPECT_THAT(errors(), ElementsAre(HasSubstr("there are no training instances")));
+}
+
+TEST_F(IraceSetupFiles, AListThatNeedsTheFolderOfOlderVersionsIsAWarning) {
+  write("Instances/one", "");
+  EXPECT_THAT(setup({"-s", "scenario.txt"}).warnings,
+              ElementsAre(HasSubstr("write trainInstancesDir = \"./Instances\"")));
+}
+
+TEST_F(IraceSetupFiles, FilesOfOlderVersionsAreWorkedIn) {
+  write("scenario.txt",
+        "maxExperiments = 500\ntrainInstancesFile = \"list.txt\"\ndigits = 2\n"
+        "forbiddenFile = \"forbidden.txt\"\n");
+  write("forbidden.txt", "(a < 0.5) & (b == \"y\")\n");
+  const IraceSetup read = setup();
+  EXPECT_EQ(read.space.digits(), 2);
+  EXPECT_EQ(read.space.forbidden().size(), 1U);
+  EXPECT_THAT(read.parameter_text, AllOf(HasSubstr("[forbidden]"), HasSubstr("digits = 2")));
+  EXPECT_THAT(read.warnings, Contains(HasSubstr("under [forbidden]")));
+}
+
+TEST_F(IraceSetupFiles, ScenariosOfAutoModeAreReadWithTheirDependencyFile) {
+  write("scenario.txt",
+        "parameterFile = \"./automode.txt\"\ndependencyFile = \"./dependencies.txt\"\n"
+        "execDir = \"./run\"\ntrainInstancesDir = \"./missions\"\nmaxExperiments = 200\n"
+        "nbIterations = 2\ndigits = 2\n");
+  write("automode.txt",
+        "NumStates \"--nstates \" i (1, 4)\n"
+        "N0x0 \"--n0x0 \" i (0, 3) | as.numeric(NumStates)>1\n");
+  write("dependencies.txt", "N0x0 (|NumStates-2)\n");
+  write("missions/aggregation.argos", "");
+  fs::create_directories(folder_ / "run");
+  const IraceSetup read = setup();
+  EXPECT_EQ(read.race.nb_iterations, 2);
+  EXPECT_THAT(read.training, ElementsAre(path("missions/aggregation.argos")));
+  EXPECT_EQ(read.space.constant_interval(1), nullptr);  // it depends on NumStates
+  EXPECT_THAT(read.parameter_text, HasSubstr("NumStates - 2"));
+  EXPECT_THAT(read.warnings, Contains(HasSubstr("`dependencyFile` is read")));
+}
+
+TEST_F(IraceSetupFiles, EverythingWrongIsReportedTogether) {
+  write("scenario.txt",
+        "maxExperiments = 500\ntrainInstancesFile = \"none.txt\"\nexecDir = \"nowhere\"\n"
+        "targetRunner = \"./missing\"\ntargetCmdline = \"{seed} {targetRunnerArgs}\"\n"
+        "firstTest = 5\neachTest = 2\nbatchmode = \"slurm\"\n");
+  write("parameters.txt", "a \"--a \" r (1, 0)\n");
+  EXPECT_THAT(errors(), ElementsAre(HasSubstr("scenario.txt:2:1: " + path("none.txt")),
+                                    HasSubstr("parameters.txt:1:"),
+                                    HasSubstr("scenario.txt:3:1: there is no such folder"),
+                                    HasSubstr("scenario.txt:4:1: there is no such program"),
+                                    HasSubstr("scenario.txt:8:1: needs `targetEvaluator`"),
+                                    HasSubstr("scenario.txt:5:1: must contain {instance}"),
+                                    "scenario.txt:6:1: must be a multiple of eachTest"));
+}
+
+TEST_F(IraceSetupFiles, AProgramMustBeExecutable) {
+  write("plain", "echo 1\n");
+  EXPECT_THAT(errors({"--target-runner", "plain"}),
+              ElementsAre(AllOf(HasSubstr("--target-runner: "), HasSubstr("chmod +x"))));
+  // What a launcher starts need not be.
+  write_program("bin/launch");
+  const IraceSetup read = setup({"--target-runner", "plain", "--target-runner-launcher", "launch"});
+  EXPECT_EQ(read.target_runner_launcher, path("bin/launch"));
+}
+
+TEST_F(IraceSetupFiles, LauncherArgumentsOfOlderVersionsBecomeATemplate) {
+  write_program("bin/launch");
+  const IraceSetup read = setup({"--target-runner-launcher", "launch", "--target-runner-args",
+                                 "-x {targetRunner} {targetRunnerArgs}"});
+  EXPECT_EQ(read.target_cmdline,
+            "-x {targetRunner} {configurationID} {instanceID} {seed} {instance} {bound} "
+            "{targetRunnerArgs}");
+}
+
+TEST_F(IraceSetupFiles, ABudgetIsRunsOrTime) {
+  EXPECT_THAT(errors({"--max-time", "60"}),
+              ElementsAre(HasSubstr("--max-time: stands beside `maxExperiments`")));
+  EXPECT_EQ(setup({"--max-time", "60", "--max-experiments", "0"}).race.max_time, 60);
+  EXPECT_EQ(setup({"--min-experiments", "900"}).race.max_experiments, 900);
+}
+
+TEST_F(IraceSetupFiles, TestingAloneNeedsTestInstancesOnly) {
+  write("scenario.txt", "");
+  EXPECT_THAT(errors({"--only-test", "best.txt"}),
+              ElementsAre(HasSubstr("--only-test needs test instances")));
+  EXPECT_THAT(setup({"--only-test", "best.txt", "--test-instances-file", "list.txt"}).test,
+              ElementsAre("one", "two three"));
+}
+
+TEST_F(IraceSetupFiles, PostselectionEndsWithoutElites) {
+  EXPECT_TRUE(setup().race.postselection);
+  EXPECT_FALSE(setup({"--elitist", "0"}).race.postselection);
+  EXPECT_FALSE(setup({"--postselection", "0"}).race.postselection);
+}
+
+TEST_F(IraceSetupFiles, ErrorsOfTheScenarioComeAlone) {
+  write("scenario.txt", "maxExperiments = \"x\"\nparametersFile = \"y\"\n");
+  EXPECT_EQ(errors().size(), 2U);
+  EXPECT_THAT(errors({"-s", "none.txt"}),
+              ElementsAre(path("none.txt") + ": there is no such file"));
+}
+
+TEST(IraceTemplates, AreReadWithoutAnError) {
+  const TemporaryFolder folder;
+  for (const IraceTemplate& file : irace_templates()) {
+    std::ofstream(folder / file.name) << file.text;
+    if (file.is_program) fs::permissions(folder / file.name, fs::perms::owner_all);
+  }
+  const std::vector<std::string> words = {"--scenario", "scenario.txt"};
+  const auto setup =
+      read_irace_setup(*read_irace_command_line(words, folder.path()), {folder.path(), ""});
+  ASSERT_TRUE(setup) << to_string(setup.error().front());
+  EXPECT_EQ(setup->space.size(), 4U);
+  EXPECT_EQ(setup->space.forbidden().size(), 1U);
+  EXPECT_EQ(setup->initial.size(), 2U);
+  EXPECT_EQ(setup->training.size(), 5U);
+  EXPECT_THAT(setup->warnings, IsEmpty());
+}
+
+TEST(IraceTemplates, EveryCommentedOptionOfTheScenarioCanBeSwitchedOn) {
+  const TemporaryFolder folder;
+  std::string scenario = irace_templates().front().text;
+  std::string all;
+  for (std::size_t begin = 0; begin < scenario.size();) {
+    const std::size_t end = scenario.find('\n', begin);
+    std::string line = scenario.substr(begin, end - begin);
+    const std::size_t equals = line.find(" = ");
+    const bool is_option =
+        line.starts_with("# ") && equals != std::string::npos && line.find(' ', 2) == equals;
+    if (is_option) all += line.substr(2) + "\n";
+    begin = end + 1;
+  }
+  EXPECT_THAT(all, HasSubstr("confidence = 0.95"));
+  const auto line = read_irace_command_line({}, folder.path());
+  std::ofstream(folder / "scenario.txt") << scenario << all;
+  const auto setup = read_irace_setup(*line, {folder.path(), ""});
+  ASSERT_FALSE(setup);  // the other files are not there
+  for (const Error& error : setup.error())
+    EXPECT_THAT(error.message, HasSubstr("there is no such")) << to_string(error);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,176 @@
+#include "worker/target_evaluator.h"
+
+#include <gtest/gtest.h>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "tests/support/temporary_folder.h"
+#include "worker/evaluate.h"
+
+namespace swarmsmith {
+namespace {
+
+bool mentions(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+class TargetEvaluators : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    script("target-runner", "printf '[%s]' \"$@\" > log; echo 2.5 7\n");
+    scenario.campaign_digest = "d";
+    scenario.target = Target{};
+    scenario.target->runner = (folder / "target-runner").string();
+    scenario.target->folder = folder.path().string();
+    scenario.instances = {{{"one", "two"}, {"three"}}, {{"other"}, {}}};
+    allowed.programs = {*allowed_program(scenario.target->runner)};
+  }
+  void script(const std::string& name, const std::string& text) {
+    std::ofstream(folder / name) << "#!/bin/sh\n" << text;
+    std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
+  }
+  Expected<Evaluator> make() { return make_evaluators(allowed)(to_bytes(scenario)); }
+  tl::expected<Measured, Failure> evaluate(const WorkItem& item) {
+    const auto evaluator = make();
+    if (!evaluator) return tl::unexpected(Failure{to_string(evaluator.error()), {}});
+    return (*evaluator)(item);
+  }
+  std::string log() const {
+    std::ifstream in(folder / "log");
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  /// Of the third configuration of the second design.
+  static WorkItem item(std::int32_t purpose = 0) {
+    WorkItem made;
+    made.key = pack(kMostCandidates + 3, purpose, 1);
+    made.instance = 2;
+    made.seed = 11;
+    made.machine = "-a 1";
+    return made;
+  }
+
+  TemporaryFolder folder;
+  WorkerScenario scenario;
+  AllowedPrograms allowed;
+};
+
+TEST_F(TargetEvaluators, GiveTheNegativeOfTheCost) {
+  const auto measured = evaluate(item());
+  ASSERT_TRUE(measured) << measured.error().reason;
+  EXPECT_EQ(measured->score, -2.5);
+  EXPECT_EQ(measured->time, 7);
+  EXPECT_FALSE(measured->rejected);
+  EXPECT_EQ(log(), "[3][2][11][two][-a][1]");
+}
+
+TEST_F(TargetEvaluators, DigestWhatWasPrinted) {
+  const auto first = evaluate(item());
+  EXPECT_EQ(evaluate(item())->state_digest, first->state_digest);
+  script("target-runner", "echo 2.5 8\n");
+  EXPECT_NE(evaluate(item())->state_digest, first->state_digest);
+}
+
+TEST_F(TargetEvaluators, NameTheInstance) {
+  WorkItem test = item(kTestPurpose);
+  test.instance = 1;
+  ASSERT_TRUE(evaluate(test));
+  EXPECT_EQ(log(), "[3][1t][11][three][-a][1]");
+  // A mission without instances for tests is tested on those of the training.
+  test.mission = 1;
+  ASSERT_TRUE(evaluate(test));
+  EXPECT_EQ(log(), "[3][1][11][other][-a][1]");
+  WorkItem unknown = item();
+  unknown.instance = 3;
+  EXPECT_TRUE(mentions(evaluate(unknown).error().reason, "does not have"));
+  unknown.instance = 0;
+  EXPECT_FALSE(evaluate(unknown));
+  unknown.mission = 9;
+  EXPECT_FALSE(evaluate(unknown));
+}
+
+TEST_F(TargetEvaluators, CallTheEvaluatorForItsPurpose) {
+  script("target-evaluator", "printf '[%s]' \"$@\" > log; echo 4\n");
+  scenario.target->evaluator = (folder / "target-evaluator").string();
+  allowed.programs.push_back(*allowed_program(scenario.target->evaluator));
+  script("target-runner", "echo 7\n");
+  const auto run = evaluate(item());
+  ASSERT_TRUE(run) << run.error().reason;
+  EXPECT_EQ(run->score, 0);
+  EXPECT_EQ(run->time, 7);
+  WorkItem call = item(kEvaluatorPurpose);
+  call.alive = {1, 3};
+  EXPECT_EQ(evaluate(call)->score, -4);
+  EXPECT_EQ(log(), "[3][2][11][two][2][1][3]");
+  call.instance = -1;
+  ASSERT_TRUE(evaluate(call));
+  EXPECT_EQ(log(), "[3][1t][11][three][2][1][3]");
+}
+
+TEST_F(TargetEvaluators, RejectAnInfiniteCost) {
+  script("target-runner", "echo Inf 3\n");
+  const auto measured = evaluate(item());
+  ASSERT_TRUE(measured);
+  EXPECT_TRUE(measured->rejected);
+  EXPECT_EQ(measured->time, 3);
+}
+
+TEST_F(TargetEvaluators, KeepTheStoryOfAFailure) {
+  script("target-runner", "echo apples; echo pears >&2\n");
+  const auto measured = evaluate(item());
+  ASSERT_FALSE(measured);
+  EXPECT_TRUE(mentions(measured.error().reason, "`apples`"));
+  EXPECT_EQ(measured.error().details.output, "apples\n");
+  EXPECT_EQ(measured.error().details.errors, "pears\n");
+  EXPECT_TRUE(mentions(measured.error().details.command, "3 2 11 two  -a 1"));
+}
+
+TEST_F(TargetEvaluators, RunNothingThatIsNotAllowed) {
+  allowed.programs = {"/bin/true"};
+  const auto refused = make();
+  ASSERT_FALSE(refused);
+  EXPECT_TRUE(mentions(refused.error().message, "--allow "));
+  EXPECT_TRUE(mentions(refused.error().message, "target-runner"));
+  allowed.programs = {*allowed_program(scenario.target->runner)};
+  scenario.target->launcher = "/bin/sh";
+  EXPECT_TRUE(mentions(make().error().message, "targetRunnerLauncher"));
+  scenario.target->launcher.clear();
+  scenario.target->evaluator = "/no/such/evaluator";
+  EXPECT_TRUE(mentions(make().error().message, "targetEvaluator"));
+}
+
+TEST_F(TargetEvaluators, SeeThroughLinks) {
+  std::filesystem::create_symlink(folder / "target-runner", folder / "link");
+  scenario.target->runner = (folder / "link").string();
+  const auto evaluator = make();
+  ASSERT_TRUE(evaluator);
+  EXPECT_TRUE((*evaluator)(item()));
+  // What the link means is looked at before every call.
+  std::filesystem::remove(folder / "link");
+  std::filesystem::create_symlink("/bin/true", folder / "link");
+  const auto measured = (*evaluator)(item());
+  ASSERT_FALSE(measured);
+  EXPECT_TRUE(mentions(measured.error().reason, "may not"));
+}
+
+TEST_F(TargetEvaluators, NeedTheFolder) {
+  scenario.target->folder = (folder / "nowhere").string();
+  EXPECT_TRUE(mentions(make().error().message, "folder"));
+}
+
+TEST_F(TargetEvaluators, GiveUpWhatRunsWhenAnotherScenarioComes) {
+  script("target-runner", "exec sleep 1000\n");
+  EvaluatorFactory factory = make_evaluators(allowed);
+  const auto evaluator = factory(to_bytes(scenario));
+  ASSERT_TRUE(evaluator);
+  std::string reason;
+  std::jthread slot([&] { reason = (*evaluator)(item()).error().reason; });
+  ASSERT_TRUE(factory(to_bytes(scenario)));  // the next slot's: nothing happens
+  scenario.campaign_digest = "other";
+  ASSERT_TRUE(factory(to_bytes(scenario)));
+  slot.join();
+  EXPECT_TRUE(mentions(reason, "interrupted")) << reason;
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,82 @@
+#include "worker/simulation_evaluator.h"
+
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "sim/control/flavour.h"
+#include "sim/control/machine_text.h"
+#include "sim/engine/simulate.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Candidates meet many pairs, so that their machines come again; bounded, since races go on.
+constexpr std::size_t kMaxMachines = 1024;
+
+class Simulation {
+ public:
+  Simulation(WorkerScenario scenario, std::vector<Flavour> flavours)
+      : scenario_(std::move(scenario)),
+        flavours_(std::move(flavours)),
+        machines_(flavours_.size()) {}
+
+  tl::expected<Measured, Failure> operator()(const WorkItem& item) {
+    auto measured = simulate_item(item);
+    if (!measured) return tl::unexpected(Failure{to_string(measured.error())});
+    return *measured;
+  }
+
+ private:
+  Expected<Measured> simulate_item(const WorkItem& item) {
+    if (item.mission >= scenario_.missions.size() || item.method >= flavours_.size()) {
+      return bad_input("a task for a mission or method that the scenario does not have");
+    }
+    const Mission& mission = scenario_.missions[item.mission];
+    const Flavour& flavour = flavours_[item.method];
+    const Expected<const Machine*> machine = machine_of(item);
+    if (!machine) return Unexpected(machine.error());
+    const Expected<Instance> instance = instance_of(mission, item.seed);
+    if (!instance) return Unexpected(instance.error());
+    const SimulationResult result = simulate({.machine = **machine,
+                                              .flavour = flavour,
+                                              .profile = scenario_.profile,
+                                              .mission = mission,
+                                              .instance = *instance,
+                                              .seed = item.seed});
+    return Measured{.score = result.score, .state_digest = result.state_digest};
+  }
+
+  Expected<const Machine*> machine_of(const WorkItem& item) {
+    auto& known = machines_[item.method];
+    if (const auto at = known.find(item.machine); at != known.end()) return &at->second;
+    Expected<Machine> machine = parse_machine(item.machine, flavours_[item.method]);
+    if (!machine) return Unexpected(machine.error());
+    if (known.size() >= kMaxMachines) known.clear();
+    return &known.emplace(item.machine, std::move(*machine)).first->second;
+  }
+
+  WorkerScenario scenario_;
+  std::vector<Flavour> flavours_;                                   ///< by method
+  std::vector<std::unordered_map<std::string, Machine>> machines_;  ///< by method and text
+};
+
+}  // namespace
+
+Expected<Evaluator> make_simulation_evaluator(WorkerScenario scenario) {
+  if (scenario.engine_version != kEngineVersion) {
+    return unexpected(ErrorKind::Conflict, "the campaign wants version " +
+                                               std::to_string(scenario.engine_version) +
+                                               " of the simulator, this program has version " +
+                                               std::to_string(kEngineVersion));
+  }
+  std::vector<Flavour> flavours;
+  for (const WorkerMethod& method : scenario.methods) {
+    Expected<Flavour> flavour = find_flavour(method.flavour, method.turn_clock);
+    if (!flavour) return Unexpected(flavour.error());
+    flavours.push_back(std::move(*flavour));
+  }
+  return Evaluator(Simulation(std::move(scenario), std::move(flavours)));
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,174 @@
+#include "worker/target_evaluator.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "base/hash.h"
+#include "base/log.h"
+#include "target/cost.h"
+#include "target/runner.h"
+
+namespace swarmsmith {
+namespace {
+
+/// What ends a program from outside often ends the worker too, a moment later: then the evaluation
+/// did not fail, and goes to another worker.
+constexpr int kOutsideGraceMs = 100;
+constexpr int kLogsCalls = 2;  ///< debugLevel from which calls are logged, as irace shows them
+
+std::optional<std::string> canonical(const std::string& path) {
+  std::error_code failed;
+  const auto resolved = std::filesystem::canonical(path, failed);
+  if (failed) return std::nullopt;
+  return resolved.string();
+}
+
+std::uint64_t digest_of(const Reading& reading) {
+  Digest digest;
+  digest.add(reading.cost + 0.0);  // -0 counts as 0
+  digest.add(reading.time);
+  return digest.value64();
+}
+
+/// An instance as programs are told of it.
+struct NamedInstance {
+  std::string id;
+  std::string text;
+};
+
+class Programs {
+ public:
+  Programs(std::shared_ptr<const WorkerScenario> scenario, const AllowedPrograms& allowed,
+           std::shared_ptr<const Interrupt> interrupt)
+      : scenario_(std::move(scenario)),
+        target_(*scenario_->target),
+        allowed_(allowed.programs),
+        interrupt_(std::move(interrupt)),
+        runner_(target_, {.shell = allowed.shell, .batch_poll = allowed.batch_poll}, *interrupt_) {}
+
+  /// Whether a program is one of the list's, now.
+  Expected<void> check(const std::string& program, const char* role) const {
+    const std::optional<std::string> resolved = canonical(program);
+    if (!resolved) {
+      return unexpected(ErrorKind::NotFound,
+                        std::string("there is no program ") + role + " on this host", program);
+    }
+    if (std::ranges::find(allowed_, *resolved) != allowed_.end()) return {};
+    return unexpected(ErrorKind::Conflict,
+                      std::string("the campaign wants to run the ") + role + " " + *resolved +
+                          ", which this worker may not: start the worker with --allow " +
+                          *resolved);
+  }
+
+  Expected<void> check_all() const {
+    if (auto fine = check(target_.runner, "targetRunner"); !fine) return fine;
+    if (!target_.launcher.empty()) {
+      if (auto fine = check(target_.launcher, "targetRunnerLauncher"); !fine) return fine;
+    }
+    if (!target_.evaluator.empty()) {
+      if (auto fine = check(target_.evaluator, "targetEvaluator"); !fine) return fine;
+    }
+    std::error_code failed;
+    if (std::filesystem::is_directory(target_.folder, failed)) return {};
+    return unexpected(ErrorKind::NotFound,
+                      "the folder in which the campaign's programs run is not on this host",
+                      target_.folder);
+  }
+
+  tl::expected<Measured, Failure> operator()(const WorkItem& item) const {
+    // A link may have been changed since the scenario came.
+    if (const auto fine = check_all(); !fine) {
+      return tl::unexpected(Failure{to_string(fine.error())});
+    }
+    const Expected<NamedInstance> instance = instance_of(item);
+    if (!instance) return tl::unexpected(Failure{to_string(instance.error())});
+    const auto result = evaluate(item, *instance);
+    if (result) return measured(item, *result);
+    if (result.error().from_outside) interrupt_->wait_ms(kOutsideGraceMs);
+    log_call(item, result.error().reason);
+    return tl::unexpected(Failure{result.error().reason, result.error().details});
+  }
+
+ private:
+  static bool is_evaluator_call(const WorkItem& item) {
+    return purpose_of(item.key) == kEvaluatorPurpose;
+  }
+
+  Expected<NamedInstance> instance_of(const WorkItem& item) const {
+    if (item.mission < scenario_->instances.size()) {
+      const InstanceTexts& texts = scenario_->instances[item.mission];
+      // Calls of the evaluator have one purpose for both lists: there the sign tells.
+      const bool test = (purpose_of(item.key) == kTestPurpose && !texts.test.empty()) ||
+                        (is_evaluator_call(item) && item.instance < 0);
+      const std::int64_t number = item.instance < 0 ? -item.instance : item.instance;
+      const std::vector<std::string>& list = test ? texts.test : texts.training;
+      if (number >= 1 && static_cast<std::size_t>(number) <= list.size()) {
+        return NamedInstance{std::to_string(number) + (test ? "t" : ""),
+                             list[static_cast<std::size_t>(number - 1)]};
+      }
+    }
+    return bad_input("a task for an instance that the scenario does not have");
+  }
+
+  tl::expected<TargetResult, TargetFailure> evaluate(const WorkItem& item,
+                                                     const NamedInstance& instance) const {
+    if (is_evaluator_call(item)) {
+      return runner_.evaluate({.configuration = number_of(item.key),
+                               .instance_id = instance.id,
+                               .seed = item.seed,
+                               .instance = instance.text,
+                               .alive = item.alive});
+    }
+    return runner_.run({.configuration = number_of(item.key),
+                        .instance_id = instance.id,
+                        .seed = item.seed,
+                        .instance = instance.text,
+                        .bound = item.bound,
+                        .switches = item.machine});
+  }
+
+  Measured measured(const WorkItem& item, const TargetResult& result) const {
+    log_call(item, "fine");
+    if (result.rejected) return {.time = result.reading.time, .rejected = true};
+    return {.score = to_score(result.reading.cost),
+            .state_digest = digest_of(result.reading),
+            .time = result.reading.time};
+  }
+
+  void log_call(const WorkItem& item, const std::string& outcome) const {
+    if (target_.debug_level < kLogsCalls) return;
+    log(LogLevel::Info, "target",
+        is_evaluator_call(item) ? "targetEvaluator called" : "targetRunner called",
+        {{"configuration", std::to_string(number_of(item.key))},
+         {"instance", std::to_string(item.instance)},
+         {"seed", std::to_string(item.seed)},
+         {"switches", item.machine},
+         {"outcome", outcome}});
+  }
+
+  std::shared_ptr<const WorkerScenario> scenario_;  ///< of all slots
+  Target target_;
+  std::vector<std::string> allowed_;
+  std::shared_ptr<const Interrupt> interrupt_;
+  TargetRunner runner_;
+};
+
+}  // namespace
+
+Expected<std::string> allowed_program(const std::string& path) {
+  if (const auto resolved = canonical(path)) return *resolved;
+  return unexpected(ErrorKind::NotFound, "there is no such program to allow", path);
+}
+
+Expected<Evaluator> make_target_evaluator(std::shared_ptr<const WorkerScenario> scenario,
+                                          const AllowedPrograms& allowed,
+                                          std::shared_ptr<const Interrupt> interrupt) {
+  if (!scenario->target) return bad_input("a scenario without programs");
+  Programs programs(std::move(scenario), allowed, std::move(interrupt));
+  if (auto fine = programs.check_all(); !fine) return Unexpected(fine.error());
+  return Evaluator(std::move(programs));
+}
+
+}  // namespace swarmsmith
