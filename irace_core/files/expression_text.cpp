@@ -46,6 +46,7 @@ class Reader {
   std::span<const std::string> names_;
   ExpressionUse use_;
   std::vector<Error>& warnings_;
+  int nesting_ = 0;
 };
 
 Expected<Expression> Reader::read(const r::Node& node) {
@@ -86,7 +87,7 @@ Expected<Expression> Reader::read_call(const r::Node& node, const r::Call& call)
   std::string function = call.function;
   if (function == "&&" || function == "||") {
     const std::string single = function.substr(1);
-    if (use_ != ExpressionUse::Forbidden) {
+    if (use_ == ExpressionUse::Value) {
       return wrong("found '" + function + "': write '" + single + "', as irace wants it", node);
     }
     warnings_.push_back({ErrorKind::BadInput, "'" + function + "' is read as '" + single + "'",
@@ -117,10 +118,20 @@ Expected<Expression> Reader::read_call(const r::Node& node, const r::Call& call)
 }
 
 Expected<std::vector<Expression>> Reader::read_arguments(const r::Call& call) {
+  // What is printed has up to three levels for one here (an operand, its parentheses, a sign), and
+  // must be read again.
+  constexpr int kDeepestNesting = 100;
+  const bool is_operator = call.arguments.size() == 2 && irace::find_operator(call.function);
   std::vector<Expression> operands;
   for (const r::Argument& argument : call.arguments) {
+    const int levels = is_operator && operands.empty() ? 0 : 1;
+    nesting_ += levels;
+    if (nesting_ > kDeepestNesting) {
+      return wrong("this expression is nested too deeply", argument.value);
+    }
     auto operand = read(argument.value);
     if (!operand) return Unexpected(operand.error());
+    nesting_ -= levels;
     const bool searched = call.function == "%in%" && !operands.empty();
     if (!searched && is_long_range(*operand)) {
       return wrong("a range of 10000 numbers or more may only stand behind %in%", argument.value);
@@ -267,8 +278,9 @@ std::string print(const Expression& expression) {
   if (operation == Operation::Parameter) return print_name(expression.name());
   if (operation == Operation::Not) {
     // Parentheses that are not needed, but that readers of !a == b would like to see.
-    const bool atom = binding_of(operands[0]) == irace::kBindingOfAtom;
-    return atom ? "!" + print(operands[0]) : "!(" + print(operands[0]) + ")";
+    const bool plain = binding_of(operands[0]) == irace::kBindingOfAtom ||
+                       operands[0].operation() == Operation::Not;
+    return plain ? "!" + print(operands[0]) : "!(" + print(operands[0]) + ")";
   }
   if (operation == Operation::Negate) {
     return "-" + print_at_least(operands[0], irace::kBindingOfSign);

@@ -13,8 +13,8 @@ namespace swarmsmith {
 
 /// What an expression of irace's files is for.
 enum class ExpressionUse {
-  Value,      ///< a condition or a bound: && and || are errors
-  Forbidden,  ///< && and || are read as & and |, with a warning
+  Value,      ///< && and || are errors, as in the conditions of irace 4
+  Forbidden,  ///< && and || are read as & and |, with a warning; also conditions of irace 3.5
 };
 
 /// Reads an expression over the parameters `names` (irace facts, 8.2). T and F are TRUE and FALSE

@@ -163,8 +163,9 @@ Expected<Parameter> Builder::read_parameter(const ParameterLine& line) {
   if (!domain) return Unexpected(domain.error());
   Parameter parameter{line.name.text, line.switch_text, std::move(*domain), {}};
   if (line.condition.text.empty()) return parameter;
-  auto condition =
-      irace::read_expression(line.condition, file_, names_, ExpressionUse::Value, warnings_);
+  const ExpressionUse use =
+      sources_.refuse_doubled_operators ? ExpressionUse::Value : ExpressionUse::Forbidden;
+  auto condition = irace::read_expression(line.condition, file_, names_, use, warnings_);
   if (!condition) return Unexpected(condition.error());
   parameter.condition = std::move(*condition);
   return parameter;
