@@ -1,8 +1,6 @@
 #include "irace_core/files/expression_text.h"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include "base/overloaded.h"
@@ -46,6 +44,7 @@ class Reader {
   std::span<const std::string> names_;
   ExpressionUse use_;
   std::vector<Error>& warnings_;
+  int nesting_ = 0;
 };
 
 Expected<Expression> Reader::read(const r::Node& node) {
@@ -86,7 +85,7 @@ Expected<Expression> Reader::read_call(const r::Node& node, const r::Call& call)
   std::string function = call.function;
   if (function == "&&" || function == "||") {
     const std::string single = function.substr(1);
-    if (use_ != ExpressionUse::Forbidden) {
+    if (use_ == ExpressionUse::Value) {
       return wrong("found '" + function + "': write '" + single + "', as irace wants it", node);
     }
     warnings_.push_back({ErrorKind::BadInput, "'" + function + "' is read as '" + single + "'",
@@ -117,10 +116,20 @@ Expected<Expression> Reader::read_call(const r::Node& node, const r::Call& call)
 }
 
 Expected<std::vector<Expression>> Reader::read_arguments(const r::Call& call) {
+  // What is printed has up to three levels for one here (an operand, its parentheses, a sign), and
+  // must be read again.
+  constexpr int kDeepestNesting = 100;
+  const bool is_operator = call.arguments.size() == 2 && irace::find_operator(call.function);
   std::vector<Expression> operands;
   for (const r::Argument& argument : call.arguments) {
+    const int levels = is_operator && operands.empty() ? 0 : 1;
+    nesting_ += levels;
+    if (nesting_ > kDeepestNesting) {
+      return wrong("this expression is nested too deeply", argument.value);
+    }
     auto operand = read(argument.value);
     if (!operand) return Unexpected(operand.error());
+    nesting_ -= levels;
     const bool searched = call.function == "%in%" && !operands.empty();
     if (!searched && is_long_range(*operand)) {
       return wrong("a range of 10000 numbers or more may only stand behind %in%", argument.value);
@@ -161,90 +170,6 @@ Expected<Expression> Reader::read_function(const r::Node& node, const r::Call& c
   return Expression::call(function->operation, std::move(*operands));
 }
 
-/// The fewest digits that read back as the same number, without an exponent where that is short.
-std::string shortest(double value) {
-  if (std::isinf(value)) return value < 0 ? "-Inf" : "Inf";
-  if (value == 0) return std::signbit(value) ? "-0" : "0";
-  std::array<char, 64> buffer{};
-  const auto end = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  std::string text(buffer.data(), end.ptr);
-  if (text.find('e') == std::string::npos || std::fabs(value) < 1) return text;
-  const std::string plain = to_fixed_text(value);
-  double read = 0;
-  std::from_chars(plain.data(), plain.data() + plain.size(), read);
-  return plain.size() <= 12 && read == value ? plain : text;
-}
-
-std::string print_constant(const Scalar& value) {
-  if (value.missing) {
-    constexpr std::array<const char*, 4> kMissing = {"NA", "NA_integer_", "NA_real_",
-                                                     "NA_character_"};
-    return kMissing.at(static_cast<std::size_t>(value.type));
-  }
-  switch (value.type) {
-    case Type::Logical:
-      return value.number != 0 ? "TRUE" : "FALSE";
-    case Type::Integer:
-      return to_fixed_text(value.number) + "L";
-    case Type::Real:
-      return shortest(value.number);
-    case Type::Text:
-      break;
-  }
-  constexpr std::string_view kHexadecimal = "0123456789abcdef";
-  std::string text = "\"";
-  for (const char c : value.text) {
-    const auto code = static_cast<unsigned char>(c);
-    if (c == '"' || c == '\\') {
-      text += std::string("\\") + c;
-    } else if (code < 0x20 || code == 0x7F) {  // so that a line stays a line
-      text += std::string("\\x") + kHexadecimal[code / 16] + kHexadecimal[code % 16];
-    } else {
-      text += c;
-    }
-  }
-  return text + "\"";
-}
-
-/// In backticks where R would not read the name as one.
-std::string print_name(const std::string& name) {
-  constexpr std::array<std::string_view, 15> kReserved = {
-      "TRUE", "FALSE", "NULL",   "NA",    "Inf",  "NaN", "function", "if",
-      "else", "for",   "repeat", "while", "next", "in",  "break"};
-  const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
-  const bool plain = !is_digit(name[0]) && name[0] != '_' &&
-                     !(name[0] == '.' && name.size() > 1 && is_digit(name[1])) &&
-                     std::find(kReserved.begin(), kReserved.end(), name) == kReserved.end();
-  return plain ? name : "`" + name + "`";
-}
-
-int binding_of(const Expression& expression) {
-  if (expression.operation() == Operation::Not) return irace::kBindingOfNot;
-  if (expression.operation() == Operation::Negate) return irace::kBindingOfSign;
-  if (expression.operation() == Operation::Constant) {
-    const Scalar value = expression.evaluate({})[0];
-    const bool signed_number = value.type != Type::Text && std::signbit(value.number);
-    return signed_number && !value.missing ? irace::kBindingOfSign : irace::kBindingOfAtom;
-  }
-  const irace::Spelling* spelling = irace::find_spelling(expression.operation());
-  return spelling == nullptr || spelling->binding == 0 ? irace::kBindingOfAtom : spelling->binding;
-}
-
-std::string print_at_least(const Expression& expression, int binding) {
-  return binding_of(expression) >= binding ? print(expression) : "(" + print(expression) + ")";
-}
-
-std::string print_binary(const irace::Spelling& op, const Expression& left,
-                         const Expression& right) {
-  const bool is_power = op.binding == irace::kBindingOfPower;  // goes on to the right
-  const bool is_tight = is_power || op.operation == Operation::Range;
-  const bool may_chain = !is_power && op.binding != irace::kBindingOfComparison;
-  const std::string blank = is_tight ? "" : " ";
-  return print_at_least(left, may_chain ? op.binding : op.binding + 1) + blank +
-         std::string(op.text) + blank +
-         print_at_least(right, is_power ? op.binding : op.binding + 1);
-}
-
 }  // namespace
 
 Expected<Expression> parse_expression(std::string_view text, std::span<const std::string> names,
@@ -258,29 +183,6 @@ Expected<Expression> parse_expression(std::string_view text, std::span<const std
 Expected<Expression> to_expression(const r::Node& node, std::span<const std::string> names,
                                    ExpressionUse use, std::vector<Error>& warnings) {
   return Reader(names, use, warnings).read(node);
-}
-
-std::string print(const Expression& expression) {
-  const std::span<const Expression> operands = expression.operands();
-  const Operation operation = expression.operation();
-  if (operation == Operation::Constant) return print_constant(expression.evaluate({})[0]);
-  if (operation == Operation::Parameter) return print_name(expression.name());
-  if (operation == Operation::Not) {
-    // Parentheses that are not needed, but that readers of !a == b would like to see.
-    const bool atom = binding_of(operands[0]) == irace::kBindingOfAtom;
-    return atom ? "!" + print(operands[0]) : "!(" + print(operands[0]) + ")";
-  }
-  if (operation == Operation::Negate) {
-    return "-" + print_at_least(operands[0], irace::kBindingOfSign);
-  }
-  const irace::Spelling& spelling = *irace::find_spelling(operation);
-  if (spelling.binding > 0) return print_binary(spelling, operands[0], operands[1]);
-  std::string text = std::string(spelling.text) + "(";
-  for (const Expression& operand : operands) {
-    if (&operand != operands.data()) text += ", ";
-    text += print(operand);
-  }
-  return text + ")";
 }
 
 }  // namespace swarmsmith

@@ -13,7 +13,7 @@ namespace swarmsmith {
 
 /// What an expression of irace's files is for.
 enum class ExpressionUse {
-  Value,      ///< a condition or a bound: && and || are errors
+  Value,      ///< && and || are errors, as in the conditions of irace 4
   Forbidden,  ///< && and || are read as & and |, with a warning; also conditions of irace 3.5
 };
 

@@ -163,11 +163,9 @@ Expected<Parameter> Builder::read_parameter(const ParameterLine& line) {
   if (!domain) return Unexpected(domain.error());
   Parameter parameter{line.name.text, line.switch_text, std::move(*domain), {}};
   if (line.condition.text.empty()) return parameter;
-  // irace 3.5 takes && for &, and examples of it have that; irace 4 refuses it.
-  const bool is_of_35 = sources_.digits || sources_.forbidden;
-  auto condition =
-      irace::read_expression(line.condition, file_, names_,
-                             is_of_35 ? ExpressionUse::Forbidden : ExpressionUse::Value, warnings_);
+  const ExpressionUse use =
+      sources_.refuse_doubled_operators ? ExpressionUse::Value : ExpressionUse::Forbidden;
+  auto condition = irace::read_expression(line.condition, file_, names_, use, warnings_);
   if (!condition) return Unexpected(condition.error());
   parameter.condition = std::move(*condition);
   return parameter;

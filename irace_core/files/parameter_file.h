@@ -20,6 +20,9 @@ struct ParameterSources {
   std::optional<IraceText> dependency;  ///< dependencyFile
   /// irace 3.5's option: bounds are then rounded to so many decimals, as 3.5 does, with a warning.
   std::optional<int> digits;
+  /// In conditions irace 4 refuses && and ||, irace 3.5 (and its own template) has them. They are
+  /// read as & and |, with a warning, unless this is set.
+  bool refuse_doubled_operators = false;
 };
 
 struct ParameterFile {

@@ -11,7 +11,7 @@ namespace swarmsmith::r {
 namespace {
 
 constexpr int kDeepestTree = 1000;    // so that walking it cannot exhaust the stack
-constexpr int kDeepestNesting = 200;  // R itself gives up at 50 open parentheses
+constexpr int kDeepestNesting = 400;  // R itself gives up at 50 open parentheses
 
 /// How tightly operators bind, loosest first (irace facts, 8.2).
 enum Binding {

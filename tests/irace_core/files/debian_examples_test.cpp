@@ -97,6 +97,15 @@ TEST_F(DebianExamples, MoacoReadsUnchangedWhereItsFoldersAre) {
   EXPECT_THAT(setup->warnings, Contains(HasSubstr("'||' is read as '|'")));
 }
 
+TEST_F(DebianExamples, TheParameterTemplateReadsUnchanged) {
+  fs::copy_file(folder_ / "templates/parameters.txt.tmpl",
+                folder_ / "examples/target-runner-python/trivial/template.txt");
+  const auto setup = read("target-runner-python/trivial", {"--parameter-file", "template.txt"});
+  ASSERT_TRUE(setup) << to_string(setup.error().front());
+  EXPECT_EQ(setup->space.size(), 5U);
+  EXPECT_THAT(setup->warnings, Contains(HasSubstr("'&&' is read as '&'")));
+}
+
 TEST_F(DebianExamples, MatlabNeedsRAndSaysSo) {
   const auto setup = read("matlab");
   ASSERT_FALSE(setup);

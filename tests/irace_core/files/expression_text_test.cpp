@@ -117,6 +117,29 @@ TEST(ExpressionText, WhatIsPrintedReadsBackAsTheSame) {
   }
 }
 
+TEST(ExpressionText, DeepTreesReadBackOrAreRefused) {
+  for (const std::string text : {"!", "-", "2^-", "(1 < ", "!(T & ", "1 - (", "c(2, "}) {
+    for (const int depth : {20, 90, 120}) {
+      std::string all;
+      for (int i = 0; i < depth; ++i)
+        all += text;
+      all += "a";
+      for (int i = 0; i < depth && text.find('(') != std::string::npos; ++i)
+        all += ')';
+      const Read result = read(all);
+      if (depth == 120) {
+        EXPECT_EQ(error_of(all).find("nested too deeply") == std::string::npos, false) << text;
+      } else if (result.expression) {
+        const Read again = read(print(*result.expression));
+        ASSERT_TRUE(again.expression) << text << to_string(again.expression.error());
+        EXPECT_EQ(*again.expression, *result.expression);
+      } else {
+        EXPECT_EQ(depth, 90) << text;
+      }
+    }
+  }
+}
+
 TEST(ExpressionText, MinusBeforeAConstantReadsBackAsANegativeConstant) {
   const Expression minus = Expression::call(Operation::Negate, {Expression::number(3)});
   EXPECT_EQ(print(minus), "-3");

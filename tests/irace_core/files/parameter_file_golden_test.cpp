@@ -17,7 +17,11 @@ using namespace swarmsmith::testing;
 using ::testing::HasSubstr;
 
 Expected<ParameterFile> read(const std::string& name) {
-  return parse_parameter_file({.parameters = golden_text("parameters/" + name + ".txt")});
+  return parse_parameter_file({.parameters = golden_text("parameters/" + name + ".txt"),
+                               .forbidden = {},
+                               .dependency = {},
+                               .digits = {},
+                               .refuse_doubled_operators = true});
 }
 
 char type_of(const Domain& domain) {

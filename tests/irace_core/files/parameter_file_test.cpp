@@ -63,6 +63,14 @@ TEST(ParameterFile, MendsWhatIsADefectInR) {
   EXPECT_EQ(print(*file->space[0].condition), "b == \"p#q\"");
 }
 
+TEST(ParameterFile, ConditionsOfIrace35MayHaveDoubledOperators) {
+  const auto file = read("a \"\" i (1,9)\nb \"\" c (x,y) | a > 2 && a < 5 || a == 9");
+  ASSERT_TRUE(file) << to_string(file.error());
+  EXPECT_EQ(print(*file->space[1].condition), "a > 2 & a < 5 | a == 9");
+  EXPECT_THAT(file->warnings,
+              ElementsAre("p.txt:2:31: '||' is read as '|'", "p.txt:2:22: '&&' is read as '&'"));
+}
+
 TEST(ParameterFile, BoundsMayHoldCommas) {
   const auto file = read(
       "ants \"\" i (5,100)\nrank \"\" i (1, min(ants, 10))\n"

@@ -52,8 +52,8 @@ IraceValue random_value(const IraceOption& option, Rng& rng) {
 
 IraceSetup random_setup(Rng& rng) {
   IraceSetup setup;
-  setup.exec_dir = "/work";
-  setup.target_runner = "/work/run";
+  setup.exec_dir = "/tune";
+  setup.target_runner = "/tune/run";
   for (const irace::SetupField& field : irace::setup_fields()) {
     if (field.name == "repairConfiguration" || rng.bernoulli(0.5)) continue;
     field.set(setup, random_value(*find_irace_option(field.name), rng));
@@ -136,7 +136,7 @@ TEST(ScenarioText, TemplatesBecomeLauncherArgumentsFor35) {
 
 TEST(ScenarioText, ARepairProgramCannotBeToldToR) {
   IraceSetup setup;
-  setup.repair_configuration = "/work/repair";
+  setup.repair_configuration = "/tune/repair";
   const auto printed = print_irace_scenario(setup, IraceVersion::V4);
   EXPECT_THAT(printed.text, Not(HasSubstr("repair")));
   EXPECT_THAT(printed.remarks, Contains(HasSubstr("repairConfiguration")));
