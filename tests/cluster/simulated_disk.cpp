@@ -39,7 +39,7 @@ SimulatedDisk::RowKey SimulatedDisk::key_of(const Row& row) {
                    return Key{r.design.value, r.step, 0};
                  },
                  [](const EliminationRow& r) {
-                   return Key{r.candidate.value, 0, 0};
+                   return Key{r.candidate.value, r.iteration, 0};
                  },
                  [](const EliteRow& r) {
                    return Key{r.design.value, r.iteration, r.rank};
