@@ -23,7 +23,7 @@ struct IntegerOption {
 inline constexpr std::int64_t kLargestOption = 1'000'000'000'000;
 
 inline constexpr std::array<IntegerOption, 14> kIntegerOptions = {{
-    {"max_experiments", &Scenario::max_experiments, 0},
+    {"max_experiments", &Scenario::max_experiments, 1},
     {"first_test", &Scenario::first_test, 1},
     {"each_test", &Scenario::each_test, 1},
     {"block_size", &Scenario::block_size, 1},

@@ -60,6 +60,8 @@ Section race_section(const Campaign& campaign) {
   const Scenario& race = campaign.race;
   Section section{"[race]", "race.", {}};
   for (const IntegerOption& option : kIntegerOptions) {
+    // A time in its place.
+    if (option.member == &Scenario::max_experiments && race.max_experiments == 0) continue;
     section.lines.push_back({std::string(option.key), std::to_string(race.*option.member)});
   }
   if (race.min_experiments) {
