@@ -32,7 +32,7 @@ enum class Words {
 /// The condition `parameter > value`.
 Expression more_than(const std::string& parameter, int value) {
   return Expression::call(Operation::Greater,
-                          {Expression::parameter(parameter), Expression::integer(value)});
+                          {Expression::parameter(parameter), Expression::number(value)});
 }
 
 /// A parameter's value, or `otherwise` where it is left out or inactive.
@@ -153,10 +153,10 @@ class MachineSpace::Builder {
   /// Targets count the other states, hence NumStates - 2. R evaluates this for machines of one
   /// state too, and stops at a negative bound.
   Expression last_target() const {
-    Expression last = Expression::call(
-        Operation::Subtract, {Expression::parameter("NumStates"), Expression::integer(2)});
+    Expression last = Expression::call(Operation::Subtract,
+                                       {Expression::parameter("NumStates"), Expression::number(2)});
     if (words_ == Words::Names) return last;
-    return Expression::call(Operation::Max, {Expression::integer(0), std::move(last)});
+    return Expression::call(Operation::Max, {Expression::number(0), std::move(last)});
   }
 
   /// The parameters of the modules among which `chooser` chooses. Modules share a parameter of the

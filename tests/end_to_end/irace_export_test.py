@@ -11,7 +11,7 @@ from programs import ProgramTest, call
 def read_parameters(text):
     """(name, switch, type, domain, condition) of each line, as irace reads them."""
     line = re.compile(r'^(\w+)\s+"([^"]*)"\s+([cir])\s+\(([^|]*)\)\s*(?:\|\s*(.*))?$')
-    return [line.match(one).groups() for one in text.split("[global]")[0].splitlines()]
+    return [line.match(one).groups() for one in text.split("[global]")[0].splitlines() if one]
 
 
 def in_python(expression):

@@ -2,7 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
+
 #include "benchmarks/colony/rank_sum.h"
+#include "irace_core/files/parameter_file.h"
 #include "tests/irace_core/golden.h"
 
 namespace swarmsmith {
@@ -45,6 +49,17 @@ TEST(Colony, IsTheFormulaThatRsIraceWasRunOn) {
     EXPECT_PRED2(near, colony::cost(configuration, instance, seed), one.at("cost").get<double>());
     EXPECT_PRED2(near, colony::true_cost(configuration), one.at("true_cost").get<double>());
   }
+}
+
+/// The parameter file that R's irace reads.
+TEST(Colony, SearchesTheSpaceOfItsParameterFile) {
+  std::ifstream stream(std::string(SWARMSMITH_SOURCE_DIR) +
+                       "/benchmarks/data/colony_parameters.txt");
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  const auto file = parse_parameter_file({.parameters = {text, "colony_parameters.txt"}});
+  ASSERT_TRUE(file) << to_string(file.error());
+  EXPECT_EQ(print_parameter_file(colony::space()).value(),
+            print_parameter_file(file->space).value());
 }
 
 /// Values of R's wilcox.test(a, b, alternative = "greater").

@@ -101,6 +101,15 @@ TEST(Agreement, IsMinusOneForOppositeRows) {
   EXPECT_EQ(spearman_rho(table_of({{1, 2, 3}, {3, 2, 1}}), kThree), -1);
 }
 
+/// Three times 0.1 sums to more than 0.3: what is left of the mean must not be standardised.
+TEST(QualityVariance, TakesARowOfEqualCostsForZeros) {
+  QualityVariance quality(3);
+  const std::vector<Entry> equal = {{0.1, 0}, {0.1, 1}, {0.1, 2}};
+  quality.add_row(equal);
+  quality.add_row(equal);
+  EXPECT_EQ(quality.value(std::vector<std::size_t>{0, 1, 2}), 0.0);
+}
+
 TEST(QualityVariance, AveragesTheVarianceOfStandardisedRows) {
   // Standardised rows are (-1, 0, 1) and (1, 0, -1): variances 2, 0, 2.
   QualityVariance quality(3);

@@ -99,7 +99,7 @@ TEST(IraceFolder, SaysForEachVersionWhereItsDigitsStand) {
 TEST(IraceFolder, WritesModulesAsNumbersAndBoundsThatRCanAlwaysEvaluate) {
   const auto files = folder_of(parsed(FileText{}.text()), IraceVersion::V4);
   const std::string parameters = file_of(files, "parameters.txt");
-  EXPECT_THAT(parameters, HasSubstr("S1 \"--s1 \" c (0, 1, 2, 3) | NumStates > 1\n"));
+  EXPECT_THAT(parameters, HasSubstr("\nS1 \"--s1 \" c (0, 1, 2, 3) | NumStates > 1\n"));
   EXPECT_THAT(parameters, HasSubstr("N1x0 \"--n1x0 \" i (0, \"max(0, NumStates - 2)\") | "
                                     "NumConnections1 > 0\n"));
   EXPECT_THAT(parameters, HasSubstr("P0x2 \"--p0x2 \" r (0, 1) | C0x2 %in% c(\"0\", \"1\", "));
