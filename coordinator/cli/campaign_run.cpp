@@ -264,7 +264,11 @@ std::optional<Campaign> CampaignFlags::read(Output& output) const {
 
 ExitCode carry_out(Output& output, const Campaign& campaign, const RunOptions& options,
                    RunListener& listener) {
-  auto store = Store::open(campaign.store, campaign_row(campaign), design_rows(campaign));
+  StoreOptions store_options;
+  // A run of a program may have cost minutes: it waits for nobody.
+  if (campaign.target) store_options.gather = std::chrono::milliseconds(0);
+  auto store =
+      Store::open(campaign.store, campaign_row(campaign), design_rows(campaign), store_options);
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   if ((*store)->finished()) return ExitCode::Done;
   return CampaignRun(output, campaign, options, **store, listener).run();

@@ -239,8 +239,9 @@ class Survival(Irace):
         done = self.irace()
         self.assert_clean()
         self.assertEqual(self.digest(), self.digest("reference.db"))
-        # What ran when it was killed, or was not on the disk yet.
-        self.assertLessEqual(len(self.calls()), undisturbed + kills * 4)
+        # What two slots ran when it was killed, and what was on its way to the disk: calls of this
+        # target take about as long as a commit.
+        self.assertLessEqual(len(self.calls()), undisturbed + kills * 10)
         self.assertGreaterEqual(len(self.best_lines(done.stdout)), 1)
 
     def test_nothing_that_was_started_outlives_it(self):
