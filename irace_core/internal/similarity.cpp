@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "base/math.h"
+#include "irace_core/internal/sampling.h"
 
 namespace swarmsmith::irace {
 namespace {
@@ -31,8 +33,12 @@ Prepared prepare(const ParameterSpace& space, const Configuration& configuration
     const Interval* constant = space.constant_interval(i);
     if (constant == nullptr && !values) values.emplace(space, configuration);
     const Interval domain = constant != nullptr ? *constant : **space.interval(i, *values);
-    const double width = domain.upper - domain.lower;
-    prepared.positions.push_back(width > 0 ? (configuration[i] - domain.lower) / width : 0);
+    // Logarithmic parameters are sampled, and so compared, in the logarithm (irace facts, 25.8).
+    const bool in_logarithm = is_logarithmic(space[i].domain);
+    const auto scaled = [&](double value) { return in_logarithm ? log(value) : value; };
+    const double lower = scaled(domain.lower);
+    const double width = scaled(domain.upper) - lower;
+    prepared.positions.push_back(width > 0 ? (scaled(configuration[i]) - lower) / width : 0);
   }
   prepared.choices = choices.value64();
   return prepared;
