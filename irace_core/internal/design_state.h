@@ -80,7 +80,7 @@ class IteratedRace::State {
     std::vector<std::int64_t> tried;  ///< all configurations of former batches
     std::vector<std::int64_t> batch;
     std::vector<Measurement> runs;  ///< of the batch, while the targetEvaluator is asked for costs
-    std::int64_t pairs = 0;
+    std::int64_t pairs;
   };
   /// A run that the race was told of and that no step has reported yet; most become steps, those of
   /// rejected ones are void.
