@@ -7,6 +7,7 @@
 #include "irace_core/files/forbidden_file.h"
 #include "irace_core/files/internal/dependency_file.h"
 #include "irace_core/files/internal/read_expression.h"
+#include "irace_core/internal/check_parameter.h"
 #include "irace_core/internal/rounding.h"
 
 namespace swarmsmith {
@@ -120,12 +121,13 @@ Expected<void> Builder::collect_names() {
   return {};
 }
 
-/// irace 3.5 rounds the bounds of reals to its option digits; irace 4 wants bounds that fit.
+/// irace 3.5 rounds the bounds of reals to its option digits; irace 4 wants bounds that fit. Those
+/// that irace 4 takes stay as they are.
 void Builder::round_bound(Bound& bound, const ParameterLine& line) {
   double* value = std::get_if<double>(&bound);
   if (value == nullptr || !sources_.digits || parts_.digits) return;
+  if (irace::fits_digits(*value, *sources_.digits)) return;
   const double rounded = irace::round_to_digits(*value, *sources_.digits);
-  if (rounded == *value) return;
   warnings_.push_back({ErrorKind::BadInput,
                        "the bound " + to_fixed_text(*value) + " of '" + line.name.text +
                            "' is rounded to " + to_fixed_text(rounded) +

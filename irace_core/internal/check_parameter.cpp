@@ -98,17 +98,6 @@ Expected<void> check_increasing(const std::vector<std::string>& values, const st
   return bad_input("the values of an ordinal parameter must increase", name);
 }
 
-/// Whether a constant bound survives rounding to that many digits, and does not vanish.
-bool fits_digits(double bound, int digits) {
-  if (digits >= 15 || bound == 0) return true;
-  double smallest = 1;
-  for (int i = 0; i < digits; ++i)
-    smallest /= 10;
-  if (std::fabs(bound) < smallest * (1 - 1e-9)) return false;
-  const double tolerance = 1.5e-8 * std::max(1.0, std::fabs(bound));
-  return std::fabs(round_to_digits(bound, digits) - bound) <= tolerance;
-}
-
 Expected<void> check_decimals(double bound, int digits, const std::string& name) {
   if (fits_digits(bound, digits)) return {};
   int needed = digits;
@@ -144,6 +133,16 @@ Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
 }
 
 }  // namespace
+
+bool fits_digits(double bound, int digits) {
+  if (digits >= 15 || bound == 0) return true;
+  double smallest = 1;
+  for (int i = 0; i < digits; ++i)
+    smallest /= 10;
+  if (std::fabs(bound) < smallest * (1 - 1e-9)) return false;
+  const double tolerance = 1.5e-8 * std::max(1.0, std::fabs(bound));
+  return std::fabs(round_to_digits(bound, digits) - bound) <= tolerance;
+}
 
 std::vector<const Expression*> bound_expressions(const Domain& domain) {
   std::vector<const Expression*> expressions;

@@ -26,6 +26,10 @@ std::optional<Interval> constant_interval(const Domain& domain);
 Expected<void> bind_parameter(Parameter& parameter, std::span<const std::string> names,
                               std::span<const Parameter> all);
 
+/// Whether a constant bound of a real survives rounding to that many digits, and does not vanish
+/// (irace facts, 23.2).
+bool fits_digits(double bound, int digits);
+
 /// What can be said of a bound parameter alone: its name, its values or its constant bounds.
 Expected<void> check_parameter(const Parameter& parameter, int digits);
 
