@@ -276,6 +276,29 @@ TEST(TargetDesign, ATimeIsABudgetThatStoredTimesReplay) {
   expect_resumable(campaign);
 }
 
+TEST(TargetDesign, ATimeAndAnEvaluatorGoTogether) {
+  const Campaign campaign =
+      campaign_with("max_time = 2500\n", "evaluator = \"./e\"\n", "test = [\"t1\", \"t2\"]\n");
+  const Ran ran = undisturbed(campaign, judged);
+  std::set<std::pair<CandidateId, std::int64_t>> calls;
+  for (const Task& call : of_purpose(ran.tasks, Purpose::Evaluator))
+    EXPECT_TRUE(calls.emplace(call.key.candidate, call.key.pair).second) << to_string(call.key);
+  // The runs of the first estimate count for their candidates as those of the races do.
+  std::map<CandidateId, std::int64_t> runs;
+  for (const CandidateTotalsRow& row : ran.memory.only<CandidateTotalsRow>())
+    runs[row.candidate] = row.runs;
+  for (const EliteRow& row : ran.memory.only<EliteRow>())
+    EXPECT_GE(runs[row.candidate], row.runs) << to_string(row.candidate);
+  expect_resumable(campaign, judged);
+}
+
+TEST(TargetDesign, TestsAreBoundedLikeTheFirstRuns) {
+  const Ran ran = undisturbed(
+      campaign_with("max_experiments = 300\nbound_max = 40\n", "", "test = [\"t1\", \"t2\"]\n"));
+  for (const Task& task : ran.tasks)
+    EXPECT_EQ(task.bound, 40) << to_string(task.key);
+}
+
 TEST(TargetDesign, BoundsReachProgramsAndTheStore) {
   const Campaign campaign = campaign_with("max_time = 2500\nbound_max = 12\ncapping = true\n");
   const auto stops_at_bound = [](const Task& task) {
