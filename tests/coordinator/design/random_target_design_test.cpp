@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "tests/coordinator/design/target_campaigns.h"
 
@@ -76,6 +77,9 @@ TEST(RandomTargetDesign, GoesOnAsIfNothingHadHappened) {
     };
     expect_resumable(designs, answer, rng.split("cuts", static_cast<std::uint64_t>(round)));
     const Ran ran = undisturbed(designs, answer);
+    std::set<std::string> keys;
+    for (const Task& task : ran.tasks)
+      EXPECT_TRUE(keys.insert(to_string(task.key)).second) << to_string(task.key) << " twice";
     const DesignStateRow last = ran.memory.only<DesignStateRow>().back();
     const auto runs = std::ranges::count_if(
         ran.tasks, [](const Task& task) { return task.key.purpose == Purpose::Race; });
