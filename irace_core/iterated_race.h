@@ -39,7 +39,9 @@ std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario)
 ///   more parameters are uniform draws. Further points continue the sequence, and never repeat one.
 /// - Past pairs are shuffled by blocks (irace: one by one).
 /// - Without elitism a deterministic target is not run again on a pair that it has seen.
-/// - nb_experiments_per_iteration spends no more than what is left.
+/// - A design never runs more than its budget: a race ends before a task that would (irace goes over
+///   it for pairs that elites miss, and by nb_experiments_per_iteration).
+/// - A Friedman test of a single pair drops nobody: it has no degree of freedom.
 /// - Post-selection never ends a design without its elites.
 /// - The cap of 1024 configurations a race is an option.
 /// - Runs of a rejected configuration on later tasks of a batch are void, so that the answer does

@@ -195,6 +195,8 @@ void DesignRunner::record_judged(std::vector<Row>& rows) {
 
 void DesignRunner::record_estimate(const TimeEstimated& estimated, std::vector<Row>& rows) {
   reported_ = true;
+  // After races there is nothing to count; their steps were.
+  if (!estimated.evaluated.empty() && plan_.scenario.target_evaluator) record_judged(rows);
   if (!plan_.scenario.target_evaluator) {
     for (const auto& [configuration, pair] : estimated.evaluated)
       consume(configuration, pair, rows);

@@ -23,7 +23,8 @@ Experiment test_experiment(const DesignPlan& plan, std::int64_t candidate, std::
           .pair = number,
           .instance =
               plan.tests.on_test_instances ? number : (number - 1) % plan.scenario.n_instances + 1,
-          .seed = rng.uniform_int(1, kLargestSeed)};
+          .seed = rng.uniform_int(1, kLargestSeed),
+          .bound = plan.scenario.bound_max};
 }
 
 std::uint64_t key_of(const EvaluationKey& key) {
@@ -184,6 +185,7 @@ void DesignRunner::want_test_calls(std::vector<Task>& tasks, std::vector<Row>& r
     for (const std::int64_t candidate_number : testing_) {
       Experiment call = test_experiment(plan_, candidate_number, number);
       call.instance = -call.instance;
+      call.bound = 0;
       call.pair = call.task = calls_known_ + number;
       call.is_evaluation = true;
       batch.push_back(call);

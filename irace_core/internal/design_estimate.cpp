@@ -81,6 +81,7 @@ void IteratedRace::State::tell_estimate(std::span<const Measurement> measurement
     for (Experiment& experiment : wanted) {
       experiment.bound = 0;
       experiment.is_evaluation = true;
+      experiment.task = steps_ + experiment.pair;
     }
     return;
   }
@@ -104,6 +105,7 @@ Expected<void> IteratedRace::State::end_batch(std::span<const Measurement> costs
     pairs_seen_ = std::max(pairs_seen_, pair);
   }
   used_before_race_ += static_cast<std::int64_t>(wanted.size());
+  steps_ += estimate_->pairs;
   estimate_->runs.clear();
   estimate_->tried.insert(estimate_->tried.end(), estimate_->batch.begin(), estimate_->batch.end());
   time->estimate();

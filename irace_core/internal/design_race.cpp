@@ -20,6 +20,7 @@ irace::RaceSettings IteratedRace::State::common_settings(std::int64_t race_budge
           .confidence = scenario.confidence,
           .min_survival = schedule_.min_survival(),
           .max_experiments = race_budget,
+          .experiments_left = time ? std::numeric_limits<std::int64_t>::max() : remaining(),
           .pairs = {},
           .past_pairs = scenario.elitist ? pairs_seen_ : 0,
           .one_task_at_a_time = scenario.one_task_at_a_time,
@@ -215,6 +216,7 @@ void IteratedRace::State::take_over_results() {
 void IteratedRace::State::end_race() {
   const std::int64_t used = race->used() - repeated_;
   used_before_race_ += used;
+  nothing_was_run_ = used == 0;
   take_over_results();
   choose_elites();
   if (elites.empty() && end_reason_) fall_back();

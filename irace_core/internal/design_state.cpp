@@ -140,7 +140,9 @@ void IteratedRace::State::advance() {
 
 Expected<void> IteratedRace::State::begin_race() {
   const auto next =
-      schedule_.next(remaining(), static_cast<std::int64_t>(elites.size()), pairs_seen_);
+      nothing_was_run_
+          ? irace::NoMoreRaces{"not enough budget for the first task of a race"}
+          : schedule_.next(remaining(), static_cast<std::int64_t>(elites.size()), pairs_seen_);
   if (const auto* end = std::get_if<irace::NoMoreRaces>(&next)) {
     if (races_ == 0) return bad_input("not even one race can be run: " + end->reason);
     end_reason_ = end->reason;

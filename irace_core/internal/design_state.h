@@ -186,9 +186,10 @@ class IteratedRace::State {
   std::optional<std::string> end_reason_;  ///< set in the post-selection race
   std::int64_t initial_count_ = 0;
   std::int64_t used_before_race_ = 0;
-  std::int64_t pairs_seen_ = 0;  ///< rows 1 .. pairs_seen_ of the list were tried by somebody
+  bool nothing_was_run_ = false;  ///< in the last race: its first task needed more than was left
+  std::int64_t pairs_seen_ = 0;   ///< rows 1 .. pairs_seen_ of the list were tried by somebody
   std::int64_t races_ = 0;
-  std::int64_t steps_ = 0;                 ///< tasks of the design that were reported
+  std::int64_t steps_ = 0;                 ///< tasks of the design so far, of the estimate too
   std::uint64_t sampling_drawn_ = 0;       ///< numbers that sampling has used in this iteration
   std::vector<std::vector<Elite>> ended_;  ///< elites of all iterations
 

@@ -95,7 +95,8 @@ TestResult friedman_test(const RankTable& table, std::span<const std::size_t> co
     return result;
   }
   result.p_value = chi_square_upper_tail(result.statistic, k - 1);
-  if (!(result.p_value < alpha)) return result;
+  // One pair leaves no degree of freedom to judge differences by.
+  if (!(result.p_value < alpha) || table.rows() < 2) return result;
 
   const double dof = (n - 1) * (k - 1);
   const double scatter = std::max(0.0, 2 * (n * table.squares() - square_sums) / dof);

@@ -117,8 +117,10 @@ class Race {
   /// Columns that are alive and have no result on the next task, by id (rule 9.3.1).
   std::vector<std::size_t> to_run(const Progress& progress) const;
   std::vector<std::size_t> by_id(std::vector<std::size_t> columns) const;
-  /// Rule 9.3.2, before a task on which `runs` would be run.
+  /// Why no task follows on which `runs` would be run.
   std::optional<std::string> reason_to_stop(const Progress& progress, std::size_t runs) const;
+  /// Rule 9.3.2, where the elites are done.
+  std::optional<std::string> rule_to_stop(const Progress& progress, std::size_t runs) const;
   bool elites_are_done(const Progress& progress) const;
   /// Whether a test follows the first `task` tasks.
   bool is_test_point(std::size_t task) const;

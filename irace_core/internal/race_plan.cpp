@@ -64,7 +64,19 @@ bool Race::elites_are_done(const Progress& progress) const {
 }
 
 std::optional<std::string> Race::reason_to_stop(const Progress& progress, std::size_t runs) const {
-  if (!elites_are_done(progress)) return std::nullopt;
+  if (elites_are_done(progress)) {
+    if (auto reason = rule_to_stop(progress, runs)) return reason;
+  }
+  // A race may go over its share, for pairs that elites miss, but not over the whole budget.
+  const std::int64_t next_task = progress.used + static_cast<std::int64_t>(runs);
+  if (next_task > settings_.experiments_left) {
+    return compared("experiments of the next task", next_task, ">", "budget that is left",
+                    settings_.experiments_left);
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::size_t runs) const {
   const auto alive = static_cast<std::int64_t>(alive_.size());
   if (alive <= settings_.min_survival) {
     return compared("configurations alive", alive, "<=", "those that survive",

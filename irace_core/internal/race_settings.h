@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "irace_core/internal/capping.h"
@@ -19,7 +20,9 @@ struct RaceSettings {
   std::int64_t elitist_limit = 2;
   double confidence = 0.95;
   std::int64_t min_survival = 1;
-  std::int64_t max_experiments = 0;
+  std::int64_t max_experiments = 0;  ///< looked at where a race may stop (irace facts, 9.3.2)
+  /// What is left of the whole design: no task begins that would need more.
+  std::int64_t experiments_left = std::numeric_limits<std::int64_t>::max();
   /// Pairs in the order of the tasks: `new_pairs` that nobody has seen, `past_pairs` that some
   /// elites have seen, then unused ones.
   std::vector<std::int64_t> pairs;

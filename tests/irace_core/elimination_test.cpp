@@ -54,6 +54,13 @@ TEST(Friedman, DecidesNothingWhenAllAreTied) {
   EXPECT_THAT(result.dropped, IsEmpty());
 }
 
+TEST(Friedman, CannotTellDifferencesOnASinglePair) {
+  StudentQuantiles quantiles(0.25);  // p = e^-1 is below alpha
+  const TestResult result = friedman_test(table_of({{1, 2, 3}}), kThree, 0.5, quantiles);
+  EXPECT_NEAR(result.p_value, 0.3679, 1e-4);
+  EXPECT_THAT(result.dropped, IsEmpty());
+}
+
 TEST(Friedman, KeepsThoseWithinTheCriticalDifference) {
   // Columns 0 and 1 take turns at the first place, 2 is always last: R = 9, 9, 18, S = 9,
   // p = e^-4.5; the difference is t * sqrt(2 (6*84 - 486) / 10) = 2.23 * 1.9 = 4.2.

@@ -104,14 +104,6 @@ void check_elites(const IteratedRace& race) {
     EXPECT_GT(elite.n, 0);
 }
 
-/// A race may go over its budget by the tasks up to its first test, and a task (irace facts, 9.3).
-void check_budget(const IteratedRace& race, std::int64_t most_alive) {
-  const Scenario& s = race.scenario();
-  if (s.max_time > 0) return;
-  const std::int64_t slack = most_alive * (s.each_test + s.elitist_new_instances) * s.block_size;
-  EXPECT_LE(race.experiments_used(), s.max_experiments + slack);
-}
-
 void play(const ParameterSpace& space, const Scenario& scenario, double rejects, Played& played) {
   auto race = IteratedRace::start(space, scenario);
   if (!race) {
@@ -121,12 +113,10 @@ void play(const ParameterSpace& space, const Scenario& scenario, double rejects,
   }
   Counted counted;
   Digest digest;
-  std::int64_t most_alive = 0;
   for (int batches = 0; !race->finished(); ++batches) {
     ASSERT_LT(batches, 20'000);
     check_wanted(*race, counted);
     if (::testing::Test::HasFailure()) return;
-    most_alive = std::max(most_alive, race->n_alive());
     std::vector<Measurement> answers;
     for (const Experiment& wanted : race->wanted())
       answers.push_back(answer(race->configuration(wanted.configuration), wanted, rejects));
@@ -147,12 +137,15 @@ void play(const ParameterSpace& space, const Scenario& scenario, double rejects,
   }
   EXPECT_EQ(race->experiments_used(), static_cast<std::int64_t>(counted.size()));
   check_elites(*race);
-  check_budget(*race, most_alive);
+  // A race may go over its share of the budget (irace facts, 9.3), a design over nothing.
+  if (scenario.max_time == 0) {
+    EXPECT_LE(race->experiments_used(), scenario.max_experiments);
+  }
   played.digest = digest.value64();
 }
 
 TEST(RandomDesigns, EndWithElitesOrASentence) {
-  Rng rng(2024);
+  Rng rng(99);
   std::map<std::string, int> ends;
   int finished = 0;
   for (int round = 0; round < 1500; ++round) {

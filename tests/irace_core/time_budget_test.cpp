@@ -242,7 +242,7 @@ TEST(TimedRace, AsksTheEvaluatorInTheEstimateToo) {
   ASSERT_EQ(race.wanted().size(), runs.size());
   for (std::size_t i = 0; i < runs.size(); ++i) {
     EXPECT_TRUE(race.wanted()[i].is_evaluation);
-    EXPECT_EQ(race.wanted()[i].task, 0);
+    EXPECT_EQ(race.wanted()[i].task, race.wanted()[i].pair);
     EXPECT_EQ(race.wanted()[i].pair, runs[i].pair);
   }
   race.tell(std::vector<Measurement>(runs.size(), {7, 0}));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -43,12 +44,22 @@ struct Memory {
   /// What `verify` and `digest` look at, as texts in an order of their own.
   std::vector<std::string> answer() const {
     std::vector<std::string> texts;
+    std::map<CandidateId, std::string> totals;
+    std::map<DesignId, std::string> states;
     for (const Row& row : rows) {
-      if (in_answer(row) && !std::holds_alternative<DesignStateRow>(row) &&
-          !std::holds_alternative<CandidateTotalsRow>(row)) {
+      if (!in_answer(row)) continue;
+      if (const auto* state = std::get_if<DesignStateRow>(&row)) {
+        states[state->design] = describe(row);
+      } else if (const auto* sums = std::get_if<CandidateTotalsRow>(&row)) {
+        totals[sums->candidate] = describe(row);
+      } else {
         texts.push_back(describe(row));
       }
     }
+    for (const auto& [id, text] : totals)
+      texts.push_back(text);
+    for (const auto& [id, text] : states)
+      texts.push_back(text);
     std::ranges::sort(texts);
     const auto [first, last] = std::ranges::unique(texts);
     texts.erase(first, last);

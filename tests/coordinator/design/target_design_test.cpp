@@ -2,114 +2,15 @@
 #include <gtest/gtest.h>
 #include <algorithm>
 #include <fstream>
-#include <functional>
 #include <set>
 
-#include "base/rng.h"
-#include "coordinator/campaign/campaign_file.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
-#include "tests/coordinator/design/memory.h"
+#include "tests/coordinator/design/target_campaigns.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
-
-constexpr const char* kParameters =
-    "a \"--a \" r (0, 10)\nb \"--b \" i (1, 100)\nc \"--c \" c (x, y, z)\nd \"--d \" r (0, 1)\n";
-
-Campaign campaign_with(const std::string& race, const std::string& simulator = "",
-                       const std::string& test = "") {
-  const std::string text = std::string(R"(format = 1
-[[mission]]
-name = "tuning"
-  [mission.instances]
-  training = ["i1", "i2", "i3"]
-)") + test + R"(
-[[method]]
-name = "all"
-parameters_text = '''
-)" + kParameters + "'''\n[race]\n" +
-                           race + "\n[simulator]\nkind = \"command\"\ncommand = [\"./runner\"]\n" +
-                           simulator;
-  auto campaign = parse_campaign(text, "x.toml");
-  if (campaign) return *campaign;
-  for (const Error& error : campaign.error())
-    ADD_FAILURE() << to_string(error);
-  return {};
-}
-
-std::vector<DesignPlan> plans(const Campaign& campaign) {
-  auto made = plans_of(campaign);
-  EXPECT_TRUE(made) << to_string(made.error());
-  return *made;
-}
-
-/// A cost and a time that depend on nothing but what a program would be told.
-Outcome honest(const Task& task) {
-  Digest digest;
-  digest.add(task.machine);
-  Rng quality(digest.value64());
-  Rng noise = quality.split("noise", static_cast<std::uint64_t>(task.seed + task.instance));
-  const double cost = 10 * quality.uniform() + noise.uniform();
-  return {.key = task.key, .score = -cost, .state_digest = 7, .worker = 1, .time = 1 + cost};
-}
-
-using Answer = std::function<Outcome(const Task&)>;
-
-/// Runs until finished, or so many outcomes; gives all tasks that were taken.
-std::vector<Task> run(CampaignRunner& runner, Memory& memory, Rng order,
-                      const Answer& answer = honest, std::size_t limit = ~std::size_t{0}) {
-  std::vector<Task> ready, all;
-  const auto keep = [&] {
-    for (Row& row : runner.take_rows())
-      memory.rows.push_back(std::move(row));
-  };
-  while (limit > 0) {
-    for (Task& task : runner.take_tasks()) {
-      all.push_back(task);
-      ready.push_back(std::move(task));
-    }
-    keep();
-    if (ready.empty()) break;
-    std::swap(ready[order.below(ready.size())], ready.back());
-    const Task task = std::move(ready.back());
-    ready.pop_back();
-    runner.tell(answer(task));
-    --limit;
-  }
-  keep();
-  EXPECT_FALSE(runner.error()) << to_string(*runner.error());
-  return all;
-}
-
-struct Ran {
-  Memory memory;
-  std::vector<Task> tasks;
-};
-
-Ran undisturbed(const Campaign& campaign, const Answer& answer = honest) {
-  Ran ran;
-  CampaignRunner runner(plans(campaign), {}, {});
-  ran.tasks = run(runner, ran.memory, Rng(1), answer);
-  EXPECT_TRUE(runner.finished());
-  return ran;
-}
-
-/// The campaign, left and taken up again five times, must come to the same answer.
-void expect_resumable(const Campaign& campaign, const Answer& answer = honest) {
-  const auto whole = undisturbed(campaign, answer).memory.answer();
-  Rng rng(3);
-  Memory memory;
-  for (std::uint64_t restart = 0; restart < 6; ++restart) {
-    CampaignRunner runner(plans(campaign), by_design(memory.scores(), memory.steps(), {}), {});
-    ASSERT_FALSE(runner.error()) << to_string(*runner.error());
-    const bool last = restart == 5;
-    run(runner, memory, rng.split("order", restart), answer,
-        last ? ~std::size_t{0} : rng.below(150));
-  }
-  EXPECT_EQ(memory.answer(), whole);
-}
 
 std::vector<Task> of_purpose(const std::vector<Task>& tasks, Purpose purpose) {
   std::vector<Task> found;
@@ -221,13 +122,6 @@ TEST(TargetDesign, AStoredBoundThatTheRaceDidNotSetIsFound) {
   EXPECT_EQ(runner.error()->kind, ErrorKind::Corrupt);
 }
 
-/// As with a targetEvaluator: a run says its time alone, a call the cost.
-Outcome judged(const Task& task) {
-  Outcome outcome = honest(task);
-  if (task.key.purpose != Purpose::Evaluator) outcome.score = 0;
-  return outcome;
-}
-
 TEST(TargetDesign, AnEvaluatorIsToldWhoIsAliveAndItsWordIsTheCost) {
   const Campaign campaign = campaign_with("max_experiments = 300\n", "evaluator = \"./e\"\n",
                                           "test = [\"t1\", \"t2\"]\n");
@@ -274,6 +168,29 @@ TEST(TargetDesign, ATimeIsABudgetThatStoredTimesReplay) {
   EXPECT_TRUE(std::ranges::any_of(
       events, [](const EventRow& event) { return event.kind == "time estimated"; }));
   expect_resumable(campaign);
+}
+
+TEST(TargetDesign, ATimeAndAnEvaluatorGoTogether) {
+  const Campaign campaign =
+      campaign_with("max_time = 2500\n", "evaluator = \"./e\"\n", "test = [\"t1\", \"t2\"]\n");
+  const Ran ran = undisturbed(campaign, judged);
+  std::set<std::pair<CandidateId, std::int64_t>> calls;
+  for (const Task& call : of_purpose(ran.tasks, Purpose::Evaluator))
+    EXPECT_TRUE(calls.emplace(call.key.candidate, call.key.pair).second) << to_string(call.key);
+  // The runs of the first estimate count for their candidates as those of the races do.
+  std::map<CandidateId, std::int64_t> runs;
+  for (const CandidateTotalsRow& row : ran.memory.only<CandidateTotalsRow>())
+    runs[row.candidate] = row.runs;
+  for (const EliteRow& row : ran.memory.only<EliteRow>())
+    EXPECT_GE(runs[row.candidate], row.runs) << to_string(row.candidate);
+  expect_resumable(campaign, judged);
+}
+
+TEST(TargetDesign, TestsAreBoundedLikeTheFirstRuns) {
+  const Ran ran = undisturbed(
+      campaign_with("max_experiments = 300\nbound_max = 40\n", "", "test = [\"t1\", \"t2\"]\n"));
+  for (const Task& task : ran.tasks)
+    EXPECT_EQ(task.bound, 40) << to_string(task.key);
 }
 
 TEST(TargetDesign, BoundsReachProgramsAndTheStore) {
