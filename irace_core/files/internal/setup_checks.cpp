@@ -62,11 +62,13 @@ void check_folders(SetupWork& work) {
                   "there is no such folder: " + work.setup.exec_dir.string() + "; make it first");
     return;  // the log begins from it
   }
+  if (work.setup.store.empty()) return;
   const fs::path folder = work.setup.store.parent_path();
-  if (!work.setup.store.empty() && !fs::is_directory(folder, ignored)) {
-    const bool is_ours = work.settings.find("--store") != nullptr;
-    work.complain(is_ours ? "--store" : "logFile",
-                  "there is no folder " + folder.string() + " for it; make it first");
+  const char* option = work.settings.find("--store") != nullptr ? "--store" : "logFile";
+  if (!fs::is_directory(folder, ignored)) {
+    work.complain(option, "there is no folder " + folder.string() + " for it; make it first");
+  } else if (fs::is_directory(work.setup.store, ignored)) {
+    work.complain(option, work.setup.store.string() + " is a folder; name a file");
   }
 }
 

@@ -73,6 +73,12 @@ TEST_F(IraceSetupFiles, ABudgetThatIsTooSmallNamesItsOptionAndWhatWorks) {
   EXPECT_THAT(errors({"--max-experiments", "96"}), IsEmpty());
 }
 
+TEST_F(IraceSetupFiles, ALogFileIsNoFolder) {
+  fs::create_directories(folder_ / "logs");
+  EXPECT_THAT(errors({"--log-file", "logs"}), ElementsAre(HasSubstr("is a folder; name a file")));
+  EXPECT_THAT(errors({"--log-file", "logs/x.Rdata"}), IsEmpty());
+}
+
 TEST_F(IraceSetupFiles, LevelsOfDebuggingEndAt3) {
   EXPECT_THAT(errors({"--debug-level", "4"}),
               ElementsAre("--debug-level: must be 0 to 3, found 4"));
