@@ -29,7 +29,8 @@ std::string heading(const fs::path& scenario, const Campaign& campaign) {
          "# by `swarmsmith import`. Parameters, instances and options are all in this file; the\n"
          "# programs are named by their paths. Every key: docs/campaign-file.md\n"
          "#   swarmsmith check campaign.toml    what it will do\n"
-         "#   swarmsmith run campaign.toml      runs it; kill it at any time, the same command goes "
+         "#   swarmsmith run campaign.toml      runs it; kill it at any time, the same command "
+         "goes "
          "on\n" +
          normalised_text(campaign);
 }
@@ -61,7 +62,8 @@ ExitCode import_scenario(const Arguments& arguments, Output& output) {
   }
   for (const std::string& warning : setup->warnings)
     print_note(output, "warning: " + warning);
-  const std::uint64_t drawn = std::random_device()();
+  // As irace's: an exported folder has it, and R knows no larger integer.
+  const std::uint64_t drawn = 1 + std::random_device()() % 2'147'483'647;
   if (!setup->seed) {
     print_note(output, "the scenario has no seed; the campaign gets " + std::to_string(drawn));
   }

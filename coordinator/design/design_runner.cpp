@@ -44,6 +44,16 @@ DesignRunner::DesignRunner(DesignPlan plan, StoredDesign stored, std::optional<I
     : plan_(std::move(plan)), stored_(std::move(stored)), race_(std::move(race)) {}
 
 Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>& rows) {
+  if (auto gone_on = go_on(tasks, rows); !gone_on) return gone_on;
+  if (!is_calling_ && !calls_.empty()) {
+    is_calling_ = true;
+    tasks.push_back(std::move(calls_.front()));
+    calls_.pop_front();
+  }
+  return {};
+}
+
+Expected<void> DesignRunner::go_on(std::vector<Task>& tasks, std::vector<Row>& rows) {
   if (state_ == DesignState::Waiting && plan_.only_test) {
     test_the_given(tasks, rows);
   } else if (state_ == DesignState::Waiting) {
@@ -248,6 +258,7 @@ void DesignRunner::want(std::size_t position, const EvaluationKey& key,
             .bound = experiment.bound};
   if (experiment.is_evaluation) {
     task.alive = state_ == DesignState::Testing ? testing_ : race_->alive();
+    return calls_.push_back(std::move(task));
   }
   tasks.push_back(std::move(task));
 }
@@ -265,6 +276,7 @@ void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
   put(found->second,
       {outcome.key, outcome.status, outcome.score, outcome.state_digest, outcome.time, bound});
   awaited_.erase(found);
+  if (outcome.key.purpose == Purpose::Evaluator) is_calling_ = false;
   // The first estimate of max_time is made before the first iteration, and counts to it.
   const std::int64_t iteration = std::max<std::int64_t>(1, iteration_);
   rows.emplace_back(EvaluationRow{.key = outcome.key,

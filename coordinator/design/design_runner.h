@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <map>
 #include <optional>
@@ -90,6 +91,7 @@ class DesignRunner {
 
   DesignRunner(DesignPlan plan, StoredDesign stored, std::optional<IteratedRace> race);
 
+  Expected<void> go_on(std::vector<Task>& tasks, std::vector<Row>& rows);
   /// Races on until something is awaited or the race is over.
   Expected<void> go_on_racing(std::vector<Task>& tasks, std::vector<Row>& rows);
   /// To the tests of the elites; or to an end without, when every configuration was rejected.
@@ -156,6 +158,11 @@ class DesignRunner {
   std::int64_t pairs_known_ = 0;
   std::int64_t calls_known_ = 0;  ///< tasks of the targetEvaluator
   bool test_calls_wanted_ = false;
+  /// Calls of the targetEvaluator that wait for their turn. They are made one after the other
+  /// (irace facts, 18.4): the first one of a pair may well write what the next ones read, such as
+  /// the limits of a normalisation.
+  std::deque<Task> calls_;
+  bool is_calling_ = false;
   std::vector<std::int64_t> testing_;  ///< numbers of those who are tested
   std::optional<Error> fault_;         ///< of the store, found while the race was played again
 

@@ -51,8 +51,9 @@ constexpr std::string_view kTargetRunner = R"(#!/bin/sh
 # SWITCHES     the configuration: switches and values of parameters.txt
 #
 # With boundMax in the scenario the bound stands before SWITCHES; with maxTime the time of the run
-# must follow the cost. What else is printed, on either output, is an error, and so is an exit
-# status other than 0. `Inf` as a cost means: never try this configuration again.
+# must follow the cost. What else is printed is an error (on standard error it is for people; but
+# R's irace reads that, too), and so is an exit status other than 0. `Inf` as a cost means: never
+# try this configuration again.
 set -eu
 seed=$3
 instance=$4

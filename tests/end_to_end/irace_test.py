@@ -202,7 +202,8 @@ class Usual(Irace):
         self.write_scenario(maxExperiment=5)
         self.assertIn("scenario.txt:", self.irace(code=1).stderr)
         self.write_scenario(maxExperiments=20)
-        self.assertRegex(self.irace(code=1).stderr, r"\b\d\d\d?\b")
+        self.assertRegex(self.irace(code=1).stderr,
+                         r"scenario\.txt:\d+:1: .* too small: .* at least \d\d\d?\b")
         self.assertIn("Usage: swarmsmith irace", self.irace("--help").stdout)
         self.assertIn("swarmsmith", self.irace("--version").stdout)
 
@@ -336,6 +337,15 @@ class Failures(Irace):
         self.assertGreater(len(rejected), 0)
         self.assertEqual(set(rejected), {1})
 
+    def test_rejecting_all_configurations_is_an_error(self):
+        self.write_runner("echo Inf")
+        for _ in range(2):  # the second time it is the store that says so
+            done = self.irace(code=1)
+            self.assertIn("every configuration was rejected", done.stderr)
+            self.assertNotIn("Best configurations", done.stdout)
+        done = self.irace("--json", code=1)
+        self.assertEqual(json.loads(done.stdout.splitlines()[-1])["best"], [])
+
 
 class Parts(Irace):
     def test_check_tries_the_target_and_prints_each_call(self):
@@ -440,6 +450,16 @@ class Variants(Irace):
         self.write_runner("echo $cost > cost-$id-$seed; echo 1")
         self.write_program("target-evaluator", "#!/bin/sh\ncat cost-$1-$3\n")
         self.runs(targetEvaluator="./target-evaluator")
+
+    def test_calls_of_a_target_evaluator_do_not_meet(self):
+        self.write_runner("echo $cost > cost-$id-$seed; echo 1")
+        self.write_program("target-evaluator", """\
+#!/bin/sh
+mkdir lock || exit 1
+cat cost-$1-$3
+rmdir lock
+""")
+        self.runs("--workers", "2", "--parallel", "4", targetEvaluator="./target-evaluator")
 
     def test_repair_by_a_program(self):
         # Two lines, names and values: odd values of x become even.

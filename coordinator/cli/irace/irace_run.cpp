@@ -37,6 +37,12 @@ std::string times_line(TimePoint begin) {
       wall.count());
 }
 
+std::string no_result(const std::string& reason) {
+  return "there is no best configuration: " + reason +
+         ". Mend the target or the scenario, and begin again with another store (--log-file NAME) "
+         "or without this one";
+}
+
 /// A run of one scenario, from its first line to its report.
 class ScenarioRun {
  public:
@@ -104,13 +110,16 @@ class ScenarioRun {
     const auto result = read_irace_result(**store, setup_.space);
     if (!result) return fail(output_, ExitCode::Failed, result.error());
     const auto seed = static_cast<std::int64_t>(campaign_.seed);
+    // The race ended without a best configuration, as when the target rejected all of them.
+    const bool has_failed = result->state.state == DesignState::Stopped;
     if (output_.json) {
       output_.out << result_json(*result, place_.is_kept() ? place_.file().string() : "", seed);
-    } else if (!output_.quiet) {
+    } else if (!output_.quiet && !has_failed) {
       output_.out << times_line(begin_) << best_text(*result, race_) << tests_text(*result)
                   << std::flush;
       print_whereabouts();
     }
+    if (has_failed) return fail(output_, ExitCode::Failed, no_result(result->state.reason));
     return ExitCode::Done;
   }
 

@@ -1,10 +1,12 @@
 #include <array>
 #include <cctype>
+#include <string>
 #include <system_error>
 #include <utility>
 
 #include "irace_core/files/internal/programs.h"
 #include "irace_core/files/internal/setup_work.h"
+#include "irace_core/iterated_race.h"
 
 namespace swarmsmith::irace {
 namespace {
@@ -60,11 +62,13 @@ void check_folders(SetupWork& work) {
                   "there is no such folder: " + work.setup.exec_dir.string() + "; make it first");
     return;  // the log begins from it
   }
+  if (work.setup.store.empty()) return;
   const fs::path folder = work.setup.store.parent_path();
-  if (!work.setup.store.empty() && !fs::is_directory(folder, ignored)) {
-    const bool is_ours = work.settings.find("--store") != nullptr;
-    work.complain(is_ours ? "--store" : "logFile",
-                  "there is no folder " + folder.string() + " for it; make it first");
+  const char* option = work.settings.find("--store") != nullptr ? "--store" : "logFile";
+  if (!fs::is_directory(folder, ignored)) {
+    work.complain(option, "there is no folder " + folder.string() + " for it; make it first");
+  } else if (fs::is_directory(work.setup.store, ignored)) {
+    work.complain(option, work.setup.store.string() + " is a folder; name a file");
   }
 }
 
@@ -103,6 +107,13 @@ std::string with_option_names(const std::string& message) {
   return result;
 }
 
+void check_debug_level(SetupWork& work) {
+  constexpr std::int64_t kMost = 3;
+  if (work.setup.debug_level <= kMost) return;
+  work.complain("debugLevel", "must be 0 to " + std::to_string(kMost) + ", found " +
+                                  std::to_string(work.setup.debug_level));
+}
+
 void check_race(SetupWork& work) {
   const Scenario& race = work.setup.race;
   const bool tunes = work.action != IraceAction::OnlyTest;
@@ -113,7 +124,9 @@ void check_race(SetupWork& work) {
     return;
   }
   if (race.max_experiments > 0 && race.max_time > 0) {
-    work.complain("maxTime", "stands beside `maxExperiments`: a budget is one of the two");
+    work.complain(
+        "maxTime",
+        "stands beside `maxExperiments`: a budget is one of the two; set the other one to 0");
     return;
   }
   const auto checked = check(race);
@@ -122,13 +135,25 @@ void check_race(SetupWork& work) {
   }
 }
 
+/// Whether the budget is enough for what is tuned; asked when all else is right.
+void check_budget(SetupWork& work) {
+  if (work.action == IraceAction::OnlyTest || !work.errors.empty()) return;
+  const IraceSetup& setup = work.setup;
+  const auto race = IteratedRace::start(setup.space, setup.race, setup.initial);
+  // What else may be wrong with the first race is said when it is run, after repairs.
+  if (race || race.error().where != "max_experiments") return;
+  work.complain("maxExperiments", race.error().message);
+}
+
 }  // namespace
 
 void check_setup(SetupWork& work) {
   check_folders(work);
   check_programs(work);
   check_command_line(work);
+  check_debug_level(work);
   check_race(work);
+  check_budget(work);
 }
 
 }  // namespace swarmsmith::irace

@@ -145,6 +145,33 @@ TEST(TargetDesign, AnEvaluatorIsToldWhoIsAliveAndItsWordIsTheCost) {
   EXPECT_TRUE(ran.memory.only<UnusedRow>().empty());
 }
 
+TEST(TargetDesign, CallsOfAnEvaluatorWaitForEachOther) {
+  const Campaign campaign = campaign_with("max_experiments = 300\n", "evaluator = \"./e\"\n",
+                                          "test = [\"t1\", \"t2\"]\n");
+  CampaignRunner runner(plans(campaign), {}, {});
+  std::vector<Task> out = runner.take_tasks();
+  std::vector<EvaluationKey> calls;
+  while (!out.empty()) {
+    const auto is_call = [](const Task& task) { return task.key.purpose == Purpose::Evaluator; };
+    ASSERT_LE(std::ranges::count_if(out, is_call), 1);
+    if (is_call(out.back())) calls.push_back(out.back().key);
+    const Task task = out.back();
+    out.pop_back();
+    runner.tell(judged(task));
+    for (Task& next : runner.take_tasks())
+      out.push_back(std::move(next));
+  }
+  EXPECT_TRUE(runner.finished());
+  ASSERT_GT(calls.size(), 100U);
+  // All of one pair, in the order of the candidates, before the next pair.
+  for (std::size_t i = 1; i < calls.size(); ++i) {
+    if (calls[i].pair == calls[i - 1].pair)
+      EXPECT_GT(number_of(calls[i].candidate), number_of(calls[i - 1].candidate));
+    else
+      EXPECT_GT(calls[i].pair, calls[i - 1].pair);
+  }
+}
+
 TEST(TargetDesign, GoesOnAmongCallsOfAnEvaluator) {
   expect_resumable(campaign_with("max_experiments = 300\n", "evaluator = \"./e\"\n",
                                  "test = [\"t1\", \"t2\"]\n"),

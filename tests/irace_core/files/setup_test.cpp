@@ -64,6 +64,27 @@ class IraceSetupFiles : public testing::Test {
   TemporaryFolder folder_;
 };
 
+TEST_F(IraceSetupFiles, ABudgetThatIsTooSmallNamesItsOptionAndWhatWorks) {
+  EXPECT_THAT(errors({"--max-experiments", "20"}),
+              ElementsAre("--max-experiments: a budget of 20 experiments is too small: with these "
+                          "settings it must be at least 96"));
+  write("scenario.txt", "trainInstancesFile = \"list.txt\"\nmaxExperiments = 95\n");
+  EXPECT_THAT(errors(), ElementsAre(HasSubstr("scenario.txt:2:1: ")));
+  EXPECT_THAT(errors({"--max-experiments", "96"}), IsEmpty());
+}
+
+TEST_F(IraceSetupFiles, ALogFileIsNoFolder) {
+  fs::create_directories(folder_ / "logs");
+  EXPECT_THAT(errors({"--log-file", "logs"}), ElementsAre(HasSubstr("is a folder; name a file")));
+  EXPECT_THAT(errors({"--log-file", "logs/x.Rdata"}), IsEmpty());
+}
+
+TEST_F(IraceSetupFiles, LevelsOfDebuggingEndAt3) {
+  EXPECT_THAT(errors({"--debug-level", "4"}),
+              ElementsAre("--debug-level: must be 0 to 3, found 4"));
+  EXPECT_EQ(setup({"--debug-level", "3"}).debug_level, 3);
+}
+
 TEST_F(IraceSetupFiles, AScenarioAndWhatItNamesIsRead) {
   write("scenario.txt",
         "maxExperiments = 500\ntrainInstancesFile = \"list.txt\"\nfirstTest = 2\nseed = 9\n"
