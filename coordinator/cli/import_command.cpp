@@ -29,7 +29,8 @@ std::string heading(const fs::path& scenario, const Campaign& campaign) {
          "# by `swarmsmith import`. Parameters, instances and options are all in this file; the\n"
          "# programs are named by their paths. Every key: docs/campaign-file.md\n"
          "#   swarmsmith check campaign.toml    what it will do\n"
-         "#   swarmsmith run campaign.toml      runs it; kill it at any time, the same command goes "
+         "#   swarmsmith run campaign.toml      runs it; kill it at any time, the same command "
+         "goes "
          "on\n" +
          normalised_text(campaign);
 }
