@@ -11,7 +11,8 @@
 namespace swarmsmith {
 
 Expected<void> IteratedRace::State::begin_estimate() {
-  estimate_.emplace().pairs = schedule_.pairs_before_test();
+  estimate_ =
+      Estimate{.tried = {}, .batch = {}, .runs = {}, .pairs = schedule_.pairs_before_test()};
   instances_.extend_to(std::max(estimate_->pairs, scenario.n_instances));
   const double bound = time->bound_for_estimate();
   if (bound > 0 && bound_max_ > bound) lower_bound_max(bound);

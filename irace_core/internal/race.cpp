@@ -82,7 +82,8 @@ bool Race::open_task() {
     stop_ = reason_to_stop(progress_, columns.size());
     if (stop_) return false;
   }
-  OpenTask& task = open_.emplace();
+  open_ = OpenTask{};  // clang 14 takes no emplace() of a nested class with initial values
+  OpenTask& task = *open_;
   task.step.task = static_cast<std::int64_t>(progress_.task) + 1;
   task.step.pair = settings_.pairs[progress_.task];
   task.step.alive_before = static_cast<std::int64_t>(alive_.size());

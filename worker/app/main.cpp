@@ -59,7 +59,7 @@ struct Arguments {
 void raise_descriptor_limit() {
   struct rlimit limit = {};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  const rlim_t wanted = 4 * kMaxSlots;
+  const rlim_t wanted = rlim_t{4} * kMaxSlots;
   if (limit.rlim_cur >= wanted) return;
   limit.rlim_cur = std::min(limit.rlim_max, wanted);
   setrlimit(RLIMIT_NOFILE, &limit);
