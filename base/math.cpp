@@ -69,7 +69,8 @@ double atan_kernel(double t) {
 double atan_unit(double t) {
   static constexpr std::array<double, 5> kAtanQuarters = {
       0.0, 0.24497866312686415, 0.4636476090008061, 0.6435011087932844, 0.7853981633974483};
-  const int k = static_cast<int>(t * 4.0 + 0.5);
+  // Any rounding of halves will do: both neighbours are near enough.
+  const int k = static_cast<int>(t * 4.0 + 0.5);  // NOLINT(bugprone-incorrect-roundings)
   if (k == 0) return atan_kernel(t);
   const double quarter = k / 4.0;
   const double rest = (t - quarter) / (1.0 + t * quarter);
@@ -163,10 +164,10 @@ double log(double x) {
     x *= 0x1p54;
     exponent = -54;
   }
-  std::uint64_t bits = std::bit_cast<std::uint64_t>(x);
+  auto bits = std::bit_cast<std::uint64_t>(x);
   exponent += static_cast<int>(bits >> 52U) - 1023;
   bits = (bits & 0x000fffffffffffffU) | 0x3ff0000000000000U;
-  double m = std::bit_cast<double>(bits);
+  auto m = std::bit_cast<double>(bits);
   if (m > 1.4142135623730951) {
     m *= 0.5;
     ++exponent;

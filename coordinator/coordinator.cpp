@@ -154,7 +154,7 @@ void Coordinator::carry_out(SchedulerAction& action) {
             source_->tell(a.outcome);
           },
           [&](const OutcomeRepeated& a) { repeat(a); },
-          [&](ConflictFound& a) { own_rows_.emplace_back(std::move(a.row)); },
+          [&](const ConflictFound& a) { own_rows_.emplace_back(a.row); },
           [&](WorkerChanged& a) { own_rows_.emplace_back(std::move(a.row)); },
           [&](FailureKept& a) { own_rows_.emplace_back(std::move(a.row)); },
           [&](Noted& a) { own_rows_.emplace_back(std::move(a.row)); },

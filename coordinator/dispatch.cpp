@@ -91,7 +91,7 @@ void Scheduler::dispatch(TimePoint now) {
   if (leases_.queued() == 0) return;
   // Guided self-scheduling: near the end of what there is, nobody holds more than half a share of
   // it. A worker that is alone may have it all: its slots share what it holds.
-  const std::int64_t remaining = static_cast<std::int64_t>(leases_.size());
+  const auto remaining = static_cast<std::int64_t>(leases_.size());
   const std::int64_t parts = workers_.connected() > 1 ? 2 * workers_.slots() : workers_.slots();
   const std::int64_t share = std::max<std::int64_t>(1, (remaining + parts - 1) / parts);
   auto& all = workers_.all();
@@ -133,7 +133,7 @@ std::int64_t Scheduler::most_for(const WorkerEntry& entry, std::int64_t share) c
   const std::int64_t wanted = std::min<std::int64_t>(entry.credit, share * entry.hello.slots);
   if (!options_.evaluates_programs) return wanted;
   const bool short_ones = estimate_us_ > 0 && estimate_us_ < kShortProgramUs;
-  return std::min<std::int64_t>(wanted, (short_ones ? 2 : 1) * entry.hello.slots);
+  return std::min<std::int64_t>(wanted, std::int64_t{short_ones ? 2 : 1} * entry.hello.slots);
 }
 
 /// False when nothing is left that could be leased.

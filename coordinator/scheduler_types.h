@@ -8,8 +8,8 @@
 #include "base/clock.h"
 #include "coordinator/task.h"
 #include "coordinator/task_key.h"
-#include "target/failure_details.h"
 #include "proto/socket.h"
+#include "target/failure_details.h"
 
 namespace swarmsmith {
 

@@ -154,7 +154,7 @@ std::optional<ParameterSpace::ConditionTable> ParameterSpace::tabulate(
   if (names.size() != 1 || has_list(condition)) return std::nullopt;
   const std::size_t index = *index_of(names.front());
   ConditionTable table{index, 0, {}, condition.is_true(inactive_)};
-  auto count = static_cast<double>(value_count(index));
+  std::size_t count = value_count(index);
   if (is_numeric(index)) {
     const Interval* domain = constant_interval(index);
     const bool whole = std::holds_alternative<Integer>(parameters_[index].domain);
@@ -162,11 +162,11 @@ std::optional<ParameterSpace::ConditionTable> ParameterSpace::tabulate(
       return std::nullopt;
     }
     table.first = domain->lower;
-    count = domain->upper - domain->lower + 1;
+    count = static_cast<std::size_t>(domain->upper - domain->lower) + 1;
   }
   std::vector<Scalar> values = inactive_;
-  for (double step = 0; step < count; ++step) {
-    values[index] = scalar(index, table.first + step);
+  for (std::size_t i = 0; i < count; ++i) {
+    values[index] = scalar(index, table.first + static_cast<double>(i));
     table.holds.push_back(condition.is_true(values));
   }
   return table;

@@ -1,7 +1,7 @@
 #include "target/runner.h"
 
-#include <string.h>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
 #include "target/batch.h"

@@ -71,7 +71,8 @@ struct Campaign {
   std::string repair;
   std::int64_t test_nb_elites = 1;     ///< how many elites are tested after the last race
   bool test_iteration_elites = false;  ///< those of every iteration too
-  /// No race: what is tested are the configurations of `Method::configurations`. Only with a target.
+  /// No race: what is tested are the configurations of `Method::configurations`. Only with a
+  /// target.
   bool only_test = false;
 
   // Outside the digest: other values neither stop a resume nor change the answer.

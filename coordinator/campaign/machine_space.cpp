@@ -108,7 +108,7 @@ class MachineSpace::Builder {
   }
 
   /// True while the machine has more states than `i`; nothing when it always has.
-  std::optional<Expression> has_state(int i) const {
+  static std::optional<Expression> has_state(int i) {
     if (i == 0) return std::nullopt;
     return more_than("NumStates", i);
   }
@@ -310,6 +310,7 @@ std::vector<std::pair<std::string, int>> module_counts(const Machine& machine) {
       ++counts[module_of(transition.condition)];
   }
   std::vector<std::pair<std::string, int>> named;
+  named.reserve(counts.size());
   for (const auto& [module, count] : counts)
     named.emplace_back(id_of(module), count);
   return named;

@@ -4,10 +4,10 @@
 #include <map>
 #include <vector>
 
-#include "target/cost.h"
 #include "coordinator/cli/mean_interval.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/query_output.h"
+#include "target/cost.h"
 
 namespace swarmsmith::cli {
 namespace {

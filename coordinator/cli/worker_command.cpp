@@ -51,6 +51,7 @@ Run declare_worker(Options& options) {
     }
     if (arguments->allow_shell) words.emplace_back("--allow-shell");
     std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
     for (std::string& word : words)
       pointers.push_back(word.data());
     pointers.push_back(nullptr);

@@ -36,7 +36,7 @@ Repair repair_by(const std::string& program, const std::string& folder,
     if (!table) return Unexpected(table.error());
     // Programs have no input but what a shell gives them.
     const ProcessCall call{
-        .words = {"/bin/sh", "-c", "printf '%s' \"$1\" | \"$0\"", program, *table},
+        .words = {"/bin/sh", "-c", R"(printf '%s' "$1" | "$0")", program, *table},
         .folder = folder};
     const auto end = run_process(call, *interrupt);
     if (!end) return Unexpected(end.error());

@@ -38,7 +38,7 @@ constexpr IraceOption kOptions[] = {
      "write them into a file and name it in configurationsFile"},
 
     {"instances", "", "", Texts, "", "", G::Instances, Supported,
-     "training instances as a vector, c(\"a\", \"b\"); takes the place of files", ""},
+     R"(training instances as a vector, c("a", "b"); takes the place of files)", ""},
     {"trainInstancesDir", "", "--train-instances-dir", Folder, "", "", G::Instances, Supported,
      "folder of training instances: put before each line of the file, or all files in it", ""},
     {"trainInstancesFile", "", "--train-instances-file", File, "", "", G::Instances, Supported,

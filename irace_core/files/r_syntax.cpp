@@ -87,7 +87,7 @@ class Parser {
   Expected<Tree> named();
   Expected<Tree> call(std::string function, Place place);
   Expected<Argument> argument(int& depth);
-  Expected<Tree> operation(const Token& op, std::vector<Tree> operands) const;
+  static Expected<Tree> operation(const Token& op, std::vector<Tree> operands);
   Expected<Tree> literal(Node node);
 
   Lexer lexer_;
@@ -117,7 +117,7 @@ Expected<Tree> Parser::literal(Node node) {
   return Tree{std::move(node)};
 }
 
-Expected<Tree> Parser::operation(const Token& op, std::vector<Tree> operands) const {
+Expected<Tree> Parser::operation(const Token& op, std::vector<Tree> operands) {
   Call call{op.text, {}};
   int depth = 0;
   for (Tree& operand : operands) {

@@ -9,10 +9,11 @@ namespace swarmsmith {
 using irace::EliteLine;
 using irace::RacePlan;
 
-std::int64_t IteratedRace::State::add(Candidate fresh, std::int64_t in_iteration) {
+std::int64_t IteratedRace::State::add(Candidate candidate, std::int64_t in_iteration) {
   const auto id = static_cast<std::int64_t>(candidates.size()) + 1;
-  events.emplace_back(ConfigurationSampled{id, fresh.parent, in_iteration, fresh.configuration});
-  candidates.push_back(std::move(fresh));
+  events.emplace_back(
+      ConfigurationSampled{id, candidate.parent, in_iteration, candidate.configuration});
+  candidates.push_back(std::move(candidate));
   return id;
 }
 

@@ -47,6 +47,7 @@ std::vector<double> ranks_of_means(const std::vector<std::vector<double>>& costs
   std::vector<double> means(group.size(), 0);
   for (std::size_t i = 0; i < group.size() && !rows.empty(); ++i) {
     std::vector<double> values;
+    values.reserve(rows.size());
     for (const std::size_t row : rows)
       values.push_back(costs[group[i]][row]);
     means[i] = mean_of(values);

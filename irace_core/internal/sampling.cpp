@@ -135,7 +135,7 @@ Expected<std::vector<Configuration>> InitialSampler::sample(std::int64_t wanted,
     const double larger =
         std::ceil(n + (n - static_cast<double>(have)) * (2 - static_cast<double>(have) / n));
     size = std::max(static_cast<std::int64_t>(larger),
-                    std::min<std::int64_t>(5 * space_->variable_count(), 100));
+                    std::min(std::int64_t{5} * space_->variable_count(), std::int64_t{100}));
   }
   return batch;
 }

@@ -17,8 +17,10 @@ constexpr double kPrecision = 1e-16;
 /// below that the recurrence from x + 1 to x.
 double stirling_rest(double x) {
   double rest = 0;
-  for (; x < 15; x += 1)
+  while (x < 15) {
     rest += (x + 0.5) * log((x + 1) / x) - 1;
+    x += 1;
+  }
   const double s = 1 / (x * x);
   return rest + (1.0 / 12 - s * (1.0 / 360 - s * (1.0 / 1260 - s * (1.0 / 1680 - s / 1188)))) / x;
 }

@@ -72,8 +72,8 @@ class Parser {
   }
 
   /// Sorts the fields of a state into its own and those of its transitions.
-  std::optional<Error> sort(int index, std::span<const Field> fields, const Token& end, Block& own,
-                            std::vector<Block>& transitions) {
+  static std::optional<Error> sort(int index, std::span<const Field> fields, const Token& end,
+                                   Block& own, std::vector<Block>& transitions) {
     for (const Field& field : fields) {
       if (field.state != index) {
         return error_at(field.name, quoted(field.name.text) +

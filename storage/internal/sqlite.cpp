@@ -49,9 +49,9 @@ bool Statement::step() {
   if (code == SQLITE_ROW) return true;
   if (code == SQLITE_DONE) return false;
   sqlite3* connection = sqlite3_db_handle(handle_.get());
-  SqliteError error(code, sqlite3_errmsg(connection), file_of(connection));
+  const std::string message = sqlite3_errmsg(connection);  // which `reset` takes away
   reset();
-  throw error;
+  throw SqliteError(code, message, file_of(connection));
 }
 
 std::optional<double> Statement::optional_real(int column) const {
@@ -70,7 +70,7 @@ void Statement::bind_one(int at, std::string_view value) {
   check(sqlite3_bind_text64(handle_.get(), at, bytes, value.size(), SQLITE_STATIC, SQLITE_UTF8));
 }
 
-void Statement::check(int code) const {
+void Statement::check(int code) {
   SWARMSMITH_ASSERT(code == SQLITE_OK || code == SQLITE_NOMEM, "a statement has the parameter");
   if (code != SQLITE_OK) throw SqliteError(code, sqlite3_errstr(code));
 }

@@ -99,7 +99,7 @@ class Statement {
   void bind_one(int at, const std::optional<T>& value) {
     value ? bind_one(at, *value) : bind_one(at, std::nullopt);
   }
-  void check(int code) const;
+  static void check(int code);
 
   struct Finalize {
     void operator()(sqlite3_stmt* handle) const { sqlite3_finalize(handle); }

@@ -59,7 +59,7 @@ struct Arguments {
 void raise_descriptor_limit() {
   struct rlimit limit = {};
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  const rlim_t wanted = 4 * kMaxSlots;
+  const rlim_t wanted = rlim_t{4} * kMaxSlots;
   if (limit.rlim_cur >= wanted) return;
   limit.rlim_cur = std::min(limit.rlim_max, wanted);
   setrlimit(RLIMIT_NOFILE, &limit);
@@ -103,11 +103,8 @@ int run(const Arguments& arguments) {
   std::_Exit(static_cast<int>(end.code));
 }
 
-}  // namespace
-}  // namespace swarmsmith
-
-int main(int argc, char** argv) {
-  swarmsmith::Arguments arguments;
+int run_command_line(int argc, char** argv) {
+  Arguments arguments;
   CLI::App app{
       "Evaluates control software for the coordinator of a campaign.\n"
       "Exit codes: 0 drained, 2 usage, 5 no coordinator for ten minutes, 7 refused by the "
@@ -118,7 +115,7 @@ int main(int argc, char** argv) {
       ->required();
   app.add_option("--slots", arguments.slots,
                  "Evaluations at a time; default SLURM_CPUS_PER_TASK, then the CPUs it may use")
-      ->check(CLI::Range(1, static_cast<int>(swarmsmith::kMaxSlots)));
+      ->check(CLI::Range(1, static_cast<int>(kMaxSlots)));
   app.add_flag("--die-with-parent", arguments.die_with_parent,
                "Be killed when the process that started this one ends");
   app.add_option("--parent", arguments.parent, "Process id of that process")->group("");
@@ -133,9 +130,18 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", SWARMSMITH_VERSION);
   try {
     app.parse(argc, argv);
-    return swarmsmith::run(arguments);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(swarmsmith::ExitCode::Usage);
+    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
+  }
+  return run(arguments);
+}
+
+}  // namespace
+}  // namespace swarmsmith
+
+int main(int argc, char** argv) {
+  try {
+    return swarmsmith::run_command_line(argc, argv);
   } catch (const std::exception& error) {
     swarmsmith::log(swarmsmith::LogLevel::Error, "worker", "failed", {{"reason", error.what()}});
     return 1;

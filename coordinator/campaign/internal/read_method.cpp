@@ -16,6 +16,7 @@ namespace {
 
 std::vector<std::string> ids_of(const std::vector<ModuleSpec>& table) {
   std::vector<std::string> ids;
+  ids.reserve(table.size());
   for (const ModuleSpec& spec : table)
     ids.emplace_back(id_of(spec.module));
   return ids;

@@ -4,6 +4,7 @@
 #include <map>
 #include <span>
 #include <string>
+#include <utility>
 
 #include "coordinator/cli/irace/parameter_values.h"
 #include "irace_core/parameter_space.h"
@@ -15,7 +16,7 @@ namespace swarmsmith::cli {
 /// ids.
 class CandidateTable {
  public:
-  explicit CandidateTable(const ParameterSpace& space) : space_(space) {}
+  explicit CandidateTable(ParameterSpace space) : space_(std::move(space)) {}
 
   /// Corrupt, when the row's parameters cannot be read.
   Expected<void> add(const CandidateRow& row);

@@ -39,8 +39,8 @@ Expected<void> apply_line(LineReader line, const std::string& file,
   const std::string_view rest = line.rest().substr(0, line.rest().find('#'));
   const std::size_t bar = rest.find('|');
   const std::size_t close = rest.rfind(')');
-  if (name.empty() || rest.empty() || rest[0] != '(' || bar == rest.npos || close == rest.npos ||
-      close < bar || !trimmed(rest.substr(close + 1)).empty()) {
+  if (name.empty() || rest.empty() || rest[0] != '(' || bar == std::string_view::npos ||
+      close == std::string_view::npos || close < bar || !trimmed(rest.substr(close + 1)).empty()) {
     return bad_input("expected a line 'name (lower|upper)', found \"" +
                          (name + " ").append(trimmed(line.rest())) + "\"",
                      where);

@@ -118,7 +118,8 @@ Expected<std::vector<std::string>> read_choices(const Piece& domain, const std::
     while (!rest.empty() && is_blank(rest.front()))
       rest.remove_prefix(1);
     const std::size_t quoted = quoted_length(rest);
-    const bool opens = !rest.empty() && rest[0] == '"' && rest.find('"', 1) != rest.npos;
+    const bool opens =
+        !rest.empty() && rest[0] == '"' && rest.find('"', 1) != std::string_view::npos;
     const std::size_t behind = opens ? rest.find('"', 1) + 1 : 0;
     const std::size_t comma = std::min(rest.find(',', behind), rest.size());
     if (opens && (quoted == 0 || !trimmed(rest.substr(behind, comma - behind)).empty())) {

@@ -48,7 +48,7 @@ double NormalNoise::draw(Rng& rng) const {
   }
 }
 
-double NormalNoise::draw_tail(Rng& rng, bool negative) const {
+double NormalNoise::draw_tail(Rng& rng, bool negative) {
   for (;;) {
     // 1 - uniform() is never 0.
     const double x = -log(1 - rng.uniform()) / kTail;

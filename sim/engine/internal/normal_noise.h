@@ -20,7 +20,7 @@ class NormalNoise {
 
  private:
   NormalNoise();
-  double draw_tail(Rng& rng, bool negative) const;
+  static double draw_tail(Rng& rng, bool negative);
 
   static constexpr std::size_t kLayers = 128;
   std::array<double, kLayers + 1> edge_;  ///< right ends of the layers, the widest first

@@ -19,7 +19,9 @@ void RobotClock::next_cycle() {
   const double jitter =
       timing_->jitter == 0 ? 0 : jitter_.uniform(-timing_->jitter, timing_->jitter);
   due_ += period_ * (1 + jitter);
-  next_ = std::max(next_ + 1, static_cast<std::int64_t>(due_ + 0.5));
+  const auto nearest =
+      static_cast<std::int64_t>(due_ + 0.5);  // NOLINT(bugprone-incorrect-roundings)
+  next_ = std::max(next_ + 1, nearest);
 }
 
 std::int64_t RobotClock::arrival_of_command(std::int64_t now) {
