@@ -59,8 +59,9 @@ TEST(SimulatedCluster, RejectsWhatKillsItsWorkersThreeTimesAlone) {
         {.seed = seed, .faults = {}, .campaign = {.seed = seed, .killing = true}});
     EXPECT_EQ(cluster.run(), "") << seed;
     if (cluster.killers() != 1) continue;
-    // Once among others, three times alone.
-    EXPECT_EQ(cluster.crashes(), 4) << seed;
+    // Once among others, perhaps once more as a second copy, three times alone.
+    EXPECT_GE(cluster.crashes(), 4) << seed;
+    EXPECT_LE(cluster.crashes(), 5) << seed;
     ++with_one;
   }
   EXPECT_GT(with_one, 0);

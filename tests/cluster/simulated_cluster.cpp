@@ -346,7 +346,7 @@ void SimulatedCluster::check_leases() {
     if (held > 0 && !entry.connected) fail("a lease of a worker that is not there");
     leased += held;
   }
-  if (leased != leases.leased()) fail("a lease that belongs to nobody");
+  if (leased != leases.leased() + leases.copies()) fail("a lease that belongs to nobody");
 }
 
 // --- workers ---
