@@ -45,7 +45,7 @@ void Scheduler::on_tick(TimePoint now) {
   for (auto& [number, entry] : workers_.all()) {
     if (!entry.connected) continue;
     if (now - entry.last_heard > options_.dead_after) {
-      lose(entry, Loss::Silence, "lost");
+      lose(entry, Loss::Silence, "lost", now);
       continue;
     }
     if (now - entry.last_sent >= options_.heartbeat) {
@@ -92,8 +92,9 @@ void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
   for (auto key = late.rbegin(); key != late.rend(); ++key) {
     TaskRecord& record = *leases_.find(*key);
     if (record.second) record.copied = false;
+    note_attempt(record, entry.number, "expired", now);
     ++counters_.expired;
-    if (leases_.requeue(record, entry.number)) ++counters_.requeued;
+    if (take_back(record, entry.number)) ++counters_.requeued;
   }
   leases_.loads().settle_older(entry.number, now - longest);
 }
@@ -110,8 +111,9 @@ void Scheduler::drain(TimePoint now) {
 /// In the order of their worth: what a race waits for; a second try at what it waits for longest;
 /// what it may want later.
 void Scheduler::dispatch(TimePoint now) {
-  if (held_ || draining_ || workers_.connected() == 0) return;
+  if (held_ || draining_ || workers_.trusted() == 0) return;
   dispatch_alone(now);
+  dispatch_audits(now);
   dispatch_wanted(now);
   if (leases_.wanted_ready() > 0 || options_.evaluates_programs) return;
   copy_stragglers(now);
@@ -124,7 +126,7 @@ void Scheduler::dispatch_wanted(TimePoint now) {
   // it. A worker that is alone may have it all: its slots share what it holds.
   const auto remaining =
       static_cast<std::int64_t>(leases_.wanted_ready() + leases_.wanted_leased());
-  const std::int64_t parts = workers_.connected() > 1 ? 2 * workers_.slots() : workers_.slots();
+  const std::int64_t parts = workers_.trusted() > 1 ? 2 * workers_.slots() : workers_.slots();
   const std::int64_t share = std::max<std::int64_t>(1, (remaining + parts - 1) / parts);
   in_turn(leases_.loads().with_room(), turn_,
           [&](WorkerNumber number) { return fill(*workers_.of_number(number), share, now); });
@@ -137,10 +139,10 @@ void Scheduler::dispatch_alone(TimePoint now) {
   for (auto& [number, entry] : workers_.all()) {
     if (entry.connected && entry.reserved) ++reserved;
   }
-  const std::size_t limit = std::max<std::size_t>(1, workers_.connected() / 2);
+  const std::size_t limit = std::max<std::size_t>(1, workers_.trusted() / 2);
   for (auto& [number, entry] : workers_.all()) {
     if (!leases_.has_alone()) return;
-    if (!entry.connected || entry.credit == 0) continue;
+    if (!entry.usable() || entry.credit == 0) continue;
     if (!entry.reserved && reserved >= limit) continue;
     if (!entry.reserved) ++reserved;
     entry.reserved = true;
@@ -180,7 +182,7 @@ bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
     return std::min(static_cast<std::int64_t>(load.room()),
                     most_for(entry, share) - static_cast<std::int64_t>(load.held() - load.ahead));
   };
-  const bool elsewhere = workers_.connected() > 1;
+  const bool elsewhere = workers_.trusted() > 1;
   // What the whole pool does in the time of one evaluation.
   const auto allowance_us =
       static_cast<std::uint64_t>(estimate_us_ * static_cast<double>(workers_.slots()));

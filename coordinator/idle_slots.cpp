@@ -71,7 +71,7 @@ void Scheduler::dispatch_ahead(TimePoint now) {
 /// none is left.
 bool Scheduler::fill_ahead(WorkerEntry& entry, TimePoint now) {
   if (is_kept_free(entry)) return true;
-  const bool elsewhere = workers_.connected() > 1;
+  const bool elsewhere = workers_.trusted() > 1;
   SendTasks message{entry.peer, entry.hello.incarnation, {}};
   for (std::size_t room = leases_.loads().of(entry.number).idle(); room > 0; --room) {
     TaskRecord* record = leases_.next_ahead(entry.number, elsewhere);

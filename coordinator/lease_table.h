@@ -40,6 +40,7 @@ struct TaskRecord {
   int timeouts = 0;
   WorkerNumber avoid = 0;  ///< try elsewhere, if there is an elsewhere
   bool alone = false;      ///< it may have killed a worker: nothing else may run beside it
+  bool audit = false;      ///< it has its result, and this is the second one (audit.h)
   /// Look-ahead that would end its campaign: not tried again before it is wanted.
   bool troubled = false;
   bool copied = false;  ///< since it was last queued

@@ -85,6 +85,7 @@ void Scheduler::stop(std::uint32_t campaign, const std::string& reason) {
 void Scheduler::forget(std::uint32_t campaign) {
   stopped_.insert(campaign);
   leases_.remove_all(campaign);
+  audits_.forget(campaign);
 }
 
 // --- who is there ---
@@ -140,7 +141,8 @@ void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
   actions_.emplace_back(SendWelcome{entry.peer, entry.hello.incarnation});
   entry.last_sent = now;
   if (draining_) actions_.emplace_back(SendDrain{entry.peer, entry.hello.incarnation});
-  actions_.emplace_back(WorkerChanged{row_of(entry, "connected")});
+  actions_.emplace_back(
+      WorkerChanged{row_of(entry, entry.quarantined ? "quarantined" : "connected")});
 }
 
 /// The worker is alive: what its disappearance counted against did not kill it.
@@ -159,13 +161,13 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
   const std::list<PackedKey>& before = leases_.leases_of(entry.number);
   const std::vector<PackedKey> leased(before.rbegin(), before.rend());
   for (const PackedKey key : leased) {
-    if (!held.contains(key)) leases_.requeue(*leases_.find(key), entry.number);
+    if (!held.contains(key)) take_back(*leases_.find(key), entry.number);
   }
   for (const PackedKey key : entry.hello.holds) {
     if (held.contains(key) && done_.find(key) != nullptr)
       leases_.loads().linger(entry.number, key, now);
   }
-  if (held_ || draining_ || !entry.hello.same_scenario) return;
+  if (held_ || draining_ || entry.quarantined || !entry.hello.same_scenario) return;
   for (const PackedKey key : entry.hello.holds) {
     TaskRecord* record = leases_.find(key);
     // What must run alone is leased anew, when the worker has nothing else.
@@ -183,14 +185,13 @@ WorkerEntry* Scheduler::heard(const Sender& sender, TimePoint now) {
   }
   if (entry->hello.incarnation != sender.incarnation) return nullptr;
   entry->last_heard = now;
-  heard_ = now;
   return entry;
 }
 
 void Scheduler::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   entry.credit = std::min(credit, options_.max_credit);
-  const auto slots = static_cast<std::size_t>(entry.hello.slots);
-  leases_.loads().set_capacity(entry.number, slots, entry.credit);
+  const auto slots = static_cast<std::size_t>(entry.usable() ? entry.hello.slots : 0);
+  leases_.loads().set_capacity(entry.number, slots, slots > 0 ? entry.credit : 0);
 }
 
 bool Scheduler::on_sign_of_life(const Sender& sender, TimePoint now) {
@@ -216,30 +217,31 @@ void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> key
     leases_.loads().settle(entry->number, *key);
     TaskRecord* record = leases_.find(*key);
     if (record == nullptr || record->lease_of(entry->number) == nullptr) continue;
+    note_attempt(*record, entry->number, "returned", now);
     // It may be copied once more: nobody has failed.
     if (record->second) record->copied = false;
-    if (leases_.requeue(*record, entry->number)) ++counters_.requeued;
+    if (take_back(*record, entry->number)) ++counters_.requeued;
   }
 }
 
 void Scheduler::on_goodbye(const Sender& sender, TimePoint now) {
   WorkerEntry* entry = heard(sender, now);
-  if (entry != nullptr) lose(*entry, Loss::Left, "left");
+  if (entry != nullptr) lose(*entry, Loss::Left, "left", now);
 }
 
 void Scheduler::on_unreachable(PeerId peer, TimePoint now) {
   WorkerEntry* entry = workers_.of_peer(peer);
   if (entry == nullptr) return;
   const bool closed = now - entry->last_heard < options_.silence;
-  lose(*entry, closed ? Loss::Death : Loss::Silence, "lost");
+  lose(*entry, closed ? Loss::Death : Loss::Silence, "lost", now);
 }
 
-void Scheduler::on_refused(PeerId peer, TimePoint) {
+void Scheduler::on_refused(PeerId peer, TimePoint now) {
   WorkerEntry* entry = workers_.of_peer(peer);
-  if (entry != nullptr) lose(*entry, Loss::Left, "refused");
+  if (entry != nullptr) lose(*entry, Loss::Left, "refused", now);
 }
 
-void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
+void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state, TimePoint now) {
   const std::list<PackedKey>& leases = leases_.leases_of(entry.number);
   const std::vector<PackedKey> keys(leases.begin(), leases.end());
   const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
@@ -247,14 +249,19 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
   leases_.loads().set_capacity(entry.number, 0, 0);
   for (std::size_t i = keys.size(); i-- > 0;) {
     TaskRecord& record = *leases_.find(keys[i]);
+    const bool is_audit = record.audit;
+    // What was merely queued there is nobody's affair.
+    const bool may_have_run = i < suspects && loss != Loss::Left;
+    if (may_have_run) note_attempt(record, entry.number, "lost", now);
     // While another worker has it too, nothing is held against the task: if it kills, it will do so
     // there, and there is no third copy then.
     if (record.second) {
       record.copied = loss == Loss::Death;
-    } else if (i < suspects) {
+    } else if (may_have_run) {
       suspect(entry, record, loss);
     }
-    if (leases_.requeue(record, entry.number)) ++counters_.requeued;
+    if (take_back(record, entry.number)) ++counters_.requeued;
+    if (is_audit) continue;
     if (record.deaths >= kDeathsOfARejection) {
       reject(record, entry.number, "its evaluation killed three worker processes");
     }
@@ -270,6 +277,7 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
 }
 
 void Scheduler::suspect(WorkerEntry& entry, TaskRecord& record, Loss loss) {
+  if (record.audit) return;
   // A program that goes wrong does not take its worker with it: its first death is an accident.
   const bool accident = options_.evaluates_programs && loss == Loss::Death &&
                         !record.lease->alone && ++record.losses < kLossesUntilAlone;
@@ -300,21 +308,29 @@ void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> r
   SendAcknowledged acknowledged{entry->peer, entry->hello.incarnation, {}};
   for (const WorkerResult& result : results) {
     leases_.loads().settle(entry->number, result.key);
-    if (stopped_.contains(campaign_of(result.key))) {
+    if (entry->quarantined || stopped_.contains(campaign_of(result.key))) {
       acknowledged.keys.push_back(result.key);
     } else if (result.failure.empty()) {
-      on_score(*entry, result);
+      on_score(*entry, result, now);
     } else {
-      on_failure(*entry, result, acknowledged);
+      on_failure(*entry, result, acknowledged, now);
     }
   }
   if (!acknowledged.keys.empty()) actions_.emplace_back(std::move(acknowledged));
 }
 
-void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
-  if (TaskRecord* record = leases_.find(result.key); record != nullptr) {
+void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {
+  TaskRecord* record = leases_.find(result.key);
+  if (record != nullptr && !record->audit) {
     ++entry.done;
+    const bool failed_elsewhere = record->avoid != 0 && record->avoid != entry.number;
+    if (failed_elsewhere) strike(record->avoid, now);
+    const std::int64_t every = options_.evaluates_programs ? 0 : policy_of(*record).audit_every;
+    if (!result.rejected && Audits::chooses(result.key, every)) {
+      audits_.open(record->task, {entry.number, result.score, result.state_digest});
+    }
     learn(record->task.campaign, result.wall_us);
+    note_second_copy(*record, entry.number, now);
     const Lease* lease = record->lease_of(entry.number);
     accept(
         {.key = record->task.key,
@@ -329,6 +345,8 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
     return;
   }
   if (const DoneEntry* known = done_.find(result.key); known != nullptr) {
+    const bool asked = record != nullptr && record->lease && record->lease->worker == entry.number;
+    if (asked) return on_audited(entry, *record, *known, result, now);
     return repeat(entry, *known, result);
   }
   // Wanted later, perhaps: after a restart the race may not have come so far. Not acknowledged, so
@@ -338,7 +356,6 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
 
 void Scheduler::accept(const Outcome& outcome) {
   const PackedKey key = key_of(outcome);
-  record_copies(*leases_.find(key), outcome.worker);
   leases_.remove(key, outcome.worker);
   done_.insert(key, outcome.status, outcome.score, outcome.state_digest);
   ++(outcome.status == EvaluationStatus::Ok ? counters_.done : counters_.rejected);
@@ -346,18 +363,10 @@ void Scheduler::accept(const Outcome& outcome) {
 }
 
 /// A row for the copy that came second, or will.
-void Scheduler::record_copies(TaskRecord& record, WorkerNumber by) {
+void Scheduler::note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now) {
   if (!record.second) return;
   for (const Lease* lease : {&*record.lease, &*record.second}) {
-    if (lease->worker == by) continue;
-    const auto held =
-        std::chrono::duration_cast<std::chrono::milliseconds>(heard_ - lease->granted);
-    actions_.emplace_back(AttemptEnded{record.task.campaign,
-                                       {.key = record.task.key,
-                                        .attempt = lease->attempt,
-                                        .worker = lease->worker,
-                                        .held_ms = held.count(),
-                                        .outcome = "second copy"}});
+    if (lease->worker != by) note_attempt(key_of(record.task), *lease, "second copy", now);
   }
 }
 
@@ -367,6 +376,12 @@ void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
   actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
   // Two runs of a program may differ, in its time at least: the first one counts.
   if (options_.evaluates_programs) return;
+  judge(entry, known, result);
+}
+
+/// Another result with other bits: the campaign is not deterministic, or somebody lies.
+void Scheduler::judge(const WorkerEntry& entry, const DoneEntry& known,
+                      const WorkerResult& result) {
   if (DoneTable::same(known, EvaluationStatus::Ok, result.score, result.state_digest)) return;
   ++counters_.conflicts;
   const EvaluationKey key = unpack(result.key);
@@ -382,7 +397,7 @@ void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
 }
 
 void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
-                           SendAcknowledged& acknowledged) {
+                           SendAcknowledged& acknowledged, TimePoint now) {
   // A failure is told once: for the lease under which it ran. Nothing is written, so the worker
   // may forget it at once.
   acknowledged.keys.push_back(result.key);
@@ -404,6 +419,12 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
                                      .command = result.details.command,
                                      .output = result.details.output,
                                      .errors = result.details.errors}});
+  note_attempt(*record, entry.number, "failed", now);
+  if (record->audit) {
+    // The strike may send the worker to quarantine, which takes its leases back.
+    take_back(*record, entry.number);
+    return strike(entry.number, now);
+  }
   record->avoid = entry.number;
   if (record->second) {
     // The other copy tells; two of them count once.
@@ -415,7 +436,7 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
   if (options_.evaluates_programs || record->failures >= kFailuresOfARejection) {
     reject(*record, entry.number, result.failure, result.details);
   } else {
-    leases_.requeue(*record, entry.number);
+    take_back(*record, entry.number);
   }
 }
 
@@ -435,16 +456,21 @@ void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
     // Of a program the worker itself keeps the time.
     if (options_.evaluates_programs) continue;
     const auto limit = policy_of(*record).task_timeout;
-    if (std::chrono::milliseconds(report.elapsed_ms) > limit) on_timeout(*entry, *record);
+    if (std::chrono::milliseconds(report.elapsed_ms) > limit) on_timeout(*entry, *record, now);
   }
 }
 
 /// A time never becomes a score: another try elsewhere, then the end.
-void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
+void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now) {
   ++entry.failed;
   ++counters_.failed;
   note("warning", "evaluation timed out",
        {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign);
+  note_attempt(record, entry.number, "timed out", now);
+  if (record.audit) {
+    take_back(record, entry.number);
+    return strike(entry.number, now);
+  }
   record.avoid = entry.number;
   const CampaignPolicy& policy = policy_of(record);
   // Two copies that hang count once.

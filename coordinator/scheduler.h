@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "coordinator/audit.h"
 #include "coordinator/done_table.h"
 #include "coordinator/event_text.h"
 #include "coordinator/lease_table.h"
@@ -79,6 +80,9 @@ class Scheduler {
 
   std::vector<SchedulerAction> take_actions();
 
+  /// Whether second results are waited for that may still come. Then the campaigns are not over.
+  bool is_auditing() const;
+
   const LeaseTable& leases() const { return leases_; }
   const WorkerRegistry& workers() const { return workers_; }
   const SchedulerCounters& counters() const { return counters_; }
@@ -94,14 +98,27 @@ class Scheduler {
   void welcome(WorkerEntry& entry, TimePoint now);
   void adopt(WorkerEntry& entry, TimePoint now);
   void take_back_charges(WorkerEntry& entry);
-  void lose(WorkerEntry& entry, Loss loss, const std::string& state);
+  void lose(WorkerEntry& entry, Loss loss, const std::string& state, TimePoint now);
   void suspect(WorkerEntry& entry, TaskRecord& record, Loss loss);
 
-  void on_score(WorkerEntry& entry, const WorkerResult& result);
-  void on_failure(WorkerEntry& entry, const WorkerResult& result, SendAcknowledged& acknowledged);
-  void on_timeout(WorkerEntry& entry, TaskRecord& record);
+  void on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now);
+  void on_failure(WorkerEntry& entry, const WorkerResult& result, SendAcknowledged& acknowledged,
+                  TimePoint now);
+  void on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now);
+  /// Ends the worker's lease. True when the task is queued again; an audit is not, but waits again
+  /// for a worker that may make it, and `record` is gone.
+  bool take_back(TaskRecord& record, WorkerNumber worker);
+  void note_attempt(TaskRecord& record, WorkerNumber worker, const char* outcome, TimePoint now);
+  void note_attempt(PackedKey key, const Lease& lease, const char* outcome, TimePoint now);
+  void note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now);
+  void dispatch_audits(TimePoint now);
+  void on_audited(WorkerEntry& entry, TaskRecord& record, const DoneEntry& known,
+                  const WorkerResult& result, TimePoint now);
+  void judge(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
+  /// `worker` failed at what somebody else has done.
+  void strike(WorkerNumber worker, TimePoint now);
+  void quarantine(WorkerEntry& entry, const std::string& reason, TimePoint now);
   void accept(const Outcome& outcome);
-  void record_copies(TaskRecord& record, WorkerNumber by);
   void repeat(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
   void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
               const FailureDetails& details = {});
@@ -140,12 +157,12 @@ class Scheduler {
   LeaseTable leases_;
   WorkerRegistry workers_;
   DoneTable done_;
+  Audits audits_;
   SchedulerCounters counters_;
   std::vector<SchedulerAction> actions_;
   double estimate_us_ = 0;            ///< of an evaluation's time, in all campaigns
   std::vector<double> estimates_us_;  ///< by campaign; 0 before the first
   WorkerNumber turn_ = 0;             ///< who was served last
-  TimePoint heard_;                   ///< the last message
   TimePoint forgot_;
   TimePoint ticked_;
   bool held_ = false;
