@@ -11,8 +11,6 @@
 namespace swarmsmith::irace {
 namespace {
 
-constexpr double kNoSpread = 2.2e-16;
-
 void normalise(std::span<double> probabilities) {
   double sum = 0;
   for (const double p : probabilities)

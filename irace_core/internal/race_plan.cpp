@@ -100,7 +100,7 @@ std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::siz
 /// known pair.
 void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
   for (const std::size_t c : alive_) {
-    if (std::binary_search(ran.begin(), ran.end(), c)) {
+    if (contains(ran, c)) {
       ++progress.results[c];
     } else if (progress.protection[c] > 0) {
       --progress.protection[c];
