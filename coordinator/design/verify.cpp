@@ -27,7 +27,7 @@ struct DesignAnswer {
   std::set<std::int64_t> stepped;
   std::map<CandidateId, std::string> totals;
   std::optional<DesignStateRow> state;
-  std::int64_t evaluations = 0;
+  std::set<std::uint64_t> used;  ///< keys of evaluations that the race has used
 };
 
 std::optional<DesignId> design_of(const Row& row) {
@@ -57,7 +57,8 @@ void add(const Row& row, DesignAnswer& answer) {
   } else if (const auto* totals = std::get_if<CandidateTotalsRow>(&row)) {
     answer.totals[totals->candidate] = describe(row);
   } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
-    if (evaluation->key.purpose == Purpose::Race) ++answer.evaluations;
+    if (evaluation->key.purpose == Purpose::Race)
+      answer.used.insert(DesignRunner::packed_key(evaluation->key));
   } else if (const auto* pair = std::get_if<PairRow>(&row);
              pair && pair->purpose == Purpose::Race) {
     answer.pairs.emplace(pair->number, describe(row));
@@ -101,16 +102,41 @@ void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::s
     complaints.push_back(
         fmt::format("{}: the store ends with {}, its scores with {}", name, describe(*stored.state),
                     replayed.state ? describe(*replayed.state) : std::string("nothing")));
-  } else if (stored.evaluations != replayed.state->used) {
+  } else if (static_cast<std::int64_t>(stored.used.size()) != replayed.state->used) {
     complaints.push_back(
         fmt::format("{}: {} evaluations are stored as used by the race, which used {}", name,
-                    stored.evaluations, replayed.state->used));
+                    stored.used.size(), replayed.state->used));
   }
+}
+
+/// What was asked for and has not come to pass is no part of the answer.
+std::vector<CommandRow> acted(std::vector<CommandRow> commands) {
+  std::erase_if(commands, [](const CommandRow& command) { return !command.step; });
+  return commands;
+}
+
+/// Scores that count for the race or its tests, and that these did not ask for; what was computed
+/// ahead or was let go by a cancel counts nowhere.
+std::size_t unasked_but_used(const StoredDesign& unasked, const DesignAnswer& stored) {
+  std::size_t count = unasked.test_scores.size() + unasked.evaluator_scores.size();
+  for (const auto& [key, score] : unasked.race_scores)
+    count += stored.used.contains(key);
+  return count;
+}
+
+/// It ended, and what its scores give must be all of it.
+bool is_over(const std::optional<DesignStateRow>& state, const DesignPlan& plan) {
+  if (!state) return false;
+  if (state->state == DesignState::Finished) return true;
+  return state->state == DesignState::Stopped &&
+         std::ranges::any_of(plan.commands,
+                             [](const CommandRow& command) { return command.kind == "cancel"; });
 }
 
 void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
                    std::vector<std::string>& complaints) {
   const std::string name = to_string(plan.row.id);
+  const bool finished = is_over(stored.state, plan);
   auto runner = DesignRunner::start(std::move(plan), std::move(scores));
   if (!runner) {
     complaints.push_back(fmt::format("{}: {}", name, to_string(runner.error())));
@@ -128,7 +154,6 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   add_stepped_pairs(replayed);
   add_stepped_pairs(stored);
   if (!stored.state) complaints.push_back(name + ": the store has no row of this design");
-  const bool finished = stored.state && stored.state->state == DesignState::Finished;
   if (finished && !tasks.empty()) {
     complaints.push_back(
         fmt::format("{}: the design is finished, but {} of its evaluations are "
@@ -139,9 +164,9 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
     complaints.push_back(
         fmt::format("{}: the store has a row that its scores do not give: {}", name, row));
   }
-  if (runner->unasked() > 0) {
-    complaints.push_back(fmt::format("{}: {} stored evaluations were never asked for by the race",
-                                     name, runner->unasked()));
+  if (const std::size_t unasked = unasked_but_used(runner->unasked(), stored); unasked > 0) {
+    complaints.push_back(
+        fmt::format("{}: {} stored evaluations were never asked for by the race", name, unasked));
   }
   if (finished) compare_finished(stored, replayed, name, complaints);
 }
@@ -157,10 +182,12 @@ Verification verify(StoreReader& store, std::vector<DesignPlan> plans) {
   const std::vector<StoredScore> all = store.scores();
   result.evaluations = static_cast<std::int64_t>(all.size());
   auto scores = by_design(all, {}, {});
+  const std::vector<CommandRow> commands = acted(store.commands());
   for (DesignPlan& plan : plans) {
     const DesignId id = plan.row.id;
     DesignAnswer& answer = stored[id];
     ++result.designs;
+    plan.commands = commands_to(id, commands);
     if (answer.state && answer.state->state == DesignState::Finished) ++result.finished;
     verify_design(std::move(plan), std::move(scores[id]), answer, result.complaints);
   }
