@@ -74,11 +74,12 @@ const CommandRow* DesignRunner::next_command(const char* kind) const {
   return found == plan_.commands.end() ? nullptr : &*found;
 }
 
-/// A new one waits until what is stored has been played again, and until the calls of a
-/// targetEvaluator have given the step that they are for: those that were made count.
+/// Not in the first estimate of max_time, which has no steps to be named. A new one waits until
+/// what is stored has been played again, and until the calls of a targetEvaluator have given the
+/// step that they are for: those that were made count.
 bool DesignRunner::is_cancelled() const {
   const CommandRow* command = next_command("cancel");
-  if (command == nullptr) return false;
+  if (command == nullptr || iteration_ == 0) return false;
   return command->step || (!awaited_.empty() && steps_ >= stored_.step_digests.size() &&
                            !batch_.front().is_evaluation);
 }
