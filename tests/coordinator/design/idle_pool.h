@@ -69,6 +69,13 @@ class IdlePool {
   std::int64_t given_ahead_ = 0;
 };
 
+/// Races that ask for all up to the next test, as those of machines do.
+inline std::vector<DesignPlan> batched(std::vector<DesignPlan> plans) {
+  for (DesignPlan& plan : plans)
+    plan.scenario.one_task_at_a_time = false;
+  return plans;
+}
+
 /// The runner that a resumed campaign has.
 inline CampaignRunner resumed(const std::vector<DesignPlan>& plans, const Memory& memory,
                               OpenDesigns most = {}) {
