@@ -222,7 +222,10 @@ void DesignRunner::want_tests(std::vector<Task>& tasks, std::vector<Row>& rows) 
   begin_batch(std::move(batch));
   for (std::size_t i = 0; i < batch_.size(); ++i) {
     const Experiment& experiment = batch_[i];
-    if (experiment.configuration == testing_.front()) record_pair(Purpose::Test, experiment, rows);
+    if (experiment.pair > tests_known_) {
+      tests_known_ = experiment.pair;
+      record_pair(Purpose::Test, experiment, rows);
+    }
     want(i, {candidate(experiment.configuration), Purpose::Test, experiment.pair}, experiment,
          tasks, rows);
   }
