@@ -360,8 +360,12 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
       scheduler_.dispatch(now);
     } while (progress());
   }
-  for (std::uint32_t index = 0; index < campaigns_.size(); ++index)
+  for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
     append(index);
+    const Campaign& campaign = campaigns_[index];
+    const bool on_disk = campaign.unappended.empty() && campaign.appended.empty();
+    scheduler_.close(index, on_disk && campaign.source->finished());
+  }
   return std::exchange(actions_, {});
 }
 

@@ -31,6 +31,7 @@ double value_of(const DoneEntry& entry) {
 Scheduler::Scheduler(SchedulerOptions options)
     : options_(std::move(options)),
       workers_(options_.first_worker),
+      closed_(options_.campaigns.size()),
       estimates_us_(options_.campaigns.size()) {
   SWARMSMITH_ASSERT(!options_.campaigns.empty() && options_.campaigns.size() <= kMaxCampaigns,
                     "a coordinator has some campaigns, and not too many for its keys");
@@ -49,6 +50,8 @@ void Scheduler::add(std::vector<Task> tasks) {
       leases_.promote(*record);
       continue;
     }
+    // Look-ahead whose outcome was told after it became wanted and before this was said.
+    if (done_.find(key_of(task)) != nullptr) continue;
     leases_.add(std::move(task));
   }
 }
@@ -352,6 +355,10 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoi
   // Wanted later, perhaps: after a restart the race may not have come so far. Not acknowledged, so
   // it comes again.
   ++counters_.unknown;
+  const std::uint32_t campaign = campaign_of(result.key);
+  if (campaign < closed_.size() && closed_[campaign]) {
+    actions_.emplace_back(SendAcknowledged{entry.peer, entry.hello.incarnation, {result.key}});
+  }
 }
 
 void Scheduler::accept(const Outcome& outcome) {

@@ -43,6 +43,9 @@ class Scheduler {
   void add(std::vector<Task> tasks);
   /// Look-ahead that nobody wants any more; what is leased already goes on.
   void drop(std::span<const PackedKey> keys);
+  /// Nothing more is wanted of the campaign, or again: results that nobody asked for, such as
+  /// look-ahead of a coordinator that crashed, need not be kept by their workers.
+  void close(std::uint32_t campaign, bool closed) { closed_[campaign] = closed; }
   /// The campaign is stopped: its tasks are forgotten, and what still comes of it is not kept.
   void forget(std::uint32_t campaign);
 
@@ -161,6 +164,7 @@ class Scheduler {
   SchedulerCounters counters_;
   std::vector<SchedulerAction> actions_;
   double estimate_us_ = 0;            ///< of an evaluation's time, in all campaigns
+  std::vector<bool> closed_;          ///< campaigns
   std::vector<double> estimates_us_;  ///< by campaign; 0 before the first
   WorkerNumber turn_ = 0;             ///< who was served last
   TimePoint forgot_;

@@ -6,6 +6,7 @@
 #include "base/assert.h"
 #include "base/hash.h"
 #include "base/rng.h"
+#include "storage/answer.h"
 
 namespace swarmsmith::cluster {
 namespace {
@@ -121,12 +122,18 @@ std::vector<Task> RacedCampaign::take_more(std::size_t count) {
   return tasks;
 }
 
-/// Once ahead and once wanted, as long as there is no outcome.
+/// Once ahead and once wanted; it may have been told between the two.
 void RacedCampaign::note(const Task& task) {
   const auto [at, is_new] = asked_.try_emplace(pack(task.key), Asked{.ahead = task.ahead});
   if (is_new) return;
-  const bool is_wanted_now = at->second.ahead && !at->second.told && !task.ahead;
-  if (!is_wanted_now) complaint_ = "asked for what was asked for or stored before";
+  const bool is_wanted_now = at->second.ahead && !task.ahead;
+  if (!is_wanted_now) {
+    complaint_ = fmt::format("asked for {} again, {}, after it was {}", to_string(task.key),
+                             task.ahead ? "ahead" : "wanted",
+                             at->second.told    ? "told"
+                             : at->second.ahead ? "given ahead"
+                                                : "wanted");
+  }
   at->second.ahead = false;
 }
 

@@ -159,6 +159,16 @@ TEST_F(IdleSlots, PromoteWhatIsWantedNow) {
   EXPECT_EQ(given[1], (Candidates{1, 3}));
 }
 
+TEST_F(IdleSlots, DoNotRepeatWhatWasToldBeforeItWasWanted) {
+  hello(1);
+  credit(1, 1);
+  look_ahead(1, 1);
+  answer(1, 1);
+  want(1, 1);
+  EXPECT_EQ(given[1], Candidates{1});
+  EXPECT_EQ(scheduler.leases().size(), 0U);
+}
+
 TEST_F(IdleSlots, DropWhatNobodyWantsAnyMore) {
   hello(1);
   credit(1, 1);

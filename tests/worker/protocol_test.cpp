@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <algorithm>
+#include <deque>
 #include <numeric>
 
 namespace swarmsmith {
@@ -306,7 +307,7 @@ TEST_F(Protocol, SaysHelloAgainWhenItIsNotKnown) {
 TEST(ManyWorkers, DoNotComeBackInStep) {
   // A thousand of them lose a coordinator that is away for a minute.
   constexpr int kWorkers = 1000;
-  std::vector<WorkerProtocol> workers;
+  std::deque<WorkerProtocol> workers;
   TimePoint now{seconds(100)};
   for (std::uint64_t i = 0; i < kWorkers; ++i) {
     workers.emplace_back(WorkerIdentity{.id = std::string(kWorkerIdBytes, 'w')}, WorkerOptions{},
