@@ -76,6 +76,18 @@ void IteratedRace::tell(std::span<const double> costs) {
   tell(measurements);
 }
 
+std::vector<Experiment> IteratedRace::ahead(std::int64_t pairs) const {
+  return state_->ahead(pairs);
+}
+
+Expected<void> IteratedRace::extend(std::int64_t experiments) {
+  return state_->extend(experiments);
+}
+
+Expected<std::int64_t> IteratedRace::least_extension() const {
+  return state_->least_extension();
+}
+
 std::vector<std::int64_t> IteratedRace::alive() const {
   return state_->alive();
 }

@@ -39,7 +39,8 @@ std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario)
 ///   more parameters are uniform draws. Further points continue the sequence, and never repeat one.
 /// - Past pairs are shuffled by blocks (irace: one by one).
 /// - Without elitism a deterministic target is not run again on a pair that it has seen.
-/// - A design never runs more than its budget: a race ends before a task that would (irace goes over
+/// - A design never runs more than its budget: a race ends before a task that would (irace goes
+/// over
 ///   it for pairs that elites miss, and by nb_experiments_per_iteration).
 /// - A Friedman test of a single pair drops nobody: it has no degree of freedom.
 /// - Post-selection never ends a design without its elites.
@@ -72,6 +73,11 @@ class IteratedRace {
   /// Everything that the race certainly needs before its next test, in canonical order (task, then
   /// configuration); empty once finished. Valid until the next tell().
   std::span<const Experiment> wanted() const;
+  /// What the race would want after that, in canonical order, on up to `pairs` further pairs, if
+  /// its tests dropped nobody: for slots that would idle. It moves no generator; what is told does
+  /// not depend on it. Empty where results decide more than who is alive: capping, a
+  /// targetEvaluator, max_time; and with one_task_at_a_time.
+  std::vector<Experiment> ahead(std::int64_t pairs) const;
   /// Costs of all wanted() in the same order, smaller is better. An infinite cost rejects the
   /// configuration; what was wanted of it on later tasks is then neither counted nor used. Throws
   /// std::invalid_argument for NaN or a wrong number of costs.
@@ -82,6 +88,18 @@ class IteratedRace {
   std::vector<std::int64_t> alive() const;
   /// What happened since the last call, in order.
   std::vector<RaceEvent> take_events();
+
+  /// More budget for a design that is over: further iterations follow from its end (irace facts,
+  /// 3.2), then a post-selection with what they leave. By default all that is left becomes one
+  /// iteration, as in irace at the end of a run; a limit that was set (nb_iterations) rises by one,
+  /// or, with nb_experiments_per_iteration, by as many as the budget is good for. The races before
+  /// are as they were: this is not the design that had the larger budget from the start. When it is
+  /// too little for an iteration, only the post-selection is left. Call it only when finished();
+  /// fails after a failure, and with max_time.
+  Expected<void> extend(std::int64_t experiments);
+  /// The smallest extension that gives an iteration now; fails where extend() does, and when no
+  /// extension would. Only when finished().
+  Expected<std::int64_t> least_extension() const;
 
   /// A configuration by its id; throws std::out_of_range for an id that never was.
   const Configuration& configuration(std::int64_t id) const;

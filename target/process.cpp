@@ -9,8 +9,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <optional>
-#include <sstream>
 
+#include "base/program_path.h"
 #include "target/guard.h"
 #include "target/internal/spawn.h"
 
@@ -151,11 +151,8 @@ void keep_end(Captured& captured, std::size_t keep) {
 Expected<std::string> find_program(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
   const char* path = std::getenv("PATH");
-  std::istringstream folders(path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path);
-  for (std::string folder; std::getline(folders, folder, ':');) {
-    std::string file = (folder.empty() ? "." : folder) + "/" + name;
-    if (access(file.c_str(), X_OK) == 0) return file;
-  }
+  const auto file = program_in(path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path, name);
+  if (file) return file->string();
   return unexpected(ErrorKind::NotFound, "there is no program " + name + " in PATH");
 }
 

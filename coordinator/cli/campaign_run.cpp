@@ -150,17 +150,17 @@ class CampaignRun {
   }
 
   CampaignRunner replay(std::vector<DesignPlan> plans) {
-    std::vector<DesignId> finished;
-    for (const DesignStateRow& state : store_.design_states()) {
+    const std::vector<DesignStateRow> states = store_.design_states();
+    for (const DesignStateRow& state : states)
       listener_.restore(state);
-      if (state.state == DesignState::Finished) finished.push_back(state.design);
-    }
+    const std::vector<CommandRow> commands = store_.commands();
+    const std::vector<DesignId> finished = ended_designs(states, commands);
     const auto scores = store_.scores();
     if (!scores.empty()) {
       print_note(output_, "going on with " + std::to_string(scores.size()) +
                               " evaluations that are in " + campaign_.store.string());
     }
-    return CampaignRunner(std::move(plans), by_design(scores, store_.steps(), finished), finished);
+    return {std::move(plans), by_design(scores, store_.steps(), finished), finished, commands};
   }
 
   ExitCode serve(Service& service, const CampaignRunner& runner, LocalWorkers* workers) {
@@ -270,7 +270,7 @@ ExitCode carry_out(Output& output, const Campaign& campaign, const RunOptions& o
   auto store =
       Store::open(campaign.store, campaign_row(campaign), design_rows(campaign), store_options);
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  if ((*store)->finished()) return ExitCode::Done;
+  if ((*store)->finished() && !waits_for_extension((*store)->commands())) return ExitCode::Done;
   return CampaignRun(output, campaign, options, **store, listener).run();
 }
 

@@ -1,6 +1,7 @@
 #include "coordinator/design/campaign_runner.h"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "base/assert.h"
@@ -9,8 +10,20 @@ namespace swarmsmith {
 
 CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
                                std::map<DesignId, StoredDesign> stored,
-                               std::vector<DesignId> finished)
-    : plans_(std::move(plans)), stored_(std::move(stored)), finished_(std::move(finished)) {
+                               const std::vector<DesignId>& finished,
+                               const std::vector<CommandRow>& commands, OpenDesigns most)
+    : most_(most) {
+  for (DesignPlan& plan : plans) {
+    const DesignId id = plan.row.id;
+    all_.push_back(id);
+    if (std::ranges::find(finished, id) != finished.end()) continue;
+    plan.commands = commands_to(id, commands);
+    auto known = stored.extract(id);
+    waiting_.emplace(id,
+                     Waiting{std::move(plan), known ? std::move(known.mapped()) : StoredDesign{}});
+  }
+  // It may have been finished before.
+  if (waits_for_extension(commands)) rows_.emplace_back(CampaignStateRow{.state = "running"});
   open_designs();
 }
 
@@ -18,16 +31,47 @@ std::vector<Task> CampaignRunner::take_tasks() {
   return std::exchange(tasks_, {});
 }
 
+std::vector<Task> CampaignRunner::take_more(std::size_t count) {
+  while (!error_ && tasks_.size() < count && open_.size() < most_.at_most && !waiting_.empty())
+    open(waiting_.begin());
+  std::vector<Task> more = take_tasks();
+  std::vector<DesignRunner*> designs;
+  for (auto& [id, design] : open_)
+    designs.push_back(&design);
+  std::ranges::stable_sort(designs, {}, &DesignRunner::awaited);
+  for (std::int64_t pairs = 1; pairs <= kMostPairsAhead; pairs *= 2) {
+    for (DesignRunner* design : designs) {
+      if (more.size() >= count) return more;
+      design->look_ahead(count - more.size(), pairs, more, rows_);
+    }
+  }
+  return more;
+}
+
+std::vector<EvaluationKey> CampaignRunner::take_dropped() {
+  std::vector<EvaluationKey> dropped = std::exchange(dropped_, {});
+  for (auto& [id, design] : open_)
+    std::ranges::copy(design.take_dropped(), std::back_inserter(dropped));
+  return dropped;
+}
+
 std::vector<Row> CampaignRunner::take_rows() {
   return std::exchange(rows_, {});
 }
 
 void CampaignRunner::tell(const Outcome& outcome) {
-  const auto found = open_.find(design_of(outcome.key.candidate));
-  SWARMSMITH_ASSERT(found != open_.end(), "outcomes belong to designs that are being run");
-  found->second.tell(outcome, rows_);
-  advance(found->second);
-  open_designs();
+  const DesignId id = design_of(outcome.key.candidate);
+  if (const auto found = open_.find(id); found != open_.end()) {
+    found->second.tell(outcome, rows_);
+    advance(found->second);
+    open_designs();
+  } else if (const auto kept = kept_.find(id); kept != kept_.end()) {
+    kept->second.tell(outcome, rows_);
+  } else {
+    const auto late = late_.extract(outcome.key);
+    SWARMSMITH_ASSERT(!late.empty(), "outcomes belong to tasks that were given");
+    rows_.emplace_back(evaluation_row(outcome, 0, late.mapped().bound, late.mapped().source));
+  }
 }
 
 void CampaignRunner::advance(DesignRunner& design) {
@@ -36,26 +80,40 @@ void CampaignRunner::advance(DesignRunner& design) {
     error_ = advanced.error();
     return;
   }
-  if (design.state() != DesignState::Finished && design.state() != DesignState::Stopped) return;
-  open_.erase(design.id());
+  if (design.state() == DesignState::Finished || design.state() == DesignState::Stopped)
+    put_away(design.id());
+}
+
+void CampaignRunner::put_away(DesignId id) {
+  auto ended = open_.extract(id);
+  std::ranges::copy(ended.mapped().take_dropped(), std::back_inserter(dropped_));
+  if (ended.mapped().state() == DesignState::Finished) {
+    kept_.insert(std::move(ended));
+    kept_order_.push_back(id);
+    if (kept_order_.size() <= most_.finished) return;
+    ended = kept_.extract(kept_order_.front());
+    kept_order_.erase(kept_order_.begin());
+  }
+  for (const auto& [key, bound] : ended.mapped().outstanding())
+    late_.emplace(key, Late{bound, ended.mapped().source()});
+}
+
+void CampaignRunner::open(std::map<DesignId, Waiting>::iterator next) {
+  auto waiting = waiting_.extract(next);
+  auto runner =
+      DesignRunner::start(std::move(waiting.mapped().plan), std::move(waiting.mapped().stored));
+  if (!runner) {
+    error_ = runner.error();
+    return;
+  }
+  const auto [placed, fresh] = open_.emplace(waiting.key(), std::move(*runner));
+  SWARMSMITH_ASSERT(fresh, "a design is opened once");
+  advance(placed->second);
 }
 
 void CampaignRunner::open_designs() {
-  while (!error_ && open_.size() < kOpenDesigns && next_plan_ < plans_.size()) {
-    DesignPlan plan = std::move(plans_[next_plan_++]);
-    const DesignId id = plan.row.id;
-    if (std::ranges::find(finished_, id) != finished_.end()) continue;
-    auto stored = stored_.extract(id);
-    auto runner =
-        DesignRunner::start(std::move(plan), stored ? std::move(stored.mapped()) : StoredDesign{});
-    if (!runner) {
-      error_ = runner.error();
-      return;
-    }
-    const auto [placed, fresh] = open_.emplace(id, std::move(*runner));
-    SWARMSMITH_ASSERT(fresh, "a design is opened once");
-    advance(placed->second);
-  }
+  while (!error_ && open_.size() < most_.at_least && !waiting_.empty())
+    open(waiting_.begin());
   if (finished() && !state_recorded_) {
     state_recorded_ = true;
     rows_.emplace_back(CampaignStateRow{.state = "finished"});
@@ -63,7 +121,85 @@ void CampaignRunner::open_designs() {
 }
 
 bool CampaignRunner::finished() const {
-  return !error_ && open_.empty() && next_plan_ == plans_.size();
+  return !error_ && open_.empty() && waiting_.empty();
+}
+
+Expected<void> CampaignRunner::carry_out(const CommandRow& command) {
+  const DesignId id = command.design;
+  if (error_) return Unexpected(*error_);
+  if (!id) return bad_input("it must name a design: each acts at a step of its own", command.kind);
+  if (const auto waiting = waiting_.find(id); waiting != waiting_.end())
+    return command_waiting(waiting, command);
+  if (const auto kept = kept_.find(id); kept != kept_.end()) {
+    if (auto taken = kept->second.command(command, rows_); !taken) return taken;
+    std::erase(kept_order_, id);
+    open_.insert(kept_.extract(kept));
+    if (std::exchange(state_recorded_, false))
+      rows_.emplace_back(CampaignStateRow{.state = "running"});
+  }
+  const auto found = open_.find(id);
+  if (found == open_.end()) return Unexpected(no_such_design(id));
+  if (found->second.state() != DesignState::Finished) {
+    if (auto taken = found->second.command(command, rows_); !taken) return taken;
+  }
+  advance(found->second);
+  open_designs();
+  if (error_) return Unexpected(*error_);
+  return {};
+}
+
+/// A cancel opens it, so that it ends now and as one that was cancelled before its first step.
+Expected<void> CampaignRunner::command_waiting(std::map<DesignId, Waiting>::iterator found,
+                                               const CommandRow& command) {
+  DesignPlan& plan = found->second.plan;
+  if (auto checked = check_command(plan, command); !checked) return checked;
+  plan.commands.push_back(command);
+  plan.commands.back().step.reset();
+  rows_.emplace_back(plan.commands.back());
+  if (command.kind == "cancel") open(found);
+  open_designs();
+  if (error_) return Unexpected(*error_);
+  return {};
+}
+
+Error CampaignRunner::no_such_design(DesignId id) const {
+  const std::string name = to_string(id);
+  if (std::ranges::find(all_, id) == all_.end()) {
+    return {ErrorKind::NotFound,
+            "the campaign has no such design; it has " + to_string(all_.front()) + " to " +
+                to_string(all_.back()),
+            name};
+  }
+  return {ErrorKind::BadInput,
+          "it is over, and no longer in memory; a finished design is given more budget while no "
+          "coordinator runs the campaign, and goes on when it is run again",
+          name};
+}
+
+bool waits_for_extension(const std::vector<CommandRow>& commands) {
+  return std::ranges::any_of(commands, [](const CommandRow& command) {
+    return command.kind == "extend" && !command.step;
+  });
+}
+
+std::vector<DesignId> ended_designs(const std::vector<DesignStateRow>& states,
+                                    const std::vector<CommandRow>& commands) {
+  std::vector<DesignId> ended;
+  for (const DesignStateRow& state : states) {
+    const bool goes_on = std::ranges::any_of(commands, [&](const CommandRow& command) {
+      return command.kind == "extend" && command.design == state.design && !command.step;
+    });
+    if (state.state == DesignState::Finished && !goes_on) ended.push_back(state.design);
+  }
+  return ended;
+}
+
+std::vector<CommandRow> commands_to(DesignId design, const std::vector<CommandRow>& commands) {
+  std::vector<CommandRow> found;
+  std::ranges::copy_if(commands, std::back_inserter(found), [&](const CommandRow& command) {
+    return command.design == design && (command.kind == "cancel" || command.kind == "extend");
+  });
+  return found;
 }
 
 std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& scores,
@@ -82,7 +218,7 @@ std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& score
                   : score.key.purpose == Purpose::Evaluator ? &design.evaluator_scores
                                                             : nullptr;
     if (known == nullptr) continue;
-    known->emplace(DesignRunner::key_of(number_of(score.key.candidate), score.key.pair), score);
+    known->emplace(DesignRunner::packed_key(score.key), score);
   }
   for (const StoredStep& step : steps) {
     if (skipped(step.design)) continue;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "base/assert.h"
@@ -45,7 +46,7 @@ Expected<void> DesignRunner::record_events(std::vector<Row>& rows) {
                                 return {};
                               },
                               [&](const RaceWarning& warning) -> Expected<void> {
-                                record_warning(warning, rows);
+                                warn(warning.text, rows);
                                 return {};
                               },
                               [&](const RaceFinished& finished) -> Expected<void> {
@@ -214,20 +215,26 @@ void DesignRunner::record_estimate(const TimeEstimated& estimated, std::vector<R
   if (!estimated.evaluated.empty()) record_state(rows);
 }
 
-void DesignRunner::record_warning(const RaceWarning& warning, std::vector<Row>& rows) {
-  record(EventRow{.severity = "warning",
-                  .kind = "race",
-                  .text = "{\"design\":" + quoted_text(to_string(plan_.row.id)) +
-                          ",\"text\":" + quoted_text(warning.text) + "}"},
-         rows);
-}
-
 void DesignRunner::record_unused(std::size_t until, std::vector<Row>& rows) {
   for (; consumed_ < until; ++consumed_) {
-    const StoredScore& score = given_[consumed_].score;
-    unused_.emplace(DesignRunner::key_of(number_of(score.key.candidate), score.key.pair), score);
+    StoredScore& score = given_[consumed_].score;
+    score.iteration = 0;
+    unused_.emplace(packed_key(score.key), score);
     record(UnusedRow{score.key}, rows);
   }
+}
+
+void DesignRunner::record_use(const StoredScore& score, std::vector<Row>& rows) const {
+  if (score.iteration != 0) return;
+  record(EvaluationRow{.key = score.key,
+                       .iteration = std::max<std::int64_t>(1, iteration_),
+                       .status = score.status,
+                       .score = score.score,
+                       .state_digest = score.state_digest,
+                       .time = score.time,
+                       .bound = score.bound,
+                       .source = plan_.source},
+         rows);
 }
 
 void DesignRunner::record_iteration_end(const IterationEnded& ended, std::vector<Row>& rows) {

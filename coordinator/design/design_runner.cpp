@@ -5,33 +5,33 @@
 #include <utility>
 
 #include "base/assert.h"
-#include "base/rng.h"
 #include "target/cost.h"
 
 namespace swarmsmith {
 namespace {
 
 constexpr double kRejected = std::numeric_limits<double>::infinity();
-constexpr std::int64_t kLargestSeed = 2'147'483'647;
 
-/// The pairs on which elites are scored: their seeds are a stream of their own, so that they meet
-/// no pair of the race but by chance.
-Experiment test_experiment(const DesignPlan& plan, std::int64_t candidate, std::int64_t number) {
-  Rng rng = Rng(static_cast<std::uint64_t>(plan.row.seed))
-                .split("test", static_cast<std::uint64_t>(number));
-  return {.configuration = candidate,
-          .pair = number,
-          .instance =
-              plan.tests.on_test_instances ? number : (number - 1) % plan.scenario.n_instances + 1,
-          .seed = rng.uniform_int(1, kLargestSeed),
-          .bound = plan.scenario.bound_max};
-}
-
-std::uint64_t key_of(const EvaluationKey& key) {
-  return DesignRunner::key_of(number_of(key.candidate), key.pair);
+StoredScore score_of(const Outcome& outcome, double bound) {
+  return {outcome.key, outcome.status, outcome.score, outcome.state_digest, outcome.time, bound};
 }
 
 }  // namespace
+
+EvaluationRow evaluation_row(const Outcome& outcome, std::int64_t iteration, double bound,
+                             const std::string& source) {
+  return {.key = outcome.key,
+          .iteration = iteration,
+          .status = outcome.status,
+          .score = outcome.score,
+          .state_digest = outcome.state_digest,
+          .time = outcome.time,
+          .bound = bound,
+          .source = source,
+          .wall_us = outcome.wall_us,
+          .worker = outcome.worker,
+          .attempt = outcome.attempt};
+}
 
 Expected<DesignRunner> DesignRunner::start(DesignPlan plan, StoredDesign stored) {
   if (plan.only_test) return DesignRunner(std::move(plan), std::move(stored), std::nullopt);
@@ -41,7 +41,9 @@ Expected<DesignRunner> DesignRunner::start(DesignPlan plan, StoredDesign stored)
 }
 
 DesignRunner::DesignRunner(DesignPlan plan, StoredDesign stored, std::optional<IteratedRace> race)
-    : plan_(std::move(plan)), stored_(std::move(stored)), race_(std::move(race)) {}
+    : plan_(std::move(plan)), stored_(std::move(stored)), race_(std::move(race)) {
+  sort_commands();
+}
 
 Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>& rows) {
   if (auto gone_on = go_on(tasks, rows); !gone_on) return gone_on;
@@ -54,30 +56,46 @@ Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>&
 }
 
 Expected<void> DesignRunner::go_on(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  if (state_ == DesignState::Waiting && plan_.only_test) {
-    test_the_given(tasks, rows);
-  } else if (state_ == DesignState::Waiting) {
-    state_ = DesignState::Racing;
-    if (auto recorded = record_events(rows); !recorded) return recorded;
-    want_batch(tasks, rows);
+  if (state_ == DesignState::Waiting) {
+    if (auto begun = begin(tasks, rows); !begun) return begun;
   }
-  if (state_ == DesignState::Racing) {
-    if (auto raced = go_on_racing(tasks, rows); !raced) return raced;
-  }
-  if (fault_) return Unexpected(*fault_);
-  if (state_ != DesignState::Testing || !awaited_.empty()) return {};
-  if (plan_.scenario.target_evaluator && !test_calls_wanted_) {
-    want_test_calls(tasks, rows);
+  for (;;) {
+    if (state_ == DesignState::Racing) {
+      if (auto raced = go_on_racing(tasks, rows); !raced) return raced;
+    }
     if (fault_) return Unexpected(*fault_);
-    if (!awaited_.empty()) return {};
+    if (state_ != DesignState::Finished) {
+      if (state_ != DesignState::Testing) return {};
+      const bool tested = finish_tests(tasks, rows);
+      if (fault_) return Unexpected(*fault_);
+      if (!tested) return {};
+      state_ = DesignState::Finished;
+      record_state(rows);
+    }
+    const auto extended = extend(tasks, rows);
+    if (!extended) return Unexpected(extended.error());
+    if (!*extended) return {};
   }
-  state_ = DesignState::Finished;
-  record_state(rows);
+}
+
+Expected<void> DesignRunner::begin(std::vector<Task>& tasks, std::vector<Row>& rows) {
+  if (plan_.only_test) {
+    test_the_given(tasks, rows);
+    return {};
+  }
+  state_ = DesignState::Racing;
+  if (auto recorded = record_events(rows); !recorded) return recorded;
+  want_batch(tasks, rows);
   return {};
 }
 
 Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  while (awaited_.empty()) {
+  for (;;) {
+    if (is_cancelled()) {
+      cancel(tasks, rows);
+      return {};
+    }
+    if (!awaited_.empty()) return {};
     if (fault_) return Unexpected(*fault_);
     if (race_->finished()) return finish_race(tasks, rows);
     // Runs before a targetEvaluator are all used; the step comes with its word on them.
@@ -95,24 +113,13 @@ Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks, std::vector<
       consumed_ = 0;
     }
     want_batch(tasks, rows);
+    drop_void();
   }
-  return {};
-}
-
-void DesignRunner::test_the_given(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  std::vector<std::int64_t>& numbers = elites_.emplace_back();
-  for (const Configuration& configuration : plan_.initial) {
-    numbers.push_back(static_cast<std::int64_t>(numbers.size()) + 1);
-    record_candidate({.id = numbers.back(), .configuration = configuration}, rows);
-  }
-  plan_.tests.elites = static_cast<std::int64_t>(numbers.size());
-  state_ = DesignState::Testing;
-  record_state(rows);
-  want_tests(tasks, rows);
 }
 
 Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  if (steps_ < stored_.step_digests.size()) return Unexpected(other_way());
+  const bool goes_on = next_command("extend") != nullptr;
+  if (steps_ < stored_.step_digests.size() && !goes_on) return Unexpected(other_way());
   if (race_->failure()) {
     state_ = DesignState::Stopped;
     reason_ = to_string(*race_->failure());
@@ -139,7 +146,7 @@ void DesignRunner::want_batch(std::vector<Task>& tasks, std::vector<Row>& rows) 
     const CandidateId id = candidate(experiment.configuration);
     if (experiment.is_evaluation) {
       Experiment call = experiment;
-      call.pair = experiment.task;
+      call.pair = experiment.task + test_calls_;
       if (call.pair > calls_known_) {
         calls_known_ = call.pair;
         record_pair(Purpose::Evaluator, call, rows);
@@ -152,60 +159,6 @@ void DesignRunner::want_batch(std::vector<Task>& tasks, std::vector<Row>& rows) 
       record_pair(Purpose::Race, experiment, rows);
     }
     want(i, {id, Purpose::Race, experiment.pair}, experiment, tasks, rows);
-  }
-}
-
-std::vector<std::int64_t> DesignRunner::tested() const {
-  std::vector<std::int64_t> numbers;
-  const auto add = [&](const std::vector<std::int64_t>& elites) {
-    const auto most = std::min(elites.size(), static_cast<std::size_t>(plan_.tests.elites));
-    for (std::size_t i = 0; i < most; ++i) {
-      if (std::ranges::find(numbers, elites[i]) == numbers.end()) numbers.push_back(elites[i]);
-    }
-  };
-  if (elites_.empty()) return numbers;
-  add(elites_.back());
-  if (!plan_.tests.every_iteration) return numbers;
-  for (const auto& elites : elites_)
-    add(elites);
-  return numbers;
-}
-
-void DesignRunner::want_tests(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  testing_ = tested();
-  std::vector<Experiment> batch;
-  for (const std::int64_t candidate_number : testing_) {
-    for (std::int64_t number = 1; number <= plan_.tests.count; ++number)
-      batch.push_back(test_experiment(plan_, candidate_number, number));
-  }
-  begin_batch(std::move(batch));
-  for (std::size_t i = 0; i < batch_.size(); ++i) {
-    const Experiment& experiment = batch_[i];
-    if (experiment.configuration == testing_.front()) record_pair(Purpose::Test, experiment, rows);
-    want(i, {candidate(experiment.configuration), Purpose::Test, experiment.pair}, experiment,
-         tasks, rows);
-  }
-}
-
-/// Their tasks follow those of the race; negative instances tell that they are test instances.
-void DesignRunner::want_test_calls(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  test_calls_wanted_ = true;
-  std::vector<Experiment> batch;
-  for (std::int64_t number = 1; number <= plan_.tests.count; ++number) {
-    for (const std::int64_t candidate_number : testing_) {
-      Experiment call = test_experiment(plan_, candidate_number, number);
-      call.instance = -call.instance;
-      call.bound = 0;
-      call.pair = call.task = calls_known_ + number;
-      call.is_evaluation = true;
-      batch.push_back(call);
-    }
-  }
-  begin_batch(std::move(batch));
-  for (std::size_t i = 0; i < batch_.size(); ++i) {
-    const Experiment& call = batch_[i];
-    if (call.configuration == testing_.front()) record_pair(Purpose::Evaluator, call, rows);
-    want(i, {candidate(call.configuration), Purpose::Evaluator, call.pair}, call, tasks, rows);
   }
 }
 
@@ -227,40 +180,38 @@ std::unordered_map<std::uint64_t, StoredScore>& DesignRunner::known(Purpose purp
 void DesignRunner::want(std::size_t position, const EvaluationKey& key,
                         const Experiment& experiment, std::vector<Task>& tasks,
                         std::vector<Row>& rows) {
-  const std::uint64_t packed = swarmsmith::key_of(key);
-  if (const auto score = known(key.purpose).extract(packed)) {
-    if (score.mapped().bound != experiment.bound && !fault_) fault_ = other_way();
-    return put(position, score.mapped());
+  const std::uint64_t packed = packed_key(key);
+  auto score = known(key.purpose).extract(packed);
+  if (score && score.mapped().bound != experiment.bound && !fault_) fault_ = other_way();
+  if (!score && key.purpose == Purpose::Race) score = unused_.extract(packed);
+  if (score) {
+    put(position, score.mapped());
+    if (key.purpose == Purpose::Race) record_use(score.mapped(), rows);
+    if (key.purpose == Purpose::Test) tested_scores_.insert(std::move(score));
+    return;
   }
-  if (key.purpose == Purpose::Race) {
-    if (const auto score = unused_.extract(packed)) {
-      put(position, score.mapped());
-      // The store has the evaluation, and takes the iteration from this row.
-      record(EvaluationRow{.key = key,
-                           .iteration = iteration_,
-                           .status = score.mapped().status,
-                           .score = score.mapped().score,
-                           .state_digest = score.mapped().state_digest,
-                           .time = score.mapped().time,
-                           .bound = score.mapped().bound,
-                           .source = plan_.source},
-             rows);
-      return;
-    }
+  if (key.purpose == Purpose::Test) {
+    if (const auto tested = tested_scores_.find(packed); tested != tested_scores_.end())
+      return put(position, tested->second);
   }
   awaited_.emplace(packed, position);
-  Task task{.key = key,
-            .mission = plan_.mission,
-            .method = plan_.method,
-            .instance = experiment.instance,
-            .seed = experiment.seed,
-            .machine = machines_[static_cast<std::size_t>(experiment.configuration - 1)],
-            .bound = experiment.bound};
+  if (key.purpose == Purpose::Race && ahead_.erase(packed) > 0) std::erase(dropped_, key);
+  Task task = task_of(key, experiment);
   if (experiment.is_evaluation) {
     task.alive = state_ == DesignState::Testing ? testing_ : race_->alive();
     return calls_.push_back(std::move(task));
   }
   tasks.push_back(std::move(task));
+}
+
+Task DesignRunner::task_of(const EvaluationKey& key, const Experiment& experiment) const {
+  return {.key = key,
+          .mission = plan_.mission,
+          .method = plan_.method,
+          .instance = experiment.instance,
+          .seed = experiment.seed,
+          .machine = machines_[static_cast<std::size_t>(experiment.configuration - 1)],
+          .bound = experiment.bound};
 }
 
 void DesignRunner::put(std::size_t position, const StoredScore& score) {
@@ -270,26 +221,22 @@ void DesignRunner::put(std::size_t position, const StoredScore& score) {
 }
 
 void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
-  const auto found = awaited_.find(swarmsmith::key_of(outcome.key));
+  const std::uint64_t packed = packed_key(outcome.key);
+  if (outcome.key.purpose == Purpose::Race) {
+    if (const auto ahead = ahead_.extract(packed))
+      return keep_ahead(outcome, ahead.mapped().bound, rows);
+  }
+  const auto found = awaited_.find(packed);
   SWARMSMITH_ASSERT(found != awaited_.end(), "an outcome is told once, and only when wanted");
-  const double bound = batch_[found->second].bound;
-  put(found->second,
-      {outcome.key, outcome.status, outcome.score, outcome.state_digest, outcome.time, bound});
+  const StoredScore score = score_of(outcome, batch_[found->second].bound);
+  put(found->second, score);
+  if (outcome.key.purpose == Purpose::Test) tested_scores_.emplace(packed, score);
   awaited_.erase(found);
   if (outcome.key.purpose == Purpose::Evaluator) is_calling_ = false;
   // The first estimate of max_time is made before the first iteration, and counts to it.
   const std::int64_t iteration = std::max<std::int64_t>(1, iteration_);
-  rows.emplace_back(EvaluationRow{.key = outcome.key,
-                                  .iteration = outcome.key.purpose == Purpose::Race ? iteration : 0,
-                                  .status = outcome.status,
-                                  .score = outcome.score,
-                                  .state_digest = outcome.state_digest,
-                                  .time = outcome.time,
-                                  .bound = bound,
-                                  .source = plan_.source,
-                                  .wall_us = outcome.wall_us,
-                                  .worker = outcome.worker,
-                                  .attempt = outcome.attempt});
+  rows.emplace_back(evaluation_row(outcome, outcome.key.purpose == Purpose::Race ? iteration : 0,
+                                   score.bound, plan_.source));
 }
 
 }  // namespace swarmsmith

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/expected.h"
@@ -40,7 +41,13 @@ struct DesignPlan {
   std::vector<Configuration> initial{};  ///< that the first race begins with
   Repair repair{};                       ///< of sampled configurations; empty for none
   bool only_test = false;                ///< no race: the initial configurations are tested
+  /// "cancel" and "extend" of this design, by number, as the store has them; see DesignRunner.
+  std::vector<CommandRow> commands{};
 };
+
+/// What speaks against a command to a design, whatever its state: only races can be cancelled and
+/// extended, by experiments where the budget is in experiments, and nothing follows a cancel.
+Expected<void> check_command(const DesignPlan& plan, const CommandRow& command);
 
 /// What a store knows of one design, for replay.
 struct StoredDesign {
@@ -53,9 +60,19 @@ struct StoredDesign {
   std::vector<std::uint64_t> step_digests;
 };
 
+/// The row of an outcome; iteration 0 when no race used it.
+EvaluationRow evaluation_row(const Outcome& outcome, std::int64_t iteration, double bound,
+                             const std::string& source);
+
 /// One iterated race and the tests of its elites: gives tasks, takes outcomes, gives rows. A pure
 /// state machine. Starts by replaying what the store knows: known scores are not asked for again,
 /// and the rows that led to the last stored step are not given again.
+///
+/// Commands (docs/irace.md, "More budget, and an early end") act between two batches, and their
+/// rows get the number of the race's step after which they did; replayed, they act there again. A
+/// "cancel" acts as soon as it can: the design stops, and what was evaluated after that step counts
+/// nowhere. An "extend" acts when the race and its tests are over: the race goes on from its end,
+/// and its new elites are tested.
 class DesignRunner {
  public:
   /// Fails when the scenario does not fit the space (budget too small: the smallest that works).
@@ -66,20 +83,43 @@ class DesignRunner {
   /// was written by another engine or is damaged.
   Expected<void> advance(std::vector<Task>& tasks, std::vector<Row>& rows);
 
-  /// A wanted task's outcome; its row goes to `rows`. Call `advance` after one or more of these.
+  /// A wanted task's outcome, or that of one that was given ahead; its row goes to `rows`. Call
+  /// `advance` after one or more of these.
   void tell(const Outcome& outcome, std::vector<Row>& rows);
+
+  /// Appends at most `count` tasks that the race may want after what it waits for, on the next
+  /// `pairs` pairs (Task::ahead; orchestration facts, 10); none is given twice. Which are given,
+  /// and whether they are ever told, changes no row of the answer: their scores are stored without
+  /// an iteration until the race asks for them. One that is wanted before its outcome is there
+  /// comes by `advance`, as any other.
+  void look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks,
+                  std::vector<Row>& rows);
+  /// Tasks that were given and that nobody wants any more. Outcomes that come all the same are
+  /// taken.
+  std::vector<EvaluationKey> take_dropped() { return std::exchange(dropped_, {}); }
+  /// Tasks that were given without being wanted and have no outcome, with their bounds: what may
+  /// still come when the design is over.
+  std::vector<std::pair<EvaluationKey, double>> outstanding() const;
+  /// How many tasks it waits for: the design with the fewest is the nearest to a barrier.
+  std::size_t awaited() const { return awaited_.size(); }
+
+  /// A further command; `advance` carries it out when it can act. Its row goes to `rows` now when
+  /// it cannot act yet. Errors: what cannot be asked of this design as it stands, and why.
+  Expected<void> command(const CommandRow& command, std::vector<Row>& rows);
 
   DesignState state() const { return state_; }
   DesignId id() const { return plan_.row.id; }
   std::int64_t used() const { return used_; }
-  /// Stored scores that the race has not asked for (yet).
-  std::size_t unasked() const {
-    return stored_.race_scores.size() + stored_.test_scores.size() +
-           stored_.evaluator_scores.size();
-  }
+  const std::string& source() const { return plan_.source; }
+  /// Stored scores that the race has not asked for (yet), those that were computed ahead included.
+  const StoredDesign& unasked() const { return stored_; }
 
   static std::uint64_t key_of(std::int64_t candidate_number, std::int64_t pair) {
     return (static_cast<std::uint64_t>(candidate_number) << 32U) | static_cast<std::uint64_t>(pair);
+  }
+
+  static std::uint64_t packed_key(const EvaluationKey& key) {
+    return key_of(number_of(key.candidate), key.pair);
   }
 
  private:
@@ -92,6 +132,30 @@ class DesignRunner {
   DesignRunner(DesignPlan plan, StoredDesign stored, std::optional<IteratedRace> race);
 
   Expected<void> go_on(std::vector<Task>& tasks, std::vector<Row>& rows);
+  /// From waiting on to what is to be evaluated first.
+  Expected<void> begin(std::vector<Task>& tasks, std::vector<Row>& rows);
+  /// The tests' outcomes are there: true when nothing is left to be tested.
+  bool finish_tests(std::vector<Task>& tasks, std::vector<Row>& rows);
+
+  // design_commands.cpp
+  /// The commands that acted in the order in which they did, then the others.
+  void sort_commands();
+  /// The next one of this kind, when it acts here.
+  const CommandRow* next_command(const char* kind) const;
+  /// A cancel that acts now.
+  bool is_cancelled() const;
+  void cancel(std::vector<Task>& tasks, std::vector<Row>& rows);
+  /// The race goes on with more budget, if that was asked for.
+  Expected<bool> extend(std::vector<Task>& tasks, std::vector<Row>& rows);
+  void record_acted(CommandRow command, std::vector<Row>& rows);
+  void warn(const std::string& text, std::vector<Row>& rows) const;
+
+  // design_ahead.cpp
+  /// A score that nobody waits for.
+  void keep_ahead(const Outcome& outcome, double bound, std::vector<Row>& rows);
+  /// Lets go what was given of candidates that are out of the race.
+  void drop_void();
+  bool is_known_or_out(std::uint64_t packed) const;
   /// Races on until something is awaited or the race is over.
   Expected<void> go_on_racing(std::vector<Task>& tasks, std::vector<Row>& rows);
   /// To the tests of the elites; or to an end without, when every configuration was rejected.
@@ -108,14 +172,16 @@ class DesignRunner {
   /// Takes the experiment's score from what is known, or makes a task of it.
   void want(std::size_t position, const EvaluationKey& key, const Experiment& experiment,
             std::vector<Task>& tasks, std::vector<Row>& rows);
+  Task task_of(const EvaluationKey& key, const Experiment& experiment) const;
   /// What is stored under the key of this purpose and was not asked for.
   std::unordered_map<std::uint64_t, StoredScore>& known(Purpose purpose);
   void put(std::size_t position, const StoredScore& score);
+  /// The store has the evaluation; when no iteration has used it so far, it takes it from this row.
+  void record_use(const StoredScore& score, std::vector<Row>& rows) const;
   void record_pair(Purpose purpose, const Experiment& experiment, std::vector<Row>& rows) const;
   Expected<void> record_events(std::vector<Row>& rows);
   Expected<void> record_step(const RaceStep& step, std::vector<Row>& rows);
   void record_estimate(const TimeEstimated& estimated, std::vector<Row>& rows);
-  void record_warning(const RaceWarning& warning, std::vector<Row>& rows);
   void record_consumed(const RaceStep& step, std::vector<Row>& rows);
   /// The race's next use of a result that it was given; those before it were not used.
   void consume(std::int64_t configuration, std::int64_t pair, std::vector<Row>& rows);
@@ -139,6 +205,21 @@ class DesignRunner {
   std::optional<IteratedRace> race_;  ///< none when only given configurations are tested
   DesignState state_ = DesignState::Waiting;
 
+  std::size_t next_command_ = 0;  ///< in the plan; those before it have acted
+
+  /// What was given ahead and has no outcome yet.
+  struct Ahead {
+    EvaluationKey key;
+    double bound;
+    bool dropped;  ///< nobody wants it any more
+  };
+  std::map<std::uint64_t, Ahead> ahead_;
+  std::vector<EvaluationKey> dropped_;
+  /// What the race would want after the current batch, on so many pairs; how many were looked at.
+  std::vector<Experiment> next_;
+  std::int64_t next_pairs_ = 0;
+  std::size_t next_seen_ = 0;
+
   /// What is waited for, in the race's order: a batch of the race, or the tests.
   std::vector<Experiment> batch_;
   std::vector<Measurement> measurements_;
@@ -156,7 +237,11 @@ class DesignRunner {
   std::size_t consumed_ = 0;  ///< of them, by the race's steps
   bool reported_ = false;     ///< a step or an estimate came with the last batch
   std::int64_t pairs_known_ = 0;
+  std::int64_t tests_known_ = 0;  ///< pairs of the tests
   std::int64_t calls_known_ = 0;  ///< tasks of the targetEvaluator
+  std::int64_t test_calls_ = 0;   ///< of them in testing, before the race went on
+  /// Of tests: those who are tested again after an extension are not run again.
+  std::unordered_map<std::uint64_t, StoredScore> tested_scores_;
   bool test_calls_wanted_ = false;
   /// Calls of the targetEvaluator that wait for their turn. They are made one after the other
   /// (irace facts, 18.4): the first one of a pair may well write what the next ones read, such as

@@ -110,9 +110,34 @@ void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::s
   }
 }
 
+/// What was asked for and has not come to pass is no part of the answer.
+std::vector<CommandRow> acted(std::vector<CommandRow> commands) {
+  std::erase_if(commands, [](const CommandRow& command) { return !command.step; });
+  return commands;
+}
+
+/// Scores that count for the race or its tests, and that these did not ask for; what was computed
+/// ahead or was let go by a cancel counts nowhere.
+std::size_t unasked_but_used(const StoredDesign& unasked) {
+  std::size_t count = unasked.test_scores.size() + unasked.evaluator_scores.size();
+  for (const auto& [key, score] : unasked.race_scores)
+    count += score.iteration != 0;
+  return count;
+}
+
+/// It ended, and what its scores give must be all of it.
+bool is_over(const std::optional<DesignStateRow>& state, const DesignPlan& plan) {
+  if (!state) return false;
+  if (state->state == DesignState::Finished) return true;
+  return state->state == DesignState::Stopped &&
+         std::ranges::any_of(plan.commands,
+                             [](const CommandRow& command) { return command.kind == "cancel"; });
+}
+
 void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
                    std::vector<std::string>& complaints) {
   const std::string name = to_string(plan.row.id);
+  const bool finished = is_over(stored.state, plan);
   auto runner = DesignRunner::start(std::move(plan), std::move(scores));
   if (!runner) {
     complaints.push_back(fmt::format("{}: {}", name, to_string(runner.error())));
@@ -130,7 +155,6 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   add_stepped_pairs(replayed);
   add_stepped_pairs(stored);
   if (!stored.state) complaints.push_back(name + ": the store has no row of this design");
-  const bool finished = stored.state && stored.state->state == DesignState::Finished;
   if (finished && !tasks.empty()) {
     complaints.push_back(
         fmt::format("{}: the design is finished, but {} of its evaluations are "
@@ -141,9 +165,9 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
     complaints.push_back(
         fmt::format("{}: the store has a row that its scores do not give: {}", name, row));
   }
-  if (runner->unasked() > 0) {
-    complaints.push_back(fmt::format("{}: {} stored evaluations were never asked for by the race",
-                                     name, runner->unasked()));
+  if (const std::size_t unasked = unasked_but_used(runner->unasked()); unasked > 0) {
+    complaints.push_back(
+        fmt::format("{}: {} stored evaluations were never asked for by the race", name, unasked));
   }
   if (finished) compare_finished(stored, replayed, name, complaints);
 }
@@ -176,10 +200,12 @@ Verification verify(StoreReader& store, std::vector<DesignPlan> plans) {
   const std::vector<StoredScore> all = store.scores();
   result.evaluations = static_cast<std::int64_t>(all.size());
   auto scores = by_design(all, {}, {});
+  const std::vector<CommandRow> commands = acted(store.commands());
   for (DesignPlan& plan : plans) {
     const DesignId id = plan.row.id;
     DesignAnswer& answer = stored[id];
     ++result.designs;
+    plan.commands = commands_to(id, commands);
     if (answer.state && answer.state->state == DesignState::Finished) ++result.finished;
     verify_design(std::move(plan), std::move(scores[id]), answer, result.complaints);
   }

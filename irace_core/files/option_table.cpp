@@ -169,7 +169,7 @@ constexpr IraceOption kOptions[] = {
      "not an option of irace"},
 
     {"digits", "", "--digits", Natural, "4", "", G::Old, Removed, "decimals of reals",
-     "write `digits = 4` (your number) under [global] at the end of the parameter file"},
+     "write `digits = N` under [global] at the end of the parameter file"},
     {"forbiddenFile", "", "--forbidden-file", File, "", "", G::Old, Removed,
      "file of forbidden combinations",
      "write its lines under [forbidden] at the end of the parameter file"},

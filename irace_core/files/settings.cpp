@@ -74,7 +74,11 @@ std::optional<std::string> irace_refusal(const IraceOption& option, const IraceV
 std::optional<std::string> irace_remark(const IraceOption& option, const IraceValue& value) {
   const std::string title = in_backticks(option.title());
   if (option.meaning == IraceMeaning::Removed && !std::holds_alternative<std::monostate>(value)) {
-    return title + " is read, but newer versions of irace refuse it: " + std::string(option.remark);
+    std::string remark(option.remark);
+    const auto* number = std::get_if<std::int64_t>(&value);
+    if (option.name == "digits" && number != nullptr)
+      remark.replace(remark.find('N'), 1, std::to_string(*number));
+    return title + " is read, but newer versions of irace refuse it: " + remark;
   }
   if (option.meaning == IraceMeaning::Ignored && !is_default(option, value)) {
     return title + " means nothing here: " + std::string(option.remark);

@@ -132,17 +132,33 @@ void IteratedRace::State::ask() {
       answers_[i] = {known.cost, known.time};
       continue;
     }
+    asked_.push_back(i);
+    Experiment& experiment = wanted.emplace_back(experiment_of(run));
+    if (!run.is_evaluation) continue;
     // The first wanted run belongs to the step that comes next.
     const auto later = static_cast<std::int64_t>(run.task - runs_.front().task);
-    asked_.push_back(i);
-    wanted.push_back({.configuration = id,
-                      .pair = pair,
-                      .instance = instances_[pair].instance,
-                      .seed = instances_[pair].seed,
-                      .bound = run.bound,
-                      .is_evaluation = run.is_evaluation,
-                      .task = run.is_evaluation ? steps_ + 1 + later : 0});
+    experiment.is_evaluation = true;
+    experiment.task = steps_ + 1 + later;
   }
+}
+
+Experiment IteratedRace::State::experiment_of(const irace::RaceRun& run) const {
+  const std::int64_t pair = race->pair_of(run.task);
+  return {.configuration = race->contestant(run.column).id,
+          .pair = pair,
+          .instance = instances_[pair].instance,
+          .seed = instances_[pair].seed,
+          .bound = run.bound};
+}
+
+std::vector<Experiment> IteratedRace::State::ahead(std::int64_t pairs) const {
+  std::vector<Experiment> experiments;
+  // With max_time what is left, and so what is asked, depends on times that nobody knows yet.
+  if (finished || !race || time) return experiments;
+  for (const irace::RaceRun& run : race->ahead(pairs)) {
+    if (!is_known(run)) experiments.push_back(experiment_of(run));
+  }
+  return experiments;
 }
 
 void IteratedRace::State::answer_race() {

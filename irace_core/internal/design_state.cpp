@@ -178,6 +178,53 @@ Expected<void> IteratedRace::State::begin_race() {
   return {};
 }
 
+Expected<void> IteratedRace::State::may_be_extended() const {
+  SWARMSMITH_ASSERT(finished, "an extension follows the end");
+  if (time) {
+    return bad_input("its budget is time (max_time), and an extension is in experiments",
+                     "max_time");
+  }
+  if (failure) return bad_input("there is nothing to go on from: " + to_string(*failure));
+  return {};
+}
+
+Expected<void> IteratedRace::State::extend(std::int64_t experiments) {
+  if (auto may = may_be_extended(); !may) return may;
+  total_budget_ += experiments;
+  finished = false;
+  end_reason_.reset();
+  nothing_was_run_ = false;
+  schedule_.extend(iteration, remaining());
+  if (auto begun = begin_race(); !begun) {
+    fail(begun.error());
+    return {};
+  }
+  advance();
+  return {};
+}
+
+Expected<std::int64_t> IteratedRace::State::least_extension() const {
+  constexpr std::int64_t kMost = 10'000'000;
+  if (auto may = may_be_extended(); !may) return Unexpected(may.error());
+  const auto is_enough = [&](std::int64_t experiments) {
+    irace::Schedule schedule = schedule_;
+    const std::int64_t left = remaining() + experiments;
+    schedule.extend(iteration, left);
+    return std::holds_alternative<RacePlan>(
+        schedule.next(left, static_cast<std::int64_t>(elites.size()), pairs_seen_));
+  };
+  std::int64_t enough = 1;
+  while (!is_enough(enough)) {
+    enough *= 2;
+    if (enough > kMost) return bad_input("its options allow no further iteration");
+  }
+  // Rounding can make a little more too little again: no bisection.
+  std::int64_t least = 1;
+  while (!is_enough(least))
+    ++least;
+  return least;
+}
+
 std::int64_t IteratedRace::State::used() const {
   return used_before_race_ + (race ? race->used() - repeated_ : 0);
 }

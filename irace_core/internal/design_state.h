@@ -55,6 +55,11 @@ class IteratedRace::State {
   /// Answers to all wanted experiments.
   void tell(std::span<const Measurement> measurements);
 
+  /// See IteratedRace.
+  std::vector<Experiment> ahead(std::int64_t pairs) const;
+  Expected<void> extend(std::int64_t experiments);
+  Expected<std::int64_t> least_extension() const;
+
   std::int64_t used() const;       ///< experiments counted so far
   std::int64_t remaining() const;  ///< before the current race
   std::int64_t budget() const;
@@ -91,6 +96,7 @@ class IteratedRace::State {
   /// A run that the race wants and that was made before: a deterministic target of a run without
   /// elitism would only repeat itself.
   bool is_known(const irace::RaceRun& run) const;
+  Experiment experiment_of(const irace::RaceRun& run) const;
 
   // The loop.
   void take_initial(std::vector<Configuration> initial);
@@ -103,6 +109,8 @@ class IteratedRace::State {
   void warn(std::string text);
   void stop(std::string reason);
   void fail(Error error);
+  /// Why no extension can follow.
+  Expected<void> may_be_extended() const;
 
   // Who takes part.
   /// Elites of the estimate, given configurations, then sampled ones.

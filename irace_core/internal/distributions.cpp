@@ -6,7 +6,6 @@
 
 namespace swarmsmith::irace {
 namespace {
-constexpr double kNoSpread = 2.2e-16;
 constexpr double kVanishing = 1e-290;  // below this, probabilities lose digits
 }  // namespace
 

@@ -4,6 +4,9 @@
 
 namespace swarmsmith::irace {
 
+/// A smaller standard deviation is none.
+inline constexpr double kNoSpread = 2.2e-16;
+
 /// A normal distribution given that it lies in [lower, upper], sampled by inversion. The two tail
 /// probabilities are computed once, so that many draws from one distribution are cheap. The mean
 /// may lie outside of the interval, even far out.
@@ -11,7 +14,7 @@ class TruncatedNormal {
  public:
   TruncatedNormal(double mean, double sd, double lower, double upper);
 
-  /// One number is drawn. A standard deviation of zero (below 2.2e-16) gives the mean.
+  /// One number is drawn. A standard deviation below kNoSpread gives the mean.
   double sample(Rng& rng) const;
 
  private:

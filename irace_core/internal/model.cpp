@@ -4,14 +4,11 @@
 #include <cmath>
 #include <limits>
 
-#include "base/assert.h"
 #include "base/math.h"
 #include "irace_core/internal/sampling.h"
 
 namespace swarmsmith::irace {
 namespace {
-
-constexpr double kNoSpread = 2.2e-16;
 
 void normalise(std::span<double> probabilities) {
   double sum = 0;
@@ -130,27 +127,37 @@ void SamplingModels::prepare(std::size_t parameter, ParameterModel& model) const
 
 void SamplingModels::initialise(std::span<const EliteLine> elites) {
   models_.clear();
-  for (const EliteLine& elite : elites) {
-    Model& model = models_[elite.id];
-    model.resize(space_->size());
-    for (std::size_t i = 0; i < model.size(); ++i) {
-      if (is_categorical((*space_)[i].domain)) {
-        const std::size_t count = space_->value_count(i);
-        model[i].probabilities.assign(count, 1.0 / static_cast<double>(count));
-      }
-      model[i].sd = initial_sd(*space_, i);
-      model[i].mean = (*elite.configuration)[i];
-      prepare(i, model[i]);
+  for (const EliteLine& elite : elites)
+    models_[elite.id] = fresh_model(*elite.configuration);
+}
+
+SamplingModels::Model SamplingModels::fresh_model(const Configuration& elite) const {
+  Model model(space_->size());
+  for (std::size_t i = 0; i < model.size(); ++i) {
+    if (is_categorical((*space_)[i].domain)) {
+      const std::size_t count = space_->value_count(i);
+      model[i].probabilities.assign(count, 1.0 / static_cast<double>(count));
+    }
+    model[i].sd = initial_sd(*space_, i);
+    model[i].mean = elite[i];
+    prepare(i, model[i]);
+  }
+  return model;
+}
+
+SamplingModels::Model SamplingModels::source_of(const EliteLine& elite) const {
+  for (const std::int64_t id : {elite.id, elite.parent}) {
+    for (const auto* models : {&models_, &former_}) {
+      if (const auto found = models->find(id); found != models->end()) return found->second;
     }
   }
+  return fresh_model(*elite.configuration);
 }
 
 void SamplingModels::update(std::span<const EliteLine> elites, const UpdateStrength& strength) {
   std::map<std::int64_t, Model> updated;
   for (const EliteLine& elite : elites) {
-    const auto source = models_.find(owns(elite.id) ? elite.id : elite.parent);
-    SWARMSMITH_ASSERT(source != models_.end(), "an elite or its parent has a model");
-    Model model = source->second;
+    Model model = source_of(elite);
     for (std::size_t i = 0; i < model.size(); ++i) {
       if (space_->is_fixed(i) || !elite.configuration->is_active(i)) continue;
       if (is_categorical((*space_)[i].domain)) {
@@ -162,6 +169,9 @@ void SamplingModels::update(std::span<const EliteLine> elites, const UpdateStren
       prepare(i, model[i]);
     }
     updated[elite.id] = std::move(model);
+  }
+  for (auto& [id, model] : models_) {
+    if (!updated.contains(id)) former_[id] = std::move(model);
   }
   models_ = std::move(updated);
 }

@@ -65,7 +65,8 @@ class SamplingModels {
   bool owns(std::int64_t id) const { return models_.contains(id); }
   /// A fresh model for every elite of the first race.
   void initialise(std::span<const EliteLine> elites);
-  /// Moves the model of every elite, its own or a copy of its parent's; others are forgotten.
+  /// Moves the model of every elite: its own, or a copy of its parent's, or, after a post-selection
+  /// race, which takes configurations from anywhere, the last that either had, or else a fresh one.
   void update(std::span<const EliteLine> elites, const UpdateStrength& strength);
   /// Widens one model.
   void restart(std::int64_t id, std::int64_t new_configurations);
@@ -77,12 +78,16 @@ class SamplingModels {
  private:
   using Model = std::vector<ParameterModel>;  ///< by parameter
 
+  Model fresh_model(const Configuration& elite) const;
+  /// What an elite's model is made from.
+  Model source_of(const EliteLine& elite) const;
   void prepare(std::size_t parameter, ParameterModel& model) const;
   double draw(std::size_t parameter, const ParameterModel& model, const Interval& domain,
               Rng& rng) const;
 
   const ParameterSpace* space_;
   std::map<std::int64_t, Model> models_;
+  std::map<std::int64_t, Model> former_;  ///< of those that are no elites any more
 };
 
 }  // namespace swarmsmith::irace

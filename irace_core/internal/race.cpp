@@ -12,10 +12,6 @@ namespace {
 
 constexpr double kNoResult = std::numeric_limits<double>::quiet_NaN();
 
-bool contains(std::span<const std::size_t> sorted, std::size_t column) {
-  return std::binary_search(sorted.begin(), sorted.end(), column);
-}
-
 void put(std::vector<double>& row, std::size_t task, double value) {
   if (row.size() <= task) row.resize(task + 1, kNoResult);
   row[task] = value;

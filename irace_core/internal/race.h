@@ -44,6 +44,11 @@ class Race {
   /// What came of all wanted runs, in their order; infinite costs reject. Times below
   /// min_measurable_time are raised to it, 0 is an unknown time. Adds to the steps.
   void tell(std::span<const Measurement> measurements);
+  /// What would be wanted next on up to `pairs` further pairs, in canonical order, if the coming
+  /// tests dropped nobody (and went on all the same: elitist_limit is not looked at). Nothing where
+  /// results decide more than who is alive: bounds, calls of a targetEvaluator; and nothing with
+  /// one_task_at_a_time, which asks for nothing that may be in vain.
+  std::vector<RaceRun> ahead(std::int64_t pairs) const;
   /// The tasks since the last call; ids are filled in, iteration and generators are the caller's.
   std::vector<RaceStep> take_steps();
 
@@ -126,6 +131,8 @@ class Race {
   bool is_test_point(std::size_t task) const;
   void pass(Progress& progress, std::span<const std::size_t> ran) const;
   void plan();
+  /// All runs up to the next test are asked for at once, and later ones can be foretold.
+  bool asks_ahead() const;
   /// Sets the bounds of all that is due.
   void set_bounds();
   /// What the bounds of others are taken from; nothing without protected elites.

@@ -9,10 +9,6 @@
 namespace swarmsmith::irace {
 namespace {
 
-bool contains(std::span<const std::size_t> sorted, std::size_t column) {
-  return std::binary_search(sorted.begin(), sorted.end(), column);
-}
-
 std::vector<std::size_t> united(const std::vector<std::size_t>& a,
                                 const std::vector<std::size_t>& b) {
   std::vector<std::size_t> both;

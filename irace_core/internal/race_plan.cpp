@@ -100,7 +100,7 @@ std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::siz
 /// known pair.
 void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
   for (const std::size_t c : alive_) {
-    if (std::binary_search(ran.begin(), ran.end(), c)) {
+    if (contains(ran, c)) {
       ++progress.results[c];
     } else if (progress.protection[c] > 0) {
       --progress.protection[c];
@@ -116,7 +116,7 @@ void Race::plan() {
   for (const std::size_t c : open_->due) {
     wanted_.push_back({progress_.task, c, open_->bounds[c], open_->evaluates});
   }
-  if (settings_.one_task_at_a_time || settings_.target_evaluator || settings_.capping) return;
+  if (!asks_ahead()) return;
   Progress ahead = progress_;
   std::vector<std::size_t> columns = open_->due;
   while (columns.empty() || !is_test_point(ahead.task + 1)) {
@@ -128,6 +128,30 @@ void Race::plan() {
     for (const std::size_t c : columns)
       wanted_.push_back({ahead.task, c, settings_.bound_max, false});
   }
+}
+
+bool Race::asks_ahead() const {
+  return !settings_.one_task_at_a_time && !settings_.target_evaluator && !settings_.capping;
+}
+
+std::vector<RaceRun> Race::ahead(std::int64_t pairs) const {
+  std::vector<RaceRun> runs;
+  if (stop_ || wanted_.empty() || !asks_ahead()) return runs;
+  const std::size_t last_wanted = wanted_.back().task;
+  Progress ahead = progress_;
+  std::vector<std::size_t> columns = open_->due;
+  while (pairs > 0) {
+    std::sort(columns.begin(), columns.end());
+    pass(ahead, columns);
+    if (ahead.task == settings_.pairs.size()) return runs;
+    columns = to_run(ahead);
+    if (ahead.task <= last_wanted || columns.empty()) continue;
+    if (reason_to_stop(ahead, columns.size())) return runs;
+    for (const std::size_t c : columns)
+      runs.push_back({ahead.task, c, settings_.bound_max, false});
+    --pairs;
+  }
+  return runs;
 }
 
 void Race::set_bounds() {

@@ -1,8 +1,10 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "irace_core/internal/capping.h"
@@ -68,5 +70,10 @@ struct RaceRun {
 
   friend bool operator==(const RaceRun&, const RaceRun&) = default;
 };
+
+/// Whether a column is among `sorted` (ascending).
+inline bool contains(std::span<const std::size_t> sorted, std::size_t column) {
+  return std::binary_search(sorted.begin(), sorted.end(), column);
+}
 
 }  // namespace swarmsmith::irace

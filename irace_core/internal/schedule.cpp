@@ -115,7 +115,29 @@ std::int64_t Schedule::needed(std::int64_t size, std::int64_t elites) const {
   return (size - known) * mu_ + known * std::min(new_pairs_, mu_);
 }
 
+void Schedule::extend(std::int64_t last_iteration, std::int64_t remaining) {
+  iteration_ = std::max(iteration_, last_iteration + 1);
+  if (scenario_.nb_iterations == 0) return;  // no limit
+  const std::int64_t each = scenario_.nb_experiments_per_iteration;
+  const std::int64_t further = each > 0 ? std::max<std::int64_t>(1, remaining / each) : 1;
+  iterations_ = std::max(iterations_, iteration_ + further - 1);
+}
+
 std::variant<RacePlan, NoMoreRaces> Schedule::next(std::int64_t remaining, std::int64_t elites,
+                                                   std::int64_t old_pairs) {
+  const std::int64_t new_pairs = new_pairs_;
+  const std::int64_t iteration = iteration_;
+  const std::int64_t iterations = iterations_;
+  auto planned = plan(remaining, elites, old_pairs);
+  if (std::holds_alternative<NoMoreRaces>(planned)) {
+    new_pairs_ = new_pairs;
+    iteration_ = iteration;
+    iterations_ = iterations;
+  }
+  return planned;
+}
+
+std::variant<RacePlan, NoMoreRaces> Schedule::plan(std::int64_t remaining, std::int64_t elites,
                                                    std::int64_t old_pairs) {
   for (;; ++iteration_) {
     if (remaining <= 0) return NoMoreRaces{"budget exhausted"};

@@ -72,13 +72,21 @@ class Schedule {
   /// No more than so many new pairs in a race from now on: a deterministic run has no others.
   void limit_new_pairs(std::int64_t unused);
 
+  /// After the end: `remaining` experiments are there now, and races after number `last_iteration`
+  /// (of a post-selection, perhaps). A limit of iterations that was set rises by as many as they
+  /// are for: one, or what nb_experiments_per_iteration makes of them.
+  void extend(std::int64_t last_iteration, std::int64_t remaining);
+
   /// The plan of the next race, given what is left and what was made so far: the elites (before the
   /// first race those of the time estimate), and how many pairs were seen. Each call that returns a
-  /// race counts as an iteration.
+  /// race counts as an iteration; one that returns the end leaves no trace (an extension plans as
+  /// if it had not been made).
   std::variant<RacePlan, NoMoreRaces> next(std::int64_t remaining, std::int64_t elites,
                                            std::int64_t old_pairs);
 
  private:
+  std::variant<RacePlan, NoMoreRaces> plan(std::int64_t remaining, std::int64_t elites,
+                                           std::int64_t old_pairs);
   std::int64_t iteration_budget(std::int64_t remaining) const;
   /// How many configurations, elites included; fewer than those that survive for too few.
   std::int64_t race_size_for(std::int64_t budget, std::int64_t elites, std::int64_t old_pairs);

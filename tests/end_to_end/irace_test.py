@@ -159,6 +159,7 @@ class Usual(Irace):
         refused = self.irace("--first-test", "6", code=1)
         self.assertIn("first_test", refused.stderr)
         self.assertIn("--log-file", refused.stderr)
+        self.assertNotIn("# seed:", refused.stdout)
         self.irace("--first-test", "6", "--log-file", "other.Rdata")
         self.assertTrue((self.folder / "other.db").exists())
 
@@ -204,6 +205,8 @@ class Usual(Irace):
         self.write_scenario(maxExperiments=20)
         self.assertRegex(self.irace(code=1).stderr,
                          r"scenario\.txt:\d+:1: .* too small: .* at least \d\d\d?\b")
+        self.write_scenario()
+        self.assertIn("--workers: must be 1 or more", self.irace("--workers", "0", code=1).stderr)
         self.assertIn("Usage: swarmsmith irace", self.irace("--help").stdout)
         self.assertIn("swarmsmith", self.irace("--version").stdout)
 

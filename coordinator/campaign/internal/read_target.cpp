@@ -1,11 +1,10 @@
 #include "coordinator/campaign/internal/read_target.h"
 
-#include <unistd.h>
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <sstream>
 
+#include "base/program_path.h"
 #include "irace_core/files/instances_file.h"
 #include "sim/files/file_text.h"
 #include "sim/files/mission_file.h"
@@ -21,10 +20,6 @@ constexpr std::int64_t kMostInstances = 99'999;
 fs::path absolute_in(const fs::path& folder, const fs::path& path) {
   fs::path whole = (fs::current_path() / folder / path).lexically_normal();
   return whole.has_filename() ? whole : whole.parent_path();
-}
-
-bool may_be_run(const fs::path& file) {
-  return fs::is_regular_file(file) && ::access(file.c_str(), X_OK) == 0;
 }
 
 /// The runner; what comes before or after it on a command line has keys of its own.
@@ -100,14 +95,8 @@ void read_tests(TableReader& instances, const fs::path& folder, CampaignMission&
 std::string program_path(const std::string& name, const fs::path& folder) {
   fs::path here = absolute_in(folder, name);
   if (name.find('/') != std::string::npos || may_be_run(here)) return here.string();
-  const char* variable = std::getenv("PATH");
-  std::istringstream folders(variable != nullptr ? variable : "");
-  for (std::string entry; std::getline(folders, entry, ':');) {
-    if (entry.empty()) continue;
-    const fs::path candidate = fs::absolute(fs::path(entry) / name).lexically_normal();
-    if (may_be_run(candidate)) return candidate.string();
-  }
-  return here.string();
+  const char* search_path = std::getenv("PATH");
+  return program_in(search_path != nullptr ? search_path : "", name).value_or(here).string();
 }
 
 Target read_target(TableReader& simulator, const fs::path& folder) {

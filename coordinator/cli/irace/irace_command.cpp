@@ -107,9 +107,17 @@ ExitCode carry_out(Output& output, const IraceCommandLine& line) {
   if (const auto faults = check_programs(campaign_of(*setup, 1)); !faults.empty())
     return complain(output, faults);
   if (line.action == IraceAction::Check) return check(output, *setup);
+  const auto workers = line.settings.number("--workers");
+  if (workers && *workers < 1) {
+    return fail(output, ExitCode::Failed,
+                {ErrorKind::BadInput,
+                 "must be 1 or more: irace runs its target on this machine (without workers, "
+                 "`swarmsmith run` serves others)",
+                 "--workers"});
+  }
   const auto place = place_of(output, line, *setup);
   if (!place) return fail(output, ExitCode::Failed, place.error());
-  const IraceSlots slots{.workers = line.settings.number("--workers"), .parallel = setup->parallel};
+  const IraceSlots slots{.workers = workers, .parallel = setup->parallel};
   if (line.action == IraceAction::OnlyTest)
     return only_test(output, *setup, line.only_test, *place, slots);
   return run_scenario(output, *setup, *place, slots);

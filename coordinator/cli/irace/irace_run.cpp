@@ -61,7 +61,8 @@ class ScenarioRun {
     Progress progress(output_, design_rows(campaign_), begin_);
     CostEvents events(progress);
     RunListener& teller = output_.json ? static_cast<RunListener&>(events) : *console;
-    if (!is_finished() && !output_.json) {
+    // What is wrong with a store is said by who opens it to write; nothing begins before.
+    if (!is_finished() && may_begin() && !output_.json) {
       console->write_begin();
       if (auto told = tell_what_was(*console); !told)
         return fail(output_, ExitCode::Failed, told.error());
@@ -89,7 +90,13 @@ class ScenarioRun {
     return store != nullptr && store->finished();
   }
 
-  /// The store, when it is this run's; who opens it to write says what is wrong with it.
+  /// There is no store yet, or it is this run's.
+  bool may_begin() const {
+    std::error_code trouble;
+    return !std::filesystem::exists(place_.file(), trouble) || reader() != nullptr;
+  }
+
+  /// The store, when it is this run's.
   std::unique_ptr<StoreReader> reader() const {
     std::error_code trouble;
     if (!std::filesystem::exists(place_.file(), trouble)) return nullptr;
@@ -158,7 +165,7 @@ class ScenarioRun {
 RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
   RunOptions options;
   options.keeps_store = store.is_kept();
-  options.workers = std::max<std::int64_t>(slots.workers.value_or(1), 1);
+  options.workers = slots.workers.value_or(1);
   if (slots.parallel) {
     const std::int64_t all = std::max<std::int64_t>(*slots.parallel, 1);
     options.workers = std::min(*options.workers, all);

@@ -1,9 +1,9 @@
 #include "irace_core/files/internal/programs.h"
 
 #include <unistd.h>
-#include <algorithm>
 #include <system_error>
 
+#include "base/program_path.h"
 #include "irace_core/files/settings.h"
 
 namespace swarmsmith::irace {
@@ -13,15 +13,8 @@ namespace fs = std::filesystem;
 fs::path find_program(std::string_view name, const fs::path& folder, std::string_view search_path) {
   const bool is_bare =
       !name.empty() && name.find('/') == std::string_view::npos && !name.starts_with('.');
-  while (is_bare && !search_path.empty()) {
-    const std::size_t end = std::min(search_path.find(':'), search_path.size());
-    const fs::path in = fs::path(search_path.substr(0, end));
-    search_path.remove_prefix(std::min(end + 1, search_path.size()));
-    if (!in.is_absolute()) continue;  // the current folder has no say in what is run
-    const fs::path candidate = in / name;
-    if (!complaint_about_program(candidate)) return candidate.lexically_normal();
-  }
-  return absolute_path(name, folder);
+  const auto found = is_bare ? program_in(search_path, name) : std::nullopt;
+  return found.value_or(absolute_path(name, folder));
 }
 
 std::optional<std::string> complaint_about_program(const fs::path& program) {

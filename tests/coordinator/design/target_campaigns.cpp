@@ -1,6 +1,7 @@
 #include "tests/coordinator/design/target_campaigns.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
 #include <utility>
 
 #include "coordinator/campaign/campaign_file.h"
@@ -78,6 +79,47 @@ std::vector<Task> run(CampaignRunner& runner, Memory& memory, Rng order, const A
 Outcome judged(const Task& task) {
   Outcome outcome = honest(task);
   if (task.key.purpose != Purpose::Evaluator) outcome.score = 0;
+  return outcome;
+}
+
+RandomOptions random_options(Rng& rng) {
+  RandomOptions options;
+  const auto line = [&](double chance, const std::string& text) {
+    if (rng.bernoulli(chance)) options.race += text + "\n";
+  };
+  const bool elitist = rng.bernoulli(0.75);
+  const bool timed = elitist && rng.bernoulli(0.4);
+  if (!elitist) options.race += "elitist = false\n";
+  options.race += timed ? "max_time = " + std::to_string(rng.uniform_int(1500, 3000)) + "\n"
+                        : "max_experiments = " + std::to_string(rng.uniform_int(420, 600)) + "\n";
+  // Capping needs elites, and times of the target.
+  const bool bounded = rng.bernoulli(0.5);
+  if (bounded) options.race += "bound_max = 12\n";
+  if (bounded && elitist) line(timed ? 0.3 : 0.5, "capping = true");
+  line(0.3, "bound_type = \"instance\"");
+  const auto shape = rng.below(4);
+  if (shape == 1) options.race += "block_size = 3\nfirst_test = 2\nmu = 6\n";
+  if (shape == 2) options.race += "deterministic = true\nfirst_test = 2\n";
+  if (shape == 3) options.race += "each_test = 2\nfirst_test = 4\n";
+  line(0.2, "soft_restart_threshold = 0.2");
+  line(0.3, "postselection = false");
+  line(0.3, "test_type = \"t-test-holm\"");
+  line(0.4, "test_nb_elites = 3");
+  line(0.4, "test_iteration_elites = true");
+  options.evaluates = rng.bernoulli(0.3);
+  if (options.evaluates) options.simulator = "evaluator = \"./e\"\n";
+  if (rng.bernoulli(0.5)) options.test = "test = [\"t1\", \"t2\"]\n";
+  return options;
+}
+
+Outcome random_target(const Task& task, bool evaluates, double rejects) {
+  Outcome outcome = evaluates ? judged(task) : honest(task);
+  if (task.bound > 0) outcome.time = std::min(outcome.time, task.bound);
+  Rng rng(static_cast<std::uint64_t>(number_of(task.key.candidate) * 1'009 + task.key.pair));
+  const bool has_cost = !evaluates || task.key.purpose == Purpose::Evaluator;
+  if (!has_cost || !rng.bernoulli(rejects)) return outcome;
+  outcome.status = EvaluationStatus::Rejected;
+  outcome.score = 0;
   return outcome;
 }
 

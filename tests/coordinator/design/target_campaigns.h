@@ -25,6 +25,19 @@ Outcome honest(const Task& task);
 /// As with a targetEvaluator: a run says its time alone, a call the cost.
 Outcome judged(const Task& task);
 
+/// Lines of [race] and [simulator] that can be mixed freely.
+struct RandomOptions {
+  std::string race;
+  std::string simulator;
+  std::string test;
+  bool evaluates = false;
+};
+
+RandomOptions random_options(Rng& rng);
+
+/// A target that stops at its bound, and rejects some of what it is given.
+Outcome random_target(const Task& task, bool evaluates, double rejects);
+
 /// Runs until finished, or so many outcomes, in an order of its own; gives all tasks that were
 /// taken.
 std::vector<Task> run(CampaignRunner& runner, Memory& memory, Rng order,

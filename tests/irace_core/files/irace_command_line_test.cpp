@@ -110,7 +110,8 @@ TEST(IraceCommandLine, WhatMeansNothingOrIsOldIsAWarning) {
   EXPECT_THAT(read({"--load-balancing", "0"}).warnings,
               ElementsAre(HasSubstr("means nothing here")));
   EXPECT_THAT(read({"--load-balancing", "1"}).warnings, IsEmpty());
-  EXPECT_THAT(read({"--digits", "2"}).warnings, ElementsAre(HasSubstr("under [global]")));
+  EXPECT_THAT(read({"--digits", "2"}).warnings,
+              ElementsAre(HasSubstr("write `digits = 2` under [global]")));
 }
 
 }  // namespace

@@ -144,16 +144,16 @@ TEST_F(IraceSetupFiles, TheCommandLineWinsOverTheFile) {
 
 TEST_F(IraceSetupFiles, PathsBeginWhereTheyAreWritten) {
   write("sub/scenario.txt",
-        "maxExperiments = 500\ntrainInstancesFile = \"../list.txt\"\nexecDir = \"work\"\n"
+        "maxExperiments = 500\ntrainInstancesFile = \"../list.txt\"\nexecDir = \"runs\"\n"
         "targetRunner = \"./run\"\nlogFile = \"log/mine.Rdata\"\nparameterFile = \"p.txt\"\n");
   write("sub/p.txt", "z \"\" i (1, 9)\n");
   write_program("sub/run");
-  fs::create_directories(folder_ / "sub/work/log");
+  fs::create_directories(folder_ / "sub/runs/log");
   const IraceSetup read = setup({"-s", "sub/scenario.txt", "-p", "parameters.txt"});
-  EXPECT_EQ(read.exec_dir, path("sub/work"));
+  EXPECT_EQ(read.exec_dir, path("sub/runs"));
   EXPECT_EQ(read.target_runner, path("sub/run"));
-  EXPECT_EQ(read.log_file, path("sub/work/log/mine.Rdata"));
-  EXPECT_EQ(read.store, path("sub/work/log/mine.db"));
+  EXPECT_EQ(read.log_file, path("sub/runs/log/mine.Rdata"));
+  EXPECT_EQ(read.store, path("sub/runs/log/mine.db"));
   EXPECT_EQ(read.parameter_file, path("parameters.txt"));
   EXPECT_EQ(setup({"-s", "sub/scenario.txt"}).space[0].name, "z");
 }

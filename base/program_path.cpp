@@ -1,0 +1,28 @@
+#include "base/program_path.h"
+
+#include <unistd.h>
+#include <algorithm>
+#include <system_error>
+
+namespace swarmsmith {
+
+namespace fs = std::filesystem;
+
+bool may_be_run(const fs::path& file) {
+  std::error_code trouble;
+  return fs::is_regular_file(file, trouble) && ::access(file.c_str(), X_OK) == 0;
+}
+
+std::optional<fs::path> program_in(std::string_view search_path, std::string_view name) {
+  while (!search_path.empty()) {
+    const std::size_t end = std::min(search_path.find(':'), search_path.size());
+    const fs::path folder = search_path.substr(0, end);
+    search_path.remove_prefix(std::min(end + 1, search_path.size()));
+    if (!folder.is_absolute()) continue;
+    const fs::path file = (folder / name).lexically_normal();
+    if (may_be_run(file)) return file;
+  }
+  return std::nullopt;
+}
+
+}  // namespace swarmsmith
