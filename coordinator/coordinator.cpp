@@ -261,6 +261,8 @@ LiveStatus Coordinator::status() const {
           .rejected = count(counters.rejected),
           .failed = count(counters.failed),
           .requeued = count(counters.requeued),
+          .expired = count(counters.expired),
+          .lost_workers = count(counters.lost_workers),
           .duplicates = count(counters.duplicates),
           .conflicts = count(counters.conflicts),
           .malformed = count(malformed_count_),

@@ -15,6 +15,8 @@ struct LiveStatus {
   std::int64_t rejected = 0;
   std::int64_t failed = 0;  ///< attempts without a score
   std::int64_t requeued = 0;
+  std::int64_t expired = 0;  ///< of those, leases whose time was over
+  std::int64_t lost_workers = 0;
   std::int64_t duplicates = 0;
   std::int64_t conflicts = 0;
   std::int64_t malformed = 0;
