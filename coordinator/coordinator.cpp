@@ -32,7 +32,7 @@ Coordinator::Coordinator(CoordinatorOptions options, WorkSource& source,
       arena_(arena_options()) {}
 
 void Coordinator::send(PeerId peer, std::string frame) {
-  actions_.emplace_back(SendFrame{peer, std::move(frame)});
+  actions_.emplace_back(SendFrame{peer, std::move(frame), {}});
 }
 
 // --- frames ---
@@ -123,9 +123,9 @@ void Coordinator::on_results(const Sender& sender, const pb::Results& results, T
   scheduler_.on_results(sender, results_, now);
 }
 
-void Coordinator::on_unreachable(PeerId peer, TimePoint now) {
-  faults_.erase(peer);
-  scheduler_.on_unreachable(peer, now);
+void Coordinator::on_unreachable(const SendFrame& unsent, TimePoint now) {
+  faults_.erase(unsent.peer);
+  scheduler_.on_unreachable(unsent.peer, now, unsent.leases);
 }
 
 void Coordinator::on_tick(TimePoint now) {
@@ -140,7 +140,11 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](const SendWelcome& a) { send(a.peer, frame_of(a, facts_, options_.scheduler)); },
           [&](const SendReject& a) { send(a.peer, frame_of(a)); },
           [&](const SendTasks& a) {
-            send(a.peer, frame_of(a, facts_, arena_));
+            std::vector<PackedKey> leases;
+            for (const SendTasks::Leased& leased : a.tasks)
+              leases.push_back(pack(leased.task.key));
+            actions_.emplace_back(
+                SendFrame{a.peer, frame_of(a, facts_, arena_), std::move(leases)});
             arena_.Reset();
           },
           [&](const SendAcknowledged& a) {

@@ -31,6 +31,7 @@ struct CoordinatorOptions {
 struct SendFrame {
   PeerId peer = 0;
   std::string frame;
+  std::vector<PackedKey> leases;  ///< in the frame
 };
 /// One unit for the store; its ticket comes back by `on_appended`, in order.
 struct AppendRows {
@@ -50,7 +51,8 @@ class Coordinator {
 
   /// An empty frame stands for a message that was no single frame.
   void on_frame(PeerId peer, std::string_view frame, TimePoint now);
-  void on_unreachable(PeerId peer, TimePoint now);
+  /// The peer of a frame that could not be sent has gone.
+  void on_unreachable(const SendFrame& unsent, TimePoint now);
   void on_tick(TimePoint now);
   void on_appended(std::uint64_t ticket);
   void on_committed(std::uint64_t ticket);

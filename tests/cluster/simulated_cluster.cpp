@@ -300,7 +300,7 @@ void SimulatedCluster::settle_coordinator() {
       std::visit(Overloaded{[&](const SendFrame& send) {
                               check_acknowledged(send.frame);
                               if (to_worker(send.peer, send.frame) == SendStatus::Gone) {
-                                coordinator_->on_unreachable(send.peer, now_);
+                                coordinator_->on_unreachable(send, now_);
                               }
                             },
                             [&](AppendRows& rows) { append(std::move(rows.rows)); }},

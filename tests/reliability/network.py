@@ -40,7 +40,15 @@ class Proxy:
 
     def close(self):
         """Ends all connections; new ones are refused."""
-        for it in [self.listener, *self.sockets]:
+        with contextlib.suppress(OSError):
+            self.listener.shutdown(socket.SHUT_RDWR)
+        self.listener.close()
+        self.cut()
+
+    def cut(self):
+        """Ends all connections; new ones are passed on."""
+        ended, self.sockets = self.sockets, []
+        for it in ended:
             with contextlib.suppress(OSError):
                 it.shutdown(socket.SHUT_RDWR)
             it.close()

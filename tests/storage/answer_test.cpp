@@ -83,7 +83,8 @@ TEST(Answer, IsDescribedInOneLineWithKeyAndValues) {
 }
 
 TEST(Answer, DescriptionsOfLongTextsDifferWhereverTheTextsDo) {
-  CandidateRow one{.id = {1}, .parent = {}, .modules = {}, .machine = std::string(500, 'x')};
+  CandidateRow one{
+      .id = {1}, .parent = {}, .parameters = {}, .machine = std::string(500, 'x'), .modules = {}};
   CandidateRow other = one;
   other.machine.back() = 'y';
   EXPECT_NE(describe(one), describe(other));
