@@ -74,8 +74,12 @@ class Peer:
         self.socket.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
         self.frames = Frames()
         self.waiting = []
+        self.is_ready = False
         if greet:
             self.socket.sendall(GREETING + ready())
+            # Whoever speaks before both are ready is cut off.
+            while not self.is_ready:
+                self.read()
 
     def __enter__(self):
         return self
@@ -92,17 +96,25 @@ class Peer:
     def receive(self):
         """The next message; b"" when the other side has closed. Answers pings."""
         while not self.waiting:
-            some = self.socket.recv(65536)
-            if not some:
+            if not self.read():
                 return b""
-            for flags, body in self.frames.feed(some):
-                if flags is None:
-                    continue
-                if not flags & COMMAND:
-                    self.waiting.append(body)
-                elif body.startswith(b"\x04PING"):
-                    self.socket.sendall(packed(b"\x04PONG" + body[7:], COMMAND))
         return self.waiting.pop(0)
+
+    def read(self):
+        """Takes what comes; False when the other side has closed."""
+        some = self.socket.recv(65536)
+        for flags, body in self.frames.feed(some):
+            if flags is None:
+                continue
+            if not flags & COMMAND:
+                self.waiting.append(body)
+            elif body.startswith(b"\x05READY"):
+                self.is_ready = True
+            elif body.startswith(b"\x04PING"):
+                self.socket.sendall(packed(b"\x04PONG" + body[7:], COMMAND))
+        if not some and not self.is_ready:
+            raise ConnectionError("closed before it was ready")
+        return bool(some)
 
     def is_closed(self, seconds=10):
         """Whether the other side closes the connection within this time."""
