@@ -225,7 +225,7 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](const SendTasks& a) {
             std::vector<PackedKey> leases;
             for (const SendTasks::Leased& leased : a.tasks)
-              leases.push_back(pack(leased.task));
+              leases.push_back(key_of(leased.task));
             actions_.emplace_back(
                 SendFrame{a.peer, frame_of(a, facts_, arena_), std::move(leases)});
             arena_.Reset();
