@@ -141,7 +141,7 @@ class PowerCut(FaultTest):
         if serve.alive():
             proxy = Proxy(self, serve.address(), rewrite=self.watch)
             worker = self.worker(proxy.address, slots=2)
-        ended = serve.wait(120)
+        ended = serve.wait(60)
         if worker is not None:
             worker.kill()
             proxy.close()

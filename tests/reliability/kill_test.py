@@ -159,7 +159,7 @@ class KillAtPoints(FaultTest):
         wait_for(lambda: serve.address() or not serve.alive(), "a coordinator")
         if serve.alive():
             worker = self.worker(serve.address(), slots=2)
-        ended = serve.wait(120)
+        ended = serve.wait(60)
         if worker is not None:
             worker.kill()
         if wanted is not None:
