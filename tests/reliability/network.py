@@ -81,6 +81,8 @@ class Proxy:
                     self.recorded[number, direction] += some
                     if self.rewrite:
                         some = self.rewritten(frames, direction, some)
+                        if not some:
+                            continue  # a part of a frame
                     wait = self.delay(direction) if self.delay else 0
                     pieces.put((time.monotonic() + wait, some))
             pieces.put((0, b""))

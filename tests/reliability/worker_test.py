@@ -78,7 +78,7 @@ class SlowWorkers(FaultTest):
 RUNNER = """\
 #!/bin/sh
 # The example's target-runner, with faults: once for each call that is to fail, or always.
-key=$(( ($1 * 7 + $2 * 3 + $3) % 40 ))
+key=$(( ($1 * 7 + ${2%t} * 3 + $3) % 40 ))
 call="$PLANTED/$1-$2-$3"
 if [ -n "$PLANTED" ] && [ $key -lt 5 ] && mkdir "$call" 2>/dev/null; then
   case $key in
