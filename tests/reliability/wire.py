@@ -37,6 +37,7 @@ class Frames:
     def __init__(self):
         self.buffer = b""
         self.greeted = False
+        self.passed = 0  #: bytes that a proxy has let through
 
     def feed(self, some):
         """The complete pieces so far: (flags, body), with None for the greeting's flags."""
