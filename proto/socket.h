@@ -44,7 +44,8 @@ struct SocketOptions {
 /// Who was kept out since the start, or cut off.
 struct Refusals {
   /// By reason: "unlisted key", "expired key", "revoked key", "plaintext", "wrong server key", "bad
-  /// handshake", "no handshake" (rubbish, or silence), "too many connections".
+  /// handshake", "no handshake" (rubbish, silence, or a peer that hung up first), "too many
+  /// connections".
   std::map<std::string, std::uint64_t> counts;
   std::map<std::string, std::string> last_from;  ///< address or key's name, where it is known
 
