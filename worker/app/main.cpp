@@ -1,10 +1,8 @@
 // swarmsmith-worker: evaluates for one coordinator until it is sent home.
 
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -13,6 +11,7 @@
 #include <vector>
 
 #include "access/find_coordinator.h"
+#include "base/descriptor_limit.h"
 #include "base/log.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
@@ -59,16 +58,6 @@ struct Arguments {
   bool allow_shell = false;
 };
 
-/// A running program takes three descriptors, and the usual limit of 1,024 is short for hundreds.
-void raise_descriptor_limit() {
-  struct rlimit limit = {};
-  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  const rlim_t wanted = rlim_t{4} * kMaxSlots;
-  if (limit.rlim_cur >= wanted) return;
-  limit.rlim_cur = std::min(limit.rlim_max, wanted);
-  setrlimit(RLIMIT_NOFILE, &limit);
-}
-
 Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
   AllowedPrograms allowed;
   allowed.shell = arguments.allow_shell;
@@ -78,7 +67,8 @@ Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
     allowed.programs.push_back(std::move(*program));
   }
   if (allowed.programs.empty()) return allowed;
-  raise_descriptor_limit();
+  // A running program takes three.
+  raise_descriptor_limit(4 * static_cast<int>(kMaxSlots));
   if (auto started = start_guard(); !started) return Unexpected(started.error());
   return allowed;
 }
