@@ -6,7 +6,7 @@
 
 namespace swarmsmith {
 
-/// How a running campaign is right now; from the coordinator's memory, for people.
+/// How a coordinator's campaigns are right now; from the coordinator's memory, for people.
 struct LiveStatus {
   std::int64_t workers = 0;
   std::int64_t slots = 0;
@@ -26,5 +26,8 @@ struct LiveStatus {
   bool insecure_plaintext = false;
   std::map<std::string, std::uint64_t> refused;  ///< connections, by reason
 };
+
+/// One JSON object with the fields by name.
+std::string to_json(const LiveStatus& status);
 
 }  // namespace swarmsmith
