@@ -174,6 +174,11 @@ void Coordinator::on_unreachable(const SendFrame& unsent, TimePoint now) {
   scheduler_.on_unreachable(unsent.peer, now, unsent.leases);
 }
 
+void Coordinator::on_cut_off(PeerId peer, TimePoint now) {
+  faults_.erase(peer);
+  scheduler_.on_refused(peer, now);
+}
+
 void Coordinator::on_tick(TimePoint now) {
   scheduler_.on_tick(now);
 }
@@ -375,7 +380,9 @@ LiveStatus Coordinator::status() const {
           .malformed = count(malformed_count_),
           .uncommitted = count(waiting_.size()),
           .evaluations_per_s = 0,
-          .trouble = {}};
+          .trouble = {},
+          .insecure_plaintext = false,
+          .refused = {}};
 }
 
 }  // namespace swarmsmith

@@ -73,6 +73,8 @@ class Coordinator {
   void on_frame(const Peer& peer, std::string_view frame, TimePoint now);
   /// The peer of a frame that could not be sent has gone.
   void on_unreachable(const SendFrame& unsent, TimePoint now);
+  /// The peer's key is not good any more: its leases go to others, and nobody is blamed.
+  void on_cut_off(PeerId peer, TimePoint now);
   void on_tick(TimePoint now);
   void on_appended(std::uint32_t campaign, std::uint64_t ticket);
   void on_committed(std::uint32_t campaign, std::uint64_t ticket);
