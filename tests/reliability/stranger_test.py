@@ -8,7 +8,7 @@ import time
 import unittest
 
 from network import Proxy
-from rig import LONG, FaultTest, events, rows, stored, wait_for
+from rig import LONG, FaultTest, call, events, rows, stored, wait_for
 from wire import (COMMAND, GREETING, LONG_SIZE, MAJOR, MINOR, Frames, Peer,
                   frame, message, varint)
 
@@ -329,11 +329,52 @@ class Liars(Visited):
         self.count("lie about what is known", 50)
         self.count("result of a task that is none", 100)
         peer.close()
-        self.finish_undisturbed()
+        self.assertEqual(self.coordinator.wait(), 0, self.coordinator.tail())
+        self.assertEqual(self.digest(self.store), self.expected())
+        # A store with two words about one evaluation is never called clean.
+        self.assertIn("a worker is wrong", call("verify", self.store).stdout)
         self.assertEqual(len(rows(self.store, "select * from conflict")), 50)
         self.assertEqual(len(events(self.store, "not deterministic")), 50)
         self.assertEqual(rows(self.store, "select count(*) from evaluation where score = 99"),
                          [(0,)])
+
+    def test_plausible_scores(self):
+        """It answers all that it is asked, and invents: the audit finds it, and it is asked no more.
+        What it said before is in the store, which is not called clean."""
+        peer, welcome = self.enter()
+        peer.socket.settimeout(1)
+        rng = random.Random(4)
+        told = 0
+        sequence = 2
+        beat = 0
+        while self.coordinator.alive():
+            if time.monotonic() > beat + 0.5:
+                beat = time.monotonic()
+                sequence += 1
+                with contextlib.suppress(OSError):
+                    self.say(peer, sequence, heartbeat={"credit": 8})
+            try:
+                heard = message("ToWorker", peer.receive() or bytes(8))
+            except OSError:
+                continue
+            results = [{"key": task["key"], "attempt": task.get("attempt", 0), "wall_us": 300,
+                        "score": float(rng.randrange(4)), "state_digest": rng.getrandbits(63)}
+                       for task in heard.get("tasks", {}).get("tasks", [])]
+            if not results:
+                continue
+            sequence += 1
+            told += len(results)
+            with contextlib.suppress(OSError):
+                self.say(peer, sequence, results={"scenario": welcome["scenario"],
+                                                  "results": results})
+        self.assertEqual(self.coordinator.wait(), 0, self.coordinator.tail())
+        self.count("invented score", told)
+        [found] = events(self.store, "worker in quarantine")
+        print(f"\n  found after {found['results in the store']} of its scores", end="")
+        self.assertEqual(found["host"], "stranger")
+        self.assertIn("a worker is wrong", call("verify", self.store).stdout)
+        self.assertEqual(rows(self.store, "select count(*) from worker where state = 'quarantined'"),
+                         [(1,)])
 
     def test_somebody_elses_leases(self):
         """It returns and fails what others hold, says old words, and leaves again."""

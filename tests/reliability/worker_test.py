@@ -148,7 +148,7 @@ class Programs(FaultTest):
         self.assertGreater(numbers["rejected"], 0)
         self.count("evaluation rejected", numbers["rejected"])
         reasons = rows(self.store, "select distinct reason from failure")
-        self.assertTrue(all("signal" in reason for [reason] in reasons), reasons)
+        self.assertTrue(all("SIGABRT" in reason for [reason] in reasons), reasons)
 
     def test_worker_killed_while_programs_run(self):
         run = self.run_local("--workers", "2")
