@@ -214,8 +214,7 @@ void Scheduler::on_goodbye(const Sender& sender, TimePoint now) {
   if (entry != nullptr) lose(*entry, Loss::Left, "left", now);
 }
 
-void Scheduler::on_unreachable(PeerId peer, TimePoint now,
-                               std::span<const PackedKey> undelivered) {
+void Scheduler::on_unreachable(PeerId peer, TimePoint now, std::span<const PackedKey> undelivered) {
   WorkerEntry* entry = workers_.of_peer(peer);
   if (entry == nullptr) return;
   // What the worker never got did not kill it.

@@ -24,8 +24,7 @@ namespace swarmsmith {
 namespace {
 
 EvaluatorFactory sleeping_evaluators(std::chrono::milliseconds sleep) {
-  return [real = make_evaluators(),
-          sleep](const std::string& scenario) -> Expected<Evaluator> {
+  return [real = make_evaluators(), sleep](const std::string& scenario) -> Expected<Evaluator> {
     Expected<Evaluator> made = real(scenario);
     if (!made) return made;
     return [evaluate = std::move(*made), sleep](const WorkItem& item) {
@@ -75,5 +74,6 @@ int run(const std::string& address, int count, std::chrono::milliseconds sleep) 
 
 int main(int argc, char** argv) {
   if (argc != 4) return 2;
-  return swarmsmith::run(argv[1], std::atoi(argv[2]), std::chrono::milliseconds(std::atoi(argv[3])));
+  return swarmsmith::run(argv[1], std::atoi(argv[2]),
+                         std::chrono::milliseconds(std::atoi(argv[3])));
 }
