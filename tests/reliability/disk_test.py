@@ -11,7 +11,7 @@ import time
 import unittest
 
 from network import Proxy
-from rig import (BIN, LONG, SWARMSMITH, WORKER, FaultTest, call, need, need_root, rows,
+from rig import (BIN, LONG, SWARMSMITH, WORKER, FaultTest, call, calls_in, need, need_root, rows,
                  stored, wait_for)
 from wire import message
 
@@ -80,10 +80,10 @@ class Slow(FaultTest):
                                 "SWARMSMITH_FAULT_LOG": str(log)})
         workers = [self.worker(serve.address()) for _ in range(2)]
         numbers = self.finish(serve, workers)
-        calls = dict(line.split() for line in log.read_text().splitlines())
-        self.assertGreater(int(calls["sync"]), 3)
-        self.count("slow sync", int(calls["sync"]))
-        self.assertEqual((numbers["failed"], numbers["lost_workers"], numbers["expired"]), (0, 0, 0))
+        calls = calls_in(log)
+        self.assertGreater(calls["sync"], 3)
+        self.count("slow sync", calls["sync"])
+        self.assert_none(numbers, "failed", "lost_workers", "expired")
 
 
 class PowerCut(FaultTest):
@@ -114,7 +114,7 @@ class PowerCut(FaultTest):
         log = self.folder / "calls"
         self.play({"SWARMSMITH_FAULT_LOG": str(log)})
         self.assert_same_answer()
-        calls = {name: int(n) for name, n in (line.split() for line in log.read_text().splitlines())}
+        calls = calls_in(log)
         changes = calls["write"] + calls["sync"]
         rng = random.Random(5)
         cuts = sorted({1, 2, 3, 5, 8, 13, 21, changes - 1} |
@@ -254,7 +254,8 @@ class Damaged(FaultTest):
         for table, what in (("evaluation", columns), ("candidate", "*"), ("pair", "*"),
                             ("race_step", "*"), ("elimination", "*"), ("elite", "*")):
             query = f"select {what} from {table}"
-            self.assertEqual(rows(self.store, query), rows(sound, query), "another answer, silently")
+            self.assertEqual(rows(self.store, query), rows(sound, query),
+                             "another answer, silently")
         return "bits of a state digest"
 
     def test_a_damaged_header_or_page_is_refused(self):
@@ -317,7 +318,7 @@ class Damaged(FaultTest):
 
         done = run(self.folder / "new.db", "read-only folder")
         self.assert_refused(done.returncode, done.stderr, str(self.folder))
-        self.assertEqual(stored(half / "campaign.db"), stored(self.folder / "wrong-owner" / "campaign.db"))
+        self.assertEqual(stored(half / "campaign.db"), stored(folder / "campaign.db"))
 
 
 if __name__ == "__main__":

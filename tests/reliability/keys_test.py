@@ -34,7 +34,8 @@ class Keys(FaultTest):
         """Connections refused, by reason."""
         found = {}
         for reason, times in re.findall(
-                r'event="?connection refused"? reason="?([^"=]*?)"? times=(\d+)', self.serving.log()):
+                r'event="?connection refused"? reason="?([^"=]*?)"? times=(\d+)',
+                self.serving.log()):
             found[reason] = found.get(reason, 0) + int(times)
         return found
 

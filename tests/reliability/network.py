@@ -1,4 +1,4 @@
-"""Networks that tests may break: a proxy in front of a coordinator, and hosts made of namespaces."""
+"""Networks that tests may break: a proxy before a coordinator, hosts made of namespaces."""
 import contextlib
 import itertools
 import queue
@@ -182,8 +182,8 @@ class Hosts:
             text += "".join(rule.split(" ", 1)[1] + "\n" for rule in rules
                             if rule.startswith(chain + " "))
             text += "}\n"
-        subprocess.run([*self.at(name), "nft", "-f", "-"], input=text + "}\n", text=True, check=True,
-                       capture_output=True, timeout=30)
+        subprocess.run([*self.at(name), "nft", "-f", "-"], input=text + "}\n", text=True,
+                       check=True, capture_output=True, timeout=30)
 
     def loss(self, name, percent):
         rule = f"numgen random mod 100 < {percent} counter drop"

@@ -40,7 +40,7 @@ class HostsTest(FaultTest):
 
     def finish_all(self):
         numbers = self.finish(self.coordinator, self.workers)
-        self.assertEqual((numbers["failed"], numbers["rejected"], numbers["conflicts"]), (0, 0, 0))
+        self.assert_none(numbers, "failed", "rejected", "conflicts")
         return numbers
 
 class Namespaces(HostsTest):
@@ -97,7 +97,7 @@ class Namespaces(HostsTest):
             time.sleep(rng.uniform(0.05, 0.5))
         # Not the workers: a cable may have been out when they were sent home.
         numbers = self.finish(self.coordinator)
-        self.assertEqual((numbers["failed"], numbers["rejected"], numbers["conflicts"]), (0, 0, 0))
+        self.assert_none(numbers, "failed", "rejected", "conflicts")
         self.assertGreater(self.tried["link down and up"], 3)
 
     def test_coordinator_is_cut_off(self):
@@ -157,7 +157,7 @@ class Delays(FaultTest):
         workers = [self.worker(proxy.address) for proxy in proxies]
         numbers = self.finish(serve, workers)
         self.count("campaign with late bytes")
-        self.assertEqual((numbers["failed"], numbers["rejected"], numbers["conflicts"]), (0, 0, 0))
+        self.assert_none(numbers, "failed", "rejected", "conflicts")
         return numbers
 
     def test_50_ms_and_jitter(self):

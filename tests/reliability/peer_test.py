@@ -70,8 +70,8 @@ class Liars(Visited):
                          [(0,)])
 
     def test_plausible_scores(self):
-        """It answers all that it is asked, and invents: the audit finds it, and it is asked no more.
-        What it said before is in the store, which is not called clean."""
+        """It answers all that it is asked, and invents: the audit finds it, and it is asked no
+        more. What it said before is in the store, which is not called clean."""
         peer, welcome = self.enter()
         peer.socket.settimeout(1)
         rng = random.Random(4)
@@ -104,8 +104,8 @@ class Liars(Visited):
         print(f"\n  found after {found['results in the store']} of its scores", end="")
         self.assertEqual(found["host"], "stranger")
         self.assertIn("a worker is wrong", call("verify", self.store).stdout)
-        self.assertEqual(rows(self.store, "select count(*) from worker where state = 'quarantined'"),
-                         [(1,)])
+        quarantined = "select count(*) from worker where state = 'quarantined'"
+        self.assertEqual(rows(self.store, quarantined), [(1,)])
 
     def test_somebody_elses_leases(self):
         """It returns and fails what others hold, says old words, and leaves again."""

@@ -72,6 +72,11 @@ def events(store, kind):
             rows(store, f"select text from event where kind = '{kind}' order by seq")]
 
 
+def calls_in(log):
+    """What faulty_calls wrote into its log: the number of calls of each kind."""
+    return {name: int(n) for name, n in (line.split() for line in log.read_text().splitlines())}
+
+
 class Program:
     """A started program whose output goes to files; ended at the latest with its test."""
 
@@ -102,7 +107,8 @@ class Program:
         try:
             return self.process.wait(timeout=seconds)
         except subprocess.TimeoutExpired:
-            raise AssertionError(f"{self.name} did not end in {seconds} s:\n{self.tail()}") from None
+            raise AssertionError(
+                f"{self.name} did not end in {seconds} s:\n{self.tail()}") from None
 
     def log(self):
         return self.err.read_text(errors="replace")
@@ -225,6 +231,10 @@ class FaultTest(unittest.TestCase):
     def assert_clean(self, store):
         done = call("verify", store)
         self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def assert_none(self, numbers, *names):
+        """None of these was counted."""
+        self.assertEqual({name: numbers[name] for name in names}, dict.fromkeys(names, 0))
 
     def assert_same_answer(self, store=None):
         store = store or self.store

@@ -87,7 +87,7 @@ class Malformed(Visited):
                 peer.send(self.hello(**change))
                 answer = message("ToWorker", peer.receive())
                 self.assertIn(word, answer["reject"]["sentence"])
-        wait_for(lambda: len(events(self.store, "worker refused")) == 2, "refusals in the store", 10)
+        wait_for(lambda: len(events(self.store, "worker refused")) == 2, "two refusals", 10)
         self.count("other build", 2)
 
 

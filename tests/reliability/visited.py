@@ -57,7 +57,8 @@ class Visited(FaultTest):
         """What an honest worker says first, from another one."""
         honest = next(message("ToCoordinator", body) for body in self.heard()
                       if "hello" in message("ToCoordinator", body))
-        hello = {**honest["hello"], "worker_id": os.urandom(16), "host": "stranger", "pid": 1, **changes}
+        hello = {**honest["hello"], "worker_id": os.urandom(16), "host": "stranger", "pid": 1,
+                 **changes}
         hello.pop("holds", None)
         return frame("ToCoordinator", {"sequence": 1, "incarnation": 1, "hello": hello})
 

@@ -25,7 +25,7 @@ class Clocks(FaultTest):
         self.set(0)
 
     def set(self, seconds):
-        """The clock's distance from the true one; replaced as a whole, since it is read meanwhile."""
+        """The clock's distance from the true one; the file is read all the time."""
         new = self.folder / "time.new"
         new.write_text(f"{seconds:+d}\n")
         new.rename(self.time)
@@ -40,16 +40,16 @@ class Clocks(FaultTest):
             self.count("clock jump")
             time.sleep(0.5)
         numbers = self.finish(serve, workers)
-        self.assertEqual((numbers["failed"], numbers["rejected"], numbers["conflicts"]), (0, 0, 0))
+        self.assert_none(numbers, "failed", "rejected", "conflicts")
         return numbers
 
     def test_wall_clock_of_the_coordinator(self):
         numbers = self.jump({**self.env, "DONT_FAKE_MONOTONIC": "1"}, of_workers=False)
-        self.assertEqual((numbers["expired"], numbers["lost_workers"]), (0, 0))
+        self.assert_none(numbers, "expired", "lost_workers")
 
     def test_wall_clock_of_the_workers(self):
         numbers = self.jump({**self.env, "DONT_FAKE_MONOTONIC": "1"}, of_workers=True)
-        self.assertEqual((numbers["expired"], numbers["lost_workers"]), (0, 0))
+        self.assert_none(numbers, "expired", "lost_workers")
 
 
 class SlowWorkers(FaultTest):
@@ -70,7 +70,7 @@ class SlowWorkers(FaultTest):
         slow.send(signal.SIGCONT)
         self.count("slow worker")
         numbers = self.finish(serve, [slow, fast])
-        self.assertEqual((numbers["failed"], numbers["rejected"], numbers["conflicts"]), (0, 0, 0))
+        self.assert_none(numbers, "failed", "rejected", "conflicts")
         SlowWorkers.took = time.monotonic() - began
         print(f"\n  {self.took:.1f} s, {numbers['requeued']} leases given to the other one", end="")
 
@@ -194,9 +194,9 @@ class Drain(FaultTest):
         self.count("worker drained", len(workers))
         wait_for(lambda: serve.progress().get("workers") == 0, "no worker", 10)
         numbers = serve.progress()
-        self.assertEqual((numbers["leased"], numbers["expired"], numbers["lost_workers"]), (0, 0, 0))
+        self.assert_none(numbers, "leased", "expired", "lost_workers")
         numbers = self.finish(serve, [self.worker(serve.address(), slots=2)])
-        self.assertEqual((numbers["expired"], numbers["lost_workers"]), (0, 0))
+        self.assert_none(numbers, "expired", "lost_workers")
         self.assertEqual(events(self.store, "worker lost"), [])
 
 
