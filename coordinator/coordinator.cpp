@@ -56,7 +56,7 @@ void Coordinator::put_row(const Row& row) {
 }
 
 void Coordinator::send(PeerId peer, std::string frame) {
-  actions_.emplace_back(SendFrame{peer, std::move(frame)});
+  actions_.emplace_back(SendFrame{peer, std::move(frame), {}});
 }
 
 // --- frames ---
@@ -169,9 +169,14 @@ void Coordinator::on_results(const Sender& sender, const pb::Results& results, T
   scheduler_.on_results(sender, results_, now);
 }
 
-void Coordinator::on_unreachable(PeerId peer, TimePoint now) {
+void Coordinator::on_unreachable(const SendFrame& unsent, TimePoint now) {
+  faults_.erase(unsent.peer);
+  scheduler_.on_unreachable(unsent.peer, now, unsent.leases);
+}
+
+void Coordinator::on_cut_off(PeerId peer, TimePoint now) {
   faults_.erase(peer);
-  scheduler_.on_unreachable(peer, now);
+  scheduler_.on_refused(peer, now);
 }
 
 void Coordinator::on_tick(TimePoint now) {
@@ -224,7 +229,11 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](const SendWelcome& a) { send(a.peer, frame_of(a, facts_, options_.scheduler)); },
           [&](const SendReject& a) { send(a.peer, frame_of(a)); },
           [&](const SendTasks& a) {
-            send(a.peer, frame_of(a, facts_, arena_));
+            std::vector<PackedKey> leases;
+            for (const SendTasks::Leased& leased : a.tasks)
+              leases.push_back(key_of(leased.task));
+            actions_.emplace_back(
+                SendFrame{a.peer, frame_of(a, facts_, arena_), std::move(leases)});
             arena_.Reset();
           },
           [&](const SendAcknowledged& a) {
@@ -364,12 +373,16 @@ LiveStatus Coordinator::status() const {
           .rejected = count(counters.rejected),
           .failed = count(counters.failed),
           .requeued = count(counters.requeued),
+          .expired = count(counters.expired),
+          .lost_workers = count(counters.lost_workers),
           .duplicates = count(counters.duplicates),
           .conflicts = count(counters.conflicts),
           .malformed = count(malformed_count_),
           .uncommitted = count(waiting_.size()),
           .evaluations_per_s = 0,
-          .trouble = {}};
+          .trouble = {},
+          .insecure_plaintext = false,
+          .refused = {}};
 }
 
 }  // namespace swarmsmith

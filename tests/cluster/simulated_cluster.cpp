@@ -54,6 +54,10 @@ Schedule schedule_of(std::uint64_t seed) {
                      .coordinator_crashes = up_to(3),
                      .pauses = up_to(3),
                      .slow_commit = one_of({0, 0.05, 0.5}),
+                     .clock_steps = rng.bernoulli(0.3) ? up_to(3) : 0,
+                     .total_crashes = rng.bernoulli(0.2) ? up_to(2) : 0,
+                     .full_disks = rng.bernoulli(0.2) ? up_to(2) : 0,
+                     .flaps = rng.bernoulli(0.2) ? up_to(2) : 0,
                      .until = milliseconds(rng.uniform_int(100, rng.bernoulli(0.8) ? 800 : 8000))};
   CampaignShape& campaign = schedule.campaign;
   campaign.seed = seed;
@@ -162,7 +166,7 @@ void SimulatedCluster::plan_faults() {
   sometimes(faults.coordinator_crashes, [this](int) { crash_coordinator(); });
   sometimes(faults.worker_drains, [this](int worker) {
     on_process(worker, Duration{0}, [this, worker] {
-      workers_[static_cast<std::size_t>(worker)].protocol->on_drain(now_);
+      workers_[static_cast<std::size_t>(worker)].protocol->on_drain(clock(worker));
       settle_worker(worker);
     });
   });
@@ -170,12 +174,38 @@ void SimulatedCluster::plan_faults() {
     const int index = rng_.bernoulli(0.3) ? kCoordinator : worker;
     process(index).paused_until = now_ + between(milliseconds(10), seconds(12));
   });
+  sometimes(faults.clock_steps, [this](int worker) {
+    const int index = rng_.bernoulli(0.3) ? kCoordinator : worker;
+    process(index).skew += between(-seconds(20), seconds(60));
+    // Timers of the system fire by the new time.
+    if (index != kCoordinator && process(index).alive) {
+      on_process(index, Duration{0}, [this, index] { settle_worker(index); });
+    }
+  });
+  sometimes(faults.total_crashes, [this](int) {
+    for (int i = 0; i < kWorkers; ++i)
+      crash_worker(i);
+    crash_coordinator();
+  });
+  sometimes(faults.full_disks,
+            [this](int) { disk_full_until_ = now_ + between(milliseconds(10), seconds(20)); });
+  sometimes(faults.flaps, [this](int worker) { flap(worker, 10); });
   sometimes(faults.cuts, [this](int worker) {
     const TimePoint until = now_ + between(milliseconds(10), seconds(8));
     const std::uint64_t ways = rng_.below(3);
     if (ways != 0) process(worker).cut_in_until = until;
     if (ways != 1) process(worker).cut_out_until = until;
   });
+}
+
+/// A cable that is out and in again, a few times.
+void SimulatedCluster::flap(int worker, int times) {
+  if (times == 0) return;
+  const TimePoint until = now_ + between(milliseconds(5), seconds(2));
+  process(worker).cut_in_until = until;
+  process(worker).cut_out_until = until;
+  at(until + between(milliseconds(1), milliseconds(200)),
+     [this, worker, times] { flap(worker, times - 1); });
 }
 
 // --- network ---
@@ -193,12 +223,12 @@ void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string
       const Connection& over = connections_.at(connection);
       if (to == kCoordinator) {
         if (over.coordinator_life != coordinator_process_.life) return;
-        coordinator_->on_frame({connection}, frame, now_);
+        coordinator_->on_frame({connection}, frame, clock(kCoordinator));
         settle_coordinator();
       } else {
         Worker& worker = workers_[static_cast<std::size_t>(to)];
         if (worker.connection != connection) return;
-        worker.protocol->on_frame(frame, now_);
+        worker.protocol->on_frame(frame, clock(to));
         settle_worker(to);
       }
       (void)from;
@@ -218,7 +248,7 @@ void SimulatedCluster::connect(int index) {
   on_process(index, milliseconds(1), [this, index, connection = worker.connection] {
     Worker& it = workers_[static_cast<std::size_t>(index)];
     if (it.connection != connection) return;
-    it.protocol->on_connection_lost(now_);
+    it.protocol->on_connection_lost(clock(index));
     settle_worker(index);
   });
 }
@@ -272,7 +302,7 @@ void SimulatedCluster::crash_coordinator() {
   coordinator_.reset();
   campaign_.reset();
   // Some of what waited for the disk may have come there all the same.
-  const std::uint64_t written = rng_.below(uncommitted_.size() + 1);
+  const std::uint64_t written = now_ < disk_full_until_ ? 0 : rng_.below(uncommitted_.size() + 1);
   for (std::uint64_t i = 0; i < written; ++i)
     write(uncommitted_[i].rows);
   uncommitted_.clear();
@@ -282,7 +312,7 @@ void SimulatedCluster::crash_coordinator() {
     if (worker.connection != 0) connections_[worker.connection].open = false;
     if (!noticed) continue;
     on_process(i, between(Duration{0}, milliseconds(5)), [this, i] {
-      workers_[static_cast<std::size_t>(i)].protocol->on_connection_lost(now_);
+      workers_[static_cast<std::size_t>(i)].protocol->on_connection_lost(clock(i));
       settle_worker(i);
     });
   }
@@ -290,19 +320,19 @@ void SimulatedCluster::crash_coordinator() {
 }
 
 void SimulatedCluster::tick_coordinator() {
-  coordinator_->on_tick(now_);
+  coordinator_->on_tick(clock(kCoordinator));
   settle_coordinator();
   on_process(kCoordinator, milliseconds(100), [this] { tick_coordinator(); });
 }
 
 void SimulatedCluster::settle_coordinator() {
-  for (auto actions = coordinator_->take_actions(now_); !actions.empty();
-       actions = coordinator_->take_actions(now_)) {
+  for (auto actions = coordinator_->take_actions(clock(kCoordinator)); !actions.empty();
+       actions = coordinator_->take_actions(clock(kCoordinator))) {
     for (CoordinatorAction& action : actions) {
       std::visit(Overloaded{[&](const SendFrame& send) {
                               check_acknowledged(send.frame);
                               if (to_worker(send.peer, send.frame) == SendStatus::Gone) {
-                                coordinator_->on_unreachable(send.peer, now_);
+                                coordinator_->on_unreachable(send, clock(kCoordinator));
                               }
                             },
                             [&](AppendRows& rows) { append(std::move(rows.rows)); },
@@ -328,6 +358,12 @@ void SimulatedCluster::append(std::vector<Row> rows) {
 
 void SimulatedCluster::commit() {
   if (uncommitted_.empty()) return;
+  if (now_ < disk_full_until_) {
+    coordinator_->hold(true);
+    on_process(kCoordinator, disk_full_until_ - now_, [this] { commit(); });
+    return;
+  }
+  coordinator_->hold(false);
   const Batch batch = std::move(uncommitted_.front());
   uncommitted_.pop_front();
   write(batch.rows);
@@ -366,7 +402,7 @@ void SimulatedCluster::start_worker(int index) {
   worker.protocol = std::make_unique<WorkerProtocol>(
       WorkerIdentity{.id = id, .slots = worker.slots, .host = "here"}, WorkerOptions{},
       rng_.split("jitter", order_));
-  worker.protocol->start(now_);
+  worker.protocol->start(clock(index));
   settle_worker(index);
 }
 
@@ -410,7 +446,7 @@ void SimulatedCluster::carry_out(int index, WorkerAction& action) {
                    for (const WorkItem& item : worker.waiting)
                      keys.push_back(item.key);
                    worker.waiting.clear();
-                   worker.protocol->on_taken_back(keys, now_);
+                   worker.protocol->on_taken_back(keys, clock(index));
                  },
                  [&](DropItems) { worker.waiting.clear(); },
                  [&](const Leave& leave) {
@@ -428,7 +464,7 @@ void SimulatedCluster::start_items(int index) {
     const WorkItem item = std::move(worker.waiting.front());
     worker.waiting.pop_front();
     ++worker.running;
-    worker.protocol->on_started(item.key, now_);
+    worker.protocol->on_started(item.key, clock(index));
     on_process(index, time_of(item.key), [this, index, item] { finish_item(index, item); });
   }
 }
@@ -450,13 +486,15 @@ void SimulatedCluster::finish_item(int index, const WorkItem& item) {
        .state_digest = truth.state_digest,
        .wall_us = std::chrono::duration_cast<microseconds>(time_of(item.key)).count(),
        .failure = fails ? "planted" : ""},
-      now_);
+      clock(index));
   settle_worker(index);
 }
 
 void SimulatedCluster::schedule_tick(int index) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
-  const TimePoint due = std::max(worker.protocol->next_deadline(), now_ + microseconds(100));
+  // The protocol thinks in its own host's time.
+  const TimePoint due =
+      std::max(worker.protocol->next_deadline() - worker.process.skew, now_ + microseconds(100));
   const bool pending = worker.tick_at > now_ && worker.tick_at <= due;
   if (pending) return;
   worker.tick_at = due;
@@ -464,7 +502,7 @@ void SimulatedCluster::schedule_tick(int index) {
     Worker& it = workers_[static_cast<std::size_t>(index)];
     if (it.tick_at != due) return;
     it.tick_at = {};
-    it.protocol->on_tick(now_);
+    it.protocol->on_tick(clock(index));
     settle_worker(index);
   });
 }

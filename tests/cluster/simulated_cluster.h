@@ -31,6 +31,10 @@ struct Faults {
   int coordinator_crashes = 0;
   int pauses = 0;          ///< of a process that lives on
   double slow_commit = 0;  ///< probability, a commit
+  int clock_steps = 0;     ///< of one process's clock, by up to a minute, forwards or back
+  int total_crashes = 0;   ///< of coordinator and workers at once
+  int full_disks = 0;      ///< for up to 20 s nothing can be committed
+  int flaps = 0;           ///< a worker's link goes down and up ten times
   Duration until = std::chrono::seconds(0);
 };
 
@@ -80,6 +84,7 @@ class SimulatedCluster {
     TimePoint paused_until;
     TimePoint cut_in_until;   ///< messages to it are lost
     TimePoint cut_out_until;  ///< messages from it are lost
+    Duration skew{0};         ///< its host's clock less the true time
   };
   struct Worker {
     Process process;
@@ -106,7 +111,9 @@ class SimulatedCluster {
   void on_process(int process, Duration delay, std::function<void()> what);
   Process& process(int index);
   Duration between(Duration low, Duration high);
+  TimePoint clock(int index) { return now_ + process(index).skew; }
   void plan_faults();
+  void flap(int worker, int times);
   void fail(const std::string& what);
 
   // Network.
@@ -153,6 +160,7 @@ class SimulatedCluster {
   std::deque<Batch> uncommitted_;
   std::uint64_t tickets_ = 0;
   TimePoint last_commit_;
+  TimePoint disk_full_until_;
 
   std::vector<Worker> workers_;
   std::set<PackedKey> failed_;   ///< said once to have no score
