@@ -96,7 +96,7 @@ int measure(Case& c) {
   if (!c.recorded.empty()) {
     const auto races = read_races(c.recorded);
     if (!races) return std::fprintf(stderr, "%s\n", to_string(races.error()).c_str()), 1;
-    RecordedRaces source(*races, c.designs, c.designs);
+    RecordedRaces source(*races, c.designs);
     BusyTime busy(source.total());
     return report(c, run_cluster(c.shape, source, {}, [&](const auto& rows) { busy.add(rows); }),
                   busy);

@@ -10,6 +10,13 @@
 #include "storage/rows.h"
 
 namespace swarmsmith::bench {
+namespace {
+
+std::int64_t pairs_of(const RecordedTest& test) {
+  return (test.evaluated + test.alive - 1) / test.alive;
+}
+
+}  // namespace
 
 Expected<std::vector<RecordedRace>> read_races(const std::filesystem::path& file) {
   std::ifstream lines(file);
@@ -32,30 +39,38 @@ Expected<std::vector<RecordedRace>> read_races(const std::filesystem::path& file
   return races;
 }
 
-RecordedRaces::RecordedRaces(const std::vector<RecordedRace>& races, int designs, int open_at_once)
-    : open_at_once_(static_cast<std::size_t>(open_at_once)) {
+RecordedRaces::RecordedRaces(const std::vector<RecordedRace>& races, int designs, std::size_t ahead)
+    : ahead_(ahead) {
   for (int i = 0; i < designs; ++i) {
-    designs_.push_back({.race = &races[static_cast<std::size_t>(i) % races.size()]});
-    for (const RecordedTest& test : *designs_.back().race)
+    Design design{.race = &races[static_cast<std::size_t>(i) % races.size()]};
+    std::int64_t pair = 1;
+    for (const RecordedTest& test : *design.race) {
       total_ += test.evaluated;
+      design.first_pair.push_back(pair);
+      pair += pairs_of(test);
+    }
+    designs_.push_back(std::move(design));
   }
-  open();
-}
-
-void RecordedRaces::open() {
-  while (opened_ < designs_.size() && opened_ - ended_ < open_at_once_)
-    go_on(opened_++);
+  for (std::size_t i = 0; i < designs_.size(); ++i)
+    go_on(i);
 }
 
 void RecordedRaces::go_on(std::size_t number) {
   Design& design = designs_[number];
   while (design.awaited == 0) {
+    if (design.next_test > 0) {
+      ++tests_;
+      drop(design, (*design.race)[design.next_test - 1]);
+    }
     if (design.next_test == design.race->size()) {
       ++ended_;
       return;
     }
-    const RecordedTest& test = (*design.race)[design.next_test++];
-    if (test.iteration != design.iteration) begin_iteration(number, test);
+    const std::size_t test = design.next_test++;
+    design.offered = std::max(design.offered, design.next_test);
+    if ((*design.race)[test].iteration != design.iteration) {
+      begin_iteration(number, (*design.race)[test]);
+    }
     want(number, test);
   }
 }
@@ -78,24 +93,75 @@ void RecordedRaces::begin_iteration(std::size_t number, const RecordedTest& test
 }
 
 /// On as many pairs as the evaluations need; elites, who live longest, have been on older ones.
-void RecordedRaces::want(std::size_t number, const RecordedTest& test) {
+std::vector<Task> RecordedRaces::tasks_of(std::size_t number, std::size_t test,
+                                          std::int64_t alive) const {
   constexpr std::size_t kMachineBytes = 160;
-  Design& design = designs_[number];
+  const Design& design = designs_[number];
   const DesignId id{static_cast<std::int64_t>(number) + 1};
-  const std::int64_t pairs = (test.evaluated + test.alive - 1) / test.alive;
+  const RecordedTest& of = (*design.race)[test];
+  const std::int64_t pairs = pairs_of(of);
+  std::vector<Task> tasks;
   for (std::int64_t p = 0; p < pairs; ++p) {
-    const std::int64_t width = test.evaluated / pairs + (p < test.evaluated % pairs ? 1 : 0);
-    std::vector<std::int64_t> who(design.by_rank.begin() + (test.alive - width),
-                                  design.by_rank.begin() + test.alive);
+    const std::int64_t width = of.evaluated / pairs + (p < of.evaluated % pairs ? 1 : 0);
+    std::vector<std::int64_t> who(design.by_rank.begin() + (of.alive - width),
+                                  design.by_rank.begin() + alive);
     std::ranges::sort(who);
-    const std::int64_t pair = ++design.pairs;
+    const std::int64_t pair = design.first_pair[test] + p;
     for (const std::int64_t candidate : who) {
-      tasks_.push_back({.key = {candidate_id(id, candidate + 1), Purpose::Race, pair},
-                        .seed = static_cast<std::int64_t>(number) << 40U | candidate << 20U | pair,
-                        .machine = std::string(kMachineBytes, 'x')});
+      tasks.push_back({.key = {candidate_id(id, candidate + 1), Purpose::Race, pair},
+                       .seed = static_cast<std::int64_t>(number) << 40U | candidate << 20U | pair,
+                       .machine = std::string(kMachineBytes, 'x')});
     }
   }
-  design.awaited = test.evaluated;
+  return tasks;
+}
+
+void RecordedRaces::want(std::size_t number, std::size_t test) {
+  Design& design = designs_[number];
+  for (Task& task : tasks_of(number, test, (*design.race)[test].alive)) {
+    const auto known = design.ahead.find(task.key);
+    if (known != design.ahead.end() && known->second == Ahead::Done) {
+      design.ahead.erase(known);
+      continue;
+    }
+    if (known != design.ahead.end()) known->second = Ahead::Wanted;
+    ++design.awaited;
+    tasks_.push_back(std::move(task));
+  }
+}
+
+/// What was asked for ahead of candidates that the test drops.
+void RecordedRaces::drop(Design& design, const RecordedTest& test) {
+  for (std::int64_t rank = test.kept; rank < test.alive; ++rank) {
+    const DesignId id{&design - designs_.data() + 1};
+    const std::int64_t candidate = design.by_rank[static_cast<std::size_t>(rank)];
+    const EvaluationKey first{candidate_id(id, candidate + 1), Purpose::Race, 0};
+    for (auto at = design.ahead.lower_bound(first);
+         at != design.ahead.end() && at->first.candidate == first.candidate; ++at) {
+      if (at->second != Ahead::Asked) continue;
+      at->second = Ahead::Dropped;
+      dropped_.push_back(at->first);
+    }
+  }
+}
+
+std::vector<Task> RecordedRaces::take_more(std::size_t count) {
+  std::vector<Task> more;
+  for (std::size_t number = 0; number < designs_.size(); ++number) {
+    Design& design = designs_[number];
+    if (design.awaited == 0) continue;
+    const RecordedTest& now = (*design.race)[design.next_test - 1];
+    while (more.size() < count && design.offered < design.race->size() &&
+           design.offered < design.next_test + ahead_ &&
+           (*design.race)[design.offered].iteration == design.iteration) {
+      for (Task& task : tasks_of(number, design.offered, now.alive)) {
+        design.ahead.emplace(task.key, Ahead::Asked);
+        more.push_back(std::move(task));
+      }
+      ++design.offered;
+    }
+  }
+  return more;
 }
 
 void RecordedRaces::tell(const Outcome& outcome) {
@@ -110,9 +176,17 @@ void RecordedRaces::tell(const Outcome& outcome) {
                                    .worker = outcome.worker,
                                    .attempt = outcome.attempt});
   const auto number = static_cast<std::size_t>(design_of(outcome.key.candidate).value - 1);
-  if (--designs_[number].awaited > 0) return;
-  go_on(number);
-  open();
+  Design& design = designs_[number];
+  if (const auto known = design.ahead.find(outcome.key); known != design.ahead.end()) {
+    if (known->second == Ahead::Asked) {
+      known->second = Ahead::Done;
+      return;
+    }
+    const bool wanted = known->second == Ahead::Wanted;
+    design.ahead.erase(known);
+    if (!wanted) return;
+  }
+  if (--design.awaited == 0) go_on(number);
 }
 
 }  // namespace swarmsmith::bench
