@@ -31,8 +31,8 @@ void print_all(const std::vector<RecordedRace>& races) {
   };
   for (const int slots : {8, 64, 256, 1024, 4096}) {
     for (const double ms : {2.0, 5.0, 50.0}) {
-      for (const Kind kind :
-           {Kind{1, 0}, Kind{1, 3}, Kind{10, 0}, Kind{10, 3}, Kind{40, 0}, Kind{40, 3}}) {
+      for (const Kind kind : {Kind{1, 0}, Kind{1, 3}, Kind{1, 10}, Kind{10, 0}, Kind{10, 3},
+                              Kind{10, 10}, Kind{40, 0}, Kind{40, 3}}) {
         print_case(races, {.slots = slots, .us = 1e3 * ms}, kind.designs, kind.ahead);
       }
     }

@@ -79,19 +79,22 @@ Expected<std::vector<DesignPlan>> plans_for(const Case& c) {
 int report(const Case& c, const Expected<ClusterRun>& run, const BusyTime& busy) {
   if (!run) return std::fprintf(stderr, "%s\n", to_string(run.error()).c_str()), 1;
   const int slots = c.shape.processes * c.shape.each.slots;
-  std::printf("| %d | %s | %d x %d | %.1f | %lld | %.0f | %.1f %% | %.0f |\n", c.designs,
+  // Over the whole campaign, its end included.
+  const double efficiency =
+      static_cast<double>(busy.done() * c.shape.work.us) / (1e6 * run->wall_s * slots);
+  std::printf("| %d | %s | %d x %d | %.1f | %lld | %.0f | %.1f %% | %.1f %% | %.1f |\n", c.designs,
               c.recorded.empty() ? std::to_string(c.budget).c_str() : "recorded", c.shape.processes,
               c.shape.each.slots, 1e-3 * static_cast<double>(c.shape.work.us),
               static_cast<long long>(busy.done()), busy.rate(), 100 * busy.share(slots),
-              1e6 * run->coordinator.all() / static_cast<double>(busy.done()));
+              100 * efficiency, 1e6 * run->coordinator.all() / static_cast<double>(busy.done()));
   return 0;
 }
 
 int measure(Case& c) {
   std::printf(
       "| designs | budget of each | processes x slots | ms an evaluation | evaluations | "
-      "evaluations/s | busy slots | coordinator's CPU, us |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "evaluations/s | busy slots | efficiency of the whole | coordinator's CPU, us |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   c.shape.designs = c.designs;
   if (!c.recorded.empty()) {
     const auto races = read_races(c.recorded);

@@ -122,8 +122,8 @@ class Model {
   // --- the coordinator: one thread, busy until `free_` ---
 
   void hear(const Event& event) {
-    free_ = std::max(free_, event.at) + shape_.message_us +
-            shape_.result_us * static_cast<double>(event.items.size());
+    free_ = free_ > event.at ? free_ : event.at + shape_.wake_us;
+    free_ += shape_.message_us + shape_.result_us * static_cast<double>(event.items.size());
     const std::int64_t tests = source_->tests();
     for (const Item& item : event.items) {
       --workers_[event.worker].leased;

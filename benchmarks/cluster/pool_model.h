@@ -18,9 +18,10 @@ struct ModelShape {
   double spread = 0.3;             ///< times are even within +- this part
   double latency_us = 100;         ///< of a message
   // Of the coordinator's main thread.
+  double wake_us = 8;     ///< a message that finds it asleep
   double message_us = 4;  ///< a message with results
   double result_us = 2;   ///< a result in it
-  double test_us = 100;   ///< a test, and the next tasks
+  double test_us = 60;    ///< a test, and the next tasks
 };
 
 struct ModelRun {
