@@ -5,7 +5,7 @@
 
 namespace swarmsmith {
 
-/// How a running campaign is right now; from the coordinator's memory, for people.
+/// How a coordinator's campaigns are right now; from the coordinator's memory, for people.
 struct LiveStatus {
   std::int64_t workers = 0;
   std::int64_t slots = 0;
@@ -22,5 +22,8 @@ struct LiveStatus {
   double evaluations_per_s = 0;  ///< over the last seconds
   std::string trouble;           ///< why nothing can be written; empty when well
 };
+
+/// One JSON object with the fields by name.
+std::string to_json(const LiveStatus& status);
 
 }  // namespace swarmsmith
