@@ -2,8 +2,8 @@
 // worker processes; evaluations wait instead of computing, so that a small machine has many slots.
 // Races are real ones over synthetic scores, or go as recorded ones did.
 //
-//   pool_benchmark [--designs N] [--budget N | --recorded FILE] [--processes P] [--slots S]
-//                  [--sleep-us T]
+//   pool_benchmark [--designs N] [--budget N | --recorded FILE [--ahead N]]
+//                  [--processes P] [--slots S] [--sleep-us T]
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -27,6 +27,7 @@ struct Case {
   int designs = 10;
   std::int64_t budget = 5'000;
   std::string recorded;
+  std::size_t ahead = 0;  ///< of recorded races
   ClusterShape shape{.processes = 8, .each = {.slots = 8}};
 };
 
@@ -99,7 +100,7 @@ int measure(Case& c) {
   if (!c.recorded.empty()) {
     const auto races = read_races(c.recorded);
     if (!races) return std::fprintf(stderr, "%s\n", to_string(races.error()).c_str()), 1;
-    RecordedRaces source(*races, c.designs);
+    RecordedRaces source(*races, c.designs, c.ahead);
     BusyTime busy(source.total());
     return report(c, run_cluster(c.shape, source, {}, [&](const auto& rows) { busy.add(rows); }),
                   busy);
@@ -119,6 +120,7 @@ int run(int argc, char** argv) {
   app.add_option("--designs", c.designs);
   app.add_option("--budget", c.budget, "Experiments of each design");
   app.add_option("--recorded", c.recorded, "Races that go like those of this file");
+  app.add_option("--ahead", c.ahead, "Tests that recorded races look ahead, at most");
   app.add_option("--processes", c.shape.processes);
   app.add_option("--slots", c.shape.each.slots, "Of each process");
   app.add_option("--sleep-us", c.shape.work.us, "Mean time of an evaluation, +- 30 %");

@@ -143,7 +143,8 @@ class Member {
 void run_crowd(const std::string& endpoint, const WorkerShape& shape) {
   const SystemClock clock;
   zmq::context_t context(1);
-  context.set(zmq::ctxopt::max_sockets, shape.workers + 1);
+  // Who connects again has two for a moment.
+  context.set(zmq::ctxopt::max_sockets, 2 * shape.workers + 16);
   std::deque<Member> members;
   for (int i = 0; i < shape.workers; ++i) {
     members.emplace_back(context, endpoint, shape.slots, static_cast<std::uint64_t>(i));

@@ -64,7 +64,7 @@ Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
   if (!store) return Unexpected(store.error());
   ServiceOptions options;
   options.coordinator.scenario = to_text(shape.work);
-  auto service = Service::open(options, **store, source);
+  auto service = Service::open(options, {{"benchmark", store->get(), &source}});
   if (!service) return Unexpected(service.error());
   announce((*service)->endpoint(), shape.each);
 
@@ -80,7 +80,7 @@ Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
   if (!local) return Unexpected(local.error());
   std::optional<Clock::time_point> begin;
   const ServiceHooks hooks{.on_rows =
-                               [&](const std::vector<Row>& rows) {
+                               [&](std::size_t, const std::vector<Row>& rows) {
                                  // The first connection is a row.
                                  if (!begin && std::ranges::any_of(rows, is_worker_row))
                                    begin = Clock::now();
@@ -96,7 +96,8 @@ Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
                                }};
   const ServiceEnd end = (*service)->run({}, hooks);
   if (end.how != ServiceEnd::How::Finished) {
-    return unexpected(ErrorKind::Unavailable, "the campaign did not end: " + end.reason, "run");
+    return unexpected(ErrorKind::Unavailable, "the campaign did not end: " + end.reasons.front(),
+                      "run");
   }
   run.wall_s = seconds_since(begin.value_or(launched));
   run.resident_mb = resident_mb();

@@ -156,6 +156,7 @@ std::vector<Task> RecordedRaces::take_more(std::size_t count) {
            (*design.race)[design.offered].iteration == design.iteration) {
       for (Task& task : tasks_of(number, design.offered, now.alive)) {
         design.ahead.emplace(task.key, Ahead::Asked);
+        task.ahead = true;
         more.push_back(std::move(task));
       }
       ++design.offered;

@@ -33,8 +33,8 @@ class RecordedRaces final : public WorkSource {
   RecordedRaces(const std::vector<RecordedRace>& races, int designs, std::size_t ahead = 0);
 
   std::vector<Task> take_tasks() override { return std::exchange(tasks_, {}); }
-  std::vector<Task> take_more(std::size_t count);
-  std::vector<EvaluationKey> take_dropped() { return std::exchange(dropped_, {}); }
+  std::vector<Task> take_more(std::size_t count) override;
+  std::vector<EvaluationKey> take_dropped() override { return std::exchange(dropped_, {}); }
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override { return std::exchange(rows_, {}); }
   bool finished() const override { return ended_ == designs_.size(); }
