@@ -2,7 +2,7 @@
 // real store. Without arguments: the table of docs/performance.md.
 //
 //   cluster_benchmark [--evaluations N] [--processes P] [--workers-each W] [--slots S]
-//                     [--spin-us T | --sleep-us T] [--window N] [--memory] [--json]
+//                     [--spin-us T | --sleep-us T] [--window N] [--curve] [--memory] [--json]
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -25,9 +25,11 @@ struct Case {
 
 void print_head() {
   std::printf(
-      "| evaluations | of, us | processes x workers x slots | all there after, s | evaluations/s | "
+      "| evaluations | of, us | CURVE | processes x workers x slots | all there after, s | "
+      "evaluations/s | "
       "coordinator's CPU, us | main | I/O | writer | workers' CPU, us | coordinator's memory, MB | "
-      "store, MB |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "store, MB |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- "
+      "|\n");
 }
 
 int measure(const Case& c, bool json) {
@@ -48,16 +50,18 @@ int measure(const Case& c, bool json) {
   const CpuByThread& cpu = run->coordinator;
   const double each = 1e6 / n;
   std::printf(
-      json ? "{\"evaluations\":%lld,\"work\":\"%s\",\"processes\":%d,\"workers_each\":%d,"
+      json ? "{\"evaluations\":%lld,\"work\":\"%s\",\"curve\":\"%s\",\"processes\":%d,\"workers_"
+             "each\":%d,"
              "\"slots\":%d,\"connect_s\":%.2f,\"per_s\":%.0f,\"cpu_us\":%.2f,\"main_us\":%.2f,"
              "\"io_us\":%.2f,\"writer_us\":%.2f,\"workers_cpu_us\":%.2f,\"resident_mb\":%.0f,"
              "\"store_mb\":%.1f}\n"
-           : "| %lld | %s | %d x %d x %d | %.1f | %.0f | %.2f | %.2f | %.2f | %.2f | %.2f | %.0f | "
+           : "| %lld | %s | %s | %d x %d x %d | %.1f | %.0f | %.2f | %.2f | %.2f | %.2f | %.2f | "
+             "%.0f | "
              "%.1f |\n",
-      static_cast<long long>(c.evaluations), to_text(shape.work).c_str(), shape.processes,
-      shape.each.workers, shape.each.slots, run->connect_s, n / run->wall_s, each * cpu.all(),
-      each * cpu.main, each * cpu.io, each * cpu.writer, each * run->workers_cpu_s,
-      run->resident_mb, run->store_mb);
+      static_cast<long long>(c.evaluations), to_text(shape.work).c_str(),
+      shape.curve ? "on" : "off", shape.processes, shape.each.workers, shape.each.slots,
+      run->connect_s, n / run->wall_s, each * cpu.all(), each * cpu.main, each * cpu.io,
+      each * cpu.writer, each * run->workers_cpu_s, run->resident_mb, run->store_mb);
   std::fflush(stdout);
   return 0;
 }
@@ -66,13 +70,17 @@ int measure_all() {
   print_head();
   int failed = 0;
   for (const int processes : {1, 2, 8}) {
-    Case c;
-    c.shape.processes = processes;
-    failed += measure(c, false);
+    for (const bool curve : {false, true}) {
+      Case c;
+      c.shape.processes = processes;
+      c.shape.curve = curve;
+      failed += measure(c, false);
+    }
   }
   Case busy;
   busy.evaluations = 20'000;
   busy.shape.processes = 2;
+  busy.shape.curve = true;
   busy.shape.work.us = 300;
   return failed + measure(busy, false);
 }
@@ -91,6 +99,7 @@ int run(int argc, char** argv) {
   app.add_option("--spin-us", spin_us, "An evaluation computes so long");
   app.add_option("--sleep-us", sleep_us, "An evaluation waits so long, +- 30 %");
   app.add_option("--window", c.window, "Tasks that are wanted at a time");
+  app.add_flag("--curve", c.shape.curve, "Encrypt the connections");
   app.add_flag("--memory", c.memory, "Say what the coordinator takes, on the way");
   app.add_flag("--json", json);
   CLI11_PARSE(app, argc, argv);

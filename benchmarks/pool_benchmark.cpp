@@ -3,7 +3,7 @@
 // Races are real ones over synthetic scores, or go as recorded ones did.
 //
 //   pool_benchmark [--designs N] [--budget N | --recorded FILE [--ahead N]]
-//                  [--processes P] [--slots S] [--sleep-us T]
+//                  [--processes P] [--slots S] [--sleep-us T] [--curve]
 
 #include <CLI/CLI.hpp>
 #include <chrono>
@@ -120,6 +120,7 @@ int run(int argc, char** argv) {
   app.add_option("--designs", c.designs);
   app.add_option("--budget", c.budget, "Experiments of each design");
   app.add_option("--recorded", c.recorded, "Races that go like those of this file");
+  app.add_flag("--curve", c.shape.curve, "Encrypt the connections");
   app.add_option("--ahead", c.ahead, "Tests that recorded races look ahead, at most");
   app.add_option("--processes", c.shape.processes);
   app.add_option("--slots", c.shape.each.slots, "Of each process");

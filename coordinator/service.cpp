@@ -292,7 +292,8 @@ Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options,
   }
   // The last words of a campaign send its workers home.
   options.socket.linger = milliseconds{200};
-  Expected<std::unique_ptr<ServerSocket>> socket = ServerSocket::bind(options.bind, options.socket);
+  Expected<std::unique_ptr<ServerSocket>> socket =
+      ServerSocket::bind(options.bind, options.socket, std::move(options.keys));
   if (!socket) return Unexpected(socket.error());
   std::vector<std::vector<StoredScore>> known;
   std::vector<CampaignWork> works;

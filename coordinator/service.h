@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -20,6 +21,7 @@ struct ServiceOptions {
   /// Loopback only, for now; port * takes a free one. Empty: "tcp://127.0.0.1:*".
   std::string bind;
   SocketOptions socket;
+  std::optional<ServerKeys> keys{};
   /// How long running evaluations are waited for when the campaign is interrupted.
   Duration grace = std::chrono::seconds(5);
 };

@@ -24,9 +24,11 @@ constexpr std::chrono::milliseconds kRound{2};
 
 class Member {
  public:
-  Member(zmq::context_t& context, std::string endpoint, int slots, std::uint64_t number)
+  Member(zmq::context_t& context, std::string endpoint, std::optional<ClientKeys> keys, int slots,
+         std::uint64_t number)
       : context_(&context),
         endpoint_(std::move(endpoint)),
+        keys_(std::move(keys)),
         slots_(slots),
         protocol_(identity_of_this_process(slots, "benchmark"), {}, Rng(number)) {}
 
@@ -116,6 +118,11 @@ class Member {
   void open() {
     socket_ = zmq::socket_t(*context_, zmq::socket_type::dealer);
     socket_.set(zmq::sockopt::linger, 200);
+    if (keys_) {
+      socket_.set(zmq::sockopt::curve_serverkey, keys_->server_key);
+      socket_.set(zmq::sockopt::curve_secretkey, keys_->secret_key);
+      socket_.set(zmq::sockopt::curve_publickey, public_key_of(keys_->secret_key));
+    }
     socket_.connect(endpoint_);
   }
 
@@ -128,6 +135,7 @@ class Member {
 
   zmq::context_t* context_;
   std::string endpoint_;
+  std::optional<ClientKeys> keys_;
   int slots_;
   WorkerProtocol protocol_;
   zmq::socket_t socket_;
@@ -140,14 +148,15 @@ class Member {
 
 }  // namespace
 
-void run_crowd(const std::string& endpoint, const WorkerShape& shape) {
+void run_crowd(const std::string& endpoint, const WorkerShape& shape,
+               const std::optional<ClientKeys>& keys) {
   const SystemClock clock;
   zmq::context_t context(1);
   // Who connects again has two for a moment.
   context.set(zmq::ctxopt::max_sockets, 2 * shape.workers + 16);
   std::deque<Member> members;
   for (int i = 0; i < shape.workers; ++i) {
-    members.emplace_back(context, endpoint, shape.slots, static_cast<std::uint64_t>(i));
+    members.emplace_back(context, endpoint, keys, shape.slots, static_cast<std::uint64_t>(i));
     members.back().start(clock.now());
   }
   for (bool any = true; any;) {

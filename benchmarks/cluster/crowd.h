@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "benchmarks/cluster/idle_worker.h"
@@ -10,6 +11,7 @@ namespace swarmsmith::bench {
 /// one ZeroMQ context, and their slots are timers instead of threads. So a thousand of them cost
 /// little beside the coordinator that is measured. Sleeping work only; returns when all were sent
 /// home.
-void run_crowd(const std::string& endpoint, const WorkerShape& shape);
+void run_crowd(const std::string& endpoint, const WorkerShape& shape,
+               const std::optional<ClientKeys>& keys);
 
 }  // namespace swarmsmith::bench

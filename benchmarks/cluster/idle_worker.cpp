@@ -22,6 +22,8 @@ namespace {
 constexpr const char* kEndpoint = "SWARMSMITH_BENCHMARK_ENDPOINT";
 constexpr const char* kWorkers = "SWARMSMITH_BENCHMARK_WORKERS";
 constexpr const char* kSlots = "SWARMSMITH_BENCHMARK_SLOTS";
+constexpr const char* kSecretKey = "SWARMSMITH_BENCHMARK_SECRET_KEY";
+constexpr const char* kServerKey = "SWARMSMITH_BENCHMARK_SERVER_KEY";
 
 double part_of(std::uint64_t bits) {
   return static_cast<double>(bits >> 11U) * 0x1p-53;
@@ -48,12 +50,20 @@ Expected<Evaluator> make_evaluator(const std::string& scenario) {
   });
 }
 
+std::optional<ClientKeys> announced_keys() {
+  const char* secret = std::getenv(kSecretKey);
+  const char* server = std::getenv(kServerKey);
+  if (secret == nullptr || server == nullptr) return std::nullopt;
+  return ClientKeys{.secret_key = secret, .server_key = server};
+}
+
 void run_one(const std::string& endpoint, int slots) {
   Wakeup wakeup;
   Pool pool(slots, make_evaluator, [&wakeup] { wakeup.notify(); });
   const std::atomic<bool> drain{false};
-  const WorkerEnd end = serve({.endpoint = endpoint, .protocol = {}, .socket = {}},
-                              identity_of_this_process(slots, "benchmark"), pool, wakeup, drain);
+  const WorkerEnd end =
+      serve({.endpoint = endpoint, .keys = announced_keys(), .protocol = {}, .socket = {}},
+            identity_of_this_process(slots, "benchmark"), pool, wakeup, drain);
   if (end.code != ExitCode::Done) std::fprintf(stderr, "worker: %s\n", end.reason.c_str());
 }
 
@@ -80,10 +90,16 @@ Duration time_of(const Work& work, std::int64_t seed) {
   return Duration(static_cast<std::int64_t>(1e3 * us));
 }
 
-void announce(const std::string& endpoint, const WorkerShape& shape) {
+void announce(const std::string& endpoint, const WorkerShape& shape,
+              const std::optional<ClientKeys>& keys) {
   setenv(kEndpoint, endpoint.c_str(), 1);
   setenv(kWorkers, std::to_string(shape.workers).c_str(), 1);
   setenv(kSlots, std::to_string(shape.slots).c_str(), 1);
+  unsetenv(kSecretKey);
+  unsetenv(kServerKey);
+  if (!keys) return;
+  setenv(kSecretKey, keys->secret_key.c_str(), 1);
+  setenv(kServerKey, keys->server_key.c_str(), 1);
 }
 
 bool is_worker() {
@@ -99,7 +115,7 @@ void be_worker() {
   if (shape.workers == 1) {
     run_one(endpoint, shape.slots);
   } else {
-    run_crowd(endpoint, shape);
+    run_crowd(endpoint, shape, announced_keys());
   }
   std::_Exit(0);
 }

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "base/clock.h"
 #include "base/expected.h"
+#include "proto/curve.h"
 
 namespace swarmsmith::bench {
 
@@ -27,9 +29,10 @@ struct WorkerShape {
   int slots = 1;  ///< of each
 };
 
-/// Makes this program's later children workers of that shape, which connect to `endpoint`: they
-/// are told by the environment.
-void announce(const std::string& endpoint, const WorkerShape& shape);
+/// Makes this program's later children workers of that shape, which connect to `endpoint`, with
+/// keys if there are any: they are told by the environment.
+void announce(const std::string& endpoint, const WorkerShape& shape,
+              const std::optional<ClientKeys>& keys);
 /// Whether this process is such a child. To be asked first of all in main.
 bool is_worker();
 /// Until the campaign is over. Scores are made of machine and seed.

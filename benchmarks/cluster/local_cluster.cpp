@@ -64,9 +64,18 @@ Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
   if (!store) return Unexpected(store.error());
   ServiceOptions options;
   options.coordinator.scenario = to_text(shape.work);
+  std::optional<ClientKeys> keys;
+  if (shape.curve) {
+    const KeyPair server = make_key_pair();
+    const KeyPair worker = make_key_pair();
+    options.keys = ServerKeys{
+        .secret_key = server.secret_key,
+        .clients = {{.name = "w", .role = Role::Worker, .public_key = worker.public_key}}};
+    keys = ClientKeys{.secret_key = worker.secret_key, .server_key = server.public_key};
+  }
   auto service = Service::open(options, {{"benchmark", store->get(), &source}});
   if (!service) return Unexpected(service.error());
-  announce((*service)->endpoint(), shape.each);
+  announce((*service)->endpoint(), shape.each, keys);
 
   ClusterRun run;
   const double children = cpu_of_children();
