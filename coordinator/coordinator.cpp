@@ -218,6 +218,8 @@ Expected<std::string> Coordinator::obey(const pb::Command& command) {
   }
   if (auto done = campaign.source->carry_out(row); !done) return Unexpected(done.error());
   ++campaign.commands;
+  campaign.told = true;
+  campaign.sees_no_further = false;
   return row.kind + ": done";
 }
 
@@ -244,7 +246,10 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](const SendDrain& a) { send(a.peer, frame_of(a)); },
           [&](const OutcomeAccepted& a) {
             waiting_[key_of(a.outcome)].first = a.outcome.worker;
-            campaigns_[a.outcome.campaign].source->tell(a.outcome);
+            Campaign& campaign = campaigns_[a.outcome.campaign];
+            campaign.source->tell(a.outcome);
+            campaign.told = true;
+            campaign.sees_no_further = false;
           },
           [&](const OutcomeRepeated& a) { repeat(a); },
           [&](const ConflictFound& a) { campaigns_[a.campaign].own_rows.emplace_back(a.row); },
@@ -299,13 +304,40 @@ bool Coordinator::progress() {
     Campaign& campaign = campaigns_[index];
     if (campaign.stopped) continue;
     std::vector<Task> tasks = campaign.source->take_tasks();
+    if (!tasks.empty()) {
+      for (Task& task : tasks)
+        task.campaign = index;
+      scheduler_.add(std::move(tasks));
+      more = true;
+    }
+    if (!std::exchange(campaign.told, false)) continue;
+    std::vector<PackedKey> dropped;
+    for (const EvaluationKey& key : campaign.source->take_dropped())
+      dropped.push_back(pack(key, index));
+    scheduler_.drop(dropped);
+  }
+  return more;
+}
+
+/// Asks the campaigns in turn for work for slots that would idle. False when there is none.
+bool Coordinator::look_ahead() {
+  std::size_t idle = scheduler_.idle_slots();
+  bool any = false;
+  for (std::size_t asked = 0; asked < campaigns_.size() && idle > 0; ++asked) {
+    const auto index = static_cast<std::uint32_t>(ahead_turn_);
+    ahead_turn_ = (ahead_turn_ + 1) % campaigns_.size();
+    Campaign& campaign = campaigns_[index];
+    if (campaign.stopped || campaign.sees_no_further || scheduler_.is_held(index)) continue;
+    std::vector<Task> tasks = campaign.source->take_more(idle);
+    campaign.sees_no_further = tasks.empty();
     if (tasks.empty()) continue;
+    idle -= std::min(idle, tasks.size());
     for (Task& task : tasks)
       task.campaign = index;
     scheduler_.add(std::move(tasks));
-    more = true;
+    any = true;
   }
-  return more;
+  return any;
 }
 
 void Coordinator::append(std::uint32_t index) {
@@ -331,6 +363,12 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     }
     scheduler_.dispatch(now);
   } while (progress());
+  // Once: what this leaves idle is filled when something happens.
+  if (look_ahead()) {
+    do {
+      scheduler_.dispatch(now);
+    } while (progress());
+  }
   for (std::uint32_t index = 0; index < campaigns_.size(); ++index)
     append(index);
   return std::exchange(actions_, {});

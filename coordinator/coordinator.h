@@ -129,6 +129,7 @@ class Coordinator {
   void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
   void send(PeerId peer, std::string frame);
   bool progress();
+  bool look_ahead();
   void append(std::uint32_t campaign);
 
   struct Campaign {
@@ -137,6 +138,9 @@ class Coordinator {
     std::deque<std::vector<PackedKey>> unappended{};  ///< keys of AppendRows without a ticket
     std::deque<std::pair<std::uint64_t, std::vector<PackedKey>>> appended{};
     std::int64_t commands = 0;
+    bool told = false;  ///< of an outcome, since it was last asked what it drops
+    /// It had nothing to look ahead at, and nothing came since that changes this.
+    bool sees_no_further = false;
     std::optional<std::string> stopped{};
   };
 
@@ -145,6 +149,7 @@ class Coordinator {
   std::vector<Campaign> campaigns_;
   Scheduler scheduler_;
   std::vector<CoordinatorAction> actions_;
+  std::size_t ahead_turn_ = 0;  ///< the campaign that is asked first for look-ahead
   /// Outcomes that are not on disk yet.
   std::unordered_map<PackedKey, Waiting> waiting_;
   std::unordered_map<PeerId, Fault> faults_;

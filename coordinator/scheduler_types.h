@@ -79,6 +79,7 @@ struct SendTasks {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
   std::vector<Leased> tasks;
+  std::size_t bytes = 0;  ///< about, on the wire
 };
 /// The worker may forget these results: there is nothing to write for them.
 struct SendAcknowledged {
@@ -153,6 +154,10 @@ struct SchedulerOptions {
   /// A lease without progress expires after max(lease_floor, lease_factor * running estimate).
   Duration lease_floor = std::chrono::seconds(5);
   int lease_factor = 20;
+  /// A task that is out longer than max(copy_floor, copy_factor * running estimate) goes to an idle
+  /// slot elsewhere too. The floor is above what a task waits in a worker that has work for 20 ms.
+  Duration copy_floor = std::chrono::milliseconds(100);
+  int copy_factor = 4;
   /// A connection that breaks sooner than this after the last sign of life was closed by the death
   /// of its process; links die silently, and the transport needs 3 s to notice.
   Duration silence = std::chrono::milliseconds(2500);
@@ -181,6 +186,8 @@ struct SchedulerCounters {
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;
   std::uint64_t lost_workers = 0;
+  std::uint64_t copies = 0;  ///< second leases of stragglers
+  std::uint64_t ahead = 0;   ///< leases of look-ahead
   std::uint64_t audited = 0;      ///< second results that were compared
   std::uint64_t quarantined = 0;  ///< workers
 };

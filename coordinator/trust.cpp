@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "coordinator/in_turn.h"
 #include "coordinator/scheduler.h"
 #include "storage/answer.h"
 
@@ -24,15 +25,17 @@ void Scheduler::note_attempt(PackedKey key, const Lease& lease, const char* outc
                                       .outcome = outcome}});
 }
 
-void Scheduler::note_attempt(const TaskRecord& record, const char* outcome, TimePoint now) {
-  note_attempt(key_of(record.task), *record.lease, outcome, now);
+void Scheduler::note_attempt(TaskRecord& record, WorkerNumber worker, const char* outcome,
+                             TimePoint now) {
+  note_attempt(key_of(record.task), *record.lease_of(worker), outcome, now);
 }
 
-void Scheduler::take_back(TaskRecord& record) {
-  if (!record.audit) return leases_.requeue(record);
+bool Scheduler::take_back(TaskRecord& record, WorkerNumber worker) {
+  if (!record.audit) return leases_.requeue(record, worker);
   const PackedKey key = key_of(record.task);
   leases_.remove(key);
   audits_.give_back(key);
+  return false;
 }
 
 bool Scheduler::is_auditing() const {
@@ -47,21 +50,25 @@ bool Scheduler::is_auditing() const {
 /// Audits are few, and go before anything else: a liar should be known soon.
 void Scheduler::dispatch_audits(TimePoint now) {
   if (audits_.waiting() == 0) return;
-  for (auto& [number, entry] : workers_.all()) {
-    if (!entry.usable() || entry.reserved) continue;
+  in_turn(leases_.loads().with_room(), turn_, [&](WorkerNumber number) {
+    WorkerEntry& entry = *workers_.of_number(number);
+    if (entry.reserved) return true;
     SendTasks message{entry.peer, entry.hello.incarnation, {}};
-    while (leases_.leases_of(number).size() < entry.credit) {
+    while (leases_.loads().of(number).room() > 0) {
       std::optional<Task> task = audits_.take_for(number);
       if (!task) break;
       const PackedKey key = key_of(*task);
+      // As with look-ahead, no race waits for it.
+      task->ahead = true;
       leases_.add(std::move(*task));
       TaskRecord& record = *leases_.find(key);
       record.audit = true;
       leases_.grant(record, number, now);
-      message.tasks.push_back({record.task, record.lease->attempt});
+      put_task(entry, record, message, now);
     }
     if (!message.tasks.empty()) send_tasks(entry, message, now);
-  }
+    return audits_.waiting() > 0;
+  });
 }
 
 void Scheduler::on_audited(WorkerEntry& entry, TaskRecord& record, const DoneEntry& known,
@@ -72,8 +79,8 @@ void Scheduler::on_audited(WorkerEntry& entry, TaskRecord& record, const DoneEnt
   judge(entry, known, result);
   const Audits::Verdict verdict =
       audits_.hear(result.key, {entry.number, result.score, result.state_digest});
-  note_attempt(record, verdict.differs ? "conflict" : "audited", now);
-  leases_.remove(result.key);
+  note_attempt(record, entry.number, verdict.differs ? "conflict" : "audited", now);
+  leases_.remove(result.key, entry.number);
   if (verdict.no_two_agree) {
     note("error", "three results of one evaluation",
          {{"evaluation", to_string(unpack(result.key))}, {"worker", entry.number}},
@@ -107,11 +114,11 @@ void Scheduler::quarantine(WorkerEntry& entry, const std::string& reason, TimePo
   const std::vector<PackedKey> keys(leases.rbegin(), leases.rend());
   for (const PackedKey key : keys) {
     TaskRecord& record = *leases_.find(key);
-    note_attempt(record, "returned", now);
-    take_back(record);
-    ++counters_.requeued;
+    note_attempt(record, entry.number, "returned", now);
+    if (take_back(record, entry.number)) ++counters_.requeued;
   }
   workers_.quarantine(entry);
+  set_credit(entry, 0);
   ++counters_.quarantined;
   actions_.emplace_back(WorkerChanged{row_of(entry, "quarantined")});
   note("error", "worker in quarantine",

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <set>
 #include <string>
@@ -42,6 +43,9 @@ struct Schedule {
   std::uint64_t seed = 1;
   Faults faults;
   CampaignShape campaign;
+  /// A second campaign in the same pool.
+  std::optional<CampaignShape> other{};
+  bool slow_worker = false;  ///< one of them takes a hundred times as long
 };
 
 /// A schedule out of a seed: some kinds of faults, rare or dense.
@@ -64,6 +68,10 @@ class SimulatedCluster {
   std::uint64_t audited() const { return coordinator_->scheduler().counters().audited; }
   /// Evaluations that killed a worker.
   std::size_t killers() const { return killers_.size(); }
+  /// Until all campaigns were over.
+  Duration took() const { return over_ - begun_; }
+  /// What the schedulers did, those of coordinators that crashed included.
+  const SchedulerCounters& counters() const { return counters_; }
 
  private:
   static constexpr int kWorkers = 3;
@@ -90,6 +98,7 @@ class SimulatedCluster {
     Process process;
     std::unique_ptr<WorkerProtocol> protocol;
     int slots = 1;
+    int slowness = 1;
     PeerId connection = 0;
     std::deque<WorkItem> waiting;
     int running = 0;
@@ -104,6 +113,15 @@ class SimulatedCluster {
   struct Batch {
     std::uint64_t ticket = 0;
     std::vector<Row> rows;
+  };
+  /// A campaign, and the disk with its store.
+  struct Running {
+    CampaignShape shape;
+    SimulatedDisk disk{};
+    std::unique_ptr<RacedCampaign> source{};
+    std::deque<Batch> uncommitted{};
+    std::uint64_t tickets = 0;
+    TimePoint last_commit{};
   };
 
   // Events.
@@ -128,11 +146,12 @@ class SimulatedCluster {
   void crash_coordinator();
   void settle_coordinator();
   void tick_coordinator();
-  void append(std::vector<Row> rows);
-  void commit();
-  void write(const std::vector<Row>& rows);
+  void append(std::uint32_t campaign, std::vector<Row> rows);
+  void commit(std::uint32_t campaign);
+  void write(Running& running, const std::vector<Row>& rows);
   void check_leases();
-  void check_answer();
+  void check_answer(Running& running);
+  void count();
 
   // Workers.
   void start_worker(int index);
@@ -147,19 +166,18 @@ class SimulatedCluster {
   Schedule schedule_;
   Rng rng_;
   TimePoint now_{std::chrono::seconds(1000)};
+  TimePoint begun_ = now_;
+  TimePoint over_;
   TimePoint faults_end_;
   std::priority_queue<Event> queue_;
   std::uint64_t order_ = 0;
   std::string failure_;
   int crashes_ = 0;
+  SchedulerCounters counters_;
 
   Process coordinator_process_;
-  std::unique_ptr<RacedCampaign> campaign_;
+  std::vector<Running> campaigns_;
   std::unique_ptr<Coordinator> coordinator_;
-  SimulatedDisk disk_;
-  std::deque<Batch> uncommitted_;
-  std::uint64_t tickets_ = 0;
-  TimePoint last_commit_;
   TimePoint disk_full_until_;
 
   std::vector<Worker> workers_;
