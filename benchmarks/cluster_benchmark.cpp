@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "base/hash.h"
-#include "coordinator/local_workers.h"
+#include "coordinator/launchers/local_workers.h"
 #include "coordinator/service.h"
 #include "worker/pool.h"
 #include "worker/service.h"

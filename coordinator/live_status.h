@@ -3,6 +3,8 @@
 #include <cstdint>
 #include <string>
 
+#include "coordinator/launchers/launcher.h"
+
 namespace swarmsmith {
 
 /// How a running campaign is right now; from the coordinator's memory, for people.
@@ -21,6 +23,7 @@ struct LiveStatus {
   std::int64_t uncommitted = 0;  ///< outcomes that are not on disk yet
   double evaluations_per_s = 0;  ///< over the last seconds
   std::string trouble;           ///< why nothing can be written; empty when well
+  LauncherStatus launcher;       ///< of workers that this process starts; without name: none
 };
 
 }  // namespace swarmsmith

@@ -17,7 +17,8 @@
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
-#include "coordinator/local_workers.h"
+#include "coordinator/launchers/start_workers.h"
+#include "coordinator/launchers/worker_program.h"
 #include "coordinator/service.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
@@ -82,10 +83,24 @@ ServiceOptions service_options(const Campaign& campaign, const RunOptions& optio
   return service;
 }
 
-/// Local worker processes as `--workers` and the file have them: a number of processes, or one with
-/// as many slots as there are cores.
-int local_processes(const Campaign& campaign, const RunOptions& options) {
-  return static_cast<int>(options.workers.value_or(campaign.local_workers.value_or(1)));
+/// Who starts workers: `--workers`, or the file.
+LaunchOptions launch_of(const Campaign& campaign, const RunOptions& options) {
+  LaunchOptions launch = options.launch.value_or(campaign.launch);
+  if (options.launch) return launch;
+  if (options.workers) launch.kind = LaunchOptions::Kind::Local;
+  launch.processes = options.workers.value_or(campaign.local_workers.value_or(1));
+  return launch;
+}
+
+WorkersSetup workers_setup(const Campaign& campaign, const RunOptions& options,
+                           const std::string& endpoint) {
+  WorkersSetup setup{.launch = launch_of(campaign, options),
+                     .address = {.endpoint = endpoint},
+                     .local_slots = static_cast<int>(options.slots),
+                     .campaign_digest = campaign_digest(campaign),
+                     .store = campaign.store};
+  if (campaign.target) setup.arguments = allow_arguments(*campaign.target);
+  return setup;
 }
 
 ExitCode show_result(Output& output, const Campaign& campaign) {
@@ -120,16 +135,12 @@ class CampaignRun {
     auto service = listen(runner);
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
     if (options_.announce) announce((*service)->endpoint());
-    const int processes = local_processes(campaign_, options_);
-    if (processes == 0) return serve(**service, runner, nullptr);
-    auto workers =
-        LocalWorkers::start({.endpoint = (*service)->endpoint(),
-                             .processes = processes,
-                             .slots = static_cast<int>(options_.slots),
-                             .arguments = campaign_.target ? allow_arguments(*campaign_.target)
-                                                           : std::vector<std::string>{}});
-    if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
-    return serve(**service, runner, &*workers);
+    auto workers = start_workers(workers_setup(campaign_, options_, (*service)->endpoint()));
+    if (workers) return serve(**service, runner, workers->get());
+    for (const Error& error : workers.error())
+      print_error(output_, error);
+    const bool usage = workers.error().front().kind == ErrorKind::BadInput;
+    return usage ? ExitCode::Usage : ExitCode::Unreachable;
   }
 
  private:
@@ -163,7 +174,7 @@ class CampaignRun {
     return CampaignRunner(std::move(plans), by_design(scores, store_.steps(), finished), finished);
   }
 
-  ExitCode serve(Service& service, const CampaignRunner& runner, LocalWorkers* workers) {
+  ExitCode serve(Service& service, const CampaignRunner& runner, Launcher* workers) {
     std::stop_source stop;
     std::string worker_trouble;
     const ServiceHooks hooks{
@@ -175,16 +186,19 @@ class CampaignRun {
         .on_status =
             [&](const LiveStatus& live) {
               last_ = live;
-              listener_.update(live, clock_.now());
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
+                last_.launcher = workers->status();
               }
+              listener_.update(last_, clock_.now());
               if (g_signal != 0 || runner.error() || !worker_trouble.empty()) stop.request_stop();
             },
     };
     const ServiceEnd end = service.run(stop.get_token(), hooks);
-    if (workers != nullptr) workers->stop(std::chrono::seconds(2));
+    const std::string left_behind =
+        workers == nullptr ? "" : workers->stop(std::chrono::seconds(2));
     listener_.finish(last_);
+    if (!left_behind.empty()) print_note(output_, left_behind);
     if (runner.error()) return fail_of(*runner.error());
     if (!worker_trouble.empty()) return fail(output_, ExitCode::Unreachable, worker_trouble);
     return exit_code_of(end);

@@ -5,11 +5,14 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "base/log.h"
@@ -51,9 +54,24 @@ struct Arguments {
   int slots = 0;
   bool die_with_parent = false;
   pid_t parent = 0;
+  bool watch_input = false;
   std::vector<std::string> allow;
   bool allow_shell = false;
 };
+
+/// Drains when standard input ends. A thread does nothing but wait for that: a signal that ends
+/// the process does not have to wait for it.
+void watch_input() {
+  std::thread([] {
+    std::array<char, 256> ignored{};
+    ssize_t size = 0;
+    do {
+      size = read(STDIN_FILENO, ignored.data(), ignored.size());
+    } while (size > 0 || (size < 0 && errno == EINTR));
+    g_drain = true;
+    g_wakeup->notify();
+  }).detach();
+}
 
 /// A running program takes three descriptors, and the usual limit of 1,024 is short for hundreds.
 void raise_descriptor_limit() {
@@ -92,6 +110,7 @@ int run(const Arguments& arguments) {
   }
   Wakeup wakeup;
   handle_signals(wakeup);
+  if (arguments.watch_input) watch_input();
   Pool pool(slots, make_evaluators(std::move(*allowed)), [&wakeup] { wakeup.notify(); });
   log(LogLevel::Debug, "worker", "started",
       {{"coordinator", arguments.connect}, {"slots", std::to_string(slots)}});
@@ -119,6 +138,8 @@ int run_command_line(int argc, char** argv) {
   app.add_flag("--die-with-parent", arguments.die_with_parent,
                "Be killed when the process that started this one ends");
   app.add_option("--parent", arguments.parent, "Process id of that process")->group("");
+  app.add_flag("--watch-input", arguments.watch_input,
+               "Drain when standard input ends: for a worker that somebody holds by a pipe, as ssh");
   app.add_option("--allow", arguments.allow,
                  "A program that campaigns may run here in place of the simulator; repeatable. "
                  "It is run with whatever arguments the campaign has")
