@@ -188,7 +188,7 @@ class CampaignRun {
               last_ = live;
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
-                last_.launcher = workers->status();
+                if (worker_trouble.empty()) last_.launcher = workers->status();
               }
               listener_.update(last_, clock_.now());
               if (g_signal != 0 || runner.error() || !worker_trouble.empty()) stop.request_stop();

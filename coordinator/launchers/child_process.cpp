@@ -83,8 +83,8 @@ Expected<void> ChildProcess::start(const std::vector<std::string>& words, Stream
     Pipe input;
     Pipe errors;
     if (input.write < 0 || errors.write < 0) {
-      return unexpected(ErrorKind::Unavailable, std::string("cannot be started: ") +
-                                                    std::strerror(errno), words.front());
+      return unexpected(ErrorKind::Unavailable,
+                        std::string("cannot be started: ") + std::strerror(errno), words.front());
     }
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);

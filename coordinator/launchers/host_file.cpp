@@ -44,7 +44,8 @@ class Reader {
     SshHost host{.name = std::string(words.front().text)};
     // ssh would take such a name for one of its options.
     if (host.name.starts_with('-') || host.name.find('=') != std::string::npos) {
-      complain(words.front(), "a line begins with the host's name, and `" + host.name + "` is none");
+      complain(words.front(),
+               "a line begins with the host's name, and `" + host.name + "` is none");
     }
     for (std::size_t i = 1; i < words.size(); ++i)
       read_setting(words[i], host);
@@ -68,9 +69,8 @@ class Reader {
 
  private:
   void complain(const Word& word, std::string message) {
-    errors_.push_back(
-        {ErrorKind::BadInput, std::move(message),
-         file_ + ":" + std::to_string(line_) + ":" + std::to_string(word.column)});
+    errors_.push_back({ErrorKind::BadInput, std::move(message),
+                       file_ + ":" + std::to_string(line_) + ":" + std::to_string(word.column)});
   }
 
   void read_setting(const Word& word, SshHost& host) {
@@ -79,8 +79,9 @@ class Reader {
     const std::string key(word.text.substr(0, sign));
     const auto place = std::ranges::find(kKeys, key) - kKeys.begin();
     if (sign == std::string_view::npos || place == 4) {
-      complain(word, "`" + std::string(word.text) + "` is none of slots=N, program=PATH, key=PATH, " +
-                         "coordinator=PATH" + did_you_mean(key, kKeys));
+      complain(word, "`" + std::string(word.text) +
+                         "` is none of slots=N, program=PATH, key=PATH, " + "coordinator=PATH" +
+                         did_you_mean(key, kKeys));
       return;
     }
     const std::string_view value = word.text.substr(sign + 1);
@@ -89,7 +90,8 @@ class Reader {
       const auto [stop, error] = std::from_chars(value.data(), end, host.slots);
       const bool number = error == std::errc() && stop == end;
       if (number && host.slots >= 1 && host.slots <= kMostSlots) return;
-      complain(word, "`slots` must be a number from 1 to 1024; this is `" + std::string(value) + "`");
+      complain(word,
+               "`slots` must be a number from 1 to 1024; this is `" + std::string(value) + "`");
       return;
     }
     if (!value.starts_with('/')) {

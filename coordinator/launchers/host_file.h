@@ -24,8 +24,8 @@ struct SshHost {
 /// Hosts, or everything that is wrong with their file: `where` is file:line:column.
 using HostsOrErrors = tl::expected<std::vector<SshHost>, std::vector<Error>>;
 
-/// A host file has a line a host, `host [slots=N] [program=PATH] [key=PATH] [coordinator=PATH]`, and
-/// comments from # on. A host that is named twice, and a file without hosts, are errors.
+/// A host file has a line a host, `host [slots=N] [program=PATH] [key=PATH] [coordinator=PATH]`,
+/// and comments from # on. A host that is named twice, and a file without hosts, are errors.
 HostsOrErrors parse_hosts(std::string_view text, const std::filesystem::path& file);
 HostsOrErrors read_hosts(const std::filesystem::path& file);
 

@@ -10,9 +10,9 @@ namespace swarmsmith {
 /// Array jobs of Slurm, each one worker.
 struct SlurmOptions {
   std::int64_t jobs = 4;
-  std::int64_t cpus_per_task = 4;  ///< slots of each worker
-  std::string time;                ///< as sbatch has it: "8:00:00"; empty: the partition's limit
-  std::string partition;           ///< empty: the default one
+  std::int64_t cpus_per_task = 4;    ///< slots of each worker
+  std::string time;                  ///< as sbatch has it: "8:00:00"; empty: the partition's limit
+  std::string partition;             ///< empty: the default one
   std::vector<std::string> options;  ///< more words for sbatch: "--account=swarm"
 
   friend bool operator==(const SlurmOptions&, const SlurmOptions&) = default;

@@ -44,7 +44,7 @@ Expected<LocalWorkers> LocalWorkers::start(const LocalWorkersOptions& options) {
       program.string(),      "--connect",         options.endpoint, "--slots",
       std::to_string(slots), "--die-with-parent", "--parent",       std::to_string(getpid())};
   workers.command_.insert(workers.command_.end(), options.arguments.begin(),
-                           options.arguments.end());
+                          options.arguments.end());
   workers.wanted_ = processes;
   std::random_device device;
   for (int i = 0; i < processes; ++i) {

@@ -12,8 +12,8 @@ enum class Phase { Pending, Running, Leaving, Cancelled, Failed, Ended };
 
 /// States as squeue(1) lists them. An unknown one is a job that is still there.
 Phase phase_of(const std::string& state) {
-  static const std::set<std::string> kPending = {"PENDING",      "CONFIGURING", "REQUEUED",
-                                                 "REQUEUE_FED",  "SUSPENDED",   "REQUEUE_HOLD",
+  static const std::set<std::string> kPending = {"PENDING",      "CONFIGURING",  "REQUEUED",
+                                                 "REQUEUE_FED",  "SUSPENDED",    "REQUEUE_HOLD",
                                                  "SPECIAL_EXIT", "RESV_DEL_HOLD"};
   static const std::set<std::string> kEnded = {"COMPLETED", "TIMEOUT",  "PREEMPTED", "NODE_FAIL",
                                                "BOOT_FAIL", "DEADLINE", "REVOKED"};
@@ -24,20 +24,28 @@ Phase phase_of(const std::string& state) {
   return kEnded.contains(state) ? Phase::Ended : Phase::Running;
 }
 
+/// Reasons of squeue(1) that only a person ends.
+bool is_for_good(const std::string& reason) {
+  static const std::set<std::string> kReasons = {
+      "AccountNotAllowed", "BadConstraints",     "InvalidAccount",     "InvalidQOS",
+      "JobHeldAdmin",      "JobHeldUser",        "PartitionConfig",    "PartitionDown",
+      "QOSNotAllowed",     "PartitionNodeLimit", "PartitionTimeLimit", "PartitionInactive"};
+  return kReasons.contains(reason);
+}
+
 bool is_live(Phase phase) {
   return phase == Phase::Pending || phase == Phase::Running || phase == Phase::Leaving;
 }
 
 /// Sentences of sbatch and squeue for a Slurm that is away for a while, not for a wrong request.
 bool passes_by_itself(std::string_view message) {
-  static constexpr std::array<std::string_view, 7> kSigns = {
-      "Unable to contact slurm controller",
-      "Socket timed out",
-      "temporarily unable",
-      "Zero Bytes were transmitted",
-      "Connection refused",
-      "did not answer in time",
-      "backup controller"};
+  static constexpr std::array<std::string_view, 7> kSigns = {"Unable to contact slurm controller",
+                                                             "Socket timed out",
+                                                             "temporarily unable",
+                                                             "Zero Bytes were transmitted",
+                                                             "Connection refused",
+                                                             "did not answer in time",
+                                                             "backup controller"};
   return std::ranges::any_of(
       kSigns, [&](std::string_view sign) { return message.find(sign) != std::string_view::npos; });
 }
@@ -173,6 +181,10 @@ LauncherStatus SlurmJobs::status() const {
                         .pending = pending_,
                         .waits_for = waits_for_};
   status.note = !submit_note_.empty() ? submit_note_ : queue_note_;
+  if (status.note.empty() && is_for_good(waits_for_)) {
+    status.note = "Slurm holds jobs back (" + waits_for_ + ") and will not start them like this: " +
+                  "see CPUs, time and partition of [workers.slurm]";
+  }
   if (status.note.empty() && !failed_job_.empty()) {
     status.note = "job " + failed_job_ + " failed; its log says why";
   }

@@ -11,8 +11,8 @@ namespace swarmsmith {
 /// The batch script that starts one worker a job.
 struct SlurmScript {
   std::string job_name;
-  std::filesystem::path folder;        ///< for the jobs' outputs; absolute
-  std::vector<std::string> command;    ///< the worker's program and its arguments
+  std::filesystem::path folder;      ///< for the jobs' outputs; absolute
+  std::vector<std::string> command;  ///< the worker's program and its arguments
   SlurmOptions options;
 };
 

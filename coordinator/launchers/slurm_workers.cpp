@@ -33,9 +33,10 @@ std::vector<std::string> outside_of_jobs(std::vector<std::string> words) {
 
 /// The program's own words, on one line and without its name.
 std::string sentence(std::string text) {
-  std::ranges::replace(text, '\n', ' ');
-  while (text.ends_with(' '))
+  while (text.ends_with('\n'))
     text.pop_back();
+  for (std::size_t at = 0; (at = text.find('\n')) != std::string::npos;)
+    text.replace(at, 1, "; ");
   for (const char* name : {"sbatch: ", "squeue: ", "scancel: ", "slurm_load_jobs ", "error: "}) {
     const std::string prefix = name;
     for (std::size_t at = 0; (at = text.find(prefix)) != std::string::npos;)
@@ -68,7 +69,7 @@ std::string slurm_job_name(const std::string& campaign_digest, const fs::path& s
   Digest digest;
   digest.add(campaign_digest);
   std::error_code failed;
-  const fs::path whole = fs::weakly_canonical(store, failed);
+  const fs::path whole = fs::weakly_canonical(fs::absolute(store), failed);
   digest.add(failed ? store.string() : whole.string());
   return "swarmsmith-" + digest.hex().substr(0, 12);
 }
@@ -95,11 +96,11 @@ Expected<SlurmWorkers> SlurmWorkers::start(SlurmWorkersOptions options) {
   std::vector<std::string> command{options.program.string()};
   std::ranges::copy(address_arguments(options.address), std::back_inserter(command));
   std::ranges::copy(options.arguments, std::back_inserter(command));
-  const auto written = write_script(options.folder / "worker.sh",
-                                    text_of({.job_name = options.job_name,
-                                             .folder = options.folder,
-                                             .command = std::move(command),
-                                             .options = options.slurm}));
+  const auto written =
+      write_script(options.folder / "worker.sh", text_of({.job_name = options.job_name,
+                                                          .folder = options.folder,
+                                                          .command = std::move(command),
+                                                          .options = options.slurm}));
   if (!written) return Unexpected(written.error());
   return SlurmWorkers(std::move(options));
 }

@@ -62,7 +62,7 @@ class SlurmWorkers final : public Launcher {
   SlurmWorkersOptions options_;
   SlurmJobs jobs_;
   std::unique_ptr<Interrupt> interrupt_ = std::make_unique<Interrupt>();
-  std::future<Answer> answer_;  ///< of the program that runs
+  std::future<Answer> answer_;   ///< of the program that runs
   std::int64_t submitting_ = 0;  ///< jobs, when that is sbatch
   bool stopped_ = false;
 };

@@ -14,9 +14,9 @@ namespace swarmsmith {
 
 struct SshWorkersOptions {
   std::vector<SshHost> hosts;
-  std::vector<std::string> options;  ///< words for ssh, before those that are always there
-  WorkerAddress address;             ///< paths as they are on every host that has no others
-  std::filesystem::path program;     ///< the same; empty: `find_worker_program`
+  std::vector<std::string> options;    ///< words for ssh, before those that are always there
+  WorkerAddress address;               ///< paths as they are on every host that has no others
+  std::filesystem::path program;       ///< the same; empty: `find_worker_program`
   std::vector<std::string> arguments;  ///< more of them, for the worker
   std::string ssh = "ssh";
   /// Before a host is tried again; twice as long each time, up to `longest_pause`.

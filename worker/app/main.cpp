@@ -138,8 +138,9 @@ int run_command_line(int argc, char** argv) {
   app.add_flag("--die-with-parent", arguments.die_with_parent,
                "Be killed when the process that started this one ends");
   app.add_option("--parent", arguments.parent, "Process id of that process")->group("");
-  app.add_flag("--watch-input", arguments.watch_input,
-               "Drain when standard input ends: for a worker that somebody holds by a pipe, as ssh");
+  app.add_flag(
+      "--watch-input", arguments.watch_input,
+      "Drain when standard input ends: for a worker that somebody holds by a pipe, as ssh");
   app.add_option("--allow", arguments.allow,
                  "A program that campaigns may run here in place of the simulator; repeatable. "
                  "It is run with whatever arguments the campaign has")

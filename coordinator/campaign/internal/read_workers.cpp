@@ -81,16 +81,16 @@ void read_ssh(TableReader& workers, const std::filesystem::path& folder, SshOpti
 }
 
 /// Who starts workers; the tables of the others are checked as well.
-void read_launcher(TableReader& table, const std::filesystem::path& folder,
-                   LaunchOptions& launch) {
+void read_launcher(TableReader& table, const std::filesystem::path& folder, LaunchOptions& launch) {
   static const std::vector<std::string> kLaunchers = {"local", "ssh", "slurm"};
   read_slurm(table, launch.slurm);
   read_ssh(table, folder, launch.ssh);
   const auto name = table.choice("launcher", kLaunchers);
   if (!name) return;
   if (*name == "ssh" && !table.has("ssh")) {
-    table.complain("launcher", "`launcher` is \"ssh\", and there is no table [workers.ssh] with "
-                               "`hosts`, the name of a host file");
+    table.complain("launcher",
+                   "`launcher` is \"ssh\", and there is no table [workers.ssh] with "
+                   "`hosts`, the name of a host file");
   }
   launch.kind = *name == "ssh"     ? LaunchOptions::Kind::Ssh
                 : *name == "slurm" ? LaunchOptions::Kind::Slurm
