@@ -124,7 +124,7 @@ int measure(std::int64_t evaluations, int workers, const std::string& work_us) {
   FlatCampaign source(evaluations);
   ServiceOptions options;
   options.coordinator.scenario = work_us;
-  auto service = Service::open(options, **store, source);
+  auto service = Service::open(options, {{"benchmark", store->get(), &source}});
   if (!service) return std::fprintf(stderr, "%s\n", to_string(service.error()).c_str()), 1;
   setenv("SWARMSMITH_BENCHMARK_WORKER", (*service)->endpoint().c_str(), 1);
   auto local = LocalWorkers::start({.endpoint = (*service)->endpoint(),

@@ -21,15 +21,38 @@ google::protobuf::ArenaOptions arena_options() {
 
 }  // namespace
 
-Coordinator::Coordinator(CoordinatorOptions options, WorkSource& source,
-                         std::span<const StoredScore> known)
+Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignWork>& campaigns)
     : options_(std::move(options)),
-      facts_{.campaign_digest = options_.campaign_digest,
+      facts_{.campaign_digests = {},
              .scenario = options_.scenario,
              .scenario_digest = digest_of_scenario(options_.scenario)},
-      source_(&source),
-      scheduler_(options_.scheduler, known),
-      arena_(arena_options()) {}
+      scheduler_(options_.scheduler),
+      arena_(arena_options()) {
+  SWARMSMITH_ASSERT(campaigns.size() == options_.scheduler.campaigns.size(),
+                    "each campaign has a policy");
+  for (const CampaignWork& campaign : campaigns) {
+    scheduler_.know(static_cast<std::uint32_t>(campaigns_.size()), campaign.known);
+    facts_.campaign_digests.push_back(campaign.digest);
+    campaigns_.push_back({.source = campaign.source, .commands = campaign.commands});
+  }
+}
+
+bool Coordinator::settled() const {
+  return waiting_.empty() && std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
+           return campaign.unappended.empty() && campaign.appended.empty();
+         });
+}
+
+bool Coordinator::finished() const {
+  return settled() && std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
+           return campaign.stopped || campaign.source->finished();
+         });
+}
+
+void Coordinator::put_row(const Row& row) {
+  for (Campaign& campaign : campaigns_)
+    campaign.own_rows.push_back(row);
+}
 
 void Coordinator::send(PeerId peer, std::string frame) {
   actions_.emplace_back(SendFrame{peer, std::move(frame)});
@@ -57,15 +80,15 @@ void Coordinator::on_malformed(PeerId peer, const Error& error, TimePoint now) {
   Fault& fault = faults_[peer];
   if (++fault.count < options_.malformed_limit) return;
   fault.refused_until = now + options_.refuse_for;
-  own_rows_.emplace_back(EventRow{
+  put_row(EventRow{
       .severity = "warning",
       .kind = "peer refused",
       .text = event_text({{"frames", std::int64_t{fault.count}}, {"last", error.message}})});
   scheduler_.on_refused(peer, now);
 }
 
-void Coordinator::on_frame(PeerId peer, std::string_view frame, TimePoint now) {
-  if (is_refused(peer, now)) {
+void Coordinator::on_frame(const Peer& peer, std::string_view frame, TimePoint now) {
+  if (is_refused(peer.id, now)) {
     ++malformed_count_;
     return;
   }
@@ -73,18 +96,38 @@ void Coordinator::on_frame(PeerId peer, std::string_view frame, TimePoint now) {
   if (message) {
     on_message(peer, **message, now);
   } else {
-    on_malformed(peer, message.error(), now);
+    on_malformed(peer.id, message.error(), now);
   }
   arena_.Reset();
 }
 
-void Coordinator::on_message(PeerId peer, const pb::ToCoordinator& message, TimePoint now) {
-  const Sender sender{peer, message.incarnation(), message.sequence()};
+void Coordinator::on_message(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
+  const auto forbidden = [&] {
+    on_malformed(peer.id,
+                 {ErrorKind::BadInput,
+                  "the key \"" + std::string(peer.client) + "\" does not allow this", "role"},
+                 now);
+  };
+  if (message.has_command()) {
+    return may_command(peer.role) ? on_command(peer, message.command()) : forbidden();
+  }
+  if (message.has_want_status()) {
+    if (!may_read(peer.role)) return forbidden();
+    actions_.emplace_back(AnswerStatus{peer.id});
+    return;
+  }
+  return may_work(peer.role) ? on_work(peer, message, now) : forbidden();
+}
+
+void Coordinator::on_work(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
+  const Sender sender{peer.id, message.incarnation(), message.sequence()};
   switch (message.body_case()) {
-    case pb::ToCoordinator::kHello:
-      scheduler_.on_hello(
-          peer, hello_of(message.hello(), message.incarnation(), facts_.scenario_digest), now);
+    case pb::ToCoordinator::kHello: {
+      WorkerHello hello = hello_of(message.hello(), message.incarnation(), facts_.scenario_digest);
+      hello.client = peer.client;
+      scheduler_.on_hello(peer.id, std::move(hello), now);
       return;
+    }
     case pb::ToCoordinator::kCredit:
       scheduler_.on_credit(sender, message.credit().tasks(), now);
       return;
@@ -103,9 +146,11 @@ void Coordinator::on_message(PeerId peer, const pb::ToCoordinator& message, Time
       return;
     case pb::ToCoordinator::kWantScenario:
       if (scheduler_.on_sign_of_life(sender, now)) {
-        send(peer, scenario_reply_of(facts_, sender.incarnation));
+        send(peer.id, scenario_reply_of(facts_, sender.incarnation));
       }
       return;
+    case pb::ToCoordinator::kCommand:
+    case pb::ToCoordinator::kWantStatus:
     case pb::ToCoordinator::BODY_NOT_SET:
       scheduler_.on_sign_of_life(sender, now);
       return;
@@ -132,6 +177,44 @@ void Coordinator::on_tick(TimePoint now) {
   scheduler_.on_tick(now);
 }
 
+// --- people ---
+
+void Coordinator::on_command(const Peer& peer, const pb::Command& command) {
+  const Expected<std::string> done = obey(command);
+  send(peer.id, command_reply_of(done.has_value(), done ? *done : to_string(done.error())));
+}
+
+Expected<std::uint32_t> Coordinator::campaign_of(const pb::Command& command) const {
+  if (command.campaign().empty() && campaigns_.size() == 1) return 0U;
+  const auto at = std::ranges::find(facts_.campaign_digests, command.campaign());
+  if (at == facts_.campaign_digests.end()) {
+    return unexpected(ErrorKind::NotFound, "this coordinator does not run the campaign",
+                      command.campaign());
+  }
+  return static_cast<std::uint32_t>(at - facts_.campaign_digests.begin());
+}
+
+Expected<std::string> Coordinator::obey(const pb::Command& command) {
+  const Expected<std::uint32_t> index = campaign_of(command);
+  if (!index) return Unexpected(index.error());
+  Campaign& campaign = campaigns_[*index];
+  CommandRow row{.number = campaign.commands + 1,
+                 .kind = {},
+                 .design = {command.design()},
+                 .budget = command.budget(),
+                 .who = command.who()};
+  if (command.kind() == pb::Command::KIND_CANCEL) {
+    row.kind = "cancel";
+  } else if (command.kind() == pb::Command::KIND_EXTEND) {
+    row.kind = "extend";
+  } else {
+    return bad_input("a command that this version does not know");
+  }
+  if (auto done = campaign.source->carry_out(row); !done) return Unexpected(done.error());
+  ++campaign.commands;
+  return row.kind + ": done";
+}
+
 // --- actions ---
 
 void Coordinator::carry_out(SchedulerAction& action) {
@@ -150,16 +233,22 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](const SendWhoAreYou& a) { send(a.peer, frame_of(a)); },
           [&](const SendDrain& a) { send(a.peer, frame_of(a)); },
           [&](const OutcomeAccepted& a) {
-            waiting_[pack(a.outcome.key)].first = a.outcome.worker;
-            source_->tell(a.outcome);
+            waiting_[key_of(a.outcome)].first = a.outcome.worker;
+            campaigns_[a.outcome.campaign].source->tell(a.outcome);
           },
           [&](const OutcomeRepeated& a) { repeat(a); },
-          [&](const ConflictFound& a) { own_rows_.emplace_back(a.row); },
-          [&](WorkerChanged& a) { own_rows_.emplace_back(std::move(a.row)); },
-          [&](FailureKept& a) { own_rows_.emplace_back(std::move(a.row)); },
-          [&](Noted& a) { own_rows_.emplace_back(std::move(a.row)); },
+          [&](const ConflictFound& a) { campaigns_[a.campaign].own_rows.emplace_back(a.row); },
+          [&](const WorkerChanged& a) { put_row(a.row); },
+          [&](FailureKept& a) { campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row)); },
+          [&](AttemptEnded& a) { campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row)); },
+          [&](Noted& a) {
+            if (!a.campaign) return put_row(a.row);
+            campaigns_[*a.campaign].own_rows.emplace_back(std::move(a.row));
+          },
           [&](StopCampaign& a) {
-            if (!stopped_) stopped_ = std::move(a.reason);
+            Campaign& campaign = campaigns_[a.campaign];
+            if (!campaign.stopped) campaign.stopped = std::move(a.reason);
+            scheduler_.forget(a.campaign);
           },
       },
       action);
@@ -195,26 +284,35 @@ bool Coordinator::progress() {
   std::vector<SchedulerAction> actions = scheduler_.take_actions();
   for (SchedulerAction& action : actions)
     carry_out(action);
-  std::vector<Task> tasks = source_->take_tasks();
-  const bool more = !actions.empty() || !tasks.empty();
-  if (!tasks.empty()) scheduler_.add(std::move(tasks));
+  bool more = !actions.empty();
+  for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
+    Campaign& campaign = campaigns_[index];
+    if (campaign.stopped) continue;
+    std::vector<Task> tasks = campaign.source->take_tasks();
+    if (tasks.empty()) continue;
+    for (Task& task : tasks)
+      task.campaign = index;
+    scheduler_.add(std::move(tasks));
+    more = true;
+  }
   return more;
 }
 
-void Coordinator::append() {
-  std::vector<Row> rows = source_->take_rows();
-  rows.insert(rows.end(), std::make_move_iterator(own_rows_.begin()),
-              std::make_move_iterator(own_rows_.end()));
-  own_rows_.clear();
+void Coordinator::append(std::uint32_t index) {
+  Campaign& campaign = campaigns_[index];
+  std::vector<Row> rows = campaign.source->take_rows();
+  rows.insert(rows.end(), std::make_move_iterator(campaign.own_rows.begin()),
+              std::make_move_iterator(campaign.own_rows.end()));
+  campaign.own_rows.clear();
   if (rows.empty()) return;
   std::vector<PackedKey> keys;
   for (const Row& row : rows) {
     if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
-      keys.push_back(pack(evaluation->key));
+      keys.push_back(pack(evaluation->key, index));
     }
   }
-  unappended_.push_back(std::move(keys));
-  actions_.emplace_back(AppendRows{std::move(rows)});
+  campaign.unappended.push_back(std::move(keys));
+  actions_.emplace_back(AppendRows{index, std::move(rows)});
 }
 
 std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
@@ -223,21 +321,25 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     }
     scheduler_.dispatch(now);
   } while (progress());
-  append();
+  for (std::uint32_t index = 0; index < campaigns_.size(); ++index)
+    append(index);
   return std::exchange(actions_, {});
 }
 
-void Coordinator::on_appended(std::uint64_t ticket) {
-  SWARMSMITH_ASSERT(!unappended_.empty(), "a ticket belongs to rows that were given out");
-  SWARMSMITH_ASSERT(appended_.empty() || appended_.back().first < ticket, "tickets count up");
-  appended_.emplace_back(ticket, std::move(unappended_.front()));
-  unappended_.pop_front();
+void Coordinator::on_appended(std::uint32_t campaign, std::uint64_t ticket) {
+  auto& unappended = campaigns_[campaign].unappended;
+  auto& appended = campaigns_[campaign].appended;
+  SWARMSMITH_ASSERT(!unappended.empty(), "a ticket belongs to rows that were given out");
+  SWARMSMITH_ASSERT(appended.empty() || appended.back().first < ticket, "tickets count up");
+  appended.emplace_back(ticket, std::move(unappended.front()));
+  unappended.pop_front();
 }
 
-void Coordinator::on_committed(std::uint64_t ticket) {
+void Coordinator::on_committed(std::uint32_t campaign, std::uint64_t ticket) {
+  auto& appended = campaigns_[campaign].appended;
   std::map<WorkerNumber, std::vector<PackedKey>> keys;
-  while (!appended_.empty() && appended_.front().first <= ticket) {
-    for (const PackedKey key : appended_.front().second) {
+  while (!appended.empty() && appended.front().first <= ticket) {
+    for (const PackedKey key : appended.front().second) {
       const auto at = waiting_.find(key);
       if (at == waiting_.end()) continue;
       keys[at->second.first].push_back(key);
@@ -245,7 +347,7 @@ void Coordinator::on_committed(std::uint64_t ticket) {
         keys[other].push_back(key);
       waiting_.erase(at);
     }
-    appended_.pop_front();
+    appended.pop_front();
   }
   acknowledge(keys);
 }

@@ -19,12 +19,26 @@
 namespace swarmsmith {
 
 struct CoordinatorOptions {
-  SchedulerOptions scheduler;
-  std::string campaign_digest;
-  std::string scenario;  ///< serialised pb::Scenario; opaque here
+  SchedulerOptions scheduler;  ///< with a policy for each campaign
+  std::string scenario;        ///< serialised pb::PoolScenario; opaque here
   /// A peer whose frames were wrong this often is not listened to for `refuse_for`.
   int malformed_limit = 10;
   Duration refuse_for = std::chrono::seconds(60);
+};
+
+/// A campaign that is to be run.
+struct CampaignWork {
+  std::string digest;
+  WorkSource* source = nullptr;        ///< must outlive the coordinator
+  std::span<const StoredScore> known;  ///< outcomes that are in its store; read at the start only
+  std::int64_t commands = 0;           ///< the largest number of a command in its store
+};
+
+/// Who sent a frame, as the socket knows it.
+struct Peer {
+  PeerId id = 0;
+  Role role = Role::Anyone;
+  std::string_view client;  ///< name of its key
 };
 
 /// Actions.
@@ -32,42 +46,50 @@ struct SendFrame {
   PeerId peer = 0;
   std::string frame;
 };
-/// One unit for the store; its ticket comes back by `on_appended`, in order.
+/// One unit for the campaign's store; its ticket comes back by `on_appended`, in order.
 struct AppendRows {
+  std::uint32_t campaign = 0;
   std::vector<Row> rows;
 };
-using CoordinatorAction = std::variant<SendFrame, AppendRows>;
+/// Somebody asks how it goes: to be answered with `status_reply_of`.
+struct AnswerStatus {
+  PeerId peer = 0;
+};
+using CoordinatorAction = std::variant<SendFrame, AppendRows, AnswerStatus>;
 
-/// Scheduler, campaign and rows put together. Pure: frames and the time in, frames and rows out.
+/// Scheduler, campaigns and rows put together. Pure: frames and the time in, frames and rows out.
+/// Campaigns share the workers, and nothing else: each has its source of work and its store.
 ///
 /// An outcome goes: accepted by the scheduler, told to the campaign, its row appended, the row's
 /// ticket committed, acknowledged to the worker. The race goes on before the commit, and what a
 /// crash takes away is evaluated again with the same bits; acknowledgements never do.
 class Coordinator {
  public:
-  /// `source` must outlive the object; `known` are the outcomes that are in the store.
-  Coordinator(CoordinatorOptions options, WorkSource& source, std::span<const StoredScore> known);
+  /// The order of `campaigns` is that of the scenario and of the scheduler's policies.
+  Coordinator(CoordinatorOptions options, const std::vector<CampaignWork>& campaigns);
 
   /// An empty frame stands for a message that was no single frame.
-  void on_frame(PeerId peer, std::string_view frame, TimePoint now);
+  void on_frame(const Peer& peer, std::string_view frame, TimePoint now);
   void on_unreachable(PeerId peer, TimePoint now);
   void on_tick(TimePoint now);
-  void on_appended(std::uint64_t ticket);
-  void on_committed(std::uint64_t ticket);
-  /// No leases from now on, or again: the store cannot write, or the campaign is to stop.
-  void hold(bool held) { scheduler_.hold(held || stopped_.has_value()); }
+  void on_appended(std::uint32_t campaign, std::uint64_t ticket);
+  void on_committed(std::uint32_t campaign, std::uint64_t ticket);
+  /// No leases from now on, or again: a store cannot write, or all is to stop.
+  void hold(bool held) { scheduler_.hold(held); }
   /// Sends the workers home.
   void drain(TimePoint now) { scheduler_.drain(now); }
 
   /// Moves on as far as possible; the actions since the last call, in order.
   std::vector<CoordinatorAction> take_actions(TimePoint now);
 
-  /// Nothing is wanted any more, and everything is on disk.
-  bool finished() const { return source_->finished() && settled(); }
+  /// Of every campaign nothing is wanted any more, or it is stopped; and everything is on disk.
+  bool finished() const;
   /// Everything accepted so far is on disk.
-  bool settled() const { return waiting_.empty() && unappended_.empty() && appended_.empty(); }
-  /// Why the campaign cannot go on, if so.
-  const std::optional<std::string>& stopped() const { return stopped_; }
+  bool settled() const;
+  /// Why the campaign cannot go on, if so. The others do.
+  const std::optional<std::string>& stopped(std::uint32_t campaign = 0) const {
+    return campaigns_[campaign].stopped;
+  }
 
   /// Without rate and trouble, which need a clock and a store.
   LiveStatus status() const;
@@ -88,29 +110,41 @@ class Coordinator {
 
   bool is_refused(PeerId peer, TimePoint now);
   void on_malformed(PeerId peer, const Error& error, TimePoint now);
-  void on_message(PeerId peer, const pb::ToCoordinator& message, TimePoint now);
+  void on_message(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
+  void on_work(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
   void on_results(const Sender& sender, const pb::Results& results, TimePoint now);
+  void on_command(const Peer& peer, const pb::Command& command);
+  /// A sentence that says what was done.
+  Expected<std::string> obey(const pb::Command& command);
+  Expected<std::uint32_t> campaign_of(const pb::Command& command) const;
   void carry_out(SchedulerAction& action);
   void repeat(const OutcomeRepeated& action);
+  /// For the stores of all campaigns.
+  void put_row(const Row& row);
   void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
   void send(PeerId peer, std::string frame);
   bool progress();
-  void append();
+  void append(std::uint32_t campaign);
+
+  struct Campaign {
+    WorkSource* source;
+    std::vector<Row> own_rows{};  ///< workers, events, conflicts, attempts, commands
+    std::deque<std::vector<PackedKey>> unappended{};  ///< keys of AppendRows without a ticket
+    std::deque<std::pair<std::uint64_t, std::vector<PackedKey>>> appended{};
+    std::int64_t commands = 0;
+    std::optional<std::string> stopped{};
+  };
 
   CoordinatorOptions options_;
-  CampaignFacts facts_;
-  WorkSource* source_;
+  PoolFacts facts_;
+  std::vector<Campaign> campaigns_;
   Scheduler scheduler_;
   std::vector<CoordinatorAction> actions_;
-  std::vector<Row> own_rows_;  ///< workers, events, conflicts
   /// Outcomes that are not on disk yet.
   std::unordered_map<PackedKey, Waiting> waiting_;
-  std::deque<std::vector<PackedKey>> unappended_;  ///< keys of AppendRows without a ticket
-  std::deque<std::pair<std::uint64_t, std::vector<PackedKey>>> appended_;
   std::unordered_map<PeerId, Fault> faults_;
   std::map<std::string, std::uint64_t> malformed_;
   std::uint64_t malformed_count_ = 0;
-  std::optional<std::string> stopped_;
   google::protobuf::Arena arena_;
   std::vector<WorkerResult> results_;   ///< reused
   std::vector<RunningReport> running_;  ///< reused

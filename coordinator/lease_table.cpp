@@ -11,11 +11,11 @@ const std::list<PackedKey> kNoLeases;
 
 LeaseTable::Queue& LeaseTable::queue_of(const TaskRecord& record) {
   if (record.alone) return alone_;
-  return record.task.key.purpose == Purpose::LookAhead ? ahead_ : wanted_;
+  return record.task.ahead ? ahead_ : wanted_;
 }
 
 bool LeaseTable::add(Task task) {
-  const PackedKey key = pack(task.key);
+  const PackedKey key = key_of(task);
   const auto [at, inserted] = records_.try_emplace(key);
   if (!inserted) return false;
   TaskRecord& record = at->second;
@@ -44,6 +44,22 @@ void LeaseTable::remove(PackedKey key) {
     leave_queue(at->second);
   }
   records_.erase(at);
+}
+
+void LeaseTable::remove_all(std::uint32_t campaign) {
+  std::vector<PackedKey> keys;
+  for (const auto& [key, record] : records_) {
+    if (record.task.campaign == campaign) keys.push_back(key);
+  }
+  for (const PackedKey key : keys)
+    remove(key);
+}
+
+void LeaseTable::promote(TaskRecord& record) {
+  record.task.ahead = false;
+  if (record.lease || record.alone) return;
+  record.queued = ++places_;
+  wanted_.push_back({key_of(record.task), record.queued});
 }
 
 TaskRecord* LeaseTable::front_of(Queue& queue) {
@@ -84,7 +100,7 @@ void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now) {
                        .adopted = false,
                        .alone = record.alone};
   std::list<PackedKey>& leases = by_worker_[worker];
-  record.of_worker = leases.insert(leases.end(), pack(record.task.key));
+  record.of_worker = leases.insert(leases.end(), key_of(record.task));
   ++leased_;
 }
 
@@ -92,7 +108,7 @@ void LeaseTable::requeue(TaskRecord& record) {
   SWARMSMITH_ASSERT(record.lease, "a task that is requeued has a lease");
   drop_lease(record);
   record.queued = ++places_;
-  queue_of(record).push_front({pack(record.task.key), record.queued});
+  queue_of(record).push_front({key_of(record.task), record.queued});
   if (record.alone) ++alone_count_;
 }
 

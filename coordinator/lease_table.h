@@ -54,6 +54,9 @@ class LeaseTable {
   TaskRecord* find(PackedKey key);
   const TaskRecord* find(PackedKey key) const;
   void remove(PackedKey key);
+  void remove_all(std::uint32_t campaign);
+  /// Look-ahead that is wanted now: to the queue of those, if it is queued.
+  void promote(TaskRecord& record);
 
   /// The next task for a worker that has others, without taking it out; null when there is none.
   /// With `skip_avoided`, tasks that should be tried elsewhere are passed over.

@@ -7,7 +7,7 @@
 
 namespace swarmsmith {
 
-/// How a running campaign is right now; from the coordinator's memory, for people.
+/// How a coordinator's campaigns are right now; from the coordinator's memory, for people.
 struct LiveStatus {
   std::int64_t workers = 0;
   std::int64_t slots = 0;
@@ -25,5 +25,8 @@ struct LiveStatus {
   std::string trouble;           ///< why nothing can be written; empty when well
   LauncherStatus launcher;       ///< of workers that this process starts; without name: none
 };
+
+/// One JSON object with the fields by name.
+std::string to_json(const LiveStatus& status);
 
 }  // namespace swarmsmith

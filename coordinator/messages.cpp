@@ -33,6 +33,8 @@ WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uin
                   .host = hello.host(),
                   .pid = hello.pid(),
                   .job = hello.job(),
+                  .cpu = hello.cpu(),
+                  .client = {},
                   .same_scenario = hello.scenario() == scenario,
                   .holds = {}};
   out.holds.reserve(static_cast<std::size_t>(hello.holds_size()));
@@ -70,12 +72,13 @@ std::vector<PackedKey> keys_of(const pb::Returned& returned) {
   return keys;
 }
 
-std::string frame_of(const SendWelcome& action, const CampaignFacts& facts,
+std::string frame_of(const SendWelcome& action, const PoolFacts& facts,
                      const SchedulerOptions& options) {
   pb::ToWorker message;
   message.set_incarnation(action.incarnation);
   pb::Welcome& welcome = *message.mutable_welcome();
-  welcome.set_campaign_digest(facts.campaign_digest);
+  for (const std::string& digest : facts.campaign_digests)
+    welcome.add_campaign_digests(digest);
   welcome.set_scenario(facts.scenario_digest);
   welcome.set_heartbeat_ms(milliseconds(options.heartbeat));
   welcome.set_dead_after_ms(milliseconds(options.dead_after));
@@ -92,7 +95,7 @@ std::string frame_of(const SendReject& action) {
   return encode(message);
 }
 
-std::string frame_of(const SendTasks& action, const CampaignFacts& facts,
+std::string frame_of(const SendTasks& action, const PoolFacts& facts,
                      google::protobuf::Arena& arena) {
   auto& message = *google::protobuf::Arena::CreateMessage<pb::ToWorker>(&arena);
   message.set_incarnation(action.incarnation);
@@ -101,7 +104,7 @@ std::string frame_of(const SendTasks& action, const CampaignFacts& facts,
   for (const SendTasks::Leased& leased : action.tasks) {
     const Task& task = leased.task;
     pb::Task& out = *tasks.add_tasks();
-    unpack(pack(task.key), *out.mutable_key());
+    unpack(key_of(task), *out.mutable_key());
     out.set_attempt(leased.attempt);
     out.set_mission(task.mission);
     out.set_method(task.method);
@@ -143,10 +146,23 @@ std::string acknowledgement_of(std::span<const PackedKey> keys, std::uint64_t in
   return encode(message);
 }
 
-std::string scenario_reply_of(const CampaignFacts& facts, std::uint64_t incarnation) {
+std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation) {
   pb::ToWorker message;
   message.set_incarnation(incarnation);
   message.mutable_scenario()->set_scenario(facts.scenario);
+  return encode(message);
+}
+
+std::string command_reply_of(bool done, const std::string& sentence) {
+  pb::ToWorker message;
+  message.mutable_command_reply()->set_done(done);
+  message.mutable_command_reply()->set_sentence(sentence.substr(0, kMaxTextBytes));
+  return encode(message);
+}
+
+std::string status_reply_of(const std::string& json) {
+  pb::ToWorker message;
+  message.mutable_status_reply()->set_json(json);
   return encode(message);
 }
 

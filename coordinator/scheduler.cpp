@@ -28,17 +28,33 @@ double value_of(const DoneEntry& entry) {
 
 }  // namespace
 
-Scheduler::Scheduler(SchedulerOptions options, std::span<const StoredScore> known)
+Scheduler::Scheduler(SchedulerOptions options)
     : options_(std::move(options)), workers_(options_.first_worker) {
+  SWARMSMITH_ASSERT(!options_.campaigns.empty() && options_.campaigns.size() <= kMaxCampaigns,
+                    "a coordinator has some campaigns, and not too many for its keys");
+}
+
+void Scheduler::know(std::uint32_t campaign, std::span<const StoredScore> known) {
   for (const StoredScore& score : known) {
-    done_.insert(pack(score.key), score.status, score.score, score.state_digest);
+    done_.insert(pack(score.key, campaign), score.status, score.score, score.state_digest);
   }
 }
 
 void Scheduler::add(std::vector<Task> tasks) {
   for (Task& task : tasks) {
-    const bool is_new = leases_.add(std::move(task));
-    SWARMSMITH_ASSERT(is_new, "a task is wanted once");
+    if (TaskRecord* record = leases_.find(key_of(task)); record != nullptr) {
+      SWARMSMITH_ASSERT(record->task.ahead && !task.ahead, "a task is wanted once");
+      leases_.promote(*record);
+      continue;
+    }
+    leases_.add(std::move(task));
+  }
+}
+
+void Scheduler::drop(std::span<const PackedKey> keys) {
+  for (const PackedKey key : keys) {
+    const TaskRecord* record = leases_.find(key);
+    if (record != nullptr && record->task.ahead && !record->lease) leases_.remove(key);
   }
 }
 
@@ -52,15 +68,21 @@ const WorkerEntry* Scheduler::connected_worker(WorkerNumber number) {
 }
 
 void Scheduler::note(const char* severity, const char* kind,
-                     std::initializer_list<EventField> fields) {
-  actions_.emplace_back(Noted{{.severity = severity, .kind = kind, .text = event_text(fields)}});
+                     std::initializer_list<EventField> fields,
+                     std::optional<std::uint32_t> campaign) {
+  actions_.emplace_back(
+      Noted{campaign, {.severity = severity, .kind = kind, .text = event_text(fields)}});
 }
 
-void Scheduler::stop(const std::string& reason) {
-  held_ = true;
+void Scheduler::stop(std::uint32_t campaign, const std::string& reason) {
   // What a program wrote may be long; it is in the table of failures.
-  note("error", "campaign stopped", {{"reason", reason.substr(0, reason.find('\n'))}});
-  actions_.emplace_back(StopCampaign{reason});
+  note("error", "campaign stopped", {{"reason", reason.substr(0, reason.find('\n'))}}, campaign);
+  actions_.emplace_back(StopCampaign{campaign, reason});
+}
+
+void Scheduler::forget(std::uint32_t campaign) {
+  stopped_.insert(campaign);
+  leases_.remove_all(campaign);
 }
 
 // --- who is there ---
@@ -233,15 +255,16 @@ void Scheduler::suspect(WorkerEntry& entry, TaskRecord& record, Loss loss) {
   if (loss == Loss::Death) {
     if (record.lease->alone) {
       ++record.deaths;
-      entry.charged.push_back(pack(record.task.key));
+      entry.charged.push_back(key_of(record.task));
     }
     record.alone = true;
   } else if (loss == Loss::Silence) {
     ++record.losses;
     if (record.losses >= kLossesUntilAlone) record.alone = true;
     if (record.lease->alone && record.losses >= kLossesUntilStop) {
-      stop("the evaluation of " + name_of(record.task.key) + " was lost with its worker " +
-           std::to_string(record.losses) + " times");
+      stop(record.task.campaign, "the evaluation of " + name_of(record.task.key) +
+                                     " was lost with its worker " + std::to_string(record.losses) +
+                                     " times");
     }
   }
 }
@@ -254,7 +277,9 @@ void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> r
   if (entry == nullptr) return;
   SendAcknowledged acknowledged{entry->peer, entry->hello.incarnation, {}};
   for (const WorkerResult& result : results) {
-    if (result.failure.empty()) {
+    if (stopped_.contains(campaign_of(result.key))) {
+      acknowledged.keys.push_back(result.key);
+    } else if (result.failure.empty()) {
       on_score(*entry, result);
     } else {
       on_failure(*entry, result, acknowledged);
@@ -268,8 +293,8 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
     ++entry.done;
     const auto spent_us = static_cast<double>(std::max<std::int64_t>(result.wall_us, 0));
     estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
-    accept(result.key,
-           {.key = record->task.key,
+    accept({.key = record->task.key,
+            .campaign = record->task.campaign,
             .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
             .score = result.rejected ? 0 : result.score,
             .state_digest = result.state_digest,
@@ -287,7 +312,8 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
   ++counters_.unknown;
 }
 
-void Scheduler::accept(PackedKey key, const Outcome& outcome) {
+void Scheduler::accept(const Outcome& outcome) {
+  const PackedKey key = key_of(outcome);
   leases_.remove(key);
   done_.insert(key, outcome.status, outcome.score, outcome.state_digest);
   ++(outcome.status == EvaluationStatus::Ok ? counters_.done : counters_.rejected);
@@ -303,13 +329,15 @@ void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
   if (DoneTable::same(known, EvaluationStatus::Ok, result.score, result.state_digest)) return;
   ++counters_.conflicts;
   const EvaluationKey key = unpack(result.key);
-  actions_.emplace_back(ConflictFound{{.key = key,
+  actions_.emplace_back(ConflictFound{campaign_of(result.key),
+                                      {.key = key,
                                        .kept_score = value_of(known),
                                        .other_score = result.score,
                                        .other_state_digest = result.state_digest,
                                        .other_worker = entry.number}});
   note("error", "not deterministic",
-       {{"evaluation", name_of(key)}, {"worker", entry.number}, {"host", entry.hello.host}});
+       {{"evaluation", name_of(key)}, {"worker", entry.number}, {"host", entry.hello.host}},
+       campaign_of(result.key));
 }
 
 void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
@@ -326,8 +354,10 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
   note("warning", "evaluation failed",
        {{"evaluation", name_of(record->task.key)},
         {"worker", entry.number},
-        {"reason", result.failure}});
-  actions_.emplace_back(FailureKept{{.key = record->task.key,
+        {"reason", result.failure}},
+       record->task.campaign);
+  actions_.emplace_back(FailureKept{record->task.campaign,
+                                    {.key = record->task.key,
                                      .attempt = record->lease->attempt,
                                      .worker = entry.number,
                                      .reason = result.failure,
@@ -350,15 +380,14 @@ void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
   entry->last_sequence = sender.sequence;
   entry->credit = std::min(credit, options_.max_credit);
   entry->running = running.size();
-  const auto limit_ms =
-      std::chrono::duration_cast<std::chrono::milliseconds>(options_.task_timeout).count();
   for (const RunningReport& report : running) {
     TaskRecord* record = leases_.find(report.key);
     if (record == nullptr || !record->lease || record->lease->worker != entry->number) continue;
     record->lease->renewed = now;
     // Of a program the worker itself keeps the time.
     if (options_.evaluates_programs) continue;
-    if (report.elapsed_ms > limit_ms) on_timeout(*entry, *record);
+    const auto limit = policy_of(*record).task_timeout;
+    if (std::chrono::milliseconds(report.elapsed_ms) > limit) on_timeout(*entry, *record);
   }
 }
 
@@ -368,15 +397,17 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
   ++entry.failed;
   ++counters_.failed;
   note("warning", "evaluation timed out",
-       {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}});
+       {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign);
   record.avoid = entry.number;
   leases_.requeue(record);
-  if (record.timeouts > options_.retries) {
-    stop("the evaluation of " + name_of(record.task.key) + " took longer than " +
-         std::to_string(
-             std::chrono::duration_cast<std::chrono::seconds>(options_.task_timeout).count()) +
-         " s in " + std::to_string(record.timeouts) +
-         " attempts: raise task_timeout_s, or retries");
+  const CampaignPolicy& policy = policy_of(record);
+  if (record.timeouts > policy.retries) {
+    stop(record.task.campaign,
+         "the evaluation of " + name_of(record.task.key) + " took longer than " +
+             std::to_string(
+                 std::chrono::duration_cast<std::chrono::seconds>(policy.task_timeout).count()) +
+             " s in " + std::to_string(record.timeouts) +
+             " attempts: raise task_timeout_s, or retries");
   }
 }
 
@@ -384,17 +415,19 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
 void Scheduler::reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
                        const FailureDetails& details) {
   const EvaluationKey key = record.task.key;
-  if (options_.stop_on_failure) {
+  if (policy_of(record).stop_on_failure) {
     std::string message = "the evaluation of " + name_of(key) + " failed: ";
     message += message_of(reason, details);
     if (!details.command.empty()) message += "It is kept in the table `failure` of the store.";
-    return stop(message);
+    return stop(record.task.campaign, message);
   }
-  note("warning", "evaluation rejected", {{"evaluation", name_of(key)}, {"reason", reason}});
-  accept(pack(key), {.key = key,
-                     .status = EvaluationStatus::Rejected,
-                     .worker = worker,
-                     .attempt = std::max<std::int64_t>(record.attempts, 1)});
+  note("warning", "evaluation rejected", {{"evaluation", name_of(key)}, {"reason", reason}},
+       record.task.campaign);
+  accept({.key = key,
+          .campaign = record.task.campaign,
+          .status = EvaluationStatus::Rejected,
+          .worker = worker,
+          .attempt = std::max<std::int64_t>(record.attempts, 1)});
 }
 
 }  // namespace swarmsmith

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <initializer_list>
+#include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,8 +19,9 @@ namespace swarmsmith {
 
 /// Who does what, when. Pure: events in with the time, actions out; no socket, no clock, no store.
 ///
-/// Promise: every task that was added gets exactly one `OutcomeAccepted`, however often workers
-/// die, fall silent, answer twice or late, as long as some worker goes on. A task is evaluated at
+/// Promise: every task that was added, and was not dropped, gets exactly one `OutcomeAccepted`,
+/// however often workers die, fall silent, answer twice or late, as long as some worker goes on
+/// and the task's campaign is not stopped. A task is evaluated at
 /// least once; the first outcome counts, since evaluations are pure. Later ones are compared with
 /// it bit by bit.
 ///
@@ -30,10 +33,17 @@ namespace swarmsmith {
 /// SchedulerOptions::evaluates_programs.
 class Scheduler {
  public:
-  /// `known` have an outcome that is on disk: their results are acknowledged when they come again.
-  Scheduler(SchedulerOptions options, std::span<const StoredScore> known);
+  explicit Scheduler(SchedulerOptions options);
 
+  /// These have an outcome that is on disk: their results are acknowledged when they come again.
+  void know(std::uint32_t campaign, std::span<const StoredScore> known);
+
+  /// A task that was added as look-ahead and is there still may come once more: it is wanted now.
   void add(std::vector<Task> tasks);
+  /// Look-ahead that nobody wants any more; what is leased already goes on.
+  void drop(std::span<const PackedKey> keys);
+  /// The campaign is stopped: its tasks are forgotten, and what still comes of it is not kept.
+  void forget(std::uint32_t campaign);
 
   void on_hello(PeerId peer, WorkerHello hello, TimePoint now);
   void on_credit(const Sender& sender, std::uint32_t tasks, TimePoint now);
@@ -80,11 +90,14 @@ class Scheduler {
   void on_score(WorkerEntry& entry, const WorkerResult& result);
   void on_failure(WorkerEntry& entry, const WorkerResult& result, SendAcknowledged& acknowledged);
   void on_timeout(WorkerEntry& entry, TaskRecord& record);
-  void accept(PackedKey key, const Outcome& outcome);
+  void accept(const Outcome& outcome);
   void repeat(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
   void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
               const FailureDetails& details = {});
-  void stop(const std::string& reason);
+  void stop(std::uint32_t campaign, const std::string& reason);
+  const CampaignPolicy& policy_of(const TaskRecord& record) const {
+    return options_.campaigns[record.task.campaign];
+  }
 
   void pardon(TimePoint now);
   void expire(WorkerEntry& entry, TimePoint now);
@@ -93,7 +106,8 @@ class Scheduler {
   bool fill(WorkerEntry& entry, std::int64_t share, TimePoint now);
   void send_tasks(WorkerEntry& entry, SendTasks& message, TimePoint now);
   Duration lease_time() const;
-  void note(const char* severity, const char* kind, std::initializer_list<EventField> fields);
+  void note(const char* severity, const char* kind, std::initializer_list<EventField> fields,
+            std::optional<std::uint32_t> campaign = std::nullopt);
 
   SchedulerOptions options_;
   LeaseTable leases_;
@@ -107,6 +121,7 @@ class Scheduler {
   TimePoint ticked_;
   bool held_ = false;
   bool draining_ = false;
+  std::set<std::uint32_t> stopped_;  ///< campaigns
 };
 
 }  // namespace swarmsmith

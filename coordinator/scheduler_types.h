@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
@@ -26,6 +27,8 @@ struct WorkerHello {
   std::string host;
   std::int64_t pid = 0;
   std::string job;
+  std::string cpu;
+  std::string client;          ///< name of its key; empty without
   bool same_scenario = false;  ///< whether `holds` are of this campaign
   std::vector<PackedKey> holds;
 };
@@ -104,26 +107,42 @@ struct OutcomeRepeated {
   std::int64_t worker = 0;
 };
 struct ConflictFound {
+  std::uint32_t campaign = 0;
   ConflictRow row;
 };
 struct WorkerChanged {
   WorkerRow row;
 };
 struct Noted {
+  /// None: of the pool, and for the stores of all campaigns.
+  std::optional<std::uint32_t> campaign;
   EventRow row;
 };
 struct FailureKept {
+  std::uint32_t campaign = 0;
   FailureRow row;
 };
-/// The campaign cannot go on.
+struct AttemptEnded {
+  std::uint32_t campaign = 0;
+  AttemptRow row;
+};
+/// A campaign cannot go on.
 struct StopCampaign {
+  std::uint32_t campaign = 0;
   std::string reason;
 };
 
 using SchedulerAction =
     std::variant<SendWelcome, SendReject, SendTasks, SendAcknowledged, SendHeartbeat, SendWhoAreYou,
                  SendDrain, OutcomeAccepted, OutcomeRepeated, ConflictFound, WorkerChanged, Noted,
-                 FailureKept, StopCampaign>;
+                 FailureKept, AttemptEnded, StopCampaign>;
+
+/// What a campaign says of its evaluations.
+struct CampaignPolicy {
+  Duration task_timeout = std::chrono::seconds(30);
+  std::int64_t retries = 2;      ///< after time-outs, before the campaign stops
+  bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
+};
 
 struct SchedulerOptions {
   Duration heartbeat = std::chrono::seconds(1);
@@ -135,11 +154,9 @@ struct SchedulerOptions {
   /// A connection that breaks sooner than this after the last sign of life was closed by the death
   /// of its process; links die silently, and the transport needs 3 s to notice.
   Duration silence = std::chrono::milliseconds(2500);
-  Duration task_timeout = std::chrono::seconds(30);
-  std::int64_t retries = 2;      ///< after time-outs, before the campaign stops
-  bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
-  /// Evaluations by programs: none is run a second time while a worker that runs it is alive, a
-  /// first failure is final, and two results of one evaluation may differ.
+  std::vector<CampaignPolicy> campaigns{CampaignPolicy{}};  ///< Task::campaign is an index
+  /// Of all campaigns or of none: evaluations by programs: none is run a second time while a worker
+  /// that runs it is alive, a first failure is final, and two results of one evaluation may differ.
   bool evaluates_programs = false;
   std::uint32_t max_credit = 4096;
   std::size_t max_workers = 10'000;

@@ -1,7 +1,9 @@
 #include "coordinator/service.h"
 
+#include <algorithm>
 #include <deque>
 #include <mutex>
+#include <optional>
 #include <utility>
 
 #include "base/log.h"
@@ -24,33 +26,28 @@ bool is_loopback(const std::string& endpoint) {
          endpoint.starts_with("tcp://localhost:");
 }
 
-/// What the writer's thread says, for the loop's thread.
+/// What the writers' threads say, a writer a campaign, for the loop's thread.
 class News {
  public:
-  explicit News(Wakeup& wakeup) : wakeup_(&wakeup) {}
+  News(Wakeup& wakeup, std::size_t campaigns) : wakeup_(&wakeup), news_(campaigns) {}
 
-  void put(const WriterNews& news) {
+  void put(std::size_t campaign, const WriterNews& news) {
     {
       const std::scoped_lock lock(mutex_);
-      news_ = news;
-      fresh_ = true;
+      news_[campaign] = news;
     }
     wakeup_->notify();
   }
 
-  bool take(WriterNews& news) {
+  std::optional<WriterNews> take(std::size_t campaign) {
     const std::scoped_lock lock(mutex_);
-    if (!fresh_) return false;
-    fresh_ = false;
-    news = news_;
-    return true;
+    return std::exchange(news_[campaign], std::nullopt);
   }
 
  private:
   Wakeup* wakeup_;
   std::mutex mutex_;
-  WriterNews news_;
-  bool fresh_ = false;
+  std::vector<std::optional<WriterNews>> news_;
 };
 
 /// Evaluations a second over the last few.
@@ -77,15 +74,24 @@ void log_event(const EventRow& event) {
 
 class Loop final : public Service {
  public:
-  Loop(ServiceOptions options, std::unique_ptr<ServerSocket> socket, Store& store,
-       WorkSource& source, const std::vector<StoredScore>& known)
+  Loop(ServiceOptions options, std::unique_ptr<ServerSocket> socket,
+       const std::vector<ServiceCampaign>& campaigns, const std::vector<CampaignWork>& works)
       : options_(std::move(options)),
+        news_(wakeup_, campaigns.size()),
+        troubles_(campaigns.size()),
         socket_(std::move(socket)),
-        store_(&store),
-        coordinator_(options_.coordinator, source, known) {
-    store_->set_listener([this](const WriterNews& news) { news_.put(news); });
+        coordinator_(options_.coordinator, works) {
+    for (const ServiceCampaign& campaign : campaigns) {
+      const std::size_t index = stores_.size();
+      stores_.push_back(campaign.store);
+      campaign.store->set_listener(
+          [this, index](const WriterNews& news) { news_.put(index, news); });
+    }
   }
-  ~Loop() override { store_->set_listener({}); }
+  ~Loop() override {
+    for (Store* store : stores_)
+      store->set_listener({});
+  }
 
   const std::string& endpoint() const override { return socket_->endpoint(); }
 
@@ -95,10 +101,9 @@ class Loop final : public Service {
     carry_out();
     while (true) {
       if (coordinator_.finished()) return finish();
-      if (coordinator_.stopped()) return halt(ServiceEnd::How::Stopped, *coordinator_.stopped());
       if (stop.stop_requested()) {
         wait_for_running();
-        return halt(ServiceEnd::How::Interrupted, "interrupted; the same command goes on");
+        return halt();
       }
       step();
     }
@@ -129,24 +134,31 @@ class Loop final : public Service {
         more_frames_ = false;
         return;
       }
-      coordinator_.on_frame(received.peer, received.frame, now);
+      coordinator_.on_frame({received.peer, received.role, received.client}, received.frame, now);
     }
   }
 
   void hear_news() {
-    WriterNews news;
-    if (!news_.take(news)) return;
-    coordinator_.on_committed(news.committed);
-    if (news.trouble != trouble_) {
-      trouble_ = news.trouble;
-      if (trouble_.empty()) {
+    for (std::uint32_t index = 0; index < stores_.size(); ++index) {
+      const std::optional<WriterNews> news = news_.take(index);
+      if (!news) continue;
+      coordinator_.on_committed(index, news->committed);
+      if (news->trouble == troubles_[index]) continue;
+      troubles_[index] = news->trouble;
+      if (news->trouble.empty()) {
         log(LogLevel::Info, "coordinator", "store writes again");
       } else {
         log(LogLevel::Error, "coordinator", "store cannot be written; leasing stopped",
-            {{"reason", trouble_}});
+            {{"reason", news->trouble}});
       }
     }
-    coordinator_.hold(stopping_ || !trouble_.empty());
+    coordinator_.hold(stopping_ || !trouble().empty());
+  }
+
+  /// Of the stores; the first one that has any.
+  std::string trouble() const {
+    const auto some = std::ranges::find_if_not(troubles_, &std::string::empty);
+    return some == troubles_.end() ? std::string() : *some;
   }
 
   void carry_out() {
@@ -157,7 +169,8 @@ class Loop final : public Service {
       for (CoordinatorAction& action : coordinator_.take_actions(now)) {
         again = true;
         std::visit(Overloaded{[&](const SendFrame& send) { this->send(send, now); },
-                              [&](AppendRows& append) { this->append(append.rows); }},
+                              [&](AppendRows& append) { this->append(append); },
+                              [&](const AnswerStatus& answer) { this->answer(answer, now); }},
                    action);
       }
     }
@@ -175,19 +188,30 @@ class Loop final : public Service {
     }
   }
 
-  void append(std::vector<Row>& rows) {
-    for (const Row& row : rows) {
+  void append(AppendRows& append) {
+    for (const Row& row : append.rows) {
       if (const auto* event = std::get_if<EventRow>(&row)) log_event(*event);
     }
-    if (hooks_->on_rows) hooks_->on_rows(rows);
-    coordinator_.on_appended(store_->append(std::move(rows)));
+    if (hooks_->on_rows) hooks_->on_rows(append.campaign, append.rows);
+    coordinator_.on_appended(append.campaign,
+                             stores_[append.campaign]->append(std::move(append.rows)));
+  }
+
+  void answer(const AnswerStatus& answer, TimePoint now) {
+    send({answer.peer, status_reply_of(to_json(status_))}, now);
   }
 
   void report(TimePoint now) {
-    LiveStatus status = coordinator_.status();
-    status.evaluations_per_s = rate_.update(now, status.done);
-    status.trouble = trouble_;
-    if (hooks_->on_status) hooks_->on_status(status);
+    status_ = coordinator_.status();
+    status_.evaluations_per_s = rate_.update(now, status_.done);
+    status_.trouble = trouble();
+    if (hooks_->on_status) hooks_->on_status(status_);
+  }
+
+  void flush() {
+    for (std::size_t index = 0; index < stores_.size(); ++index) {
+      if (troubles_[index].empty()) stores_[index]->flush();
+    }
   }
 
   void wait_for_running() {
@@ -200,47 +224,57 @@ class Loop final : public Service {
     }
   }
 
-  ServiceEnd halt(ServiceEnd::How how, std::string reason) {
+  ServiceEnd halt() {
     coordinator_.hold(true);
     carry_out();
-    if (trouble_.empty()) store_->flush();
+    flush();
     hear_news();
     carry_out();
     report(clock_.now());
-    return {how, std::move(reason)};
+    return {ServiceEnd::How::Interrupted, reasons()};
   }
 
   ServiceEnd finish() {
     coordinator_.drain(clock_.now());
     carry_out();
-    store_->flush();
+    flush();
     // A worker that did not hear of the end would look for the coordinator until somebody stops it.
     const TimePoint until = clock_.now() + kFarewell;
     while (coordinator_.scheduler().workers().connected() > 0 && clock_.now() < until)
       step();
     report(clock_.now());
-    return {ServiceEnd::How::Finished, {}};
+    const std::vector<std::string> stopped = reasons();
+    const bool all_well = std::ranges::all_of(stopped, &std::string::empty);
+    return {all_well ? ServiceEnd::How::Finished : ServiceEnd::How::Stopped, stopped};
+  }
+
+  std::vector<std::string> reasons() const {
+    std::vector<std::string> reasons;
+    for (std::uint32_t index = 0; index < stores_.size(); ++index)
+      reasons.push_back(coordinator_.stopped(index).value_or(""));
+    return reasons;
   }
 
   ServiceOptions options_;
   SystemClock clock_;
   Wakeup wakeup_;
-  News news_{wakeup_};
+  News news_;
+  std::vector<std::string> troubles_;  ///< of the stores
   std::unique_ptr<ServerSocket> socket_;
-  Store* store_;
+  std::vector<Store*> stores_;
   Coordinator coordinator_;
   const ServiceHooks* hooks_ = nullptr;
   Rate rate_;
+  LiveStatus status_;
   TimePoint next_tick_{};
-  std::string trouble_;
   bool more_frames_ = false;
   bool stopping_ = false;
 };
 
 }  // namespace
 
-Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options, Store& store,
-                                                 WorkSource& source) {
+Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options,
+                                                 std::vector<ServiceCampaign> campaigns) {
   if (options.bind.empty()) options.bind = "tcp://127.0.0.1:*";
   // A name of an interface is what a socket would look for.
   if (constexpr std::string_view kName = "tcp://localhost:"; options.bind.starts_with(kName)) {
@@ -260,8 +294,18 @@ Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options, Store& 
   options.socket.linger = milliseconds{200};
   Expected<std::unique_ptr<ServerSocket>> socket = ServerSocket::bind(options.bind, options.socket);
   if (!socket) return Unexpected(socket.error());
-  const std::vector<StoredScore> known = store.scores();
-  return std::make_unique<Loop>(std::move(options), std::move(*socket), store, source, known);
+  std::vector<std::vector<StoredScore>> known;
+  std::vector<CampaignWork> works;
+  known.reserve(campaigns.size());
+  for (const ServiceCampaign& campaign : campaigns) {
+    known.push_back(campaign.store->scores());
+    const std::vector<CommandRow> commands = campaign.store->commands();
+    works.push_back({.digest = campaign.digest,
+                     .source = campaign.source,
+                     .known = known.back(),
+                     .commands = commands.empty() ? 0 : commands.back().number});
+  }
+  return std::make_unique<Loop>(std::move(options), std::move(*socket), campaigns, works);
 }
 
 }  // namespace swarmsmith

@@ -24,9 +24,16 @@ struct ServiceOptions {
   Duration grace = std::chrono::seconds(5);
 };
 
+/// A campaign that is to be run; both must outlive the service.
+struct ServiceCampaign {
+  std::string digest;
+  Store* store = nullptr;  ///< its listener is taken over
+  WorkSource* source = nullptr;
+};
+
 struct ServiceHooks {
-  /// Each unit of rows, just before it is appended to the store.
-  std::function<void(const std::vector<Row>&)> on_rows;
+  /// Each unit of rows of a campaign, just before it is appended to its store.
+  std::function<void(std::size_t campaign, const std::vector<Row>&)> on_rows;
   /// Ten times a second.
   std::function<void(const LiveStatus&)> on_status;
 };
@@ -35,27 +42,27 @@ struct ServiceEnd {
   enum class How {
     Finished,     ///< everything that was wanted is done and on disk
     Interrupted,  ///< asked to stop; what was accepted is on disk
-    Stopped,      ///< the campaign cannot go on; `reason` says why
+    Stopped,      ///< the same, but some campaigns could not go on
   };
   How how = How::Finished;
-  std::string reason;
+  /// Of each campaign, why it could not go on; empty where it could.
+  std::vector<std::string> reasons{};
 };
 
-/// A coordinator's loop: socket, clock and store around a Coordinator. One thread, that of `run`.
+/// A coordinator's loop: socket, clock and stores around a Coordinator. One thread, that of `run`.
 class Service {
  public:
   /// Errors: BadInput (no address, or one beyond loopback), Conflict (the port is taken),
-  /// Unavailable. `store` and
-  /// `source` must outlive the object; the store's listener is taken over.
-  static Expected<std::unique_ptr<Service>> open(ServiceOptions options, Store& store,
-                                                 WorkSource& source);
+  /// Unavailable. The order of `campaigns` is that of the scenario and of the scheduler's policies.
+  static Expected<std::unique_ptr<Service>> open(ServiceOptions options,
+                                                 std::vector<ServiceCampaign> campaigns);
   virtual ~Service() = default;
 
   /// Where workers find it, with the real port.
   virtual const std::string& endpoint() const = 0;
 
-  /// Until the campaign is over or `stop` is requested: then nothing more is leased, running
-  /// evaluations have the grace time, and the store is flushed. Call once.
+  /// Until all campaigns are over or `stop` is requested: then nothing more is leased, running
+  /// evaluations have the grace time, and the stores are flushed. Call once.
   virtual ServiceEnd run(const std::stop_token& stop, const ServiceHooks& hooks) = 0;
 };
 

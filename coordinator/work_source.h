@@ -1,7 +1,9 @@
 #pragma once
 
+#include <cstddef>
 #include <vector>
 
+#include "base/expected.h"
 #include "coordinator/task.h"
 #include "storage/rows.h"
 
@@ -9,13 +11,29 @@ namespace swarmsmith {
 
 /// Where tasks come from and outcomes go: a campaign. Pure: no clock, no sockets, no store; what
 /// must be written comes out as rows. An abstract class because the cluster's tests put a small
-/// campaign of their own behind it.
+/// campaign of their own behind it; as it stands, a source looks ahead of nothing and obeys nobody.
 class WorkSource {
  public:
   virtual ~WorkSource() = default;
 
-  /// Tasks that became wanted since the last call, the most urgent first. Each is returned once.
+  /// Tasks that became wanted since the last call, the most urgent first. Each is returned once;
+  /// one that `take_more` gave before, and that has no outcome yet, comes once more when it is
+  /// wanted.
   virtual std::vector<Task> take_tasks() = 0;
+
+  /// At most about `count` further tasks for slots that would idle: designs that are not begun yet
+  /// are begun, and then evaluations are asked for that will probably be wanted (Task::ahead).
+  /// Their outcomes change nothing of the answer.
+  virtual std::vector<Task> take_more(std::size_t /*count*/) { return {}; }
+
+  /// Tasks of `take_more` that nobody will want any more: they need not be run.
+  virtual std::vector<EvaluationKey> take_dropped() { return {}; }
+
+  /// Carries out "cancel" or "extend"; its row comes by `take_rows`, with the step at which it
+  /// acts. Errors: no such design, or one of which it cannot be asked, with what can.
+  virtual Expected<void> carry_out(const CommandRow& command) {
+    return bad_input("this campaign knows no such command", command.kind);
+  }
 
   /// The first outcome of a task that was taken; each task is told once.
   virtual void tell(const Outcome& outcome) = 0;

@@ -82,7 +82,11 @@ WorkerRow row_of(const WorkerEntry& entry, const std::string& state) {
           .build = entry.hello.build,
           .state = state,
           .done = entry.done,
-          .failed = entry.failed};
+          .failed = entry.failed,
+          .job = entry.hello.job,
+          .cpu = entry.hello.cpu,
+          .client = entry.hello.client,
+          .connections = static_cast<std::int64_t>(entry.hello.incarnation)};
 }
 
 }  // namespace swarmsmith

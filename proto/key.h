@@ -7,11 +7,13 @@
 
 namespace swarmsmith {
 
-/// An evaluation's key in one word, for hash maps: 41 bits of candidate, 20 of pair, 3 of purpose.
-/// Zero is no key, since candidates count from 1.
+/// An evaluation's key in one word, for hash maps: 6 bits for the campaign (its place among those
+/// of the coordinator), 35 of candidate, 20 of pair, 3 of purpose. Zero is no key, since candidates
+/// count from 1.
 using PackedKey = std::uint64_t;
 
-inline constexpr std::int64_t kMaxCandidate = (std::int64_t{1} << 41) - 1;
+inline constexpr std::uint32_t kMaxCampaigns = 64;
+inline constexpr std::int64_t kMaxCandidate = (std::int64_t{1} << 35) - 1;
 inline constexpr std::int64_t kMaxPair = (std::int64_t{1} << 20) - 1;
 inline constexpr std::int32_t kMaxPurpose = 7;
 
@@ -26,27 +28,36 @@ constexpr bool is_valid_key(std::int64_t candidate, std::int32_t purpose, std::i
 }
 
 /// The caller has checked the key.
-constexpr PackedKey pack(std::int64_t candidate, std::int32_t purpose, std::int64_t pair) {
-  return static_cast<PackedKey>(candidate) << 23U | static_cast<PackedKey>(pair) << 3U |
-         static_cast<PackedKey>(purpose);
+constexpr PackedKey pack(std::int64_t candidate, std::int32_t purpose, std::int64_t pair,
+                         std::uint32_t campaign = 0) {
+  return static_cast<PackedKey>(campaign) << 58U | static_cast<PackedKey>(candidate) << 23U |
+         static_cast<PackedKey>(pair) << 3U | static_cast<PackedKey>(purpose);
 }
 
+constexpr std::uint32_t campaign_of(PackedKey key) {
+  return static_cast<std::uint32_t>(key >> 58U);
+}
+constexpr std::int64_t candidate_of(PackedKey key) {
+  return static_cast<std::int64_t>(key >> 23U) & kMaxCandidate;
+}
 constexpr std::int32_t purpose_of(PackedKey key) {
   return static_cast<std::int32_t>(key & 7U);
 }
 /// The candidate's number within its design: irace's id of the configuration, from 1.
 constexpr std::int64_t number_of(PackedKey key) {
-  return (static_cast<std::int64_t>(key >> 23U) - 1) % kMostCandidates + 1;
+  return (candidate_of(key) - 1) % kMostCandidates + 1;
 }
 
 /// Nothing for a key that cannot be one.
 inline std::optional<PackedKey> pack(const pb::Key& key) {
   if (!is_valid_key(key.candidate(), key.purpose(), key.pair())) return std::nullopt;
-  return pack(key.candidate(), key.purpose(), key.pair());
+  if (key.campaign() >= kMaxCampaigns) return std::nullopt;
+  return pack(key.candidate(), key.purpose(), key.pair(), key.campaign());
 }
 
 inline void unpack(PackedKey packed, pb::Key& key) {
-  key.set_candidate(static_cast<std::int64_t>(packed >> 23U));
+  key.set_campaign(campaign_of(packed));
+  key.set_candidate(candidate_of(packed));
   key.set_pair(static_cast<std::int64_t>(packed >> 3U & 0xfffffU));
   key.set_purpose(static_cast<std::int32_t>(packed & 7U));
 }

@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "base/expected.h"
+#include "proto/role.h"
 #include "proto/wakeup.h"
 
 namespace swarmsmith {
@@ -38,6 +39,8 @@ class ServerSocket {
   struct Received {
     PeerId peer = 0;
     std::string_view frame;  ///< until the next call; empty when the message was no single frame
+    Role role = Role::Anyone;
+    std::string_view client;  ///< name of its key in the allow-list, as long; empty without keys
   };
 
   /// `endpoint` as "tcp://127.0.0.1:5555"; port * takes a free one. Unavailable when it is taken.

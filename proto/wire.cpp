@@ -82,7 +82,8 @@ bool is_fine(const pb::Hello& hello) {
   return hello.worker_id().size() == kWorkerIdBytes && hello.slots() >= 1 &&
          hello.slots() <= kMaxSlots && hello.build().size() <= kMaxTextBytes &&
          hello.self_test().size() <= kMaxTextBytes && hello.host().size() <= kMaxTextBytes &&
-         hello.job().size() <= kMaxTextBytes && all(hello.holds(), is_key);
+         hello.job().size() <= kMaxTextBytes && hello.cpu().size() <= kMaxTextBytes &&
+         all(hello.holds(), is_key);
 }
 
 bool is_result(const pb::Result& result) {
@@ -104,6 +105,11 @@ bool is_fine(const pb::Heartbeat& heartbeat) {
   });
 }
 
+bool is_fine(const pb::Command& command) {
+  return command.campaign().size() <= kMaxTextBytes && command.who().size() <= kMaxTextBytes &&
+         command.design() >= 0 && command.budget() >= 0;
+}
+
 bool is_fine(const pb::ToCoordinator& message) {
   switch (message.body_case()) {
     case pb::ToCoordinator::kHello:
@@ -114,6 +120,9 @@ bool is_fine(const pb::ToCoordinator& message) {
       return is_fine(message.heartbeat());
     case pb::ToCoordinator::kReturned:
       return all(message.returned().keys(), is_key);
+    case pb::ToCoordinator::kCommand:
+      return is_fine(message.command());
+    case pb::ToCoordinator::kWantStatus:
     case pb::ToCoordinator::kCredit:
     case pb::ToCoordinator::kGoodbye:
     case pb::ToCoordinator::kWantScenario:
@@ -137,6 +146,8 @@ bool is_fine(const pb::ToWorker& message) {
     case pb::ToWorker::kScenario:
     case pb::ToWorker::kDrain:
     case pb::ToWorker::kWhoAreYou:
+    case pb::ToWorker::kCommandReply:
+    case pb::ToWorker::kStatusReply:
     case pb::ToWorker::BODY_NOT_SET:
       return true;
   }

@@ -89,6 +89,14 @@ void visit_fields(const Row& row, Field&& field) {
           [&](const EventRow& r) {
             field("severity", r.severity), field("kind", r.kind), field("text", r.text);
           },
+          [&](const AttemptRow& r) {
+            field("candidate", r.key.candidate), field("purpose", r.key.purpose);
+            field("pair", r.key.pair), field("attempt", r.attempt), field("outcome", r.outcome);
+          },
+          [&](const CommandRow& r) {
+            field("design", r.design), field("step", r.step), field("kind", r.kind);
+            field("budget", r.budget);
+          },
       },
       row);
 }
@@ -163,6 +171,8 @@ std::string title(const Row& row) {
           [](const ConflictRow& r) { return "conflict on evaluation " + to_string(r.key); },
           [](const FailureRow& r) { return "failure of evaluation " + to_string(r.key); },
           [](const EventRow&) { return std::string("event"); },
+          [](const AttemptRow& r) { return "attempt at evaluation " + to_string(r.key); },
+          [](const CommandRow&) { return std::string("command"); },
       },
       row);
 }
@@ -176,25 +186,27 @@ Digest digest_of(const Row& row) {
 }  // namespace
 
 bool in_answer(const Row& row) {
-  return std::visit(Overloaded{
-                        [](const auto&) { return true; },
-                        [](const EvaluationRow& r) {
-                          return r.key.purpose == Purpose::Test ||
-                                 r.key.purpose == Purpose::Evaluator ||
-                                 (r.key.purpose == Purpose::Race && r.iteration != 0);
-                        },
-                        [](const PairRow& r) {
-                          return r.purpose == Purpose::Test || r.purpose == Purpose::Race ||
-                                 r.purpose == Purpose::Evaluator;
-                        },
-                        [](const UnusedRow&) { return false; },
-                        [](const CampaignStateRow&) { return false; },
-                        [](const WorkerRow&) { return false; },
-                        [](const ConflictRow&) { return false; },
-                        [](const FailureRow&) { return false; },
-                        [](const EventRow&) { return false; },
-                    },
-                    row);
+  return std::visit(
+      Overloaded{
+          [](const auto&) { return true; },
+          [](const EvaluationRow& r) {
+            return r.key.purpose == Purpose::Test || r.key.purpose == Purpose::Evaluator ||
+                   (r.key.purpose == Purpose::Race && r.iteration != 0);
+          },
+          [](const PairRow& r) {
+            return r.purpose == Purpose::Test || r.purpose == Purpose::Race ||
+                   r.purpose == Purpose::Evaluator;
+          },
+          [](const UnusedRow&) { return false; },
+          [](const CampaignStateRow&) { return false; },
+          [](const WorkerRow&) { return false; },
+          [](const ConflictRow&) { return false; },
+          [](const FailureRow&) { return false; },
+          [](const EventRow&) { return false; },
+          [](const AttemptRow&) { return false; },
+          [](const CommandRow& r) { return r.step && (r.kind == "cancel" || r.kind == "extend"); },
+      },
+      row);
 }
 
 void add_answer(Digest& digest, const Row& row) {

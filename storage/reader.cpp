@@ -25,6 +25,7 @@ class SqliteReader final : public StoreReader {
   CampaignRow campaign() override { return read_campaign(connection_); }
   std::vector<DesignRow> designs() override { return read_designs(connection_); }
   std::vector<StoredScore> scores() override { return read_scores(connection_); }
+  std::vector<CommandRow> commands() override { return read_commands(connection_); }
   bool finished() override { return is_finished(connection_); }
 
   std::string digest() override;

@@ -203,9 +203,36 @@ struct WorkerRow {
   std::int64_t pid = 0;
   std::int64_t slots = 0;
   std::string build;
-  std::string state;  ///< "connected", "lost", "left", "refused"
+  std::string state;  ///< "connected", "lost", "left", "refused", "quarantined"
   std::int64_t done = 0;
   std::int64_t failed = 0;
+  std::string job;     ///< of the batch system; empty outside of one
+  std::string cpu;     ///< model of its processor
+  std::string client;  ///< name of its key in the allow-list; empty without keys
+  std::int64_t connections = 1;
+};
+
+/// A lease that did not simply end with the evaluation's result, or that was not the only one. Not
+/// part of the answer.
+struct AttemptRow {
+  EvaluationKey key;
+  std::int64_t attempt = 1;
+  std::int64_t worker = 0;
+  std::int64_t held_ms = 0;
+  /// "lost", "expired", "returned", "failed", "timed out", "second copy", "audited", "conflict"
+  std::string outcome;
+};
+
+/// What a person asked of the campaign. "cancel" and "extend" are part of the answer once they act:
+/// a campaign that is played again does the same at the same step.
+struct CommandRow {
+  std::int64_t number = 0;  ///< in the store, from 1
+  std::string kind;         ///< "pause", "resume", "cancel", "extend"
+  DesignId design;          ///< none: every design
+  /// Of the race after which it acts (0: before the first); nothing until it does.
+  std::optional<std::int64_t> step;
+  std::int64_t budget = 0;  ///< experiments more, of "extend"
+  std::string who;          ///< user@host; not part of the answer
 };
 
 /// Two results of one evaluation with different bits: the campaign is not deterministic. Both are
@@ -236,9 +263,10 @@ struct EventRow {
   std::string text;      ///< JSON object
 };
 
-using Row = std::variant<CandidateRow, PairRow, EvaluationRow, UnusedRow, IterationRow, RaceStepRow,
-                         EliminationRow, EliteRow, CandidateTotalsRow, DesignStateRow,
-                         CampaignStateRow, WorkerRow, ConflictRow, FailureRow, EventRow>;
+using Row =
+    std::variant<CandidateRow, PairRow, EvaluationRow, UnusedRow, IterationRow, RaceStepRow,
+                 EliminationRow, EliteRow, CandidateTotalsRow, DesignStateRow, CampaignStateRow,
+                 WorkerRow, ConflictRow, FailureRow, EventRow, AttemptRow, CommandRow>;
 
 /// What a resumed campaign needs of an evaluation.
 struct StoredScore {

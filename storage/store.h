@@ -79,6 +79,8 @@ class Store {
   virtual std::vector<StoredStep> steps() = 0;
   /// How far each design is, in the order of their ids.
   virtual std::vector<DesignStateRow> design_states() = 0;
+  /// What people asked of the campaign, by number.
+  virtual std::vector<CommandRow> commands() = 0;
   /// The number for the next worker that comes, after all that ever came.
   virtual std::int64_t next_worker() = 0;
   /// Whether the campaign's row says that it is finished.
@@ -97,11 +99,12 @@ class StoreReader {
   virtual CampaignRow campaign() = 0;
   virtual std::vector<DesignRow> designs() = 0;
   virtual std::vector<StoredScore> scores() = 0;
+  virtual std::vector<CommandRow> commands() = 0;
   /// One hash over every table that is part of the answer (answer.h), row by row in key order:
   /// equal for two stores of one campaign, however they came about.
   virtual std::string digest() = 0;
   /// The rows that the digest covers, in its order: states of designs, iterations, candidates,
-  /// pairs, evaluations, steps, eliminations, elites, totals.
+  /// pairs, evaluations, steps, eliminations, elites, totals, commands that acted.
   virtual void each_answer_row(const std::function<void(const Row&)>& on_row) = 0;
   std::vector<Row> answer_rows();
   /// Whether the campaign's row says that it is finished.

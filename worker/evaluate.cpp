@@ -9,29 +9,54 @@
 namespace swarmsmith {
 namespace {
 
-/// The scenario that is in use, read once for all slots.
+/// One campaign of the pool, read once for all slots.
+using SharedScenario = std::shared_ptr<const WorkerScenario>;
+
+/// Items go to the evaluator of their campaign.
+Evaluator by_campaign(std::vector<Evaluator> evaluators) {
+  if (evaluators.size() == 1) return std::move(evaluators.front());
+  return [evaluators =
+              std::move(evaluators)](const WorkItem& item) -> tl::expected<Measured, Failure> {
+    const std::uint32_t campaign = campaign_of(item.key);
+    if (campaign < evaluators.size()) return evaluators[campaign](item);
+    return tl::unexpected(Failure{"no such campaign in the scenario"});
+  };
+}
+
+/// The scenarios that are in use.
 class Evaluators {
  public:
   explicit Evaluators(AllowedPrograms allowed) : allowed_(std::move(allowed)) {}
 
   Expected<Evaluator> operator()(const std::string& bytes) {
-    if (scenario_ == nullptr || bytes != bytes_) {
+    if (scenarios_.empty() || bytes != bytes_) {
       if (interrupt_ != nullptr) interrupt_->trigger();
-      scenario_.reset();
-      Expected<WorkerScenario> scenario = scenario_from_bytes(bytes);
-      if (!scenario) return Unexpected(scenario.error());
-      scenario_ = std::make_shared<const WorkerScenario>(std::move(*scenario));
+      scenarios_.clear();
+      Expected<PoolScenario> scenarios = scenarios_from_bytes(bytes);
+      if (!scenarios) return Unexpected(scenarios.error());
+      for (WorkerScenario& scenario : *scenarios)
+        scenarios_.push_back(std::make_shared<const WorkerScenario>(std::move(scenario)));
       interrupt_ = std::make_shared<Interrupt>();
       bytes_ = bytes;
     }
-    if (!scenario_->target) return make_simulation_evaluator(*scenario_);
-    return make_target_evaluator(scenario_, allowed_, interrupt_);
+    std::vector<Evaluator> evaluators;
+    for (const SharedScenario& scenario : scenarios_) {
+      Expected<Evaluator> evaluator = make_evaluator(scenario);
+      if (!evaluator) return evaluator;
+      evaluators.push_back(std::move(*evaluator));
+    }
+    return by_campaign(std::move(evaluators));
   }
 
  private:
+  Expected<Evaluator> make_evaluator(const SharedScenario& scenario) const {
+    if (!scenario->target) return make_simulation_evaluator(*scenario);
+    return make_target_evaluator(scenario, allowed_, interrupt_);
+  }
+
   AllowedPrograms allowed_;
   std::string bytes_;
-  std::shared_ptr<const WorkerScenario> scenario_;
+  std::vector<SharedScenario> scenarios_;
   std::shared_ptr<Interrupt> interrupt_;
 };
 

@@ -56,6 +56,7 @@ void WorkerProtocol::greet(TimePoint now) {
   hello.set_host(clipped(identity_.host));
   hello.set_pid(identity_.pid);
   hello.set_job(clipped(identity_.job));
+  hello.set_cpu(clipped(identity_.cpu));
   hello.set_scenario(scenario_);
   for (const auto& [key, held] : held_) {
     if (hello.holds_size() >= kMaxItemsPerMessage) break;
@@ -124,6 +125,9 @@ void WorkerProtocol::handle(const pb::ToWorker& message, TimePoint now) {
       if (state_ == State::Active) greet(now);
       return;
     case pb::ToWorker::kHeartbeat:
+    // For people's programs.
+    case pb::ToWorker::kCommandReply:
+    case pb::ToWorker::kStatusReply:
     case pb::ToWorker::BODY_NOT_SET:
       return;
   }

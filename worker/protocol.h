@@ -28,6 +28,7 @@ struct WorkerIdentity {
   std::string host{};
   std::int64_t pid = 0;
   std::string job{};
+  std::string cpu{};  ///< model of the processor
 };
 
 struct WorkerOptions {

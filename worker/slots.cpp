@@ -6,6 +6,7 @@
 #include <charconv>
 #include <climits>
 #include <cstdlib>
+#include <fstream>
 #include <random>
 #include <string_view>
 
@@ -43,6 +44,17 @@ std::string job_of_this_process() {
   return job;
 }
 
+/// Scores must not depend on it, and when they do, people will want to know it.
+std::string cpu_model() {
+  std::ifstream info("/proc/cpuinfo");
+  for (std::string line; std::getline(info, line);) {
+    if (!line.starts_with("model name")) continue;
+    const std::size_t colon = line.find(": ");
+    if (colon != std::string::npos) return line.substr(colon + 2);
+  }
+  return {};
+}
+
 int in_limits(int slots) {
   return std::clamp(slots, 1, static_cast<int>(kMaxSlots));
 }
@@ -72,7 +84,8 @@ WorkerIdentity identity_of_this_process(int slots, std::string build) {
           .slots = slots,
           .host = host_of_this_process(),
           .pid = getpid(),
-          .job = job_of_this_process()};
+          .job = job_of_this_process(),
+          .cpu = cpu_model()};
 }
 
 }  // namespace swarmsmith

@@ -12,9 +12,9 @@
 
 namespace swarmsmith {
 
-/// One evaluation that a worker holds a lease of; indices into the scenario.
+/// One evaluation that a worker holds a lease of; indices into its campaign's scenario.
 struct WorkItem {
-  PackedKey key = 0;
+  PackedKey key = 0;  ///< says the campaign too
   std::int64_t attempt = 0;
   std::uint32_t mission = 0;
   std::uint32_t method = 0;
@@ -56,11 +56,12 @@ struct Failure {
   FailureDetails details{};
 };
 
-/// Evaluates items of one scenario; an exception is a failure with its text. Called from one thread
-/// at a time, so that it may keep what it parsed.
+/// Evaluates items of one scenario (of each campaign in it); an exception is a failure with its
+/// text. Called from one thread at a time, so that it may keep what it parsed.
 using Evaluator = std::function<tl::expected<Measured, Failure>(const WorkItem&)>;
 
-/// Makes an evaluator for a slot. Errors: a scenario that this program cannot run.
+/// Makes an evaluator for a slot from the scenario's bytes. Errors: a scenario that this program
+/// cannot run.
 using EvaluatorFactory = std::function<Expected<Evaluator>(const std::string& scenario)>;
 
 }  // namespace swarmsmith

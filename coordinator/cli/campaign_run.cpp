@@ -66,15 +66,14 @@ WorkerScenario scenario_of(const Campaign& campaign) {
 
 ServiceOptions service_options(const Campaign& campaign, const RunOptions& options) {
   ServiceOptions service;
-  service.coordinator.campaign_digest = campaign_digest(campaign);
-  service.coordinator.scenario = to_bytes(scenario_of(campaign));
+  service.coordinator.scenario = to_bytes({scenario_of(campaign)});
   SchedulerOptions& scheduler = service.coordinator.scheduler;
   scheduler.engine_version = kEngineVersion;
   scheduler.self_test = self_test_digest();
-  scheduler.task_timeout =
-      std::chrono::duration_cast<Duration>(std::chrono::duration<double>(campaign.task_timeout_s));
-  scheduler.retries = campaign.retries;
-  scheduler.stop_on_failure = campaign.stop_on_failure;
+  scheduler.campaigns = {{.task_timeout = std::chrono::duration_cast<Duration>(
+                              std::chrono::duration<double>(campaign.task_timeout_s)),
+                          .retries = campaign.retries,
+                          .stop_on_failure = campaign.stop_on_failure}};
   scheduler.evaluates_programs = campaign.target.has_value();
   if (!options.bind.empty()) {
     const bool has_scheme = options.bind.find("://") != std::string::npos;
@@ -151,7 +150,7 @@ class CampaignRun {
     service_for.coordinator.scheduler.first_worker = store_.next_worker();
     const std::string bind = service_for.bind;
     for (int next = 1;; ++next) {
-      auto service = Service::open(service_for, store_, runner);
+      auto service = Service::open(service_for, {{campaign_digest(campaign_), &store_, &runner}});
       const bool taken = !service && service.error().kind == ErrorKind::Conflict;
       if (!taken || !options_.next_port || next == kPorts) return service;
       const std::size_t colon = bind.rfind(':') + 1;
@@ -179,7 +178,7 @@ class CampaignRun {
     std::string worker_trouble;
     const ServiceHooks hooks{
         .on_rows =
-            [&](const std::vector<Row>& rows) {
+            [&](std::size_t, const std::vector<Row>& rows) {
               for (const Row& row : rows)
                 listener_.add(row, clock_.now());
             },
@@ -210,7 +209,7 @@ class CampaignRun {
         return ExitCode::Done;
       case ServiceEnd::How::Stopped:
         print_resume();
-        return fail(output_, ExitCode::OverFailureLimit, end.reason);
+        return fail(output_, ExitCode::OverFailureLimit, end.reasons.front());
       case ServiceEnd::How::Interrupted:
         break;
     }

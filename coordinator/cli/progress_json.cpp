@@ -156,7 +156,9 @@ std::string event_json(const Row& row) {
                  [&](const PairRow& row_) { return no_event(row_); },
                  [&](const UnusedRow& row_) { return no_event(row_); },
                  [&](const EliminationRow& row_) { return no_event(row_); },
-                 [&](const CandidateTotalsRow& row_) { return no_event(row_); }},
+                 [&](const CandidateTotalsRow& row_) { return no_event(row_); },
+                 [&](const AttemptRow& row_) { return no_event(row_); },
+                 [&](const CommandRow& row_) { return no_event(row_); }},
       row);
 }
 

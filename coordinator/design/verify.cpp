@@ -46,7 +46,9 @@ std::optional<DesignId> design_of(const Row& row) {
                  [](const WorkerRow&) { return std::optional<DesignId>(); },
                  [](const ConflictRow&) { return std::optional<DesignId>(); },
                  [](const FailureRow&) { return std::optional<DesignId>(); },
-                 [](const EventRow&) { return std::optional<DesignId>(); }},
+                 [](const EventRow&) { return std::optional<DesignId>(); },
+                 [](const AttemptRow&) { return std::optional<DesignId>(); },
+                 [](const CommandRow& r) { return std::optional(r.design); }},
       row);
 }
 

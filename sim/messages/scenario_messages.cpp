@@ -1,5 +1,6 @@
 #include "sim/messages/scenario_messages.h"
 
+#include "proto/key.h"
 #include "proto/scenario.pb.h"
 #include "sim/messages/mission_messages.h"
 #include "sim/messages/profile_messages.h"
@@ -23,10 +24,7 @@ Expected<WorkerMethod> read(const pb::Method& message) {
   return WorkerMethod{message.flavour(), cycles ? TurnClock::Cycles : TurnClock::Seconds};
 }
 
-}  // namespace
-
-std::string to_bytes(const WorkerScenario& scenario) {
-  pb::Scenario message;
+void write(const WorkerScenario& scenario, pb::Scenario& message) {
   message.set_campaign_digest(scenario.campaign_digest);
   message.set_engine_version(scenario.engine_version);
   for (const Mission& mission : scenario.missions)
@@ -40,14 +38,9 @@ std::string to_bytes(const WorkerScenario& scenario) {
   } else {
     to_message(scenario.profile, *message.mutable_profile());
   }
-  return message.SerializeAsString();
 }
 
-Expected<WorkerScenario> scenario_from_bytes(std::string_view bytes) {
-  pb::Scenario message;
-  if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
-    return bad_input("bytes that are no scenario");
-  }
+Expected<WorkerScenario> read(const pb::Scenario& message) {
   WorkerScenario scenario;
   scenario.campaign_digest = message.campaign_digest();
   scenario.engine_version = message.engine_version();
@@ -82,6 +75,39 @@ Expected<WorkerScenario> scenario_from_bytes(std::string_view bytes) {
   if (!profile) return bad_input(profile.error().message, "profile." + profile.error().where);
   scenario.profile = std::move(*profile);
   return scenario;
+}
+
+}  // namespace
+
+std::string to_bytes(const PoolScenario& scenarios) {
+  pb::PoolScenario message;
+  for (const WorkerScenario& scenario : scenarios)
+    write(scenario, *message.add_campaigns());
+  return message.SerializeAsString();
+}
+
+Expected<PoolScenario> scenarios_from_bytes(std::string_view bytes) {
+  pb::PoolScenario message;
+  if (!message.ParseFromArray(bytes.data(), static_cast<int>(bytes.size()))) {
+    return bad_input("bytes that are no scenarios");
+  }
+  const int count = message.campaigns_size();
+  if (count < 1 || count > static_cast<int>(kMaxCampaigns)) {
+    return bad_input("scenarios of " + std::to_string(count) + " campaigns; wanted 1 to " +
+                         std::to_string(kMaxCampaigns),
+                     "campaigns");
+  }
+  PoolScenario scenarios;
+  for (int i = 0; i < count; ++i) {
+    Expected<WorkerScenario> scenario = read(message.campaigns(i));
+    if (!scenario) {
+      // The first one's parts go without its number: mostly there is only one.
+      const std::string path = i == 0 ? "" : "campaigns[" + std::to_string(i) + "].";
+      return bad_input(scenario.error().message, path + scenario.error().where);
+    }
+    scenarios.push_back(std::move(*scenario));
+  }
+  return scenarios;
 }
 
 }  // namespace swarmsmith

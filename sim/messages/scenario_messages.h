@@ -36,10 +36,14 @@ struct WorkerScenario {
   friend bool operator==(const WorkerScenario&, const WorkerScenario&) = default;
 };
 
-/// The scenario as it travels. Equal scenarios give equal bytes.
-std::string to_bytes(const WorkerScenario& scenario);
+/// All campaigns that share the coordinator's workers; Task::campaign is an index.
+using PoolScenario = std::vector<WorkerScenario>;
 
-/// Errors: bytes that are no scenario, and what `from_message` refuses of a mission.
-Expected<WorkerScenario> scenario_from_bytes(std::string_view bytes);
+/// The scenarios as they travel. Equal ones give equal bytes.
+std::string to_bytes(const PoolScenario& scenarios);
+
+/// Errors: bytes that are no scenarios (or of none, or too many), and what `from_message` refuses
+/// of a mission.
+Expected<PoolScenario> scenarios_from_bytes(std::string_view bytes);
 
 }  // namespace swarmsmith

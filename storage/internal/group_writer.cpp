@@ -84,6 +84,11 @@ std::vector<DesignStateRow> GroupWriter::design_states() {
   return read_design_states(connection_);
 }
 
+std::vector<CommandRow> GroupWriter::commands() {
+  const std::lock_guard guard(connection_mutex_);
+  return read_commands(connection_);
+}
+
 std::int64_t GroupWriter::next_worker() {
   const std::lock_guard guard(connection_mutex_);
   return read_next_worker(connection_);

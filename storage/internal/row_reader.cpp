@@ -21,9 +21,13 @@ EvaluationKey key_at(const Statement& row, int column) {
           row.integer(column + 2)};
 }
 
+std::int64_t schema_of(const sqlite::Connection& connection) {
+  return sqlite::integer_of(connection, "PRAGMA user_version");
+}
+
 /// A store of schema 1, which has none of the columns that targets brought: read as it is.
 bool is_first_schema(const sqlite::Connection& connection) {
-  return sqlite::integer_of(connection, "PRAGMA user_version") == 1;
+  return schema_of(connection) == 1;
 }
 
 /// Runs `sql` and hands on what `make` makes of each row.
@@ -139,6 +143,15 @@ CandidateTotalsRow totals(const Statement& row) {
           .score_squares = row.real(3)};
 }
 
+CommandRow command(const Statement& row) {
+  return {.number = row.integer(0),
+          .kind = row.text(1),
+          .design = design_at(row, 2),
+          .step = row.is_null(3) ? std::nullopt : std::optional(row.integer(3)),
+          .budget = row.integer(4),
+          .who = row.text(5)};
+}
+
 }  // namespace
 
 CampaignRow read_campaign(const sqlite::Connection& connection) {
@@ -199,6 +212,16 @@ std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connect
   return states;
 }
 
+std::vector<CommandRow> read_commands(const sqlite::Connection& connection) {
+  std::vector<CommandRow> commands;
+  if (schema_of(connection) < 3) return commands;
+  Statement row(connection,
+                "SELECT number, kind, design, step, budget, who FROM command ORDER BY number");
+  while (row.step())
+    commands.push_back(command(row));
+  return commands;
+}
+
 std::int64_t read_next_worker(const sqlite::Connection& connection) {
   Statement row(connection, "SELECT coalesce(max(id), 0) + 1 FROM worker");
   return row.step() ? row.integer(0) : 1;
@@ -239,6 +262,11 @@ void read_answer(const sqlite::Connection& connection, const OnRow& on_row) {
   each(connection, "SELECT * FROM elimination ORDER BY candidate, iteration", on_row, elimination);
   each(connection, "SELECT * FROM elite ORDER BY design, iteration, rank", on_row, elite);
   each(connection, "SELECT * FROM candidate_totals ORDER BY candidate", on_row, totals);
+  if (schema_of(connection) < 3) return;
+  each(connection,
+       "SELECT number, kind, design, step, budget, who FROM command"
+       " WHERE kind IN ('cancel', 'extend') AND step IS NOT NULL ORDER BY design, step, number",
+       on_row, command);
 }
 
 }  // namespace swarmsmith

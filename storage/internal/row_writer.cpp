@@ -37,10 +37,13 @@ constexpr char kCampaignState[] =
     "UPDATE campaign SET state = ?1, finished = CASE WHEN ?1 = 'finished' THEN"
     " coalesce(finished, strftime('%Y-%m-%dT%H:%M:%fZ', 'now')) END";
 constexpr char kWorker[] =
-    "INSERT INTO worker (id, identity, host, pid, slots, build, state, done, failed)"
-    " VALUES (?,?,?,?,?,?,?,?,?) ON CONFLICT DO UPDATE SET identity = excluded.identity,"
+    "INSERT INTO worker (id, identity, host, pid, slots, build, state, done, failed, job, cpu,"
+    " client, connections)"
+    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO UPDATE SET identity = excluded.identity,"
     " host = excluded.host, pid = excluded.pid, slots = excluded.slots, build = excluded.build,"
     " state = excluded.state, done = excluded.done, failed = excluded.failed,"
+    " job = excluded.job, cpu = excluded.cpu, client = excluded.client,"
+    " connections = excluded.connections,"
     " last_seen = excluded.last_seen";
 constexpr char kConflict[] =
     "INSERT OR IGNORE INTO conflict (candidate, purpose, pair, kept_score, other_score,"
@@ -48,6 +51,12 @@ constexpr char kConflict[] =
 constexpr char kFailure[] =
     "INSERT INTO failure (candidate, purpose, pair, attempt, worker, reason, command, output,"
     " errors) VALUES (?,?,?,?,?,?,?,?,?)";
+constexpr char kAttempt[] =
+    "INSERT INTO attempt (candidate, purpose, pair, attempt, worker, held_ms, outcome)"
+    " VALUES (?,?,?,?,?,?,?)";
+constexpr char kCommand[] =
+    "INSERT INTO command (number, kind, design, step, budget, who) VALUES (?,?,?,?,?,?)"
+    " ON CONFLICT DO UPDATE SET step = excluded.step";
 constexpr char kEvent[] = "INSERT INTO event (severity, kind, text) VALUES (?,?,?)";
 
 std::optional<std::int64_t> unless_zero(std::int64_t value) {
@@ -85,6 +94,8 @@ RowWriter::RowWriter(sqlite::Connection& connection)
       conflict_(connection, kConflict),
       failure_(connection, kFailure),
       event_(connection, kEvent),
+      attempt_(connection, kAttempt),
+      command_(connection, kCommand),
       new_source_(connection, "INSERT OR IGNORE INTO source (name) VALUES (?)"),
       find_source_(connection, "SELECT id FROM source WHERE name = ?") {}
 
@@ -148,7 +159,7 @@ void RowWriter::put(const CampaignStateRow& row) {
 
 void RowWriter::put(const WorkerRow& row) {
   worker_.run(row.id, row.identity, row.host, row.pid, row.slots, row.build, row.state, row.done,
-              row.failed);
+              row.failed, row.job, row.cpu, row.client, row.connections);
 }
 
 void RowWriter::put(const ConflictRow& row) {
@@ -163,6 +174,15 @@ void RowWriter::put(const FailureRow& row) {
 
 void RowWriter::put(const EventRow& row) {
   event_.run(row.severity, row.kind, row.text);
+}
+
+void RowWriter::put(const AttemptRow& row) {
+  attempt_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair, row.attempt,
+               row.worker, row.held_ms, row.outcome);
+}
+
+void RowWriter::put(const CommandRow& row) {
+  command_.run(row.number, row.kind, unless_zero(row.design.value), row.step, row.budget, row.who);
 }
 
 std::int64_t RowWriter::source_id(const std::string& name) {

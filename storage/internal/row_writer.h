@@ -11,7 +11,7 @@ namespace swarmsmith {
 
 /// Puts rows into the tables, with one prepared statement a kind. The caller holds a transaction.
 /// Any row may come twice: what is already there stays, except where a row holds absolute values
-/// (totals, states, workers), which replace the older ones.
+/// (totals, states, workers, commands), which replace the older ones.
 class RowWriter {
  public:
   explicit RowWriter(sqlite::Connection& connection);
@@ -38,13 +38,15 @@ class RowWriter {
   void put(const ConflictRow& row);
   void put(const FailureRow& row);
   void put(const EventRow& row);
+  void put(const AttemptRow& row);
+  void put(const CommandRow& row);
 
   /// The number of a source, made when it is new.
   std::int64_t source_id(const std::string& name);
 
   sqlite::Statement candidate_, pair_, evaluation_, unused_, iteration_, race_step_, elimination_,
       elite_, totals_, design_state_, campaign_state_, worker_, conflict_, failure_, event_,
-      new_source_, find_source_;
+      attempt_, command_, new_source_, find_source_;
   std::unordered_map<std::string, std::int64_t> sources_;
 };
 

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "embedded/kClusterSchema.h"
 #include "embedded/kInitialSchema.h"
 #include "embedded/kTargetsSchema.h"
 #include "embedded/kViews.h"
@@ -29,8 +30,9 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 1> kMigrations = {
+  static const std::array<Migration, 2> kMigrations = {
       Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
+      Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
   };
   return kMigrations;
 }

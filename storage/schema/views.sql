@@ -153,8 +153,22 @@ FROM elimination AS x
 LEFT JOIN race_step AS s ON s.design = (x.candidate - 1) / 1000000 + 1 AND s.step = x.step;
 
 CREATE VIEW v_workers AS
-SELECT id AS worker, identity, host, pid, slots, build, state, done, failed, first_seen, last_seen
+SELECT id AS worker, identity, host, pid, slots, build, state, done, failed, first_seen, last_seen,
+       job, cpu, client, connections
 FROM worker;
+
+CREATE VIEW v_attempts AS
+SELECT 'e' || (a.candidate * 100000 + a.pair)
+           || CASE a.purpose WHEN 0 THEN '' WHEN 1 THEN 'l' WHEN 2 THEN 't' WHEN 3 THEN 'a'
+                             WHEN 4 THEN 's' ELSE 'v' END AS id,
+       (a.candidate - 1) / 1000000 + 1 AS design, a.candidate, a.pair, a.attempt,
+       nullif(a.worker, 0) AS worker, w.host, a.held_ms, a.outcome, a.time AS at
+FROM attempt AS a
+LEFT JOIN worker AS w ON w.id = a.worker;
+
+CREATE VIEW v_commands AS
+SELECT number, time AS at, who, kind, design, step, nullif(budget, 0) AS budget
+FROM command;
 
 -- Every attempt that gave nothing, and every evaluation that is a rejection without one: a program
 -- said so, or a simulation could not be had.

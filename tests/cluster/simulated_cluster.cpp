@@ -23,7 +23,6 @@ const char* const kScenario = "scenario";
 CoordinatorOptions coordinator_options(std::int64_t first_worker) {
   CoordinatorOptions options;
   options.scheduler.first_worker = first_worker;
-  options.campaign_digest = "cluster";
   options.scenario = kScenario;
   return options;
 }
@@ -193,7 +192,7 @@ void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string
       const Connection& over = connections_.at(connection);
       if (to == kCoordinator) {
         if (over.coordinator_life != coordinator_process_.life) return;
-        coordinator_->on_frame(connection, frame, now_);
+        coordinator_->on_frame({connection}, frame, now_);
         settle_coordinator();
       } else {
         Worker& worker = workers_[static_cast<std::size_t>(to)];
@@ -256,8 +255,10 @@ void SimulatedCluster::start_coordinator() {
   it.alive = true;
   it.paused_until = {};
   campaign_ = std::make_unique<RacedCampaign>(schedule_.campaign, disk_);
-  coordinator_ = std::make_unique<Coordinator>(coordinator_options(disk_.next_worker()), *campaign_,
-                                               disk_.scores());
+  const std::vector<StoredScore> known = disk_.scores();
+  coordinator_ = std::make_unique<Coordinator>(
+      coordinator_options(disk_.next_worker()),
+      std::vector<CampaignWork>{{.digest = "cluster", .source = campaign_.get(), .known = known}});
   tickets_ = 0;
   uncommitted_.clear();
   on_process(kCoordinator, Duration{0}, [this] { tick_coordinator(); });
@@ -303,7 +304,8 @@ void SimulatedCluster::settle_coordinator() {
                                 coordinator_->on_unreachable(send.peer, now_);
                               }
                             },
-                            [&](AppendRows& rows) { append(std::move(rows.rows)); }},
+                            [&](AppendRows& rows) { append(std::move(rows.rows)); },
+                            [](const AnswerStatus&) {}},
                  action);
     }
   }
@@ -314,7 +316,7 @@ void SimulatedCluster::settle_coordinator() {
 
 void SimulatedCluster::append(std::vector<Row> rows) {
   uncommitted_.push_back({++tickets_, std::move(rows)});
-  coordinator_->on_appended(tickets_);
+  coordinator_->on_appended(0, tickets_);
   const bool slow = rng_.bernoulli(schedule_.faults.slow_commit);
   const Duration delay = slow ? between(milliseconds(10), milliseconds(800))
                               : between(microseconds(200), milliseconds(2));
@@ -328,7 +330,7 @@ void SimulatedCluster::commit() {
   const Batch batch = std::move(uncommitted_.front());
   uncommitted_.pop_front();
   write(batch.rows);
-  coordinator_->on_committed(batch.ticket);
+  coordinator_->on_committed(0, batch.ticket);
   settle_coordinator();
 }
 

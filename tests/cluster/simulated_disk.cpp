@@ -55,7 +55,11 @@ SimulatedDisk::RowKey SimulatedDisk::key_of(const Row& row) {
                    return Key{r.id, 0, 0};
                  },
                  [&](const ConflictRow& r) { return of_evaluation(r.key); },
-                 [](const FailureRow&) { return Key{}; }, [](const EventRow&) { return Key{}; }},
+                 [](const FailureRow&) { return Key{}; }, [](const EventRow&) { return Key{}; },
+                 [&](const AttemptRow& r) { return of_evaluation(r.key); },
+                 [](const CommandRow& r) {
+                   return Key{r.number, 0, 0};
+                 }},
       row);
   return std::tuple_cat(std::tuple(row.index()), key);
 }

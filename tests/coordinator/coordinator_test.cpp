@@ -16,7 +16,7 @@ class Coordinators : public ::testing::Test {
   void say(pb::ToCoordinator message, PeerId peer = 1) {
     message.set_incarnation(1);
     message.set_sequence(++sequence);
-    coordinator.on_frame(peer, encode(message), now);
+    coordinator.on_frame({peer}, encode(message), now);
     move();
   }
   void hello(PeerId peer = 1) {
@@ -35,7 +35,7 @@ class Coordinators : public ::testing::Test {
       } else {
         for (Row& row : std::get<AppendRows>(action).rows)
           rows.push_back(std::move(row));
-        coordinator.on_appended(++ticket);
+        coordinator.on_appended(0, ++ticket);
       }
     }
   }
@@ -71,8 +71,8 @@ class Coordinators : public ::testing::Test {
 
   cluster::CampaignShape shape;
   SyntheticCampaign campaign{shape};
-  CoordinatorOptions options{.scheduler = {}, .campaign_digest = "d", .scenario = "scenario"};
-  Coordinator coordinator{options, campaign, {}};
+  CoordinatorOptions options{.scheduler = {}, .scenario = "scenario"};
+  Coordinator coordinator{options, {{.digest = "d", .source = &campaign}}};
   TimePoint now{std::chrono::seconds(50)};
   std::vector<pb::ToWorker> heard;
   std::vector<Row> rows;
@@ -85,7 +85,7 @@ TEST_F(Coordinators, AcknowledgeAfterTheCommitAndNotBefore) {
   answer();
   EXPECT_EQ(acknowledged(), 0);
   EXPECT_FALSE(coordinator.settled());
-  coordinator.on_committed(ticket);
+  coordinator.on_committed(0, ticket);
   move();
   EXPECT_GT(acknowledged(), 0);
   EXPECT_TRUE(coordinator.settled());
@@ -95,7 +95,7 @@ TEST_F(Coordinators, FinishTheCampaign) {
   hello();
   for (int i = 0; i < 1000 && !coordinator.finished(); ++i) {
     answer();
-    coordinator.on_committed(ticket);
+    coordinator.on_committed(0, ticket);
     move();
   }
   EXPECT_TRUE(coordinator.finished());
@@ -106,7 +106,7 @@ TEST_F(Coordinators, AcknowledgeAgainWhatIsOnDisk) {
   hello();
   const std::vector<pb::ToWorker> tasks = heard;
   answer();
-  coordinator.on_committed(ticket);
+  coordinator.on_committed(0, ticket);
   move();
   heard = tasks;
   answer();
@@ -125,7 +125,7 @@ TEST_F(Coordinators, SendTheScenario) {
 TEST_F(Coordinators, RefuseAPeerThatSendsRubbish) {
   hello();
   for (int i = 0; i < 10; ++i)
-    coordinator.on_frame(9, "rubbish", now);
+    coordinator.on_frame({9}, "rubbish", now);
   EXPECT_EQ(coordinator.malformed().at("length"), 10U);
   heard.clear();
   hello(9);
@@ -138,7 +138,7 @@ TEST_F(Coordinators, RefuseAPeerThatSendsRubbish) {
 TEST_F(Coordinators, TellAPeerOfAnotherVersion) {
   std::string frame = encode(pb::ToCoordinator());
   frame[4] = 7;
-  coordinator.on_frame(3, frame, now);
+  coordinator.on_frame({3}, frame, now);
   move();
   ASSERT_EQ(heard.size(), 1U);
   EXPECT_EQ(heard[0].reject().reason(), pb::Reject::REASON_PROTOCOL);

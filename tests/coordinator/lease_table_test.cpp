@@ -5,8 +5,8 @@
 namespace swarmsmith {
 namespace {
 
-Task task(std::int64_t candidate, Purpose purpose = Purpose::Race) {
-  return {.key = {{candidate}, purpose, 1}, .machine = {}};
+Task task(std::int64_t candidate) {
+  return {.key = {{candidate}, Purpose::Race, 1}, .machine = {}};
 }
 
 class Leases : public ::testing::Test {
@@ -43,9 +43,36 @@ TEST_F(Leases, TakeATaskOnce) {
 }
 
 TEST_F(Leases, PutLookAheadLast) {
-  table.add(task(1, Purpose::LookAhead));
+  Task ahead = task(1);
+  ahead.ahead = true;
+  table.add(ahead);
   table.add(task(2));
   EXPECT_EQ(lease(7), 2);
+  EXPECT_EQ(lease(7), 1);
+}
+
+TEST_F(Leases, PromoteLookAheadThatIsWanted) {
+  Task ahead = task(1);
+  ahead.ahead = true;
+  table.add(ahead);
+  table.add(task(2));
+  table.promote(record(1));
+  table.add(task(3));
+  EXPECT_EQ(lease(7), 2);
+  EXPECT_EQ(lease(7), 1);
+  EXPECT_EQ(lease(7), 3);
+}
+
+TEST_F(Leases, RemoveAllOfACampaign) {
+  Task other = task(1);
+  other.campaign = 1;
+  table.add(other);
+  table.add(task(1));
+  table.add(task(2));
+  lease(7);
+  table.remove_all(1);
+  EXPECT_EQ(table.size(), 2U);
+  EXPECT_EQ(table.leased(), 0U);
   EXPECT_EQ(lease(7), 1);
 }
 

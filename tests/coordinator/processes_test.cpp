@@ -12,37 +12,21 @@
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
 #include "sim/messages/scenario_messages.h"
+#include "tests/support/flat_campaign.h"
 #include "tests/support/memory_store.h"
 
 namespace swarmsmith {
 namespace {
 
 /// Independent evaluations of one machine.
-class Flat final : public WorkSource {
- public:
-  explicit Flat(std::int64_t count) : left_(count) {
-    for (std::int64_t i = 1; i <= count; ++i) {
-      tasks_.push_back(
-          {.key = {{i}, Purpose::Race, 1}, .seed = i, .machine = "--nstates 1 --s0 0 --rwm0 20"});
-    }
+std::vector<Task> tasks_of(std::int64_t count) {
+  std::vector<Task> tasks;
+  for (std::int64_t i = 1; i <= count; ++i) {
+    tasks.push_back(
+        {.key = {{i}, Purpose::Race, 1}, .seed = i, .machine = "--nstates 1 --s0 0 --rwm0 20"});
   }
-  std::vector<Task> take_tasks() override { return std::exchange(tasks_, {}); }
-  void tell(const Outcome& outcome) override {
-    --left_;
-    EvaluationRow row;
-    row.key = outcome.key;
-    row.score = outcome.score;
-    row.state_digest = outcome.state_digest;
-    rows_.emplace_back(std::move(row));
-  }
-  std::vector<Row> take_rows() override { return std::exchange(rows_, {}); }
-  bool finished() const override { return left_ == 0; }
-
- private:
-  std::vector<Task> tasks_;
-  std::vector<Row> rows_;
-  std::int64_t left_;
-};
+  return tasks;
+}
 
 class Processes : public ::testing::Test {
  protected:
@@ -53,12 +37,12 @@ class Processes : public ::testing::Test {
                             .methods = {{.flavour = "watermelon"}},
                             .profile = *built_in_profile("rvr")};
     scenario.missions[0].cycles = cycles;
-    campaign = std::make_unique<Flat>(evaluations);
+    campaign = std::make_unique<FlatCampaign>(tasks_of(evaluations));
     ServiceOptions options;
-    options.coordinator.scenario = to_bytes(scenario);
+    options.coordinator.scenario = to_bytes({scenario});
     options.coordinator.scheduler.engine_version = kEngineVersion;
     options.coordinator.scheduler.self_test = self_test_digest();
-    auto opened = Service::open(options, store, *campaign);
+    auto opened = Service::open(options, {{"d", &store, campaign.get()}});
     ASSERT_TRUE(opened);
     service = std::move(*opened);
   }
@@ -94,7 +78,7 @@ class Processes : public ::testing::Test {
   }
 
   MemoryStore store;
-  std::unique_ptr<Flat> campaign;
+  std::unique_ptr<FlatCampaign> campaign;
   std::unique_ptr<Service> service;
   std::atomic<std::int64_t> leased{0}, requeued{0}, workers{0};
   std::atomic<bool> ended{false};

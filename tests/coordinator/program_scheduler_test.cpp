@@ -10,8 +10,8 @@ class ProgramSchedulers : public Schedulers {
  protected:
   void SetUp() override {
     options.evaluates_programs = true;
-    options.task_timeout = seconds(30);
-    scheduler = Scheduler(options, {});
+    options.campaigns[0].task_timeout = seconds(30);
+    scheduler = Scheduler(options);
   }
   /// As time passes for a worker that is alive.
   void run_for(PeerId peer, Duration time, std::vector<std::int64_t> candidates) {
@@ -122,8 +122,8 @@ TEST_F(ProgramSchedulers, RejectWhatFailedOnce) {
 }
 
 TEST_F(ProgramSchedulers, StopWithTheWholeStoryWhereTheyMustNotReject) {
-  options.stop_on_failure = true;
-  scheduler = Scheduler(options, {});
+  options.campaigns[0].stop_on_failure = true;
+  scheduler = Scheduler(options);
   hello(1);
   credit(1, 1);
   want(1, 1);

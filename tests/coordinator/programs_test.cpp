@@ -15,6 +15,7 @@
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "sim/messages/scenario_messages.h"
+#include "tests/support/flat_campaign.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temporary_folder.h"
 
@@ -22,34 +23,16 @@ namespace swarmsmith {
 namespace {
 
 /// Independent evaluations; candidate n has the switch `-n n`.
-class Flat final : public WorkSource {
- public:
-  explicit Flat(std::int64_t count) : left_(count) {
-    for (std::int64_t i = 1; i <= count; ++i) {
-      tasks_.push_back({.key = {{i}, Purpose::Race, 1},
-                        .instance = 1,
-                        .seed = i,
-                        .machine = "-n " + std::to_string(i)});
-    }
+std::vector<Task> tasks_of(std::int64_t count) {
+  std::vector<Task> tasks;
+  for (std::int64_t i = 1; i <= count; ++i) {
+    tasks.push_back({.key = {{i}, Purpose::Race, 1},
+                     .instance = 1,
+                     .seed = i,
+                     .machine = "-n " + std::to_string(i)});
   }
-  std::vector<Task> take_tasks() override { return std::exchange(tasks_, {}); }
-  void tell(const Outcome& outcome) override {
-    --left_;
-    EvaluationRow row;
-    row.key = outcome.key;
-    row.status = outcome.status;
-    row.score = outcome.score;
-    row.time = outcome.time;
-    rows_.emplace_back(std::move(row));
-  }
-  std::vector<Row> take_rows() override { return std::exchange(rows_, {}); }
-  bool finished() const override { return left_ == 0; }
-
- private:
-  std::vector<Task> tasks_;
-  std::vector<Row> rows_;
-  std::int64_t left_;
-};
+  return tasks;
+}
 
 class ProgramWorkers : public ::testing::Test {
  protected:
@@ -64,14 +47,14 @@ class ProgramWorkers : public ::testing::Test {
     scenario.instances = {{{"here"}, {}}};
   }
   void open(std::int64_t evaluations) {
-    campaign = std::make_unique<Flat>(evaluations);
+    campaign = std::make_unique<FlatCampaign>(tasks_of(evaluations));
     ServiceOptions options;
-    options.coordinator.scenario = to_bytes(scenario);
+    options.coordinator.scenario = to_bytes({scenario});
     options.coordinator.scheduler.engine_version = kEngineVersion;
     options.coordinator.scheduler.self_test = self_test_digest();
     options.coordinator.scheduler.evaluates_programs = true;
-    options.coordinator.scheduler.stop_on_failure = stop_on_failure;
-    auto opened = Service::open(options, store, *campaign);
+    options.coordinator.scheduler.campaigns[0].stop_on_failure = stop_on_failure;
+    auto opened = Service::open(options, {{"d", &store, campaign.get()}});
     ASSERT_TRUE(opened);
     service = std::move(*opened);
   }
@@ -110,7 +93,7 @@ class ProgramWorkers : public ::testing::Test {
   WorkerScenario scenario;
   MemoryStore store;
   bool stop_on_failure = false;
-  std::unique_ptr<Flat> campaign;
+  std::unique_ptr<FlatCampaign> campaign;
   std::unique_ptr<Service> service;
   std::atomic<std::int64_t> leased{0};
   std::atomic<bool> ended{false};
@@ -144,8 +127,8 @@ TEST_F(ProgramWorkers, KeepAFailureAndStop) {
   ASSERT_TRUE(started);
   ASSERT_TRUE(eventually([&] { return ended.load(); }));
   EXPECT_EQ(end.how, ServiceEnd::How::Stopped);
-  EXPECT_NE(end.reason.find("exit status 1"), std::string::npos) << end.reason;
-  EXPECT_NE(end.reason.find("3 1 3 here  -n 3"), std::string::npos) << end.reason;
+  EXPECT_NE(end.reasons.at(0).find("exit status 1"), std::string::npos) << end.reasons.at(0);
+  EXPECT_NE(end.reasons.at(0).find("3 1 3 here  -n 3"), std::string::npos) << end.reasons.at(0);
   const auto failures = store.rows_of<FailureRow>();
   ASSERT_EQ(failures.size(), 1U);
   EXPECT_EQ(failures[0].key.candidate.value, 3);

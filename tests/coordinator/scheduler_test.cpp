@@ -246,7 +246,7 @@ TEST_F(Schedulers, LeaseNothingWhileHeld) {
 TEST_F(Schedulers, AreFullAtTheLimit) {
   SchedulerOptions small;
   small.max_workers = 1;
-  scheduler = Scheduler(small, {});
+  scheduler = Scheduler(small);
   hello(1);
   hello(2);
   ASSERT_EQ(all<SendReject>().size(), 1U);

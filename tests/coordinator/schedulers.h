@@ -90,7 +90,7 @@ class Schedulers : public ::testing::Test {
   }
 
   SchedulerOptions options;
-  Scheduler scheduler{options, {}};
+  Scheduler scheduler{options};
   TimePoint now{seconds(100)};
   std::vector<SchedulerAction> actions;
   std::map<PeerId, std::vector<std::int64_t>> given;

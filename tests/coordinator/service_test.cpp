@@ -36,7 +36,7 @@ class Services : public ::testing::Test {
     campaign = std::make_unique<SyntheticCampaign>(shape);
     ServiceOptions options;
     options.coordinator.scenario = "scenario";
-    auto opened = Service::open(options, store, *campaign);
+    auto opened = Service::open(options, {{"d", &store, campaign.get()}});
     ASSERT_TRUE(opened);
     service = std::move(*opened);
   }
@@ -162,7 +162,7 @@ TEST_F(Services, ListenOnLoopbackOnly) {
   SyntheticCampaign source({});
   ServiceOptions options;
   options.bind = "tcp://0.0.0.0:*";
-  const auto opened = Service::open(options, store, source);
+  const auto opened = Service::open(options, {{"d", &store, &source}});
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().kind, ErrorKind::BadInput);
 }

@@ -3,15 +3,15 @@
 
 namespace swarmsmith::fuzz {
 
-/// A scenario as a coordinator sends it: refused with a sentence, or read to one whose bytes read
+/// Scenarios as a coordinator sends them: refused with a sentence, or read to some whose bytes read
 /// back to the same bytes. The bytes are compared, since a NaN differs from itself.
 void run(std::string_view input) {
-  const auto scenario = scenario_from_bytes(input);
-  if (!scenario) return require(!scenario.error().message.empty(), "a refusal has a sentence");
-  const std::string bytes = to_bytes(*scenario);
-  const auto again = scenario_from_bytes(bytes);
+  const auto scenarios = scenarios_from_bytes(input);
+  if (!scenarios) return require(!scenarios.error().message.empty(), "a refusal has a sentence");
+  const std::string bytes = to_bytes(*scenarios);
+  const auto again = scenarios_from_bytes(bytes);
   require(again.has_value(), "what is written can be read");
-  require(to_bytes(*again) == bytes, "a scenario keeps its bytes");
+  require(to_bytes(*again) == bytes, "scenarios keep their bytes");
 }
 
 }  // namespace swarmsmith::fuzz

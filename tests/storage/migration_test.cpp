@@ -9,15 +9,24 @@ namespace {
 
 using Cells = std::vector<std::string>;
 
-/// A store that the program of schema 1 wrote (tests/golden/stores/README.md).
-struct MigrationTest : testing::Test {
-  static constexpr const char* kDigest = "c1ab46cfade6d60d3caa2324616eca67";
-  static constexpr std::size_t kEvaluations = 251;
+/// A store that the program of an earlier schema wrote (tests/golden/stores/README.md).
+struct OldStore {
+  std::int64_t schema;
+  const char* digest;
+  std::size_t evaluations;
+};
+
+constexpr OldStore kOldStores[] = {{1, "c1ab46cfade6d60d3caa2324616eca67", 251},
+                                   {2, "5edcb3cb406469e4e5ce487520d2afe4", 253}};
+
+struct MigrationTest : testing::TestWithParam<OldStore> {
+  const OldStore& old = GetParam();
   TemporaryFolder folder;
   std::filesystem::path path = folder / "old.db";
 
   MigrationTest() {
-    std::filesystem::copy_file(SWARMSMITH_TEST_DATA "/stores/schema-1.sqlite", path);
+    const std::string name = "/stores/schema-" + std::to_string(old.schema) + ".sqlite";
+    std::filesystem::copy_file(SWARMSMITH_TEST_DATA + name, path);
   }
   /// As the campaign that made it would: its row is compared by its digest alone.
   std::unique_ptr<Store> opened_for_writing() {
@@ -36,28 +45,29 @@ struct MigrationTest : testing::Test {
   }
 };
 
-TEST_F(MigrationTest, AnOldStoreIsReadAsItIs) {
+TEST_P(MigrationTest, AnOldStoreIsReadAsItIs) {
   const auto reader = open_reader(path);
-  EXPECT_EQ(reader->digest(), kDigest);
-  EXPECT_EQ(reader->scores().size(), kEvaluations);
+  EXPECT_EQ(reader->digest(), old.digest);
+  EXPECT_EQ(reader->scores().size(), old.evaluations);
   EXPECT_TRUE(reader->integrity().empty());
-  EXPECT_EQ(cells_of(*reader, "PRAGMA user_version").front(), Cells{"1"});
+  EXPECT_EQ(cells_of(*reader, "PRAGMA user_version").front(), Cells{std::to_string(old.schema)});
 }
 
-TEST_F(MigrationTest, WhatWasAnswerIsTheSameAnswerAfterwards) {
+TEST_P(MigrationTest, WhatWasAnswerIsTheSameAnswerAfterwards) {
   std::size_t rows = open_reader(path)->answer_rows().size();
   opened_for_writing().reset();
   const auto reader = open_reader(path);
-  EXPECT_EQ(cells_of(*reader, "PRAGMA user_version").front(), Cells{"2"});
-  EXPECT_EQ(reader->digest(), kDigest);
+  EXPECT_EQ(cells_of(*reader, "PRAGMA user_version").front(),
+            Cells{std::to_string(kSchemaVersion)});
+  EXPECT_EQ(reader->digest(), old.digest);
   EXPECT_EQ(reader->answer_rows().size(), rows);
-  EXPECT_EQ(reader->scores().size(), kEvaluations);
+  EXPECT_EQ(reader->scores().size(), old.evaluations);
   EXPECT_TRUE(reader->integrity().empty());
-  const auto before = open_reader(path.string() + ".before-v2");
-  EXPECT_EQ(before->digest(), kDigest);
+  const auto before = open_reader(path.string() + ".before-v" + std::to_string(kSchemaVersion));
+  EXPECT_EQ(before->digest(), old.digest);
 }
 
-TEST_F(MigrationTest, GivesTheTablesAndViewsOfANewStore) {
+TEST_P(MigrationTest, GivesTheTablesAndViewsOfANewStore) {
   opened_for_writing().reset();
   open_store(folder / "new.db", synthetic_campaign({.designs = 1, .iterations = 1})).reset();
   const std::string migrated = schema_of(path);
@@ -65,7 +75,7 @@ TEST_F(MigrationTest, GivesTheTablesAndViewsOfANewStore) {
   EXPECT_EQ(migrated, schema_of(folder / "new.db"));
 }
 
-TEST_F(MigrationTest, AMigratedStoreTakesTheRowsOfTargets) {
+TEST_P(MigrationTest, AMigratedStoreTakesTheRowsOfTargets) {
   const auto store = opened_for_writing();
   EvaluationRow row;
   row.key = {candidate_id({1}, 1), Purpose::Evaluator, 1};
@@ -78,6 +88,27 @@ TEST_F(MigrationTest, AMigratedStoreTakesTheRowsOfTargets) {
   EXPECT_EQ(cells_of(*open_reader(path), "SELECT time FROM v_evaluations WHERE id LIKE '%v'"),
             (std::vector<Cells>{{"2"}}));
 }
+
+TEST_P(MigrationTest, AMigratedStoreTakesCommandsAndAttempts) {
+  {
+    const auto store = opened_for_writing();
+    const EvaluationKey key{candidate_id({1}, 1), Purpose::Race, 1};
+    CommandRow command{.number = 1, .kind = "extend", .design = {1}, .budget = 200, .who = "a@b"};
+    store->append({Row(AttemptRow{.key = key, .held_ms = 12, .outcome = "lost"}), Row(command)});
+    command.step = 7;
+    store->append({Row(command)});
+    store->flush();
+    ASSERT_EQ(store->commands().size(), 1U);
+    EXPECT_EQ(store->commands()[0].step, 7);
+  }
+  const auto reader = open_reader(path);
+  EXPECT_EQ(cells_of(*reader, "SELECT outcome, held_ms FROM v_attempts"),
+            (std::vector<Cells>{{"lost", "12"}}));
+  EXPECT_NE(reader->digest(), old.digest) << "an extension that acted is part of the answer";
+}
+
+INSTANTIATE_TEST_SUITE_P(Schema, MigrationTest, testing::ValuesIn(kOldStores),
+                         [](const auto& store) { return std::to_string(store.param.schema); });
 
 }  // namespace
 }  // namespace swarmsmith

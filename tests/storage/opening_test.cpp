@@ -204,14 +204,17 @@ TEST_F(OpeningTest, MigratesStepByStepAfterACopy) {
   make_store();
   sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
   const std::vector<Migration> steps{
-      {3, [](sqlite::Connection& c) { c.execute("ALTER TABLE design ADD COLUMN note TEXT"); }},
-      {4, [](sqlite::Connection& c) { c.execute("UPDATE design SET note = 'moved'"); }},
+      {kSchemaVersion + 1,
+       [](sqlite::Connection& c) { c.execute("ALTER TABLE design ADD COLUMN note TEXT"); }},
+      {kSchemaVersion + 2,
+       [](sqlite::Connection& c) { c.execute("UPDATE design SET note = 'moved'"); }},
   };
   migrate(connection, path, steps);
-  EXPECT_EQ(sqlite::integer_of(connection, "PRAGMA user_version"), 4);
+  EXPECT_EQ(sqlite::integer_of(connection, "PRAGMA user_version"), kSchemaVersion + 2);
   EXPECT_EQ(sqlite::text_of(connection, "SELECT note FROM design"), "moved");
   EXPECT_EQ(sqlite::text_of(connection, "SELECT state FROM v_designs"), "finished");
-  const sqlite::Connection copy(path.string() + ".before-v4", SQLITE_OPEN_READONLY);
+  const sqlite::Connection copy(path.string() + ".before-v" + std::to_string(kSchemaVersion + 2),
+                                SQLITE_OPEN_READONLY);
   EXPECT_EQ(sqlite::integer_of(copy, "PRAGMA user_version"), kSchemaVersion);
   EXPECT_EQ(sqlite::text_of(copy, "PRAGMA integrity_check"), "ok");
 }
@@ -221,7 +224,7 @@ TEST_F(OpeningTest, LeavesTheVersionBeforeWhenAMigrationFails) {
   const std::string before = digest_of(path);
   {
     sqlite::Connection connection(path.string(), SQLITE_OPEN_READWRITE);
-    const std::vector<Migration> steps{{3, [](sqlite::Connection& c) {
+    const std::vector<Migration> steps{{kSchemaVersion + 1, [](sqlite::Connection& c) {
                                           c.execute("DELETE FROM evaluation");
                                           c.execute("a mistake");
                                         }}};

@@ -42,7 +42,11 @@ const std::map<std::string, std::string> kColumns{
      "design step iteration pair marker bound alive_before alive_after best mean_best evaluated "
      "used statistic p_value kendall_w spearman_rho qvar"},
     {"v_race_matrix", "design iteration step pair instance seed candidate score rank"},
-    {"v_workers", "worker identity host pid slots build state done failed first_seen last_seen"},
+    {"v_workers",
+     "worker identity host pid slots build state done failed first_seen last_seen job cpu client "
+     "connections"},
+    {"v_attempts", "id design candidate pair attempt worker host held_ms outcome at"},
+    {"v_commands", "number at who kind design step budget"},
 };
 
 /// Two designs of one mission, worked out by hand: three candidates on two pairs.

@@ -24,6 +24,7 @@ class MemoryStore final : public Store {
   std::vector<StoredScore> scores() override { return known; }
   std::vector<StoredStep> steps() override { return {}; }
   std::vector<DesignStateRow> design_states() override { return {}; }
+  std::vector<CommandRow> commands() override { return rows_of<CommandRow>(); }
   std::int64_t next_worker() override { return 1; }
   bool finished() override { return false; }
 

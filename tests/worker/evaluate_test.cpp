@@ -33,7 +33,7 @@ WorkItem item(std::int64_t seed, const std::string& machine = kMachine) {
 
 TEST(Evaluate, GivesWhatTheSimulatorGives) {
   const WorkerScenario scenario = short_aggregation();
-  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes(scenario));
+  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes({scenario}));
   ASSERT_TRUE(evaluator);
   const Machine machine = *parse_machine(kMachine, watermelon());
   for (std::int64_t seed = 1; seed <= 5; ++seed) {
@@ -56,7 +56,7 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
   scenario.missions[0].cycles = 600;
   scenario.methods = {{.flavour = "watermelon"}, {"watermelon", TurnClock::Seconds}};
   scenario.profile = *built_in_profile("pseudo-reality");  // control periods below 0.1 s
-  const std::string bytes = to_bytes(scenario);
+  const std::string bytes = to_bytes({scenario});
   const Expected<Evaluator> evaluator = make_evaluators()(bytes);
   ASSERT_TRUE(evaluator);
   const Machine machine = *parse_machine(kMachine, watermelon());
@@ -64,12 +64,13 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
   for (const std::size_t method : {0U, 1U}) {
     const Flavour flavour =
         *find_flavour("watermelon", method == 0 ? TurnClock::Cycles : TurnClock::Seconds);
-    const SimulationResult wanted = simulate({.machine = machine,
-                                              .flavour = flavour,
-                                              .profile = scenario_from_bytes(bytes)->profile,
-                                              .mission = scenario.missions[0],
-                                              .instance = instance,
-                                              .seed = 1});
+    const SimulationResult wanted =
+        simulate({.machine = machine,
+                  .flavour = flavour,
+                  .profile = scenarios_from_bytes(bytes)->front().profile,
+                  .mission = scenario.missions[0],
+                  .instance = instance,
+                  .seed = 1});
     WorkItem work = item(1);
     work.method = static_cast<std::uint32_t>(method);
     EXPECT_EQ((*evaluator)(work)->state_digest, wanted.state_digest);
@@ -77,7 +78,7 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
 }
 
 TEST(Evaluate, FailsWithASentence) {
-  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes(short_aggregation()));
+  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes({short_aggregation()}));
   ASSERT_TRUE(evaluator);
   EXPECT_FALSE((*evaluator)(item(1, "--nstates nonsense")));
   WorkItem strange = item(1);
@@ -89,10 +90,10 @@ TEST(Evaluate, RefusesScenariosThatItCannotRun) {
   EXPECT_FALSE(make_evaluators()("rubbish"));
   WorkerScenario scenario = short_aggregation();
   scenario.methods = {{.flavour = "vinegar"}};
-  EXPECT_FALSE(make_evaluators()(to_bytes(scenario)));
+  EXPECT_FALSE(make_evaluators()(to_bytes({scenario})));
   scenario = short_aggregation();
   scenario.engine_version = kEngineVersion + 1;
-  EXPECT_FALSE(make_evaluators()(to_bytes(scenario)));
+  EXPECT_FALSE(make_evaluators()(to_bytes({scenario})));
 }
 
 TEST(Evaluate, TheSelfTestRuns) {

@@ -30,7 +30,7 @@ class TargetEvaluators : public ::testing::Test {
     std::ofstream(folder / name) << "#!/bin/sh\n" << text;
     std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
   }
-  Expected<Evaluator> make() { return make_evaluators(allowed)(to_bytes(scenario)); }
+  Expected<Evaluator> make() { return make_evaluators(allowed)(to_bytes({scenario})); }
   tl::expected<Measured, Failure> evaluate(const WorkItem& item) {
     const auto evaluator = make();
     if (!evaluator) return tl::unexpected(Failure{to_string(evaluator.error()), {}});
@@ -161,13 +161,13 @@ TEST_F(TargetEvaluators, NeedTheFolder) {
 TEST_F(TargetEvaluators, GiveUpWhatRunsWhenAnotherScenarioComes) {
   script("target-runner", "exec sleep 1000\n");
   EvaluatorFactory factory = make_evaluators(allowed);
-  const auto evaluator = factory(to_bytes(scenario));
+  const auto evaluator = factory(to_bytes({scenario}));
   ASSERT_TRUE(evaluator);
   std::string reason;
   std::jthread slot([&] { reason = (*evaluator)(item()).error().reason; });
-  ASSERT_TRUE(factory(to_bytes(scenario)));  // the next slot's: nothing happens
+  ASSERT_TRUE(factory(to_bytes({scenario})));  // the next slot's: nothing happens
   scenario.campaign_digest = "other";
-  ASSERT_TRUE(factory(to_bytes(scenario)));
+  ASSERT_TRUE(factory(to_bytes({scenario})));
   slot.join();
   EXPECT_TRUE(mentions(reason, "interrupted")) << reason;
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <functional>
 
+#include "proto/key.h"
 #include "proto/scenario.pb.h"
 #include "sim/files/profile_file.h"
 #include "sim/messages/profile_messages.h"
@@ -21,44 +22,64 @@ WorkerScenario some_scenario() {
           .profile = *built_in_profile("rvr")};
 }
 
+Expected<WorkerScenario> read_back(const WorkerScenario& scenario) {
+  Expected<PoolScenario> scenarios = scenarios_from_bytes(to_bytes({scenario}));
+  if (!scenarios) return Unexpected(scenarios.error());
+  EXPECT_EQ(scenarios->size(), 1U);
+  return scenarios->front();
+}
+
+TEST(ScenarioMessages, GiveBackSeveralCampaignsAndNameTheFaultyOne) {
+  WorkerScenario other = some_scenario();
+  other.missions.pop_back();
+  const PoolScenario both = {some_scenario(), other};
+  EXPECT_EQ(scenarios_from_bytes(to_bytes(both)), both);
+  other.missions[0].cycles = 0;
+  EXPECT_EQ(scenarios_from_bytes(to_bytes({some_scenario(), other})).error().where,
+            "campaigns[1].missions[0].cycles");
+  EXPECT_EQ(scenarios_from_bytes("").error().where, "campaigns");
+  EXPECT_FALSE(scenarios_from_bytes(to_bytes(PoolScenario(kMaxCampaigns + 1, other))));
+}
+
 TEST(ScenarioMessages, GiveBackTheScenario) {
   WorkerScenario scenario = some_scenario();
-  EXPECT_EQ(scenario_from_bytes(to_bytes(scenario)), scenario);
+  EXPECT_EQ(read_back(scenario), scenario);
   scenario.profile = every_noise();
-  EXPECT_EQ(scenario_from_bytes(to_bytes(scenario)), scenario);
+  EXPECT_EQ(read_back(scenario), scenario);
 }
 
 TEST(ScenarioMessages, RefuseAClockOfTurnsThatIsNotKnown) {
-  pb::Scenario message;
-  ASSERT_TRUE(message.ParseFromString(to_bytes(some_scenario())));
-  message.mutable_methods(1)->set_turn_clock(static_cast<pb::Method::TurnClock>(7));
-  const auto read = scenario_from_bytes(message.SerializeAsString());
+  pb::PoolScenario message;
+  ASSERT_TRUE(message.ParseFromString(to_bytes({some_scenario()})));
+  message.mutable_campaigns(0)->mutable_methods(1)->set_turn_clock(
+      static_cast<pb::Method::TurnClock>(7));
+  const auto read = scenarios_from_bytes(message.SerializeAsString());
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().where, "methods[1].turn_clock");
 }
 
 TEST(ScenarioMessages, GiveBackTheMethods) {
-  EXPECT_EQ(scenario_from_bytes(to_bytes(some_scenario()))->methods, some_scenario().methods);
+  EXPECT_EQ(read_back(some_scenario())->methods, some_scenario().methods);
 }
 
 TEST(ScenarioMessages, AreTheSameBytesForTheSameScenario) {
-  EXPECT_EQ(to_bytes(some_scenario()), to_bytes(some_scenario()));
+  EXPECT_EQ(to_bytes({some_scenario()}), to_bytes({some_scenario()}));
 }
 
 TEST(ScenarioMessages, SayWhichMissionIsWrong) {
   WorkerScenario scenario = some_scenario();
   scenario.missions[1].cycles = 0;
-  const auto read = scenario_from_bytes(to_bytes(scenario));
+  const auto read = read_back(scenario);
   ASSERT_FALSE(read);
   EXPECT_EQ(read.error().where, "missions[1].cycles");
 }
 
 TEST(ScenarioMessages, RefuseBytesAndProfilesThatMakeNoSense) {
-  EXPECT_FALSE(scenario_from_bytes("\xff\xff\xff"));
+  EXPECT_FALSE(scenarios_from_bytes("\xff\xff\xff"));
   const auto complaint = [](const std::function<void(Profile&)>& spoil) {
     WorkerScenario scenario = some_scenario();
     spoil(scenario.profile);
-    const auto read = scenario_from_bytes(to_bytes(scenario));
+    const auto read = read_back(scenario);
     return read ? "" : read.error().where;
   };
   EXPECT_EQ(complaint([](Profile&) {}), "");
@@ -90,14 +111,14 @@ WorkerScenario with_programs() {
 }
 
 TEST(TargetMessages, GiveBackThePrograms) {
-  EXPECT_EQ(scenario_from_bytes(to_bytes(with_programs())), with_programs());
+  EXPECT_EQ(read_back(with_programs()), with_programs());
 }
 
 TEST(TargetMessages, AreCheckedWhenTheyCome) {
   const auto complaint = [](const std::function<void(Target&)>& spoil) {
     WorkerScenario scenario = with_programs();
     spoil(*scenario.target);
-    const auto read = scenario_from_bytes(to_bytes(scenario));
+    const auto read = read_back(scenario);
     return read ? "fine" : read.error().where;
   };
   EXPECT_EQ(complaint([](Target& t) { t.runner = "r"; }), "target.runner");
@@ -114,7 +135,7 @@ TEST(TargetMessages, AreCheckedWhenTheyCome) {
   EXPECT_EQ(complaint([](Target& t) { t.evaluator.clear(); }), "target.evaluator");
   WorkerScenario scenario = with_programs();
   scenario.instances[0].test[0] += '\0';
-  EXPECT_EQ(scenario_from_bytes(to_bytes(scenario)).error().where, "instances");
+  EXPECT_EQ(read_back(scenario).error().where, "instances");
 }
 
 TEST(ProfileMessages, NeedEveryFieldAndNoOther) {

@@ -1,0 +1,24 @@
+#pragma once
+
+namespace swarmsmith {
+
+/// What a peer may do, by its key. On a connection without keys, which only loopback has unless
+/// somebody insisted, everybody may do everything.
+enum class Role {
+  Anyone,    ///< no key: all that the others may
+  Worker,    ///< takes tasks, and nothing else
+  Operator,  ///< pauses, resumes, cancels, gives more budget; reads
+  Reader,    ///< asks for the status
+};
+
+constexpr bool may_work(Role role) {
+  return role == Role::Worker || role == Role::Anyone;
+}
+constexpr bool may_command(Role role) {
+  return role == Role::Operator || role == Role::Anyone;
+}
+constexpr bool may_read(Role role) {
+  return role != Role::Worker;
+}
+
+}  // namespace swarmsmith
