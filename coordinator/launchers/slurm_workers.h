@@ -20,7 +20,8 @@ struct SlurmWorkersOptions {
   /// The same for each start of one campaign with one store, and for nothing else: by it a
   /// coordinator that was started again finds its jobs.
   std::string job_name;
-  /// Where script and outputs go, made when it is not there; every node must see it.
+  /// Where script and outputs go, made when it is not there; every node must see it, since Slurm
+  /// writes the outputs there.
   std::filesystem::path folder;
   WorkerAddress address;
   std::filesystem::path program;       ///< on every node; empty: `find_worker_program`

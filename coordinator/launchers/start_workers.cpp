@@ -37,7 +37,8 @@ Started start_ssh(const WorkersSetup& setup) {
 Started start_slurm(const WorkersSetup& setup) {
   return boxed(SlurmWorkers::start({.slurm = setup.launch.slurm,
                                     .job_name = slurm_job_name(setup.campaign_digest, setup.store),
-                                    .folder = setup.store.string() + ".slurm",
+                                    .folder = setup.shared_folder /
+                                              (setup.store.filename().string() + ".slurm"),
                                     .address = setup.address,
                                     .arguments = setup.arguments}));
 }

@@ -19,6 +19,8 @@ struct WorkersSetup {
   std::vector<std::string> arguments;  ///< more of them, for the worker program
   std::string campaign_digest;
   std::filesystem::path store;
+  /// Where files for workers elsewhere go: all of them must see it.
+  std::filesystem::path shared_folder;
 };
 
 /// Starts them. Null when none are wanted. Errors: everything that is wrong.
