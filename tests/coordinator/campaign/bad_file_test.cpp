@@ -248,7 +248,8 @@ const Mistake kMistakes[] = {
      "in/x.toml:10:14: `on_failure` cannot be \"worst_rank\"; it is one of: reject, stop"},
     {"Launcher",
      {.rest = "[workers]\nlauncher = \"slrum\"\n"},
-     "in/x.toml:10:12: `launcher` cannot be \"slrum\"; it is one of: local, ssh, slurm"},
+     "in/x.toml:10:12: `launcher` cannot be \"slrum\" (did you mean \"slurm\"?); it is one of: "
+     "local, ssh, slurm"},
     {"SshWithoutHosts",
      {.rest = "[workers]\nlauncher = \"ssh\"\n"},
      "in/x.toml:10:12: `launcher` is \"ssh\", and there is no table [workers.ssh]"},
@@ -258,7 +259,8 @@ const Mistake kMistakes[] = {
     {"SlurmJobs", {.rest = "[workers.slurm]\njobs = 0\n"}, "in/x.toml:10:8: `jobs` must be"},
     {"SlurmKey",
      {.rest = "[workers.slurm]\ncpus = 4\n"},
-     "in/x.toml:10:1: [workers.slurm] has no key `cpus` (did you mean \"cpus_per_task\"?)"},
+     "in/x.toml:10:1: [workers.slurm] has no key `cpus`; known are: cpus_per_task, jobs, options, "
+     "partition, time"},
     {"SlurmOptionOfTwoLines",
      {.rest = "[workers.slurm]\noptions = [\"--a\\nrm\"]\n"},
      "in/x.toml:10:11: `options` must be words without line breaks"},

@@ -78,6 +78,12 @@ TEST(HostFile, ReportsEveryMistakeWithItsPlace) {
                   HasSubstr("in/hosts:7:7: `slots` must be"), HasSubstr("in/hosts:7:17: `more`")));
 }
 
+TEST(HostFile, OfTheExamplesIsRight) {
+  const auto hosts = read_hosts(SWARMSMITH_SOURCE_DIR "/examples/cluster/hosts");
+  ASSERT_TRUE(hosts);
+  EXPECT_EQ(hosts->size(), 3U);
+}
+
 TEST(HostFile, WithoutHostsIsAMistake) {
   EXPECT_THAT(parse_hosts("# nobody\n", "h").error().front().message, HasSubstr("no host"));
   EXPECT_EQ(read_hosts("/nonexistent/h").error().front().where, "/nonexistent/h");
