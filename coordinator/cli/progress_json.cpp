@@ -179,6 +179,7 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live) {
       .add("failed", live.failed)
       .add("rejected", live.rejected)
       .add("trouble", live.trouble)
+      .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher))
       .str();
 }
 

@@ -200,14 +200,22 @@ class OneHostSlurm:
         daemon = self.daemons.pop(node)
         daemon.kill()
         daemon.wait()
+        steps, tasks = [], []
         for pid in self.our_processes():
             try:
                 environment = pathlib.Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
-                comm = pathlib.Path(f"/proc/{pid}/comm").read_text()
+                parent = int(pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1]
+                             .split()[1])
+                if mine not in environment:
+                    continue
+                tasks.append(pid)
+                if pathlib.Path(f"/proc/{parent}/comm").read_text().startswith("slurmstepd"):
+                    steps.append(parent)
             except OSError:
-                continue
-            if mine in environment and not comm.startswith("python"):
-                self._kill(pid)
+                pass
+        # Who would tell the controller of the others' end goes first.
+        for pid in steps + tasks:
+            self._kill(pid)
 
     @staticmethod
     def _kill(pid):
