@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 #include "coordinator/launchers/launcher.h"
@@ -24,6 +25,9 @@ struct LiveStatus {
   double evaluations_per_s = 0;  ///< over the last seconds
   std::string trouble;           ///< why nothing can be written; empty when well
   LauncherStatus launcher;       ///< of workers that this process starts; without name: none
+  /// Other hosts can connect without keys, because somebody insisted.
+  bool insecure_plaintext = false;
+  std::map<std::string, std::uint64_t> refused;  ///< connections, by reason
 };
 
 /// One JSON object with the fields by name.

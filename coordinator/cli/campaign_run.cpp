@@ -8,6 +8,9 @@
 #include <stop_token>
 #include <utility>
 
+#include "access/address.h"
+#include "access/key_file.h"
+#include "base/descriptor_limit.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/programs.h"
@@ -27,8 +30,12 @@
 namespace swarmsmith::cli {
 namespace {
 
-// Set by the handler, read by the loop.
+/// Of the process, besides its connections: stores, logs, workers' pipes.
+constexpr int kOtherDescriptors = 1'000;
+
+// Set by the handlers, read by the loop.
 volatile std::sig_atomic_t g_signal = 0;
+volatile std::sig_atomic_t g_read_clients = 0;
 
 void on_signal(int signal) {
   if (g_signal != 0) _exit(128 + signal);
@@ -41,6 +48,20 @@ void catch_signals() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+void on_hangup(int) {
+  g_read_clients = 1;
+}
+
+/// Only where there is a list of clients to read again: else a terminal that goes away ends the
+/// run, as it ends others.
+void catch_hangup() {
+  struct sigaction action = {};
+  action.sa_handler = on_hangup;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGHUP, &action, nullptr);
 }
 
 WorkerScenario scenario_of(const Campaign& campaign) {
@@ -64,6 +85,13 @@ WorkerScenario scenario_of(const Campaign& campaign) {
   return scenario;
 }
 
+/// Where the coordinator listens, as tcp://HOST:PORT.
+std::string bind_of(const RunOptions& options) {
+  if (options.bind.empty()) return "tcp://127.0.0.1:*";
+  const bool has_scheme = options.bind.find("://") != std::string::npos;
+  return (has_scheme ? "" : "tcp://") + options.bind;
+}
+
 ServiceOptions service_options(const Campaign& campaign, const RunOptions& options) {
   ServiceOptions service;
   service.coordinator.scenario = to_bytes({scenario_of(campaign)});
@@ -75,10 +103,7 @@ ServiceOptions service_options(const Campaign& campaign, const RunOptions& optio
                           .retries = campaign.retries,
                           .stop_on_failure = campaign.stop_on_failure}};
   scheduler.evaluates_programs = campaign.target.has_value();
-  if (!options.bind.empty()) {
-    const bool has_scheme = options.bind.find("://") != std::string::npos;
-    service.bind = (has_scheme ? "" : "tcp://") + options.bind;
-  }
+  service.bind = bind_of(options);
   return service;
 }
 
@@ -89,17 +114,6 @@ LaunchOptions launch_of(const Campaign& campaign, const RunOptions& options) {
   if (options.workers) launch.kind = LaunchOptions::Kind::Local;
   launch.processes = options.workers.value_or(campaign.local_workers.value_or(1));
   return launch;
-}
-
-WorkersSetup workers_setup(const Campaign& campaign, const RunOptions& options,
-                           const std::string& endpoint) {
-  WorkersSetup setup{.launch = launch_of(campaign, options),
-                     .address = {.endpoint = endpoint},
-                     .local_slots = static_cast<int>(options.slots),
-                     .campaign_digest = campaign_digest(campaign),
-                     .store = campaign.store};
-  if (campaign.target) setup.arguments = allow_arguments(*campaign.target);
-  return setup;
 }
 
 ExitCode show_result(Output& output, const Campaign& campaign) {
@@ -131,23 +145,81 @@ class CampaignRun {
     if (!plans) return fail(output_, ExitCode::Usage, plans.error());
     CampaignRunner runner = replay(std::move(*plans));
     if (runner.error()) return fail_of(*runner.error());
+    if (!open_door()) return ExitCode::Usage;
     auto service = listen(runner);
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
-    if (options_.announce) announce((*service)->endpoint());
-    auto workers = start_workers(workers_setup(campaign_, options_, (*service)->endpoint()));
-    if (workers) return serve(**service, runner, workers->get());
+    const std::string endpoint = (*service)->endpoint();
+    const CoordinatorFile file = coordinator_file(options_.access, access_, endpoint);
+    if (const auto written = write_coordinator_file(coordinator_path(), file); !written) {
+      return fail(output_, ExitCode::Unreachable, written.error());
+    }
+    if (options_.announce) announce(endpoint);
+    const ExitCode ended = serve_with_workers(**service, runner);
+    remove_coordinator_file(coordinator_path(), file);
+    return ended;
+  }
+
+ private:
+  /// Keys and clients, or plaintext; false after having said what is wrong.
+  bool open_door() {
+    raise_descriptor_limit(SocketOptions().max_connections + kOtherDescriptors);
+    auto access = open_access(options_.access, bind_of(options_));
+    if (access) {
+      access_ = std::move(*access);
+      if (access_.watch) catch_hangup();
+      return true;
+    }
+    for (const Error& fault : access.error())
+      print_error(output_, fault);
+    return false;
+  }
+
+  std::filesystem::path coordinator_path() const {
+    if (!options_.access.coordinator_file.empty()) return options_.access.coordinator_file;
+    return coordinator_file_of(campaign_.store);
+  }
+
+  /// Workers of this host get the address, others the file in which it stands.
+  WorkersSetup workers_setup(const std::string& endpoint) const {
+    WorkersSetup setup{.launch = launch_of(campaign_, options_),
+                       .local_slots = static_cast<int>(options_.slots),
+                       .campaign_digest = campaign_digest(campaign_),
+                       .store = campaign_.store};
+    const auto file = std::filesystem::absolute(coordinator_path());
+    setup.shared_folder = file.parent_path();
+    setup.address.endpoint = local_endpoint(endpoint);
+    if (setup.launch.kind != LaunchOptions::Kind::Local) setup.address.coordinator = file;
+    if (access_.keys) setup.address.key = std::filesystem::absolute(access_.local_key);
+    if (campaign_.target) setup.arguments = allow_arguments(*campaign_.target);
+    if (access_.insecure_plaintext) setup.arguments.emplace_back("--insecure-plaintext");
+    return setup;
+  }
+
+  ExitCode serve_with_workers(Service& service, const CampaignRunner& runner) {
+    const WorkersSetup setup = workers_setup(service.endpoint());
+    if (!setup.address.key.empty() && setup.wants_workers()) {
+      if (const auto key = read_client_key(access_.local_key); !key) {
+        return fail(output_, ExitCode::Usage, key.error());
+      }
+    }
+    const auto workers = start_workers(setup);
+    if (workers) return serve(service, runner, workers->get());
     for (const Error& error : workers.error())
       print_error(output_, error);
     const bool usage = workers.error().front().kind == ErrorKind::BadInput;
     return usage ? ExitCode::Usage : ExitCode::Unreachable;
   }
 
- private:
   /// On the address that was asked for, or on one of the next ports where that will do.
   Expected<std::unique_ptr<Service>> listen(CampaignRunner& runner) {
     constexpr int kPorts = 100;
     ServiceOptions service_for = service_options(campaign_, options_);
     service_for.coordinator.scheduler.first_worker = store_.next_worker();
+    service_for.keys = access_.keys;
+    service_for.insecure_plaintext = access_.insecure_plaintext;
+    if (access_.watch) {
+      service_for.new_clients = [watch = access_.watch] { return watch->take(); };
+    }
     const std::string bind = service_for.bind;
     for (int next = 1;; ++next) {
       auto service = Service::open(service_for, {{campaign_digest(campaign_), &store_, &runner}});
@@ -185,6 +257,10 @@ class CampaignRun {
         .on_status =
             [&](const LiveStatus& live) {
               last_ = live;
+              if (g_read_clients != 0 && access_.watch) {
+                g_read_clients = 0;
+                access_.watch->look_now();
+              }
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
                 if (worker_trouble.empty()) last_.launcher = workers->status();
@@ -227,8 +303,11 @@ class CampaignRun {
   }
 
   void announce(const std::string& endpoint) {
-    const std::string address = endpoint.substr(endpoint.find("//") + 2);
-    print_note(output_, "waiting for workers: swarmsmith worker --connect " + address);
+    const std::string advertised = advertised_endpoint(endpoint, options_.access.advertise);
+    const std::string address = advertised.substr(advertised.find("//") + 2);
+    print_note(output_, "waiting for workers: swarmsmith worker --connect " + address +
+                            (access_.keys ? " --key " + access_.local_key.string() : "") +
+                            (access_.insecure_plaintext ? " --insecure-plaintext" : ""));
   }
 
   void print_resume() {
@@ -244,6 +323,7 @@ class CampaignRun {
   SystemClock clock_;
   RunListener& listener_;
   LiveStatus last_;
+  Access access_;
 };
 
 }  // namespace

@@ -9,6 +9,7 @@ namespace swarmsmith::cli {
 Run declare_run(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
+    AccessFlags access;
     std::string workers;
     bool no_dashboard = false;
   };
@@ -19,10 +20,11 @@ Run declare_run(Options& options) {
                "here, which share the cores), ssh:HOSTFILE, slurm or slurm:JOBSxCPUS");
   options.flag("--no-dashboard", arguments->no_dashboard,
                "Accepted; this version has no dashboard to leave out");
+  arguments->access.declare(options);
   return [arguments](Output& output) {
     const auto campaign = arguments->campaign.read(output);
     if (!campaign) return ExitCode::Usage;
-    RunOptions run{.bind = campaign->bind};
+    RunOptions run{.bind = campaign->bind, .access = arguments->access};
     if (!arguments->workers.empty()) {
       const auto launch = parse_workers(arguments->workers, campaign->launch);
       if (!launch) {
@@ -31,6 +33,9 @@ Run declare_run(Options& options) {
       }
       run.launch = *launch;
     }
+    const LaunchOptions& launch = run.launch ? *run.launch : campaign->launch;
+    // Workers from other hosts have to reach it; where it is, its file says.
+    if (launch.kind != LaunchOptions::Kind::Local && run.bind.empty()) run.bind = "0.0.0.0:0";
     return run_campaign(output, *campaign, run);
   };
 }

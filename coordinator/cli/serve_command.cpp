@@ -8,6 +8,7 @@ namespace swarmsmith::cli {
 Run declare_serve(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
+    AccessFlags access;
     std::string bind;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -15,10 +16,12 @@ Run declare_serve(Options& options) {
   options.text(
       "--bind", arguments->bind,
       "Address and port for workers (default 127.0.0.1:5555, or the next port that is free)");
+  arguments->access.declare(options);
   return [arguments](Output& output) {
     const auto campaign = arguments->campaign.read(output);
     if (!campaign) return ExitCode::Usage;
-    RunOptions run{.workers = 0, .bind = arguments->bind, .announce = true};
+    RunOptions run{
+        .workers = 0, .bind = arguments->bind, .announce = true, .access = arguments->access};
     if (run.bind.empty()) run.bind = campaign->bind;
     if (run.bind.empty()) {
       run.bind = "127.0.0.1:5555";

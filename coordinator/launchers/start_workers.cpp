@@ -19,10 +19,15 @@ Started boxed(Expected<Kind> started) {
 }
 
 Started start_local(const WorkersSetup& setup) {
+  std::vector<std::string> arguments = setup.arguments;
+  if (!setup.address.key.empty()) {
+    arguments.emplace_back("--key");
+    arguments.push_back(setup.address.key.string());
+  }
   return boxed(LocalWorkers::start({.endpoint = setup.address.endpoint,
                                     .processes = static_cast<int>(setup.launch.processes),
                                     .slots = setup.local_slots,
-                                    .arguments = setup.arguments}));
+                                    .arguments = std::move(arguments)}));
 }
 
 Started start_ssh(const WorkersSetup& setup) {
@@ -35,20 +40,20 @@ Started start_ssh(const WorkersSetup& setup) {
 }
 
 Started start_slurm(const WorkersSetup& setup) {
-  return boxed(SlurmWorkers::start({.slurm = setup.launch.slurm,
-                                    .job_name = slurm_job_name(setup.campaign_digest, setup.store),
-                                    .folder = setup.shared_folder /
-                                              (setup.store.filename().string() + ".slurm"),
-                                    .address = setup.address,
-                                    .arguments = setup.arguments}));
+  return boxed(SlurmWorkers::start(
+      {.slurm = setup.launch.slurm,
+       .job_name = slurm_job_name(setup.campaign_digest, setup.store),
+       .folder = setup.shared_folder / (setup.store.filename().string() + ".slurm"),
+       .address = setup.address,
+       .arguments = setup.arguments}));
 }
 
 }  // namespace
 
 Started start_workers(const WorkersSetup& setup) {
+  if (!setup.wants_workers()) return nullptr;
   switch (setup.launch.kind) {
     case LaunchOptions::Kind::Local:
-      if (setup.launch.processes == 0) return nullptr;
       return start_local(setup);
     case LaunchOptions::Kind::Ssh:
       return start_ssh(setup);

@@ -21,6 +21,10 @@ struct WorkersSetup {
   std::filesystem::path store;
   /// Where files for workers elsewhere go: all of them must see it.
   std::filesystem::path shared_folder;
+
+  bool wants_workers() const {
+    return launch.kind != LaunchOptions::Kind::Local || launch.processes > 0;
+  }
 };
 
 /// Starts them. Null when none are wanted. Errors: everything that is wrong.
