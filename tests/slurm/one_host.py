@@ -1,7 +1,7 @@
 """A Slurm cluster of virtual nodes on this host, for one test, in a folder of its own.
 
 Nothing outside of the folder is read or written. The daemons run in the foreground as children of
-the test, and the kernel ends them with it. Facts about Slurm on one host: several slurmd need
+the test. When it is killed itself, a guard, which waits for that, ends all that is left. Facts about Slurm on one host: several slurmd need
 `-N`, a port each and %n in their paths; plugins that want cgroups are left out; `config_overrides`
 lets a node have more CPUs than the machine.
 """
@@ -12,6 +12,7 @@ import shutil
 import signal
 import socket
 import subprocess
+import sys
 import tempfile
 import time
 
@@ -96,6 +97,38 @@ def _end_with_the_test():
     ctypes.CDLL(None).prctl(1, signal.SIGKILL)  # PR_SET_PDEATHSIG
 
 
+def processes_of(conf):
+    """Processes of this cluster, its daemons, jobs and users: they all know its configuration."""
+    mark = f"SLURM_CONF={conf}".encode()
+    found = []
+    for entry in pathlib.Path("/proc").iterdir():
+        if not entry.name.isdigit() or int(entry.name) == os.getpid():
+            continue
+        try:
+            if mark in (entry / "environ").read_bytes().split(b"\0"):
+                found.append(int(entry.name))
+        except OSError:
+            pass
+    return found
+
+
+def kill(pid):
+    try:
+        os.kill(pid, signal.SIGKILL)
+    except ProcessLookupError:
+        pass
+
+
+def guard(folder):
+    """Until the test ends, in whatever way; then nothing of its cluster is left."""
+    sys.stdin.buffer.read()
+    while pids := processes_of(pathlib.Path(folder) / "slurm.conf"):
+        for pid in pids:
+            kill(pid)
+        time.sleep(0.1)
+    shutil.rmtree(folder, ignore_errors=True)
+
+
 class OneHostSlurm:
     """`with OneHostSlurm() as slurm:`, or `start()` and `stop()`."""
 
@@ -104,6 +137,7 @@ class OneHostSlurm:
         self.cpus = cpus
         self.daemons = {}
         self.folder = None
+        self.guard = None
 
     def __enter__(self):
         try:
@@ -132,6 +166,8 @@ class OneHostSlurm:
         self.conf = self.folder / "slurm.conf"
         self.conf.write_text(CONFIGURATION.format(host=host, port=control, folder=self.folder,
                                                   cpus=self.cpus, nodes="\n".join(lines)))
+        self.guard = subprocess.Popen([sys.executable, __file__, str(self.folder)],
+                                      stdin=subprocess.PIPE, start_new_session=True)
         (self.folder / "cgroup.conf").write_text("CgroupPlugin=cgroup/v1\nCgroupAutomount=no\n")
         self.environment = {**os.environ, "SLURM_CONF": str(self.conf),
                             "PATH": os.environ["PATH"] + ":/usr/sbin"}
@@ -180,20 +216,6 @@ class OneHostSlurm:
     def node_of(self, job):
         return self.call("squeue", "-h", "-r", "-j", job, "-o", "%N")
 
-    def our_processes(self):
-        """Processes of this cluster's jobs: they all know its configuration."""
-        mark = f"SLURM_CONF={self.conf}".encode()
-        found = []
-        for entry in pathlib.Path("/proc").iterdir():
-            if not entry.name.isdigit() or int(entry.name) == os.getpid():
-                continue
-            try:
-                if mark in (entry / "environ").read_bytes().split(b"\0"):
-                    found.append(int(entry.name))
-            except OSError:
-                pass
-        return found
-
     def kill_node(self, node):
         """As when its power fails: the daemon and all that ran there die at once."""
         mine = f"SLURMD_NODENAME={node}".encode()
@@ -201,7 +223,7 @@ class OneHostSlurm:
         daemon.kill()
         daemon.wait()
         steps, tasks = [], []
-        for pid in self.our_processes():
+        for pid in processes_of(self.conf):
             try:
                 environment = pathlib.Path(f"/proc/{pid}/environ").read_bytes().split(b"\0")
                 parent = int(pathlib.Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1]
@@ -215,14 +237,7 @@ class OneHostSlurm:
                 pass
         # Who would tell the controller of the others' end goes first.
         for pid in steps + tasks:
-            self._kill(pid)
-
-    @staticmethod
-    def _kill(pid):
-        try:
-            os.kill(pid, signal.SIGKILL)
-        except ProcessLookupError:
-            pass
+            kill(pid)
 
     def stop(self):
         """Ends everything that belongs to the cluster, and removes its folder."""
@@ -243,7 +258,12 @@ class OneHostSlurm:
                 daemon.kill()
                 daemon.wait()
         self.daemons.clear()
-        for pid in self.our_processes():
-            self._kill(pid)
+        if self.guard is not None:
+            self.guard.stdin.close()
+            self.guard.wait()
         shutil.rmtree(self.folder, ignore_errors=True)
         self.folder = None
+
+
+if __name__ == "__main__":
+    guard(sys.argv[1])

@@ -77,9 +77,9 @@ class OneHostSsh:
         server.write_text(SERVER.format(port=port, folder=self.folder))
         pathlib.Path("/run/sshd").mkdir(mode=0o755, exist_ok=True)  # where sshd locks itself in
         # Started again for each connection, so by its whole path.
-        self.sshd = subprocess.Popen([_program("sshd"), "-D", "-e", "-f", server],
-                                     stderr=open(self.folder / "sshd.log", "w"),
-                                     stdin=subprocess.DEVNULL, preexec_fn=_end_with_the_test)
+        with open(self.folder / "sshd.log", "w") as log:
+            self.sshd = subprocess.Popen([_program("sshd"), "-D", "-e", "-f", server], stderr=log,
+                                         stdin=subprocess.DEVNULL, preexec_fn=_end_with_the_test)
         wait_for(lambda: "listening" in (self.folder / "sshd.log").read_text(), "sshd")
 
     def stop(self):

@@ -28,7 +28,10 @@ class Campaign(SlurmTest):
         wait_for(lambda: len(self.live()) == 4, "four jobs again")
         self.assertEqual(set(jobs[2:]) - set(self.live()), set())
         self.finish(process)
-        self.assertTrue(self.hosts() <= set(self.slurm.nodes), self.hosts())
+        rows = self.query(self.store, "select host, job, cpu from worker")
+        self.assertLessEqual({row["host"] for row in rows}, set(self.slurm.nodes))
+        self.assertLessEqual(set(jobs), {row["job"] for row in rows})
+        self.assertTrue(all(row["cpu"] for row in rows), rows)
 
     def test_cancelled_workers_say_goodbye_and_more_may_come_by_hand(self):
         process = self.run_on_slurm(workers="slurm:2x1")

@@ -33,18 +33,22 @@ class Ssh(ProgramTest):
         super().setUp()
         self.ssh = one_host_ssh.OneHostSsh(self.folder)
         self.addCleanup(self.ssh.stop)
-        self.port = campaigns.free_ports(1)[0]
         # A name of its own, by which this test's workers are told from others.
         self.worker = self.folder / "the worker"
         self.worker.symlink_to(pathlib.Path(SWARMSMITH).parent / "swarmsmith-worker")
         self.hosts = self.folder / "hosts"
         self.store = self.folder / "ssh.db"
         self.said = self.folder / "said.txt"
+        keys = self.folder / "keys"
+        done = call("keygen", keys)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.environment = {**os.environ, "SWARMSMITH_WORKER": str(self.worker),
+                            "SWARMSMITH_KEYS": str(keys)}
 
     def campaign(self, hosts):
         self.hosts.write_text(hosts)
         self.file.write_text(campaigns.CAMPAIGN.format(
-            repetitions=1, budget=1500, duration_s=240, port=self.port,
+            repetitions=1, budget=1500, duration_s=240,
             workers='launcher = "ssh"\n[workers.ssh]\nhosts = "hosts"\n'
                     f'options = ["-F", "{self.ssh.client_config}"]\n'))
 
@@ -53,7 +57,7 @@ class Ssh(ProgramTest):
             process = subprocess.Popen(
                 [SWARMSMITH, "run", self.file, "--store", self.store], stderr=said,
                 stdout=subprocess.DEVNULL, start_new_session=True,
-                env={**os.environ, "SWARMSMITH_WORKER": str(self.worker)})
+                env=self.environment)
         self.addCleanup(self._end, process)
         return process
 
@@ -111,12 +115,21 @@ class Ssh(ProgramTest):
 
     def test_mistakes_are_named(self):
         self.campaign("node1 slot=1\n")
-        done = call("run", self.file, "--store", self.store)
+        done = self.run_to_its_end()
         self.assertEqual(done.returncode, 2, done.stderr)
         self.assertIn(f"{self.hosts}:1:7: `slot=1` is none of slots=N", done.stderr)
-        done = call("run", self.file, "--store", self.store, "--workers", "ssh:nowhere")
+        done = self.run_to_its_end("--workers", "ssh:nowhere")
         self.assertIn("nowhere: there is no such host file", done.stderr)
         self.assertNotEqual(done.returncode, 0)
+        del self.environment["SWARMSMITH_KEYS"]
+        self.environment["HOME"] = str(self.folder)
+        done = self.run_to_its_end()
+        self.assertEqual(done.returncode, 2, done.stderr)
+        self.assertIn("`swarmsmith keygen`", done.stderr)
+
+    def run_to_its_end(self, *words):
+        return subprocess.run([SWARMSMITH, "run", self.file, "--store", self.store, *words],
+                              env=self.environment, capture_output=True, text=True, timeout=60)
 
 
 if __name__ == "__main__":
