@@ -34,7 +34,7 @@ class DeadNode(SlurmTest):
 class Preempted(SlurmTest):
     budget = 3000
     repetitions = 1
-    duration_s = 1200
+    duration_s = 900
     # The signal that comes a minute before the time limit comes at once: jobs of some seconds.
     workers = ('launcher = "slurm"\n[workers.slurm]\njobs = 2\ncpus_per_task = 1\ntime = "1"\n'
                'options = ["--signal=B:TERM@45"]\n')
