@@ -112,7 +112,10 @@ Expected<WorkerServiceOptions> service_options(const Arguments& arguments) {
   const auto first = find();
   if (!first && first.error().kind != ErrorKind::NotFound) return Unexpected(first.error());
   return WorkerServiceOptions{
-      .endpoint = arguments.connect, .find = find, .protocol = {}, .socket = {}};
+      .endpoint = arguments.connect.empty() ? arguments.coordinator : arguments.connect,
+      .find = find,
+      .protocol = {},
+      .socket = {}};
 }
 
 int run(const Arguments& arguments) {
