@@ -44,9 +44,10 @@ bool Coordinator::settled() const {
 }
 
 bool Coordinator::finished() const {
-  return settled() && std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
-           return campaign.stopped || campaign.source->finished();
-         });
+  const bool done = std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
+    return campaign.stopped || campaign.source->finished();
+  });
+  return done && settled() && !scheduler_.is_auditing();
 }
 
 void Coordinator::put_row(const Row& row) {
