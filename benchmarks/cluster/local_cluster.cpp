@@ -8,7 +8,7 @@
 #include <string>
 #include <variant>
 
-#include "coordinator/local_workers.h"
+#include "coordinator/launchers/local_workers.h"
 #include "coordinator/service.h"
 
 namespace swarmsmith::bench {

@@ -20,7 +20,8 @@
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
-#include "coordinator/local_workers.h"
+#include "coordinator/launchers/start_workers.h"
+#include "coordinator/launchers/worker_program.h"
 #include "coordinator/service.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
@@ -107,10 +108,13 @@ ServiceOptions service_options(const Campaign& campaign, const RunOptions& optio
   return service;
 }
 
-/// Local worker processes as `--workers` and the file have them: a number of processes, or one with
-/// as many slots as there are cores.
-int local_processes(const Campaign& campaign, const RunOptions& options) {
-  return static_cast<int>(options.workers.value_or(campaign.local_workers.value_or(1)));
+/// Who starts workers: `--workers`, or the file.
+LaunchOptions launch_of(const Campaign& campaign, const RunOptions& options) {
+  LaunchOptions launch = options.launch.value_or(campaign.launch);
+  if (options.launch) return launch;
+  if (options.workers) launch.kind = LaunchOptions::Kind::Local;
+  launch.processes = options.workers.value_or(campaign.local_workers.value_or(1));
+  return launch;
 }
 
 ExitCode show_result(Output& output, const Campaign& campaign) {
@@ -176,24 +180,35 @@ class CampaignRun {
     return coordinator_file_of(campaign_.store);
   }
 
+  /// Workers of this host get the address, others the file in which it stands.
+  WorkersSetup workers_setup(const std::string& endpoint) const {
+    WorkersSetup setup{.launch = launch_of(campaign_, options_),
+                       .local_slots = static_cast<int>(options_.slots),
+                       .campaign_digest = campaign_digest(campaign_),
+                       .store = campaign_.store};
+    const auto file = std::filesystem::absolute(coordinator_path());
+    setup.shared_folder = file.parent_path();
+    setup.address.endpoint = local_endpoint(endpoint);
+    if (setup.launch.kind != LaunchOptions::Kind::Local) setup.address.coordinator = file;
+    if (access_.keys) setup.address.key = std::filesystem::absolute(access_.local_key);
+    if (campaign_.target) setup.arguments = allow_arguments(*campaign_.target);
+    if (access_.insecure_plaintext) setup.arguments.emplace_back("--insecure-plaintext");
+    return setup;
+  }
+
   ExitCode serve_with_workers(Service& service, const CampaignRunner& runner) {
-    const int processes = local_processes(campaign_, options_);
-    if (processes == 0) return serve(service, runner, nullptr);
-    std::vector<std::string> arguments;
-    if (campaign_.target) arguments = allow_arguments(*campaign_.target);
-    if (access_.keys) {
+    const WorkersSetup setup = workers_setup(service.endpoint());
+    if (!setup.address.key.empty() && setup.wants_workers()) {
       if (const auto key = read_client_key(access_.local_key); !key) {
         return fail(output_, ExitCode::Usage, key.error());
       }
-      arguments.emplace_back("--key");
-      arguments.push_back(access_.local_key.string());
     }
-    auto workers = LocalWorkers::start({.endpoint = local_endpoint(service.endpoint()),
-                                        .processes = processes,
-                                        .slots = static_cast<int>(options_.slots),
-                                        .arguments = std::move(arguments)});
-    if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
-    return serve(service, runner, &*workers);
+    const auto workers = start_workers(setup);
+    if (workers) return serve(service, runner, workers->get());
+    for (const Error& error : workers.error())
+      print_error(output_, error);
+    const bool usage = workers.error().front().kind == ErrorKind::BadInput;
+    return usage ? ExitCode::Usage : ExitCode::Unreachable;
   }
 
   /// On the address that was asked for, or on one of the next ports where that will do.
@@ -231,7 +246,7 @@ class CampaignRun {
     return {std::move(plans), by_design(scores, store_.steps(), finished), finished, commands};
   }
 
-  ExitCode serve(Service& service, const CampaignRunner& runner, LocalWorkers* workers) {
+  ExitCode serve(Service& service, const CampaignRunner& runner, Launcher* workers) {
     std::stop_source stop;
     std::string worker_trouble;
     const ServiceHooks hooks{
@@ -247,16 +262,19 @@ class CampaignRun {
                 g_read_clients = 0;
                 access_.watch->look_now();
               }
-              listener_.update(live, clock_.now());
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
+                if (worker_trouble.empty()) last_.launcher = workers->status();
               }
+              listener_.update(last_, clock_.now());
               if (g_signal != 0 || runner.error() || !worker_trouble.empty()) stop.request_stop();
             },
     };
     const ServiceEnd end = service.run(stop.get_token(), hooks);
-    if (workers != nullptr) workers->stop(std::chrono::seconds(2));
+    const std::string left_behind =
+        workers == nullptr ? "" : workers->stop(std::chrono::seconds(2));
     listener_.finish(last_);
+    if (!left_behind.empty()) print_note(output_, left_behind);
     if (runner.error()) return fail_of(*runner.error());
     if (!worker_trouble.empty()) return fail(output_, ExitCode::Unreachable, worker_trouble);
     return exit_code_of(end);

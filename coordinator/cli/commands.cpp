@@ -16,7 +16,8 @@ comes to the same answer. On a finished store it prints the result again.
 Examples:
   swarmsmith run
   swarmsmith run campaign.toml
-  swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db)";
+  swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db
+  swarmsmith run campaign.toml --workers slurm:16x64)";
 
 constexpr std::string_view kServeDetails =
     R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. Beyond loopback

@@ -185,6 +185,7 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live) {
       .add("conflicts", live.conflicts)
       .add("malformed", live.malformed)
       .add("trouble", live.trouble)
+      .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher))
       .str();
 }
 

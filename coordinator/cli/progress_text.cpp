@@ -70,7 +70,10 @@ std::string second_half(const ProgressModel& model, const LiveStatus& live) {
     text += "  ETA " + duration_text(left / live.evaluations_per_s);
   }
   if (live.failed > 0) text += "  failed " + std::to_string(live.failed);
-  if (live.workers == 0) text += "  no workers";
+  if (live.workers > 0) return text;
+  // Only local workers are there at once.
+  const bool waits = !live.launcher.name.empty() && live.launcher.name != "local";
+  text += waits ? "  no workers yet (" + to_text(live.launcher) + ")" : "  no workers";
   return text;
 }
 

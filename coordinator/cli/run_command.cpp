@@ -2,6 +2,7 @@
 
 #include "coordinator/cli/campaign_run.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/launchers/launch_text.h"
 
 namespace swarmsmith::cli {
 
@@ -9,22 +10,33 @@ Run declare_run(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
     AccessFlags access;
-    std::optional<std::int64_t> workers;
+    std::string workers;
     bool no_dashboard = false;
   };
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Optional);
-  options.integer("--workers", arguments->workers, {1, 1000},
-                  "Local worker processes; they share the cores");
+  options.text("--workers", arguments->workers,
+               "Who evaluates: auto (this host, all cores), N or local:N (that many processes "
+               "here, which share the cores), ssh:HOSTFILE, slurm or slurm:JOBSxCPUS");
   options.flag("--no-dashboard", arguments->no_dashboard,
                "Accepted; this version has no dashboard to leave out");
   arguments->access.declare(options);
   return [arguments](Output& output) {
     const auto campaign = arguments->campaign.read(output);
     if (!campaign) return ExitCode::Usage;
-    return run_campaign(
-        output, *campaign,
-        {.workers = arguments->workers, .bind = campaign->bind, .access = arguments->access});
+    RunOptions run{.bind = campaign->bind, .access = arguments->access};
+    if (!arguments->workers.empty()) {
+      const auto launch = parse_workers(arguments->workers, campaign->launch);
+      if (!launch) {
+        return fail(output, ExitCode::Usage,
+                    Error{launch.error().kind, launch.error().message, "--workers"});
+      }
+      run.launch = *launch;
+    }
+    const LaunchOptions& launch = run.launch ? *run.launch : campaign->launch;
+    // Workers from other hosts have to reach it; where it is, its file says.
+    if (launch.kind != LaunchOptions::Kind::Local && run.bind.empty()) run.bind = "0.0.0.0:0";
+    return run_campaign(output, *campaign, run);
   };
 }
 
