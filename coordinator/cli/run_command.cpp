@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "coordinator/cli/campaign_flags.h"
 #include "coordinator/cli/campaign_run.h"
 #include "coordinator/cli/commands.h"
 
@@ -18,9 +19,9 @@ Run declare_run(Options& options) {
   options.flag("--no-dashboard", arguments->no_dashboard,
                "Accepted; this version has no dashboard to leave out");
   return [arguments](Output& output) {
-    const auto campaign = arguments->campaign.read(output);
-    if (!campaign) return ExitCode::Usage;
-    return run_campaign(output, *campaign, {.workers = arguments->workers, .bind = campaign->bind});
+    const auto campaigns = arguments->campaign.read(output);
+    if (!campaigns) return ExitCode::Usage;
+    return run_campaigns(output, *campaigns, {.workers = arguments->workers});
   };
 }
 

@@ -57,15 +57,18 @@ ProgressModel model_after(const std::vector<Row>& rows) {
   return model;
 }
 
+std::vector<ProgressModel> models_after(const std::vector<Row>& rows) {
+  return {model_after(rows)};
+}
+
 TEST(StatusLine, TellsHowFarTheCampaignIs) {
-  const ProgressModel model = model_after({kIteration, kStep});
-  EXPECT_EQ(status_line(model, fleet(), 200),
+  EXPECT_EQ(status_line(models_after({kIteration, kStep}), fleet(), 200),
             "designs 0/2  d1 iteration 5/~10  [#####---------------]  26 209/100 000  alive 17/58  "
             "best 2.712  412 sim/s  ETA 2m59s  failed 3");
 }
 
 TEST(StatusLine, IsCutToTheTerminal) {
-  EXPECT_EQ(status_line(model_after({kIteration}), fleet(), 20), "designs 0/2  d1 iter");
+  EXPECT_EQ(status_line(models_after({kIteration}), fleet(), 20), "designs 0/2  d1 iter");
 }
 
 TEST(StatusLine, CountsTheWholeBudgetOfAFinishedDesign) {
@@ -77,7 +80,7 @@ TEST(StatusLine, CountsTheWholeBudgetOfAFinishedDesign) {
 }
 
 TEST(StatusLine, SaysWhenNobodyWorks) {
-  EXPECT_THAT(plain_status(model_after({}), LiveStatus{}), HasSubstr("no workers"));
+  EXPECT_THAT(plain_status(models_after({}), LiveStatus{}), HasSubstr("no workers"));
 }
 
 TEST(RaceLine, HasTheColumnsOfItsHeadline) {
@@ -112,7 +115,7 @@ class Printer {
 
   Progress& progress() { return *progress_; }
   void pass(Duration time) { now_ += time; }
-  void add(const Row& row) { progress_->add(row, now_); }
+  void add(const Row& row) { progress_->add(0, row, now_); }
   void update() { progress_->update(fleet(), now_); }
   std::string out() { return take(out_); }
   std::string err() { return take(err_); }
@@ -263,7 +266,7 @@ TEST(ProgressAsJson, KnowsEveryKindOfRow) {
 
 TEST(Progress, OfACampaignThatGoesOnBeginsWhereItWas) {
   Printer printer(flags());
-  printer.progress().restore(kFinished);
+  printer.progress().restore(0, kFinished);
   EXPECT_EQ(printer.err(), "");
   EXPECT_EQ(printer.progress().model().finished(), 1);
 }
