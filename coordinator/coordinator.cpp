@@ -38,7 +38,7 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
     campaigns_.push_back({.source = campaign.source, .paused = paused_designs(campaign.commands)});
     if (!campaign.commands.empty()) campaigns_.back().commands = campaign.commands.back().number;
     for (const DesignId design : campaigns_.back().paused)
-      scheduler_.hold_design(static_cast<std::uint32_t>(campaigns_.size() - 1), design, true);
+      scheduler_.hold_design(static_cast<std::uint32_t>(campaigns_.size() - 1), design.value, true);
   }
 }
 

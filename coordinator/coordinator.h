@@ -80,7 +80,7 @@ class Coordinator {
   /// No leases from now on, or again: all is to stop.
   void hold(bool held) { scheduler_.hold(held); }
   /// The same for one campaign: its store cannot write.
-  void hold(std::uint32_t campaign, bool held) { scheduler_.hold_design(campaign, {}, held); }
+  void hold(std::uint32_t campaign, bool held) { scheduler_.hold_design(campaign, 0, held); }
   /// Sends the workers home.
   void drain(TimePoint now) { scheduler_.drain(now); }
 

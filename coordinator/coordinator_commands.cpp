@@ -92,7 +92,7 @@ Expected<std::string> Coordinator::pause(std::uint32_t index, const CommandRow& 
     } else {
       campaign.paused.erase(design);
     }
-    scheduler_.hold_design(index, design, pausing);
+    scheduler_.hold_design(index, design.value, pausing);
   }
   const std::string state = pausing ? "paused" : "resumed";
   if (designs.empty()) return "nothing to do: " + state + " before";

@@ -120,7 +120,6 @@ void Scheduler::dispatch_alone(TimePoint now) {
     entry.reserved = true;
     if (!leases_.leases_of(number).empty()) continue;
     TaskRecord* record = leases_.next_alone();
-    if (record == nullptr) return;
     leases_.grant(*record, number, now);
     SendTasks message{entry.peer, entry.hello.incarnation, {}};
     message.tasks.push_back({record->task, record->lease->attempt});

@@ -62,36 +62,10 @@ void LeaseTable::promote(TaskRecord& record) {
   wanted_.push_back({key_of(record.task), record.queued});
 }
 
-bool LeaseTable::is_held(const TaskRecord& record) const {
-  if (held_.empty()) return false;
-  const std::uint32_t campaign = record.task.campaign;
-  return held_.contains({campaign, DesignId{}}) ||
-         held_.contains({campaign, design_of(record.task.key.candidate)});
-}
-
-void LeaseTable::hold(std::uint32_t campaign, DesignId design, bool held) {
-  if (held) {
-    held_.emplace(campaign, design);
-    return;
-  }
-  held_.erase({campaign, design});
-  const std::vector<Place> aside = std::exchange(aside_, {});
-  for (auto place = aside.rbegin(); place != aside.rend(); ++place) {
-    const TaskRecord* record = find(place->key);
-    if (record == nullptr || record->queued != place->queued) continue;
-    queue_of(*record).push_front(*place);
-    if (record->alone) ++alone_count_;
-  }
-}
-
 TaskRecord* LeaseTable::front_of(Queue& queue) {
   while (!queue.empty()) {
     TaskRecord* record = find(queue.front().key);
-    if (record != nullptr && record->queued == queue.front().queued) {
-      if (!is_held(*record)) return record;
-      if (record->alone) --alone_count_;
-      aside_.push_back(queue.front());
-    }
+    if (record != nullptr && record->queued == queue.front().queued) return record;
     queue.pop_front();
   }
   return nullptr;
@@ -104,8 +78,7 @@ TaskRecord* LeaseTable::next(WorkerNumber worker, bool skip_avoided) {
     if (!skip_avoided || front->avoid != worker) return front;
     for (const Place& place : *queue) {
       TaskRecord* record = find(place.key);
-      if (record != nullptr && record->queued == place.queued && record->avoid != worker &&
-          !is_held(*record)) {
+      if (record != nullptr && record->queued == place.queued && record->avoid != worker) {
         return record;
       }
     }

@@ -4,9 +4,7 @@
 #include <deque>
 #include <list>
 #include <optional>
-#include <set>
 #include <unordered_map>
-#include <utility>
 #include <vector>
 
 #include "base/clock.h"
@@ -60,9 +58,6 @@ class LeaseTable {
   /// Look-ahead that is wanted now: to the queue of those, if it is queued.
   void promote(TaskRecord& record);
 
-  /// What is queued of the design (none: of the whole campaign) stays there, until it is let go.
-  void hold(std::uint32_t campaign, DesignId design, bool held);
-
   /// The next task for a worker that has others, without taking it out; null when there is none.
   /// With `skip_avoided`, tasks that should be tried elsewhere are passed over.
   TaskRecord* next(WorkerNumber worker, bool skip_avoided);
@@ -88,7 +83,6 @@ class LeaseTable {
   };
   using Queue = std::deque<Place>;
 
-  bool is_held(const TaskRecord& record) const;
   Queue& queue_of(const TaskRecord& record);
   TaskRecord* front_of(Queue& queue);
   void drop_lease(TaskRecord& record);
@@ -97,8 +91,6 @@ class LeaseTable {
   std::unordered_map<PackedKey, TaskRecord> records_;
   std::unordered_map<WorkerNumber, std::list<PackedKey>> by_worker_;
   Queue alone_, wanted_, ahead_;
-  std::set<std::pair<std::uint32_t, DesignId>> held_;
-  std::vector<Place> aside_;  ///< of held tasks that came to the front of a queue
   std::uint64_t places_ = 0;
   std::size_t leased_ = 0;
   std::size_t alone_count_ = 0;  ///< queued ones

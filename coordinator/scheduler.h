@@ -65,10 +65,6 @@ class Scheduler {
   void dispatch(TimePoint now);
   /// No leases from now on, or again.
   void hold(bool held) { held_ = held; }
-  /// The same for one design, or for the whole campaign (no design); each of the three by itself.
-  void hold_design(std::uint32_t campaign, DesignId design, bool held) {
-    leases_.hold(campaign, design, held);
-  }
   /// Sends every worker home.
   void drain(TimePoint now);
 
