@@ -120,6 +120,7 @@ void Scheduler::dispatch_alone(TimePoint now) {
     entry.reserved = true;
     if (!leases_.leases_of(number).empty()) continue;
     TaskRecord* record = leases_.next_alone();
+    if (record == nullptr) return;  // all of them are of designs that are held
     leases_.grant(*record, number, now);
     SendTasks message{entry.peer, entry.hello.incarnation, {}};
     message.tasks.push_back({record->task, record->lease->attempt});

@@ -62,6 +62,23 @@ void LeaseTable::promote(TaskRecord& record) {
   wanted_.push_back({key_of(record.task), record.queued});
 }
 
+void LeaseTable::hold(std::uint32_t campaign, std::int64_t design, bool held) {
+  if (held) {
+    held_.emplace(campaign, design);
+  } else {
+    held_.erase({campaign, design});
+  }
+}
+
+bool LeaseTable::is_held(std::uint32_t campaign, std::int64_t design) const {
+  return held_.contains({campaign, 0}) || held_.contains({campaign, design});
+}
+
+bool LeaseTable::is_held(const TaskRecord& record) const {
+  return !held_.empty() &&
+         is_held(record.task.campaign, design_of(record.task.key.candidate).value);
+}
+
 TaskRecord* LeaseTable::front_of(Queue& queue) {
   while (!queue.empty()) {
     TaskRecord* record = find(queue.front().key);
@@ -75,10 +92,11 @@ TaskRecord* LeaseTable::next(WorkerNumber worker, bool skip_avoided) {
   for (Queue* queue : {&wanted_, &ahead_}) {
     TaskRecord* front = front_of(*queue);
     if (front == nullptr) continue;
-    if (!skip_avoided || front->avoid != worker) return front;
+    if ((!skip_avoided || front->avoid != worker) && !is_held(*front)) return front;
     for (const Place& place : *queue) {
       TaskRecord* record = find(place.key);
-      if (record != nullptr && record->queued == place.queued && record->avoid != worker) {
+      const bool is_there = record != nullptr && record->queued == place.queued;
+      if (is_there && (!skip_avoided || record->avoid != worker) && !is_held(*record)) {
         return record;
       }
     }
@@ -87,7 +105,11 @@ TaskRecord* LeaseTable::next(WorkerNumber worker, bool skip_avoided) {
 }
 
 TaskRecord* LeaseTable::next_alone() {
-  return front_of(alone_);
+  for (const Place& place : alone_) {
+    TaskRecord* record = find(place.key);
+    if (record != nullptr && record->queued == place.queued && !is_held(*record)) return record;
+  }
+  return nullptr;
 }
 
 void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now) {

@@ -4,7 +4,9 @@
 #include <deque>
 #include <list>
 #include <optional>
+#include <set>
 #include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "base/clock.h"
@@ -57,6 +59,9 @@ class LeaseTable {
   void remove_all(std::uint32_t campaign);
   /// Look-ahead that is wanted now: to the queue of those, if it is queued.
   void promote(TaskRecord& record);
+  /// Nothing more of the design is leased, or again; design 0 stands for the whole campaign.
+  void hold(std::uint32_t campaign, std::int64_t design, bool held);
+  bool is_held(std::uint32_t campaign, std::int64_t design) const;
 
   /// The next task for a worker that has others, without taking it out; null when there is none.
   /// With `skip_avoided`, tasks that should be tried elsewhere are passed over.
@@ -84,6 +89,7 @@ class LeaseTable {
   using Queue = std::deque<Place>;
 
   Queue& queue_of(const TaskRecord& record);
+  bool is_held(const TaskRecord& record) const;
   TaskRecord* front_of(Queue& queue);
   void drop_lease(TaskRecord& record);
   void leave_queue(TaskRecord& record);
@@ -91,6 +97,7 @@ class LeaseTable {
   std::unordered_map<PackedKey, TaskRecord> records_;
   std::unordered_map<WorkerNumber, std::list<PackedKey>> by_worker_;
   Queue alone_, wanted_, ahead_;
+  std::set<std::pair<std::uint32_t, std::int64_t>> held_;
   std::uint64_t places_ = 0;
   std::size_t leased_ = 0;
   std::size_t alone_count_ = 0;  ///< queued ones

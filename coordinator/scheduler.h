@@ -65,6 +65,11 @@ class Scheduler {
   void dispatch(TimePoint now);
   /// No leases from now on, or again.
   void hold(bool held) { held_ = held; }
+  /// A pause: nothing more of the design (0: of the whole campaign) is leased, until it is held no
+  /// longer; what is leased goes on. A design is leased of when neither is held.
+  void hold_design(std::uint32_t campaign, std::int64_t design, bool held) {
+    leases_.hold(campaign, design, held);
+  }
   /// Sends every worker home.
   void drain(TimePoint now);
 

@@ -243,6 +243,25 @@ TEST_F(Schedulers, LeaseNothingWhileHeld) {
   EXPECT_FALSE(given[1].empty());
 }
 
+TEST_F(Schedulers, LeaseNothingOfADesignThatIsHeld) {
+  const auto first_of = [](std::int64_t design) { return (design - 1) * kMostCandidates + 1; };
+  hello(1);
+  credit(1, 4);
+  scheduler.hold_design(0, 1, true);
+  want(first_of(1), 2);
+  want(first_of(2), 2);
+  EXPECT_EQ(given[1], (std::vector<std::int64_t>{first_of(2), first_of(2) + 1}));
+  answer(1, first_of(2));
+  answer(1, first_of(2) + 1);
+  scheduler.hold_design(0, 0, true);
+  scheduler.hold_design(0, 1, false);
+  move();
+  EXPECT_EQ(given[1].size(), 2U);  // the whole campaign is held now
+  scheduler.hold_design(0, 0, false);
+  move();
+  EXPECT_EQ(given[1].size(), 4U);
+}
+
 TEST_F(Schedulers, AreFullAtTheLimit) {
   SchedulerOptions small;
   small.max_workers = 1;
