@@ -167,9 +167,10 @@ class CampaignRun {
       if (!store) return fail(output_, exit_code_of_store(store.error()), store.error());
       for (const DesignStateRow& state : (*store)->design_states())
         listener_.restore(i, state);
-      for (const CommandRow& command : (*store)->commands())
+      const std::vector<CommandRow> commands = (*store)->commands();
+      for (const CommandRow& command : commands)
         listener_.restore(i, command);
-      if ((*store)->finished()) continue;
+      if ((*store)->finished() && !waits_for_extension(commands)) continue;
       members_[i].store = std::move(*store);
       running_.push_back(i);
     }

@@ -22,6 +22,8 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
     waiting_.emplace(id,
                      Waiting{std::move(plan), known ? std::move(known.mapped()) : StoredDesign{}});
   }
+  // It may have been finished before.
+  if (waits_for_extension(commands)) rows_.emplace_back(CampaignStateRow{.state = "running"});
   open_designs();
 }
 
@@ -179,6 +181,12 @@ Error CampaignRunner::no_such_design(DesignId id) const {
           "it is over, and no longer in memory; a finished design is given more budget while no "
           "coordinator runs the campaign, and goes on when it is run again",
           name};
+}
+
+bool waits_for_extension(const std::vector<CommandRow>& commands) {
+  return std::ranges::any_of(commands, [](const CommandRow& command) {
+    return command.kind == "extend" && !command.step;
+  });
 }
 
 std::vector<DesignId> ended_designs(const std::vector<DesignStateRow>& states,

@@ -87,6 +87,9 @@ class CampaignRunner final : public WorkSource {
   bool state_recorded_ = false;
 };
 
+/// Whether somebody asked for more budget that no design was given yet.
+bool waits_for_extension(const std::vector<CommandRow>& commands);
+
 /// The designs that need nothing more: finished ones that no extension waits for. A cancelled one
 /// is played again up to its end, which costs little.
 std::vector<DesignId> ended_designs(const std::vector<DesignStateRow>& states,

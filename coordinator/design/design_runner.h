@@ -237,6 +237,7 @@ class DesignRunner {
   std::size_t consumed_ = 0;  ///< of them, by the race's steps
   bool reported_ = false;     ///< a step or an estimate came with the last batch
   std::int64_t pairs_known_ = 0;
+  std::int64_t tests_known_ = 0;  ///< pairs of the tests
   std::int64_t calls_known_ = 0;  ///< tasks of the targetEvaluator
   std::int64_t test_calls_ = 0;   ///< of them in testing, before the race went on
   /// Of tests: those who are tested again after an extension are not run again.

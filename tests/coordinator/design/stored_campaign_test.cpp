@@ -1,0 +1,144 @@
+#include <gmock/gmock.h>
+
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/design/plans.h"
+#include "coordinator/design/verify.h"
+#include "storage/store.h"
+#include "tests/coordinator/design/idle_pool.h"
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::Gt;
+using ::testing::IsEmpty;
+
+Campaign two_designs() {
+  Campaign campaign = demo_campaign();
+  campaign.repetitions = 2;
+  campaign.race.max_experiments = 1400;
+  campaign.missions.front().test_count = 3;
+  return campaign;
+}
+
+/// A campaign and its store, left and taken up again.
+class StoredCampaign : public ::testing::Test {
+ protected:
+  /// `during(runner)` is called before the first of so many outcomes.
+  template <class During>
+  void go_on(const std::string& name, std::uint64_t seed, double looks, std::size_t limit,
+             During during) {
+    auto store = Store::open(folder_ / name, campaign_row(campaign_), design_rows(campaign_));
+    ASSERT_TRUE(store) << to_string(store.error());
+    const auto commands = (*store)->commands();
+    const auto ended = ended_designs((*store)->design_states(), commands);
+    CampaignRunner runner(*plans_of(campaign_),
+                          by_design((*store)->scores(), (*store)->steps(), ended), ended, commands);
+    ASSERT_FALSE(runner.error()) << to_string(*runner.error());
+    Memory memory;
+    memory.rows.emplace_back(WorkerRow{.id = 1, .identity = "w", .host = "h", .state = "left"});
+    {
+      IdlePool pool(runner, memory, Rng(seed), honest, looks);
+      during(runner);
+      pool.run(limit);
+    }
+    (*store)->append(std::move(memory.rows));
+  }
+  void go_on(const std::string& name, std::uint64_t seed, double looks,
+             std::size_t limit = ~std::size_t{0}) {
+    go_on(name, seed, looks, limit, [](CampaignRunner&) {});
+  }
+  std::string digest(const std::string& name) {
+    return (*StoreReader::open(folder_ / name))->digest();
+  }
+  void expect_clean(const std::string& name) {
+    auto reader = StoreReader::open(folder_ / name);
+    ASSERT_TRUE(reader);
+    const Verification found = verify(**reader, *plans_of(**reader));
+    EXPECT_THAT(found.complaints, IsEmpty());
+  }
+
+  Campaign campaign_ = two_designs();
+  TemporaryFolder folder_;
+};
+
+CommandRow command(std::int64_t number, const char* kind, std::int64_t design,
+                   std::int64_t budget = 0) {
+  return {.number = number, .kind = kind, .design = {design}, .budget = budget, .who = "ann@lab"};
+}
+
+TEST_F(StoredCampaign, LookingAheadLeavesTheDigest) {
+  go_on("plain", 1, 0);
+  for (const std::size_t limit : {300U, 500U, 400U})
+    go_on("ahead", limit, 0.3, limit);
+  expect_clean("ahead");
+  go_on("ahead", 2, 0.3);
+  expect_clean("plain");
+  expect_clean("ahead");
+  EXPECT_EQ(digest("ahead"), digest("plain"));
+  std::int64_t unused = 0;
+  const auto reader = StoreReader::open(folder_ / "ahead");
+  const auto counted = (*reader)->query(
+      "SELECT count(*) FROM evaluation WHERE purpose = 0 AND iteration IS NULL", {}, [](auto&) {},
+      [&](const auto& cells) { unused = std::stoll(cells.front().text); });
+  ASSERT_TRUE(counted);
+  EXPECT_THAT(unused, Gt(0)) << "something was computed in vain";
+}
+
+TEST_F(StoredCampaign, CommandsAreReplayedAndVerified) {
+  go_on("first", 1, 0.3, 700);
+  go_on("first", 2, 0.3, 100, [](CampaignRunner& runner) {
+    ASSERT_TRUE(runner.carry_out(command(1, "extend", 2, 1500)));
+    ASSERT_TRUE(runner.carry_out(command(2, "cancel", 1)));
+  });
+  expect_clean("first");
+  go_on("first", 3, 0.3, 1200);
+  go_on("first", 4, 0.3);
+  expect_clean("first");
+  // From the start in another store, with the commands as they acted.
+  {
+    auto store = Store::open(folder_ / "again", campaign_row(campaign_), design_rows(campaign_));
+    std::vector<Row> rows;
+    for (CommandRow& row : (*StoreReader::open(folder_ / "first"))->commands()) {
+      EXPECT_TRUE(row.step);
+      if (row.kind == "extend") row.step.reset();  // it acts at the end anyway
+      rows.emplace_back(row);
+    }
+    (*store)->append(std::move(rows));
+  }
+  go_on("again", 9, 0);
+  expect_clean("again");
+  EXPECT_EQ(digest("again"), digest("first"));
+  std::vector<DesignState> states;
+  for (const Row& row : (*StoreReader::open(folder_ / "first"))->answer_rows()) {
+    if (const auto* state = std::get_if<DesignStateRow>(&row)) states.push_back(state->state);
+  }
+  EXPECT_THAT(states, ElementsAre(DesignState::Stopped, DesignState::Finished));
+}
+
+TEST_F(StoredCampaign, AFinishedStoreGoesOnWithMoreBudget) {
+  go_on("first", 1, 0);
+  const std::string before = digest("first");
+  {
+    auto store = Store::open(folder_ / "first", campaign_row(campaign_), design_rows(campaign_));
+    EXPECT_TRUE((*store)->finished());
+    EXPECT_FALSE(waits_for_extension((*store)->commands()));
+    (*store)->append({command(1, "extend", 2, 1500)});
+    (*store)->flush();
+    EXPECT_TRUE(waits_for_extension((*store)->commands()));
+  }
+  EXPECT_EQ(digest("first"), before) << "nothing has come of it yet";
+  expect_clean("first");
+  go_on("first", 2, 0.3, 400);
+  go_on("first", 3, 0.3);
+  expect_clean("first");
+  EXPECT_NE(digest("first"), before);
+  auto store = Store::open(folder_ / "first", campaign_row(campaign_), design_rows(campaign_));
+  EXPECT_TRUE((*store)->finished());
+  EXPECT_GT((*store)->design_states().back().used, 2000);
+}
+
+}  // namespace
+}  // namespace swarmsmith
