@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "coordinator/coordinator.h"
+#include "coordinator/paused_designs.h"
 
 namespace swarmsmith {
 namespace {
@@ -15,13 +16,6 @@ std::string kind_of(pb::Command::Kind kind) {
   if (kind == pb::Command::KIND_CANCEL) return "cancel";
   if (kind == pb::Command::KIND_EXTEND) return "extend";
   return "";
-}
-
-std::string listed(const std::vector<DesignId>& designs) {
-  std::string text;
-  for (const DesignId design : designs)
-    text += (text.empty() ? "" : ", ") + to_string(design);
-  return text.empty() ? "none" : text;
 }
 
 }  // namespace
@@ -94,9 +88,7 @@ Expected<std::string> Coordinator::pause(std::uint32_t index, const CommandRow& 
     }
     scheduler_.hold_design(index, design.value, pausing);
   }
-  const std::string state = pausing ? "paused" : "resumed";
-  if (designs.empty()) return "nothing to do: " + state + " before";
-  return state + ": " + listed(designs);
+  return sentence_of_pause(command.kind, designs);
 }
 
 /// A campaign that waits for a person says so, once.

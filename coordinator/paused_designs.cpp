@@ -11,4 +11,16 @@ std::set<DesignId> paused_designs(std::span<const CommandRow> commands) {
   return paused;
 }
 
+std::string listed(std::span<const DesignId> designs) {
+  std::string text;
+  for (const DesignId design : designs)
+    text += (text.empty() ? "" : ", ") + to_string(design);
+  return text.empty() ? "none" : text;
+}
+
+std::string sentence_of_pause(const std::string& kind, std::span<const DesignId> designs) {
+  const std::string state = kind == "pause" ? "paused" : "resumed";
+  return designs.empty() ? "nothing to do: " + state + " before" : state + ": " + listed(designs);
+}
+
 }  // namespace swarmsmith

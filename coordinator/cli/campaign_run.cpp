@@ -121,13 +121,6 @@ int gravity(ExitCode code) {
   return 4;
 }
 
-std::string listed(const std::vector<DesignId>& designs) {
-  std::string text;
-  for (const DesignId design : designs)
-    text += (text.empty() ? "" : ", ") + to_string(design);
-  return text;
-}
-
 /// Campaigns that are being run: everything that must live while the service does.
 class CampaignRun {
  public:
