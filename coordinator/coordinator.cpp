@@ -177,6 +177,11 @@ void Coordinator::on_unreachable(PeerId peer, TimePoint now) {
   scheduler_.on_unreachable(peer, now);
 }
 
+void Coordinator::on_cut_off(PeerId peer, TimePoint now) {
+  faults_.erase(peer);
+  scheduler_.on_refused(peer, now);
+}
+
 void Coordinator::on_tick(TimePoint now) {
   scheduler_.on_tick(now);
 }
@@ -348,7 +353,9 @@ LiveStatus Coordinator::status() const {
           .malformed = count(malformed_count_),
           .uncommitted = count(waiting_.size()),
           .evaluations_per_s = 0,
-          .trouble = {}};
+          .trouble = {},
+          .insecure_plaintext = false,
+          .refused = {}};
 }
 
 }  // namespace swarmsmith

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <string>
 
 namespace swarmsmith {
@@ -21,6 +22,9 @@ struct LiveStatus {
   std::int64_t uncommitted = 0;  ///< outcomes that are not on disk yet
   double evaluations_per_s = 0;  ///< over the last seconds
   std::string trouble;           ///< why nothing can be written; empty when well
+  /// Other hosts can connect without keys, because somebody insisted.
+  bool insecure_plaintext = false;
+  std::map<std::string, std::uint64_t> refused;  ///< connections, by reason
 };
 
 /// One JSON object with the fields by name.

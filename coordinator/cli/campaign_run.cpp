@@ -8,6 +8,9 @@
 #include <stop_token>
 #include <utility>
 
+#include "access/address.h"
+#include "access/key_file.h"
+#include "base/descriptor_limit.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/programs.h"
 #include "coordinator/cli/campaign_result.h"
@@ -25,8 +28,12 @@
 namespace swarmsmith::cli {
 namespace {
 
-// Set by the handler, read by the loop.
+/// Of the process, besides its connections: stores, logs, workers' pipes.
+constexpr int kOtherDescriptors = 1'000;
+
+// Set by the handlers, read by the loop.
 volatile std::sig_atomic_t g_signal = 0;
+volatile std::sig_atomic_t g_read_clients = 0;
 
 void on_signal(int signal) {
   if (g_signal != 0) _exit(128 + signal);
@@ -39,6 +46,20 @@ void catch_signals() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+void on_hangup(int) {
+  g_read_clients = 1;
+}
+
+/// Only where there is a list of clients to read again: else a terminal that goes away ends the
+/// run, as it ends others.
+void catch_hangup() {
+  struct sigaction action = {};
+  action.sa_handler = on_hangup;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGHUP, &action, nullptr);
 }
 
 WorkerScenario scenario_of(const Campaign& campaign) {
@@ -60,6 +81,13 @@ WorkerScenario scenario_of(const Campaign& campaign) {
   for (const Method& method : campaign.methods)
     scenario.methods.push_back({.flavour = method.flavour, .turn_clock = method.turn_clock});
   return scenario;
+}
+
+/// Where the coordinator listens, as tcp://HOST:PORT.
+std::string bind_of(const RunOptions& options) {
+  if (options.bind.empty()) return "tcp://127.0.0.1:*";
+  const bool has_scheme = options.bind.find("://") != std::string::npos;
+  return (has_scheme ? "" : "tcp://") + options.bind;
 }
 
 CampaignPolicy policy_of(const Campaign& campaign) {
@@ -84,10 +112,7 @@ ServiceOptions service_options(const std::vector<const Campaign*>& campaigns,
   scheduler.engine_version = kEngineVersion;
   scheduler.self_test = self_test_digest();
   scheduler.evaluates_programs = campaigns.front()->target.has_value();
-  if (!options.bind.empty()) {
-    const bool has_scheme = options.bind.find("://") != std::string::npos;
-    service.bind = (has_scheme ? "" : "tcp://") + options.bind;
-  }
+  service.bind = bind_of(options);
   return service;
 }
 
@@ -186,18 +211,63 @@ class CampaignRun {
       replay(members_[i], std::move(*plans));
       if (const auto error = members_[i].runner->error()) return fail_of(members_[i], *error);
     }
+    if (!open_door()) return ExitCode::Usage;
     auto service = listen();
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
-    if (options_.announce) announce((*service)->endpoint());
-    const Campaign& first = *members_[running_.front()].campaign;
-    const int processes = local_processes(first, options_);
-    if (processes == 0) return serve(**service, nullptr);
-    auto workers = LocalWorkers::start({.endpoint = (*service)->endpoint(),
+    const std::string endpoint = (*service)->endpoint();
+    const CoordinatorFile file = coordinator_file(options_.access, access_, endpoint);
+    for (const std::filesystem::path& path : coordinator_paths()) {
+      if (const auto written = write_coordinator_file(path, file); !written) {
+        return fail(output_, ExitCode::Unreachable, written.error());
+      }
+    }
+    if (options_.announce) announce(endpoint);
+    const ExitCode ended = serve_with_workers(**service);
+    for (const std::filesystem::path& path : coordinator_paths())
+      remove_coordinator_file(path, file);
+    return ended;
+  }
+
+  /// Keys and clients, or plaintext; false after having said what is wrong.
+  bool open_door() {
+    raise_descriptor_limit(SocketOptions().max_connections + kOtherDescriptors);
+    auto access = open_access(options_.access, bind_of(options_));
+    if (access) {
+      access_ = std::move(*access);
+      if (access_.watch) catch_hangup();
+      return true;
+    }
+    for (const Error& fault : access.error())
+      print_error(output_, fault);
+    return false;
+  }
+
+  /// Beside each store, so that whoever knows one of them finds the coordinator.
+  std::vector<std::filesystem::path> coordinator_paths() const {
+    if (!options_.access.coordinator_file.empty()) return {options_.access.coordinator_file};
+    std::vector<std::filesystem::path> paths;
+    for (const std::size_t i : running_)
+      paths.push_back(coordinator_file_of(members_[i].campaign->store));
+    return paths;
+  }
+
+  ExitCode serve_with_workers(Service& service) {
+    const int processes = local_processes(*members_[running_.front()].campaign, options_);
+    if (processes == 0) return serve(service, nullptr);
+    std::vector<std::string> arguments = allow_all();
+    if (access_.keys) {
+      if (const auto key = read_client_key(access_.local_key); !key) {
+        return fail(output_, ExitCode::Usage, key.error());
+      }
+      arguments.emplace_back("--key");
+      arguments.push_back(access_.local_key.string());
+    }
+    auto workers = LocalWorkers::start({.endpoint = local_endpoint(service.endpoint()),
                                         .processes = processes,
                                         .slots = static_cast<int>(options_.slots),
-                                        .arguments = allow_all()});
+                                        .arguments = std::move(arguments)});
     if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
-    return serve(**service, &*workers);
+    return serve(service, &*workers);
   }
 
   /// What lets workers run the programs of any of the campaigns.
@@ -226,6 +296,11 @@ class CampaignRun {
     }
     ServiceOptions service_for = service_options(campaigns, options_);
     service_for.coordinator.scheduler.first_worker = first_worker;
+    service_for.keys = access_.keys;
+    service_for.insecure_plaintext = access_.insecure_plaintext;
+    if (access_.watch) {
+      service_for.new_clients = [watch = access_.watch] { return watch->take(); };
+    }
     const std::string bind = service_for.bind;
     for (int next = 1;; ++next) {
       auto service = Service::open(service_for, served);
@@ -270,6 +345,10 @@ class CampaignRun {
         .on_status =
             [&](const LiveStatus& live) {
               last_ = live;
+              if (g_read_clients != 0 && access_.watch) {
+                g_read_clients = 0;
+                access_.watch->look_now();
+              }
               listener_.update(live, clock_.now());
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
@@ -317,8 +396,11 @@ class CampaignRun {
   }
 
   void announce(const std::string& endpoint) {
-    const std::string address = endpoint.substr(endpoint.find("//") + 2);
-    print_note(output_, "waiting for workers: swarmsmith worker --connect " + address);
+    const std::string advertised = advertised_endpoint(endpoint, options_.access.advertise);
+    const std::string address = advertised.substr(advertised.find("//") + 2);
+    print_note(output_, "waiting for workers: swarmsmith worker --connect " + address +
+                            (access_.keys ? " --key " + access_.local_key.string() : "") +
+                            (access_.insecure_plaintext ? " --insecure-plaintext" : ""));
   }
 
   void print_resume(const Member& member) {
@@ -334,6 +416,7 @@ class CampaignRun {
   std::vector<std::size_t> running_;  ///< of `members_`, in the order of the service
   SystemClock clock_;
   LiveStatus last_;
+  Access access_;
 };
 
 /// Lines of several campaigns begin with their names, or, where these are the same, their stores.

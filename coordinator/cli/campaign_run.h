@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coordinator/campaign/campaign.h"
+#include "coordinator/cli/access_flags.h"
 #include "coordinator/cli/options.h"
 #include "coordinator/cli/run_listener.h"
 
@@ -19,6 +20,7 @@ struct RunOptions {
   std::int64_t slots = 0;
   std::string bind;  ///< host:port; empty: as the campaigns have it, else a free port on loopback
   bool announce = false;
+  AccessFlags access{};
   /// When another program listens on the port of `bind`, one of the next ones will do.
   bool next_port = false;
   /// Whether an interrupted run goes on later; else its store is thrown away.

@@ -9,6 +9,7 @@ namespace swarmsmith::cli {
 Run declare_run(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
+    AccessFlags access;
     std::optional<std::int64_t> workers;
     bool no_dashboard = false;
   };
@@ -18,10 +19,11 @@ Run declare_run(Options& options) {
                   "Local worker processes; they share the cores");
   options.flag("--no-dashboard", arguments->no_dashboard,
                "Accepted; this version has no dashboard to leave out");
+  arguments->access.declare(options);
   return [arguments](Output& output) {
     const auto campaigns = arguments->campaign.read(output);
     if (!campaigns) return ExitCode::Usage;
-    return run_campaigns(output, *campaigns, {.workers = arguments->workers});
+    return run_campaigns(output, *campaigns, {.workers = arguments->workers, .access = arguments->access});
   };
 }
 
