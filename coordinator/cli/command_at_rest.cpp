@@ -49,8 +49,8 @@ Expected<void> ask_design(Store& store, const Campaign& campaign,
                           const std::vector<CommandRow>& commands, const CommandRow& command) {
   auto plans = plans_of(campaign);
   if (!plans) return Unexpected(plans.error());
-  const auto plan = std::ranges::find(*plans, command.design,
-                                      [](const DesignPlan& each) { return each.row.id; });
+  const auto plan =
+      std::ranges::find(*plans, command.design, [](const DesignPlan& each) { return each.row.id; });
   if (plan == plans->end()) {
     return bad_input("the campaign has no such design", to_string(command.design));
   }

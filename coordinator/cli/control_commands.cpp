@@ -49,13 +49,14 @@ Expected<Wish> wish_of(const Arguments& arguments) {
     } else if (wish.store.empty()) {
       wish.store = word;
     } else {
-      return bad_input("`" + word + "` is one word too many: there is a store already, and a "
+      return bad_input("`" + word +
+                       "` is one word too many: there is a store already, and a "
                        "design is written d3");
     }
   }
   if (wish.store.empty()) wish.store = environment("SWARMSMITH_STORE");
-  const bool named = arguments.coordinator.is_named() ||
-                     !environment("SWARMSMITH_COORDINATOR").empty();
+  const bool named =
+      arguments.coordinator.is_named() || !environment("SWARMSMITH_COORDINATOR").empty();
   if (!wish.store.empty() || named) return wish;
   return bad_input("of which campaign? Name its store, or its coordinator by --coordinator FILE");
 }
@@ -85,11 +86,11 @@ class Control {
     const std::vector<DesignRow> designs = (*reader)->designs();
     for (const DesignId design : wish_.designs) {
       if (std::ranges::find(designs, design, &DesignRow::id) != designs.end()) continue;
-      return fail(output_, ExitCode::NoSuchId,
-                  Error{ErrorKind::NotFound,
-                        "the campaign has no such design; it has d1 to " +
-                            to_string(designs.back().id),
-                        to_string(design)});
+      return fail(
+          output_, ExitCode::NoSuchId,
+          Error{ErrorKind::NotFound,
+                "the campaign has no such design; it has d1 to " + to_string(designs.back().id),
+                to_string(design)});
     }
     if (arguments_.coordinator.is_named()) return by_wire("");
     auto store = Store::open(wish_.store, campaign_, designs);

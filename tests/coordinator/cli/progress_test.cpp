@@ -264,6 +264,40 @@ TEST(ProgressAsJson, KnowsEveryKindOfRow) {
   EXPECT_EQ(json::parse(event_json(event))["data"]["worker"], 1);
 }
 
+TEST(Progress, OfSeveralCampaignsNamesThemAndAddsThemUp) {
+  std::ostringstream out;
+  std::ostringstream err;
+  Output output{.out = out, .err = err};
+  Progress progress(output, {{"first", kDesigns}, {"second", kDesigns}}, TimePoint{});
+  progress.add(1, kFinished, TimePoint{});
+  EXPECT_EQ(err.str(),
+            "second: d1 aggregation m repetition 1 finished  used 50 000/50 000  best c812 2.75  "
+            "(budget exhausted)\n");
+  progress.restore(0, CommandRow{.number = 1, .kind = "pause", .design = {1}});
+  err.str("");
+  progress.finish(fleet());
+  EXPECT_THAT(err.str(), testing::StartsWith("campaigns 0/2  designs 1/4  50 000/200 000  "));
+  EXPECT_THAT(err.str(), HasSubstr("  paused 1  "));
+  output.json = true;
+  Progress events(output, {{"first", kDesigns}, {"second", kDesigns}}, TimePoint{});
+  events.add(1, kStep, TimePoint{});
+  EXPECT_EQ(json::parse(out.str())["campaign"], "second");
+  out.str("");
+  events.add(std::nullopt, WorkerRow{}, TimePoint{});
+  EXPECT_FALSE(json::parse(out.str()).contains("campaign"));
+}
+
+TEST(ProgressModel, CountsAnExtensionOnce) {
+  CommandRow extension{.number = 3, .kind = "extend", .design = {1}, .step = {}, .budget = 500};
+  ProgressModel model(kDesigns);
+  model.add(extension);
+  EXPECT_EQ(model.budget(), 100'000);
+  extension.step = 12;
+  model.add(extension);
+  model.add(extension);
+  EXPECT_EQ(model.budget(), 100'500);
+}
+
 TEST(Progress, OfACampaignThatGoesOnBeginsWhereItWas) {
   Printer printer(flags());
   printer.progress().restore(0, kFinished);
