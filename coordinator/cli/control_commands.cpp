@@ -1,10 +1,16 @@
 // pause, resume, cancel and extend: what people ask of a campaign, whether somebody runs it or not.
 
+#include <sys/types.h>
 #include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <thread>
 
+#include "access/address.h"
 #include "access/coordinator_file.h"
 #include "coordinator/campaign/campaign.h"
 #include "coordinator/cli/command_at_rest.h"
@@ -15,6 +21,10 @@
 
 namespace swarmsmith::cli {
 namespace {
+
+/// A coordinator that is starting writes its file after having read its stores.
+constexpr std::chrono::milliseconds kLookAgain{100};
+constexpr int kLooks = 100;
 
 struct Arguments {
   std::string kind;
@@ -72,6 +82,22 @@ Expected<void> check(const Arguments& arguments, const Wish& wish) {
   return {};
 }
 
+/// Left behind by a coordinator of this host that was killed.
+bool is_stale(const CoordinatorFile& file) {
+  return file.host == name_of_this_host() && kill(static_cast<pid_t>(file.pid), 0) != 0 &&
+         errno == ESRCH;
+}
+
+/// Whether the file of the coordinator that runs now is there, after having waited for it.
+bool stands(const std::filesystem::path& file) {
+  for (int look = 0; look < kLooks; ++look) {
+    const auto found = read_coordinator_file(file);
+    if (found ? !is_stale(*found) : found.error().kind != ErrorKind::NotFound) return true;
+    if (look + 1 < kLooks) std::this_thread::sleep_for(kLookAgain);
+  }
+  return false;
+}
+
 /// A command to one campaign, for one design after the other.
 class Control {
  public:
@@ -104,7 +130,8 @@ class Control {
   std::string file_of_runner(const Error& in_use) {
     const std::filesystem::path beside = coordinator_file_of(wish_.store);
     const std::string named = environment("SWARMSMITH_COORDINATOR");
-    if (std::filesystem::exists(beside)) return beside.string();
+    const bool elsewhere = !named.empty() && !std::filesystem::exists(beside);
+    if (!elsewhere && stands(beside)) return beside.string();
     if (named.empty()) print_error(output_, in_use);
     return named.empty() ? beside.string() : named;
   }

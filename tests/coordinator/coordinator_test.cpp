@@ -185,9 +185,6 @@ TEST_F(Coordinators, LeaseNothingOfWhatIsPausedUntilItIsResumed) {
   answer();
   coordinator.on_committed(0, ticket);
   move();
-  heard.clear();
-  now += std::chrono::seconds(1);
-  move();
   EXPECT_EQ(count(pb::ToWorker::kTasks), 0);
   EXPECT_FALSE(coordinator.finished());
   say(command(pb::Command::KIND_RESUME, 0), 5);
