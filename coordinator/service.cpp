@@ -181,6 +181,8 @@ class Loop final : public Service {
       coordinator_.on_committed(index, news->committed);
       if (news->trouble == troubles_[index]) continue;
       troubles_[index] = news->trouble;
+      // The others' results find their place on disk.
+      coordinator_.hold(index, !news->trouble.empty());
       if (news->trouble.empty()) {
         log(LogLevel::Info, "coordinator", "store writes again");
       } else {
@@ -188,7 +190,6 @@ class Loop final : public Service {
             {{"reason", news->trouble}});
       }
     }
-    coordinator_.hold(stopping_ || !trouble().empty());
   }
 
   /// Of the stores; the first one that has any.
@@ -225,12 +226,19 @@ class Loop final : public Service {
   }
 
   void append(AppendRows& append) {
-    for (const Row& row : append.rows) {
-      if (const auto* event = std::get_if<EventRow>(&row)) log_event(*event);
-    }
-    if (hooks_->on_rows) hooks_->on_rows(append.campaign, append.rows);
+    const std::span<const Row> rows(append.rows);
+    tell(append.campaign, rows.first(rows.size() - append.of_pool));
+    // Every store has them; here they are told once.
+    if (append.campaign == 0) tell(std::nullopt, rows.last(append.of_pool));
     coordinator_.on_appended(append.campaign,
                              stores_[append.campaign]->append(std::move(append.rows)));
+  }
+
+  void tell(std::optional<std::size_t> campaign, std::span<const Row> rows) const {
+    for (const Row& row : rows) {
+      if (const auto* event = std::get_if<EventRow>(&row)) log_event(*event);
+    }
+    if (hooks_->on_rows && !rows.empty()) hooks_->on_rows(campaign, rows);
   }
 
   void answer(const AnswerStatus& answer, TimePoint now) {
@@ -344,15 +352,17 @@ Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options,
       ServerSocket::bind(options.bind, options.socket, std::move(options.keys));
   if (!socket) return Unexpected(socket.error());
   std::vector<std::vector<StoredScore>> known;
+  std::vector<std::vector<CommandRow>> commands;
   std::vector<CampaignWork> works;
   known.reserve(campaigns.size());
+  commands.reserve(campaigns.size());
   for (const ServiceCampaign& campaign : campaigns) {
     known.push_back(campaign.store->scores());
-    const std::vector<CommandRow> commands = campaign.store->commands();
+    commands.push_back(campaign.store->commands());
     works.push_back({.digest = campaign.digest,
                      .source = campaign.source,
                      .known = known.back(),
-                     .commands = commands.empty() ? 0 : commands.back().number});
+                     .commands = commands.back()});
   }
   return std::make_unique<Loop>(std::move(options), std::move(*socket), campaigns, works);
 }

@@ -3,6 +3,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -39,8 +40,9 @@ struct ServiceCampaign {
 };
 
 struct ServiceHooks {
-  /// Each unit of rows of a campaign, just before it is appended to its store.
-  std::function<void(std::size_t campaign, const std::vector<Row>&)> on_rows;
+  /// Rows of a campaign, just before they are appended to its store; rows of the pool, which every
+  /// store has, without a campaign and once.
+  std::function<void(std::optional<std::size_t> campaign, std::span<const Row>)> on_rows;
   /// Ten times a second.
   std::function<void(const LiveStatus&)> on_status;
 };

@@ -11,13 +11,15 @@ constexpr std::string_view kRunDetails =
     R"(Designs control software as the campaign file says, with workers of its own, and prints the result.
 Without a file it runs a demo: aggregation, 2,000 experiments, store demo.db. Every score is in the
 store as soon as it counts; Ctrl-C, kill -9, a power cut: the same command goes on where it was, and
-comes to the same answer. On a finished store it prints the result again.
+comes to the same answer. On a finished store it prints the result again. Several campaigns share the
+workers; each has the store that its file names, and the answer that it would have alone.
 
 Examples:
   swarmsmith run
   swarmsmith run campaign.toml
   swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db
-  swarmsmith run campaign.toml --workers slurm:16x64)";
+  swarmsmith run campaign.toml --workers slurm:16x64
+  swarmsmith run first.toml second.toml)";
 
 constexpr std::string_view kServeDetails =
     R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. Beyond loopback
@@ -48,6 +50,33 @@ Examples:
   swarmsmith keygen
   swarmsmith keygen thesis-keys
   swarmsmith keygen thesis-keys --client guest --role reader --expires 2027-01-31)";
+
+constexpr std::string_view kPauseDetails =
+    R"(Nothing more of the designs is leased to workers; what runs ends, and counts. They stay paused, also
+when the coordinator is started again, until somebody resumes them. The answer does not change.
+
+Examples:
+  swarmsmith pause demo.db
+  swarmsmith pause demo.db d2 d3)";
+
+constexpr std::string_view kResumeDetails = R"(Examples:
+  swarmsmith resume demo.db
+  swarmsmith resume demo.db d2)";
+
+constexpr std::string_view kCancelDetails =
+    R"(The design stops after the step of its race that it has come to, with the best candidate so far; the
+others go on. The step is in the store: a campaign that is run again stops there, too. For good.
+
+Example:
+  swarmsmith cancel demo.db d2)";
+
+constexpr std::string_view kExtendDetails =
+    R"(A design whose race is over, or will be, goes on from its end with further iterations. That is another
+race than one that had the larger budget from the start (docs/irace.md). The designs of a campaign that
+nobody runs go on when it is run again.
+
+Example:
+  swarmsmith extend demo.db d1 --budget 5_000 && swarmsmith run)";
 
 constexpr std::string_view kVerifyDetails =
     R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
@@ -186,6 +215,10 @@ constexpr std::array kCommands = {
             declare_profile},
     Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
     Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
+    Command{"pause", "Let a design, or all of a campaign, rest", kPauseDetails, declare_pause},
+    Command{"resume", "Let what was paused go on", kResumeDetails, declare_resume},
+    Command{"cancel", "End a design as it stands", kCancelDetails, declare_cancel},
+    Command{"extend", "Give a design more budget", kExtendDetails, declare_extend},
     Command{"keygen", "Make keys for coordinator, workers and people", kKeygenDetails,
             declare_keygen},
     Command{"irace", "Configure an algorithm as irace does, from irace's files", kIraceDetails,

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "coordinator/cli/campaign_flags.h"
 #include "coordinator/cli/campaign_run.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/launchers/launch_text.h"
@@ -22,21 +23,18 @@ Run declare_run(Options& options) {
                "Accepted; this version has no dashboard to leave out");
   arguments->access.declare(options);
   return [arguments](Output& output) {
-    const auto campaign = arguments->campaign.read(output);
-    if (!campaign) return ExitCode::Usage;
-    RunOptions run{.bind = campaign->bind, .access = arguments->access};
+    const auto campaigns = arguments->campaign.read(output);
+    if (!campaigns) return ExitCode::Usage;
+    RunOptions run{.access = arguments->access};
     if (!arguments->workers.empty()) {
-      const auto launch = parse_workers(arguments->workers, campaign->launch);
+      const auto launch = parse_workers(arguments->workers, campaigns->front().launch);
       if (!launch) {
         return fail(output, ExitCode::Usage,
                     Error{launch.error().kind, launch.error().message, "--workers"});
       }
       run.launch = *launch;
     }
-    const LaunchOptions& launch = run.launch ? *run.launch : campaign->launch;
-    // Workers from other hosts have to reach it; where it is, its file says.
-    if (launch.kind != LaunchOptions::Kind::Local && run.bind.empty()) run.bind = "0.0.0.0:0";
-    return run_campaign(output, *campaign, run);
+    return run_campaigns(output, *campaigns, run);
   };
 }
 
