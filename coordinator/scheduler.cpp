@@ -235,9 +235,9 @@ void Scheduler::on_unreachable(PeerId peer, TimePoint now, std::span<const Packe
   // What the worker never got did not kill it.
   for (auto key = undelivered.rbegin(); key != undelivered.rend(); ++key) {
     TaskRecord* record = leases_.find(*key);
-    if (record == nullptr || !record->lease || record->lease->worker != entry->number) continue;
-    leases_.requeue(*record);
-    ++counters_.requeued;
+    if (record == nullptr || record->lease_of(entry->number) == nullptr) continue;
+    if (record->second) record->copied = false;
+    if (take_back(*record, entry->number)) ++counters_.requeued;
   }
   const bool closed = now - entry->last_heard < options_.silence;
   lose(*entry, closed ? Loss::Death : Loss::Silence, "lost", now);
