@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/overloaded.h"
+#include "coordinator/paused_designs.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {
@@ -63,6 +64,7 @@ Schedule schedule_of(std::uint64_t seed) {
   campaign.failing = rng.bernoulli(0.4);
   campaign.killing = rng.bernoulli(0.2);
   campaign.hopeless = rng.bernoulli(0.1);
+  schedule.faults.commands = up_to(4);
   return schedule;
 }
 
@@ -75,6 +77,7 @@ SimulatedCluster::SimulatedCluster(const Schedule& schedule)
   for (int i = 0; i < kWorkers; ++i)
     start_worker(i);
   plan_faults();
+  plan_commands();
 }
 
 std::string SimulatedCluster::run() {
@@ -177,6 +180,42 @@ void SimulatedCluster::plan_faults() {
   });
 }
 
+// --- a person ---
+
+/// Pauses and resumes while things go wrong; at the end everything is resumed.
+void SimulatedCluster::plan_commands() {
+  for (int i = 0; i < schedule_.faults.commands; ++i) {
+    const auto kind = rng_.bernoulli(0.6) ? pb::Command::KIND_PAUSE : pb::Command::KIND_RESUME;
+    const std::int64_t design = rng_.uniform_int(0, schedule_.campaign.designs);
+    at(now_ + between(Duration{0}, schedule_.faults.until), [this, kind, design] {
+      on_process(kCoordinator, Duration{0}, [this, kind, design] { command(kind, design); });
+    });
+  }
+  if (schedule_.faults.commands > 0) at(faults_end_, [this] { resume_all(); });
+}
+
+void SimulatedCluster::command(pb::Command::Kind kind, std::int64_t design) {
+  pb::ToCoordinator message;
+  message.mutable_command()->set_kind(kind);
+  message.mutable_command()->set_design(design);
+  coordinator_->on_frame({kPerson, Role::Operator}, encode(message), now_);
+  settle_coordinator();
+}
+
+void SimulatedCluster::resume_all() {
+  if (!coordinator_process_.alive || now_ < coordinator_process_.paused_until) {
+    at(now_ + milliseconds(100), [this] { resume_all(); });
+    return;
+  }
+  command(pb::Command::KIND_RESUME, 0);
+  if (!coordinator_->paused().empty() && !coordinator_->finished()) {
+    // Of a design that is over nobody cares.
+    for (const DesignId design : campaign_->unfinished()) {
+      if (coordinator_->paused().contains(design)) fail("a design stays paused");
+    }
+  }
+}
+
 // --- network ---
 
 void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string frame) {
@@ -247,6 +286,19 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
   }
 }
 
+/// Whoever asked is told when it is on disk: what the disk has is what will be after a crash.
+void SimulatedCluster::check_confirmed(const std::string& frame) {
+  google::protobuf::Arena arena;
+  const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);
+  if (!message || !(*message)->has_command_reply()) return fail("no reply to a command");
+  const auto is_command = [](const Row& row) { return std::holds_alternative<CommandRow>(row); };
+  const bool more = std::ranges::any_of(uncommitted_, [&](const Batch& batch) {
+    return std::ranges::any_of(batch.rows, is_command);
+  });
+  if (!more && paused_designs(disk_.commands()) != coordinator_->paused())
+    fail("what a person was told of is not on disk");
+}
+
 // --- coordinator ---
 
 void SimulatedCluster::start_coordinator() {
@@ -256,9 +308,11 @@ void SimulatedCluster::start_coordinator() {
   it.paused_until = {};
   campaign_ = std::make_unique<RacedCampaign>(schedule_.campaign, disk_);
   const std::vector<StoredScore> known = disk_.scores();
+  const std::vector<CommandRow> commands = disk_.commands();
   coordinator_ = std::make_unique<Coordinator>(
       coordinator_options(disk_.next_worker()),
-      std::vector<CampaignWork>{{.digest = "cluster", .source = campaign_.get(), .known = known}});
+      std::vector<CampaignWork>{
+          {.digest = "cluster", .source = campaign_.get(), .known = known, .commands = commands}});
   tickets_ = 0;
   uncommitted_.clear();
   on_process(kCoordinator, Duration{0}, [this] { tick_coordinator(); });
@@ -299,6 +353,7 @@ void SimulatedCluster::settle_coordinator() {
        actions = coordinator_->take_actions(now_)) {
     for (CoordinatorAction& action : actions) {
       std::visit(Overloaded{[&](const SendFrame& send) {
+                              if (send.peer == kPerson) return check_confirmed(send.frame);
                               check_acknowledged(send.frame);
                               if (to_worker(send.peer, send.frame) == SendStatus::Gone) {
                                 coordinator_->on_unreachable(send.peer, now_);

@@ -31,6 +31,7 @@ struct Faults {
   int coordinator_crashes = 0;
   int pauses = 0;          ///< of a process that lives on
   double slow_commit = 0;  ///< probability, a commit
+  int commands = 0;        ///< of a person who pauses and resumes designs
   Duration until = std::chrono::seconds(0);
 };
 
@@ -62,6 +63,7 @@ class SimulatedCluster {
  private:
   static constexpr int kWorkers = 3;
   static constexpr int kCoordinator = -1;
+  static constexpr PeerId kPerson = 1'000'000'000;
 
   struct Event {
     TimePoint at;
@@ -105,6 +107,9 @@ class SimulatedCluster {
   Process& process(int index);
   Duration between(Duration low, Duration high);
   void plan_faults();
+  void plan_commands();
+  void command(pb::Command::Kind kind, std::int64_t design);
+  void resume_all();
   void fail(const std::string& what);
 
   // Network.
@@ -113,6 +118,7 @@ class SimulatedCluster {
   void to_coordinator(int worker, std::string frame);
   SendStatus to_worker(PeerId peer, const std::string& frame);
   void check_acknowledged(const std::string& frame);
+  void check_confirmed(const std::string& frame);
 
   // Coordinator and its disk.
   void start_coordinator();
