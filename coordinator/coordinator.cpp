@@ -49,9 +49,10 @@ bool Coordinator::settled() const {
 }
 
 bool Coordinator::finished() const {
-  return settled() && std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
-           return campaign.stopped || campaign.source->finished();
-         });
+  const bool done = std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
+    return campaign.stopped || campaign.source->finished();
+  });
+  return done && settled() && !scheduler_.is_auditing();
 }
 
 void Coordinator::put_row(const Row& row) {
@@ -59,7 +60,7 @@ void Coordinator::put_row(const Row& row) {
 }
 
 void Coordinator::send(PeerId peer, std::string frame) {
-  actions_.emplace_back(SendFrame{peer, std::move(frame)});
+  actions_.emplace_back(SendFrame{peer, std::move(frame), {}});
 }
 
 // --- frames ---
@@ -172,9 +173,9 @@ void Coordinator::on_results(const Sender& sender, const pb::Results& results, T
   scheduler_.on_results(sender, results_, now);
 }
 
-void Coordinator::on_unreachable(PeerId peer, TimePoint now) {
-  faults_.erase(peer);
-  scheduler_.on_unreachable(peer, now);
+void Coordinator::on_unreachable(const SendFrame& unsent, TimePoint now) {
+  faults_.erase(unsent.peer);
+  scheduler_.on_unreachable(unsent.peer, now, unsent.leases);
 }
 
 void Coordinator::on_cut_off(PeerId peer, TimePoint now) {
@@ -194,7 +195,11 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](const SendWelcome& a) { send(a.peer, frame_of(a, facts_, options_.scheduler)); },
           [&](const SendReject& a) { send(a.peer, frame_of(a)); },
           [&](const SendTasks& a) {
-            send(a.peer, frame_of(a, facts_, arena_));
+            std::vector<PackedKey> leases;
+            for (const SendTasks::Leased& leased : a.tasks)
+              leases.push_back(key_of(leased.task));
+            actions_.emplace_back(
+                SendFrame{a.peer, frame_of(a, facts_, arena_), std::move(leases)});
             arena_.Reset();
           },
           [&](const SendAcknowledged& a) {
@@ -205,7 +210,10 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](const SendDrain& a) { send(a.peer, frame_of(a)); },
           [&](const OutcomeAccepted& a) {
             waiting_[key_of(a.outcome)].first = a.outcome.worker;
-            campaigns_[a.outcome.campaign].source->tell(a.outcome);
+            Campaign& campaign = campaigns_[a.outcome.campaign];
+            campaign.source->tell(a.outcome);
+            campaign.told = true;
+            campaign.sees_no_further = false;
           },
           [&](const OutcomeRepeated& a) { repeat(a); },
           [&](const ConflictFound& a) { campaigns_[a.campaign].own_rows.emplace_back(a.row); },
@@ -265,13 +273,40 @@ bool Coordinator::progress() {
       continue;
     }
     std::vector<Task> tasks = campaign.source->take_tasks();
+    if (!tasks.empty()) {
+      for (Task& task : tasks)
+        task.campaign = index;
+      scheduler_.add(std::move(tasks));
+      more = true;
+    }
+    if (!std::exchange(campaign.told, false)) continue;
+    std::vector<PackedKey> dropped;
+    for (const EvaluationKey& key : campaign.source->take_dropped())
+      dropped.push_back(pack(key, index));
+    scheduler_.drop(dropped);
+  }
+  return more;
+}
+
+/// Asks the campaigns in turn for work for slots that would idle. False when there is none.
+bool Coordinator::look_ahead() {
+  std::size_t idle = scheduler_.idle_slots();
+  bool any = false;
+  for (std::size_t asked = 0; asked < campaigns_.size() && idle > 0; ++asked) {
+    const auto index = static_cast<std::uint32_t>(ahead_turn_);
+    ahead_turn_ = (ahead_turn_ + 1) % campaigns_.size();
+    Campaign& campaign = campaigns_[index];
+    if (campaign.stopped || campaign.sees_no_further || scheduler_.is_held(index)) continue;
+    std::vector<Task> tasks = campaign.source->take_more(idle);
+    campaign.sees_no_further = tasks.empty();
     if (tasks.empty()) continue;
+    idle -= std::min(idle, tasks.size());
     for (Task& task : tasks)
       task.campaign = index;
     scheduler_.add(std::move(tasks));
-    more = true;
+    any = true;
   }
-  return more;
+  return any;
 }
 
 void Coordinator::append(std::uint32_t index) {
@@ -303,6 +338,12 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     }
     scheduler_.dispatch(now);
   } while (progress());
+  // Once: what this leaves idle is filled when something happens.
+  if (look_ahead()) {
+    do {
+      scheduler_.dispatch(now);
+    } while (progress());
+  }
   for (std::uint32_t index = 0; index < campaigns_.size(); ++index)
     append(index);
   pool_rows_.clear();
@@ -348,6 +389,8 @@ LiveStatus Coordinator::status() const {
           .rejected = count(counters.rejected),
           .failed = count(counters.failed),
           .requeued = count(counters.requeued),
+          .expired = count(counters.expired),
+          .lost_workers = count(counters.lost_workers),
           .duplicates = count(counters.duplicates),
           .conflicts = count(counters.conflicts),
           .malformed = count(malformed_count_),

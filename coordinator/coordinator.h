@@ -46,6 +46,7 @@ struct Peer {
 struct SendFrame {
   PeerId peer = 0;
   std::string frame;
+  std::vector<PackedKey> leases;  ///< in the frame
 };
 /// One unit for the campaign's store; its ticket comes back by `on_appended`, in order.
 struct AppendRows {
@@ -73,7 +74,8 @@ class Coordinator {
 
   /// An empty frame stands for a message that was no single frame.
   void on_frame(const Peer& peer, std::string_view frame, TimePoint now);
-  void on_unreachable(PeerId peer, TimePoint now);
+  /// The peer of a frame that could not be sent has gone.
+  void on_unreachable(const SendFrame& unsent, TimePoint now);
   /// The peer's key is not good any more: its leases go to others, and nobody is blamed.
   void on_cut_off(PeerId peer, TimePoint now);
   void on_tick(TimePoint now);
@@ -89,7 +91,8 @@ class Coordinator {
   /// Moves on as far as possible; the actions since the last call, in order.
   std::vector<CoordinatorAction> take_actions(TimePoint now);
 
-  /// Of every campaign nothing is wanted any more, or it is stopped; and everything is on disk.
+  /// Of every campaign nothing is wanted any more, or it is stopped; everything is on disk, and no
+  /// audit is under way.
   bool finished() const;
   /// Everything accepted so far is on disk.
   bool settled() const;
@@ -135,6 +138,9 @@ class Coordinator {
     std::int64_t commands = 0;         ///< the largest number
     std::set<DesignId> paused{};
     bool all_paused = false;  ///< and it was said
+    bool told = false;        ///< of an outcome, since it was last asked what it drops
+    /// It had nothing to look ahead at, and nothing came since that changes this.
+    bool sees_no_further = false;
     std::optional<std::string> stopped{};
   };
 
@@ -159,6 +165,7 @@ class Coordinator {
   void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
   void send(PeerId peer, std::string frame);
   bool progress();
+  bool look_ahead();
   void append(std::uint32_t campaign);
 
   CoordinatorOptions options_;
@@ -167,6 +174,7 @@ class Coordinator {
   std::vector<Row> pool_rows_;  ///< workers, and events that are of no campaign
   Scheduler scheduler_;
   std::vector<CoordinatorAction> actions_;
+  std::size_t ahead_turn_ = 0;  ///< the campaign that is asked first for look-ahead
   /// Outcomes that are not on disk yet.
   std::unordered_map<PackedKey, Waiting> waiting_;
   std::unordered_map<PeerId, Fault> faults_;

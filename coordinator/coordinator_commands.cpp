@@ -55,6 +55,8 @@ Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& 
   if (row.kind == "pause" || row.kind == "resume") return pause(index, row);
   if (auto done = campaign.source->carry_out(row); !done) return Unexpected(done.error());
   ++campaign.commands;
+  campaign.told = true;
+  campaign.sees_no_further = false;
   const std::string name = to_string(row.design);
   if (row.kind == "cancel") return name + " is cancelled";
   return name + " gets " + std::to_string(row.budget) + " experiments more";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "coordinator/in_turn.h"
 #include "coordinator/scheduler.h"
 #include "proto/wire.h"
 
@@ -14,11 +15,27 @@ constexpr int kResendsOfAProgram = 3;
 constexpr double kShortProgramUs = 20'000;
 /// What a task takes on the wire besides its machine.
 constexpr std::size_t kTaskBytes = 48;
+constexpr std::size_t kAliveBytes = 8;
 
 }  // namespace
 
-Duration Scheduler::lease_time() const {
-  const auto estimate = std::chrono::microseconds(static_cast<std::int64_t>(estimate_us_));
+double Scheduler::estimate_us(std::uint32_t campaign) const {
+  const double own = estimates_us_[campaign];
+  return own > 0 ? own : estimate_us_;
+}
+
+void Scheduler::learn(std::uint32_t campaign, std::int64_t wall_us) {
+  const auto spent_us = static_cast<double>(std::max<std::int64_t>(wall_us, 0));
+  for (double* estimate : {&estimate_us_, &estimates_us_[campaign]})
+    *estimate += (*estimate == 0 ? 1.0 : 0.05) * (spent_us - *estimate);
+}
+
+std::uint64_t Scheduler::cost_us(std::uint32_t campaign) const {
+  return static_cast<std::uint64_t>(std::max(1.0, estimate_us(campaign)));
+}
+
+Duration Scheduler::lease_time(std::uint32_t campaign) const {
+  const auto estimate = std::chrono::microseconds(static_cast<std::int64_t>(estimate_us(campaign)));
   return std::max<Duration>(options_.lease_floor, options_.lease_factor * estimate);
 }
 
@@ -28,7 +45,7 @@ void Scheduler::on_tick(TimePoint now) {
   for (auto& [number, entry] : workers_.all()) {
     if (!entry.connected) continue;
     if (now - entry.last_heard > options_.dead_after) {
-      lose(entry, Loss::Silence, "lost");
+      lose(entry, Loss::Silence, "lost", now);
       continue;
     }
     if (now - entry.last_sent >= options_.heartbeat) {
@@ -49,7 +66,7 @@ void Scheduler::pardon(TimePoint now) {
     if (!entry.connected) continue;
     entry.last_heard = now;
     for (const PackedKey key : leases_.leases_of(number))
-      leases_.find(key)->lease->renewed = now;
+      leases_.find(key)->lease_of(number)->renewed = now;
   }
 }
 
@@ -61,19 +78,25 @@ void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
   if (options_.evaluates_programs && entry.running >= static_cast<std::size_t>(entry.hello.slots)) {
     return;
   }
-  const Duration time =
-      options_.evaluates_programs ? kResendsOfAProgram * options_.resend : lease_time();
+  const Duration least =
+      options_.evaluates_programs ? kResendsOfAProgram * options_.resend : options_.lease_floor;
+  Duration longest = least;
   std::vector<PackedKey> late;
   for (const PackedKey key : leases_.leases_of(entry.number)) {
-    const Lease& lease = *leases_.find(key)->lease;
-    if (now - lease.granted <= time) break;
+    const Lease& lease = *leases_.find(key)->lease_of(entry.number);
+    if (now - lease.granted <= least) break;
+    const Duration time = options_.evaluates_programs ? least : lease_time(campaign_of(key));
+    longest = std::max(longest, time);
     if (now - lease.renewed > time) late.push_back(key);
   }
   for (auto key = late.rbegin(); key != late.rend(); ++key) {
-    leases_.requeue(*leases_.find(*key));
+    TaskRecord& record = *leases_.find(*key);
+    if (record.second) record.copied = false;
+    note_attempt(record, entry.number, "expired", now);
     ++counters_.expired;
-    ++counters_.requeued;
+    if (take_back(record, entry.number)) ++counters_.requeued;
   }
+  leases_.loads().settle_older(entry.number, now - longest);
 }
 
 void Scheduler::drain(TimePoint now) {
@@ -85,45 +108,49 @@ void Scheduler::drain(TimePoint now) {
   }
 }
 
+/// In the order of their worth: what a race waits for; a second try at what it waits for longest;
+/// what it may want later.
 void Scheduler::dispatch(TimePoint now) {
-  if (held_ || draining_ || workers_.connected() == 0) return;
+  if (held_ || draining_ || workers_.trusted() == 0) return;
   dispatch_alone(now);
-  if (leases_.queued() == 0) return;
+  dispatch_audits(now);
+  dispatch_wanted(now);
+  if (leases_.wanted_ready() > 0 || options_.evaluates_programs) return;
+  copy_stragglers(now);
+  dispatch_ahead(now);
+}
+
+void Scheduler::dispatch_wanted(TimePoint now) {
+  if (leases_.wanted_ready() == 0) return;
   // Guided self-scheduling: near the end of what there is, nobody holds more than half a share of
   // it. A worker that is alone may have it all: its slots share what it holds.
-  const auto remaining = static_cast<std::int64_t>(leases_.size());
-  const std::int64_t parts = workers_.connected() > 1 ? 2 * workers_.slots() : workers_.slots();
+  const auto remaining =
+      static_cast<std::int64_t>(leases_.wanted_ready() + leases_.wanted_leased());
+  const std::int64_t parts = workers_.trusted() > 1 ? 2 * workers_.slots() : workers_.slots();
   const std::int64_t share = std::max<std::int64_t>(1, (remaining + parts - 1) / parts);
-  auto& all = workers_.all();
-  const auto first = all.upper_bound(turn_);
-  for (auto at = first; at != all.end(); ++at) {
-    if (at->second.connected && !fill(at->second, share, now)) return;
-  }
-  for (auto at = all.begin(); at != first; ++at) {
-    if (at->second.connected && !fill(at->second, share, now)) return;
-  }
+  in_turn(leases_.loads().with_room(), turn_,
+          [&](WorkerNumber number) { return fill(*workers_.of_number(number), share, now); });
 }
 
 /// Reserves workers for tasks that may have killed one, at most half of them at a time.
 void Scheduler::dispatch_alone(TimePoint now) {
-  std::size_t reserved = 0;
   if (!leases_.has_alone()) return;
+  std::size_t reserved = 0;
   for (auto& [number, entry] : workers_.all()) {
     if (entry.connected && entry.reserved) ++reserved;
   }
-  const std::size_t limit = std::max<std::size_t>(1, workers_.connected() / 2);
+  const std::size_t limit = std::max<std::size_t>(1, workers_.trusted() / 2);
   for (auto& [number, entry] : workers_.all()) {
     if (!leases_.has_alone()) return;
-    if (!entry.connected || entry.credit == 0) continue;
+    if (!entry.usable() || entry.credit == 0) continue;
     if (!entry.reserved && reserved >= limit) continue;
     if (!entry.reserved) ++reserved;
     entry.reserved = true;
     if (!leases_.leases_of(number).empty()) continue;
     TaskRecord* record = leases_.next_alone();
-    if (record == nullptr) return;  // all of them are of designs that are held
-    leases_.grant(*record, number, now);
+    leases_.grant(*record, number, now, cost_us(record->task.campaign));
     SendTasks message{entry.peer, entry.hello.incarnation, {}};
-    message.tasks.push_back({record->task, record->lease->attempt});
+    put_task(entry, *record, message, now);
     send_tasks(entry, message, now);
   }
 }
@@ -137,36 +164,52 @@ std::int64_t Scheduler::most_for(const WorkerEntry& entry, std::int64_t share) c
   return std::min<std::int64_t>(wanted, std::int64_t{short_ones ? 2 : 1} * entry.hello.slots);
 }
 
+/// For a task that must have it alone; until there is none any more.
+bool Scheduler::is_kept_free(WorkerEntry& entry) {
+  if (!entry.reserved) return false;
+  const std::list<PackedKey>& leases = leases_.leases_of(entry.number);
+  const bool runs_alone = !leases.empty() && leases_.find(leases.front())->lease->alone;
+  entry.reserved = leases_.has_alone() || runs_alone;
+  return entry.reserved;
+}
+
 /// False when nothing is left that could be leased.
 bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
-  if (entry.reserved) {
-    const std::list<PackedKey>& leases = leases_.leases_of(entry.number);
-    const bool runs_alone = !leases.empty() && leases_.find(leases.front())->lease->alone;
-    const bool waits_for_alone = leases_.has_alone() || runs_alone;
-    if (waits_for_alone) return true;
-    entry.reserved = false;
-  }
-  const auto held = static_cast<std::int64_t>(leases_.leases_of(entry.number).size());
-  std::int64_t room = most_for(entry, share) - held;
-  if (room <= 0) return true;
-  const bool elsewhere = workers_.connected() > 1;
+  if (is_kept_free(entry)) return true;
+  // Look-ahead leaves when it is done, and does not keep urgent tasks away.
+  const WorkerLoad& load = leases_.loads().of(entry.number);
+  const auto room_of = [&] {
+    return std::min(static_cast<std::int64_t>(load.room()),
+                    most_for(entry, share) - static_cast<std::int64_t>(load.held() - load.ahead));
+  };
+  const bool elsewhere = workers_.trusted() > 1;
+  // What the whole pool does in the time of one evaluation.
+  const auto allowance_us =
+      static_cast<std::uint64_t>(estimate_us_ * static_cast<double>(workers_.slots()));
   SendTasks message{entry.peer, entry.hello.incarnation, {}};
-  std::size_t bytes = 0;
-  TaskRecord* record = nullptr;
-  while (room > 0 && (record = leases_.next(entry.number, elsewhere)) != nullptr) {
-    leases_.grant(*record, entry.number, now);
-    message.tasks.push_back({record->task, record->lease->attempt});
-    bytes += record->task.machine.size() + kTaskBytes;
-    --room;
-    if (message.tasks.size() >= kTasksPerMessage || bytes >= kTaskBytesPerMessage) {
-      send_tasks(entry, message, now);
-      message.tasks.clear();
-      bytes = 0;
-    }
+  for (std::int64_t room = room_of(); room > 0; --room) {
+    TaskRecord* record =
+        leases_.next(entry.number, elsewhere, leases_.loads().room(), allowance_us);
+    if (record == nullptr) break;
+    leases_.grant(*record, entry.number, now, cost_us(record->task.campaign));
+    put_task(entry, *record, message, now);
   }
-  if (!message.tasks.empty()) send_tasks(entry, message, now);
+  if (message.tasks.empty()) return true;
+  send_tasks(entry, message, now);
   turn_ = entry.number;
-  return leases_.queued() > 0;
+  return leases_.wanted_ready() > 0;
+}
+
+/// Sends what there is when a message is full.
+void Scheduler::put_task(WorkerEntry& entry, const TaskRecord& record, SendTasks& message,
+                         TimePoint now) {
+  const Lease& lease =
+      record.second && record.second->worker == entry.number ? *record.second : *record.lease;
+  message.tasks.push_back({record.task, lease.attempt});
+  message.bytes += record.task.machine.size() + kAliveBytes * record.task.alive.size() + kTaskBytes;
+  const bool full =
+      message.tasks.size() >= kTasksPerMessage || message.bytes >= kTaskBytesPerMessage;
+  if (full) send_tasks(entry, message, now);
 }
 
 void Scheduler::send_tasks(WorkerEntry& entry, SendTasks& message, TimePoint now) {

@@ -1,17 +1,16 @@
 #include "coordinator/lease_table.h"
 
+#include <functional>
+#include <vector>
+
 #include "base/assert.h"
 
 namespace swarmsmith {
-namespace {
 
-const std::list<PackedKey> kNoLeases;
-
-}  // namespace
-
-LeaseTable::Queue& LeaseTable::queue_of(const TaskRecord& record) {
-  if (record.alone) return alone_;
-  return record.task.ahead ? ahead_ : wanted_;
+Lease* TaskRecord::lease_of(WorkerNumber worker) {
+  if (lease && lease->worker == worker) return &*lease;
+  if (second && second->worker == worker) return &*second;
+  return nullptr;
 }
 
 bool LeaseTable::add(Task task) {
@@ -20,8 +19,8 @@ bool LeaseTable::add(Task task) {
   if (!inserted) return false;
   TaskRecord& record = at->second;
   record.task = std::move(task);
-  record.queued = ++places_;
-  queue_of(record).push_back({key, record.queued});
+  record.design = &queues_.design(pool_design_of(key));
+  enter_queue(record, false);
   return true;
 }
 
@@ -35,13 +34,42 @@ const TaskRecord* LeaseTable::find(PackedKey key) const {
   return at == records_.end() ? nullptr : &at->second;
 }
 
-void LeaseTable::remove(PackedKey key) {
+void LeaseTable::enter_queue(TaskRecord& record, bool at_front) {
+  const PackedKey key = key_of(record.task);
+  const bool ahead = record.task.ahead;
+  if (!record.alone && !record.troubled) {
+    record.place = at_front ? queues_.push_front(*record.design, ahead, key)
+                            : queues_.push_back(*record.design, ahead, key);
+    return;
+  }
+  std::list<PackedKey>& queue = ahead ? parked_ : alone_;
+  record.place = queue.insert(at_front ? queue.begin() : queue.end(), key);
+}
+
+void LeaseTable::leave_queue(TaskRecord& record) {
+  if (!record.alone && !record.troubled) {
+    queues_.erase(*record.design, record.task.ahead, record.place);
+  } else {
+    (record.task.ahead ? parked_ : alone_).erase(record.place);
+  }
+}
+
+void LeaseTable::remove(PackedKey key, WorkerNumber by) {
   const auto at = records_.find(key);
   SWARMSMITH_ASSERT(at != records_.end(), "a task that is removed is in the table");
-  if (at->second.lease) {
-    drop_lease(at->second);
+  TaskRecord& record = at->second;
+  if (!record.lease) {
+    leave_queue(record);
   } else {
-    leave_queue(at->second);
+    for (const std::optional<Lease>* lease : {&record.second, &record.lease}) {
+      if (!*lease) continue;
+      end(record, **lease);
+      if ((*lease)->worker != by) loads_.linger((*lease)->worker, key, (*lease)->renewed);
+    }
+    if (record.second) --copies_;
+    by_age_.erase(record.place);
+    queues_.on_unleased(*record.design, record.task.ahead);
+    if (!record.task.ahead) --wanted_leased_;
   }
   records_.erase(at);
 }
@@ -53,104 +81,104 @@ void LeaseTable::remove_all(std::uint32_t campaign) {
   }
   for (const PackedKey key : keys)
     remove(key);
+  queues_.forget(campaign);
 }
 
 void LeaseTable::promote(TaskRecord& record) {
+  SWARMSMITH_ASSERT(record.task.ahead, "only look-ahead is promoted");
+  if (!record.lease) {
+    leave_queue(record);
+    record.task.ahead = false;
+    record.troubled = false;
+    enter_queue(record, false);
+    return;
+  }
   record.task.ahead = false;
-  if (record.lease || record.alone) return;
-  record.queued = ++places_;
-  wanted_.push_back({key_of(record.task), record.queued});
+  record.troubled = false;
+  queues_.on_promoted(*record.design);
+  loads_.promote(record.lease->worker);
+  ++wanted_leased_;
 }
 
 void LeaseTable::hold(std::uint32_t campaign, std::int64_t design, bool held) {
-  if (held) {
-    held_.emplace(campaign, design);
-  } else {
-    held_.erase({campaign, design});
-  }
+  queues_.hold({campaign, design}, held);
 }
 
 bool LeaseTable::is_held(std::uint32_t campaign, std::int64_t design) const {
-  return held_.contains({campaign, 0}) || held_.contains({campaign, design});
+  return queues_.is_held({campaign, design});
 }
 
-bool LeaseTable::is_held(const TaskRecord& record) const {
-  return !held_.empty() &&
-         is_held(record.task.campaign, design_of(record.task.key.candidate).value);
+TaskRecord* LeaseTable::next(WorkerNumber worker, bool skip_avoided, std::size_t free,
+                             std::uint64_t allowance_us) {
+  const auto fits = [&](PackedKey key) { return !skip_avoided || find(key)->avoid != worker; };
+  return found(queues_.next(free, allowance_us, std::cref(fits)));
 }
 
-TaskRecord* LeaseTable::front_of(Queue& queue) {
-  while (!queue.empty()) {
-    TaskRecord* record = find(queue.front().key);
-    if (record != nullptr && record->queued == queue.front().queued) return record;
-    queue.pop_front();
-  }
-  return nullptr;
-}
-
-TaskRecord* LeaseTable::next(WorkerNumber worker, bool skip_avoided) {
-  for (Queue* queue : {&wanted_, &ahead_}) {
-    TaskRecord* front = front_of(*queue);
-    if (front == nullptr) continue;
-    if ((!skip_avoided || front->avoid != worker) && !is_held(*front)) return front;
-    for (const Place& place : *queue) {
-      TaskRecord* record = find(place.key);
-      const bool is_there = record != nullptr && record->queued == place.queued;
-      if (is_there && (!skip_avoided || record->avoid != worker) && !is_held(*record)) {
-        return record;
-      }
-    }
-  }
-  return nullptr;
+TaskRecord* LeaseTable::next_ahead(WorkerNumber worker, bool skip_avoided) {
+  const auto fits = [&](PackedKey key) { return !skip_avoided || find(key)->avoid != worker; };
+  return found(queues_.next_ahead(std::cref(fits)));
 }
 
 TaskRecord* LeaseTable::next_alone() {
-  for (const Place& place : alone_) {
-    TaskRecord* record = find(place.key);
-    if (record != nullptr && record->queued == place.queued && !is_held(*record)) return record;
+  for (const PackedKey key : alone_) {
+    TaskRecord* record = find(key);
+    if (!record->design->held) return record;
   }
   return nullptr;
 }
 
-void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now) {
+Lease LeaseTable::leased_to(TaskRecord& record, WorkerNumber worker, TimePoint now) {
+  return {.worker = worker,
+          .attempt = ++record.attempts,
+          .granted = now,
+          .renewed = now,
+          .adopted = false,
+          .alone = record.alone,
+          .of_worker = loads_.lease(worker, key_of(record.task), record.task.ahead)};
+}
+
+void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now,
+                       std::uint64_t cost_us) {
   SWARMSMITH_ASSERT(!record.lease, "a task that is granted has no lease");
+  queues_.on_leased(*record.design, record.task.ahead, cost_us);
   leave_queue(record);
-  record.lease = Lease{.worker = worker,
-                       .attempt = ++record.attempts,
-                       .granted = now,
-                       .renewed = now,
-                       .adopted = false,
-                       .alone = record.alone};
-  std::list<PackedKey>& leases = by_worker_[worker];
-  record.of_worker = leases.insert(leases.end(), key_of(record.task));
-  ++leased_;
+  record.lease = leased_to(record, worker, now);
+  record.place = by_age_.insert(by_age_.end(), key_of(record.task));
+  if (!record.task.ahead) ++wanted_leased_;
 }
 
-void LeaseTable::requeue(TaskRecord& record) {
-  SWARMSMITH_ASSERT(record.lease, "a task that is requeued has a lease");
-  drop_lease(record);
-  record.queued = ++places_;
-  queue_of(record).push_front({key_of(record.task), record.queued});
-  if (record.alone) ++alone_count_;
+void LeaseTable::copy(TaskRecord& record, WorkerNumber worker, TimePoint now) {
+  SWARMSMITH_ASSERT(record.lease && !record.second && record.lease->worker != worker,
+                    "a second copy goes to another worker than the only lease");
+  record.second = leased_to(record, worker, now);
+  record.copied = true;
+  ++copies_;
 }
 
-void LeaseTable::drop_lease(TaskRecord& record) {
-  const auto leases = by_worker_.find(record.lease->worker);
-  leases->second.erase(record.of_worker);
-  if (leases->second.empty()) by_worker_.erase(leases);
+bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker) {
+  const Lease* lease = record.lease_of(worker);
+  SWARMSMITH_ASSERT(lease != nullptr, "a lease that ends is the worker's");
+  end(record, *lease);
+  if (record.second) {
+    if (lease == &*record.lease) {
+      record.lease = std::move(record.second);
+      by_age_.splice(by_age_.end(), by_age_, record.place);
+    }
+    record.second.reset();
+    --copies_;
+    return false;
+  }
   record.lease.reset();
-  --leased_;
+  record.copied = false;
+  by_age_.erase(record.place);
+  queues_.on_unleased(*record.design, record.task.ahead);
+  if (!record.task.ahead) --wanted_leased_;
+  enter_queue(record, true);
+  return true;
 }
 
-/// The place in the queue stays behind, stale; it is dropped when it comes to the front.
-void LeaseTable::leave_queue(TaskRecord& record) {
-  record.queued = 0;
-  if (record.alone) --alone_count_;
-}
-
-const std::list<PackedKey>& LeaseTable::leases_of(WorkerNumber worker) const {
-  const auto at = by_worker_.find(worker);
-  return at == by_worker_.end() ? kNoLeases : at->second;
+void LeaseTable::end(TaskRecord& record, const Lease& lease) {
+  loads_.end(lease.worker, lease.of_worker, record.task.ahead);
 }
 
 }  // namespace swarmsmith

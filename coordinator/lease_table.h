@@ -1,22 +1,18 @@
 #pragma once
 
 #include <cstddef>
-#include <deque>
+#include <cstdint>
 #include <list>
 #include <optional>
-#include <set>
 #include <unordered_map>
-#include <utility>
-#include <vector>
 
 #include "base/clock.h"
+#include "coordinator/design_queues.h"
 #include "coordinator/task.h"
 #include "coordinator/task_key.h"
+#include "coordinator/worker_loads.h"
 
 namespace swarmsmith {
-
-/// WorkerRow::id.
-using WorkerNumber = std::int64_t;
 
 /// A worker's right to an evaluation.
 struct Lease {
@@ -26,12 +22,17 @@ struct Lease {
   TimePoint renewed;     ///< when the worker last said that it runs
   bool adopted = false;  ///< the worker had it already when it came back
   bool alone = false;    ///< the worker has nothing else
+
+  WorkerLoads::Place of_worker;  ///< kept by the table: its place among those of its worker
 };
 
 /// A task on its way to its first outcome, and what went wrong so far.
 struct TaskRecord {
   Task task;
   std::optional<Lease> lease;
+  /// A second copy, of a straggler; only beside `lease`, and on another worker. When the first
+  /// lease ends without a result, this one takes its place.
+  std::optional<Lease> second;
   std::int64_t attempts = 0;
   int failures = 0;  ///< workers said that there is no score
   int deaths = 0;    ///< worker processes that died while it ran alone
@@ -39,68 +40,92 @@ struct TaskRecord {
   int timeouts = 0;
   WorkerNumber avoid = 0;  ///< try elsewhere, if there is an elsewhere
   bool alone = false;      ///< it may have killed a worker: nothing else may run beside it
+  bool audit = false;      ///< it has its result, and this is the second one (audit.h)
+  /// Look-ahead that would end its campaign: not tried again before it is wanted.
+  bool troubled = false;
+  bool copied = false;  ///< since it was last queued
+
+  /// The worker's lease, or null.
+  Lease* lease_of(WorkerNumber worker);
 
   // Kept by the table.
-  std::uint64_t queued = 0;                  ///< names its place in a queue; stale ones differ
-  std::list<PackedKey>::iterator of_worker;  ///< its place among the leases of its worker
+  DesignQueues::Design* design = nullptr;
+  std::list<PackedKey>::iterator place;  ///< in a queue, or in the order of age while leased
 };
 
-/// Tasks without an outcome: queued, or leased to one worker each, by key. A task enters by `add`
-/// and leaves by `remove`; between the two it goes back and forth any number of times (`grant`,
-/// `requeue`), at least once to somebody. Queues: those that may only run alone; those that a race
-/// waits for; look-ahead.
+/// Tasks without an outcome by key: queued, or leased to one worker, or to two. A task enters by
+/// `add` and leaves by `remove`; between the two it goes back and forth any number of times
+/// (`grant`, `copy`, `requeue`), at least once to somebody. Queues: those that may only run alone;
+/// those that a race waits for, by design; look-ahead, by design; and look-ahead that waits until
+/// it is wanted, since it may not run beside others or would end its campaign.
 class LeaseTable {
  public:
   /// At the end of its queue. False when the key is there already.
   bool add(Task task);
   TaskRecord* find(PackedKey key);
   const TaskRecord* find(PackedKey key) const;
-  void remove(PackedKey key);
+  /// `by` has its outcome; other workers that have a lease of it hold it a while yet.
+  void remove(PackedKey key, WorkerNumber by = 0);
   void remove_all(std::uint32_t campaign);
-  /// Look-ahead that is wanted now: to the queue of those, if it is queued.
+  /// Look-ahead that is wanted now: to the end of the queue of those, if it is queued.
   void promote(TaskRecord& record);
   /// Nothing more of the design is leased, or again; design 0 stands for the whole campaign.
   void hold(std::uint32_t campaign, std::int64_t design, bool held);
   bool is_held(std::uint32_t campaign, std::int64_t design) const;
 
-  /// The next task for a worker that has others, without taking it out; null when there is none.
-  /// With `skip_avoided`, tasks that should be tried elsewhere are passed over.
-  TaskRecord* next(WorkerNumber worker, bool skip_avoided);
+  /// The next task that a race waits for, without taking it out; null when there is none. With
+  /// `skip_avoided`, those that `worker` should not try are passed over. Free places and allowance
+  /// are those of `DesignQueues::next`.
+  TaskRecord* next(WorkerNumber worker, bool skip_avoided, std::size_t free = 0,
+                   std::uint64_t allowance_us = 0);
+  TaskRecord* next_ahead(WorkerNumber worker, bool skip_avoided);
   TaskRecord* next_alone();
 
-  /// Leases a queued task.
-  void grant(TaskRecord& record, WorkerNumber worker, TimePoint now);
-  /// Takes the lease away and queues the task at the front.
-  void requeue(TaskRecord& record);
+  /// Leases a queued task, at a cost that its design is charged.
+  void grant(TaskRecord& record, WorkerNumber worker, TimePoint now, std::uint64_t cost_us = 1);
+  /// Leases it a second time.
+  void copy(TaskRecord& record, WorkerNumber worker, TimePoint now);
+  /// Takes the worker's lease away. When it was the only one, the task is queued at the front, and
+  /// the answer is true.
+  bool requeue(TaskRecord& record, WorkerNumber worker);
 
-  /// Keys leased to a worker, the oldest lease first.
-  const std::list<PackedKey>& leases_of(WorkerNumber worker) const;
+  /// Keys leased to a worker, the oldest lease first; second copies too.
+  const std::list<PackedKey>& leases_of(WorkerNumber worker) const {
+    return loads_.of(worker).leases;
+  }
+  /// Keys of leased tasks, by the age of their first leases, the oldest first.
+  const std::list<PackedKey>& by_age() const { return by_age_; }
 
   std::size_t size() const { return records_.size(); }
-  std::size_t leased() const { return leased_; }
-  std::size_t queued() const { return records_.size() - leased_; }
-  bool has_alone() const { return alone_count_ > 0; }
+  /// Tasks, with one lease or two.
+  std::size_t leased() const { return by_age_.size(); }
+  std::size_t copies() const { return copies_; }
+  std::size_t queued() const { return records_.size() - leased(); }
+  /// Queued tasks that a race waits for, and that are not held.
+  std::size_t wanted_ready() const { return queues_.wanted(); }
+  std::size_t wanted_leased() const { return wanted_leased_; }
+  std::size_t ahead_ready() const { return queues_.ahead(); }
+  /// Queued ones that are not held.
+  bool has_alone() { return !alone_.empty() && next_alone() != nullptr; }
+
+  WorkerLoads& loads() { return loads_; }
+  const WorkerLoads& loads() const { return loads_; }
+  const DesignQueues& queues() const { return queues_; }
 
  private:
-  struct Place {
-    PackedKey key = 0;
-    std::uint64_t queued = 0;
-  };
-  using Queue = std::deque<Place>;
-
-  Queue& queue_of(const TaskRecord& record);
-  bool is_held(const TaskRecord& record) const;
-  TaskRecord* front_of(Queue& queue);
-  void drop_lease(TaskRecord& record);
+  Lease leased_to(TaskRecord& record, WorkerNumber worker, TimePoint now);
+  void end(TaskRecord& record, const Lease& lease);
+  void enter_queue(TaskRecord& record, bool at_front);
   void leave_queue(TaskRecord& record);
+  TaskRecord* found(std::optional<PackedKey> key) { return key ? find(*key) : nullptr; }
 
   std::unordered_map<PackedKey, TaskRecord> records_;
-  std::unordered_map<WorkerNumber, std::list<PackedKey>> by_worker_;
-  Queue alone_, wanted_, ahead_;
-  std::set<std::pair<std::uint32_t, std::int64_t>> held_;
-  std::uint64_t places_ = 0;
-  std::size_t leased_ = 0;
-  std::size_t alone_count_ = 0;  ///< queued ones
+  DesignQueues queues_;
+  std::list<PackedKey> alone_, parked_;
+  std::list<PackedKey> by_age_;
+  WorkerLoads loads_;
+  std::size_t wanted_leased_ = 0;
+  std::size_t copies_ = 0;
 };
 
 }  // namespace swarmsmith

@@ -29,7 +29,9 @@ double value_of(const DoneEntry& entry) {
 }  // namespace
 
 Scheduler::Scheduler(SchedulerOptions options)
-    : options_(std::move(options)), workers_(options_.first_worker) {
+    : options_(std::move(options)),
+      workers_(options_.first_worker),
+      estimates_us_(options_.campaigns.size()) {
   SWARMSMITH_ASSERT(!options_.campaigns.empty() && options_.campaigns.size() <= kMaxCampaigns,
                     "a coordinator has some campaigns, and not too many for its keys");
 }
@@ -83,6 +85,7 @@ void Scheduler::stop(std::uint32_t campaign, const std::string& reason) {
 void Scheduler::forget(std::uint32_t campaign) {
   stopped_.insert(campaign);
   leases_.remove_all(campaign);
+  audits_.forget(campaign);
 }
 
 // --- who is there ---
@@ -128,6 +131,7 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
   if (entry->connected) workers_.disconnect(*entry);
   entry->hello = std::move(hello);
   workers_.connect(*entry, peer, now);
+  set_credit(*entry, 0);
   take_back_charges(*entry);
   adopt(*entry, now);
   welcome(*entry, now);
@@ -137,7 +141,8 @@ void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
   actions_.emplace_back(SendWelcome{entry.peer, entry.hello.incarnation});
   entry.last_sent = now;
   if (draining_) actions_.emplace_back(SendDrain{entry.peer, entry.hello.incarnation});
-  actions_.emplace_back(WorkerChanged{row_of(entry, "connected")});
+  actions_.emplace_back(
+      WorkerChanged{row_of(entry, entry.quarantined ? "quarantined" : "connected")});
 }
 
 /// The worker is alive: what its disappearance counted against did not kill it.
@@ -156,14 +161,18 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
   const std::list<PackedKey>& before = leases_.leases_of(entry.number);
   const std::vector<PackedKey> leased(before.rbegin(), before.rend());
   for (const PackedKey key : leased) {
-    if (!held.contains(key)) leases_.requeue(*leases_.find(key));
+    if (!held.contains(key)) take_back(*leases_.find(key), entry.number);
   }
-  if (held_ || draining_ || !entry.hello.same_scenario) return;
+  for (const PackedKey key : entry.hello.holds) {
+    if (held.contains(key) && done_.find(key) != nullptr)
+      leases_.loads().linger(entry.number, key, now);
+  }
+  if (held_ || draining_ || entry.quarantined || !entry.hello.same_scenario) return;
   for (const PackedKey key : entry.hello.holds) {
     TaskRecord* record = leases_.find(key);
     // What must run alone is leased anew, when the worker has nothing else.
     if (record == nullptr || record->lease || record->alone) continue;
-    leases_.grant(*record, entry.number, now);
+    leases_.grant(*record, entry.number, now, cost_us(record->task.campaign));
     record->lease->adopted = true;
   }
 }
@@ -179,6 +188,12 @@ WorkerEntry* Scheduler::heard(const Sender& sender, TimePoint now) {
   return entry;
 }
 
+void Scheduler::set_credit(WorkerEntry& entry, std::uint32_t credit) {
+  entry.credit = std::min(credit, options_.max_credit);
+  const auto slots = static_cast<std::size_t>(entry.usable() ? entry.hello.slots : 0);
+  leases_.loads().set_capacity(entry.number, slots, slots > 0 ? entry.credit : 0);
+}
+
 bool Scheduler::on_sign_of_life(const Sender& sender, TimePoint now) {
   return heard(sender, now) != nullptr;
 }
@@ -187,7 +202,7 @@ void Scheduler::on_credit(const Sender& sender, std::uint32_t tasks, TimePoint n
   WorkerEntry* entry = heard(sender, now);
   if (entry == nullptr || sender.sequence <= entry->last_sequence) return;
   entry->last_sequence = sender.sequence;
-  entry->credit = std::min(tasks, options_.max_credit);
+  set_credit(*entry, tasks);
 }
 
 void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> keys, TimePoint now) {
@@ -196,43 +211,65 @@ void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> key
   // It wants none, then, even if its word about credit got lost: else they would go to and fro.
   if (sender.sequence > entry->last_sequence) {
     entry->last_sequence = sender.sequence;
-    entry->credit = 0;
+    set_credit(*entry, 0);
   }
   for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
+    leases_.loads().settle(entry->number, *key);
     TaskRecord* record = leases_.find(*key);
-    if (record == nullptr || !record->lease || record->lease->worker != entry->number) continue;
-    leases_.requeue(*record);
-    ++counters_.requeued;
+    if (record == nullptr || record->lease_of(entry->number) == nullptr) continue;
+    note_attempt(*record, entry->number, "returned", now);
+    // It may be copied once more: nobody has failed.
+    if (record->second) record->copied = false;
+    if (take_back(*record, entry->number)) ++counters_.requeued;
   }
 }
 
 void Scheduler::on_goodbye(const Sender& sender, TimePoint now) {
   WorkerEntry* entry = heard(sender, now);
-  if (entry != nullptr) lose(*entry, Loss::Left, "left");
+  if (entry != nullptr) lose(*entry, Loss::Left, "left", now);
 }
 
-void Scheduler::on_unreachable(PeerId peer, TimePoint now) {
+void Scheduler::on_unreachable(PeerId peer, TimePoint now, std::span<const PackedKey> undelivered) {
   WorkerEntry* entry = workers_.of_peer(peer);
   if (entry == nullptr) return;
+  // What the worker never got did not kill it.
+  for (auto key = undelivered.rbegin(); key != undelivered.rend(); ++key) {
+    leases_.loads().settle(entry->number, *key);
+    TaskRecord* record = leases_.find(*key);
+    if (record == nullptr || record->lease_of(entry->number) == nullptr) continue;
+    if (record->second) record->copied = false;
+    if (take_back(*record, entry->number)) ++counters_.requeued;
+  }
   const bool closed = now - entry->last_heard < options_.silence;
-  lose(*entry, closed ? Loss::Death : Loss::Silence, "lost");
+  lose(*entry, closed ? Loss::Death : Loss::Silence, "lost", now);
 }
 
-void Scheduler::on_refused(PeerId peer, TimePoint) {
+void Scheduler::on_refused(PeerId peer, TimePoint now) {
   WorkerEntry* entry = workers_.of_peer(peer);
-  if (entry != nullptr) lose(*entry, Loss::Left, "refused");
+  if (entry != nullptr) lose(*entry, Loss::Left, "refused", now);
 }
 
-void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
+void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state, TimePoint now) {
   const std::list<PackedKey>& leases = leases_.leases_of(entry.number);
   const std::vector<PackedKey> keys(leases.begin(), leases.end());
   const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
   workers_.disconnect(entry);
-  counters_.requeued += keys.size();
+  leases_.loads().set_capacity(entry.number, 0, 0);
   for (std::size_t i = keys.size(); i-- > 0;) {
     TaskRecord& record = *leases_.find(keys[i]);
-    if (i < suspects) suspect(entry, record, loss);
-    leases_.requeue(record);
+    const bool is_audit = record.audit;
+    // What was merely queued there is nobody's affair.
+    const bool may_have_run = i < suspects && loss != Loss::Left;
+    if (may_have_run) note_attempt(record, entry.number, "lost", now);
+    // While another worker has it too, nothing is held against the task: if it kills, it will do so
+    // there, and there is no third copy then.
+    if (record.second) {
+      record.copied = loss == Loss::Death;
+    } else if (may_have_run) {
+      suspect(entry, record, loss);
+    }
+    if (take_back(record, entry.number)) ++counters_.requeued;
+    if (is_audit) continue;
     if (record.deaths >= kDeathsOfARejection) {
       reject(record, entry.number, "its evaluation killed three worker processes");
     }
@@ -248,6 +285,7 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
 }
 
 void Scheduler::suspect(WorkerEntry& entry, TaskRecord& record, Loss loss) {
+  if (record.audit) return;
   // A program that goes wrong does not take its worker with it: its first death is an accident.
   const bool accident = options_.evaluates_programs && loss == Loss::Death &&
                         !record.lease->alone && ++record.losses < kLossesUntilAlone;
@@ -277,34 +315,46 @@ void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> r
   if (entry == nullptr) return;
   SendAcknowledged acknowledged{entry->peer, entry->hello.incarnation, {}};
   for (const WorkerResult& result : results) {
-    if (stopped_.contains(campaign_of(result.key))) {
+    leases_.loads().settle(entry->number, result.key);
+    if (entry->quarantined || stopped_.contains(campaign_of(result.key))) {
       acknowledged.keys.push_back(result.key);
     } else if (result.failure.empty()) {
-      on_score(*entry, result);
+      on_score(*entry, result, now);
     } else {
-      on_failure(*entry, result, acknowledged);
+      on_failure(*entry, result, acknowledged, now);
     }
   }
   if (!acknowledged.keys.empty()) actions_.emplace_back(std::move(acknowledged));
 }
 
-void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
-  if (const TaskRecord* record = leases_.find(result.key); record != nullptr) {
+void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {
+  TaskRecord* record = leases_.find(result.key);
+  if (record != nullptr && !record->audit) {
     ++entry.done;
-    const auto spent_us = static_cast<double>(std::max<std::int64_t>(result.wall_us, 0));
-    estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
-    accept({.key = record->task.key,
-            .campaign = record->task.campaign,
-            .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
-            .score = result.rejected ? 0 : result.score,
-            .state_digest = result.state_digest,
-            .wall_us = result.wall_us,
-            .worker = entry.number,
-            .attempt = std::max<std::int64_t>(record->attempts, 1),
-            .time = result.time});
+    const bool failed_elsewhere = record->avoid != 0 && record->avoid != entry.number;
+    if (failed_elsewhere) strike(record->avoid, now);
+    const std::int64_t every = options_.evaluates_programs ? 0 : policy_of(*record).audit_every;
+    if (!result.rejected && Audits::chooses(result.key, every)) {
+      audits_.open(record->task, {entry.number, result.score, result.state_digest});
+    }
+    learn(record->task.campaign, result.wall_us);
+    note_second_copy(*record, entry.number, now);
+    const Lease* lease = record->lease_of(entry.number);
+    accept(
+        {.key = record->task.key,
+         .campaign = record->task.campaign,
+         .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
+         .score = result.rejected ? 0 : result.score,
+         .state_digest = result.state_digest,
+         .wall_us = result.wall_us,
+         .worker = entry.number,
+         .attempt = lease != nullptr ? lease->attempt : std::max<std::int64_t>(record->attempts, 1),
+         .time = result.time});
     return;
   }
   if (const DoneEntry* known = done_.find(result.key); known != nullptr) {
+    const bool asked = record != nullptr && record->lease && record->lease->worker == entry.number;
+    if (asked) return on_audited(entry, *record, *known, result, now);
     return repeat(entry, *known, result);
   }
   // Wanted later, perhaps: after a restart the race may not have come so far. Not acknowledged, so
@@ -314,10 +364,18 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
 
 void Scheduler::accept(const Outcome& outcome) {
   const PackedKey key = key_of(outcome);
-  leases_.remove(key);
+  leases_.remove(key, outcome.worker);
   done_.insert(key, outcome.status, outcome.score, outcome.state_digest);
   ++(outcome.status == EvaluationStatus::Ok ? counters_.done : counters_.rejected);
   actions_.emplace_back(OutcomeAccepted{outcome});
+}
+
+/// A row for the copy that came second, or will.
+void Scheduler::note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now) {
+  if (!record.second) return;
+  for (const Lease* lease : {&*record.lease, &*record.second}) {
+    if (lease->worker != by) note_attempt(key_of(record.task), *lease, "second copy", now);
+  }
 }
 
 void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
@@ -326,6 +384,12 @@ void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
   actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
   // Two runs of a program may differ, in its time at least: the first one counts.
   if (options_.evaluates_programs) return;
+  judge(entry, known, result);
+}
+
+/// Another result with other bits: the campaign is not deterministic, or somebody lies.
+void Scheduler::judge(const WorkerEntry& entry, const DoneEntry& known,
+                      const WorkerResult& result) {
   if (DoneTable::same(known, EvaluationStatus::Ok, result.score, result.state_digest)) return;
   ++counters_.conflicts;
   const EvaluationKey key = unpack(result.key);
@@ -341,16 +405,15 @@ void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
 }
 
 void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
-                           SendAcknowledged& acknowledged) {
+                           SendAcknowledged& acknowledged, TimePoint now) {
   // A failure is told once: for the lease under which it ran. Nothing is written, so the worker
   // may forget it at once.
   acknowledged.keys.push_back(result.key);
   TaskRecord* record = leases_.find(result.key);
-  if (record == nullptr || !record->lease || record->lease->worker != entry.number) return;
-  if (!record->lease->adopted && record->lease->attempt != result.attempt) return;
+  const Lease* lease = record == nullptr ? nullptr : record->lease_of(entry.number);
+  if (lease == nullptr || (!lease->adopted && lease->attempt != result.attempt)) return;
   ++entry.failed;
   ++counters_.failed;
-  ++record->failures;
   note("warning", "evaluation failed",
        {{"evaluation", name_of(record->task.key)},
         {"worker", entry.number},
@@ -358,18 +421,30 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
        record->task.campaign);
   actions_.emplace_back(FailureKept{record->task.campaign,
                                     {.key = record->task.key,
-                                     .attempt = record->lease->attempt,
+                                     .attempt = lease->attempt,
                                      .worker = entry.number,
                                      .reason = result.failure,
                                      .command = result.details.command,
                                      .output = result.details.output,
                                      .errors = result.details.errors}});
+  note_attempt(*record, entry.number, "failed", now);
+  if (record->audit) {
+    // The strike may send the worker to quarantine, which takes its leases back.
+    take_back(*record, entry.number);
+    return strike(entry.number, now);
+  }
   record->avoid = entry.number;
+  if (record->second) {
+    // The other copy tells; two of them count once.
+    leases_.requeue(*record, entry.number);
+    return;
+  }
+  ++record->failures;
   // A program's worker has tried again by itself, as often as the campaign allows.
   if (options_.evaluates_programs || record->failures >= kFailuresOfARejection) {
     reject(*record, entry.number, result.failure, result.details);
   } else {
-    leases_.requeue(*record);
+    take_back(*record, entry.number);
   }
 }
 
@@ -378,30 +453,39 @@ void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
   WorkerEntry* entry = heard(sender, now);
   if (entry == nullptr || sender.sequence <= entry->last_sequence) return;
   entry->last_sequence = sender.sequence;
-  entry->credit = std::min(credit, options_.max_credit);
+  set_credit(*entry, credit);
   entry->running = running.size();
   for (const RunningReport& report : running) {
+    if (leases_.loads().renew_lingering(entry->number, report.key, now)) continue;
     TaskRecord* record = leases_.find(report.key);
-    if (record == nullptr || !record->lease || record->lease->worker != entry->number) continue;
-    record->lease->renewed = now;
+    Lease* lease = record == nullptr ? nullptr : record->lease_of(entry->number);
+    if (lease == nullptr) continue;
+    lease->renewed = now;
     // Of a program the worker itself keeps the time.
     if (options_.evaluates_programs) continue;
     const auto limit = policy_of(*record).task_timeout;
-    if (std::chrono::milliseconds(report.elapsed_ms) > limit) on_timeout(*entry, *record);
+    if (std::chrono::milliseconds(report.elapsed_ms) > limit) on_timeout(*entry, *record, now);
   }
 }
 
 /// A time never becomes a score: another try elsewhere, then the end.
-void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
-  ++record.timeouts;
+void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now) {
   ++entry.failed;
   ++counters_.failed;
   note("warning", "evaluation timed out",
        {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign);
+  note_attempt(record, entry.number, "timed out", now);
+  if (record.audit) {
+    take_back(record, entry.number);
+    return strike(entry.number, now);
+  }
   record.avoid = entry.number;
-  leases_.requeue(record);
   const CampaignPolicy& policy = policy_of(record);
-  if (record.timeouts > policy.retries) {
+  // Two copies that hang count once.
+  const bool is_last = !record.second && ++record.timeouts > policy.retries;
+  record.troubled = is_last && record.task.ahead;
+  leases_.requeue(record, entry.number);
+  if (is_last && !record.task.ahead) {
     stop(record.task.campaign,
          "the evaluation of " + name_of(record.task.key) + " took longer than " +
              std::to_string(
@@ -415,6 +499,12 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
 void Scheduler::reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
                        const FailureDetails& details) {
   const EvaluationKey key = record.task.key;
+  if (policy_of(record).stop_on_failure && record.task.ahead) {
+    // Nobody may ever ask for it: no reason to stop before somebody does.
+    record.troubled = true;
+    leases_.requeue(record, worker);
+    return;
+  }
   if (policy_of(record).stop_on_failure) {
     std::string message = "the evaluation of " + name_of(key) + " failed: ";
     message += message_of(reason, details);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "coordinator/audit.h"
 #include "coordinator/done_table.h"
 #include "coordinator/event_text.h"
 #include "coordinator/lease_table.h"
@@ -54,8 +55,8 @@ class Scheduler {
   void on_goodbye(const Sender& sender, TimePoint now);
   /// Any other message: a sign of life. False, and a question, when the peer is not known.
   bool on_sign_of_life(const Sender& sender, TimePoint now);
-  /// The transport says that the connection is no more.
-  void on_unreachable(PeerId peer, TimePoint now);
+  /// The transport says that the connection is no more, and that these leases never got there.
+  void on_unreachable(PeerId peer, TimePoint now, std::span<const PackedKey> undelivered = {});
   /// The peer sent rubbish and is not listened to any more.
   void on_refused(PeerId peer, TimePoint now);
   /// Heartbeats, silent workers, leases without progress; several times a second.
@@ -70,10 +71,17 @@ class Scheduler {
   void hold_design(std::uint32_t campaign, std::int64_t design, bool held) {
     leases_.hold(campaign, design, held);
   }
+  bool is_held(std::uint32_t campaign) const { return leases_.is_held(campaign, 0); }
+  /// How many tasks of look-ahead could be leased now, after `dispatch`; none while anything that
+  /// is wanted is queued.
+  std::size_t idle_slots() const;
   /// Sends every worker home.
   void drain(TimePoint now);
 
   std::vector<SchedulerAction> take_actions();
+
+  /// Whether second results are waited for that may still come. Then the campaigns are not over.
+  bool is_auditing() const;
 
   const LeaseTable& leases() const { return leases_; }
   const WorkerRegistry& workers() const { return workers_; }
@@ -85,16 +93,31 @@ class Scheduler {
   enum class Loss { Death, Silence, Left, Reconnected };
 
   WorkerEntry* heard(const Sender& sender, TimePoint now);
+  void set_credit(WorkerEntry& entry, std::uint32_t credit);
   std::string objection_to(const WorkerHello& hello) const;
   void welcome(WorkerEntry& entry, TimePoint now);
   void adopt(WorkerEntry& entry, TimePoint now);
   void take_back_charges(WorkerEntry& entry);
-  void lose(WorkerEntry& entry, Loss loss, const std::string& state);
+  void lose(WorkerEntry& entry, Loss loss, const std::string& state, TimePoint now);
   void suspect(WorkerEntry& entry, TaskRecord& record, Loss loss);
 
-  void on_score(WorkerEntry& entry, const WorkerResult& result);
-  void on_failure(WorkerEntry& entry, const WorkerResult& result, SendAcknowledged& acknowledged);
-  void on_timeout(WorkerEntry& entry, TaskRecord& record);
+  void on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now);
+  void on_failure(WorkerEntry& entry, const WorkerResult& result, SendAcknowledged& acknowledged,
+                  TimePoint now);
+  void on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now);
+  /// Ends the worker's lease. True when the task is queued again; an audit is not, but waits again
+  /// for a worker that may make it, and `record` is gone.
+  bool take_back(TaskRecord& record, WorkerNumber worker);
+  void note_attempt(TaskRecord& record, WorkerNumber worker, const char* outcome, TimePoint now);
+  void note_attempt(PackedKey key, const Lease& lease, const char* outcome, TimePoint now);
+  void note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now);
+  void dispatch_audits(TimePoint now);
+  void on_audited(WorkerEntry& entry, TaskRecord& record, const DoneEntry& known,
+                  const WorkerResult& result, TimePoint now);
+  void judge(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
+  /// `worker` failed at what somebody else has done.
+  void strike(WorkerNumber worker, TimePoint now);
+  void quarantine(WorkerEntry& entry, const std::string& reason, TimePoint now);
   void accept(const Outcome& outcome);
   void repeat(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
   void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
@@ -107,10 +130,26 @@ class Scheduler {
   void pardon(TimePoint now);
   void expire(WorkerEntry& entry, TimePoint now);
   void dispatch_alone(TimePoint now);
+  void dispatch_wanted(TimePoint now);
   std::int64_t most_for(const WorkerEntry& entry, std::int64_t share) const;
+  bool is_kept_free(WorkerEntry& entry);
   bool fill(WorkerEntry& entry, std::int64_t share, TimePoint now);
+  void put_task(WorkerEntry& entry, const TaskRecord& record, SendTasks& message, TimePoint now);
   void send_tasks(WorkerEntry& entry, SendTasks& message, TimePoint now);
-  Duration lease_time() const;
+
+  // idle_slots.cpp
+  void copy_stragglers(TimePoint now);
+  WorkerEntry* idle_for(const TaskRecord& record);
+  Duration copy_time(std::uint32_t campaign) const;
+  void dispatch_ahead(TimePoint now);
+  bool fill_ahead(WorkerEntry& entry, TimePoint now);
+
+  /// Of an evaluation of the campaign, or of all as long as none came back; 0 without any.
+  double estimate_us(std::uint32_t campaign) const;
+  void learn(std::uint32_t campaign, std::int64_t wall_us);
+  /// What a lease is charged for.
+  std::uint64_t cost_us(std::uint32_t campaign) const;
+  Duration lease_time(std::uint32_t campaign) const;
   void note(const char* severity, const char* kind, std::initializer_list<EventField> fields,
             std::optional<std::uint32_t> campaign = std::nullopt);
 
@@ -118,10 +157,12 @@ class Scheduler {
   LeaseTable leases_;
   WorkerRegistry workers_;
   DoneTable done_;
+  Audits audits_;
   SchedulerCounters counters_;
   std::vector<SchedulerAction> actions_;
-  double estimate_us_ = 0;  ///< of an evaluation's time
-  WorkerNumber turn_ = 0;   ///< who was served last
+  double estimate_us_ = 0;            ///< of an evaluation's time, in all campaigns
+  std::vector<double> estimates_us_;  ///< by campaign; 0 before the first
+  WorkerNumber turn_ = 0;             ///< who was served last
   TimePoint forgot_;
   TimePoint ticked_;
   bool held_ = false;

@@ -79,6 +79,7 @@ struct SendTasks {
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
   std::vector<Leased> tasks;
+  std::size_t bytes = 0;  ///< about, on the wire
 };
 /// The worker may forget these results: there is nothing to write for them.
 struct SendAcknowledged {
@@ -142,6 +143,8 @@ struct CampaignPolicy {
   Duration task_timeout = std::chrono::seconds(30);
   std::int64_t retries = 2;      ///< after time-outs, before the campaign stops
   bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
+  /// One evaluation of so many is made twice, by two workers; 0: none. Programs are not audited.
+  std::int64_t audit_every = 200;
 };
 
 struct SchedulerOptions {
@@ -151,6 +154,10 @@ struct SchedulerOptions {
   /// A lease without progress expires after max(lease_floor, lease_factor * running estimate).
   Duration lease_floor = std::chrono::seconds(5);
   int lease_factor = 20;
+  /// A task that is out longer than max(copy_floor, copy_factor * running estimate) goes to an idle
+  /// slot elsewhere too. The floor is above what a task waits in a worker that has work for 20 ms.
+  Duration copy_floor = std::chrono::milliseconds(100);
+  int copy_factor = 4;
   /// A connection that breaks sooner than this after the last sign of life was closed by the death
   /// of its process; links die silently, and the transport needs 3 s to notice.
   Duration silence = std::chrono::milliseconds(2500);
@@ -158,6 +165,9 @@ struct SchedulerOptions {
   /// Of all campaigns or of none: evaluations by programs: none is run a second time while a worker
   /// that runs it is alive, a first failure is final, and two results of one evaluation may differ.
   bool evaluates_programs = false;
+  /// A worker that fails so often where others succeed, and at one of twenty of its evaluations,
+  /// gets no more.
+  std::int64_t quarantine_after = 5;
   std::uint32_t max_credit = 4096;
   std::size_t max_workers = 10'000;
   int engine_version = 0;
@@ -176,6 +186,10 @@ struct SchedulerCounters {
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;
   std::uint64_t lost_workers = 0;
+  std::uint64_t copies = 0;  ///< second leases of stragglers
+  std::uint64_t ahead = 0;   ///< leases of look-ahead
+  std::uint64_t audited = 0;      ///< second results that were compared
+  std::uint64_t quarantined = 0;  ///< workers
 };
 
 }  // namespace swarmsmith

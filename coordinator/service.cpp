@@ -220,7 +220,7 @@ class Loop final : public Service {
       case SendStatus::Gone:
       // Reads too slowly for a thousand messages: as good as gone; it will say hello again.
       case SendStatus::Full:
-        coordinator_.on_unreachable(send.peer, now);
+        coordinator_.on_unreachable(send, now);
         return;
     }
   }

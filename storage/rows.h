@@ -276,6 +276,7 @@ struct StoredScore {
   std::uint64_t state_digest = 0;
   double time = 0;
   double bound = 0;
+  std::int64_t iteration = 0;  ///< that used it last; 0: none (EvaluationRow)
 };
 
 /// What is compared while a campaign is replayed.

@@ -37,6 +37,7 @@ struct WorkerOptions {
   Duration welcome_timeout = std::chrono::seconds(5);
   Duration give_up_after = std::chrono::minutes(10);
   std::size_t results_per_message = 64;
+  /// The end of a step waits for nothing, since slots that run dry are said at once.
   Duration flush_after = std::chrono::milliseconds(5);
   Duration work_ahead = std::chrono::milliseconds(20);
   Duration grace = std::chrono::seconds(5);

@@ -18,7 +18,8 @@
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
-#include "coordinator/local_workers.h"
+#include "coordinator/launchers/start_workers.h"
+#include "coordinator/launchers/worker_program.h"
 #include "coordinator/paused_designs.h"
 #include "coordinator/service.h"
 #include "sim/engine/self_test.h"
@@ -116,17 +117,23 @@ ServiceOptions service_options(const std::vector<const Campaign*>& campaigns,
   return service;
 }
 
-/// Local worker processes as `--workers` and the file have them: a number of processes, or one with
-/// as many slots as there are cores.
-int local_processes(const Campaign& campaign, const RunOptions& options) {
-  return static_cast<int>(options.workers.value_or(campaign.local_workers.value_or(1)));
+/// Who starts workers: `--workers`, or the file.
+LaunchOptions launch_of(const Campaign& campaign, const RunOptions& options) {
+  LaunchOptions launch = options.launch.value_or(campaign.launch);
+  if (options.launch) return launch;
+  if (options.workers) launch.kind = LaunchOptions::Kind::Local;
+  launch.processes = options.workers.value_or(campaign.local_workers.value_or(1));
+  return launch;
 }
 
 /// Workers and the address are of the pool: files that say different things are of no help.
 Expected<void> check_agreement(const std::vector<Campaign>& campaigns, const RunOptions& options) {
   for (const Campaign& campaign : campaigns) {
-    if (!options.workers && campaign.local_workers != campaigns.front().local_workers) {
-      return bad_input("the campaigns ask for different numbers of workers: say it by --workers",
+    const bool said = options.workers || options.launch;
+    const bool alike = campaign.local_workers == campaigns.front().local_workers &&
+                       campaign.launch == campaigns.front().launch;
+    if (!said && !alike) {
+      return bad_input("the campaigns ask for different workers: say by --workers which they share",
                        campaign.name);
     }
     if (options.bind.empty() && campaign.bind != campaigns.front().bind) {
@@ -155,6 +162,9 @@ class CampaignRun {
     for (const Campaign& campaign : campaigns)
       members_.push_back({.campaign = &campaign});
     if (options_.bind.empty()) options_.bind = campaigns.front().bind;
+    // Workers from other hosts have to reach it; where it is, its file says.
+    const bool local = launch_of(campaigns.front(), options_).kind == LaunchOptions::Kind::Local;
+    if (options_.bind.empty() && !local) options_.bind = "0.0.0.0:0";
   }
 
   std::vector<ExitCode> run() {
@@ -251,23 +261,36 @@ class CampaignRun {
     return paths;
   }
 
+  /// Workers of this host get the address, others the file in which it stands.
+  WorkersSetup workers_setup(const std::string& endpoint) const {
+    const Campaign& first = *members_[running_.front()].campaign;
+    WorkersSetup setup{.launch = launch_of(first, options_),
+                       .local_slots = static_cast<int>(options_.slots),
+                       .campaign_digest = campaign_digest(first),
+                       .store = first.store};
+    const auto file = std::filesystem::absolute(coordinator_paths().front());
+    setup.shared_folder = file.parent_path();
+    setup.address.endpoint = local_endpoint(endpoint);
+    if (setup.launch.kind != LaunchOptions::Kind::Local) setup.address.coordinator = file;
+    if (access_.keys) setup.address.key = std::filesystem::absolute(access_.local_key);
+    setup.arguments = allow_all();
+    if (access_.insecure_plaintext) setup.arguments.emplace_back("--insecure-plaintext");
+    return setup;
+  }
+
   ExitCode serve_with_workers(Service& service) {
-    const int processes = local_processes(*members_[running_.front()].campaign, options_);
-    if (processes == 0) return serve(service, nullptr);
-    std::vector<std::string> arguments = allow_all();
-    if (access_.keys) {
+    const WorkersSetup setup = workers_setup(service.endpoint());
+    if (!setup.address.key.empty() && setup.wants_workers()) {
       if (const auto key = read_client_key(access_.local_key); !key) {
         return fail(output_, ExitCode::Usage, key.error());
       }
-      arguments.emplace_back("--key");
-      arguments.push_back(access_.local_key.string());
     }
-    auto workers = LocalWorkers::start({.endpoint = local_endpoint(service.endpoint()),
-                                        .processes = processes,
-                                        .slots = static_cast<int>(options_.slots),
-                                        .arguments = std::move(arguments)});
-    if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
-    return serve(service, &*workers);
+    const auto workers = start_workers(setup);
+    if (workers) return serve(service, workers->get());
+    for (const Error& error : workers.error())
+      print_error(output_, error);
+    const bool usage = workers.error().front().kind == ErrorKind::BadInput;
+    return usage ? ExitCode::Usage : ExitCode::Unreachable;
   }
 
   /// What lets workers run the programs of any of the campaigns.
@@ -332,7 +355,7 @@ class CampaignRun {
                             to_string(paused.front()) + "` lets go on");
   }
 
-  ExitCode serve(Service& service, LocalWorkers* workers) {
+  ExitCode serve(Service& service, Launcher* workers) {
     std::stop_source stop;
     std::string worker_trouble;
     const ServiceHooks hooks{
@@ -349,16 +372,19 @@ class CampaignRun {
                 g_read_clients = 0;
                 access_.watch->look_now();
               }
-              listener_.update(live, clock_.now());
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
+                if (worker_trouble.empty()) last_.launcher = workers->status();
               }
+              listener_.update(last_, clock_.now());
               if (g_signal != 0 || !worker_trouble.empty()) stop.request_stop();
             },
     };
     const ServiceEnd end = service.run(stop.get_token(), hooks);
-    if (workers != nullptr) workers->stop(std::chrono::seconds(2));
+    const std::string left_behind =
+        workers == nullptr ? "" : workers->stop(std::chrono::seconds(2));
     listener_.finish(last_);
+    if (!left_behind.empty()) print_note(output_, left_behind);
     for (std::size_t i = 0; i < running_.size(); ++i) {
       Member& member = members_[running_[i]];
       member.end = end_of(member, end.reasons[i], worker_trouble);

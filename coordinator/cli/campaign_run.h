@@ -9,12 +9,15 @@
 #include "coordinator/cli/access_flags.h"
 #include "coordinator/cli/options.h"
 #include "coordinator/cli/run_listener.h"
+#include "coordinator/launchers/launch_options.h"
 
 namespace swarmsmith::cli {
 
 /// Who evaluates, and where workers from elsewhere find the coordinator.
 struct RunOptions {
-  /// Worker processes that this one starts; none: the campaign's number, 0: none at all.
+  /// Who starts workers; none: as `workers` or the campaign have it.
+  std::optional<LaunchOptions> launch;
+  /// Worker processes of this host; none: as the campaign has it, 0: no workers at all.
   std::optional<std::int64_t> workers;
   /// Evaluations at a time of each; 0: the cores, shared among the processes.
   std::int64_t slots = 0;

@@ -18,6 +18,7 @@ Examples:
   swarmsmith run
   swarmsmith run campaign.toml
   swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db
+  swarmsmith run campaign.toml --workers slurm:16x64
   swarmsmith run first.toml second.toml)";
 
 constexpr std::string_view kServeDetails =

@@ -112,6 +112,10 @@ void Progress::update(const LiveStatus& live, TimePoint now) {
     // Even when quiet: nothing goes on until a person has helped.
     if (!trouble_.empty()) add_line("warning: nothing can be stored: " + trouble_);
   }
+  if (live.launcher.note != launcher_note_) {
+    launcher_note_ = live.launcher.note;
+    if (!launcher_note_.empty() && !output_.quiet) add_line(to_text(live.launcher));
+  }
   if (form_ == Form::Silent) return;
   const TimePoint last = last_.value_or(begin_);
   const auto since = now - last;

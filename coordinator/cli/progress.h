@@ -66,6 +66,7 @@ class Progress final : public RunListener {
   bool race_lines_;
   std::string drawn_;  ///< the status line that stands on the terminal
   std::string trouble_;
+  std::string launcher_note_;
   std::optional<TimePoint> last_;
   std::int64_t lines_since_headline_ = 0;
 };

@@ -195,7 +195,14 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live, st
            known ? std::optional(static_cast<double>(left) / live.evaluations_per_s) : std::nullopt)
       .add("failed", live.failed)
       .add("rejected", live.rejected)
+      .add("requeued", live.requeued)
+      .add("expired", live.expired)
+      .add("lost_workers", live.lost_workers)
+      .add("duplicates", live.duplicates)
+      .add("conflicts", live.conflicts)
+      .add("malformed", live.malformed)
       .add("trouble", live.trouble)
+      .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher))
       .str();
 }
 

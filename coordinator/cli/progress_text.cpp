@@ -95,7 +95,10 @@ std::string second_half(std::span<const ProgressModel> models, const Totals& tot
   }
   if (totals.paused > 0) text += "  paused " + std::to_string(totals.paused);
   if (live.failed > 0) text += "  failed " + std::to_string(live.failed);
-  if (live.workers == 0) text += "  no workers";
+  if (live.workers > 0) return text;
+  // Only local workers are there at once.
+  const bool waits = !live.launcher.name.empty() && live.launcher.name != "local";
+  text += waits ? "  no workers yet (" + to_text(live.launcher) + ")" : "  no workers";
   return text;
 }
 

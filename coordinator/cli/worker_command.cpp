@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "coordinator/cli/commands.h"
-#include "coordinator/local_workers.h"
+#include "coordinator/launchers/worker_program.h"
 #include "proto/socket.h"
 
 namespace swarmsmith::cli {

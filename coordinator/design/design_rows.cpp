@@ -217,13 +217,15 @@ void DesignRunner::record_estimate(const TimeEstimated& estimated, std::vector<R
 
 void DesignRunner::record_unused(std::size_t until, std::vector<Row>& rows) {
   for (; consumed_ < until; ++consumed_) {
-    const StoredScore& score = given_[consumed_].score;
+    StoredScore& score = given_[consumed_].score;
+    score.iteration = 0;
     unused_.emplace(packed_key(score.key), score);
     record(UnusedRow{score.key}, rows);
   }
 }
 
 void DesignRunner::record_use(const StoredScore& score, std::vector<Row>& rows) const {
+  if (score.iteration != 0) return;
   record(EvaluationRow{.key = score.key,
                        .iteration = std::max<std::int64_t>(1, iteration_),
                        .status = score.status,

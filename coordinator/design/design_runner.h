@@ -176,7 +176,7 @@ class DesignRunner {
   /// What is stored under the key of this purpose and was not asked for.
   std::unordered_map<std::uint64_t, StoredScore>& known(Purpose purpose);
   void put(std::size_t position, const StoredScore& score);
-  /// The store has the evaluation, and takes the iteration from this row.
+  /// The store has the evaluation; when no iteration has used it so far, it takes it from this row.
   void record_use(const StoredScore& score, std::vector<Row>& rows) const;
   void record_pair(Purpose purpose, const Experiment& experiment, std::vector<Row>& rows) const;
   Expected<void> record_events(std::vector<Row>& rows);

@@ -27,7 +27,7 @@ struct DesignAnswer {
   std::set<std::int64_t> stepped;
   std::map<CandidateId, std::string> totals;
   std::optional<DesignStateRow> state;
-  std::set<std::uint64_t> used;  ///< keys of evaluations that the race has used
+  std::int64_t evaluations = 0;
 };
 
 std::optional<DesignId> design_of(const Row& row) {
@@ -59,8 +59,7 @@ void add(const Row& row, DesignAnswer& answer) {
   } else if (const auto* totals = std::get_if<CandidateTotalsRow>(&row)) {
     answer.totals[totals->candidate] = describe(row);
   } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
-    if (evaluation->key.purpose == Purpose::Race)
-      answer.used.insert(DesignRunner::packed_key(evaluation->key));
+    if (evaluation->key.purpose == Purpose::Race) ++answer.evaluations;
   } else if (const auto* pair = std::get_if<PairRow>(&row);
              pair && pair->purpose == Purpose::Race) {
     answer.pairs.emplace(pair->number, describe(row));
@@ -104,10 +103,10 @@ void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::s
     complaints.push_back(
         fmt::format("{}: the store ends with {}, its scores with {}", name, describe(*stored.state),
                     replayed.state ? describe(*replayed.state) : std::string("nothing")));
-  } else if (static_cast<std::int64_t>(stored.used.size()) != replayed.state->used) {
+  } else if (stored.evaluations != replayed.state->used) {
     complaints.push_back(
         fmt::format("{}: {} evaluations are stored as used by the race, which used {}", name,
-                    stored.used.size(), replayed.state->used));
+                    stored.evaluations, replayed.state->used));
   }
 }
 
@@ -119,10 +118,10 @@ std::vector<CommandRow> acted(std::vector<CommandRow> commands) {
 
 /// Scores that count for the race or its tests, and that these did not ask for; what was computed
 /// ahead or was let go by a cancel counts nowhere.
-std::size_t unasked_but_used(const StoredDesign& unasked, const DesignAnswer& stored) {
+std::size_t unasked_but_used(const StoredDesign& unasked) {
   std::size_t count = unasked.test_scores.size() + unasked.evaluator_scores.size();
   for (const auto& [key, score] : unasked.race_scores)
-    count += stored.used.contains(key);
+    count += score.iteration != 0;
   return count;
 }
 
@@ -166,17 +165,34 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
     complaints.push_back(
         fmt::format("{}: the store has a row that its scores do not give: {}", name, row));
   }
-  if (const std::size_t unasked = unasked_but_used(runner->unasked(), stored); unasked > 0) {
+  if (const std::size_t unasked = unasked_but_used(runner->unasked()); unasked > 0) {
     complaints.push_back(
         fmt::format("{}: {} stored evaluations were never asked for by the race", name, unasked));
   }
   if (finished) compare_finished(stored, replayed, name, complaints);
 }
 
+/// Evaluations of which two workers gave different bits: a sentence each, the first few.
+void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complaints) {
+  constexpr const char* kConflicts =
+      "SELECT 'e' || (candidate * 100000 + pair), kept_score, other_score, other_worker"
+      " FROM conflict ORDER BY candidate, purpose, pair";
+  const auto found = store.query(
+      kConflicts, {.rows = 20}, [](const auto&) {},
+      [&](const std::vector<StoreReader::Cell>& cells) {
+        complaints.push_back(fmt::format(
+            "evaluation {}: the score {} is kept, and worker {} gave {}; a worker is wrong, or the "
+            "campaign is not deterministic",
+            cells[0].text, cells[1].text, cells[3].text, cells[2].text));
+      });
+  if (!found) complaints.push_back(to_string(found.error()));
+}
+
 }  // namespace
 
 Verification verify(StoreReader& store, std::vector<DesignPlan> plans) {
   Verification result{.complaints = store.integrity()};
+  complain_of_conflicts(store, result.complaints);
   std::map<DesignId, DesignAnswer> stored;
   store.each_answer_row([&](const Row& row) {
     if (const auto id = design_of(row)) add(row, stored[*id]);

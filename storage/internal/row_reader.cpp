@@ -183,14 +183,16 @@ std::vector<StoredScore> read_scores(const sqlite::Connection& connection) {
   std::vector<StoredScore> scores;
   const std::string times = is_first_schema(connection) ? "NULL, NULL" : "time, bound";
   Statement row(connection, "SELECT candidate, purpose, pair, status, score, state_digest, " +
-                                times + " FROM evaluation ORDER BY candidate, purpose, pair");
+                                times +
+                                ", iteration FROM evaluation ORDER BY candidate, purpose, pair");
   while (row.step()) {
     scores.push_back({.key = key_at(row, 0),
                       .status = static_cast<EvaluationStatus>(row.integer(3)),
                       .score = row.real(4),
                       .state_digest = row.bits(5),
                       .time = row.real(6),
-                      .bound = row.real(7)});
+                      .bound = row.real(7),
+                      .iteration = row.integer(8)});
   }
   return scores;
 }

@@ -104,23 +104,37 @@ RacedCampaign::RacedCampaign(const CampaignShape& shape, const SimulatedDisk& di
     : RacedCampaign(shape, by_design(disk.scores(), disk.steps(), finished_on(disk)),
                     finished_on(disk)) {
   for (const StoredScore& score : disk.scores())
-    asked_.emplace(pack(score.key), true);
+    asked_.emplace(pack(score.key), Asked{.told = true});
 }
 
 std::vector<Task> RacedCampaign::take_tasks() {
   std::vector<Task> tasks = runner_.take_tasks();
-  for (const Task& task : tasks) {
-    if (!asked_.emplace(pack(task.key), false).second)
-      complaint_ = "asked for what was asked for or stored before";
-  }
+  for (const Task& task : tasks)
+    note(task);
   return tasks;
+}
+
+std::vector<Task> RacedCampaign::take_more(std::size_t count) {
+  std::vector<Task> tasks = runner_.take_more(count);
+  for (const Task& task : tasks)
+    note(task);
+  return tasks;
+}
+
+/// Once ahead and once wanted, as long as there is no outcome.
+void RacedCampaign::note(const Task& task) {
+  const auto [at, is_new] = asked_.try_emplace(pack(task.key), Asked{.ahead = task.ahead});
+  if (is_new) return;
+  const bool is_wanted_now = at->second.ahead && !at->second.told && !task.ahead;
+  if (!is_wanted_now) complaint_ = "asked for what was asked for or stored before";
+  at->second.ahead = false;
 }
 
 void RacedCampaign::tell(const Outcome& outcome) {
   const auto asked = asked_.find(pack(outcome.key));
   if (asked == asked_.end()) {
     complaint_ = "told what was never asked";
-  } else if (std::exchange(asked->second, true)) {
+  } else if (std::exchange(asked->second.told, true)) {
     complaint_ = "told twice";
   } else {
     runner_.tell(outcome);

@@ -46,6 +46,8 @@ class RacedCampaign final : public WorkSource {
                 std::vector<DesignId> finished);
 
   std::vector<Task> take_tasks() override;
+  std::vector<Task> take_more(std::size_t count) override;
+  std::vector<EvaluationKey> take_dropped() override { return runner_.take_dropped(); }
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override { return runner_.take_rows(); }
   bool finished() const override { return runner_.finished(); }
@@ -54,8 +56,15 @@ class RacedCampaign final : public WorkSource {
   std::string complaint() const;
 
  private:
+  /// What is known of an evaluation that was asked for.
+  struct Asked {
+    bool ahead = false;  ///< nobody has wanted it yet
+    bool told = false;
+  };
+  void note(const Task& task);
+
   CampaignRunner runner_;
-  std::map<PackedKey, bool> asked_;  ///< whether it was told
+  std::map<PackedKey, Asked> asked_;
   std::string complaint_;
 };
 

@@ -50,6 +50,36 @@ TEST(SimulatedCluster, NeedsFewEventsWithoutFaults) {
   SimulatedCluster cluster({.seed = 1, .faults = {}, .campaign = {}});
   EXPECT_EQ(cluster.run(), "");
   EXPECT_LT(cluster.events(), 2000U);
+  EXPECT_GT(cluster.audited(), 0U);
+}
+
+TEST(SimulatedCluster, IsNotHeldUpByASlowWorker) {
+  Duration normal{0};
+  Duration slow{0};
+  std::uint64_t copies = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    for (const bool has_slow : {false, true}) {
+      SimulatedCluster cluster({.seed = seed, .campaign = {.seed = seed}, .slow_worker = has_slow});
+      EXPECT_EQ(cluster.run(), "") << seed;
+      (has_slow ? slow : normal) += cluster.took();
+      if (has_slow) copies += cluster.counters().copies;
+    }
+  }
+  EXPECT_GT(copies, 50U);
+  // Without second copies it is more than ten times as long.
+  EXPECT_LT(slow, 4 * normal);
+}
+
+TEST(SimulatedCluster, LooksAheadAndSharesThePoolAmongCampaigns) {
+  std::uint64_t ahead = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    SimulatedCluster cluster({.seed = seed,
+                              .campaign = {.seed = seed, .designs = 3},
+                              .other = CampaignShape{.seed = seed + 100, .designs = 2}});
+    EXPECT_EQ(cluster.run(), "") << seed;
+    ahead += cluster.counters().ahead;
+  }
+  EXPECT_GT(ahead, 100U);
 }
 
 TEST(SimulatedCluster, RejectsWhatKillsItsWorkersThreeTimesAlone) {
@@ -59,8 +89,9 @@ TEST(SimulatedCluster, RejectsWhatKillsItsWorkersThreeTimesAlone) {
         {.seed = seed, .faults = {}, .campaign = {.seed = seed, .killing = true}});
     EXPECT_EQ(cluster.run(), "") << seed;
     if (cluster.killers() != 1) continue;
-    // Once among others, three times alone.
-    EXPECT_EQ(cluster.crashes(), 4) << seed;
+    // Once among others, perhaps once more as a second copy, three times alone.
+    EXPECT_GE(cluster.crashes(), 4) << seed;
+    EXPECT_LE(cluster.crashes(), 5) << seed;
     ++with_one;
   }
   EXPECT_GT(with_one, 0);

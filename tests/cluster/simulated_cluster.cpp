@@ -21,18 +21,22 @@ constexpr std::uint64_t kMaxEvents = 300'000;
 
 const char* const kScenario = "scenario";
 
-CoordinatorOptions coordinator_options(std::int64_t first_worker) {
+CoordinatorOptions coordinator_options(std::int64_t first_worker, std::size_t campaigns) {
   CoordinatorOptions options;
+  options.scheduler.campaigns.resize(campaigns);
   options.scheduler.first_worker = first_worker;
+  for (CampaignPolicy& policy : options.scheduler.campaigns)
+    policy.audit_every = 10;
   options.scenario = kScenario;
   return options;
 }
 
-/// 1 to 30 ms, a few of 400 ms; by the key alone.
-Duration time_of(PackedKey key) {
+/// 1 to 30 ms, a few of 400 ms; by the key alone. A slow worker stays below the time-out.
+Duration time_of(PackedKey key, int slowness) {
   const std::uint64_t bits = mix64(key * 7919U);
-  if (bits % 40 == 0) return milliseconds(400);
-  return microseconds(1000 + bits % 29'000);
+  const Duration quick =
+      bits % 40 == 0 ? Duration(milliseconds(400)) : Duration(microseconds(1000 + bits % 29'000));
+  return std::min<Duration>(quick * slowness, std::max<Duration>(quick, seconds(20)));
 }
 
 }  // namespace
@@ -54,6 +58,10 @@ Schedule schedule_of(std::uint64_t seed) {
                      .coordinator_crashes = up_to(3),
                      .pauses = up_to(3),
                      .slow_commit = one_of({0, 0.05, 0.5}),
+                     .clock_steps = rng.bernoulli(0.3) ? up_to(3) : 0,
+                     .total_crashes = rng.bernoulli(0.2) ? up_to(2) : 0,
+                     .full_disks = rng.bernoulli(0.2) ? up_to(2) : 0,
+                     .flaps = rng.bernoulli(0.2) ? up_to(2) : 0,
                      .until = milliseconds(rng.uniform_int(100, rng.bernoulli(0.8) ? 800 : 8000))};
   CampaignShape& campaign = schedule.campaign;
   campaign.seed = seed;
@@ -64,6 +72,13 @@ Schedule schedule_of(std::uint64_t seed) {
   campaign.failing = rng.bernoulli(0.4);
   campaign.killing = rng.bernoulli(0.2);
   campaign.hopeless = rng.bernoulli(0.1);
+  schedule.slow_worker = rng.bernoulli(0.1);
+  if (rng.bernoulli(0.15)) {
+    schedule.other = campaign;
+    schedule.other->seed = seed + 1;
+    schedule.other->designs = 1;
+    campaign.designs = 1;
+  }
   schedule.faults.commands = up_to(4);
   return schedule;
 }
@@ -71,8 +86,11 @@ Schedule schedule_of(std::uint64_t seed) {
 SimulatedCluster::SimulatedCluster(const Schedule& schedule)
     : schedule_(schedule), rng_(Rng(schedule.seed).split("cluster")), workers_(kWorkers) {
   faults_end_ = now_ + schedule_.faults.until;
+  campaigns_.push_back({.shape = schedule_.campaign});
+  if (schedule_.other) campaigns_.push_back({.shape = *schedule_.other});
   for (Worker& worker : workers_)
     worker.slots = static_cast<int>(rng_.uniform_int(1, 3));
+  if (schedule_.slow_worker) workers_.front().slowness = 100;
   start_coordinator();
   for (int i = 0; i < kWorkers; ++i)
     start_worker(i);
@@ -93,7 +111,12 @@ std::string SimulatedCluster::run() {
       if (now_ > limit) fail("the campaign does not end");
       continue;
     }
-    if (!std::exchange(over, true)) check_answer();
+    if (!std::exchange(over, true)) {
+      over_ = now_;
+      count();
+      for (Running& running : campaigns_)
+        check_answer(running);
+    }
     if (workers_are_quiet()) break;
     if (now_ > limit) fail("a worker keeps results that are on disk");
   }
@@ -101,24 +124,25 @@ std::string SimulatedCluster::run() {
 }
 
 /// As it was stored, and when it is derived again from nothing but the stored scores.
-void SimulatedCluster::check_answer() {
-  const std::vector<std::string> wanted = undisturbed(schedule_.campaign).answer();
-  const std::vector<std::string> stored = disk_.answer();
+void SimulatedCluster::check_answer(Running& running) {
+  const SimulatedDisk& disk = running.disk;
+  const std::vector<std::string> wanted = undisturbed(running.shape).answer();
+  const std::vector<std::string> stored = disk.answer();
   const auto [one, other] = std::ranges::mismatch(wanted, stored);
   if (one != wanted.end() || other != stored.end()) {
     fail("another answer than without faults: " + (other != stored.end() ? *other : "nothing") +
          ", and not " + (one != wanted.end() ? *one : "nothing"));
   }
-  if (!disk_.finished()) fail("the end of the campaign is not on disk");
-  for (const DesignStateRow& design : disk_.design_states()) {
+  if (!disk.finished()) fail("the end of the campaign is not on disk");
+  for (const DesignStateRow& design : disk.design_states()) {
     const bool over = design.state == DesignState::Finished || design.state == DesignState::Stopped;
     if (!over) fail("a design is not finished");
-    if (design.used > schedule_.campaign.budget) fail("a design used more than its budget");
+    if (design.used > running.shape.budget) fail("a design used more than its budget");
   }
-  RacedCampaign again(schedule_.campaign, by_design(disk_.scores(), {}, {}), {});
+  RacedCampaign again(running.shape, by_design(disk.scores(), {}, {}), {});
   if (!again.finished() || !again.take_tasks().empty()) fail("scores are missing on disk");
-  write(again.take_rows());
-  if (disk_.answer() != stored) fail("another answer when it is derived again");
+  write(running, again.take_rows());
+  if (disk.answer() != stored) fail("another answer when it is derived again");
 }
 
 void SimulatedCluster::fail(const std::string& what) {
@@ -164,7 +188,7 @@ void SimulatedCluster::plan_faults() {
   sometimes(faults.coordinator_crashes, [this](int) { crash_coordinator(); });
   sometimes(faults.worker_drains, [this](int worker) {
     on_process(worker, Duration{0}, [this, worker] {
-      workers_[static_cast<std::size_t>(worker)].protocol->on_drain(now_);
+      workers_[static_cast<std::size_t>(worker)].protocol->on_drain(clock(worker));
       settle_worker(worker);
     });
   });
@@ -172,12 +196,38 @@ void SimulatedCluster::plan_faults() {
     const int index = rng_.bernoulli(0.3) ? kCoordinator : worker;
     process(index).paused_until = now_ + between(milliseconds(10), seconds(12));
   });
+  sometimes(faults.clock_steps, [this](int worker) {
+    const int index = rng_.bernoulli(0.3) ? kCoordinator : worker;
+    process(index).skew += between(-seconds(20), seconds(60));
+    // Timers of the system fire by the new time.
+    if (index != kCoordinator && process(index).alive) {
+      on_process(index, Duration{0}, [this, index] { settle_worker(index); });
+    }
+  });
+  sometimes(faults.total_crashes, [this](int) {
+    for (int i = 0; i < kWorkers; ++i)
+      crash_worker(i);
+    crash_coordinator();
+  });
+  sometimes(faults.full_disks,
+            [this](int) { disk_full_until_ = now_ + between(milliseconds(10), seconds(20)); });
+  sometimes(faults.flaps, [this](int worker) { flap(worker, 10); });
   sometimes(faults.cuts, [this](int worker) {
     const TimePoint until = now_ + between(milliseconds(10), seconds(8));
     const std::uint64_t ways = rng_.below(3);
     if (ways != 0) process(worker).cut_in_until = until;
     if (ways != 1) process(worker).cut_out_until = until;
   });
+}
+
+/// A cable that is out and in again, a few times.
+void SimulatedCluster::flap(int worker, int times) {
+  if (times == 0) return;
+  const TimePoint until = now_ + between(milliseconds(5), seconds(2));
+  process(worker).cut_in_until = until;
+  process(worker).cut_out_until = until;
+  at(until + between(milliseconds(1), milliseconds(200)),
+     [this, worker, times] { flap(worker, times - 1); });
 }
 
 // --- a person ---
@@ -196,9 +246,10 @@ void SimulatedCluster::plan_commands() {
 
 void SimulatedCluster::command(pb::Command::Kind kind, std::int64_t design) {
   pb::ToCoordinator message;
+  message.mutable_command()->set_campaign("cluster0");
   message.mutable_command()->set_kind(kind);
   message.mutable_command()->set_design(design);
-  coordinator_->on_frame({kPerson, Role::Operator}, encode(message), now_);
+  coordinator_->on_frame({kPerson, Role::Operator}, encode(message), clock(kCoordinator));
   settle_coordinator();
 }
 
@@ -210,7 +261,7 @@ void SimulatedCluster::resume_all() {
   command(pb::Command::KIND_RESUME, 0);
   if (!coordinator_->paused().empty() && !coordinator_->finished()) {
     // Of a design that is over nobody cares.
-    for (const DesignId design : campaign_->unfinished()) {
+    for (const DesignId design : campaigns_.front().source->unfinished()) {
       if (coordinator_->paused().contains(design)) fail("a design stays paused");
     }
   }
@@ -231,12 +282,12 @@ void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string
       const Connection& over = connections_.at(connection);
       if (to == kCoordinator) {
         if (over.coordinator_life != coordinator_process_.life) return;
-        coordinator_->on_frame({connection}, frame, now_);
+        coordinator_->on_frame({connection}, frame, clock(kCoordinator));
         settle_coordinator();
       } else {
         Worker& worker = workers_[static_cast<std::size_t>(to)];
         if (worker.connection != connection) return;
-        worker.protocol->on_frame(frame, now_);
+        worker.protocol->on_frame(frame, clock(to));
         settle_worker(to);
       }
       (void)from;
@@ -256,7 +307,7 @@ void SimulatedCluster::connect(int index) {
   on_process(index, milliseconds(1), [this, index, connection = worker.connection] {
     Worker& it = workers_[static_cast<std::size_t>(index)];
     if (it.connection != connection) return;
-    it.protocol->on_connection_lost(now_);
+    it.protocol->on_connection_lost(clock(index));
     settle_worker(index);
   });
 }
@@ -282,7 +333,8 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
   if (!message) return fail("the coordinator sent a frame that is malformed");
   for (const pb::Key& key : (*message)->acknowledged().keys()) {
     const PackedKey packed = *pack(key);
-    if (!disk_.holds(packed) && !failed_.contains(packed)) fail("acknowledged what is not on disk");
+    const SimulatedDisk& disk = campaigns_.at(campaign_of(packed)).disk;
+    if (!disk.holds(packed) && !failed_.contains(packed)) fail("acknowledged what is not on disk");
   }
 }
 
@@ -292,10 +344,11 @@ void SimulatedCluster::check_confirmed(const std::string& frame) {
   const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);
   if (!message || !(*message)->has_command_reply()) return fail("no reply to a command");
   const auto is_command = [](const Row& row) { return std::holds_alternative<CommandRow>(row); };
-  const bool more = std::ranges::any_of(uncommitted_, [&](const Batch& batch) {
+  const Running& running = campaigns_.front();
+  const bool more = std::ranges::any_of(running.uncommitted, [&](const Batch& batch) {
     return std::ranges::any_of(batch.rows, is_command);
   });
-  if (!more && paused_designs(disk_.commands()) != coordinator_->paused())
+  if (!more && paused_designs(running.disk.commands()) != coordinator_->paused())
     fail("what a person was told of is not on disk");
 }
 
@@ -306,15 +359,26 @@ void SimulatedCluster::start_coordinator() {
   ++it.life;
   it.alive = true;
   it.paused_until = {};
-  campaign_ = std::make_unique<RacedCampaign>(schedule_.campaign, disk_);
-  const std::vector<StoredScore> known = disk_.scores();
-  const std::vector<CommandRow> commands = disk_.commands();
-  coordinator_ = std::make_unique<Coordinator>(
-      coordinator_options(disk_.next_worker()),
-      std::vector<CampaignWork>{
-          {.digest = "cluster", .source = campaign_.get(), .known = known, .commands = commands}});
-  tickets_ = 0;
-  uncommitted_.clear();
+  std::int64_t first_worker = 1;
+  std::vector<std::vector<StoredScore>> known;
+  std::vector<std::vector<CommandRow>> commands;
+  std::vector<CampaignWork> works;
+  known.reserve(campaigns_.size());
+  commands.reserve(campaigns_.size());
+  for (Running& running : campaigns_) {
+    running.source = std::make_unique<RacedCampaign>(running.shape, running.disk);
+    running.tickets = 0;
+    running.uncommitted.clear();
+    first_worker = std::max(first_worker, running.disk.next_worker());
+    known.push_back(running.disk.scores());
+    commands.push_back(running.disk.commands());
+    works.push_back({.digest = "cluster" + std::to_string(works.size()),
+                     .source = running.source.get(),
+                     .known = known.back(),
+                     .commands = commands.back()});
+  }
+  coordinator_ =
+      std::make_unique<Coordinator>(coordinator_options(first_worker, campaigns_.size()), works);
   on_process(kCoordinator, Duration{0}, [this] { tick_coordinator(); });
 }
 
@@ -322,20 +386,24 @@ void SimulatedCluster::crash_coordinator() {
   if (!coordinator_process_.alive) return;
   ++crashes_;
   coordinator_process_.alive = false;
+  count();
   coordinator_.reset();
-  campaign_.reset();
-  // Some of what waited for the disk may have come there all the same.
-  const std::uint64_t written = rng_.below(uncommitted_.size() + 1);
-  for (std::uint64_t i = 0; i < written; ++i)
-    write(uncommitted_[i].rows);
-  uncommitted_.clear();
+  for (Running& running : campaigns_) {
+    running.source.reset();
+    // Some of what waited for the disk may have come there all the same.
+    const bool full = now_ < disk_full_until_;
+    const std::uint64_t written = full ? 0 : rng_.below(running.uncommitted.size() + 1);
+    for (std::uint64_t i = 0; i < written; ++i)
+      write(running, running.uncommitted[i].rows);
+    running.uncommitted.clear();
+  }
   const bool noticed = rng_.bernoulli(0.7);
   for (int i = 0; i < kWorkers; ++i) {
     Worker& worker = workers_[static_cast<std::size_t>(i)];
     if (worker.connection != 0) connections_[worker.connection].open = false;
     if (!noticed) continue;
     on_process(i, between(Duration{0}, milliseconds(5)), [this, i] {
-      workers_[static_cast<std::size_t>(i)].protocol->on_connection_lost(now_);
+      workers_[static_cast<std::size_t>(i)].protocol->on_connection_lost(clock(i));
       settle_worker(i);
     });
   }
@@ -343,65 +411,101 @@ void SimulatedCluster::crash_coordinator() {
 }
 
 void SimulatedCluster::tick_coordinator() {
-  coordinator_->on_tick(now_);
+  coordinator_->on_tick(clock(kCoordinator));
   settle_coordinator();
   on_process(kCoordinator, milliseconds(100), [this] { tick_coordinator(); });
 }
 
 void SimulatedCluster::settle_coordinator() {
-  for (auto actions = coordinator_->take_actions(now_); !actions.empty();
-       actions = coordinator_->take_actions(now_)) {
+  for (auto actions = coordinator_->take_actions(clock(kCoordinator)); !actions.empty();
+       actions = coordinator_->take_actions(clock(kCoordinator))) {
     for (CoordinatorAction& action : actions) {
       std::visit(Overloaded{[&](const SendFrame& send) {
                               if (send.peer == kPerson) return check_confirmed(send.frame);
                               check_acknowledged(send.frame);
                               if (to_worker(send.peer, send.frame) == SendStatus::Gone) {
-                                coordinator_->on_unreachable(send.peer, now_);
+                                coordinator_->on_unreachable(send, clock(kCoordinator));
                               }
                             },
-                            [&](AppendRows& rows) { append(std::move(rows.rows)); },
+                            [&](AppendRows& rows) { append(rows.campaign, std::move(rows.rows)); },
                             [](const AnswerStatus&) {}},
                  action);
     }
   }
   check_leases();
-  if (const std::string complaint = campaign_->complaint(); !complaint.empty()) fail(complaint);
-  if (coordinator_->stopped()) fail("stopped: " + *coordinator_->stopped());
+  for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
+    const std::string complaint = campaigns_[index].source->complaint();
+    if (!complaint.empty()) fail(complaint);
+    if (coordinator_->stopped(index)) fail("stopped: " + *coordinator_->stopped(index));
+  }
 }
 
-void SimulatedCluster::append(std::vector<Row> rows) {
-  uncommitted_.push_back({++tickets_, std::move(rows)});
-  coordinator_->on_appended(0, tickets_);
+void SimulatedCluster::append(std::uint32_t campaign, std::vector<Row> rows) {
+  Running& running = campaigns_[campaign];
+  running.uncommitted.push_back({++running.tickets, std::move(rows)});
+  coordinator_->on_appended(campaign, running.tickets);
   const bool slow = rng_.bernoulli(schedule_.faults.slow_commit);
   const Duration delay = slow ? between(milliseconds(10), milliseconds(800))
                               : between(microseconds(200), milliseconds(2));
-  last_commit_ = std::max(last_commit_, now_ + delay);
+  running.last_commit = std::max(running.last_commit, now_ + delay);
   // The disk goes on while the process is paused, but its word is heard afterwards.
-  on_process(kCoordinator, last_commit_ - now_, [this] { commit(); });
+  on_process(kCoordinator, running.last_commit - now_, [this, campaign] { commit(campaign); });
 }
 
-void SimulatedCluster::commit() {
-  if (uncommitted_.empty()) return;
-  const Batch batch = std::move(uncommitted_.front());
-  uncommitted_.pop_front();
-  write(batch.rows);
-  coordinator_->on_committed(0, batch.ticket);
+void SimulatedCluster::commit(std::uint32_t campaign) {
+  Running& running = campaigns_[campaign];
+  if (running.uncommitted.empty()) return;
+  if (now_ < disk_full_until_) {
+    coordinator_->hold(true);
+    on_process(kCoordinator, disk_full_until_ - now_, [this, campaign] { commit(campaign); });
+    return;
+  }
+  coordinator_->hold(false);
+  const Batch batch = std::move(running.uncommitted.front());
+  running.uncommitted.pop_front();
+  write(running, batch.rows);
+  coordinator_->on_committed(campaign, batch.ticket);
   settle_coordinator();
 }
 
-void SimulatedCluster::write(const std::vector<Row>& rows) {
-  if (const std::string complaint = disk_.commit(rows); !complaint.empty()) fail(complaint);
+void SimulatedCluster::write(Running& running, const std::vector<Row>& rows) {
+  if (const std::string complaint = running.disk.commit(rows); !complaint.empty()) fail(complaint);
 }
 
+/// Of a coordinator that ends.
+void SimulatedCluster::count() {
+  const SchedulerCounters& last = coordinator_->scheduler().counters();
+  counters_.copies += last.copies;
+  counters_.ahead += last.ahead;
+  counters_.duplicates += last.duplicates;
+}
+
+/// Every lease is of a worker that is there, and the counts of tasks, of copies, of designs and of
+/// workers are those of the leases.
 void SimulatedCluster::check_leases() {
   const LeaseTable& leases = coordinator_->scheduler().leases();
   std::size_t leased = 0;
+  std::size_t wanted = 0;
   for (const auto& [number, entry] : coordinator_->scheduler().workers().all()) {
-    const std::size_t held = leases.leases_of(number).size();
-    if (held > 0 && !entry.connected) fail("a lease of a worker that is not there");
-    leased += held;
+    const WorkerLoad& load = leases.loads().of(number);
+    if (load.held() > 0 && !entry.connected) fail("a lease of a worker that is not there");
+    leased += load.leases.size();
+    std::size_t ahead = 0;
+    for (const PackedKey key : load.leases) {
+      const TaskRecord& record = *leases.find(key);
+      const bool is_second = record.second && record.second->worker == number;
+      if (is_second == (record.lease->worker == number)) fail("a lease of somebody else");
+      if (is_second && (record.task.ahead || record.alone)) fail("a copy that nobody needs");
+      if (record.task.ahead) ++ahead;
+      if (!record.task.ahead && !is_second) ++wanted;
+    }
+    if (ahead != load.ahead) fail("look-ahead of a worker is miscounted");
   }
-  if (leased != leases.leased()) fail("a lease that belongs to nobody");
+  if (leased != leases.leased() + leases.copies()) fail("a lease that belongs to nobody");
+  std::size_t of_designs = 0;
+  for (const auto& [id, design] : leases.queues().all())
+    of_designs += design.wanted_leased;
+  if (wanted != leases.wanted_leased() || wanted != of_designs) fail("leases are miscounted");
 }
 
 // --- workers ---
@@ -420,7 +524,7 @@ void SimulatedCluster::start_worker(int index) {
   worker.protocol = std::make_unique<WorkerProtocol>(
       WorkerIdentity{.id = id, .slots = worker.slots, .host = "here"}, WorkerOptions{},
       rng_.split("jitter", order_));
-  worker.protocol->start(now_);
+  worker.protocol->start(clock(index));
   settle_worker(index);
 }
 
@@ -464,7 +568,7 @@ void SimulatedCluster::carry_out(int index, WorkerAction& action) {
                    for (const WorkItem& item : worker.waiting)
                      keys.push_back(item.key);
                    worker.waiting.clear();
-                   worker.protocol->on_taken_back(keys, now_);
+                   worker.protocol->on_taken_back(keys, clock(index));
                  },
                  [&](DropItems) { worker.waiting.clear(); },
                  [&](const Leave& leave) {
@@ -482,14 +586,16 @@ void SimulatedCluster::start_items(int index) {
     const WorkItem item = std::move(worker.waiting.front());
     worker.waiting.pop_front();
     ++worker.running;
-    worker.protocol->on_started(item.key, now_);
-    on_process(index, time_of(item.key), [this, index, item] { finish_item(index, item); });
+    worker.protocol->on_started(item.key, clock(index));
+    on_process(index, time_of(item.key, worker.slowness),
+               [this, index, item] { finish_item(index, item); });
   }
 }
 
 void SimulatedCluster::finish_item(int index, const WorkItem& item) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
-  const Truth truth = truth_of(schedule_.campaign, {item.mission, item.machine, item.seed});
+  const CampaignShape& shape = campaigns_.at(campaign_of(item.key)).shape;
+  const Truth truth = truth_of(shape, {item.mission, item.machine, item.seed});
   if (truth.kind == Truth::Kind::Kills) {
     killers_.insert(item.key);
     return crash_worker(index);
@@ -502,15 +608,18 @@ void SimulatedCluster::finish_item(int index, const WorkItem& item) {
        .attempt = item.attempt,
        .score = truth.score,
        .state_digest = truth.state_digest,
-       .wall_us = std::chrono::duration_cast<microseconds>(time_of(item.key)).count(),
+       .wall_us =
+           std::chrono::duration_cast<microseconds>(time_of(item.key, worker.slowness)).count(),
        .failure = fails ? "planted" : ""},
-      now_);
+      clock(index));
   settle_worker(index);
 }
 
 void SimulatedCluster::schedule_tick(int index) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
-  const TimePoint due = std::max(worker.protocol->next_deadline(), now_ + microseconds(100));
+  // The protocol thinks in its own host's time.
+  const TimePoint due =
+      std::max(worker.protocol->next_deadline() - worker.process.skew, now_ + microseconds(100));
   const bool pending = worker.tick_at > now_ && worker.tick_at <= due;
   if (pending) return;
   worker.tick_at = due;
@@ -518,7 +627,7 @@ void SimulatedCluster::schedule_tick(int index) {
     Worker& it = workers_[static_cast<std::size_t>(index)];
     if (it.tick_at != due) return;
     it.tick_at = {};
-    it.protocol->on_tick(now_);
+    it.protocol->on_tick(clock(index));
     settle_worker(index);
   });
 }

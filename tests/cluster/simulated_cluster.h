@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <queue>
 #include <set>
 #include <string>
@@ -32,6 +33,10 @@ struct Faults {
   int pauses = 0;          ///< of a process that lives on
   double slow_commit = 0;  ///< probability, a commit
   int commands = 0;        ///< of a person who pauses and resumes designs
+  int clock_steps = 0;     ///< of one process's clock, by up to a minute, forwards or back
+  int total_crashes = 0;   ///< of coordinator and workers at once
+  int full_disks = 0;      ///< for up to 20 s nothing can be committed
+  int flaps = 0;           ///< a worker's link goes down and up ten times
   Duration until = std::chrono::seconds(0);
 };
 
@@ -39,6 +44,9 @@ struct Schedule {
   std::uint64_t seed = 1;
   Faults faults;
   CampaignShape campaign;
+  /// A second campaign in the same pool.
+  std::optional<CampaignShape> other{};
+  bool slow_worker = false;  ///< one of them takes a hundred times as long
 };
 
 /// A schedule out of a seed: some kinds of faults, rare or dense.
@@ -57,8 +65,14 @@ class SimulatedCluster {
   /// Events so far; for the tests' own sanity.
   std::uint64_t events() const { return order_; }
   int crashes() const { return crashes_; }
+  /// Evaluations of the last coordinator that were made twice.
+  std::uint64_t audited() const { return coordinator_->scheduler().counters().audited; }
   /// Evaluations that killed a worker.
   std::size_t killers() const { return killers_.size(); }
+  /// Until all campaigns were over.
+  Duration took() const { return over_ - begun_; }
+  /// What the schedulers did, those of coordinators that crashed included.
+  const SchedulerCounters& counters() const { return counters_; }
 
  private:
   static constexpr int kWorkers = 3;
@@ -80,11 +94,13 @@ class SimulatedCluster {
     TimePoint paused_until;
     TimePoint cut_in_until;   ///< messages to it are lost
     TimePoint cut_out_until;  ///< messages from it are lost
+    Duration skew{0};         ///< its host's clock less the true time
   };
   struct Worker {
     Process process;
     std::unique_ptr<WorkerProtocol> protocol;
     int slots = 1;
+    int slowness = 1;
     PeerId connection = 0;
     std::deque<WorkItem> waiting;
     int running = 0;
@@ -100,16 +116,27 @@ class SimulatedCluster {
     std::uint64_t ticket = 0;
     std::vector<Row> rows;
   };
+  /// A campaign, and the disk with its store.
+  struct Running {
+    CampaignShape shape;
+    SimulatedDisk disk{};
+    std::unique_ptr<RacedCampaign> source{};
+    std::deque<Batch> uncommitted{};
+    std::uint64_t tickets = 0;
+    TimePoint last_commit{};
+  };
 
   // Events.
   void at(TimePoint when, std::function<void()> what);
   void on_process(int process, Duration delay, std::function<void()> what);
   Process& process(int index);
   Duration between(Duration low, Duration high);
+  TimePoint clock(int index) { return now_ + process(index).skew; }
   void plan_faults();
   void plan_commands();
   void command(pb::Command::Kind kind, std::int64_t design);
   void resume_all();
+  void flap(int worker, int times);
   void fail(const std::string& what);
 
   // Network.
@@ -125,11 +152,12 @@ class SimulatedCluster {
   void crash_coordinator();
   void settle_coordinator();
   void tick_coordinator();
-  void append(std::vector<Row> rows);
-  void commit();
-  void write(const std::vector<Row>& rows);
+  void append(std::uint32_t campaign, std::vector<Row> rows);
+  void commit(std::uint32_t campaign);
+  void write(Running& running, const std::vector<Row>& rows);
   void check_leases();
-  void check_answer();
+  void check_answer(Running& running);
+  void count();
 
   // Workers.
   void start_worker(int index);
@@ -144,19 +172,19 @@ class SimulatedCluster {
   Schedule schedule_;
   Rng rng_;
   TimePoint now_{std::chrono::seconds(1000)};
+  TimePoint begun_ = now_;
+  TimePoint over_;
   TimePoint faults_end_;
   std::priority_queue<Event> queue_;
   std::uint64_t order_ = 0;
   std::string failure_;
   int crashes_ = 0;
+  SchedulerCounters counters_;
 
   Process coordinator_process_;
-  std::unique_ptr<RacedCampaign> campaign_;
+  std::vector<Running> campaigns_;
   std::unique_ptr<Coordinator> coordinator_;
-  SimulatedDisk disk_;
-  std::deque<Batch> uncommitted_;
-  std::uint64_t tickets_ = 0;
-  TimePoint last_commit_;
+  TimePoint disk_full_until_;
 
   std::vector<Worker> workers_;
   std::set<PackedKey> failed_;   ///< said once to have no score

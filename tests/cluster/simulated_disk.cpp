@@ -135,7 +135,11 @@ std::vector<Kind> SimulatedDisk::rows_of() const {
 std::vector<StoredScore> SimulatedDisk::scores() const {
   std::vector<StoredScore> scores;
   for (const EvaluationRow& row : rows_of<EvaluationRow>())
-    scores.push_back({row.key, row.status, row.score, row.state_digest});
+    scores.push_back({.key = row.key,
+                      .status = row.status,
+                      .score = row.score,
+                      .state_digest = row.state_digest,
+                      .iteration = row.iteration});
   return scores;
 }
 

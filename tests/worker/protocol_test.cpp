@@ -1,6 +1,8 @@
 #include "worker/protocol.h"
 
 #include <gtest/gtest.h>
+#include <algorithm>
+#include <numeric>
 
 namespace swarmsmith {
 namespace {
@@ -299,6 +301,38 @@ TEST_F(Protocol, SaysHelloAgainWhenItIsNotKnown) {
   EXPECT_EQ(said[0].body_case(), pb::ToCoordinator::kHello);
   EXPECT_EQ(said[0].incarnation(), 2U);
   EXPECT_EQ(connections, 1);
+}
+
+TEST(ManyWorkers, DoNotComeBackInStep) {
+  // A thousand of them lose a coordinator that is away for a minute.
+  constexpr int kWorkers = 1000;
+  std::vector<WorkerProtocol> workers;
+  TimePoint now{seconds(100)};
+  for (std::uint64_t i = 0; i < kWorkers; ++i) {
+    workers.emplace_back(WorkerIdentity{.id = std::string(kWorkerIdBytes, 'w')}, WorkerOptions{},
+                         Rng(i));
+    workers.back().start(now);
+    workers.back().take_actions();
+  }
+  std::vector<int> hellos;  // in each tenth of a second
+  for (int tick = 0; tick < 6000; ++tick, now += milliseconds(10)) {
+    if (tick % 10 == 0) hellos.push_back(0);
+    for (WorkerProtocol& worker : workers) {
+      worker.on_tick(now);
+      for (const WorkerAction& action : worker.take_actions()) {
+        if (!std::holds_alternative<OpenConnection>(action)) continue;
+        ++hellos.back();
+        worker.on_connection_lost(now);  // nobody listens
+      }
+      // The first one was lost with the coordinator.
+      if (tick == 0) worker.on_connection_lost(now);
+    }
+  }
+  const int all = std::accumulate(hellos.begin(), hellos.end(), 0);
+  EXPECT_GT(all, 8 * kWorkers);
+  EXPECT_LT(all, 14 * kWorkers);
+  // From the time when pauses are 10 s: evenly spread, a thousand in ten seconds.
+  EXPECT_LT(*std::max_element(hellos.begin() + 300, hellos.end()), 60);
 }
 
 TEST_F(Protocol, IgnoresRubbish) {

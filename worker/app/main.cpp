@@ -3,11 +3,14 @@
 #include <sys/prctl.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
+#include <array>
 #include <atomic>
+#include <cerrno>
 #include <csignal>
 #include <cstdlib>
 #include <exception>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "access/find_coordinator.h"
@@ -54,9 +57,24 @@ struct Arguments {
   int slots = 0;
   bool die_with_parent = false;
   pid_t parent = 0;
+  bool watch_input = false;
   std::vector<std::string> allow;
   bool allow_shell = false;
 };
+
+/// Drains when standard input ends. A thread does nothing but wait for that: a signal that ends
+/// the process does not have to wait for it.
+void watch_input() {
+  std::thread([] {
+    std::array<char, 256> ignored{};
+    ssize_t size = 0;
+    do {
+      size = read(STDIN_FILENO, ignored.data(), ignored.size());
+    } while (size > 0 || (size < 0 && errno == EINTR));
+    g_drain = true;
+    g_wakeup->notify();
+  }).detach();
+}
 
 Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
   AllowedPrograms allowed;
@@ -112,6 +130,7 @@ int run(const Arguments& arguments) {
   if (!options) return fail(options.error());
   Wakeup wakeup;
   handle_signals(wakeup);
+  if (arguments.watch_input) watch_input();
   Pool pool(slots, make_evaluators(std::move(*allowed)), [&wakeup] { wakeup.notify(); });
   log(LogLevel::Debug, "worker", "started",
       {{"coordinator", arguments.connect.empty() ? arguments.coordinator : arguments.connect},
@@ -151,6 +170,9 @@ int run_command_line(int argc, char** argv) {
   app.add_flag("--die-with-parent", arguments.die_with_parent,
                "Be killed when the process that started this one ends");
   app.add_option("--parent", arguments.parent, "Process id of that process")->group("");
+  app.add_flag(
+      "--watch-input", arguments.watch_input,
+      "Drain when standard input ends: for a worker that somebody holds by a pipe, as ssh");
   app.add_option("--allow", arguments.allow,
                  "A program that campaigns may run here in place of the simulator; repeatable. "
                  "It is run with whatever arguments the campaign has")

@@ -18,11 +18,8 @@ struct Memory {
 
   std::vector<StoredScore> scores() const {
     std::vector<StoredScore> found;
-    for (const Row& row : rows) {
-      if (const auto* e = std::get_if<EvaluationRow>(&row)) {
-        found.push_back({e->key, e->status, e->score, e->state_digest, e->time, e->bound});
-      }
-    }
+    for (const auto& [key, e] : evaluations())
+      found.push_back({key, e.status, e.score, e.state_digest, e.time, e.bound, e.iteration});
     return found;
   }
   template <class Kind>
