@@ -234,6 +234,7 @@ void Scheduler::on_unreachable(PeerId peer, TimePoint now, std::span<const Packe
   if (entry == nullptr) return;
   // What the worker never got did not kill it.
   for (auto key = undelivered.rbegin(); key != undelivered.rend(); ++key) {
+    leases_.loads().settle(entry->number, *key);
     TaskRecord* record = leases_.find(*key);
     if (record == nullptr || record->lease_of(entry->number) == nullptr) continue;
     if (record->second) record->copied = false;

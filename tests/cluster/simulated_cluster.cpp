@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/overloaded.h"
+#include "coordinator/paused_designs.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {
@@ -78,6 +79,7 @@ Schedule schedule_of(std::uint64_t seed) {
     schedule.other->designs = 1;
     campaign.designs = 1;
   }
+  schedule.faults.commands = up_to(4);
   return schedule;
 }
 
@@ -93,6 +95,7 @@ SimulatedCluster::SimulatedCluster(const Schedule& schedule)
   for (int i = 0; i < kWorkers; ++i)
     start_worker(i);
   plan_faults();
+  plan_commands();
 }
 
 std::string SimulatedCluster::run() {
@@ -227,6 +230,43 @@ void SimulatedCluster::flap(int worker, int times) {
      [this, worker, times] { flap(worker, times - 1); });
 }
 
+// --- a person ---
+
+/// Pauses and resumes while things go wrong; at the end everything is resumed.
+void SimulatedCluster::plan_commands() {
+  for (int i = 0; i < schedule_.faults.commands; ++i) {
+    const auto kind = rng_.bernoulli(0.6) ? pb::Command::KIND_PAUSE : pb::Command::KIND_RESUME;
+    const std::int64_t design = rng_.uniform_int(0, schedule_.campaign.designs);
+    at(now_ + between(Duration{0}, schedule_.faults.until), [this, kind, design] {
+      on_process(kCoordinator, Duration{0}, [this, kind, design] { command(kind, design); });
+    });
+  }
+  if (schedule_.faults.commands > 0) at(faults_end_, [this] { resume_all(); });
+}
+
+void SimulatedCluster::command(pb::Command::Kind kind, std::int64_t design) {
+  pb::ToCoordinator message;
+  message.mutable_command()->set_campaign("cluster0");
+  message.mutable_command()->set_kind(kind);
+  message.mutable_command()->set_design(design);
+  coordinator_->on_frame({kPerson, Role::Operator}, encode(message), clock(kCoordinator));
+  settle_coordinator();
+}
+
+void SimulatedCluster::resume_all() {
+  if (!coordinator_process_.alive || now_ < coordinator_process_.paused_until) {
+    at(now_ + milliseconds(100), [this] { resume_all(); });
+    return;
+  }
+  command(pb::Command::KIND_RESUME, 0);
+  if (!coordinator_->paused().empty() && !coordinator_->finished()) {
+    // Of a design that is over nobody cares.
+    for (const DesignId design : campaigns_.front().source->unfinished()) {
+      if (coordinator_->paused().contains(design)) fail("a design stays paused");
+    }
+  }
+}
+
 // --- network ---
 
 void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string frame) {
@@ -298,6 +338,20 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
   }
 }
 
+/// Whoever asked is told when it is on disk: what the disk has is what will be after a crash.
+void SimulatedCluster::check_confirmed(const std::string& frame) {
+  google::protobuf::Arena arena;
+  const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);
+  if (!message || !(*message)->has_command_reply()) return fail("no reply to a command");
+  const auto is_command = [](const Row& row) { return std::holds_alternative<CommandRow>(row); };
+  const Running& running = campaigns_.front();
+  const bool more = std::ranges::any_of(running.uncommitted, [&](const Batch& batch) {
+    return std::ranges::any_of(batch.rows, is_command);
+  });
+  if (!more && paused_designs(running.disk.commands()) != coordinator_->paused())
+    fail("what a person was told of is not on disk");
+}
+
 // --- coordinator ---
 
 void SimulatedCluster::start_coordinator() {
@@ -307,17 +361,21 @@ void SimulatedCluster::start_coordinator() {
   it.paused_until = {};
   std::int64_t first_worker = 1;
   std::vector<std::vector<StoredScore>> known;
+  std::vector<std::vector<CommandRow>> commands;
   std::vector<CampaignWork> works;
   known.reserve(campaigns_.size());
+  commands.reserve(campaigns_.size());
   for (Running& running : campaigns_) {
     running.source = std::make_unique<RacedCampaign>(running.shape, running.disk);
     running.tickets = 0;
     running.uncommitted.clear();
     first_worker = std::max(first_worker, running.disk.next_worker());
     known.push_back(running.disk.scores());
+    commands.push_back(running.disk.commands());
     works.push_back({.digest = "cluster" + std::to_string(works.size()),
                      .source = running.source.get(),
-                     .known = known.back()});
+                     .known = known.back(),
+                     .commands = commands.back()});
   }
   coordinator_ =
       std::make_unique<Coordinator>(coordinator_options(first_worker, campaigns_.size()), works);
@@ -363,6 +421,7 @@ void SimulatedCluster::settle_coordinator() {
        actions = coordinator_->take_actions(clock(kCoordinator))) {
     for (CoordinatorAction& action : actions) {
       std::visit(Overloaded{[&](const SendFrame& send) {
+                              if (send.peer == kPerson) return check_confirmed(send.frame);
                               check_acknowledged(send.frame);
                               if (to_worker(send.peer, send.frame) == SendStatus::Gone) {
                                 coordinator_->on_unreachable(send, clock(kCoordinator));
