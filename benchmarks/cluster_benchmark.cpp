@@ -1,170 +1,119 @@
 // What does an evaluation cost the coordinator? Trivial evaluations through real sockets, into a
-// real store, with worker processes of one slot each.
+// real store. Without arguments: the table of docs/performance.md.
 //
-//   cluster_benchmark [EVALUATIONS [WORKERS [WORK_US]]]
+//   cluster_benchmark [--evaluations N] [--processes P] [--workers-each W] [--slots S]
+//                     [--spin-us T | --sleep-us T] [--window N] [--curve] [--memory] [--json]
 
-#include <sys/resource.h>
-#include <unistd.h>
-#include <atomic>
-#include <chrono>
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
 #include <cstdio>
-#include <cstdlib>
-#include <cstring>
-#include <ctime>
-#include <filesystem>
-#include <string>
 #include <vector>
 
-#include "base/hash.h"
-#include "coordinator/local_workers.h"
-#include "coordinator/service.h"
-#include "worker/pool.h"
-#include "worker/service.h"
-#include "worker/slots.h"
+#include "benchmarks/cluster/flat_campaign.h"
+#include "benchmarks/cluster/local_cluster.h"
 
-namespace swarmsmith {
+namespace swarmsmith::bench {
 namespace {
 
-double seconds_of(const timeval& time) {
-  return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
-}
-
-double cpu_of_process() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return seconds_of(usage.ru_utime) + seconds_of(usage.ru_stime);
-}
-
-double cpu_of_thread() {
-  timespec time{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
-  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
-}
-
-/// Independent tasks, some ten thousand wanted at a time.
-class FlatCampaign final : public WorkSource {
- public:
-  explicit FlatCampaign(std::int64_t total) : total_(total) {}
-
-  std::vector<Task> take_tasks() override {
-    std::vector<Task> tasks;
-    while (asked_ < total_ && asked_ - told_ < kWindow) {
-      const std::int64_t i = asked_++;
-      if (i % 100 == 0) {
-        rows_.emplace_back(std::in_place_type<CandidateRow>);
-        auto& candidate = std::get<CandidateRow>(rows_.back());
-        candidate.id = {i / 100 + 1};
-        candidate.iteration = 1;
-        candidate.parameters = "{}";
-        candidate.modules = "{}";
-      }
-      tasks.push_back({.key = {{i / 100 + 1}, Purpose::Race, i % 100 + 1},
-                       .seed = i,
-                       .machine = std::string(160, 'x')});
-    }
-    return tasks;
-  }
-  void tell(const Outcome& outcome) override {
-    ++told_;
-    rows_.emplace_back(EvaluationRow{.key = outcome.key,
-                                     .iteration = 1,
-                                     .status = outcome.status,
-                                     .score = outcome.score,
-                                     .state_digest = outcome.state_digest,
-                                     .source = "rvr",
-                                     .wall_us = outcome.wall_us,
-                                     .worker = outcome.worker,
-                                     .attempt = outcome.attempt});
-  }
-  std::vector<Row> take_rows() override { return std::exchange(rows_, {}); }
-  bool finished() const override { return told_ == total_; }
-
- private:
-  static constexpr std::int64_t kWindow = 10'000;
-  std::int64_t total_;
-  std::int64_t asked_ = 0;
-  std::int64_t told_ = 0;
-  std::vector<Row> rows_;
+struct Case {
+  std::int64_t evaluations = 300'000;
+  std::int64_t window = 10'000;
+  ClusterShape shape;
+  bool memory = false;  ///< a line each half a million evaluations
 };
 
-Expected<Evaluator> make_spinner(const std::string& work_us) {
-  const std::chrono::microseconds work(std::stol(work_us));
-  return Evaluator([work](const WorkItem& item) -> tl::expected<Measured, Failure> {
-    const auto until = std::chrono::steady_clock::now() + work;
-    while (work.count() > 0 && std::chrono::steady_clock::now() < until) {
-    }
-    return Measured{.score = static_cast<double>(item.seed),
-                    .state_digest = mix64(static_cast<std::uint64_t>(item.seed))};
-  });
-}
-
-int be_worker(const std::string& endpoint) {
-  Wakeup wakeup;
-  Pool pool(1, make_spinner, [&wakeup] { wakeup.notify(); });
-  const std::atomic<bool> drain{false};
-  const WorkerEnd end = serve({.endpoint = endpoint, .protocol = {}, .socket = {}},
-                              identity_of_this_process(1, "benchmark"), pool, wakeup, drain);
-  std::_Exit(static_cast<int>(end.code));
-}
-
-int measure(std::int64_t evaluations, int workers, const std::string& work_us) {
-  const auto folder =
-      std::filesystem::temp_directory_path() / ("cluster_benchmark." + std::to_string(getpid()));
-  std::filesystem::create_directories(folder);
-  CampaignRow campaign;
-  campaign.name = "benchmark";
-  campaign.digest = "benchmark";
-  campaign.deciding = "{}";
-  DesignRow design;
-  design.id = {1};
-  design.mission = "m";
-  design.method = "m";
-  auto store = Store::open(folder / "store.db", campaign, {design});
-  if (!store) return std::fprintf(stderr, "%s\n", to_string(store.error()).c_str()), 1;
-  FlatCampaign source(evaluations);
-  ServiceOptions options;
-  options.coordinator.scenario = work_us;
-  auto service = Service::open(options, {{"benchmark", store->get(), &source}});
-  if (!service) return std::fprintf(stderr, "%s\n", to_string(service.error()).c_str()), 1;
-  setenv("SWARMSMITH_BENCHMARK_WORKER", (*service)->endpoint().c_str(), 1);
-  auto local = LocalWorkers::start({.endpoint = (*service)->endpoint(),
-                                    .processes = workers,
-                                    .slots = 1,
-                                    .program = "/proc/self/exe",
-                                    .arguments = {}});
-  if (!local) return std::fprintf(stderr, "%s\n", to_string(local.error()).c_str()), 1;
-
-  const double process_before = cpu_of_process();
-  const double thread_before = cpu_of_thread();
-  const auto begin = std::chrono::steady_clock::now();
-  const ServiceEnd end = (*service)->run({}, {});
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  const double main_us = 1e6 * (cpu_of_thread() - thread_before) / static_cast<double>(evaluations);
-  const double all_us =
-      1e6 * (cpu_of_process() - process_before) / static_cast<double>(evaluations);
+void print_head() {
   std::printf(
-      "%lld evaluations of %s us, %d workers: %.0f/s; coordinator CPU %.2f us each, "
-      "%.2f of it in the main thread%s\n",
-      static_cast<long long>(evaluations), work_us.c_str(), workers,
-      static_cast<double>(evaluations) / wall.count(), all_us, main_us,
-      end.how == ServiceEnd::How::Finished ? "" : " (NOT FINISHED)");
-  service->reset();
-  store->reset();
-  std::filesystem::remove_all(folder);
+      "| evaluations | of, us | CURVE | processes x workers x slots | all there after, s | "
+      "evaluations/s | "
+      "coordinator's CPU, us | main | I/O | writer | workers' CPU, us | coordinator's memory, MB | "
+      "store, MB |\n| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- | --- "
+      "|\n");
+}
+
+int measure(const Case& c, bool json) {
+  FlatCampaign source(c.evaluations, c.window);
+  ClusterShape shape = c.shape;
+  shape.designs = source.designs();
+  constexpr std::int64_t kEvery = 500'000;
+  std::int64_t next = 0;
+  const auto on_status = [&](const LiveStatus&) {
+    if (!c.memory || source.told() < next) return;
+    std::fprintf(stderr, "%lld evaluations: %.0f MB\n", static_cast<long long>(source.told()),
+                 resident_mb());
+    next = (source.told() / kEvery + 1) * kEvery;
+  };
+  const Expected<ClusterRun> run = run_cluster(shape, source, on_status);
+  if (!run) return std::fprintf(stderr, "%s\n", to_string(run.error()).c_str()), 1;
+  const auto n = static_cast<double>(c.evaluations);
+  const CpuByThread& cpu = run->coordinator;
+  const double each = 1e6 / n;
+  std::printf(
+      json ? "{\"evaluations\":%lld,\"work\":\"%s\",\"curve\":\"%s\",\"processes\":%d,\"workers_"
+             "each\":%d,"
+             "\"slots\":%d,\"connect_s\":%.2f,\"per_s\":%.0f,\"cpu_us\":%.2f,\"main_us\":%.2f,"
+             "\"io_us\":%.2f,\"writer_us\":%.2f,\"workers_cpu_us\":%.2f,\"resident_mb\":%.0f,"
+             "\"store_mb\":%.1f}\n"
+           : "| %lld | %s | %s | %d x %d x %d | %.1f | %.0f | %.2f | %.2f | %.2f | %.2f | %.2f | "
+             "%.0f | "
+             "%.1f |\n",
+      static_cast<long long>(c.evaluations), to_text(shape.work).c_str(),
+      shape.curve ? "on" : "off", shape.processes, shape.each.workers, shape.each.slots,
+      run->connect_s, n / run->wall_s, each * cpu.all(), each * cpu.main, each * cpu.io,
+      each * cpu.writer, each * run->workers_cpu_s, run->resident_mb, run->store_mb);
+  std::fflush(stdout);
   return 0;
 }
 
+int measure_all() {
+  print_head();
+  int failed = 0;
+  for (const int processes : {1, 2, 8}) {
+    for (const bool curve : {false, true}) {
+      Case c;
+      c.shape.processes = processes;
+      c.shape.curve = curve;
+      failed += measure(c, false);
+    }
+  }
+  Case busy;
+  busy.evaluations = 20'000;
+  busy.shape.processes = 2;
+  busy.shape.curve = true;
+  busy.shape.work.us = 300;
+  return failed + measure(busy, false);
+}
+
+int run(int argc, char** argv) {
+  if (argc == 1) return measure_all();
+  Case c;
+  bool json = false;
+  std::int64_t spin_us = 0;
+  std::int64_t sleep_us = 0;
+  CLI::App app{"Trivial evaluations through real sockets into a real store"};
+  app.add_option("--evaluations", c.evaluations)->check(CLI::PositiveNumber);
+  app.add_option("--processes", c.shape.processes, "Worker processes");
+  app.add_option("--workers-each", c.shape.each.workers, "Workers in each process");
+  app.add_option("--slots", c.shape.each.slots, "Slots of each worker");
+  app.add_option("--spin-us", spin_us, "An evaluation computes so long");
+  app.add_option("--sleep-us", sleep_us, "An evaluation waits so long, +- 30 %");
+  app.add_option("--window", c.window, "Tasks that are wanted at a time");
+  app.add_flag("--curve", c.shape.curve, "Encrypt the connections");
+  app.add_flag("--memory", c.memory, "Say what the coordinator takes, on the way");
+  app.add_flag("--json", json);
+  CLI11_PARSE(app, argc, argv);
+  c.shape.work = sleep_us > 0 ? Work{.kind = Work::Kind::Sleep, .us = sleep_us, .spread = 0.3}
+                              : Work{.kind = Work::Kind::Spin, .us = spin_us};
+  if (!json) print_head();
+  return measure(c, json);
+}
+
 }  // namespace
-}  // namespace swarmsmith
+}  // namespace swarmsmith::bench
 
 int main(int argc, char** argv) {
-  if (const char* endpoint = std::getenv("SWARMSMITH_BENCHMARK_WORKER"); endpoint != nullptr) {
-    return swarmsmith::be_worker(endpoint);
-  }
-  const auto argument = [&](int i, const char* fallback) { return i < argc ? argv[i] : fallback; };
-  if (argc > 1) {
-    return swarmsmith::measure(std::atoll(argument(1, "")), std::atoi(argument(2, "2")),
-                               argument(3, "0"));
-  }
-  return swarmsmith::measure(300'000, 2, "0") + swarmsmith::measure(20'000, 2, "300");
+  if (swarmsmith::bench::is_worker()) swarmsmith::bench::be_worker();
+  swarmsmith::bench::raise_descriptor_limit();
+  return swarmsmith::bench::run(argc, argv);
 }

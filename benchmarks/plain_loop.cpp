@@ -8,8 +8,10 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <map>
 #include <string>
 #include <thread>
+#include <tuple>
 #include <unordered_map>
 #include <vector>
 
@@ -41,18 +43,21 @@ double cpu_s() {
 
 std::vector<Work> work_of(StoreReader& store,
                           std::unordered_map<std::int64_t, std::string>& machines) {
-  std::unordered_map<std::int64_t, std::int64_t> seeds[3];
+  using PairKey = std::tuple<DesignId, Purpose, std::int64_t>;
+  std::map<PairKey, std::int64_t> seeds;
   std::vector<EvaluationRow> evaluations;
   store.each_answer_row([&](const Row& row) {
     if (const auto* c = std::get_if<CandidateRow>(&row)) machines[c->id.value] = c->machine;
-    if (const auto* p = std::get_if<PairRow>(&row))
-      seeds[static_cast<std::size_t>(p->purpose)][p->number] = p->seed;
+    if (const auto* p = std::get_if<PairRow>(&row)) {
+      seeds[{p->design, p->purpose, p->number}] = p->seed;
+    }
     if (const auto* e = std::get_if<EvaluationRow>(&row)) evaluations.push_back(*e);
   });
   std::vector<Work> work;
   for (const EvaluationRow& e : evaluations) {
+    const DesignId design = design_of(e.key.candidate);
     work.push_back({.machine = &machines.at(e.key.candidate.value),
-                    .seed = seeds[static_cast<std::size_t>(e.key.purpose)].at(e.key.pair),
+                    .seed = seeds.at({design, e.key.purpose, e.key.pair}),
                     .score = e.score});
   }
   return work;
@@ -90,8 +95,8 @@ int run(const std::string& path, int threads) {
   if (!store) give_up(to_string(store.error()));
   const auto campaign = parse_campaign((*store)->campaign().file, "the store's campaign file");
   if (!campaign) give_up(to_string(campaign.error().front()));
-  if (campaign->missions.size() * campaign->methods.size() != 1 || campaign->repetitions != 1)
-    give_up("takes a store with one design");
+  if (campaign->missions.size() * campaign->methods.size() != 1)
+    give_up("takes a store with one mission and one method");
   std::unordered_map<std::int64_t, std::string> machines;
   const std::vector<Work> work = work_of(**store, machines);
   const double cpu = cpu_s();

@@ -1,9 +1,11 @@
 #include "coordinator/coordinator.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/assert.h"
 #include "base/overloaded.h"
+#include "coordinator/paused_designs.h"
 #include "proto/wire.h"
 
 namespace swarmsmith {
@@ -33,7 +35,10 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
   for (const CampaignWork& campaign : campaigns) {
     scheduler_.know(static_cast<std::uint32_t>(campaigns_.size()), campaign.known);
     facts_.campaign_digests.push_back(campaign.digest);
-    campaigns_.push_back({.source = campaign.source, .commands = campaign.commands});
+    campaigns_.push_back({.source = campaign.source, .paused = paused_designs(campaign.commands)});
+    if (!campaign.commands.empty()) campaigns_.back().commands = campaign.commands.back().number;
+    for (const DesignId design : campaigns_.back().paused)
+      scheduler_.hold_design(static_cast<std::uint32_t>(campaigns_.size() - 1), design.value, true);
   }
 }
 
@@ -51,12 +56,11 @@ bool Coordinator::finished() const {
 }
 
 void Coordinator::put_row(const Row& row) {
-  for (Campaign& campaign : campaigns_)
-    campaign.own_rows.push_back(row);
+  pool_rows_.push_back(row);
 }
 
 void Coordinator::send(PeerId peer, std::string frame) {
-  actions_.emplace_back(SendFrame{peer, std::move(frame)});
+  actions_.emplace_back(SendFrame{peer, std::move(frame), {}});
 }
 
 // --- frames ---
@@ -169,53 +173,18 @@ void Coordinator::on_results(const Sender& sender, const pb::Results& results, T
   scheduler_.on_results(sender, results_, now);
 }
 
-void Coordinator::on_unreachable(PeerId peer, TimePoint now) {
+void Coordinator::on_unreachable(const SendFrame& unsent, TimePoint now) {
+  faults_.erase(unsent.peer);
+  scheduler_.on_unreachable(unsent.peer, now, unsent.leases);
+}
+
+void Coordinator::on_cut_off(PeerId peer, TimePoint now) {
   faults_.erase(peer);
-  scheduler_.on_unreachable(peer, now);
+  scheduler_.on_refused(peer, now);
 }
 
 void Coordinator::on_tick(TimePoint now) {
   scheduler_.on_tick(now);
-}
-
-// --- people ---
-
-void Coordinator::on_command(const Peer& peer, const pb::Command& command) {
-  const Expected<std::string> done = obey(command);
-  send(peer.id, command_reply_of(done.has_value(), done ? *done : to_string(done.error())));
-}
-
-Expected<std::uint32_t> Coordinator::campaign_of(const pb::Command& command) const {
-  if (command.campaign().empty() && campaigns_.size() == 1) return 0U;
-  const auto at = std::ranges::find(facts_.campaign_digests, command.campaign());
-  if (at == facts_.campaign_digests.end()) {
-    return unexpected(ErrorKind::NotFound, "this coordinator does not run the campaign",
-                      command.campaign());
-  }
-  return static_cast<std::uint32_t>(at - facts_.campaign_digests.begin());
-}
-
-Expected<std::string> Coordinator::obey(const pb::Command& command) {
-  const Expected<std::uint32_t> index = campaign_of(command);
-  if (!index) return Unexpected(index.error());
-  Campaign& campaign = campaigns_[*index];
-  CommandRow row{.number = campaign.commands + 1,
-                 .kind = {},
-                 .design = {command.design()},
-                 .budget = command.budget(),
-                 .who = command.who()};
-  if (command.kind() == pb::Command::KIND_CANCEL) {
-    row.kind = "cancel";
-  } else if (command.kind() == pb::Command::KIND_EXTEND) {
-    row.kind = "extend";
-  } else {
-    return bad_input("a command that this version does not know");
-  }
-  if (auto done = campaign.source->carry_out(row); !done) return Unexpected(done.error());
-  ++campaign.commands;
-  campaign.told = true;
-  campaign.sees_no_further = false;
-  return row.kind + ": done";
 }
 
 // --- actions ---
@@ -226,7 +195,11 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](const SendWelcome& a) { send(a.peer, frame_of(a, facts_, options_.scheduler)); },
           [&](const SendReject& a) { send(a.peer, frame_of(a)); },
           [&](const SendTasks& a) {
-            send(a.peer, frame_of(a, facts_, arena_));
+            std::vector<PackedKey> leases;
+            for (const SendTasks::Leased& leased : a.tasks)
+              leases.push_back(key_of(leased.task));
+            actions_.emplace_back(
+                SendFrame{a.peer, frame_of(a, facts_, arena_), std::move(leases)});
             arena_.Reset();
           },
           [&](const SendAcknowledged& a) {
@@ -294,6 +267,11 @@ bool Coordinator::progress() {
   for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
     Campaign& campaign = campaigns_[index];
     if (campaign.stopped) continue;
+    if (const std::optional<Error> error = campaign.source->error()) {
+      campaign.stopped = to_string(*error);
+      scheduler_.forget(index);
+      continue;
+    }
     std::vector<Task> tasks = campaign.source->take_tasks();
     if (!tasks.empty()) {
       for (Task& task : tasks)
@@ -334,18 +312,24 @@ bool Coordinator::look_ahead() {
 void Coordinator::append(std::uint32_t index) {
   Campaign& campaign = campaigns_[index];
   std::vector<Row> rows = campaign.source->take_rows();
+  note_if_all_is_paused(campaign);
   rows.insert(rows.end(), std::make_move_iterator(campaign.own_rows.begin()),
               std::make_move_iterator(campaign.own_rows.end()));
   campaign.own_rows.clear();
-  if (rows.empty()) return;
-  std::vector<PackedKey> keys;
+  rows.insert(rows.end(), pool_rows_.begin(), pool_rows_.end());
+  std::vector<SendFrame> replies = std::exchange(campaign.replies, {});
+  if (rows.empty()) {
+    std::ranges::move(replies, std::back_inserter(actions_));
+    return;
+  }
+  Unit unit{.replies = std::move(replies)};
   for (const Row& row : rows) {
     if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
-      keys.push_back(pack(evaluation->key, index));
+      unit.keys.push_back(pack(evaluation->key, index));
     }
   }
-  campaign.unappended.push_back(std::move(keys));
-  actions_.emplace_back(AppendRows{index, std::move(rows)});
+  campaign.unappended.push_back(std::move(unit));
+  actions_.emplace_back(AppendRows{index, std::move(rows), pool_rows_.size()});
 }
 
 std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
@@ -366,23 +350,25 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     const bool on_disk = campaign.unappended.empty() && campaign.appended.empty();
     scheduler_.close(index, on_disk && campaign.source->finished());
   }
+  pool_rows_.clear();
   return std::exchange(actions_, {});
 }
 
-void Coordinator::on_appended(std::uint32_t campaign, std::uint64_t ticket) {
-  auto& unappended = campaigns_[campaign].unappended;
-  auto& appended = campaigns_[campaign].appended;
-  SWARMSMITH_ASSERT(!unappended.empty(), "a ticket belongs to rows that were given out");
-  SWARMSMITH_ASSERT(appended.empty() || appended.back().first < ticket, "tickets count up");
-  appended.emplace_back(ticket, std::move(unappended.front()));
-  unappended.pop_front();
+void Coordinator::on_appended(std::uint32_t index, std::uint64_t ticket) {
+  Campaign& campaign = campaigns_[index];
+  SWARMSMITH_ASSERT(!campaign.unappended.empty(), "a ticket belongs to rows that were given out");
+  SWARMSMITH_ASSERT(campaign.appended.empty() || campaign.appended.back().ticket < ticket,
+                    "tickets count up");
+  campaign.appended.push_back(std::move(campaign.unappended.front()));
+  campaign.appended.back().ticket = ticket;
+  campaign.unappended.pop_front();
 }
 
-void Coordinator::on_committed(std::uint32_t campaign, std::uint64_t ticket) {
-  auto& appended = campaigns_[campaign].appended;
+void Coordinator::on_committed(std::uint32_t index, std::uint64_t ticket) {
+  std::deque<Unit>& appended = campaigns_[index].appended;
   std::map<WorkerNumber, std::vector<PackedKey>> keys;
-  while (!appended.empty() && appended.front().first <= ticket) {
-    for (const PackedKey key : appended.front().second) {
+  while (!appended.empty() && appended.front().ticket <= ticket) {
+    for (const PackedKey key : appended.front().keys) {
       const auto at = waiting_.find(key);
       if (at == waiting_.end()) continue;
       keys[at->second.first].push_back(key);
@@ -390,6 +376,7 @@ void Coordinator::on_committed(std::uint32_t campaign, std::uint64_t ticket) {
         keys[other].push_back(key);
       waiting_.erase(at);
     }
+    std::ranges::move(appended.front().replies, std::back_inserter(actions_));
     appended.pop_front();
   }
   acknowledge(keys);
@@ -406,12 +393,16 @@ LiveStatus Coordinator::status() const {
           .rejected = count(counters.rejected),
           .failed = count(counters.failed),
           .requeued = count(counters.requeued),
+          .expired = count(counters.expired),
+          .lost_workers = count(counters.lost_workers),
           .duplicates = count(counters.duplicates),
           .conflicts = count(counters.conflicts),
           .malformed = count(malformed_count_),
           .uncommitted = count(waiting_.size()),
           .evaluations_per_s = 0,
-          .trouble = {}};
+          .trouble = {},
+          .insecure_plaintext = false,
+          .refused = {}};
 }
 
 }  // namespace swarmsmith

@@ -4,6 +4,7 @@
 #include <deque>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -29,9 +30,9 @@ struct CoordinatorOptions {
 /// A campaign that is to be run.
 struct CampaignWork {
   std::string digest;
-  WorkSource* source = nullptr;        ///< must outlive the coordinator
-  std::span<const StoredScore> known;  ///< outcomes that are in its store; read at the start only
-  std::int64_t commands = 0;           ///< the largest number of a command in its store
+  WorkSource* source = nullptr;          ///< must outlive the coordinator
+  std::span<const StoredScore> known;    ///< outcomes that are in its store; read at the start only
+  std::span<const CommandRow> commands;  ///< the same, of what people asked
 };
 
 /// Who sent a frame, as the socket knows it.
@@ -45,11 +46,14 @@ struct Peer {
 struct SendFrame {
   PeerId peer = 0;
   std::string frame;
+  std::vector<PackedKey> leases;  ///< in the frame
 };
 /// One unit for the campaign's store; its ticket comes back by `on_appended`, in order.
 struct AppendRows {
   std::uint32_t campaign = 0;
   std::vector<Row> rows;
+  /// The last so many are of the pool, and in the units of all campaigns.
+  std::size_t of_pool = 0;
 };
 /// Somebody asks how it goes: to be answered with `status_reply_of`.
 struct AnswerStatus {
@@ -70,12 +74,17 @@ class Coordinator {
 
   /// An empty frame stands for a message that was no single frame.
   void on_frame(const Peer& peer, std::string_view frame, TimePoint now);
-  void on_unreachable(PeerId peer, TimePoint now);
+  /// The peer of a frame that could not be sent has gone.
+  void on_unreachable(const SendFrame& unsent, TimePoint now);
+  /// The peer's key is not good any more: its leases go to others, and nobody is blamed.
+  void on_cut_off(PeerId peer, TimePoint now);
   void on_tick(TimePoint now);
   void on_appended(std::uint32_t campaign, std::uint64_t ticket);
   void on_committed(std::uint32_t campaign, std::uint64_t ticket);
-  /// No leases from now on, or again: a store cannot write, or all is to stop.
+  /// No leases from now on, or again: all is to stop.
   void hold(bool held) { scheduler_.hold(held); }
+  /// The same for one campaign: its store cannot write.
+  void hold(std::uint32_t campaign, bool held) { scheduler_.hold_design(campaign, 0, held); }
   /// Sends the workers home.
   void drain(TimePoint now) { scheduler_.drain(now); }
 
@@ -90,6 +99,11 @@ class Coordinator {
   /// Why the campaign cannot go on, if so. The others do.
   const std::optional<std::string>& stopped(std::uint32_t campaign = 0) const {
     return campaigns_[campaign].stopped;
+  }
+
+  /// Of which nothing is leased until somebody resumes them.
+  const std::set<DesignId>& paused(std::uint32_t campaign = 0) const {
+    return campaigns_[campaign].paused;
   }
 
   /// Without rate and trouble, which need a clock and a store.
@@ -109,15 +123,41 @@ class Coordinator {
     std::vector<WorkerNumber> others;
   };
 
+  /// Rows that were given out as one, and who waits for them.
+  struct Unit {
+    std::uint64_t ticket = 0;  ///< 0 until it has one
+    std::vector<PackedKey> keys;
+    std::vector<SendFrame> replies;
+  };
+  struct Campaign {
+    WorkSource* source;
+    std::vector<Row> own_rows{};  ///< events, conflicts, attempts, commands
+    std::deque<Unit> unappended{};
+    std::deque<Unit> appended{};
+    std::vector<SendFrame> replies{};  ///< to be sent when their rows are on disk
+    std::int64_t commands = 0;         ///< the largest number
+    std::set<DesignId> paused{};
+    bool all_paused = false;  ///< and it was said
+    bool told = false;        ///< of an outcome, since it was last asked what it drops
+    /// It had nothing to look ahead at, and nothing came since that changes this.
+    bool sees_no_further = false;
+    std::optional<std::string> stopped{};
+  };
+
   bool is_refused(PeerId peer, TimePoint now);
   void on_malformed(PeerId peer, const Error& error, TimePoint now);
   void on_message(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
   void on_work(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
   void on_results(const Sender& sender, const pb::Results& results, TimePoint now);
+
+  // coordinator_commands.cpp
   void on_command(const Peer& peer, const pb::Command& command);
   /// A sentence that says what was done.
-  Expected<std::string> obey(const pb::Command& command);
+  Expected<std::string> obey(std::uint32_t index, const pb::Command& command);
+  Expected<std::string> pause(std::uint32_t index, const CommandRow& command);
   Expected<std::uint32_t> campaign_of(const pb::Command& command) const;
+  void note_if_all_is_paused(Campaign& campaign);
+
   void carry_out(SchedulerAction& action);
   void repeat(const OutcomeRepeated& action);
   /// For the stores of all campaigns.
@@ -128,21 +168,10 @@ class Coordinator {
   bool look_ahead();
   void append(std::uint32_t campaign);
 
-  struct Campaign {
-    WorkSource* source;
-    std::vector<Row> own_rows{};  ///< workers, events, conflicts, attempts, commands
-    std::deque<std::vector<PackedKey>> unappended{};  ///< keys of AppendRows without a ticket
-    std::deque<std::pair<std::uint64_t, std::vector<PackedKey>>> appended{};
-    std::int64_t commands = 0;
-    bool told = false;  ///< of an outcome, since it was last asked what it drops
-    /// It had nothing to look ahead at, and nothing came since that changes this.
-    bool sees_no_further = false;
-    std::optional<std::string> stopped{};
-  };
-
   CoordinatorOptions options_;
   PoolFacts facts_;
   std::vector<Campaign> campaigns_;
+  std::vector<Row> pool_rows_;  ///< workers, and events that are of no campaign
   Scheduler scheduler_;
   std::vector<CoordinatorAction> actions_;
   std::size_t ahead_turn_ = 0;  ///< the campaign that is asked first for look-ahead

@@ -18,7 +18,9 @@ std::string to_json(const LiveStatus& status) {
                                     {"malformed", status.malformed},
                                     {"uncommitted", status.uncommitted},
                                     {"evaluations_per_s", status.evaluations_per_s},
-                                    {"trouble", status.trouble}};
+                                    {"trouble", status.trouble},
+                                    {"insecure_plaintext", status.insecure_plaintext},
+                                    {"refused", status.refused}};
   return json.dump();
 }
 

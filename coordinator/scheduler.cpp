@@ -232,9 +232,17 @@ void Scheduler::on_goodbye(const Sender& sender, TimePoint now) {
   if (entry != nullptr) lose(*entry, Loss::Left, "left", now);
 }
 
-void Scheduler::on_unreachable(PeerId peer, TimePoint now) {
+void Scheduler::on_unreachable(PeerId peer, TimePoint now, std::span<const PackedKey> undelivered) {
   WorkerEntry* entry = workers_.of_peer(peer);
   if (entry == nullptr) return;
+  // What the worker never got did not kill it.
+  for (auto key = undelivered.rbegin(); key != undelivered.rend(); ++key) {
+    leases_.loads().settle(entry->number, *key);
+    TaskRecord* record = leases_.find(*key);
+    if (record == nullptr || record->lease_of(entry->number) == nullptr) continue;
+    if (record->second) record->copied = false;
+    if (take_back(*record, entry->number)) ++counters_.requeued;
+  }
   const bool closed = now - entry->last_heard < options_.silence;
   lose(*entry, closed ? Loss::Death : Loss::Silence, "lost", now);
 }

@@ -58,8 +58,8 @@ class Scheduler {
   void on_goodbye(const Sender& sender, TimePoint now);
   /// Any other message: a sign of life. False, and a question, when the peer is not known.
   bool on_sign_of_life(const Sender& sender, TimePoint now);
-  /// The transport says that the connection is no more.
-  void on_unreachable(PeerId peer, TimePoint now);
+  /// The transport says that the connection is no more, and that these leases never got there.
+  void on_unreachable(PeerId peer, TimePoint now, std::span<const PackedKey> undelivered = {});
   /// The peer sent rubbish and is not listened to any more.
   void on_refused(PeerId peer, TimePoint now);
   /// Heartbeats, silent workers, leases without progress; several times a second.

@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <deque>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
 
+#include "access/address.h"
 #include "base/log.h"
 #include "base/overloaded.h"
 
@@ -20,11 +22,8 @@ constexpr Duration kFarewell = std::chrono::seconds(5);
 constexpr Duration kRateWindow = std::chrono::seconds(3);
 /// Frames that are read before the campaign moves on and answers go out.
 constexpr int kFramesAtOnce = 256;
-
-bool is_loopback(const std::string& endpoint) {
-  return endpoint.starts_with("tcp://127.") || endpoint.starts_with("tcp://[::1]:") ||
-         endpoint.starts_with("tcp://localhost:");
-}
+/// A storm of strangers makes a line a reason in this time.
+constexpr Duration kSayAgain = std::chrono::seconds(10);
 
 /// What the writers' threads say, a writer a campaign, for the loop's thread.
 class News {
@@ -63,6 +62,30 @@ class Rate {
 
  private:
   std::deque<std::pair<TimePoint, std::int64_t>> points_;
+};
+
+/// Says who was kept out, seldom.
+class RefusalLog {
+ public:
+  void say(const Refusals& refusals, TimePoint now) {
+    for (const auto& [reason, count] : refusals.counts) {
+      Said& said = said_[reason];
+      if (count == said.count || (said.count > 0 && now - said.when < kSayAgain)) continue;
+      const auto from = refusals.last_from.find(reason);
+      log(LogLevel::Warning, "coordinator", "connection refused",
+          {{"reason", reason},
+           {"times", std::to_string(count - said.count)},
+           {"last_from", from != refusals.last_from.end() ? from->second : "unknown"}});
+      said = {count, now};
+    }
+  }
+
+ private:
+  struct Said {
+    std::uint64_t count = 0;
+    TimePoint when;
+  };
+  std::map<std::string, Said> said_;
 };
 
 void log_event(const EventRow& event) {
@@ -119,11 +142,24 @@ class Loop final : public Service {
     hear_news();
     // After the frames: what waited in the socket is a sign of life too.
     if (now >= next_tick_ && !more_frames_) {
+      look_at_the_door(now);
       coordinator_.on_tick(now);
       report(now);
       next_tick_ = now + kTick;
     }
     carry_out();
+  }
+
+  void look_at_the_door(TimePoint now) {
+    refusal_log_.say(socket_->refusals(), now);
+    if (!options_.new_clients) return;
+    const auto clients = options_.new_clients();
+    if (!clients) return;
+    const std::vector<PeerId> cut = socket_->admit(*clients);
+    for (const PeerId peer : cut)
+      coordinator_.on_cut_off(peer, now);
+    log(LogLevel::Info, "coordinator", "list of clients taken",
+        {{"clients", std::to_string(clients->size())}, {"cut_off", std::to_string(cut.size())}});
   }
 
   void receive(TimePoint now) {
@@ -145,6 +181,8 @@ class Loop final : public Service {
       coordinator_.on_committed(index, news->committed);
       if (news->trouble == troubles_[index]) continue;
       troubles_[index] = news->trouble;
+      // The others' results find their place on disk.
+      coordinator_.hold(index, !news->trouble.empty());
       if (news->trouble.empty()) {
         log(LogLevel::Info, "coordinator", "store writes again");
       } else {
@@ -152,7 +190,6 @@ class Loop final : public Service {
             {{"reason", news->trouble}});
       }
     }
-    coordinator_.hold(stopping_ || !trouble().empty());
   }
 
   /// Of the stores; the first one that has any.
@@ -183,18 +220,25 @@ class Loop final : public Service {
       case SendStatus::Gone:
       // Reads too slowly for a thousand messages: as good as gone; it will say hello again.
       case SendStatus::Full:
-        coordinator_.on_unreachable(send.peer, now);
+        coordinator_.on_unreachable(send, now);
         return;
     }
   }
 
   void append(AppendRows& append) {
-    for (const Row& row : append.rows) {
-      if (const auto* event = std::get_if<EventRow>(&row)) log_event(*event);
-    }
-    if (hooks_->on_rows) hooks_->on_rows(append.campaign, append.rows);
+    const std::span<const Row> rows(append.rows);
+    tell(append.campaign, rows.first(rows.size() - append.of_pool));
+    // Every store has them; here they are told once.
+    if (append.campaign == 0) tell(std::nullopt, rows.last(append.of_pool));
     coordinator_.on_appended(append.campaign,
                              stores_[append.campaign]->append(std::move(append.rows)));
+  }
+
+  void tell(std::optional<std::size_t> campaign, std::span<const Row> rows) const {
+    for (const Row& row : rows) {
+      if (const auto* event = std::get_if<EventRow>(&row)) log_event(*event);
+    }
+    if (hooks_->on_rows && !rows.empty()) hooks_->on_rows(campaign, rows);
   }
 
   void answer(const AnswerStatus& answer, TimePoint now) {
@@ -205,6 +249,8 @@ class Loop final : public Service {
     status_ = coordinator_.status();
     status_.evaluations_per_s = rate_.update(now, status_.done);
     status_.trouble = trouble();
+    status_.insecure_plaintext = options_.insecure_plaintext;
+    status_.refused = socket_->refusals().counts;
     if (hooks_->on_status) hooks_->on_status(status_);
   }
 
@@ -265,6 +311,7 @@ class Loop final : public Service {
   Coordinator coordinator_;
   const ServiceHooks* hooks_ = nullptr;
   Rate rate_;
+  RefusalLog refusal_log_;
   LiveStatus status_;
   TimePoint next_tick_{};
   bool more_frames_ = false;
@@ -275,35 +322,47 @@ class Loop final : public Service {
 
 Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options,
                                                  std::vector<ServiceCampaign> campaigns) {
+  const bool insisted = options.insecure_plaintext;
   if (options.bind.empty()) options.bind = "tcp://127.0.0.1:*";
   // A name of an interface is what a socket would look for.
   if (constexpr std::string_view kName = "tcp://localhost:"; options.bind.starts_with(kName)) {
     options.bind.replace(0, kName.size(), "tcp://127.0.0.1:");
   }
-  if (!is_tcp_address(options.bind)) {
+  const auto address = address_of(options.bind);
+  if (!address) {
     return bad_input("this is no address to listen on; it is written 127.0.0.1:5555, host and port",
                      options.bind);
   }
-  if (!is_loopback(options.bind)) {
+  options.insecure_plaintext = !options.keys && !is_loopback(*address);
+  if (options.insecure_plaintext && !insisted) {
     return bad_input(
-        "workers of other hosts are not admitted yet, since connections are not encrypted: bind to "
-        "tcp://127.0.0.1:PORT",
+        "other hosts may connect here, so that keys are needed: make them with `swarmsmith "
+        "keygen`, or listen on tcp://127.0.0.1:PORT",
         options.bind);
+  }
+  if (options.insecure_plaintext) {
+    log(LogLevel::Warning, "coordinator",
+        "listening beyond loopback without encryption: whoever reaches the port can read the "
+        "campaign, send results and give commands",
+        {{"address", options.bind}});
   }
   // The last words of a campaign send its workers home.
   options.socket.linger = milliseconds{200};
-  Expected<std::unique_ptr<ServerSocket>> socket = ServerSocket::bind(options.bind, options.socket);
+  Expected<std::unique_ptr<ServerSocket>> socket =
+      ServerSocket::bind(options.bind, options.socket, std::move(options.keys));
   if (!socket) return Unexpected(socket.error());
   std::vector<std::vector<StoredScore>> known;
+  std::vector<std::vector<CommandRow>> commands;
   std::vector<CampaignWork> works;
   known.reserve(campaigns.size());
+  commands.reserve(campaigns.size());
   for (const ServiceCampaign& campaign : campaigns) {
     known.push_back(campaign.store->scores());
-    const std::vector<CommandRow> commands = campaign.store->commands();
+    commands.push_back(campaign.store->commands());
     works.push_back({.digest = campaign.digest,
                      .source = campaign.source,
                      .known = known.back(),
-                     .commands = commands.empty() ? 0 : commands.back().number});
+                     .commands = commands.back()});
   }
   return std::make_unique<Loop>(std::move(options), std::move(*socket), campaigns, works);
 }

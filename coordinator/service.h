@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -17,9 +19,15 @@ namespace swarmsmith {
 
 struct ServiceOptions {
   CoordinatorOptions coordinator;
-  /// Loopback only, for now; port * takes a free one. Empty: "tcp://127.0.0.1:*".
+  /// Port * takes a free one. Empty: "tcp://127.0.0.1:*". Beyond loopback only with keys, or with
+  /// `insecure_plaintext`.
   std::string bind;
   SocketOptions socket;
+  std::optional<ServerKeys> keys{};
+  /// Nobody's key is asked for, though other hosts can connect.
+  bool insecure_plaintext = false;
+  /// A new list of clients when there is one; asked ten times a second, and must not wait.
+  std::function<std::optional<std::vector<ListedClient>>()> new_clients{};
   /// How long running evaluations are waited for when the campaign is interrupted.
   Duration grace = std::chrono::seconds(5);
 };
@@ -32,8 +40,9 @@ struct ServiceCampaign {
 };
 
 struct ServiceHooks {
-  /// Each unit of rows of a campaign, just before it is appended to its store.
-  std::function<void(std::size_t campaign, const std::vector<Row>&)> on_rows;
+  /// Rows of a campaign, just before they are appended to its store; rows of the pool, which every
+  /// store has, without a campaign and once.
+  std::function<void(std::optional<std::size_t> campaign, std::span<const Row>)> on_rows;
   /// Ten times a second.
   std::function<void(const LiveStatus&)> on_status;
 };
@@ -52,8 +61,9 @@ struct ServiceEnd {
 /// A coordinator's loop: socket, clock and stores around a Coordinator. One thread, that of `run`.
 class Service {
  public:
-  /// Errors: BadInput (no address, or one beyond loopback), Conflict (the port is taken),
-  /// Unavailable. The order of `campaigns` is that of the scenario and of the scheduler's policies.
+  /// Errors: BadInput (no address, or one beyond loopback without keys), Conflict (the port is
+  /// taken), Unavailable. The order of `campaigns` is that of the scenario and of the scheduler's
+  /// policies.
   static Expected<std::unique_ptr<Service>> open(ServiceOptions options,
                                                  std::vector<ServiceCampaign> campaigns);
   virtual ~Service() = default;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "base/expected.h"
@@ -44,6 +45,12 @@ class WorkSource {
 
   /// No task is wanted any more, now or later.
   virtual bool finished() const = 0;
+
+  /// Why nothing more will come of it, if so: what it was made from disagrees with itself.
+  virtual std::optional<Error> error() const { return std::nullopt; }
+
+  /// The designs that are not over, in order: those that can be paused.
+  virtual std::vector<DesignId> unfinished() const { return {}; }
 };
 
 }  // namespace swarmsmith

@@ -132,7 +132,11 @@ struct Describe {
   void write(std::string_view value) {
     constexpr std::size_t kLongest = 80;
     text += value.substr(0, kLongest);
-    if (value.size() > kLongest) text += "...";
+    if (value.size() <= kLongest) return;
+    // Rows are compared by their descriptions: what is cut off must count.
+    Digest rest;
+    rest.add(value);
+    text += fmt::format("...({:x})", rest.value64());
   }
   template <class Tag>
   void write(Id<Tag> value) {

@@ -21,7 +21,8 @@ bool same_answer(const Row& a, const Row& b);
 void add_answer(Digest& digest, const Row& row);
 
 /// One line for messages: "evaluation e100003: candidate=c1 pair=3 status=0 score=2.5 ...", with
-/// the fields that are part of the answer.
+/// the fields that are part of the answer. Long texts are cut, and end with a digest of the whole,
+/// so that rows which differ have descriptions which differ.
 std::string describe(const Row& row);
 
 /// How people see an evaluation: e<candidate * 100,000 + pair>, and a letter after it when it was

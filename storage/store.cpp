@@ -110,6 +110,9 @@ Expected<Connection> prepare(const fs::path& path, bool unclean, const CampaignR
   if (sqlite3_db_readonly(connection.handle(), "main") != 0) {
     return bad_input("the store may not be written by this user", path.string());
   }
+  // A reader may be the first to open a store whose coordinator was killed: it then recovers the
+  // log, and holds the file for that moment.
+  sqlite3_busy_timeout(connection.handle(), 5000);
   const bool blank = is_blank(connection);
   if (!blank) {
     if (auto ours = check_identity(connection, path); !ours) return Unexpected(ours.error());

@@ -24,6 +24,26 @@ int number_in(std::string_view text) {
   return error == std::errc() && end == text.data() + text.size() ? number : 0;
 }
 
+/// Several nodes of Slurm may be one host, so its name for the node comes first.
+std::string host_of_this_process() {
+  if (std::string node = environment("SLURMD_NODENAME"); !node.empty()) return node;
+  std::string host(HOST_NAME_MAX + 1, '\0');
+  if (gethostname(host.data(), host.size()) != 0) return "unknown";
+  return host.c_str();
+}
+
+/// As squeue lists it, "12" or "12_3" for an element of an array; "12_3 restart 1" after Slurm has
+/// put it back into its queue once.
+std::string job_of_this_process() {
+  std::string job = environment("SLURM_JOB_ID");
+  if (const std::string array = environment("SLURM_ARRAY_JOB_ID"); !array.empty()) {
+    job = array + "_" + environment("SLURM_ARRAY_TASK_ID");
+  }
+  const std::string restarts = environment("SLURM_RESTART_COUNT");
+  if (!job.empty() && number_in(restarts) > 0) job += " restart " + restarts;
+  return job;
+}
+
 /// Scores must not depend on it, and when they do, people will want to know it.
 std::string cpu_model() {
   std::ifstream info("/proc/cpuinfo");
@@ -57,21 +77,14 @@ WorkerIdentity identity_of_this_process(int slots, std::string build) {
   std::string id;
   for (std::size_t i = 0; i < kWorkerIdBytes; ++i)
     id += static_cast<char>(device() & 0xffU);
-  std::string host(HOST_NAME_MAX + 1, '\0');
-  if (gethostname(host.data(), host.size()) != 0) host = "unknown";
-  host.resize(host.find_first_of('\0') == std::string::npos ? host.size() : host.find('\0'));
-  std::string job = environment("SLURM_JOB_ID");
-  if (const std::string index = environment("SLURM_ARRAY_TASK_ID"); !index.empty()) {
-    job += "_" + index;
-  }
   return {.id = std::move(id),
           .build = std::move(build),
           .engine_version = 0,
           .self_test = {},
           .slots = slots,
-          .host = std::move(host),
+          .host = host_of_this_process(),
           .pid = getpid(),
-          .job = std::move(job),
+          .job = job_of_this_process(),
           .cpu = cpu_model()};
 }
 

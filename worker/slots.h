@@ -10,7 +10,8 @@ namespace swarmsmith {
 /// its affinity mask allows.
 int available_slots();
 
-/// Who this process is: host, pid, job of the batch system, and a random id.
+/// Who this process is: host (Slurm's name for its node first), pid, job of the batch system, and
+/// a random id.
 WorkerIdentity identity_of_this_process(int slots, std::string build);
 
 }  // namespace swarmsmith

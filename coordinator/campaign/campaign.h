@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "coordinator/launchers/launch_options.h"
 #include "irace_core/scenario.h"
 #include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
@@ -78,6 +79,7 @@ struct Campaign {
   // Outside the digest: other values neither stop a resume nor change the answer.
   std::filesystem::path store;
   std::optional<std::int64_t> local_workers;  ///< processes; none: as many slots as cores
+  LaunchOptions launch;                       ///< who starts workers, but for `local_workers`
   std::string bind;                           ///< empty: a free port on loopback
   double task_timeout_s = 30;
   std::int64_t retries = 2;

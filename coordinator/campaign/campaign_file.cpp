@@ -5,6 +5,7 @@
 
 #include "coordinator/campaign/internal/read_method.h"
 #include "coordinator/campaign/internal/read_target.h"
+#include "coordinator/campaign/internal/read_workers.h"
 #include "coordinator/campaign/method_space.h"
 #include "irace_core/iterated_race.h"
 #include "sim/files/file_text.h"
@@ -15,7 +16,6 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::int64_t kLargestSeed = std::numeric_limits<std::int64_t>::max();
-constexpr std::int64_t kLargestPort = 65'535;
 
 /// The file's name without folder and ending, letters that no name has replaced.
 std::string name_from(const std::filesystem::path& file) {
@@ -119,60 +119,6 @@ void complete_target(Campaign& campaign) {
   campaign.target->min_measurable_time = campaign.race.min_measurable_time;
 }
 
-/// "127.0.0.1:5555", "[::1]:5555"; port 0 is any free one.
-bool is_address(const std::string& text) {
-  const std::size_t colon = text.rfind(':');
-  if (colon == std::string::npos || colon == 0) return false;
-  const std::string port = text.substr(colon + 1);
-  if (port.empty() || port.size() > 5) return false;
-  if (port.find_first_not_of("0123456789") != std::string::npos) return false;
-  return std::stol(port) <= kLargestPort;
-}
-
-/// The `bind` of a table, checked for its form; whether it can be bound shows when it is.
-std::optional<std::string> read_bind(TableReader& table) {
-  const auto bind = table.text("bind");
-  if (!bind || is_address(*bind)) return bind;
-  table.complain("bind",
-                 "`bind` must be an address with a port, such as \"127.0.0.1:5555\"; this "
-                 "is \"" +
-                     *bind + "\"");
-  return std::nullopt;
-}
-
-/// `local` is the one key with two types.
-void read_local(TableReader& table, Campaign& campaign) {
-  const Node* node = table.take("local");
-  if (node == nullptr) return;
-  if (const auto* text = std::get_if<std::string>(&node->value); text && *text == "auto") return;
-  if (std::holds_alternative<std::int64_t>(node->value)) {
-    campaign.local_workers = table.integer("local", {0, 10'000});
-    return;
-  }
-  table.complain("local",
-                 "`local` must be \"auto\" (as many slots as cores) or a number of "
-                 "workers");
-}
-
-/// [workers]: nothing here decides the answer.
-void read_workers(TableReader& root, Campaign& campaign) {
-  // What a program did wrong is for its user to see (irace facts, 18.3).
-  campaign.stop_on_failure = campaign.target.has_value();
-  auto table = root.table("workers");
-  if (!table) return;
-  read_local(*table, campaign);
-  campaign.bind = read_bind(*table).value_or(campaign.bind);
-  campaign.task_timeout_s = table->seconds("timeout", {0.1, 1e6}).value_or(campaign.task_timeout_s);
-  campaign.audit_every =
-      table->integer("audit_every", {0, 1'000'000}).value_or(campaign.audit_every);
-  campaign.retries = table->integer("retries", {0, 1000}).value_or(campaign.retries);
-  static const std::vector<std::string> kOnFailure = {"reject", "stop"};
-  if (const auto action = table->choice("on_failure", kOnFailure)) {
-    campaign.stop_on_failure = action == "stop";
-  }
-  table->finish();
-}
-
 /// [dashboard] is checked, so that files can have it, and not kept.
 void read_dashboard(TableReader& root) {
   auto table = root.table("dashboard");
@@ -240,7 +186,7 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   campaign.methods = read_methods(root, folder, campaign.target.has_value());
   read_race(root, folder, campaign);
   complete_target(campaign);
-  read_workers(root, campaign);
+  read_workers(root, folder, campaign);
   read_dashboard(root);
   root.finish();
   if (budget) {

@@ -90,7 +90,7 @@ void write_text(Output& output, const Rows& rows, bool costs) {
 
 }  // namespace
 
-ExitCode write_result(Output& output, StoreReader& store) {
+ExitCode write_result(Output& output, StoreReader& store, const std::string& name) {
   auto rows = select(store, kResult);
   if (!rows) return fail(output, ExitCode::Store, rows.error());
   const auto tests = tests_by_design(store);
@@ -100,8 +100,11 @@ ExitCode write_result(Output& output, StoreReader& store) {
   add_tests(*rows, *tests);
   letter_ids(*rows);
   if (output.json) {
-    output.out << "{\"v\":1,\"event\":\"done\",\"designs\":" << rows_as_json(*rows) << "}\n";
+    const std::string event =
+        "{\"v\":1,\"event\":\"done\",\"designs\":" + rows_as_json(*rows) + "}";
+    output.out << of_campaign(event, name) << "\n";
   } else {
+    if (!name.empty()) output.out << "campaign " << name << "\n";
     write_text(output, *rows, *costs);
   }
   return ExitCode::Done;

@@ -9,8 +9,9 @@ namespace swarmsmith::cli {
 
 /// The answer of a campaign, from its store: each design's best machine with its mean score in the
 /// race and, with the 95 % interval of the mean, on fresh seeds. As a table and the machines'
-/// texts, or as the event {"v":1,"event":"done","designs":[...]}.
-ExitCode write_result(Output& output, StoreReader& store);
+/// texts, or as the event {"v":1,"event":"done","designs":[...]}. `name` of the campaign: when it
+/// is not the only one.
+ExitCode write_result(Output& output, StoreReader& store, const std::string& name = {});
 
 /// What can be done with the store now, as commands.
 void print_next_steps(Output& output, const std::string& store);

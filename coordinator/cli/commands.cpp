@@ -11,27 +11,72 @@ constexpr std::string_view kRunDetails =
     R"(Designs control software as the campaign file says, with workers of its own, and prints the result.
 Without a file it runs a demo: aggregation, 2,000 experiments, store demo.db. Every score is in the
 store as soon as it counts; Ctrl-C, kill -9, a power cut: the same command goes on where it was, and
-comes to the same answer. On a finished store it prints the result again.
+comes to the same answer. On a finished store it prints the result again. Several campaigns share the
+workers; each has the store that its file names, and the answer that it would have alone.
 
 Examples:
   swarmsmith run
   swarmsmith run campaign.toml
-  swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db)";
+  swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db
+  swarmsmith run campaign.toml --workers slurm:16x64
+  swarmsmith run first.toml second.toml)";
 
 constexpr std::string_view kServeDetails =
-    R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. In this version
-on this host only.
+    R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. Beyond loopback
+connections are encrypted, and only listed keys come in: `swarmsmith keygen` makes them, and
+docs/security.md tells the rest. How the coordinator is found stands in STORE.coordinator as long as
+it runs.
 
 Examples:
   swarmsmith serve campaign.toml
-  swarmsmith serve campaign.toml --bind 127.0.0.1:5555)";
+  swarmsmith serve campaign.toml --bind 0.0.0.0:5555
+  swarmsmith serve campaign.toml --bind 0.0.0.0:5555 --keys thesis-keys --advertise login1)";
 
 constexpr std::string_view kWorkerDetails =
     R"(Evaluates for a coordinator until there is nothing more to do. SIGTERM lets it finish what it is
 at; it can come and go at any time. Starts the program swarmsmith-worker.
 
+Examples:
+  swarmsmith worker --connect 127.0.0.1:5555 --slots 4
+  swarmsmith worker --coordinator thesis.db.coordinator
+  swarmsmith worker --connect login1:5555 --key worker.key)";
+
+constexpr std::string_view kKeygenDetails =
+    R"(Makes a folder with the coordinator's key (server.key), a key for each role (worker.key,
+operator.key, reader.key), and the list of those who may connect (clients.toml); or, with --client,
+one more key in such a folder. Nothing is overwritten, and secrets are in files of mode 0600 only.
+
+Examples:
+  swarmsmith keygen
+  swarmsmith keygen thesis-keys
+  swarmsmith keygen thesis-keys --client guest --role reader --expires 2027-01-31)";
+
+constexpr std::string_view kPauseDetails =
+    R"(Nothing more of the designs is leased to workers; what runs ends, and counts. They stay paused, also
+when the coordinator is started again, until somebody resumes them. The answer does not change.
+
+Examples:
+  swarmsmith pause demo.db
+  swarmsmith pause demo.db d2 d3)";
+
+constexpr std::string_view kResumeDetails = R"(Examples:
+  swarmsmith resume demo.db
+  swarmsmith resume demo.db d2)";
+
+constexpr std::string_view kCancelDetails =
+    R"(The design stops after the step of its race that it has come to, with the best candidate so far; the
+others go on. The step is in the store: a campaign that is run again stops there, too. For good.
+
 Example:
-  swarmsmith worker --connect 127.0.0.1:5555 --slots 4)";
+  swarmsmith cancel demo.db d2)";
+
+constexpr std::string_view kExtendDetails =
+    R"(A design whose race is over, or will be, goes on from its end with further iterations. That is another
+race than one that had the larger budget from the start (docs/irace.md). The designs of a campaign that
+nobody runs go on when it is run again.
+
+Example:
+  swarmsmith extend demo.db d1 --budget 5_000 && swarmsmith run)";
 
 constexpr std::string_view kVerifyDetails =
     R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
@@ -170,6 +215,12 @@ constexpr std::array kCommands = {
             declare_profile},
     Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
     Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
+    Command{"pause", "Let a design, or all of a campaign, rest", kPauseDetails, declare_pause},
+    Command{"resume", "Let what was paused go on", kResumeDetails, declare_resume},
+    Command{"cancel", "End a design as it stands", kCancelDetails, declare_cancel},
+    Command{"extend", "Give a design more budget", kExtendDetails, declare_extend},
+    Command{"keygen", "Make keys for coordinator, workers and people", kKeygenDetails,
+            declare_keygen},
     Command{"irace", "Configure an algorithm as irace does, from irace's files", kIraceDetails,
             nullptr, run_irace},
     Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},

@@ -22,7 +22,16 @@ constexpr const char* kClearLine = "\r\x1b[2K";
 
 Progress::Progress(Output& output, std::span<const DesignRow> designs, TimePoint begin,
                    std::function<std::size_t()> width)
-    : output_(output), model_(designs), begin_(begin), width_(std::move(width)) {
+    : Progress(output, {{.name = {}, .designs = {designs.begin(), designs.end()}}}, begin,
+               std::move(width)) {}
+
+Progress::Progress(Output& output, const std::vector<ToldCampaign>& campaigns, TimePoint begin,
+                   std::function<std::size_t()> width)
+    : output_(output), begin_(begin), width_(std::move(width)) {
+  for (const ToldCampaign& campaign : campaigns) {
+    names_.push_back(campaign.name);
+    models_.emplace_back(campaign.designs);
+  }
   form_ = output.err_is_terminal ? Form::Terminal : Form::Plain;
   if (output.quiet) form_ = Form::Silent;
   if (output.json) form_ = Form::Json;
@@ -35,38 +44,44 @@ std::size_t Progress::terminal_width() {
   return known ? size.ws_col - 1U : 79U;
 }
 
-bool Progress::repeats_state(const Row& row) const {
+bool Progress::repeats_state(const ProgressModel& model, const Row& row) {
   const auto* state = std::get_if<DesignStateRow>(&row);
-  return state != nullptr && model_.design(state->design).state == state->state;
+  return state != nullptr && model.design(state->design).state == state->state;
 }
 
-void Progress::add(const Row& row, TimePoint now) {
-  const bool news = !repeats_state(row);
-  model_.add(row);
+void Progress::add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) {
+  const std::size_t index = campaign.value_or(0);
+  const std::string name = campaign ? names_[index] : "";
+  const bool news = !repeats_state(models_[index], row);
+  models_[index].add(row);
   if (form_ == Form::Silent || !news) return;
   if (form_ == Form::Json) {
     const std::string event = event_json(row);
-    if (!event.empty()) output_.out << event << '\n' << std::flush;
+    if (!event.empty()) output_.out << of_campaign(event, name) << '\n' << std::flush;
     return;
   }
-  write_row(row, now);
+  write_row(index, name.empty() ? "" : name + ": ", row, now);
 }
 
 /// Lines for people. A row that is not told of here changes the status line.
-void Progress::write_row(const Row& row, TimePoint now) {
+void Progress::write_row(std::size_t campaign, const std::string& name, const Row& row,
+                         TimePoint now) {
+  const ProgressModel& model = models_[campaign];
   if (const auto* state = std::get_if<DesignStateRow>(&row)) {
-    add_line(state_line(*state, model_.design(state->design)));
+    add_line(name + state_line(*state, model.design(state->design)));
+  } else if (const auto* command = std::get_if<CommandRow>(&row)) {
+    add_line(name + command_line(*command));
   } else if (const auto* event = std::get_if<EventRow>(&row)) {
-    if (event->severity != "info" || output_.verbose) add_line(event_line(*event));
+    if (event->severity != "info" || output_.verbose) add_line(name + event_line(*event));
   }
   if (!race_lines_) return;
   if (const auto* iteration = std::get_if<IterationRow>(&row)) {
-    add_line(iteration_line(*iteration, model_.design(iteration->design)));
+    add_line(name + iteration_line(*iteration, model.design(iteration->design)));
   } else if (const auto* elite = std::get_if<EliteRow>(&row)) {
-    add_line(elite_line(*elite));
+    add_line(name + elite_line(*elite));
   } else if (const auto* step = std::get_if<RaceStepRow>(&row)) {
     if (lines_since_headline_++ % kHeadlineEvery == 0) add_line(race_headline());
-    add_line(race_line(*step, std::chrono::duration<double>(now - begin_).count()));
+    add_line(name + race_line(*step, std::chrono::duration<double>(now - begin_).count()));
   }
 }
 
@@ -76,9 +91,18 @@ void Progress::add_line(const std::string& line) {
   output_.err << line << '\n' << drawn_ << std::flush;
 }
 
+void Progress::write_events(const LiveStatus& live) {
+  std::int64_t left = 0;
+  for (const ProgressModel& model : models_)
+    left += model.budget() - model.used();
+  for (std::size_t i = 0; i < models_.size(); ++i)
+    output_.out << of_campaign(progress_json(models_[i], live, left), names_[i]) << '\n';
+  output_.out << std::flush;
+}
+
 /// Instead of the line that stands there.
 void Progress::draw(const LiveStatus& live) {
-  drawn_ = status_line(model_, live, width_());
+  drawn_ = status_line(models_, live, width_());
   output_.err << kClearLine << drawn_ << std::flush;
 }
 
@@ -88,6 +112,10 @@ void Progress::update(const LiveStatus& live, TimePoint now) {
     // Even when quiet: nothing goes on until a person has helped.
     if (!trouble_.empty()) add_line("warning: nothing can be stored: " + trouble_);
   }
+  if (live.launcher.note != launcher_note_) {
+    launcher_note_ = live.launcher.note;
+    if (!launcher_note_.empty() && !output_.quiet) add_line(to_text(live.launcher));
+  }
   if (form_ == Form::Silent) return;
   const TimePoint last = last_.value_or(begin_);
   const auto since = now - last;
@@ -96,10 +124,10 @@ void Progress::update(const LiveStatus& live, TimePoint now) {
     draw(live);
   } else if (form_ == Form::Plain && since >= kPlainEvery) {
     last_ = now;
-    add_line(plain_status(model_, live));
+    add_line(plain_status(models_, live));
   } else if (form_ == Form::Json && since >= kEventEvery) {
     last_ = now;
-    output_.out << progress_json(model_, live) << '\n' << std::flush;
+    write_events(live);
   }
 }
 
@@ -108,10 +136,10 @@ void Progress::finish(const LiveStatus& live) {
     case Form::Silent:
       break;
     case Form::Json:
-      output_.out << progress_json(model_, live) << '\n' << std::flush;
+      write_events(live);
       break;
     case Form::Plain:
-      add_line(plain_status(model_, live));
+      add_line(plain_status(models_, live));
       break;
     case Form::Terminal:
       draw(live);

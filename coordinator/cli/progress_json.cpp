@@ -127,6 +127,17 @@ std::string conflict_json(const ConflictRow& row) {
       .str();
 }
 
+std::string command_json(const CommandRow& row) {
+  return EventText("command")
+      .add("number", row.number)
+      .add("kind", row.kind)
+      .add("design", row.design)
+      .raw("step", row.step ? std::to_string(*row.step) : "null")
+      .raw("budget", row.kind == "extend" ? std::to_string(row.budget) : "null")
+      .add("who", row.who)
+      .str();
+}
+
 std::string event_row_json(const EventRow& row) {
   return EventText("event")
       .add("severity", row.severity)
@@ -158,12 +169,17 @@ std::string event_json(const Row& row) {
                  [&](const EliminationRow& row_) { return no_event(row_); },
                  [&](const CandidateTotalsRow& row_) { return no_event(row_); },
                  [&](const AttemptRow& row_) { return no_event(row_); },
-                 [&](const CommandRow& row_) { return no_event(row_); }},
+                 [](const CommandRow& command) { return command_json(command); }},
       row);
 }
 
-std::string progress_json(const ProgressModel& model, const LiveStatus& live) {
-  const auto left = static_cast<double>(model.budget() - model.used());
+std::string of_campaign(std::string event, const std::string& name) {
+  // An event is an object.
+  if (!name.empty()) event.insert(event.size() - 1, ",\"campaign\":" + json_text(name));
+  return event;
+}
+
+std::string progress_json(const ProgressModel& model, const LiveStatus& live, std::int64_t left) {
   const bool known = live.evaluations_per_s > 0;
   return EventText("progress")
       .add("designs", model.designs())
@@ -175,10 +191,18 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live) {
       .add("leased", live.leased)
       .add("done", live.done)
       .add("rate", live.evaluations_per_s)
-      .add("eta_s", known ? std::optional(left / live.evaluations_per_s) : std::nullopt)
+      .add("eta_s",
+           known ? std::optional(static_cast<double>(left) / live.evaluations_per_s) : std::nullopt)
       .add("failed", live.failed)
       .add("rejected", live.rejected)
+      .add("requeued", live.requeued)
+      .add("expired", live.expired)
+      .add("lost_workers", live.lost_workers)
+      .add("duplicates", live.duplicates)
+      .add("conflicts", live.conflicts)
+      .add("malformed", live.malformed)
       .add("trouble", live.trouble)
+      .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher))
       .str();
 }
 

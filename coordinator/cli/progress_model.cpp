@@ -5,11 +5,14 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// A finished design has used what it will use; what its budget had left does not count.
+bool has_ended(const DesignProgress& progress) {
+  return progress.state == DesignState::Finished || progress.state == DesignState::Stopped;
+}
+
+/// A design that is over has used what it will use; what its budget had left does not count.
 std::int64_t share_of(const DesignProgress& progress) {
-  const bool over =
-      progress.state == DesignState::Finished || progress.state == DesignState::Testing;
-  return over ? progress.design.budget : progress.used;
+  const bool raced = has_ended(progress) || progress.state == DesignState::Testing;
+  return raced ? progress.design.budget : progress.used;
 }
 
 }  // namespace
@@ -35,7 +38,17 @@ void ProgressModel::add(const Row& row) {
     progress.best_mean = step->mean_best;
   } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
     add_state(*state);
+  } else if (const auto* command = std::get_if<CommandRow>(&row)) {
+    add_command(*command);
   }
+}
+
+void ProgressModel::add_command(const CommandRow& row) {
+  DesignProgress& progress = designs_.at(row.design);
+  if (row.kind == "pause" || row.kind == "resume") progress.paused = row.kind == "pause";
+  // Its row comes twice: when it is asked for, and when it acts.
+  if (row.kind != "extend" || !row.step || !extensions_.insert(row.number).second) return;
+  progress.design.budget += row.budget;
 }
 
 void ProgressModel::add_state(const DesignStateRow& row) {
@@ -55,6 +68,17 @@ std::int64_t ProgressModel::finished() const {
   return count;
 }
 
+std::int64_t ProgressModel::paused() const {
+  std::int64_t count = 0;
+  for (const auto& [id, progress] : designs_)
+    count += progress.paused && !has_ended(progress);
+  return count;
+}
+
+bool ProgressModel::is_over() const {
+  return current() == nullptr || has_ended(*current());
+}
+
 std::int64_t ProgressModel::used() const {
   std::int64_t sum = 0;
   for (const auto& [id, progress] : designs_)
@@ -71,7 +95,7 @@ std::int64_t ProgressModel::budget() const {
 
 const DesignProgress* ProgressModel::current() const {
   for (const auto& [id, progress] : designs_) {
-    if (progress.state != DesignState::Finished) return &progress;
+    if (!has_ended(progress)) return &progress;
   }
   return designs_.empty() ? nullptr : &designs_.rbegin()->second;
 }

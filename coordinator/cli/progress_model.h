@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -22,6 +23,7 @@ struct DesignProgress {
   std::int64_t used = 0;
   CandidateId best;
   double best_mean = 0;
+  bool paused = false;  ///< by a person
 };
 
 /// How far a campaign is, kept up from its rows. Pure.
@@ -35,16 +37,23 @@ class ProgressModel {
   std::int64_t designs() const { return static_cast<std::int64_t>(designs_.size()); }
   /// Designs that need nothing more.
   std::int64_t finished() const;
+  /// Designs that are neither finished nor stopped, and that a person has paused.
+  std::int64_t paused() const;
+  /// Nothing is left to be done.
+  bool is_over() const;
   /// Of `budget`; a design whose race is over counts with all of its own.
   std::int64_t used() const;
+  /// With what was given to designs later.
   std::int64_t budget() const;
-  /// The first design that is not finished, else the last one: what the status line tells about.
+  /// The first design that is not over, else the last one: what the status line tells about.
   const DesignProgress* current() const;
 
  private:
   void add_state(const DesignStateRow& row);
+  void add_command(const CommandRow& row);
 
   std::map<DesignId, DesignProgress> designs_;
+  std::set<std::int64_t> extensions_;  ///< numbers of those that have acted
 };
 
 }  // namespace swarmsmith::cli

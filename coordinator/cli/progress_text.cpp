@@ -42,35 +42,63 @@ std::string bar(std::int64_t used, std::int64_t budget) {
          std::string(static_cast<std::size_t>(kCells - filled), '-') + "]";
 }
 
-/// What both status lines say before and after the bar.
-std::string first_half(const ProgressModel& model) {
-  std::string text =
-      "designs " + std::to_string(model.finished()) + "/" + std::to_string(model.designs());
-  const DesignProgress* current = model.current();
-  if (current != nullptr && current->iteration > 0) {
-    text += "  " + to_string(current->design.id) + " iteration " +
-            std::to_string(current->iteration) + "/~" +
-            std::to_string(std::max(current->iterations, current->iteration));
+/// Sums over what is told of.
+struct Totals {
+  explicit Totals(std::span<const ProgressModel> models) {
+    for (const ProgressModel& model : models) {
+      over += model.is_over();
+      designs += model.designs();
+      finished += model.finished();
+      paused += model.paused();
+      used += model.used();
+      budget += model.budget();
+    }
   }
-  return text;
+  std::int64_t over = 0, designs = 0, finished = 0, paused = 0, used = 0, budget = 0;
+};
+
+/// What both status lines say before and after the bar.
+std::string first_half(std::span<const ProgressModel> models, const Totals& totals) {
+  const std::string designs =
+      "designs " + std::to_string(totals.finished) + "/" + std::to_string(totals.designs);
+  if (models.size() > 1) {
+    return "campaigns " + std::to_string(totals.over) + "/" + std::to_string(models.size()) + "  " +
+           designs;
+  }
+  const DesignProgress* current = models.front().current();
+  if (current == nullptr || current->iteration == 0) return designs;
+  return designs + "  " + to_string(current->design.id) + " iteration " +
+         std::to_string(current->iteration) + "/~" +
+         std::to_string(std::max(current->iterations, current->iteration));
 }
 
-/// Numbers, the most important first.
-std::string second_half(const ProgressModel& model, const LiveStatus& live) {
-  std::string text = grouped(model.used()) + "/" + grouped(model.budget());
-  const DesignProgress* current = model.current();
+/// Of the design that a campaign is at.
+std::string race_text(const DesignProgress* current) {
+  std::string text;
   if (current != nullptr && current->configurations > 0) {
     text +=
         "  alive " + std::to_string(current->alive) + "/" + std::to_string(current->configurations);
   }
   if (current != nullptr && current->best) text += "  best " + score_text(current->best_mean);
+  return text;
+}
+
+/// Numbers, the most important first.
+std::string second_half(std::span<const ProgressModel> models, const Totals& totals,
+                        const LiveStatus& live) {
+  std::string text = grouped(totals.used) + "/" + grouped(totals.budget);
+  if (models.size() == 1) text += race_text(models.front().current());
   text += "  " + std::to_string(std::llround(live.evaluations_per_s)) + " sim/s";
-  const auto left = static_cast<double>(model.budget() - model.used());
+  const auto left = static_cast<double>(totals.budget - totals.used);
   if (live.evaluations_per_s > 0 && left > 0) {
     text += "  ETA " + duration_text(left / live.evaluations_per_s);
   }
+  if (totals.paused > 0) text += "  paused " + std::to_string(totals.paused);
   if (live.failed > 0) text += "  failed " + std::to_string(live.failed);
-  if (live.workers == 0) text += "  no workers";
+  if (live.workers > 0) return text;
+  // Only local workers are there at once.
+  const bool waits = !live.launcher.name.empty() && live.launcher.name != "local";
+  text += waits ? "  no workers yet (" + to_text(live.launcher) + ")" : "  no workers";
   return text;
 }
 
@@ -89,16 +117,19 @@ std::string_view name_of(DesignState state) {
   return kNames[static_cast<std::size_t>(state)];
 }
 
-std::string status_line(const ProgressModel& model, const LiveStatus& live, std::size_t width) {
-  std::string line = first_half(model) + "  " + bar(model.used(), model.budget()) + "  " +
-                     second_half(model, live);
+std::string status_line(std::span<const ProgressModel> models, const LiveStatus& live,
+                        std::size_t width) {
+  const Totals totals(models);
+  std::string line = first_half(models, totals) + "  " + bar(totals.used, totals.budget) + "  " +
+                     second_half(models, totals, live);
   // Whatever is least needed stands last.
   if (line.size() > width) line.resize(width);
   return line;
 }
 
-std::string plain_status(const ProgressModel& model, const LiveStatus& live) {
-  return first_half(model) + "  " + second_half(model, live) + "  workers " +
+std::string plain_status(std::span<const ProgressModel> models, const LiveStatus& live) {
+  const Totals totals(models);
+  return first_half(models, totals) + "  " + second_half(models, totals, live) + "  workers " +
          std::to_string(live.workers) + "  slots " + std::to_string(live.leased) + "/" +
          std::to_string(live.slots);
 }
@@ -142,6 +173,15 @@ std::string state_line(const DesignStateRow& state, const DesignProgress& progre
     text += "  best " + to_string(state.best) + " " + score_text(state.best_mean);
   }
   if (!state.reason.empty()) text += "  (" + state.reason + ")";
+  return text;
+}
+
+std::string command_line(const CommandRow& command) {
+  std::string text = command.kind + " " + to_string(command.design);
+  if (command.kind == "extend") text += " by " + grouped(command.budget) + " experiments";
+  if (!command.who.empty()) text += ", asked by " + command.who;
+  // Its row comes when it is asked for, and when it acts.
+  if (command.step) text += ": done after step " + std::to_string(*command.step);
   return text;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -15,10 +16,12 @@ std::string score_text(double score);
 /// The line that is redrawn on a terminal, cut to `width` columns:
 ///   design 3/10  iteration 5/~10  [####------]  52 418/100 000  alive 17/58  best 2.71
 ///   412 sim/s  ETA 1m55s  failed 3
-std::string status_line(const ProgressModel& model, const LiveStatus& live, std::size_t width);
+/// Of several campaigns, their sums: campaigns 0/2  designs 3/20  [####------]  ...
+std::string status_line(std::span<const ProgressModel> models, const LiveStatus& live,
+                        std::size_t width);
 
 /// The same facts for logs, without the bar.
-std::string plain_status(const ProgressModel& model, const LiveStatus& live);
+std::string plain_status(std::span<const ProgressModel> models, const LiveStatus& live);
 
 /// The table of a race as irace prints it, with the design in front and scores instead of costs.
 std::string race_headline();
@@ -30,6 +33,8 @@ std::string iteration_line(const IterationRow& iteration, const DesignProgress& 
 std::string elite_line(const EliteRow& elite);
 /// A design's state changed.
 std::string state_line(const DesignStateRow& state, const DesignProgress& progress);
+/// Somebody asked for something, or it acts now.
+std::string command_line(const CommandRow& command);
 /// Something happened that a person may want to know.
 std::string event_line(const EventRow& event);
 
@@ -39,7 +44,9 @@ std::string_view name_of(DesignState state);
 /// The row as one event, {"v":1,"event":"race_step",...}; empty for rows that are none
 /// (candidates, pairs, single evaluations, totals).
 std::string event_json(const Row& row);
-/// {"v":1,"event":"progress",...}
-std::string progress_json(const ProgressModel& model, const LiveStatus& live);
+/// {"v":1,"event":"progress",...}; `left` experiments of all campaigns make the expected time.
+std::string progress_json(const ProgressModel& model, const LiveStatus& live, std::int64_t left);
+/// The event with the name of its campaign; unchanged without one.
+std::string of_campaign(std::string event, const std::string& name);
 
 }  // namespace swarmsmith::cli

@@ -1,5 +1,7 @@
+#include <algorithm>
 #include <memory>
 
+#include "coordinator/cli/campaign_flags.h"
 #include "coordinator/cli/campaign_run.h"
 #include "coordinator/cli/commands.h"
 
@@ -8,6 +10,7 @@ namespace swarmsmith::cli {
 Run declare_serve(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
+    AccessFlags access;
     std::string bind;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -15,16 +18,17 @@ Run declare_serve(Options& options) {
   options.text(
       "--bind", arguments->bind,
       "Address and port for workers (default 127.0.0.1:5555, or the next port that is free)");
+  arguments->access.declare(options);
   return [arguments](Output& output) {
-    const auto campaign = arguments->campaign.read(output);
-    if (!campaign) return ExitCode::Usage;
-    RunOptions run{.workers = 0, .bind = arguments->bind, .announce = true};
-    if (run.bind.empty()) run.bind = campaign->bind;
-    if (run.bind.empty()) {
+    const auto campaigns = arguments->campaign.read(output);
+    if (!campaigns) return ExitCode::Usage;
+    RunOptions run{
+        .workers = 0, .bind = arguments->bind, .announce = true, .access = arguments->access};
+    if (run.bind.empty() && std::ranges::all_of(*campaigns, &std::string::empty, &Campaign::bind)) {
       run.bind = "127.0.0.1:5555";
       run.next_port = true;
     }
-    return run_campaign(output, *campaign, run);
+    return run_campaigns(output, *campaigns, run);
   };
 }
 

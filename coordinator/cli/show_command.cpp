@@ -31,7 +31,10 @@ std::vector<Part> parts_of_design(const std::string& number) {
            "SELECT candidate, source, count(score) AS runs, avg(score) AS mean, "
            "min(score) AS lowest, max(score) AS highest FROM v_design_scores "
            "WHERE design = " +
-               number + " GROUP BY candidate, source"}};
+               number + " GROUP BY candidate, source"},
+          {"commands",
+           "SELECT number, kind, budget, step, who, at FROM v_commands WHERE design = " + number +
+               " ORDER BY number"}};
 }
 
 std::vector<Part> parts_of_candidate(const std::string& number) {

@@ -23,11 +23,24 @@ constexpr const char* kWorkers =
     "WHERE state = 'connected' ORDER BY worker";
 constexpr const char* kFailures = "SELECT count(*) AS failures FROM v_failures";
 
+/// The last ones; whether a design is paused is in them.
+constexpr const char* kCommands =
+    "SELECT number, kind, design, budget, step, who, at FROM v_commands "
+    "ORDER BY number DESC LIMIT 20";
+
+/// Designs that a person has paused, and that are not over.
+constexpr const char* kPaused =
+    "SELECT d.design FROM v_designs AS d WHERE d.state NOT IN ('finished', 'stopped') AND "
+    "(SELECT c.kind FROM v_commands AS c WHERE c.design = d.design AND c.kind IN "
+    "('pause', 'resume') ORDER BY c.number DESC LIMIT 1) = 'pause' ORDER BY d.design";
+
 struct Status {
   Rows campaign;
   Rows designs;
   Rows workers;
   Rows failures;
+  Rows commands;
+  Rows paused;
 
   std::string of_campaign(const std::string& column) const {
     for (std::size_t i = 0; i < campaign.columns.size(); ++i) {
@@ -36,6 +49,20 @@ struct Status {
     return "";
   }
 };
+
+/// Stores of schemas before 3 have none.
+Expected<void> read_commands(StoreReader& store, Status& status) {
+  const auto known = select(store, "SELECT 1 FROM sqlite_master WHERE name = 'v_commands'");
+  if (!known || known->cells.empty()) return {};
+  for (const auto& [sql, rows] :
+       {std::pair{kPaused, &status.paused}, {kCommands, &status.commands}}) {
+    auto found = select(store, sql);
+    if (!found) return Unexpected(found.error());
+    letter_ids(*found);
+    *rows = std::move(*found);
+  }
+  return {};
+}
 
 /// All parts of one answer; a campaign that runs may move on between them.
 Expected<Status> read_status(StoreReader& store) {
@@ -50,6 +77,7 @@ Expected<Status> read_status(StoreReader& store) {
     letter_ids(*found);
     *rows = std::move(*found);
   }
+  if (auto asked = read_commands(store, status); !asked) return Unexpected(asked.error());
   if (status.campaign.cells.empty()) return unexpected(ErrorKind::Corrupt, "the store is empty");
   return status;
 }
@@ -63,6 +91,10 @@ void write_text(Output& output, const Status& status) {
              << status.of_campaign("candidates") << "  failed "
              << status.failures.cells.front().front().text << "\n\n"
              << rows_as_text(status.designs);
+  for (std::size_t i = 0; i < status.paused.cells.size(); ++i)
+    output.out << (i == 0 ? "\npaused: " : ", ") << status.paused.cells[i].front().text;
+  if (!status.paused.cells.empty()) output.out << "\n";
+  if (!status.commands.cells.empty()) output.out << "\n" << rows_as_text(status.commands);
   if (status.workers.cells.empty()) return;
   output.out << "\n" << rows_as_text(status.workers);
 }
@@ -71,6 +103,8 @@ void write_json(Output& output, const Status& status) {
   output.out << "{\"campaign\":" << row_as_json(status.campaign, 0)
              << ",\"designs\":" << rows_as_json(status.designs)
              << ",\"workers\":" << rows_as_json(status.workers)
+             << ",\"paused\":" << rows_as_json(status.paused)
+             << ",\"commands\":" << rows_as_json(status.commands)
              << ",\"failures\":" << status.failures.cells.front().front().text << "}\n";
 }
 

@@ -124,6 +124,13 @@ bool CampaignRunner::finished() const {
   return !error_ && open_.empty() && waiting_.empty();
 }
 
+std::vector<DesignId> CampaignRunner::unfinished() const {
+  std::vector<DesignId> ids;
+  std::ranges::copy_if(all_, std::back_inserter(ids),
+                       [&](DesignId id) { return waiting_.contains(id) || open_.contains(id); });
+  return ids;
+}
+
 Expected<void> CampaignRunner::carry_out(const CommandRow& command) {
   const DesignId id = command.design;
   if (error_) return Unexpected(*error_);

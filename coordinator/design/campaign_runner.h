@@ -47,8 +47,9 @@ class CampaignRunner final : public WorkSource {
   std::vector<Row> take_rows() override;
   bool finished() const override;
 
-  /// Why the campaign cannot go on: a plan that does not fit, a store that disagrees.
-  const std::optional<Error>& error() const { return error_; }
+  /// A plan that does not fit, a store that disagrees.
+  std::optional<Error> error() const override { return error_; }
+  std::vector<DesignId> unfinished() const override;
 
  private:
   /// A design before its turn.

@@ -51,6 +51,7 @@ class RacedCampaign final : public WorkSource {
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override { return runner_.take_rows(); }
   bool finished() const override { return runner_.finished(); }
+  std::vector<DesignId> unfinished() const override { return runner_.unfinished(); }
 
   std::string complaint() const;
 

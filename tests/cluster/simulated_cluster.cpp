@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "base/overloaded.h"
+#include "coordinator/paused_designs.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {
@@ -57,6 +58,10 @@ Schedule schedule_of(std::uint64_t seed) {
                      .coordinator_crashes = up_to(3),
                      .pauses = up_to(3),
                      .slow_commit = one_of({0, 0.05, 0.5}),
+                     .clock_steps = rng.bernoulli(0.3) ? up_to(3) : 0,
+                     .total_crashes = rng.bernoulli(0.2) ? up_to(2) : 0,
+                     .full_disks = rng.bernoulli(0.2) ? up_to(2) : 0,
+                     .flaps = rng.bernoulli(0.2) ? up_to(2) : 0,
                      .until = milliseconds(rng.uniform_int(100, rng.bernoulli(0.8) ? 800 : 8000))};
   CampaignShape& campaign = schedule.campaign;
   campaign.seed = seed;
@@ -67,13 +72,15 @@ Schedule schedule_of(std::uint64_t seed) {
   campaign.failing = rng.bernoulli(0.4);
   campaign.killing = rng.bernoulli(0.2);
   campaign.hopeless = rng.bernoulli(0.1);
-  schedule.slow_worker = rng.bernoulli(0.1);
+  // Not beside clocks that jump: together they would make time-outs of evaluations that take 20 s.
+  schedule.slow_worker = rng.bernoulli(0.1) && schedule.faults.clock_steps == 0;
   if (rng.bernoulli(0.15)) {
     schedule.other = campaign;
     schedule.other->seed = seed + 1;
     schedule.other->designs = 1;
     campaign.designs = 1;
   }
+  schedule.faults.commands = up_to(4);
   return schedule;
 }
 
@@ -89,6 +96,7 @@ SimulatedCluster::SimulatedCluster(const Schedule& schedule)
   for (int i = 0; i < kWorkers; ++i)
     start_worker(i);
   plan_faults();
+  plan_commands();
 }
 
 std::string SimulatedCluster::run() {
@@ -181,7 +189,7 @@ void SimulatedCluster::plan_faults() {
   sometimes(faults.coordinator_crashes, [this](int) { crash_coordinator(); });
   sometimes(faults.worker_drains, [this](int worker) {
     on_process(worker, Duration{0}, [this, worker] {
-      workers_[static_cast<std::size_t>(worker)].protocol->on_drain(now_);
+      workers_[static_cast<std::size_t>(worker)].protocol->on_drain(clock(worker));
       settle_worker(worker);
     });
   });
@@ -189,12 +197,78 @@ void SimulatedCluster::plan_faults() {
     const int index = rng_.bernoulli(0.3) ? kCoordinator : worker;
     process(index).paused_until = now_ + between(milliseconds(10), seconds(12));
   });
+  sometimes(faults.clock_steps, [this](int worker) {
+    const int index = rng_.bernoulli(0.3) ? kCoordinator : worker;
+    process(index).skew += between(-seconds(20), seconds(60));
+    // Timers of the system fire by the new time.
+    if (index != kCoordinator && process(index).alive) {
+      on_process(index, Duration{0}, [this, index] { settle_worker(index); });
+    }
+  });
+  sometimes(faults.total_crashes, [this](int) {
+    for (int i = 0; i < kWorkers; ++i)
+      crash_worker(i);
+    crash_coordinator();
+  });
+  sometimes(faults.full_disks,
+            [this](int) { disk_full_until_ = now_ + between(milliseconds(10), seconds(20)); });
+  sometimes(faults.flaps, [this](int worker) { flap(worker, 10); });
   sometimes(faults.cuts, [this](int worker) {
     const TimePoint until = now_ + between(milliseconds(10), seconds(8));
     const std::uint64_t ways = rng_.below(3);
     if (ways != 0) process(worker).cut_in_until = until;
     if (ways != 1) process(worker).cut_out_until = until;
   });
+}
+
+/// A cable that is out and in again, a few times.
+void SimulatedCluster::flap(int worker, int times) {
+  if (times == 0) return;
+  const TimePoint until = now_ + between(milliseconds(5), seconds(2));
+  process(worker).cut_in_until = until;
+  process(worker).cut_out_until = until;
+  at(until + between(milliseconds(1), milliseconds(200)),
+     [this, worker, times] { flap(worker, times - 1); });
+}
+
+// --- a person ---
+
+/// Pauses and resumes while things go wrong; at the end everything is resumed.
+void SimulatedCluster::plan_commands() {
+  for (int i = 0; i < schedule_.faults.commands; ++i) {
+    const auto kind = rng_.bernoulli(0.6) ? pb::Command::KIND_PAUSE : pb::Command::KIND_RESUME;
+    const std::int64_t design = rng_.uniform_int(0, schedule_.campaign.designs);
+    at(now_ + between(Duration{0}, schedule_.faults.until), [this, kind, design] {
+      on_process(kCoordinator, Duration{0}, [this, kind, design] {
+        // What a stopped process hears only now would come after the last word.
+        if (now_ < faults_end_) command(kind, design);
+      });
+    });
+  }
+  if (schedule_.faults.commands > 0) at(faults_end_, [this] { resume_all(); });
+}
+
+void SimulatedCluster::command(pb::Command::Kind kind, std::int64_t design) {
+  pb::ToCoordinator message;
+  message.mutable_command()->set_campaign("cluster0");
+  message.mutable_command()->set_kind(kind);
+  message.mutable_command()->set_design(design);
+  coordinator_->on_frame({kPerson, Role::Operator}, encode(message), clock(kCoordinator));
+  settle_coordinator();
+}
+
+void SimulatedCluster::resume_all() {
+  if (!coordinator_process_.alive || now_ < coordinator_process_.paused_until) {
+    at(now_ + milliseconds(100), [this] { resume_all(); });
+    return;
+  }
+  command(pb::Command::KIND_RESUME, 0);
+  if (!coordinator_->paused().empty() && !coordinator_->finished()) {
+    // Of a design that is over nobody cares.
+    for (const DesignId design : campaigns_.front().source->unfinished()) {
+      if (coordinator_->paused().contains(design)) fail("a design stays paused");
+    }
+  }
 }
 
 // --- network ---
@@ -212,12 +286,12 @@ void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string
       const Connection& over = connections_.at(connection);
       if (to == kCoordinator) {
         if (over.coordinator_life != coordinator_process_.life) return;
-        coordinator_->on_frame({connection}, frame, now_);
+        coordinator_->on_frame({connection}, frame, clock(kCoordinator));
         settle_coordinator();
       } else {
         Worker& worker = workers_[static_cast<std::size_t>(to)];
         if (worker.connection != connection) return;
-        worker.protocol->on_frame(frame, now_);
+        worker.protocol->on_frame(frame, clock(to));
         settle_worker(to);
       }
       (void)from;
@@ -237,7 +311,7 @@ void SimulatedCluster::connect(int index) {
   on_process(index, milliseconds(1), [this, index, connection = worker.connection] {
     Worker& it = workers_[static_cast<std::size_t>(index)];
     if (it.connection != connection) return;
-    it.protocol->on_connection_lost(now_);
+    it.protocol->on_connection_lost(clock(index));
     settle_worker(index);
   });
 }
@@ -270,6 +344,20 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
   }
 }
 
+/// Whoever asked is told when it is on disk: what the disk has is what will be after a crash.
+void SimulatedCluster::check_confirmed(const std::string& frame) {
+  google::protobuf::Arena arena;
+  const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);
+  if (!message || !(*message)->has_command_reply()) return fail("no reply to a command");
+  const auto is_command = [](const Row& row) { return std::holds_alternative<CommandRow>(row); };
+  const Running& running = campaigns_.front();
+  const bool more = std::ranges::any_of(running.uncommitted, [&](const Batch& batch) {
+    return std::ranges::any_of(batch.rows, is_command);
+  });
+  if (!more && paused_designs(running.disk.commands()) != coordinator_->paused())
+    fail("what a person was told of is not on disk");
+}
+
 // --- coordinator ---
 
 void SimulatedCluster::start_coordinator() {
@@ -279,17 +367,21 @@ void SimulatedCluster::start_coordinator() {
   it.paused_until = {};
   std::int64_t first_worker = 1;
   std::vector<std::vector<StoredScore>> known;
+  std::vector<std::vector<CommandRow>> commands;
   std::vector<CampaignWork> works;
   known.reserve(campaigns_.size());
+  commands.reserve(campaigns_.size());
   for (Running& running : campaigns_) {
     running.source = std::make_unique<RacedCampaign>(running.shape, running.disk);
     running.tickets = 0;
     running.uncommitted.clear();
     first_worker = std::max(first_worker, running.disk.next_worker());
     known.push_back(running.disk.scores());
+    commands.push_back(running.disk.commands());
     works.push_back({.digest = "cluster" + std::to_string(works.size()),
                      .source = running.source.get(),
-                     .known = known.back()});
+                     .known = known.back(),
+                     .commands = commands.back()});
   }
   coordinator_ =
       std::make_unique<Coordinator>(coordinator_options(first_worker, campaigns_.size()), works);
@@ -305,7 +397,8 @@ void SimulatedCluster::crash_coordinator() {
   for (Running& running : campaigns_) {
     running.source.reset();
     // Some of what waited for the disk may have come there all the same.
-    const std::uint64_t written = rng_.below(running.uncommitted.size() + 1);
+    const bool full = now_ < disk_full_until_;
+    const std::uint64_t written = full ? 0 : rng_.below(running.uncommitted.size() + 1);
     for (std::uint64_t i = 0; i < written; ++i)
       write(running, running.uncommitted[i].rows);
     running.uncommitted.clear();
@@ -316,7 +409,7 @@ void SimulatedCluster::crash_coordinator() {
     if (worker.connection != 0) connections_[worker.connection].open = false;
     if (!noticed) continue;
     on_process(i, between(Duration{0}, milliseconds(5)), [this, i] {
-      workers_[static_cast<std::size_t>(i)].protocol->on_connection_lost(now_);
+      workers_[static_cast<std::size_t>(i)].protocol->on_connection_lost(clock(i));
       settle_worker(i);
     });
   }
@@ -324,19 +417,20 @@ void SimulatedCluster::crash_coordinator() {
 }
 
 void SimulatedCluster::tick_coordinator() {
-  coordinator_->on_tick(now_);
+  coordinator_->on_tick(clock(kCoordinator));
   settle_coordinator();
   on_process(kCoordinator, milliseconds(100), [this] { tick_coordinator(); });
 }
 
 void SimulatedCluster::settle_coordinator() {
-  for (auto actions = coordinator_->take_actions(now_); !actions.empty();
-       actions = coordinator_->take_actions(now_)) {
+  for (auto actions = coordinator_->take_actions(clock(kCoordinator)); !actions.empty();
+       actions = coordinator_->take_actions(clock(kCoordinator))) {
     for (CoordinatorAction& action : actions) {
       std::visit(Overloaded{[&](const SendFrame& send) {
+                              if (send.peer == kPerson) return check_confirmed(send.frame);
                               check_acknowledged(send.frame);
                               if (to_worker(send.peer, send.frame) == SendStatus::Gone) {
-                                coordinator_->on_unreachable(send.peer, now_);
+                                coordinator_->on_unreachable(send, clock(kCoordinator));
                               }
                             },
                             [&](AppendRows& rows) { append(rows.campaign, std::move(rows.rows)); },
@@ -367,6 +461,12 @@ void SimulatedCluster::append(std::uint32_t campaign, std::vector<Row> rows) {
 void SimulatedCluster::commit(std::uint32_t campaign) {
   Running& running = campaigns_[campaign];
   if (running.uncommitted.empty()) return;
+  if (now_ < disk_full_until_) {
+    coordinator_->hold(true);
+    on_process(kCoordinator, disk_full_until_ - now_, [this, campaign] { commit(campaign); });
+    return;
+  }
+  coordinator_->hold(false);
   const Batch batch = std::move(running.uncommitted.front());
   running.uncommitted.pop_front();
   write(running, batch.rows);
@@ -430,7 +530,7 @@ void SimulatedCluster::start_worker(int index) {
   worker.protocol = std::make_unique<WorkerProtocol>(
       WorkerIdentity{.id = id, .slots = worker.slots, .host = "here"}, WorkerOptions{},
       rng_.split("jitter", order_));
-  worker.protocol->start(now_);
+  worker.protocol->start(clock(index));
   settle_worker(index);
 }
 
@@ -474,7 +574,7 @@ void SimulatedCluster::carry_out(int index, WorkerAction& action) {
                    for (const WorkItem& item : worker.waiting)
                      keys.push_back(item.key);
                    worker.waiting.clear();
-                   worker.protocol->on_taken_back(keys, now_);
+                   worker.protocol->on_taken_back(keys, clock(index));
                  },
                  [&](DropItems) { worker.waiting.clear(); },
                  [&](const Leave& leave) {
@@ -492,7 +592,7 @@ void SimulatedCluster::start_items(int index) {
     const WorkItem item = std::move(worker.waiting.front());
     worker.waiting.pop_front();
     ++worker.running;
-    worker.protocol->on_started(item.key, now_);
+    worker.protocol->on_started(item.key, clock(index));
     on_process(index, time_of(item.key, worker.slowness),
                [this, index, item] { finish_item(index, item); });
   }
@@ -517,13 +617,15 @@ void SimulatedCluster::finish_item(int index, const WorkItem& item) {
        .wall_us =
            std::chrono::duration_cast<microseconds>(time_of(item.key, worker.slowness)).count(),
        .failure = fails ? "planted" : ""},
-      now_);
+      clock(index));
   settle_worker(index);
 }
 
 void SimulatedCluster::schedule_tick(int index) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
-  const TimePoint due = std::max(worker.protocol->next_deadline(), now_ + microseconds(100));
+  // The protocol thinks in its own host's time.
+  const TimePoint due =
+      std::max(worker.protocol->next_deadline() - worker.process.skew, now_ + microseconds(100));
   const bool pending = worker.tick_at > now_ && worker.tick_at <= due;
   if (pending) return;
   worker.tick_at = due;
@@ -531,7 +633,7 @@ void SimulatedCluster::schedule_tick(int index) {
     Worker& it = workers_[static_cast<std::size_t>(index)];
     if (it.tick_at != due) return;
     it.tick_at = {};
-    it.protocol->on_tick(now_);
+    it.protocol->on_tick(clock(index));
     settle_worker(index);
   });
 }

@@ -32,6 +32,11 @@ struct Faults {
   int coordinator_crashes = 0;
   int pauses = 0;          ///< of a process that lives on
   double slow_commit = 0;  ///< probability, a commit
+  int commands = 0;        ///< of a person who pauses and resumes designs
+  int clock_steps = 0;     ///< of one process's clock, by up to a minute, forwards or back
+  int total_crashes = 0;   ///< of coordinator and workers at once
+  int full_disks = 0;      ///< for up to 20 s nothing can be committed
+  int flaps = 0;           ///< a worker's link goes down and up ten times
   Duration until = std::chrono::seconds(0);
 };
 
@@ -72,6 +77,7 @@ class SimulatedCluster {
  private:
   static constexpr int kWorkers = 3;
   static constexpr int kCoordinator = -1;
+  static constexpr PeerId kPerson = 1'000'000'000;
 
   struct Event {
     TimePoint at;
@@ -88,6 +94,7 @@ class SimulatedCluster {
     TimePoint paused_until;
     TimePoint cut_in_until;   ///< messages to it are lost
     TimePoint cut_out_until;  ///< messages from it are lost
+    Duration skew{0};         ///< its host's clock less the true time
   };
   struct Worker {
     Process process;
@@ -124,7 +131,12 @@ class SimulatedCluster {
   void on_process(int process, Duration delay, std::function<void()> what);
   Process& process(int index);
   Duration between(Duration low, Duration high);
+  TimePoint clock(int index) { return now_ + process(index).skew; }
   void plan_faults();
+  void plan_commands();
+  void command(pb::Command::Kind kind, std::int64_t design);
+  void resume_all();
+  void flap(int worker, int times);
   void fail(const std::string& what);
 
   // Network.
@@ -133,6 +145,7 @@ class SimulatedCluster {
   void to_coordinator(int worker, std::string frame);
   SendStatus to_worker(PeerId peer, const std::string& frame);
   void check_acknowledged(const std::string& frame);
+  void check_confirmed(const std::string& frame);
 
   // Coordinator and its disk.
   void start_coordinator();
@@ -171,6 +184,7 @@ class SimulatedCluster {
   Process coordinator_process_;
   std::vector<Running> campaigns_;
   std::unique_ptr<Coordinator> coordinator_;
+  TimePoint disk_full_until_;
 
   std::vector<Worker> workers_;
   std::set<PackedKey> failed_;   ///< said once to have no score

@@ -156,6 +156,10 @@ std::vector<DesignStateRow> SimulatedDisk::design_states() const {
   return rows_of<DesignStateRow>();
 }
 
+std::vector<CommandRow> SimulatedDisk::commands() const {
+  return rows_of<CommandRow>();
+}
+
 std::int64_t SimulatedDisk::next_worker() const {
   const std::vector<WorkerRow> workers = rows_of<WorkerRow>();
   return workers.empty() ? 1 : workers.back().id + 1;

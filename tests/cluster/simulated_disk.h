@@ -23,6 +23,7 @@ class SimulatedDisk {
   std::vector<StoredScore> scores() const;
   std::vector<StoredStep> steps() const;
   std::vector<DesignStateRow> design_states() const;
+  std::vector<CommandRow> commands() const;
   std::int64_t next_worker() const;
   bool finished() const;
 

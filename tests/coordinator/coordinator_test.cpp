@@ -153,6 +153,70 @@ TEST_F(Coordinators, CountResultsOfAnotherCampaign) {
   EXPECT_EQ(coordinator.malformed().at("campaign"), 1U);
 }
 
+pb::ToCoordinator command(pb::Command::Kind kind, std::int64_t design) {
+  pb::ToCoordinator message;
+  message.mutable_command()->set_kind(kind);
+  message.mutable_command()->set_design(design);
+  message.mutable_command()->set_who("somebody@here");
+  return message;
+}
+
+TEST_F(Coordinators, ConfirmACommandWhenItIsOnDiskAndNotBefore) {
+  say(command(pb::Command::KIND_PAUSE, 1), 5);
+  EXPECT_EQ(count(pb::ToWorker::kCommandReply), 0);
+  ASSERT_EQ(rows.size(), 1U);
+  EXPECT_EQ(std::get<CommandRow>(rows[0]).who, "somebody@here");
+  coordinator.on_committed(0, ticket);
+  move();
+  ASSERT_EQ(count(pb::ToWorker::kCommandReply), 1);
+  EXPECT_TRUE(heard.back().command_reply().done());
+  // There is nothing to write now.
+  say(command(pb::Command::KIND_PAUSE, 1), 5);
+  ASSERT_EQ(count(pb::ToWorker::kCommandReply), 2);
+  EXPECT_EQ(heard.back().command_reply().sentence(), "nothing to do: paused before");
+}
+
+TEST_F(Coordinators, LeaseNothingOfWhatIsPausedUntilItIsResumed) {
+  hello();
+  say(command(pb::Command::KIND_PAUSE, 0), 5);
+  EXPECT_EQ(coordinator.paused().size(), static_cast<std::size_t>(shape.designs));
+  // A person is told that nothing will happen by itself.
+  EXPECT_TRUE(std::holds_alternative<EventRow>(rows.back()));
+  answer();
+  coordinator.on_committed(0, ticket);
+  move();
+  EXPECT_EQ(count(pb::ToWorker::kTasks), 0);
+  EXPECT_FALSE(coordinator.finished());
+  say(command(pb::Command::KIND_RESUME, 0), 5);
+  EXPECT_GT(count(pb::ToWorker::kTasks), 0);
+  for (int i = 0; i < 1000 && !coordinator.finished(); ++i) {
+    answer();
+    coordinator.on_committed(0, ticket);
+    move();
+  }
+  EXPECT_EQ(campaign.dump(), cluster::undisturbed_dump(shape));
+}
+
+TEST_F(Coordinators, KeepPausesOfTheirStore) {
+  const std::vector<CommandRow> commands{{.number = 1, .kind = "pause", .design = {1}},
+                                         {.number = 2, .kind = "pause", .design = {2}},
+                                         {.number = 3, .kind = "resume", .design = {2}}};
+  Coordinator again(options, {{.digest = "d", .source = &campaign, .commands = commands}});
+  EXPECT_EQ(again.paused(), std::set<DesignId>{{1}});
+}
+
+TEST_F(Coordinators, RefuseCommandsThatCannotBe) {
+  say(command(pb::Command::KIND_PAUSE, 99), 5);
+  ASSERT_EQ(heard.back().body_case(), pb::ToWorker::kCommandReply);
+  EXPECT_FALSE(heard.back().command_reply().done());
+  EXPECT_NE(heard.back().command_reply().sentence().find("d99"), std::string::npos);
+  pb::ToCoordinator other = command(pb::Command::KIND_PAUSE, 1);
+  other.mutable_command()->set_campaign("another");
+  say(other, 5);
+  EXPECT_FALSE(heard.back().command_reply().done());
+  EXPECT_TRUE(rows.empty());
+}
+
 TEST_F(Coordinators, WriteWhoCame) {
   hello();
   ASSERT_FALSE(rows.empty());

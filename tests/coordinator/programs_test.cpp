@@ -10,7 +10,7 @@
 #include <set>
 #include <thread>
 
-#include "coordinator/local_workers.h"
+#include "coordinator/launchers/local_workers.h"
 #include "coordinator/service.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"

@@ -135,6 +135,19 @@ TEST_F(Schedulers, RejectAfterThreeDeathsAlone) {
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
 }
 
+TEST_F(Schedulers, BlameNobodyForATaskThatNeverGotToTheWorker) {
+  want(1, 1);
+  const std::vector<PackedKey> undelivered{key(1)};
+  for (PeerId peer = 1; peer <= 20; ++peer) {
+    hello(peer);
+    credit(peer, 10);
+    ASSERT_EQ(given[peer].size(), 1U);
+    scheduler.on_unreachable(peer, now, undelivered);
+    move();
+  }
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+}
+
 TEST_F(Schedulers, TakeBackADeathWhenTheWorkerComesAgain) {
   want(1, 1);
   hello(1);

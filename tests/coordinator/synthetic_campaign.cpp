@@ -36,6 +36,13 @@ EvaluationKey SyntheticCampaign::key_of(std::size_t design, std::int64_t candida
   return {candidate_id(id, candidate), Purpose::Race, races_[design].step};
 }
 
+std::vector<DesignId> SyntheticCampaign::unfinished() const {
+  std::vector<DesignId> designs;
+  for (std::size_t i = 0; i < races_.size() && !finished(); ++i)
+    designs.push_back({static_cast<std::int64_t>(i) + 1});
+  return designs;
+}
+
 void SyntheticCampaign::ask(std::size_t design) {
   Race& race = races_[design];
   if (race.step == shape_.steps) return;

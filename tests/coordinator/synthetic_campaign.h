@@ -35,6 +35,8 @@ class SyntheticCampaign final : public WorkSource {
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override;
   bool finished() const override;
+  /// All of them, until the last one is over.
+  std::vector<DesignId> unfinished() const override;
 
   /// Every step's survivors and every score that was used, as text with all bits.
   std::string dump() const;

@@ -38,7 +38,7 @@ profile = "argos3"
 def call(*arguments, timeout=300, cwd=None):
     """Runs swarmsmith to its end; returns the finished process with its output as text."""
     return subprocess.run([SWARMSMITH, *map(str, arguments)], capture_output=True, text=True,
-                          timeout=timeout, cwd=cwd)
+                          errors="replace", timeout=timeout, cwd=cwd)
 
 
 def start(*arguments, cwd=None):

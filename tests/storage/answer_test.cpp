@@ -82,6 +82,14 @@ TEST(Answer, IsDescribedInOneLineWithKeyAndValues) {
   EXPECT_LT(describe(longer).size(), 300U);
 }
 
+TEST(Answer, DescriptionsOfLongTextsDifferWhereverTheTextsDo) {
+  CandidateRow one{
+      .id = {1}, .parent = {}, .parameters = {}, .machine = std::string(500, 'x'), .modules = {}};
+  CandidateRow other = one;
+  other.machine.back() = 'y';
+  EXPECT_NE(describe(one), describe(other));
+}
+
 TEST(Answer, NamesEvaluationsByALetterForTheirPurpose) {
   EvaluationKey key{.candidate = {12}, .purpose = Purpose::Race, .pair = 3};
   EXPECT_EQ(to_string(key), "e1200003");

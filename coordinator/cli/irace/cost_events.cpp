@@ -6,7 +6,7 @@
 
 namespace swarmsmith::cli {
 
-void CostEvents::add(const Row& row, TimePoint now) {
+void CostEvents::add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) {
   Row told = row;
   if (auto* step = std::get_if<RaceStepRow>(&told)) {
     step->mean_best = to_cost(step->mean_best);
@@ -18,7 +18,7 @@ void CostEvents::add(const Row& row, TimePoint now) {
     conflict->kept_score = to_cost(conflict->kept_score);
     conflict->other_score = to_cost(conflict->other_score);
   }
-  progress_.add(told, now);
+  progress_.add(campaign, told, now);
 }
 
 }  // namespace swarmsmith::cli

@@ -10,8 +10,8 @@ class CostEvents final : public RunListener {
  public:
   explicit CostEvents(Progress& progress) : progress_(progress) {}
 
-  void restore(const DesignStateRow& row) override { progress_.restore(row); }
-  void add(const Row& row, TimePoint now) override;
+  void restore(std::size_t campaign, const Row& row) override { progress_.restore(campaign, row); }
+  void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override;
   void update(const LiveStatus& live, TimePoint now) override { progress_.update(live, now); }
   void finish(const LiveStatus& live) override { progress_.finish(live); }
 

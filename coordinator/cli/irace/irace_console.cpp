@@ -126,11 +126,11 @@ Expected<void> IraceConsole::go_on_from(StoreReader& store) {
   return {};
 }
 
-void IraceConsole::restore(const DesignStateRow& row) {
-  used_ = std::max(used_, row.used);
+void IraceConsole::restore(std::size_t /*campaign*/, const Row& row) {
+  if (const auto* state = std::get_if<DesignStateRow>(&row)) used_ = std::max(used_, state->used);
 }
 
-void IraceConsole::add(const Row& row, TimePoint now) {
+void IraceConsole::add(std::optional<std::size_t> /*campaign*/, const Row& row, TimePoint now) {
   if (const auto* elite = std::get_if<EliteRow>(&row)) {
     elites_.push_back(*elite);
   } else if (const auto* candidate = std::get_if<CandidateRow>(&row)) {

@@ -43,8 +43,8 @@ class IraceConsole final : public RunListener {
   /// What a store knows of a run that goes on: a line an iteration, the table of the last one.
   Expected<void> go_on_from(StoreReader& store);
 
-  void restore(const DesignStateRow& row) override;
-  void add(const Row& row, TimePoint now) override;
+  void restore(std::size_t campaign, const Row& row) override;
+  void add(std::optional<std::size_t> campaign, const Row& row, TimePoint now) override;
   void update(const LiveStatus& live, TimePoint now) override;
   void finish(const LiveStatus& live) override;
 

@@ -39,10 +39,10 @@ ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesyste
   if (!campaign) return fail(output, ExitCode::Failed, campaign.error());
   const TimePoint begin = SystemClock().now();
   IraceConsole console(output, {.race = campaign->race, .space = setup.space}, begin);
-  Progress progress(output, {}, begin);
+  Progress progress(output, std::span<const DesignRow>{}, begin);
   CostEvents events(progress);
   RunListener& teller = output.json ? static_cast<RunListener&>(events) : console;
-  const ExitCode ended = carry_out(output, *campaign, run_options(slots, store), teller);
+  const ExitCode ended = carry_out(output, {*campaign}, run_options(slots, store), teller).front();
   if (ended != ExitCode::Done) return explain_end(output, ended);
   const auto reader = StoreReader::open(store.file());
   if (!reader) return fail(output, ExitCode::Failed, reader.error());

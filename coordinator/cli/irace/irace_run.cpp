@@ -67,7 +67,7 @@ class ScenarioRun {
       if (auto told = tell_what_was(*console); !told)
         return fail(output_, ExitCode::Failed, told.error());
     }
-    const ExitCode ended = carry_out(output_, campaign_, options, teller);
+    const ExitCode ended = carry_out(output_, {campaign_}, options, teller).front();
     return ended == ExitCode::Done ? report() : explain_end(output_, ended);
   }
 

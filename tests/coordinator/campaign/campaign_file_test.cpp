@@ -1,4 +1,5 @@
 #include "coordinator/campaign/campaign_file.h"
+#include "coordinator/campaign/campaign_rows.h"
 
 #include <gmock/gmock.h>
 
@@ -29,6 +30,25 @@ TEST(CampaignFile, OfTheShortestKindTakesEverythingElseFromDefaults) {
   EXPECT_EQ(campaign.race.first_test, 5);
   EXPECT_EQ(campaign.profile.name, "rvr");
   EXPECT_EQ(campaign.local_workers, std::nullopt);
+}
+
+TEST(CampaignFile, ReadsWhoStartsWorkers) {
+  const FileText plain;
+  FileText file;
+  file.rest =
+      "[workers]\nlauncher = \"slurm\"\n[workers.slurm]\njobs = 16\ncpus_per_task = 64\n"
+      "time = \"8:00:00\"\npartition = \"long\"\noptions = [\"--account=x\"]\n"
+      "[workers.ssh]\nhosts = \"hosts\"\noptions = [\"-F\", \"c\"]\n";
+  const Campaign campaign = parsed(file.text());
+  EXPECT_EQ(campaign.launch, (LaunchOptions{.kind = LaunchOptions::Kind::Slurm,
+                                            .ssh = {.hosts = "in/hosts", .options = {"-F", "c"}},
+                                            .slurm = {.jobs = 16,
+                                                      .cpus_per_task = 64,
+                                                      .time = "8:00:00",
+                                                      .partition = "long",
+                                                      .options = {"--account=x"}}}));
+  EXPECT_EQ(parsed(plain.text()).launch, LaunchOptions{});
+  EXPECT_EQ(campaign_digest(campaign), campaign_digest(parsed(plain.text())));
 }
 
 TEST(CampaignFile, ReadsTheKeysOfEverySection) {

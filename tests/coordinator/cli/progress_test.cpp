@@ -57,15 +57,18 @@ ProgressModel model_after(const std::vector<Row>& rows) {
   return model;
 }
 
+std::vector<ProgressModel> models_after(const std::vector<Row>& rows) {
+  return {model_after(rows)};
+}
+
 TEST(StatusLine, TellsHowFarTheCampaignIs) {
-  const ProgressModel model = model_after({kIteration, kStep});
-  EXPECT_EQ(status_line(model, fleet(), 200),
+  EXPECT_EQ(status_line(models_after({kIteration, kStep}), fleet(), 200),
             "designs 0/2  d1 iteration 5/~10  [#####---------------]  26 209/100 000  alive 17/58  "
             "best 2.712  412 sim/s  ETA 2m59s  failed 3");
 }
 
 TEST(StatusLine, IsCutToTheTerminal) {
-  EXPECT_EQ(status_line(model_after({kIteration}), fleet(), 20), "designs 0/2  d1 iter");
+  EXPECT_EQ(status_line(models_after({kIteration}), fleet(), 20), "designs 0/2  d1 iter");
 }
 
 TEST(StatusLine, CountsTheWholeBudgetOfAFinishedDesign) {
@@ -77,7 +80,7 @@ TEST(StatusLine, CountsTheWholeBudgetOfAFinishedDesign) {
 }
 
 TEST(StatusLine, SaysWhenNobodyWorks) {
-  EXPECT_THAT(plain_status(model_after({}), LiveStatus{}), HasSubstr("no workers"));
+  EXPECT_THAT(plain_status(models_after({}), LiveStatus{}), HasSubstr("no workers"));
 }
 
 TEST(RaceLine, HasTheColumnsOfItsHeadline) {
@@ -112,7 +115,7 @@ class Printer {
 
   Progress& progress() { return *progress_; }
   void pass(Duration time) { now_ += time; }
-  void add(const Row& row) { progress_->add(row, now_); }
+  void add(const Row& row) { progress_->add(0, row, now_); }
   void update() { progress_->update(fleet(), now_); }
   std::string out() { return take(out_); }
   std::string err() { return take(err_); }
@@ -261,9 +264,43 @@ TEST(ProgressAsJson, KnowsEveryKindOfRow) {
   EXPECT_EQ(json::parse(event_json(event))["data"]["worker"], 1);
 }
 
+TEST(Progress, OfSeveralCampaignsNamesThemAndAddsThemUp) {
+  std::ostringstream out;
+  std::ostringstream err;
+  Output output{.out = out, .err = err};
+  Progress progress(output, {{"first", kDesigns}, {"second", kDesigns}}, TimePoint{});
+  progress.add(1, kFinished, TimePoint{});
+  EXPECT_EQ(err.str(),
+            "second: d1 aggregation m repetition 1 finished  used 50 000/50 000  best c812 2.75  "
+            "(budget exhausted)\n");
+  progress.restore(0, CommandRow{.number = 1, .kind = "pause", .design = {1}});
+  err.str("");
+  progress.finish(fleet());
+  EXPECT_THAT(err.str(), testing::StartsWith("campaigns 0/2  designs 1/4  50 000/200 000  "));
+  EXPECT_THAT(err.str(), HasSubstr("  paused 1  "));
+  output.json = true;
+  Progress events(output, {{"first", kDesigns}, {"second", kDesigns}}, TimePoint{});
+  events.add(1, kStep, TimePoint{});
+  EXPECT_EQ(json::parse(out.str())["campaign"], "second");
+  out.str("");
+  events.add(std::nullopt, WorkerRow{}, TimePoint{});
+  EXPECT_FALSE(json::parse(out.str()).contains("campaign"));
+}
+
+TEST(ProgressModel, CountsAnExtensionOnce) {
+  CommandRow extension{.number = 3, .kind = "extend", .design = {1}, .step = {}, .budget = 500};
+  ProgressModel model(kDesigns);
+  model.add(extension);
+  EXPECT_EQ(model.budget(), 100'000);
+  extension.step = 12;
+  model.add(extension);
+  model.add(extension);
+  EXPECT_EQ(model.budget(), 100'500);
+}
+
 TEST(Progress, OfACampaignThatGoesOnBeginsWhereItWas) {
   Printer printer(flags());
-  printer.progress().restore(kFinished);
+  printer.progress().restore(0, kFinished);
   EXPECT_EQ(printer.err(), "");
   EXPECT_EQ(printer.progress().model().finished(), 1);
 }

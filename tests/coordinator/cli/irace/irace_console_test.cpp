@@ -30,7 +30,7 @@ class Console : public testing::Test {
   static void add(IraceConsole& console, const std::vector<Row>& rows) {
     TimePoint now;
     for (const Row& row : rows)
-      console.add(row, now += seconds(1));
+      console.add(0, row, now += seconds(1));
   }
 
   std::ostringstream out_;
@@ -106,7 +106,7 @@ TEST_F(Console, SaysNothingWhenQuiet) {
 TEST_F(Console, SaysWhyTheRunEnded) {
   IraceConsole irace = console();
   add(irace, ant_rows());
-  irace.add(DesignStateRow{.design = kOne,
+  irace.add(0, DesignStateRow{.design = kOne,
                            .state = DesignState::Testing,
                            .used = 195,
                            .iteration = 2,
@@ -153,7 +153,7 @@ TEST_F(ConsoleOfAStore, TellsBrieflyWhatWasAndGoesOnInTheTable) {
           "|x|          3|          2|          4|     2.000000000|          2|      NA|   NA|"
           "  NA|    NA|\n");
   out_.str("");
-  irace.add(ant_step(4, 2, 4, 3, 9), TimePoint() + seconds(7));
+  irace.add(0, ant_step(4, 2, 4, 3, 9), TimePoint() + seconds(7));
   EXPECT_EQ(out_.str(),
             "|x|          4|          2|          4|     3.000000000|          4|00:00:07|   NA|"
             "  NA|    NA|\n");

@@ -7,7 +7,8 @@
 
 #include "base/clock.h"
 #include "base/expected.h"
-#include "target/target.h"
+#include "coordinator/launchers/child_process.h"
+#include "coordinator/launchers/launcher.h"
 
 namespace swarmsmith {
 
@@ -19,45 +20,38 @@ struct LocalWorkersOptions {
   std::vector<std::string> arguments;  ///< more of them, for the program
 };
 
-/// Arguments that let a worker run a user's own programs, and a shell for their command lines.
-std::vector<std::string> allow_arguments(const Target& target);
-
-/// The program `swarmsmith-worker`: SWARMSMITH_WORKER names it, else it lies beside this program.
-Expected<std::filesystem::path> find_worker_program();
-
 /// Worker processes of this host. They die with this process whatever happens to it. One that ends
 /// is started again, at once or, when it did not live long, after a growing pause.
-class LocalWorkers {
+class LocalWorkers final : public Launcher {
  public:
   static Expected<LocalWorkers> start(const LocalWorkersOptions& options);
   /// Ends them: SIGTERM, and SIGKILL when that takes too long.
-  ~LocalWorkers();
-  LocalWorkers(LocalWorkers&& other) noexcept;
-  LocalWorkers& operator=(LocalWorkers&&) = delete;
+  ~LocalWorkers() override;
+  LocalWorkers(LocalWorkers&&) noexcept = default;
 
-  /// Looks after them; several times a second, by the thread that made them. Returns why workers
-  /// cannot be had, if so: they were refused, or the program does not start.
-  std::string tend(TimePoint now);
-  /// Asks them to drain and waits at most `grace`.
-  void stop(Duration grace);
+  /// Trouble: they were refused, or the program does not start.
+  std::string tend(TimePoint now) override;
+  std::string stop(Duration grace) override;
+  LauncherStatus status() const override;
 
   std::vector<pid_t> pids() const;
 
  private:
-  struct Child {
-    pid_t pid = 0;  ///< 0 while none runs
+  struct Worker {
+    ChildProcess process;
     TimePoint started;
     TimePoint start_at;
-    Duration pause{};
+    Backoff backoff;
     int failures = 0;  ///< ended at once by itself, in a row
   };
 
   LocalWorkers() = default;
-  Expected<void> launch(Child& child, TimePoint now);
-  void on_ended(Child& child, int status, TimePoint now);
+  Expected<void> launch(Worker& worker, TimePoint now);
+  void on_ended(Worker& worker, int status, TimePoint now);
 
   std::vector<std::string> command_;
-  std::vector<Child> children_;
+  std::vector<Worker> workers_;
+  std::int64_t wanted_ = 0;
   std::string trouble_;
 };
 

@@ -1,0 +1,48 @@
+#include "benchmarks/cluster/flat_campaign.h"
+
+#include "storage/rows.h"
+
+namespace swarmsmith::bench {
+namespace {
+
+constexpr std::int64_t kPerCandidate = 100;
+/// A machine's text of the usual length.
+constexpr std::size_t kMachineBytes = 160;
+
+}  // namespace
+
+std::vector<Task> FlatCampaign::take_tasks() {
+  std::vector<Task> tasks;
+  while (asked_ < total_ && asked_ - told_ < window_) {
+    const std::int64_t i = asked_++;
+    const DesignId design{i / kPerDesign + 1};
+    const CandidateId candidate = candidate_id(design, i % kPerDesign / kPerCandidate + 1);
+    if (i % kPerCandidate == 0) {
+      rows_.emplace_back(std::in_place_type<CandidateRow>);
+      auto& row = std::get<CandidateRow>(rows_.back());
+      row.id = candidate;
+      row.iteration = 1;
+      row.parameters = "{}";
+      row.modules = "{}";
+    }
+    tasks.push_back({.key = {candidate, Purpose::Race, i % kPerCandidate + 1},
+                     .seed = i,
+                     .machine = std::string(kMachineBytes, 'x')});
+  }
+  return tasks;
+}
+
+void FlatCampaign::tell(const Outcome& outcome) {
+  ++told_;
+  rows_.emplace_back(EvaluationRow{.key = outcome.key,
+                                   .iteration = 1,
+                                   .status = outcome.status,
+                                   .score = outcome.score,
+                                   .state_digest = outcome.state_digest,
+                                   .source = "rvr",
+                                   .wall_us = outcome.wall_us,
+                                   .worker = outcome.worker,
+                                   .attempt = outcome.attempt});
+}
+
+}  // namespace swarmsmith::bench

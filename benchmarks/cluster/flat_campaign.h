@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "coordinator/work_source.h"
+
+namespace swarmsmith::bench {
+
+/// Independent tasks without a barrier, some ten thousand wanted at a time: what is left is the
+/// price of leases, messages and rows. A hundred evaluations a candidate; a design holds at most
+/// 200,000.
+class FlatCampaign final : public WorkSource {
+ public:
+  static constexpr std::int64_t kPerDesign = 200'000;
+
+  explicit FlatCampaign(std::int64_t total, std::int64_t window = 10'000)
+      : total_(total), window_(window) {}
+
+  std::vector<Task> take_tasks() override;
+  void tell(const Outcome& outcome) override;
+  std::vector<Row> take_rows() override { return std::exchange(rows_, {}); }
+  bool finished() const override { return told_ == total_; }
+
+  std::int64_t told() const { return told_; }
+  /// How many designs the store must know.
+  int designs() const { return static_cast<int>((total_ + kPerDesign - 1) / kPerDesign); }
+
+ private:
+  std::int64_t total_;
+  std::int64_t window_;
+  std::int64_t asked_ = 0;
+  std::int64_t told_ = 0;
+  std::vector<Row> rows_;
+};
+
+}  // namespace swarmsmith::bench

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include "base/expected.h"
+#include "benchmarks/cluster/idle_worker.h"
+#include "benchmarks/cluster/process_stats.h"
+#include "coordinator/live_status.h"
+#include "coordinator/work_source.h"
+
+namespace swarmsmith::bench {
+
+/// A real coordinator with a real store in a temporary folder, and worker processes of this host.
+struct ClusterShape {
+  int processes = 1;
+  WorkerShape each;
+  Work work;
+  bool curve = false;  ///< connections encrypted, keys listed
+  /// Designs that the store knows, from 1; the source's candidates are theirs.
+  int designs = 1;
+};
+
+struct ClusterRun {
+  double wall_s = 0;     ///< from the first connection to the last row on disk
+  double connect_s = 0;  ///< from the start to the moment when every worker was there
+  CpuByThread coordinator;
+  double workers_cpu_s = 0;
+  double resident_mb = 0;  ///< of the coordinator, at the end
+  double store_mb = 0;
+};
+
+/// Runs the source to its end. `on_status`, ten times a second, may be empty; `on_rows` sees each
+/// unit of rows.
+Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
+                                 const std::function<void(const LiveStatus&)>& on_status = {},
+                                 const std::function<void(const std::vector<Row>&)>& on_rows = {});
+
+}  // namespace swarmsmith::bench

@@ -1,0 +1,138 @@
+// How busy are the slots of a pool that several designs share? Real coordinator, sockets, store and
+// worker processes; evaluations wait instead of computing, so that a small machine has many slots.
+// Races are real ones over synthetic scores, or go as recorded ones did.
+//
+//   pool_benchmark [--designs N] [--budget N | --recorded FILE [--ahead N]]
+//                  [--processes P] [--slots S] [--sleep-us T] [--curve]
+
+#include <CLI/CLI.hpp>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "benchmarks/cluster/local_cluster.h"
+#include "benchmarks/cluster/recorded_races.h"
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/design/campaign_runner.h"
+#include "coordinator/design/plans.h"
+
+namespace swarmsmith::bench {
+namespace {
+
+struct Case {
+  int designs = 10;
+  std::int64_t budget = 5'000;
+  std::string recorded;
+  std::size_t ahead = 0;  ///< of recorded races
+  ClusterShape shape{.processes = 8, .each = {.slots = 8}};
+};
+
+/// Time that slots worked, over the middle half of a campaign's evaluations.
+class BusyTime {
+ public:
+  explicit BusyTime(std::int64_t total) : from_(total / 4), to_(total - total / 4) {}
+
+  void add(const std::vector<Row>& rows) {
+    for (const Row& row : rows) {
+      const auto* evaluation = std::get_if<EvaluationRow>(&row);
+      if (evaluation == nullptr || evaluation->wall_us == 0) continue;
+      ++done_;
+      if (done_ == from_) begin_ = Clock::now();
+      if (done_ > from_ && done_ <= to_) busy_us_ += evaluation->wall_us;
+      if (done_ == to_) end_ = Clock::now();
+    }
+  }
+  double share(int slots) const {
+    const double wall_us = std::chrono::duration<double, std::micro>(end_ - begin_).count();
+    return static_cast<double>(busy_us_) / (wall_us * slots);
+  }
+  double rate() const {
+    return static_cast<double>(to_ - from_) / std::chrono::duration<double>(end_ - begin_).count();
+  }
+  std::int64_t done() const { return done_; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  std::int64_t from_;
+  std::int64_t to_;
+  std::int64_t done_ = 0;
+  std::int64_t busy_us_ = 0;
+  Clock::time_point begin_;
+  Clock::time_point end_;
+};
+
+/// A campaign with that many designs; its races are real, its simulator is not.
+Expected<std::vector<DesignPlan>> plans_for(const Case& c) {
+  const std::string text =
+      "format = 1\n[campaign]\nrepetitions = " + std::to_string(c.designs) +
+      "\n[[mission]]\nname = \"aggregation\"\n[[method]]\nname = \"watermelon\"\n"
+      "flavour = \"watermelon\"\n[race]\nmax_experiments = " +
+      std::to_string(c.budget) + "\n[simulator]\nprofile = \"argos3\"\n";
+  const CampaignOrErrors campaign = parse_campaign(text, "pool.toml");
+  if (!campaign) return Unexpected(campaign.error().front());
+  return plans_of(*campaign);
+}
+
+int report(const Case& c, const Expected<ClusterRun>& run, const BusyTime& busy) {
+  if (!run) return std::fprintf(stderr, "%s\n", to_string(run.error()).c_str()), 1;
+  const int slots = c.shape.processes * c.shape.each.slots;
+  // Over the whole campaign, its end included.
+  const double efficiency =
+      static_cast<double>(busy.done() * c.shape.work.us) / (1e6 * run->wall_s * slots);
+  std::printf("| %d | %s | %d x %d | %.1f | %lld | %.0f | %.1f %% | %.1f %% | %.1f |\n", c.designs,
+              c.recorded.empty() ? std::to_string(c.budget).c_str() : "recorded", c.shape.processes,
+              c.shape.each.slots, 1e-3 * static_cast<double>(c.shape.work.us),
+              static_cast<long long>(busy.done()), busy.rate(), 100 * busy.share(slots),
+              100 * efficiency, 1e6 * run->coordinator.all() / static_cast<double>(busy.done()));
+  return 0;
+}
+
+int measure(Case& c) {
+  std::printf(
+      "| designs | budget of each | processes x slots | ms an evaluation | evaluations | "
+      "evaluations/s | busy slots | efficiency of the whole | coordinator's CPU, us |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+  c.shape.designs = c.designs;
+  if (!c.recorded.empty()) {
+    const auto races = read_races(c.recorded);
+    if (!races) return std::fprintf(stderr, "%s\n", to_string(races.error()).c_str()), 1;
+    RecordedRaces source(*races, c.designs, c.ahead);
+    BusyTime busy(source.total());
+    return report(c, run_cluster(c.shape, source, {}, [&](const auto& rows) { busy.add(rows); }),
+                  busy);
+  }
+  auto plans = plans_for(c);
+  if (!plans) return std::fprintf(stderr, "%s\n", to_string(plans.error()).c_str()), 1;
+  CampaignRunner source(std::move(*plans), {}, {});
+  BusyTime busy(c.budget * c.designs);
+  return report(c, run_cluster(c.shape, source, {}, [&](const auto& rows) { busy.add(rows); }),
+                busy);
+}
+
+int run(int argc, char** argv) {
+  Case c;
+  c.shape.work = {.kind = Work::Kind::Sleep, .us = 20'000, .spread = 0.3};
+  CLI::App app{"How busy the slots of a pool are that several designs share"};
+  app.add_option("--designs", c.designs);
+  app.add_option("--budget", c.budget, "Experiments of each design");
+  app.add_option("--recorded", c.recorded, "Races that go like those of this file");
+  app.add_flag("--curve", c.shape.curve, "Encrypt the connections");
+  app.add_option("--ahead", c.ahead, "Tests that recorded races look ahead, at most");
+  app.add_option("--processes", c.shape.processes);
+  app.add_option("--slots", c.shape.each.slots, "Of each process");
+  app.add_option("--sleep-us", c.shape.work.us, "Mean time of an evaluation, +- 30 %");
+  CLI11_PARSE(app, argc, argv);
+  return measure(c);
+}
+
+}  // namespace
+}  // namespace swarmsmith::bench
+
+int main(int argc, char** argv) {
+  if (swarmsmith::bench::is_worker()) swarmsmith::bench::be_worker();
+  return swarmsmith::bench::run(argc, argv);
+}

@@ -1,0 +1,134 @@
+#include "coordinator/launchers/host_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <utility>
+
+#include "base/suggestion.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::int64_t kMostSlots = 1024;
+
+struct Word {
+  std::string_view text;
+  std::size_t column;  ///< from 1
+};
+
+std::vector<Word> words_of(std::string_view line) {
+  line = line.substr(0, line.find('#'));
+  std::vector<Word> words;
+  std::size_t begin = 0;
+  while ((begin = line.find_first_not_of(" \t\r", begin)) != std::string_view::npos) {
+    const std::size_t end = std::min(line.find_first_of(" \t\r", begin), line.size());
+    words.push_back({line.substr(begin, end - begin), begin + 1});
+    begin = end;
+  }
+  return words;
+}
+
+/// Reads one file, line by line.
+class Reader {
+ public:
+  explicit Reader(std::string file) : file_(std::move(file)) {}
+
+  void read_line(std::string_view line) {
+    ++line_;
+    const std::vector<Word> words = words_of(line);
+    if (words.empty()) return;
+    SshHost host{.name = std::string(words.front().text)};
+    // ssh would take such a name for one of its options.
+    if (host.name.starts_with('-') || host.name.find('=') != std::string::npos) {
+      complain(words.front(),
+               "a line begins with the host's name, and `" + host.name + "` is none");
+    }
+    for (std::size_t i = 1; i < words.size(); ++i)
+      read_setting(words[i], host);
+    const auto same = [&](const SshHost& other) { return other.name == host.name; };
+    if (std::ranges::any_of(hosts_, same)) {
+      complain(words.front(), "`" + host.name + "` is there twice; give it more slots instead");
+    }
+    hosts_.push_back(std::move(host));
+  }
+
+  HostsOrErrors finish() {
+    if (hosts_.empty() && errors_.empty()) {
+      errors_.push_back({ErrorKind::BadInput,
+                         "there is no host in this file; write one a line, such as "
+                         "node1 slots=16",
+                         file_});
+    }
+    if (!errors_.empty()) return tl::unexpected(std::move(errors_));
+    return std::move(hosts_);
+  }
+
+ private:
+  void complain(const Word& word, std::string message) {
+    errors_.push_back({ErrorKind::BadInput, std::move(message),
+                       file_ + ":" + std::to_string(line_) + ":" + std::to_string(word.column)});
+  }
+
+  void read_setting(const Word& word, SshHost& host) {
+    static const std::array<std::string, 4> kKeys = {"slots", "program", "key", "coordinator"};
+    const std::size_t sign = word.text.find('=');
+    const std::string key(word.text.substr(0, sign));
+    const auto place = std::ranges::find(kKeys, key) - kKeys.begin();
+    if (sign == std::string_view::npos || place == 4) {
+      complain(word, "`" + std::string(word.text) +
+                         "` is none of slots=N, program=PATH, key=PATH, " + "coordinator=PATH" +
+                         did_you_mean(key, kKeys));
+      return;
+    }
+    const std::string_view value = word.text.substr(sign + 1);
+    if (place == 0) {
+      const char* end = value.data() + value.size();
+      const auto [stop, error] = std::from_chars(value.data(), end, host.slots);
+      const bool number = error == std::errc() && stop == end;
+      if (number && host.slots >= 1 && host.slots <= kMostSlots) return;
+      complain(word,
+               "`slots` must be a number from 1 to 1024; this is `" + std::string(value) + "`");
+      return;
+    }
+    if (!value.starts_with('/')) {
+      complain(word, "`" + key + "` must be a path from the root of that host; this is `" +
+                         std::string(value) + "`");
+      return;
+    }
+    (place == 1 ? host.program : place == 2 ? host.key : host.coordinator) = value;
+  }
+
+  std::string file_;
+  std::size_t line_ = 0;
+  std::vector<SshHost> hosts_;
+  std::vector<Error> errors_;
+};
+
+}  // namespace
+
+HostsOrErrors parse_hosts(std::string_view text, const std::filesystem::path& file) {
+  Reader reader(file.string());
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    reader.read_line(text.substr(0, end));
+    text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+  }
+  return reader.finish();
+}
+
+HostsOrErrors read_hosts(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::error_code ignored;
+  if (!stream || std::filesystem::is_directory(file, ignored)) {
+    return tl::unexpected(std::vector<Error>{
+        {ErrorKind::NotFound, "there is no such host file that can be read", file.string()}});
+  }
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  return parse_hosts(text, file);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,129 @@
+#include "coordinator/launchers/local_workers.h"
+
+#include <sched.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <algorithm>
+#include <csignal>
+#include <random>
+#include <utility>
+
+#include "coordinator/launchers/worker_program.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr Duration kShortLife = std::chrono::seconds(5);
+constexpr Duration kFirstPause = std::chrono::milliseconds(100);
+constexpr Duration kLongestPause = std::chrono::seconds(10);
+constexpr Duration kEndGrace = std::chrono::seconds(2);
+/// Of one worker, in a row.
+constexpr int kMostFailures = 5;
+/// swarmsmith-worker's exit code for a coordinator that does not want it.
+constexpr int kRefused = 7;
+
+int available_cpus() {
+  cpu_set_t mask;
+  CPU_ZERO(&mask);
+  return sched_getaffinity(0, sizeof mask, &mask) == 0 ? CPU_COUNT(&mask) : 1;
+}
+
+}  // namespace
+
+Expected<LocalWorkers> LocalWorkers::start(const LocalWorkersOptions& options) {
+  LocalWorkers workers;
+  std::filesystem::path program = options.program;
+  if (program.empty()) {
+    Expected<std::filesystem::path> found = find_worker_program();
+    if (!found) return Unexpected(found.error());
+    program = std::move(*found);
+  }
+  const int processes = std::max(1, options.processes);
+  const int slots = options.slots > 0 ? options.slots : std::max(1, available_cpus() / processes);
+  workers.command_ = {
+      program.string(),      "--connect",         options.endpoint, "--slots",
+      std::to_string(slots), "--die-with-parent", "--parent",       std::to_string(getpid())};
+  workers.command_.insert(workers.command_.end(), options.arguments.begin(),
+                          options.arguments.end());
+  workers.wanted_ = processes;
+  std::random_device device;
+  for (int i = 0; i < processes; ++i) {
+    workers.workers_.push_back(
+        {.process = {}, .backoff = Backoff(kFirstPause, kLongestPause, Rng(device()))});
+    const auto launched = workers.launch(workers.workers_.back(), SystemClock().now());
+    if (!launched) return Unexpected(launched.error());
+  }
+  return workers;
+}
+
+LocalWorkers::~LocalWorkers() {
+  stop(kEndGrace);
+}
+
+/// The worker itself asks to die with its parent, and checks that the parent is still the one that
+/// it was told: so no moment is left in which it could be orphaned. Note that the kernel means the
+/// parent *thread*, which is why one thread does all of this.
+Expected<void> LocalWorkers::launch(Worker& worker, TimePoint now) {
+  const auto started = worker.process.start(command_, ChildProcess::Streams::Inherited);
+  if (!started) {
+    return unexpected(ErrorKind::Unavailable, "a worker " + started.error().message,
+                      started.error().where);
+  }
+  worker.started = now;
+  return {};
+}
+
+void LocalWorkers::on_ended(Worker& worker, int status, TimePoint now) {
+  if (WIFEXITED(status) && WEXITSTATUS(status) == kRefused) {
+    trouble_ =
+        "the coordinator refuses its own workers (" + command_.front() + " is of another build)";
+  }
+  const bool lived = now - worker.started >= kShortLife;
+  // Being killed is an accident; ending by oneself, again and again, is not.
+  const bool failed = WIFEXITED(status) && WEXITSTATUS(status) != 0 && !lived;
+  worker.failures = failed ? worker.failures + 1 : 0;
+  if (worker.failures >= kMostFailures && trouble_.empty()) {
+    trouble_ = "workers end as soon as they are started (" + command_.front() + ", exit code " +
+               std::to_string(WEXITSTATUS(status)) + "); install it again, or see what it says";
+  }
+  if (lived) worker.backoff.reset();
+  worker.start_at = lived ? now : now + worker.backoff.next();
+}
+
+std::string LocalWorkers::tend(TimePoint now) {
+  for (Worker& worker : workers_) {
+    if (const auto status = worker.process.ended()) on_ended(worker, *status, now);
+    if (worker.process.runs() || now < worker.start_at || !trouble_.empty()) continue;
+    if (const Expected<void> launched = launch(worker, now); !launched) {
+      trouble_ = to_string(launched.error());
+    }
+  }
+  return trouble_;
+}
+
+std::string LocalWorkers::stop(Duration grace) {
+  for (const Worker& worker : workers_)
+    worker.process.signal(SIGTERM);
+  const TimePoint until = SystemClock().now() + grace;
+  for (Worker& worker : workers_)
+    worker.process.finish_by(until);
+  workers_.clear();
+  return {};
+}
+
+LauncherStatus LocalWorkers::status() const {
+  LauncherStatus status{.name = "local", .wanted = wanted_};
+  status.running = static_cast<std::int64_t>(pids().size());
+  status.pending = wanted_ - status.running;
+  return status;
+}
+
+std::vector<pid_t> LocalWorkers::pids() const {
+  std::vector<pid_t> pids;
+  for (const Worker& worker : workers_) {
+    if (worker.process.runs()) pids.push_back(worker.process.pid());
+  }
+  return pids;
+}
+
+}  // namespace swarmsmith

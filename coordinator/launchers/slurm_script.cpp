@@ -1,0 +1,45 @@
+#include "coordinator/launchers/slurm_script.h"
+
+#include "coordinator/launchers/worker_program.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A line of options. sbatch takes quotes as a shell does.
+std::string directive(const std::vector<std::string>& words) {
+  return "#SBATCH " + shell_line(words) + "\n";
+}
+
+/// Slurm replaces %A and the like in names of files.
+std::string without_patterns(const std::string& path) {
+  std::string text;
+  for (const char letter : path) {
+    text += letter;
+    if (letter == '%') text += letter;
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string text_of(const SlurmScript& script) {
+  const SlurmOptions& options = script.options;
+  const std::string file = (script.folder / "worker.sh").string();
+  std::string text = "#!/bin/sh\n";
+  text += "# Workers for a campaign, one a job; written by `swarmsmith run`, anew at each start.\n";
+  text += "# More workers, at any time:   sbatch --array=0-15 " + shell_line({file}) + "\n";
+  text += "# Fewer, at any time:          scancel JOB   (nothing is lost)\n";
+  text += directive({"--job-name=" + script.job_name});
+  text += directive({"--array=0-" + std::to_string(options.jobs - 1)});
+  text += directive({"--cpus-per-task=" + std::to_string(options.cpus_per_task)});
+  text += directive({"--requeue"});
+  text += directive({"--signal=B:TERM@60"});
+  text += directive({"--open-mode=append"});
+  text += directive({"--output=" + without_patterns(script.folder.string()) + "/%A_%a.log"});
+  if (!options.time.empty()) text += directive({"--time=" + options.time});
+  if (!options.partition.empty()) text += directive({"--partition=" + options.partition});
+  if (!options.options.empty()) text += directive(options.options);
+  return text + "exec " + shell_line(script.command) + "\n";
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/expected.h"
+#include "coordinator/launchers/child_process.h"
+#include "coordinator/launchers/host_file.h"
+#include "coordinator/launchers/launch_options.h"
+#include "coordinator/launchers/launcher.h"
+
+namespace swarmsmith {
+
+struct SshWorkersOptions {
+  std::vector<SshHost> hosts;
+  std::vector<std::string> options;    ///< words for ssh, before those that are always there
+  WorkerAddress address;               ///< paths as they are on every host that has no others
+  std::filesystem::path program;       ///< the same; empty: `find_worker_program`
+  std::vector<std::string> arguments;  ///< more of them, for the worker
+  std::string ssh = "ssh";
+  /// Before a host is tried again; twice as long each time, up to `longest_pause`.
+  Duration first_pause = std::chrono::seconds(1);
+  Duration longest_pause = std::chrono::minutes(1);
+};
+
+/// The words with which ssh starts a worker on a host. Nothing secret is among them.
+std::vector<std::string> ssh_words(const SshWorkersOptions& options, const SshHost& host);
+
+/// One worker behind one ssh process on each host.
+///
+/// The worker watches its standard input, which ends with ssh, with this process, and when the
+/// launcher stops: it then drains. So nothing stays behind on a host whichever of them dies; a host
+/// that is cut off the network is left after ten minutes by the worker itself. A terminal (-tt)
+/// would hang the worker up instead of letting it drain.
+class SshWorkers final : public Launcher {
+ public:
+  static Expected<SshWorkers> start(SshWorkersOptions options);
+  ~SshWorkers() override;
+  SshWorkers(SshWorkers&&) noexcept = default;
+
+  /// Trouble: every host has refused its worker for good (another build).
+  std::string tend(TimePoint now) override;
+  std::string stop(Duration grace) override;
+  LauncherStatus status() const override;
+
+ private:
+  struct Worker {
+    std::vector<std::string> words;
+    std::string host;
+    ChildProcess ssh;
+    TimePoint started;
+    TimePoint start_at;
+    Backoff backoff;
+    bool refused = false;  ///< for good
+    std::string trouble;   ///< why it does not run
+  };
+
+  SshWorkers() = default;
+  void launch(Worker& worker, TimePoint now);
+  void on_ended(Worker& worker, int status, TimePoint now);
+
+  std::vector<Worker> workers_;
+  std::int64_t wanted_ = 0;
+};
+
+}  // namespace swarmsmith

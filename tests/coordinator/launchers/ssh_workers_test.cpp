@@ -1,0 +1,99 @@
+// The launcher with a script in the place of ssh; real ones are in tests/slurm/ssh_test.py.
+
+#include "coordinator/launchers/ssh_workers.h"
+
+#include <gmock/gmock.h>
+#include <fstream>
+#include <thread>
+
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+using std::chrono::milliseconds;
+using testing::HasSubstr;
+
+class Ssh : public testing::Test {
+ protected:
+  /// Starts workers on the hosts by a shell script, whose last two words are host and command.
+  SshWorkers start(const std::string& script, std::vector<SshHost> hosts) {
+    const auto file = folder / "ssh";
+    std::ofstream(file) << "#!/bin/sh\nfor word; do host=$last; last=$word; done\n" << script;
+    std::filesystem::permissions(file, std::filesystem::perms(0755));
+    auto workers = SshWorkers::start({.hosts = std::move(hosts),
+                                      .address = {.endpoint = "tcp://h:1"},
+                                      .program = "/w",
+                                      .ssh = file.string(),
+                                      .first_pause = milliseconds(1),
+                                      .longest_pause = milliseconds(20)});
+    EXPECT_TRUE(workers);
+    return std::move(*workers);
+  }
+
+  static bool eventually(SshWorkers& workers, const std::function<bool()>& holds) {
+    const TimePoint until = SystemClock().now() + std::chrono::seconds(60);
+    while (!holds()) {
+      if (SystemClock().now() > until) return false;
+      trouble_of(workers);
+      std::this_thread::yield();
+    }
+    return true;
+  }
+  static std::string trouble_of(SshWorkers& workers) { return workers.tend(SystemClock().now()); }
+
+  int starts() const {
+    std::ifstream log(folder / "log");
+    int count = 0;
+    for (std::string line; std::getline(log, line);)
+      ++count;
+    return count;
+  }
+
+  TemporaryFolder folder;
+};
+
+TEST_F(Ssh, WorkersRunUntilTheirInputEnds) {
+  const std::string log = (folder / "log").string();
+  SshWorkers workers = start("cat; echo $host ended >>" + log + "\n", {{"a"}, {"b"}});
+  EXPECT_EQ(workers.status().running, 2);
+  EXPECT_EQ(workers.stop(std::chrono::seconds(60)), "");
+  EXPECT_EQ(starts(), 2);
+}
+
+TEST_F(Ssh, AHostThatDoesNotAnswerIsTriedAgainAndNamed) {
+  const std::string log = (folder / "log").string();
+  SshWorkers workers = start("test $host = good && exec cat\necho x >>" + log +
+                                 "\necho 'connect to host bad port 22: No route to host' >&2\n"
+                                 "exit 255\n",
+                             {{"bad"}, {"good"}});
+  ASSERT_TRUE(eventually(workers, [&] { return starts() >= 4; }));
+  ASSERT_TRUE(eventually(workers, [&] { return !workers.status().note.empty(); }));
+  EXPECT_THAT(workers.status().note,
+              HasSubstr("bad: cannot be reached: connect to host bad port 22: No route to host"));
+  EXPECT_EQ(trouble_of(workers), "");
+}
+
+TEST_F(Ssh, AHostOfAnotherBuildIsLeftAlone) {
+  const std::string log = (folder / "log").string();
+  SshWorkers workers =
+      start("echo x >>" + log + "\ntest $host = old && exit 7\nexec cat\n", {{"old"}, {"new"}});
+  ASSERT_TRUE(eventually(workers, [&] { return workers.status().running == 1 && starts() == 2; }));
+  EXPECT_THAT(workers.status().note, HasSubstr("old: the worker there is of another build"));
+  EXPECT_EQ(trouble_of(workers), "");
+}
+
+TEST_F(Ssh, WhenAllAreRefusedNothingCanBeHad) {
+  SshWorkers workers = start("exit 7\n", {{"a"}, {"b"}});
+  ASSERT_TRUE(eventually(workers, [&] { return !trouble_of(workers).empty(); }));
+  EXPECT_THAT(trouble_of(workers), HasSubstr("ssh: a: the worker there is of another build"));
+}
+
+TEST(SshProgram, ThatIsMissingIsSaid) {
+  const auto workers = SshWorkers::start({.hosts = {{"a"}}, .program = "/w", .ssh = "no-such-ssh"});
+  ASSERT_FALSE(workers);
+  EXPECT_THAT(workers.error().message, HasSubstr("install the package openssh-client"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

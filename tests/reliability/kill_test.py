@@ -1,0 +1,189 @@
+"""kill -9 of workers and coordinator, at any moment: the same answer."""
+import random
+import signal
+import subprocess
+import time
+import unittest
+
+from rig import BIN, LONG, FaultTest, calls_in, children_of, events, rows, send, stored, wait_for
+
+PRELOAD = str(BIN / "faulty_calls.so")
+
+
+class Kill(FaultTest):
+    budget = 20000 if LONG else 6000
+
+    def test_workers_at_random(self):
+        """Each dead one is replaced at once, as a batch system would."""
+        serve = self.serve()
+        workers = [self.worker(serve.address()) for _ in range(3)]
+        rng = random.Random(1)
+        killed = 0
+        while serve.alive():
+            try:
+                serve.process.wait(timeout=rng.uniform(0.05, 0.3 if LONG else 0.6))
+            except subprocess.TimeoutExpired:
+                one = rng.randrange(len(workers))
+                workers[one].kill()
+                workers[one] = self.worker(serve.address())
+                killed += 1
+        self.count("worker killed", killed)
+        self.assertEqual(serve.wait(), 0, serve.tail())
+        self.assertEqual(events(self.store, "evaluation rejected"), [], "a task was blamed")
+        # Not the workers: one that came too late finds nobody, and looks on for ten minutes.
+        self.assert_killed(killed, self.finish(serve))
+
+    def test_local_workers_at_random(self):
+        run = self.run_local("--workers", "2")
+        rng = random.Random(7)
+        killed = 0
+        while run.alive():
+            try:
+                run.process.wait(timeout=rng.uniform(0.3, 1.5))
+            except subprocess.TimeoutExpired:
+                workers = children_of(run.pid)
+                if workers:
+                    send(rng.choice(workers), signal.SIGKILL)
+                    killed += 1
+        self.count("local worker killed", killed)
+        self.assert_killed(killed, self.finish(run))
+
+    def assert_killed(self, killed, numbers):
+        lost = events(self.store, "worker lost")
+        self.assertGreater(killed, 0, "it ended before a worker could be killed")
+        self.assertGreater(len(lost), 0)
+        self.assertLessEqual(len(lost), killed)
+        self.assertEqual(numbers["lost_workers"], len(lost))
+        self.assertEqual({event["how"] for event in lost}, {"connection closed"})
+        self.assertEqual(numbers["rejected"], 0, "a task was blamed")
+
+    def test_leases_of_a_dead_worker_come_back_at_once(self):
+        serve = self.serve()
+        workers = [self.worker(serve.address()) for _ in range(2)]
+        self.wait_stored(500)
+        workers[0].kill()
+        began = time.monotonic()
+        wait_for(lambda: events(self.store, "worker lost"), "the loss of a killed worker", 10)
+        took = time.monotonic() - began
+        # 2 s on a quiet machine; the limit allows for one that is busy.
+        self.assertLess(took, 5)
+        self.count("worker killed", 1)
+        numbers = self.finish(serve, workers[1:])
+        self.assertEqual(numbers["expired"], 0)
+
+    def test_coordinator_at_random(self):
+        serve = self.serve()
+        address = serve.address()
+        workers = [self.worker(address) for _ in range(2)]
+        rng = random.Random(2)
+        step = self.budget // (25 if LONG else 8)
+        before = 0
+        while before < self.budget - 2 * step:
+            self.wait_stored(before + rng.randrange(1, step))
+            serve.kill()
+            self.count("coordinator killed")
+            now = stored(self.store)
+            self.assertGreaterEqual(now, before, "a stored result was lost")
+            before = now
+            serve = self.serve(bind=address)
+        self.finish(serve, workers)
+        self.assertEqual({row[0] for row in rows(self.store, "select pid from worker")},
+                         {worker.pid for worker in workers}, "a worker did not reconnect")
+
+    def test_both_at_once(self):
+        rng = random.Random(3)
+        before = 0
+        for _ in range(10 if LONG else 3):
+            run = self.run_local("--workers", "2")
+            self.wait_stored(before + rng.randrange(1, 600))
+            for pid in [run.pid, *children_of(run.pid)]:
+                send(pid, signal.SIGKILL)
+            run.kill()
+            self.count("coordinator and workers killed")
+            self.assertGreaterEqual(stored(self.store), before, "a stored result was lost")
+            before = stored(self.store)
+        self.finish(self.run_local("--workers", "2"))
+
+    def test_interrupted_and_run_again(self):
+        run = self.run_local("--workers", "2")
+        self.wait_stored(500)
+        run.send(signal.SIGINT)
+        self.assertEqual(run.wait(60), 130)
+        self.count("interrupted", 1)
+        self.finish(self.run_local("--workers", "3"))
+        again = self.run_local()
+        self.assertEqual(again.wait(60), 0)
+        self.assertIn("--nstates", again.out.read_text())
+
+
+class KillAtPoints(FaultTest):
+    """At the n-th write, sync and message of the coordinator, before and after it: a commit is a
+    sync, an acknowledgement a message, and the first and last ones are the birth of the store, the
+    first leases, the winner and the end."""
+    budget = 3000
+
+    def test_at_calls(self):
+        log = self.folder / "calls"
+        self.once({"SWARMSMITH_FAULT_LOG": str(log)}, 0)
+        self.assert_same_answer()
+        calls = calls_in(log)
+        rng = random.Random(4)
+        for call in ("write", "sync", "send"):
+            most = calls[call]
+            self.assertGreater(most, 12, calls)
+            points = {1, 2, 3, most // 2, most - 2, most - 1, most}
+            points |= {rng.randrange(1, most) for _ in range(3)}
+            for n in sorted(points):
+                for when in ("before", "after"):
+                    with self.subTest(call=call, n=n, when=when):
+                        self.kill_at(f"kill-{when}={call}:{n}")
+
+    def kill_at(self, fault):
+        for suffix in ("", "-wal", "-shm", ".lock"):
+            path = self.folder / f"campaign.db{suffix}"
+            path.unlink(missing_ok=True)
+        ended = self.once({"SWARMSMITH_FAULT": fault}, None)
+        # The last calls of another run may never come: then it ended well.
+        self.assertIn(ended, (-signal.SIGKILL, 0))
+        if ended != 0:
+            self.count("coordinator killed at a call")
+            self.once({}, 0)
+        self.assert_same_answer()
+
+    def once(self, env, wanted):
+        """A coordinator with the library, and a worker without."""
+        if env:
+            env = {**env, "LD_PRELOAD": PRELOAD}
+        serve = self.serve(env=env, wait=False)
+        worker = None
+        wait_for(lambda: serve.address() or not serve.alive(), "a coordinator")
+        if serve.alive():
+            worker = self.worker(serve.address(), slots=2)
+        ended = serve.wait(60)
+        if worker is not None:
+            worker.kill()
+        if wanted is not None:
+            self.assertEqual(ended, wanted, serve.tail())
+        return ended
+
+
+class AnyNumberOfWorkers(FaultTest):
+    budget = 4000
+
+    def test_three_give_the_answer_of_one(self):
+        self.finish(self.run_local("--workers", "3"))
+
+    def test_they_may_come_late_and_leave_early(self):
+        serve = self.serve()
+        first = self.worker(serve.address())
+        self.wait_stored(300)
+        second = self.worker(serve.address(), slots=2)
+        self.wait_stored(1000)
+        first.send(signal.SIGTERM)
+        self.assertEqual(first.wait(30), 0, first.tail())
+        numbers = self.finish(serve, [second])
+        self.assert_none(numbers, "expired", "lost_workers")
+
+
+if __name__ == "__main__":
+    unittest.main()

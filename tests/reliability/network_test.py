@@ -1,0 +1,183 @@
+"""Networks that are cut, lossy, slow, or narrow: hosts are namespaces, delays a proxy."""
+import random
+import time
+import unittest
+
+from network import Hosts, Proxy
+from rig import FaultTest, events, stored, wait_for
+
+
+class HostsTest(FaultTest):
+    """A coordinator and two workers on hosts of their own."""
+    budget = 12000
+    port = 5555
+
+    def fleet(self, first=800):
+        self.hosts = Hosts(self, ["w1", "w2"])
+        # The coordinator listens on loopback; the host hands it what comes over the network. That
+        # keeps ZeroMQ's connections end to end.
+        host = self.hosts.host("c")
+        self.hosts.on(host, "sysctl", "-qw", "net.ipv4.conf.all.route_localnet=1")
+        self.hosts.on(host, "nft", "add table ip entry; add chain ip entry in { type nat hook "
+                      "prerouting priority -100; }; add rule ip entry in tcp dport "
+                      f"{self.port} dnat to 127.0.0.1")
+        self.coordinator = self.serve(bind=f"127.0.0.1:{self.port}", prefix=self.hosts.at("c"))
+        self.workers = [self.worker(f"10.77.0.1:{self.port}", prefix=self.hosts.at(name))
+                        for name in ("w1", "w2")]
+        if first:
+            self.wait_stored(first)
+
+    def lost(self):
+        return events(self.store, "worker lost")
+
+    def wait_lost(self, number, seconds=12):
+        began = time.monotonic()
+        wait_for(lambda: len(self.lost()) >= number, f"the loss of {number} workers", seconds)
+        return time.monotonic() - began
+
+    def connected(self):
+        return self.coordinator.progress().get("workers", 0)
+
+    def finish_all(self):
+        numbers = self.finish(self.coordinator, self.workers)
+        self.assert_none(numbers, "failed", "rejected", "conflicts")
+        return numbers
+
+class Namespaces(HostsTest):
+    def test_partition(self):
+        """Both cables are pulled: found within seconds, and healed without a restart."""
+        self.fleet()
+        for name in ("w1", "w2"):
+            self.hosts.link(name, "down")
+        took = self.wait_lost(2)
+        self.assertLess(took, 9)
+        self.count("worker partitioned", 2)
+        before = stored(self.store)
+        for name in ("w1", "w2"):
+            self.hosts.link(name, "up")
+        began = time.monotonic()
+        wait_for(lambda: stored(self.store) > before + 50, "work after the repair", 20)
+        print(f"\n  found after {took:.1f} s, at work {time.monotonic() - began:.1f} s after the "
+              "repair", end="")
+        numbers = self.finish_all()
+        self.assertEqual({event["how"] for event in self.lost()}, {"silent"})
+        self.assertEqual(numbers["lost_workers"], 2)
+
+    def one_way(self, rule):
+        self.fleet()
+        for name in ("w1", "w2"):
+            self.hosts.nft(name, rule)
+        self.wait_lost(2)
+        self.count("worker cut in one direction", 2)
+        before = stored(self.store)
+        time.sleep(2)
+        self.assertLess(stored(self.store) - before, 500, "work goes on over a cut")
+        for name in ("w1", "w2"):
+            self.hosts.nft(name)
+        self.finish_all()
+
+    def test_what_workers_say_is_lost(self):
+        self.one_way("output drop")
+
+    def test_what_workers_are_told_is_lost(self):
+        self.one_way("input drop")
+
+    def test_flapping(self):
+        """Cables that are out for 0.2 to 3 s, sixteen times."""
+        self.fleet(first=200)
+        rng = random.Random(1)
+        for _ in range(16):
+            if not self.coordinator.alive():
+                break
+            name = rng.choice(("w1", "w2"))
+            self.hosts.link(name, "down")
+            time.sleep(rng.uniform(0.2, 3))
+            self.hosts.link(name, "up")
+            self.count("link down and up")
+            time.sleep(rng.uniform(0.05, 0.5))
+        # Not the workers: a cable may have been out when they were sent home.
+        numbers = self.finish(self.coordinator)
+        self.assert_none(numbers, "failed", "rejected", "conflicts")
+        self.assertGreater(self.tried["link down and up"], 3)
+
+    def test_coordinator_is_cut_off(self):
+        self.fleet()
+        self.hosts.link("c", "down")
+        self.wait_lost(2)
+        self.hosts.link("c", "up")
+        self.count("coordinator partitioned")
+        self.finish_all()
+
+    def test_loss(self):
+        """5 of 100 packets, in both directions."""
+        self.fleet(first=0)
+        for name in ("w1", "w2"):
+            self.hosts.loss(name, 5)
+        self.finish_all()
+        self.count("campaign with 5 % loss")
+
+    def test_narrow(self):
+        self.fleet(first=0)
+        for name in ("c", "w1", "w2"):
+            self.hosts.tc(name, "tbf", "rate", "1mbit", "burst", "16k", "latency", "300ms")
+        self.finish_all()
+        self.count("campaign over 1 Mbit/s")
+
+    def test_small_packets(self):
+        self.fleet(first=0)
+        for name in ("c", "w1", "w2"):
+            self.hosts.on(self.hosts.host(name), "ip", "link", "set", "e0", "mtu", "600")
+        self.finish_all()
+        self.count("campaign with an MTU of 600")
+
+
+class Netem(HostsTest):
+    """Delay, jitter and reordering by the kernel, where it can."""
+
+    def test_late_and_out_of_order(self):
+        self.fleet(first=0)
+        if not self.hosts.has_netem():
+            self.coordinator.kill()
+            self.skipTest("skipped: this kernel has no netem (the proxy's delays are tested)")
+        for name in ("w1", "w2"):
+            self.hosts.tc(name, "netem", "delay", "50ms", "30ms", "reorder", "25%", "50%")
+        self.finish_all()
+        self.count("campaign with netem")
+
+
+class Delays(FaultTest):
+    """A proxy holds bytes back: in order within a connection, out of order between them."""
+    budget = 6000
+
+    def late(self, delay):
+        serve = self.serve()
+        rng = random.Random(2)
+        proxies = [Proxy(self, serve.address(), delay=lambda direction: delay(rng))
+                   for _ in range(3)]
+        workers = [self.worker(proxy.address) for proxy in proxies]
+        numbers = self.finish(serve, workers)
+        self.count("campaign with late bytes")
+        self.assert_none(numbers, "failed", "rejected", "conflicts")
+        return numbers
+
+    def test_50_ms_and_jitter(self):
+        numbers = self.late(lambda rng: rng.uniform(0.02, 0.08))
+        self.assertEqual((numbers["lost_workers"], numbers["expired"]), (0, 0))
+
+    def test_sometimes_seconds(self):
+        self.late(lambda rng: rng.uniform(1, 7) if rng.random() < 0.01 else 0.001)
+
+    def test_connections_are_broken_again_and_again(self):
+        serve = self.serve()
+        proxy = Proxy(self, serve.address())
+        workers = [self.worker(proxy.address) for _ in range(2)]
+        rng = random.Random(3)
+        while serve.alive() and self.tried.get("connection broken", 0) < 30:
+            time.sleep(rng.uniform(0.05, 0.6))
+            proxy.cut()
+            self.count("connection broken", 2)
+        self.finish(serve, workers)
+
+
+if __name__ == "__main__":
+    unittest.main()
