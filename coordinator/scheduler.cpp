@@ -44,9 +44,6 @@ void Scheduler::know(std::uint32_t campaign, std::span<const StoredScore> known)
 
 void Scheduler::add(std::vector<Task> tasks) {
   for (Task& task : tasks) {
-    // Given ahead and wanted now, while its outcome is on the way: a message brings several, and
-    // the race goes on after the first of them.
-    if (done_.find(key_of(task)) != nullptr) continue;
     if (TaskRecord* record = leases_.find(key_of(task)); record != nullptr) {
       SWARMSMITH_ASSERT(record->task.ahead && !task.ahead, "a task is wanted once");
       leases_.promote(*record);
