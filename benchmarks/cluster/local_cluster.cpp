@@ -89,7 +89,7 @@ Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
   if (!local) return Unexpected(local.error());
   std::optional<Clock::time_point> begin;
   const ServiceHooks hooks{.on_rows =
-                               [&](std::size_t, const std::vector<Row>& rows) {
+                               [&](std::optional<std::size_t>, std::span<const Row> rows) {
                                  // The first connection is a row.
                                  if (!begin && std::ranges::any_of(rows, is_worker_row))
                                    begin = Clock::now();

@@ -61,6 +61,8 @@ std::vector<Row> CampaignRunner::take_rows() {
 
 void CampaignRunner::tell(const Outcome& outcome) {
   const DesignId id = design_of(outcome.key.candidate);
+  // Given ahead, and wanted since an outcome that came with this one.
+  std::erase_if(tasks_, [&](const Task& task) { return task.key == outcome.key; });
   if (const auto found = open_.find(id); found != open_.end()) {
     found->second.tell(outcome, rows_);
     advance(found->second);

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "coordinator/launchers/local_workers.h"
+#include "coordinator/launchers/worker_program.h"
 #include "coordinator/service.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
