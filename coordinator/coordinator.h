@@ -14,6 +14,7 @@
 #include "coordinator/live_status.h"
 #include "coordinator/messages.h"
 #include "coordinator/scheduler.h"
+#include "coordinator/slot_account.h"
 #include "coordinator/work_source.h"
 
 namespace swarmsmith {
@@ -75,7 +76,10 @@ class Coordinator {
   void on_appended(std::uint32_t campaign, std::uint64_t ticket);
   void on_committed(std::uint32_t campaign, std::uint64_t ticket);
   /// No leases from now on, or again: a store cannot write, or all is to stop.
-  void hold(bool held) { scheduler_.hold(held); }
+  void hold(Holding holding) {
+    holding_ = holding;
+    scheduler_.hold(holding != Holding::No);
+  }
   /// Sends the workers home.
   void drain(TimePoint now) { scheduler_.drain(now); }
 
@@ -91,8 +95,10 @@ class Coordinator {
     return campaigns_[campaign].stopped;
   }
 
-  /// Without rate and trouble, which need a clock and a store.
+  /// Without what needs a clock, a socket or a store: see Telemetry. Without the fleet.
   LiveStatus status() const;
+  /// Those that are here, and those that were lately, by number.
+  std::vector<WorkerStatus> fleet(TimePoint now) const;
   const Scheduler& scheduler() const { return scheduler_; }
   /// Frames that were dropped, by the part that was wrong.
   const std::map<std::string, std::uint64_t>& malformed() const { return malformed_; }
@@ -139,6 +145,9 @@ class Coordinator {
   PoolFacts facts_;
   std::vector<Campaign> campaigns_;
   Scheduler scheduler_;
+  SlotAccount slots_;
+  Holding holding_ = Holding::No;
+  bool sample_due_ = false;
   std::vector<CoordinatorAction> actions_;
   /// Outcomes that are not on disk yet.
   std::unordered_map<PackedKey, Waiting> waiting_;

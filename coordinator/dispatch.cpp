@@ -23,6 +23,7 @@ Duration Scheduler::lease_time() const {
 }
 
 void Scheduler::on_tick(TimePoint now) {
+  latest_ = now;
   if (ticked_ != TimePoint{} && now - ticked_ > options_.dead_after / 2) pardon(now);
   ticked_ = now;
   for (auto& [number, entry] : workers_.all()) {
@@ -86,6 +87,7 @@ void Scheduler::drain(TimePoint now) {
 }
 
 void Scheduler::dispatch(TimePoint now) {
+  latest_ = now;
   if (held_ || draining_ || workers_.connected() == 0) return;
   dispatch_alone(now);
   if (leases_.queued() == 0) return;

@@ -14,12 +14,13 @@ LeaseTable::Queue& LeaseTable::queue_of(const TaskRecord& record) {
   return record.task.ahead ? ahead_ : wanted_;
 }
 
-bool LeaseTable::add(Task task) {
+bool LeaseTable::add(Task task, TimePoint now) {
   const PackedKey key = key_of(task);
   const auto [at, inserted] = records_.try_emplace(key);
   if (!inserted) return false;
   TaskRecord& record = at->second;
   record.task = std::move(task);
+  record.added = now;
   record.queued = ++places_;
   queue_of(record).push_back({key, record.queued});
   return true;
@@ -102,6 +103,14 @@ void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now) {
   std::list<PackedKey>& leases = by_worker_[worker];
   record.of_worker = leases.insert(leases.end(), key_of(record.task));
   ++leased_;
+  CampaignMeters& meters = this->meters(record.task.campaign);
+  ++meters.leased;
+  if (record.attempts == 1) meters.queue_wait.observe(now - record.added);
+}
+
+CampaignMeters& LeaseTable::meters(std::uint32_t campaign) {
+  if (campaign >= meters_.size()) meters_.resize(campaign + 1);
+  return meters_[campaign];
 }
 
 void LeaseTable::requeue(TaskRecord& record) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "coordinator/campaign_meters.h"
 #include "coordinator/task.h"
 #include "coordinator/task_key.h"
 
@@ -39,6 +40,7 @@ struct TaskRecord {
   bool alone = false;      ///< it may have killed a worker: nothing else may run beside it
 
   // Kept by the table.
+  TimePoint added;
   std::uint64_t queued = 0;                  ///< names its place in a queue; stale ones differ
   std::list<PackedKey>::iterator of_worker;  ///< its place among the leases of its worker
 };
@@ -49,8 +51,8 @@ struct TaskRecord {
 /// waits for; look-ahead.
 class LeaseTable {
  public:
-  /// At the end of its queue. False when the key is there already.
-  bool add(Task task);
+  /// At the end of its queue. False when the key is there already. `now` is for the meters.
+  bool add(Task task, TimePoint now = {});
   TaskRecord* find(PackedKey key);
   const TaskRecord* find(PackedKey key) const;
   void remove(PackedKey key);
@@ -76,6 +78,10 @@ class LeaseTable {
   std::size_t queued() const { return records_.size() - leased_; }
   bool has_alone() const { return alone_count_ > 0; }
 
+  /// Leases and waits are counted here, the rest by the scheduler. Grows with the campaigns.
+  CampaignMeters& meters(std::uint32_t campaign);
+  const std::vector<CampaignMeters>& meters() const { return meters_; }
+
  private:
   struct Place {
     PackedKey key = 0;
@@ -91,6 +97,7 @@ class LeaseTable {
   std::unordered_map<PackedKey, TaskRecord> records_;
   std::unordered_map<WorkerNumber, std::list<PackedKey>> by_worker_;
   Queue alone_, wanted_, ahead_;
+  std::vector<CampaignMeters> meters_;
   std::uint64_t places_ = 0;
   std::size_t leased_ = 0;
   std::size_t alone_count_ = 0;  ///< queued ones

@@ -47,7 +47,7 @@ void Scheduler::add(std::vector<Task> tasks) {
       leases_.promote(*record);
       continue;
     }
-    leases_.add(std::move(task));
+    leases_.add(std::move(task), latest_);
   }
 }
 
@@ -124,6 +124,7 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
                                            " workers already, which is the limit");
   }
   if (options_.self_test.empty()) options_.self_test = hello.self_test;
+  if (entry != nullptr) ++counters_.reconnects;
   if (entry == nullptr) entry = &workers_.add(hello.identity);
   if (entry->connected) workers_.disconnect(*entry);
   entry->hello = std::move(hello);
@@ -169,6 +170,7 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
 }
 
 WorkerEntry* Scheduler::heard(const Sender& sender, TimePoint now) {
+  latest_ = now;
   WorkerEntry* entry = workers_.of_peer(sender.peer);
   if (entry == nullptr) {
     actions_.emplace_back(SendWhoAreYou{sender.peer});
@@ -188,6 +190,7 @@ void Scheduler::on_credit(const Sender& sender, std::uint32_t tasks, TimePoint n
   if (entry == nullptr || sender.sequence <= entry->last_sequence) return;
   entry->last_sequence = sender.sequence;
   entry->credit = std::min(tasks, options_.max_credit);
+  entry->asked |= tasks > 0;
 }
 
 void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> keys, TimePoint now) {
@@ -293,6 +296,9 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
     ++entry.done;
     const auto spent_us = static_cast<double>(std::max<std::int64_t>(result.wall_us, 0));
     estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
+    CampaignMeters& meters = leases_.meters(record->task.campaign);
+    meters.evaluation.observe(spent_us * 1e-6);
+    if (record->lease) meters.round_trip.observe(latest_ - record->lease->granted);
     accept({.key = record->task.key,
             .campaign = record->task.campaign,
             .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
@@ -316,7 +322,10 @@ void Scheduler::accept(const Outcome& outcome) {
   const PackedKey key = key_of(outcome);
   leases_.remove(key);
   done_.insert(key, outcome.status, outcome.score, outcome.state_digest);
-  ++(outcome.status == EvaluationStatus::Ok ? counters_.done : counters_.rejected);
+  CampaignMeters& meters = leases_.meters(outcome.campaign);
+  const bool ok = outcome.status == EvaluationStatus::Ok;
+  ++(ok ? counters_.done : counters_.rejected);
+  ++(ok ? meters.done : meters.rejected);
   actions_.emplace_back(OutcomeAccepted{outcome});
 }
 
@@ -350,6 +359,7 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
   if (!record->lease->adopted && record->lease->attempt != result.attempt) return;
   ++entry.failed;
   ++counters_.failed;
+  ++leases_.meters(record->task.campaign).no_score;
   ++record->failures;
   note("warning", "evaluation failed",
        {{"evaluation", name_of(record->task.key)},
@@ -374,11 +384,17 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
 }
 
 void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
-                             std::span<const RunningReport> running, TimePoint now) {
+                             std::span<const RunningReport> running, TimePoint now,
+                             const std::optional<SlotReport>& slots) {
   WorkerEntry* entry = heard(sender, now);
   if (entry == nullptr || sender.sequence <= entry->last_sequence) return;
   entry->last_sequence = sender.sequence;
   entry->credit = std::min(credit, options_.max_credit);
+  entry->asked |= credit > 0;
+  if (slots && slots->slot_us > entry->slot_us) {
+    entry->slot_us = slots->slot_us;
+    entry->busy_us = slots->busy_us;
+  }
   entry->running = running.size();
   for (const RunningReport& report : running) {
     TaskRecord* record = leases_.find(report.key);
@@ -396,6 +412,7 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
   ++record.timeouts;
   ++entry.failed;
   ++counters_.failed;
+  ++leases_.meters(record.task.campaign).timed_out;
   note("warning", "evaluation timed out",
        {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign);
   record.avoid = entry.number;

@@ -51,6 +51,12 @@ struct RunningReport {
   std::int64_t elapsed_ms = 0;
 };
 
+/// What a worker says of its slots, in microseconds since its welcome.
+struct SlotReport {
+  std::int64_t slot_us = 0;
+  std::int64_t busy_us = 0;
+};
+
 /// Who sent a message, and as which of its messages.
 struct Sender {
   PeerId peer = 0;
@@ -176,6 +182,7 @@ struct SchedulerCounters {
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;
   std::uint64_t lost_workers = 0;
+  std::uint64_t reconnects = 0;  ///< hellos of workers that had been here before
 };
 
 }  // namespace swarmsmith

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <stop_token>
@@ -29,6 +30,10 @@ struct ServiceCampaign {
   std::string digest;
   Store* store = nullptr;  ///< its listener is taken over
   WorkSource* source = nullptr;
+  // For people.
+  std::string name{};
+  std::vector<DesignRow> designs{};
+  std::filesystem::path file{};  ///< of the store; empty for none
 };
 
 struct ServiceHooks {

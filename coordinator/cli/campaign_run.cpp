@@ -17,6 +17,7 @@
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
+#include "coordinator/http/http_server.h"
 #include "coordinator/local_workers.h"
 #include "coordinator/service.h"
 #include "sim/engine/self_test.h"
@@ -119,6 +120,8 @@ class CampaignRun {
     auto service = listen(runner);
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
     if (options_.announce) announce((*service)->endpoint());
+    if (auto served = serve_pages(); !served)
+      return fail(output_, exit_code_of(served.error()), served.error());
     const int processes = local_processes(campaign_, options_);
     if (processes == 0) return serve(**service, runner, nullptr);
     auto workers =
@@ -139,13 +142,33 @@ class CampaignRun {
     service_for.coordinator.scheduler.first_worker = store_.next_worker();
     const std::string bind = service_for.bind;
     for (int next = 1;; ++next) {
-      auto service = Service::open(service_for, {{campaign_digest(campaign_), &store_, &runner}});
+      auto service =
+          Service::open(service_for, {{campaign_digest(campaign_), &store_, &runner, campaign_.name,
+                                       design_rows(campaign_), campaign_.store}});
       const bool taken = !service && service.error().kind == ErrorKind::Conflict;
       if (!taken || !options_.next_port || next == kPorts) return service;
       const std::size_t colon = bind.rfind(':') + 1;
       service_for.bind =
           bind.substr(0, colon) + std::to_string(std::stoi(bind.substr(colon)) + next);
     }
+  }
+
+  /// Of this campaign, over HTTP, where that was asked for.
+  Expected<void> serve_pages() {
+    if (options_.http.empty()) return {};
+    auto address = parse_http_address(options_.http);
+    if (!address) return Unexpected(address.error());
+    HttpOptions http{.address = *address, .next_port = options_.http_next_port, .token = {}};
+    if (!options_.http_token_file.empty()) {
+      auto token = read_token(options_.http_token_file);
+      if (!token) return Unexpected(token.error());
+      http.token = *token;
+    }
+    auto pages = HttpServer::start(std::move(http));
+    if (!pages) return Unexpected(pages.error());
+    pages_ = std::move(*pages);
+    print_note(output_, "metrics, health and status: http://" + pages_->address());
+    return {};
   }
 
   CampaignRunner replay(std::vector<DesignPlan> plans) {
@@ -174,6 +197,7 @@ class CampaignRun {
         .on_status =
             [&](const LiveStatus& live) {
               last_ = live;
+              if (pages_) pages_->publish(live);
               listener_.update(live, clock_.now());
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
@@ -230,6 +254,7 @@ class CampaignRun {
   SystemClock clock_;
   RunListener& listener_;
   LiveStatus last_;
+  std::unique_ptr<HttpServer> pages_;
 };
 
 }  // namespace
@@ -259,6 +284,18 @@ std::optional<Campaign> CampaignFlags::read(Output& output) const {
   }
   if (!complaints.empty()) return std::nullopt;
   return campaign;
+}
+
+void HttpFlags::declare(Options& options, const std::string& otherwise) {
+  options.text("--http", http,
+               "Address and port of /metrics, /healthz, /readyz, /status (" + otherwise + ")");
+  options.text("--http-token-file", token_file, "Secret that their readers must show");
+}
+
+void HttpFlags::put(RunOptions& run, const std::string& otherwise) const {
+  run.http = http == "none" ? "" : http.empty() ? otherwise : http;
+  run.http_next_port = http.empty();
+  run.http_token_file = token_file;
 }
 
 ExitCode carry_out(Output& output, const Campaign& campaign, const RunOptions& options,

@@ -35,8 +35,22 @@ struct RunOptions {
   bool announce = false;
   /// When another program listens on the port of `bind`, one of the next ones will do.
   bool next_port = false;
+  std::string http{};  ///< host:port of the pages; empty: none
+  bool http_next_port = false;
+  std::string http_token_file{};
   /// Whether an interrupted run goes on later; else its store is thrown away.
   bool keeps_store = true;
+};
+
+/// Where a coordinator shows what it does.
+struct HttpFlags {
+  std::string http;
+  std::string token_file;
+
+  /// Declares --http and --http-token-file.
+  void declare(Options& options, const std::string& otherwise);
+  /// `otherwise` is where pages are served when nobody says; empty for nowhere.
+  void put(RunOptions& run, const std::string& otherwise) const;
 };
 
 /// Runs the campaign to its end, going on where its store stands, and prints its result. SIGINT and

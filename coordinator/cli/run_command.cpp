@@ -10,6 +10,7 @@ Run declare_run(Options& options) {
     CampaignFlags campaign;
     std::optional<std::int64_t> workers;
     bool no_dashboard = false;
+    HttpFlags http;
   };
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Optional);
@@ -17,10 +18,13 @@ Run declare_run(Options& options) {
                   "Local worker processes; they share the cores");
   options.flag("--no-dashboard", arguments->no_dashboard,
                "Accepted; this version has no dashboard to leave out");
+  arguments->http.declare(options, "default none");
   return [arguments](Output& output) {
     const auto campaign = arguments->campaign.read(output);
     if (!campaign) return ExitCode::Usage;
-    return run_campaign(output, *campaign, {.workers = arguments->workers, .bind = campaign->bind});
+    RunOptions run{.workers = arguments->workers, .bind = campaign->bind};
+    arguments->http.put(run, "");
+    return run_campaign(output, *campaign, run);
   };
 }
 

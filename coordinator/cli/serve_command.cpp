@@ -9,12 +9,14 @@ Run declare_serve(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
     std::string bind;
+    HttpFlags http;
   };
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Required);
   options.text(
       "--bind", arguments->bind,
       "Address and port for workers (default 127.0.0.1:5555, or the next port that is free)");
+  arguments->http.declare(options, "default 127.0.0.1:8347, or the next port that is free; none");
   return [arguments](Output& output) {
     const auto campaign = arguments->campaign.read(output);
     if (!campaign) return ExitCode::Usage;
@@ -24,6 +26,7 @@ Run declare_serve(Options& options) {
       run.bind = "127.0.0.1:5555";
       run.next_port = true;
     }
+    arguments->http.put(run, "127.0.0.1:8347");
     return run_campaign(output, *campaign, run);
   };
 }

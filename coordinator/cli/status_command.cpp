@@ -1,9 +1,15 @@
+#include <sys/ioctl.h>
+#include <unistd.h>
 #include <chrono>
+#include <cstdlib>
+#include <limits>
 #include <memory>
 #include <thread>
 
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/live_client.h"
 #include "coordinator/cli/query_output.h"
+#include "coordinator/cli/status_text.h"
 #include "coordinator/cli/store_argument.h"
 
 namespace swarmsmith::cli {
@@ -11,6 +17,7 @@ namespace {
 
 struct Arguments {
   StoreArgument store;
+  std::string connect;
   bool watch = false;
 };
 
@@ -74,19 +81,95 @@ void write_json(Output& output, const Status& status) {
              << ",\"failures\":" << status.failures.cells.front().front().text << "}\n";
 }
 
-/// Once, or every two seconds until nothing changes any more.
+/// Where a coordinator runs, tcp://HOST:PORT; empty when nobody says so.
+std::string endpoint_of(const Arguments& arguments) {
+  std::string address = arguments.connect;
+  const char* variable = std::getenv("SWARMSMITH_COORDINATOR");
+  if (address.empty() && variable != nullptr) address = variable;
+  if (address.empty() || address.find("://") != std::string::npos) return address;
+  return "tcp://" + address;
+}
+
+Screen screen_of(const Output& output) {
+  winsize size = {};
+  if (output.out_is_terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    // The last line stays free: a line end there would scroll.
+    return {size.ws_col, size.ws_row > 1 ? size.ws_row - 1U : 23U};
+  }
+  constexpr auto kAll = std::numeric_limits<std::size_t>::max();
+  return {kAll, kAll};
+}
+
+/// A screenful in place of the one before, without a blank one between.
+void redraw(Output& output, const std::vector<std::string>& lines) {
+  output.out << "\x1b[H";
+  for (const std::string& line : lines)
+    output.out << line << "\x1b[K\n";
+  output.out << "\x1b[J";
+}
+
+void write_live(const Arguments& arguments, Output& output, const LiveStatus& status) {
+  if (!arguments.watch) {
+    for (const std::string& line : status_lines(status, screen_of(output)))
+      output.out << line << "\n";
+  } else if (output.out_is_terminal) {
+    redraw(output, status_lines(status, screen_of(output)));
+  } else {
+    output.out << status_summary(status) << "\n";
+  }
+}
+
+/// The coordinator's own word, as it came where JSON is wanted.
+Expected<void> show_live(const Arguments& arguments, const std::string& endpoint, Output& output) {
+  constexpr auto kPatience = std::chrono::seconds(3);
+  const auto json = ask_status(endpoint, kPatience);
+  if (!json) return Unexpected(json.error());
+  if (output.json) {
+    output.out << *json << "\n";
+    return {};
+  }
+  const auto status = live_status_of(*json);
+  if (!status) return Unexpected(status.error());
+  write_live(arguments, output, *status);
+  return {};
+}
+
+ExitCode show_stored(const Arguments& arguments, Output& output, bool& running) {
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const auto status = read_status(**store);
+  if (!status) return fail(output, ExitCode::Store, status.error());
+  if (arguments.watch && output.out_is_terminal) output.out << "\x1b[H\x1b[2J";
+  output.json ? write_json(output, *status) : write_text(output, *status);
+  running = status->of_campaign("state") == "running";
+  return ExitCode::Done;
+}
+
+/// Once, or again and again until there is nothing more to see.
 ExitCode run(const Arguments& arguments, Output& output) {
-  constexpr auto kPause = std::chrono::seconds(2);
+  // A person looks at a terminal, a file fills up.
+  const auto pause = std::chrono::seconds(output.out_is_terminal ? 1 : 5);
+  bool was_live = false;
   while (true) {
-    const auto store = arguments.store.open();
-    if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-    const auto status = read_status(**store);
-    if (!status) return fail(output, ExitCode::Store, status.error());
-    if (arguments.watch && output.out_is_terminal) output.out << "\x1b[H\x1b[2J";
-    output.json ? write_json(output, *status) : write_text(output, *status);
+    bool running = true;
+    const std::string endpoint = endpoint_of(arguments);
+    const auto live = endpoint.empty() ? Expected<void>{} : show_live(arguments, endpoint, output);
+    const bool is_live = !endpoint.empty() && live;
+    // A coordinator that was there and is gone has come to its end; the store says to which.
+    const bool has_store = arguments.store.path().has_value();
+    if (!live && !has_store) {
+      if (was_live) return ExitCode::Done;
+      return fail(output, ExitCode::Unreachable, live.error());
+    }
+    if (!is_live) {
+      if (!live && !was_live) print_note(output, to_string(live.error()) + "; from the store:");
+      const ExitCode shown = show_stored(arguments, output, running);
+      if (shown != ExitCode::Done) return shown;
+    }
+    was_live |= is_live;
     output.out.flush();
-    if (!arguments.watch || status->of_campaign("state") != "running") return ExitCode::Done;
-    std::this_thread::sleep_for(kPause);
+    if (!arguments.watch || !running) return ExitCode::Done;
+    std::this_thread::sleep_for(pause);
   }
 }
 
@@ -95,7 +178,9 @@ ExitCode run(const Arguments& arguments, Output& output) {
 Run declare_status(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->store.declare(options);
-  options.flag("--watch", arguments->watch, "Write it again every 2 s until the campaign ends");
+  options.text("--connect", arguments->connect,
+               "Ask the coordinator at HOST:PORT (default SWARMSMITH_COORDINATOR)");
+  options.flag("--watch", arguments->watch, "Again and again, until the campaign ends");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

@@ -1,6 +1,7 @@
 #include "tests/cluster/simulated_cluster.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/overloaded.h"
 #include "proto/wire.h"
@@ -347,6 +348,11 @@ void SimulatedCluster::check_leases() {
     leased += held;
   }
   if (leased != leases.leased()) fail("a lease that belongs to nobody");
+  const SlotTimes times = coordinator_->status().slot_times;
+  const double rest = times.slots - times.busy - times.idle_total();
+  if (std::abs(rest) > 1e-6 * (1 + times.slots)) fail("idle times do not add up");
+  const bool negative = std::ranges::any_of(times.idle, [](double time) { return time < -1e-9; });
+  if (times.busy < 0 || negative) fail("a slot idles for less than no time");
 }
 
 // --- workers ---

@@ -92,6 +92,7 @@ int run(const Arguments& arguments) {
   }
   Wakeup wakeup;
   handle_signals(wakeup);
+  change_log_level_by_signals();
   Pool pool(slots, make_evaluators(std::move(*allowed)), [&wakeup] { wakeup.notify(); });
   log(LogLevel::Debug, "worker", "started",
       {{"coordinator", arguments.connect}, {"slots", std::to_string(slots)}});
