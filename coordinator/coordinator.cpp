@@ -44,9 +44,10 @@ bool Coordinator::settled() const {
 }
 
 bool Coordinator::finished() const {
-  return settled() && std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
-           return campaign.stopped || campaign.source->finished();
-         });
+  const bool done = std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
+    return campaign.stopped || campaign.source->finished();
+  });
+  return done && settled() && !scheduler_.is_auditing();
 }
 
 void Coordinator::put_row(const Row& row) {
@@ -365,7 +366,7 @@ LiveStatus Coordinator::status() const {
   status.gone_workers = count(scheduler_.workers().all().size()) - status.workers;
   status.slots = scheduler_.workers().slots();
   for (const auto& [number, entry] : scheduler_.workers().all())
-    status.credit += entry.connected ? entry.credit : 0;
+    status.credit += entry.usable() ? entry.credit : 0;
   status.ready = count(scheduler_.leases().queued());
   status.leased = count(scheduler_.leases().leased());
   status.done = count(counters.done);
@@ -376,6 +377,9 @@ LiveStatus Coordinator::status() const {
   status.duplicates = count(counters.duplicates);
   status.conflicts = count(counters.conflicts);
   status.unknown = count(counters.unknown);
+  status.audits = count(counters.audited);
+  status.quarantined =
+      count(scheduler_.workers().connected()) - count(scheduler_.workers().trusted());
   status.lost_workers = count(counters.lost_workers);
   status.reconnects = count(counters.reconnects);
   status.malformed = count(malformed_count_);
@@ -394,7 +398,9 @@ std::vector<WorkerStatus> Coordinator::fleet(TimePoint now) const {
     const auto held = static_cast<std::int64_t>(scheduler_.leases().leases_of(number).size());
     fleet.push_back(
         {.number = number,
-         .state = entry.connected ? "connected" : "gone",
+         .state = !entry.connected    ? "gone"
+                   : entry.quarantined ? "quarantined"
+                                       : "connected",
          .host = entry.hello.host,
          .job = entry.hello.job,
          .client = entry.hello.client,

@@ -86,7 +86,8 @@ class Coordinator {
   /// Moves on as far as possible; the actions since the last call, in order.
   std::vector<CoordinatorAction> take_actions(TimePoint now);
 
-  /// Of every campaign nothing is wanted any more, or it is stopped; and everything is on disk.
+  /// Of every campaign nothing is wanted any more, or it is stopped; everything is on disk, and no
+  /// audit is under way.
   bool finished() const;
   /// Everything accepted so far is on disk.
   bool settled() const;

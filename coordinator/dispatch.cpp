@@ -29,7 +29,7 @@ void Scheduler::on_tick(TimePoint now) {
   for (auto& [number, entry] : workers_.all()) {
     if (!entry.connected) continue;
     if (now - entry.last_heard > options_.dead_after) {
-      lose(entry, Loss::Silence, "lost");
+      lose(entry, Loss::Silence, "lost", now);
       continue;
     }
     if (now - entry.last_sent >= options_.heartbeat) {
@@ -71,7 +71,9 @@ void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
     if (now - lease.renewed > time) late.push_back(key);
   }
   for (auto key = late.rbegin(); key != late.rend(); ++key) {
-    leases_.requeue(*leases_.find(*key));
+    TaskRecord& record = *leases_.find(*key);
+    note_attempt(record, "expired", now);
+    take_back(record);
     ++counters_.expired;
     ++counters_.requeued;
   }
@@ -87,22 +89,27 @@ void Scheduler::drain(TimePoint now) {
 }
 
 void Scheduler::dispatch(TimePoint now) {
+<<<<<<< HEAD
   latest_ = now;
   if (held_ || draining_ || workers_.connected() == 0) return;
+=======
+  if (held_ || draining_ || workers_.trusted() == 0) return;
+>>>>>>> main
   dispatch_alone(now);
+  dispatch_audits(now);
   if (leases_.queued() == 0) return;
   // Guided self-scheduling: near the end of what there is, nobody holds more than half a share of
   // it. A worker that is alone may have it all: its slots share what it holds.
   const auto remaining = static_cast<std::int64_t>(leases_.size());
-  const std::int64_t parts = workers_.connected() > 1 ? 2 * workers_.slots() : workers_.slots();
+  const std::int64_t parts = workers_.trusted() > 1 ? 2 * workers_.slots() : workers_.slots();
   const std::int64_t share = std::max<std::int64_t>(1, (remaining + parts - 1) / parts);
   auto& all = workers_.all();
   const auto first = all.upper_bound(turn_);
   for (auto at = first; at != all.end(); ++at) {
-    if (at->second.connected && !fill(at->second, share, now)) return;
+    if (at->second.usable() && !fill(at->second, share, now)) return;
   }
   for (auto at = all.begin(); at != first; ++at) {
-    if (at->second.connected && !fill(at->second, share, now)) return;
+    if (at->second.usable() && !fill(at->second, share, now)) return;
   }
 }
 
@@ -113,10 +120,10 @@ void Scheduler::dispatch_alone(TimePoint now) {
   for (auto& [number, entry] : workers_.all()) {
     if (entry.connected && entry.reserved) ++reserved;
   }
-  const std::size_t limit = std::max<std::size_t>(1, workers_.connected() / 2);
+  const std::size_t limit = std::max<std::size_t>(1, workers_.trusted() / 2);
   for (auto& [number, entry] : workers_.all()) {
     if (!leases_.has_alone()) return;
-    if (!entry.connected || entry.credit == 0) continue;
+    if (!entry.usable() || entry.credit == 0) continue;
     if (!entry.reserved && reserved >= limit) continue;
     if (!entry.reserved) ++reserved;
     entry.reserved = true;
@@ -150,7 +157,7 @@ bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
   const auto held = static_cast<std::int64_t>(leases_.leases_of(entry.number).size());
   std::int64_t room = most_for(entry, share) - held;
   if (room <= 0) return true;
-  const bool elsewhere = workers_.connected() > 1;
+  const bool elsewhere = workers_.trusted() > 1;
   SendTasks message{entry.peer, entry.hello.incarnation, {}};
   std::size_t bytes = 0;
   TaskRecord* record = nullptr;

@@ -38,6 +38,7 @@ struct TaskRecord {
   int timeouts = 0;
   WorkerNumber avoid = 0;  ///< try elsewhere, if there is an elsewhere
   bool alone = false;      ///< it may have killed a worker: nothing else may run beside it
+  bool audit = false;      ///< it has its result, and this is the second one (audit.h)
 
   // Kept by the table.
   TimePoint added;

@@ -47,6 +47,8 @@ void each_field(Json& json, Status& status, const Visit& visit) {
   visit(json, "duplicates", status.duplicates);
   visit(json, "conflicts", status.conflicts);
   visit(json, "unknown", status.unknown);
+  visit(json, "audits", status.audits);
+  visit(json, "quarantined", status.quarantined);
   visit(json, "lost_workers", status.lost_workers);
   visit(json, "reconnects", status.reconnects);
   visit(json, "malformed", status.malformed);

@@ -15,7 +15,7 @@ namespace swarmsmith {
 /// A worker as it is now. Times in seconds.
 struct WorkerStatus {
   std::int64_t number = 0;  ///< WorkerRow::id
-  std::string state;        ///< "connected", "gone"
+  std::string state;        ///< "connected", "quarantined", "gone"
   std::string host;
   std::string job;
   std::string client;
@@ -72,6 +72,7 @@ struct LiveStatus {
   std::int64_t duplicates = 0;
   std::int64_t conflicts = 0;
   std::int64_t unknown = 0;  ///< results that nobody had asked for
+  std::int64_t audits = 0;   ///< second results that were compared
   std::int64_t lost_workers = 0;
   std::int64_t reconnects = 0;
   std::int64_t malformed = 0;
@@ -79,6 +80,7 @@ struct LiveStatus {
   std::int64_t uncommitted = 0;                       ///< outcomes that are not on disk yet
   std::int64_t bytes_in = 0;                          ///< of frames
   std::int64_t bytes_out = 0;
+  std::int64_t quarantined = 0;  ///< workers that are here and get nothing
   std::int64_t gone_workers = 0;  ///< that were there within the last quarter of an hour
   double uptime_s = 0;
   double evaluations_per_s = 0;  ///< over the last seconds

@@ -83,6 +83,7 @@ void Scheduler::stop(std::uint32_t campaign, const std::string& reason) {
 void Scheduler::forget(std::uint32_t campaign) {
   stopped_.insert(campaign);
   leases_.remove_all(campaign);
+  audits_.forget(campaign);
 }
 
 // --- who is there ---
@@ -138,7 +139,8 @@ void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
   actions_.emplace_back(SendWelcome{entry.peer, entry.hello.incarnation});
   entry.last_sent = now;
   if (draining_) actions_.emplace_back(SendDrain{entry.peer, entry.hello.incarnation});
-  actions_.emplace_back(WorkerChanged{row_of(entry, "connected")});
+  actions_.emplace_back(
+      WorkerChanged{row_of(entry, entry.quarantined ? "quarantined" : "connected")});
 }
 
 /// The worker is alive: what its disappearance counted against did not kill it.
@@ -157,9 +159,9 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
   const std::list<PackedKey>& before = leases_.leases_of(entry.number);
   const std::vector<PackedKey> leased(before.rbegin(), before.rend());
   for (const PackedKey key : leased) {
-    if (!held.contains(key)) leases_.requeue(*leases_.find(key));
+    if (!held.contains(key)) take_back(*leases_.find(key));
   }
-  if (held_ || draining_ || !entry.hello.same_scenario) return;
+  if (held_ || draining_ || entry.quarantined || !entry.hello.same_scenario) return;
   for (const PackedKey key : entry.hello.holds) {
     TaskRecord* record = leases_.find(key);
     // What must run alone is leased anew, when the worker has nothing else.
@@ -204,29 +206,30 @@ void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> key
   for (auto key = keys.rbegin(); key != keys.rend(); ++key) {
     TaskRecord* record = leases_.find(*key);
     if (record == nullptr || !record->lease || record->lease->worker != entry->number) continue;
-    leases_.requeue(*record);
+    note_attempt(*record, "returned", now);
+    take_back(*record);
     ++counters_.requeued;
   }
 }
 
 void Scheduler::on_goodbye(const Sender& sender, TimePoint now) {
   WorkerEntry* entry = heard(sender, now);
-  if (entry != nullptr) lose(*entry, Loss::Left, "left");
+  if (entry != nullptr) lose(*entry, Loss::Left, "left", now);
 }
 
 void Scheduler::on_unreachable(PeerId peer, TimePoint now) {
   WorkerEntry* entry = workers_.of_peer(peer);
   if (entry == nullptr) return;
   const bool closed = now - entry->last_heard < options_.silence;
-  lose(*entry, closed ? Loss::Death : Loss::Silence, "lost");
+  lose(*entry, closed ? Loss::Death : Loss::Silence, "lost", now);
 }
 
-void Scheduler::on_refused(PeerId peer, TimePoint) {
+void Scheduler::on_refused(PeerId peer, TimePoint now) {
   WorkerEntry* entry = workers_.of_peer(peer);
-  if (entry != nullptr) lose(*entry, Loss::Left, "refused");
+  if (entry != nullptr) lose(*entry, Loss::Left, "refused", now);
 }
 
-void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
+void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state, TimePoint now) {
   const std::list<PackedKey>& leases = leases_.leases_of(entry.number);
   const std::vector<PackedKey> keys(leases.begin(), leases.end());
   const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
@@ -234,7 +237,15 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
   counters_.requeued += keys.size();
   for (std::size_t i = keys.size(); i-- > 0;) {
     TaskRecord& record = *leases_.find(keys[i]);
-    if (i < suspects) suspect(entry, record, loss);
+    // What was merely queued there is nobody's affair.
+    if (i < suspects && loss != Loss::Left) {
+      note_attempt(record, "lost", now);
+      suspect(entry, record, loss);
+    }
+    if (record.audit) {
+      take_back(record);
+      continue;
+    }
     leases_.requeue(record);
     if (record.deaths >= kDeathsOfARejection) {
       reject(record, entry.number, "its evaluation killed three worker processes");
@@ -251,6 +262,7 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state) {
 }
 
 void Scheduler::suspect(WorkerEntry& entry, TaskRecord& record, Loss loss) {
+  if (record.audit) return;
   // A program that goes wrong does not take its worker with it: its first death is an accident.
   const bool accident = options_.evaluates_programs && loss == Loss::Death &&
                         !record.lease->alone && ++record.losses < kLossesUntilAlone;
@@ -280,20 +292,28 @@ void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> r
   if (entry == nullptr) return;
   SendAcknowledged acknowledged{entry->peer, entry->hello.incarnation, {}};
   for (const WorkerResult& result : results) {
-    if (stopped_.contains(campaign_of(result.key))) {
+    if (entry->quarantined || stopped_.contains(campaign_of(result.key))) {
       acknowledged.keys.push_back(result.key);
     } else if (result.failure.empty()) {
-      on_score(*entry, result);
+      on_score(*entry, result, now);
     } else {
-      on_failure(*entry, result, acknowledged);
+      on_failure(*entry, result, acknowledged, now);
     }
   }
   if (!acknowledged.keys.empty()) actions_.emplace_back(std::move(acknowledged));
 }
 
-void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
-  if (const TaskRecord* record = leases_.find(result.key); record != nullptr) {
+void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {
+  TaskRecord* record = leases_.find(result.key);
+  if (record != nullptr && !record->audit) {
     ++entry.done;
+    const bool failed_elsewhere = (record->failures > 0 || record->timeouts > 0) &&
+                                  record->avoid != 0 && record->avoid != entry.number;
+    if (failed_elsewhere) strike(record->avoid, now);
+    const std::int64_t every = options_.evaluates_programs ? 0 : policy_of(*record).audit_every;
+    if (!result.rejected && Audits::chooses(result.key, every)) {
+      audits_.open(record->task, {entry.number, result.score, result.state_digest});
+    }
     const auto spent_us = static_cast<double>(std::max<std::int64_t>(result.wall_us, 0));
     estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
     CampaignMeters& meters = leases_.meters(record->task.campaign);
@@ -311,6 +331,8 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result) {
     return;
   }
   if (const DoneEntry* known = done_.find(result.key); known != nullptr) {
+    const bool asked = record != nullptr && record->lease && record->lease->worker == entry.number;
+    if (asked) return on_audited(entry, *record, *known, result, now);
     return repeat(entry, *known, result);
   }
   // Wanted later, perhaps: after a restart the race may not have come so far. Not acknowledged, so
@@ -335,6 +357,12 @@ void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
   actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
   // Two runs of a program may differ, in its time at least: the first one counts.
   if (options_.evaluates_programs) return;
+  judge(entry, known, result);
+}
+
+/// Another result with other bits: the campaign is not deterministic, or somebody lies.
+void Scheduler::judge(const WorkerEntry& entry, const DoneEntry& known,
+                      const WorkerResult& result) {
   if (DoneTable::same(known, EvaluationStatus::Ok, result.score, result.state_digest)) return;
   ++counters_.conflicts;
   const EvaluationKey key = unpack(result.key);
@@ -350,7 +378,7 @@ void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
 }
 
 void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
-                           SendAcknowledged& acknowledged) {
+                           SendAcknowledged& acknowledged, TimePoint now) {
   // A failure is told once: for the lease under which it ran. Nothing is written, so the worker
   // may forget it at once.
   acknowledged.keys.push_back(result.key);
@@ -374,12 +402,18 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
                                      .command = result.details.command,
                                      .output = result.details.output,
                                      .errors = result.details.errors}});
+  note_attempt(*record, "failed", now);
+  if (record->audit) {
+    // The strike may send the worker to quarantine, which takes its leases back.
+    take_back(*record);
+    return strike(entry.number, now);
+  }
   record->avoid = entry.number;
   // A program's worker has tried again by itself, as often as the campaign allows.
   if (options_.evaluates_programs || record->failures >= kFailuresOfARejection) {
     reject(*record, entry.number, result.failure, result.details);
   } else {
-    leases_.requeue(*record);
+    take_back(*record);
   }
 }
 
@@ -403,18 +437,23 @@ void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
     // Of a program the worker itself keeps the time.
     if (options_.evaluates_programs) continue;
     const auto limit = policy_of(*record).task_timeout;
-    if (std::chrono::milliseconds(report.elapsed_ms) > limit) on_timeout(*entry, *record);
+    if (std::chrono::milliseconds(report.elapsed_ms) > limit) on_timeout(*entry, *record, now);
   }
 }
 
 /// A time never becomes a score: another try elsewhere, then the end.
-void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record) {
+void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now) {
   ++record.timeouts;
   ++entry.failed;
   ++counters_.failed;
   ++leases_.meters(record.task.campaign).timed_out;
   note("warning", "evaluation timed out",
        {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign);
+  note_attempt(record, "timed out", now);
+  if (record.audit) {
+    take_back(record);
+    return strike(entry.number, now);
+  }
   record.avoid = entry.number;
   leases_.requeue(record);
   const CampaignPolicy& policy = policy_of(record);

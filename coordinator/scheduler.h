@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "coordinator/audit.h"
 #include "coordinator/done_table.h"
 #include "coordinator/event_text.h"
 #include "coordinator/lease_table.h"
@@ -74,6 +75,9 @@ class Scheduler {
 
   std::vector<SchedulerAction> take_actions();
 
+  /// Whether second results are waited for that may still come. Then the campaigns are not over.
+  bool is_auditing() const;
+
   const LeaseTable& leases() const { return leases_; }
   const WorkerRegistry& workers() const { return workers_; }
   const SchedulerCounters& counters() const { return counters_; }
@@ -88,12 +92,24 @@ class Scheduler {
   void welcome(WorkerEntry& entry, TimePoint now);
   void adopt(WorkerEntry& entry, TimePoint now);
   void take_back_charges(WorkerEntry& entry);
-  void lose(WorkerEntry& entry, Loss loss, const std::string& state);
+  void lose(WorkerEntry& entry, Loss loss, const std::string& state, TimePoint now);
   void suspect(WorkerEntry& entry, TaskRecord& record, Loss loss);
 
-  void on_score(WorkerEntry& entry, const WorkerResult& result);
-  void on_failure(WorkerEntry& entry, const WorkerResult& result, SendAcknowledged& acknowledged);
-  void on_timeout(WorkerEntry& entry, TaskRecord& record);
+  void on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now);
+  void on_failure(WorkerEntry& entry, const WorkerResult& result, SendAcknowledged& acknowledged,
+                  TimePoint now);
+  void on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now);
+  /// Queues it again; an audit waits again for a worker that may make it.
+  void take_back(TaskRecord& record);
+  void note_attempt(const TaskRecord& record, const char* outcome, TimePoint now);
+  void note_attempt(PackedKey key, const Lease& lease, const char* outcome, TimePoint now);
+  void dispatch_audits(TimePoint now);
+  void on_audited(WorkerEntry& entry, TaskRecord& record, const DoneEntry& known,
+                  const WorkerResult& result, TimePoint now);
+  void judge(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
+  /// `worker` failed at what somebody else has done.
+  void strike(WorkerNumber worker, TimePoint now);
+  void quarantine(WorkerEntry& entry, const std::string& reason, TimePoint now);
   void accept(const Outcome& outcome);
   void repeat(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
   void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
@@ -117,6 +133,7 @@ class Scheduler {
   LeaseTable leases_;
   WorkerRegistry workers_;
   DoneTable done_;
+  Audits audits_;
   SchedulerCounters counters_;
   std::vector<SchedulerAction> actions_;
   double estimate_us_ = 0;  ///< of an evaluation's time

@@ -148,6 +148,8 @@ struct CampaignPolicy {
   Duration task_timeout = std::chrono::seconds(30);
   std::int64_t retries = 2;      ///< after time-outs, before the campaign stops
   bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
+  /// One evaluation of so many is made twice, by two workers; 0: none. Programs are not audited.
+  std::int64_t audit_every = 200;
 };
 
 struct SchedulerOptions {
@@ -164,6 +166,9 @@ struct SchedulerOptions {
   /// Of all campaigns or of none: evaluations by programs: none is run a second time while a worker
   /// that runs it is alive, a first failure is final, and two results of one evaluation may differ.
   bool evaluates_programs = false;
+  /// A worker that fails so often where others succeed, and at one of twenty of its evaluations,
+  /// gets no more.
+  std::int64_t quarantine_after = 5;
   std::uint32_t max_credit = 4096;
   std::size_t max_workers = 10'000;
   int engine_version = 0;
@@ -182,7 +187,12 @@ struct SchedulerCounters {
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;
   std::uint64_t lost_workers = 0;
+<<<<<<< HEAD
   std::uint64_t reconnects = 0;  ///< hellos of workers that had been here before
+=======
+  std::uint64_t audited = 0;      ///< second results that were compared
+  std::uint64_t quarantined = 0;  ///< workers
+>>>>>>> main
 };
 
 }  // namespace swarmsmith

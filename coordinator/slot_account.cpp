@@ -44,7 +44,7 @@ double SlotTimes::idle_total() const {
 
 void SlotAccount::sample(const Scheduler& scheduler, Holding holding, TimePoint now) {
   for (const auto& [number, entry] : scheduler.workers().all()) {
-    if (!entry.connected) {
+    if (!entry.usable()) {
       // Since its last heartbeat nobody knows what it did.
       workers_.erase(number);
       continue;

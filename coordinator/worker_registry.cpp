@@ -53,7 +53,11 @@ void WorkerRegistry::connect(WorkerEntry& entry, PeerId peer, TimePoint now) {
   entry.reserved = false;
   entry.last_heard = now;
   by_peer_[peer] = entry.number;
-  slots_ += entry.hello.slots;
+  if (entry.quarantined) {
+    ++quarantined_;
+  } else {
+    slots_ += entry.hello.slots;
+  }
 }
 
 void WorkerRegistry::disconnect(WorkerEntry& entry) {
@@ -61,7 +65,24 @@ void WorkerRegistry::disconnect(WorkerEntry& entry) {
   entry.connected = false;
   entry.reserved = false;
   by_peer_.erase(entry.peer);
-  slots_ -= entry.hello.slots;
+  if (entry.quarantined) {
+    --quarantined_;
+  } else {
+    slots_ -= entry.hello.slots;
+  }
+}
+
+void WorkerRegistry::quarantine(WorkerEntry& entry) {
+  SWARMSMITH_ASSERT(!entry.quarantined, "a worker goes to quarantine once");
+  const bool connected = entry.connected;
+  const PeerId peer = entry.peer;
+  const TimePoint heard = entry.last_heard;
+  const std::uint64_t sequence = entry.last_sequence;
+  if (connected) disconnect(entry);
+  entry.quarantined = true;
+  if (!connected) return;
+  connect(entry, peer, heard);
+  entry.last_sequence = sequence;
 }
 
 void WorkerRegistry::forget_old(TimePoint now) {

@@ -34,6 +34,11 @@ struct WorkerEntry {
   bool reserved = false;
   std::int64_t done = 0;
   std::int64_t failed = 0;
+  std::int64_t strikes = 0;  ///< evaluations that failed here and not elsewhere
+  /// Nothing goes to it, and nothing is taken from it, until its process ends.
+  bool quarantined = false;
+
+  bool usable() const { return connected && !quarantined; }
   /// Tasks that its last disappearance counted against; it takes that back by coming again.
   std::vector<PackedKey> charged;
 };
@@ -57,7 +62,12 @@ class WorkerRegistry {
   /// Forgets workers that are not connected and were not heard of for long.
   void forget_old(TimePoint now);
 
+  /// Its slots count no more.
+  void quarantine(WorkerEntry& entry);
+
   std::size_t connected() const { return by_peer_.size(); }
+  /// Connected, and not in quarantine.
+  std::size_t trusted() const { return by_peer_.size() - quarantined_; }
   std::int64_t slots() const { return slots_; }
   std::map<WorkerNumber, WorkerEntry>& all() { return entries_; }
   const std::map<WorkerNumber, WorkerEntry>& all() const { return entries_; }
@@ -67,10 +77,12 @@ class WorkerRegistry {
   std::unordered_map<PeerId, WorkerNumber> by_peer_;  ///< connected ones
   std::unordered_map<std::string, WorkerNumber> by_identity_;
   WorkerNumber next_;
-  std::int64_t slots_ = 0;
+  std::int64_t slots_ = 0;       ///< of those that are trusted
+  std::size_t quarantined_ = 0;  ///< connected ones
 };
 
-/// The row that says how a worker is: "connected", "lost", "left" or "refused".
+/// The row that says how a worker is: "connected", "lost", "left", "refused" or
+/// "quarantined".
 WorkerRow row_of(const WorkerEntry& entry, const std::string& state);
 
 }  // namespace swarmsmith

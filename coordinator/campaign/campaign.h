@@ -81,7 +81,8 @@ struct Campaign {
   std::string bind;                           ///< empty: a free port on loopback
   double task_timeout_s = 30;
   std::int64_t retries = 2;
-  bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
+  bool stop_on_failure = false;    ///< else an evaluation that fails for good is a rejection
+  std::int64_t audit_every = 200;  ///< one evaluation of so many is made twice; 0: none
 };
 
 }  // namespace swarmsmith

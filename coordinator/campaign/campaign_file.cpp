@@ -163,6 +163,8 @@ void read_workers(TableReader& root, Campaign& campaign) {
   read_local(*table, campaign);
   campaign.bind = read_bind(*table).value_or(campaign.bind);
   campaign.task_timeout_s = table->seconds("timeout", {0.1, 1e6}).value_or(campaign.task_timeout_s);
+  campaign.audit_every =
+      table->integer("audit_every", {0, 1'000'000}).value_or(campaign.audit_every);
   campaign.retries = table->integer("retries", {0, 1000}).value_or(campaign.retries);
   static const std::vector<std::string> kOnFailure = {"reject", "stop"};
   if (const auto action = table->choice("on_failure", kOnFailure)) {

@@ -73,7 +73,8 @@ ServiceOptions service_options(const Campaign& campaign, const RunOptions& optio
   scheduler.campaigns = {{.task_timeout = std::chrono::duration_cast<Duration>(
                               std::chrono::duration<double>(campaign.task_timeout_s)),
                           .retries = campaign.retries,
-                          .stop_on_failure = campaign.stop_on_failure}};
+                          .stop_on_failure = campaign.stop_on_failure,
+                          .audit_every = campaign.audit_every}};
   scheduler.evaluates_programs = campaign.target.has_value();
   if (!options.bind.empty()) {
     const bool has_scheme = options.bind.find("://") != std::string::npos;

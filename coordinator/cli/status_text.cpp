@@ -101,6 +101,7 @@ std::string troubles(const LiveStatus& status) {
   add("failed", status.failed);
   add("rejected", status.rejected);
   add("conflicts", status.conflicts);
+  add("quarantined workers", status.quarantined);
   add("requeued", status.requeued);
   add("expired", status.expired);
   add("lost workers", status.lost_workers);

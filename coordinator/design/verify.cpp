@@ -148,10 +148,27 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   if (finished) compare_finished(stored, replayed, name, complaints);
 }
 
+/// Evaluations of which two workers gave different bits: a sentence each, the first few.
+void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complaints) {
+  constexpr const char* kConflicts =
+      "SELECT 'e' || (candidate * 100000 + pair), kept_score, other_score, other_worker"
+      " FROM conflict ORDER BY candidate, purpose, pair";
+  const auto found = store.query(
+      kConflicts, {.rows = 20}, [](const auto&) {},
+      [&](const std::vector<StoreReader::Cell>& cells) {
+        complaints.push_back(fmt::format(
+            "evaluation {}: the score {} is kept, and worker {} gave {}; a worker is wrong, or the "
+            "campaign is not deterministic",
+            cells[0].text, cells[1].text, cells[3].text, cells[2].text));
+      });
+  if (!found) complaints.push_back(to_string(found.error()));
+}
+
 }  // namespace
 
 Verification verify(StoreReader& store, std::vector<DesignPlan> plans) {
   Verification result{.complaints = store.integrity()};
+  complain_of_conflicts(store, result.complaints);
   std::map<DesignId, DesignAnswer> stored;
   store.each_answer_row([&](const Row& row) {
     if (const auto id = design_of(row)) add(row, stored[*id]);

@@ -19,8 +19,8 @@ struct Verification {
 
 /// Plays every race of the store again from the stored scores, and compares what comes out with
 /// what is stored: candidates, pairs, steps, eliminations, elites, budget, winner. A design that is
-/// not finished is compared as far as it has come. Also SQLite's own integrity check, and whether
-/// the store's campaign is the one of `plans`.
+/// not finished is compared as far as it has come. Also evaluations with two different results,
+/// SQLite's own integrity check, and whether the store's campaign is the one of `plans`.
 Verification verify(StoreReader& store, std::vector<DesignPlan> plans);
 
 /// The designs of a store, made from the campaign file that it keeps.

@@ -107,7 +107,8 @@ auto by_reason(std::map<std::string, std::uint64_t> LiveStatus::*counts) {
 }
 
 void write_workers(const LiveStatus& status, Samples& out) {
-  out.add({{"state", "connected"}}, status.workers);
+  out.add({{"state", "connected"}}, status.workers - status.quarantined);
+  out.add({{"state", "quarantined"}}, status.quarantined);
   out.add({{"state", "gone"}}, status.gone_workers);
 }
 
@@ -128,6 +129,8 @@ std::vector<Metric> pool_metrics() {
        plain(&LiveStatus::duplicates)},
       {"swarmsmith_conflicts_total", "counter", "Results that differ from the one known before",
        plain(&LiveStatus::conflicts)},
+      {"swarmsmith_audits_total", "counter", "Second results that were compared bit by bit",
+       plain(&LiveStatus::audits)},
       {"swarmsmith_unknown_results_total", "counter", "Results that nobody had asked for",
        plain(&LiveStatus::unknown)},
       {"swarmsmith_malformed_total", "counter", "Frames that were dropped, by what was wrong",

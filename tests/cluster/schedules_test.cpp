@@ -50,6 +50,7 @@ TEST(SimulatedCluster, NeedsFewEventsWithoutFaults) {
   SimulatedCluster cluster({.seed = 1, .faults = {}, .campaign = {}});
   EXPECT_EQ(cluster.run(), "");
   EXPECT_LT(cluster.events(), 2000U);
+  EXPECT_GT(cluster.audited(), 0U);
 }
 
 TEST(SimulatedCluster, RejectsWhatKillsItsWorkersThreeTimesAlone) {

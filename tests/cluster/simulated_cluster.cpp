@@ -24,6 +24,7 @@ const char* const kScenario = "scenario";
 CoordinatorOptions coordinator_options(std::int64_t first_worker) {
   CoordinatorOptions options;
   options.scheduler.first_worker = first_worker;
+  options.scheduler.campaigns[0].audit_every = 10;
   options.scenario = kScenario;
   return options;
 }

@@ -56,6 +56,8 @@ class SimulatedCluster {
   /// Events so far; for the tests' own sanity.
   std::uint64_t events() const { return order_; }
   int crashes() const { return crashes_; }
+  /// Evaluations of the last coordinator that were made twice.
+  std::uint64_t audited() const { return coordinator_->scheduler().counters().audited; }
   /// Evaluations that killed a worker.
   std::size_t killers() const { return killers_.size(); }
 
