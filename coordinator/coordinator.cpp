@@ -175,6 +175,11 @@ void Coordinator::on_unreachable(PeerId peer, TimePoint now) {
   scheduler_.on_unreachable(peer, now);
 }
 
+void Coordinator::on_cut_off(PeerId peer, TimePoint now) {
+  faults_.erase(peer);
+  scheduler_.on_refused(peer, now);
+}
+
 void Coordinator::on_tick(TimePoint now) {
   scheduler_.on_tick(now);
   sample_due_ = true;
@@ -399,8 +404,8 @@ std::vector<WorkerStatus> Coordinator::fleet(TimePoint now) const {
     fleet.push_back(
         {.number = number,
          .state = !entry.connected    ? "gone"
-                   : entry.quarantined ? "quarantined"
-                                       : "connected",
+                  : entry.quarantined ? "quarantined"
+                                      : "connected",
          .host = entry.hello.host,
          .job = entry.hello.job,
          .client = entry.hello.client,

@@ -72,6 +72,8 @@ class Coordinator {
   /// An empty frame stands for a message that was no single frame.
   void on_frame(const Peer& peer, std::string_view frame, TimePoint now);
   void on_unreachable(PeerId peer, TimePoint now);
+  /// The peer's key is not good any more: its leases go to others, and nobody is blamed.
+  void on_cut_off(PeerId peer, TimePoint now);
   void on_tick(TimePoint now);
   void on_appended(std::uint32_t campaign, std::uint64_t ticket);
   void on_committed(std::uint32_t campaign, std::uint64_t ticket);

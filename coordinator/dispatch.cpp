@@ -89,12 +89,8 @@ void Scheduler::drain(TimePoint now) {
 }
 
 void Scheduler::dispatch(TimePoint now) {
-<<<<<<< HEAD
   latest_ = now;
-  if (held_ || draining_ || workers_.connected() == 0) return;
-=======
   if (held_ || draining_ || workers_.trusted() == 0) return;
->>>>>>> main
   dispatch_alone(now);
   dispatch_audits(now);
   if (leases_.queued() == 0) return;

@@ -80,7 +80,7 @@ struct LiveStatus {
   std::int64_t uncommitted = 0;                       ///< outcomes that are not on disk yet
   std::int64_t bytes_in = 0;                          ///< of frames
   std::int64_t bytes_out = 0;
-  std::int64_t quarantined = 0;  ///< workers that are here and get nothing
+  std::int64_t quarantined = 0;   ///< workers that are here and get nothing
   std::int64_t gone_workers = 0;  ///< that were there within the last quarter of an hour
   double uptime_s = 0;
   double evaluations_per_s = 0;  ///< over the last seconds

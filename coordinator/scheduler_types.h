@@ -187,12 +187,9 @@ struct SchedulerCounters {
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;
   std::uint64_t lost_workers = 0;
-<<<<<<< HEAD
-  std::uint64_t reconnects = 0;  ///< hellos of workers that had been here before
-=======
   std::uint64_t audited = 0;      ///< second results that were compared
   std::uint64_t quarantined = 0;  ///< workers
->>>>>>> main
+  std::uint64_t reconnects = 0;  ///< hellos of workers that had been here before
 };
 
 }  // namespace swarmsmith

@@ -1,10 +1,12 @@
 #include "coordinator/service.h"
 
 #include <algorithm>
+#include <map>
 #include <mutex>
 #include <optional>
 #include <utility>
 
+#include "access/address.h"
 #include "base/log.h"
 #include "base/overloaded.h"
 #include "coordinator/log_row.h"
@@ -25,11 +27,8 @@ constexpr Duration kLookAtLogs = std::chrono::seconds(1);
 constexpr std::int64_t kMostUncommitted = 500'000;
 /// Frames that are read before the campaign moves on and answers go out.
 constexpr int kFramesAtOnce = 256;
-
-bool is_loopback(const std::string& endpoint) {
-  return endpoint.starts_with("tcp://127.") || endpoint.starts_with("tcp://[::1]:") ||
-         endpoint.starts_with("tcp://localhost:");
-}
+/// A storm of strangers makes a line a reason in this time.
+constexpr Duration kSayAgain = std::chrono::seconds(10);
 
 /// What the writers' threads say, a writer a campaign, for the loop's thread.
 class News {
@@ -61,6 +60,30 @@ std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& 
     all.push_back({campaign.name, campaign.designs, campaign.store->design_states()});
   return all;
 }
+
+/// Says who was kept out, seldom.
+class RefusalLog {
+ public:
+  void say(const Refusals& refusals, TimePoint now) {
+    for (const auto& [reason, count] : refusals.counts) {
+      Said& said = said_[reason];
+      if (count == said.count || (said.count > 0 && now - said.when < kSayAgain)) continue;
+      const auto from = refusals.last_from.find(reason);
+      log(LogLevel::Warning, "coordinator", "connection refused",
+          {{"reason", reason},
+           {"times", std::to_string(count - said.count)},
+           {"last_from", from != refusals.last_from.end() ? from->second : "unknown"}});
+      said = {count, now};
+    }
+  }
+
+ private:
+  struct Said {
+    std::uint64_t count = 0;
+    TimePoint when;
+  };
+  std::map<std::string, Said> said_;
+};
 
 class Loop final : public Service {
  public:
@@ -112,11 +135,24 @@ class Loop final : public Service {
     hear_news();
     // After the frames: what waited in the socket is a sign of life too.
     if (now >= next_tick_ && !more_frames_) {
+      look_at_the_door(now);
       coordinator_.on_tick(now);
       report(now);
       next_tick_ = now + kTick;
     }
     carry_out();
+  }
+
+  void look_at_the_door(TimePoint now) {
+    refusal_log_.say(socket_->refusals(), now);
+    if (!options_.new_clients) return;
+    const auto clients = options_.new_clients();
+    if (!clients) return;
+    const std::vector<PeerId> cut = socket_->admit(*clients);
+    for (const PeerId peer : cut)
+      coordinator_.on_cut_off(peer, now);
+    log(LogLevel::Info, "coordinator", "list of clients taken",
+        {{"clients", std::to_string(clients->size())}, {"cut_off", std::to_string(cut.size())}});
   }
 
   void receive(TimePoint now) {
@@ -213,6 +249,8 @@ class Loop final : public Service {
     if (now - looked_ >= kLookAtLogs) look_at_logs(now);
     status_ = telemetry_.status(coordinator_, now, all);
     status_.trouble = trouble();
+    status_.insecure_plaintext = options_.insecure_plaintext;
+    status_.refused = socket_->refusals().counts;
     status_json_.clear();
     if (hooks_->on_status) hooks_->on_status(status_);
   }
@@ -288,6 +326,7 @@ class Loop final : public Service {
   RowLog row_log_;
   std::vector<std::filesystem::path> files_;  ///< of the stores
   std::vector<std::string> names_;            ///< of the campaigns
+  RefusalLog refusal_log_;
   LiveStatus status_;
   std::string status_json_;  ///< of it; empty until somebody asks
   TimePoint looked_;
@@ -301,24 +340,34 @@ class Loop final : public Service {
 
 Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options,
                                                  std::vector<ServiceCampaign> campaigns) {
+  const bool insisted = options.insecure_plaintext;
   if (options.bind.empty()) options.bind = "tcp://127.0.0.1:*";
   // A name of an interface is what a socket would look for.
   if (constexpr std::string_view kName = "tcp://localhost:"; options.bind.starts_with(kName)) {
     options.bind.replace(0, kName.size(), "tcp://127.0.0.1:");
   }
-  if (!is_tcp_address(options.bind)) {
+  const auto address = address_of(options.bind);
+  if (!address) {
     return bad_input("this is no address to listen on; it is written 127.0.0.1:5555, host and port",
                      options.bind);
   }
-  if (!is_loopback(options.bind)) {
+  options.insecure_plaintext = !options.keys && !is_loopback(*address);
+  if (options.insecure_plaintext && !insisted) {
     return bad_input(
-        "workers of other hosts are not admitted yet, since connections are not encrypted: bind to "
-        "tcp://127.0.0.1:PORT",
+        "other hosts may connect here, so that keys are needed: make them with `swarmsmith "
+        "keygen`, or listen on tcp://127.0.0.1:PORT",
         options.bind);
+  }
+  if (options.insecure_plaintext) {
+    log(LogLevel::Warning, "coordinator",
+        "listening beyond loopback without encryption: whoever reaches the port can read the "
+        "campaign, send results and give commands",
+        {{"address", options.bind}});
   }
   // The last words of a campaign send its workers home.
   options.socket.linger = milliseconds{200};
-  Expected<std::unique_ptr<ServerSocket>> socket = ServerSocket::bind(options.bind, options.socket);
+  Expected<std::unique_ptr<ServerSocket>> socket =
+      ServerSocket::bind(options.bind, options.socket, std::move(options.keys));
   if (!socket) return Unexpected(socket.error());
   std::vector<std::vector<StoredScore>> known;
   std::vector<CampaignWork> works;

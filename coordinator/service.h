@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <stop_token>
 #include <string>
 #include <vector>
@@ -18,9 +19,15 @@ namespace swarmsmith {
 
 struct ServiceOptions {
   CoordinatorOptions coordinator;
-  /// Loopback only, for now; port * takes a free one. Empty: "tcp://127.0.0.1:*".
+  /// Port * takes a free one. Empty: "tcp://127.0.0.1:*". Beyond loopback only with keys, or with
+  /// `insecure_plaintext`.
   std::string bind;
   SocketOptions socket;
+  std::optional<ServerKeys> keys{};
+  /// Nobody's key is asked for, though other hosts can connect.
+  bool insecure_plaintext = false;
+  /// A new list of clients when there is one; asked ten times a second, and must not wait.
+  std::function<std::optional<std::vector<ListedClient>>()> new_clients{};
   /// How long running evaluations are waited for when the campaign is interrupted.
   Duration grace = std::chrono::seconds(5);
 };
@@ -57,8 +64,9 @@ struct ServiceEnd {
 /// A coordinator's loop: socket, clock and stores around a Coordinator. One thread, that of `run`.
 class Service {
  public:
-  /// Errors: BadInput (no address, or one beyond loopback), Conflict (the port is taken),
-  /// Unavailable. The order of `campaigns` is that of the scenario and of the scheduler's policies.
+  /// Errors: BadInput (no address, or one beyond loopback without keys), Conflict (the port is
+  /// taken), Unavailable. The order of `campaigns` is that of the scenario and of the scheduler's
+  /// policies.
   static Expected<std::unique_ptr<Service>> open(ServiceOptions options,
                                                  std::vector<ServiceCampaign> campaigns);
   virtual ~Service() = default;

@@ -2,11 +2,15 @@
 
 #include <chrono>
 #include <cstdint>
+#include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/expected.h"
+#include "proto/curve.h"
 #include "proto/role.h"
 #include "proto/wakeup.h"
 
@@ -30,6 +34,22 @@ struct SocketOptions {
   std::chrono::milliseconds handshake_timeout{3000};
   std::chrono::milliseconds linger{0};
   int send_queue = 1000;  ///< messages a peer
+  /// A server closes connections beyond these, half-open ones included (orchestration facts, 5
+  /// "Limits"); those without a handshake end by themselves after `handshake_timeout`. Each takes a
+  /// descriptor: where the process's limit is lower, libzmq leaves newcomers in the system's queue.
+  /// ZMQ_MAX_SOCKETS is no limit here, since one socket has them all.
+  int max_connections = 10'000;
+};
+
+/// Who was kept out since the start, or cut off.
+struct Refusals {
+  /// By reason: "unlisted key", "expired key", "revoked key", "plaintext", "wrong server key", "bad
+  /// handshake", "no handshake" (rubbish, silence, or a peer that hung up first), "too many
+  /// connections".
+  std::map<std::string, std::uint64_t> counts;
+  std::map<std::string, std::string> last_from;  ///< address or key's name, where it is known
+
+  std::uint64_t total() const;
 };
 
 /// The coordinator's end: one socket, a connection a worker, one frame a message. One thread. What
@@ -44,8 +64,11 @@ class ServerSocket {
   };
 
   /// `endpoint` as "tcp://127.0.0.1:5555"; port * takes a free one. Unavailable when it is taken.
+  /// With keys, connections are encrypted, and only listed clients come in (orchestration facts,
+  /// 6); without, everybody does, as Role::Anyone.
   static Expected<std::unique_ptr<ServerSocket>> bind(const std::string& endpoint,
-                                                      const SocketOptions& options = {});
+                                                      const SocketOptions& options = {},
+                                                      std::optional<ServerKeys> keys = {});
   ~ServerSocket();
 
   /// The real one, with its port.
@@ -58,6 +81,11 @@ class ServerSocket {
   /// Until a message can be taken, `wakeup` is notified, or the time is over.
   void wait(const Wakeup& wakeup, std::chrono::milliseconds timeout);
 
+  /// A new list of clients. Connections whose key is not in it any more, or has expired, are closed
+  /// now and nothing that they sent is received; those of them that have spoken are returned.
+  std::vector<PeerId> admit(std::vector<ListedClient> clients);
+  Refusals refusals() const;
+
  private:
   struct Impl;
   explicit ServerSocket(std::unique_ptr<Impl> impl);
@@ -68,9 +96,12 @@ class ServerSocket {
 /// thread.
 class ClientSocket {
  public:
-  explicit ClientSocket(std::string endpoint, const SocketOptions& options = {});
+  explicit ClientSocket(std::string endpoint, const SocketOptions& options = {},
+                        std::optional<ClientKeys> keys = {});
   ~ClientSocket();
 
+  /// Where the next `connect` goes, and with which keys.
+  void redirect(std::string endpoint, std::optional<ClientKeys> keys);
   /// Drops the old connection, if any, and what it had not sent, and begins a new one.
   void connect();
   /// Drops the connection; what was sent goes out within `linger`.
@@ -81,6 +112,8 @@ class ClientSocket {
   bool receive(std::string& frame);
   /// Whether the connection broke, or could not be made, since the last call.
   bool lost();
+  /// Whether the last connection ended because the server does not want this client's key.
+  bool refused() const;
   void wait(const Wakeup& wakeup, std::chrono::milliseconds timeout);
 
  private:

@@ -24,9 +24,10 @@ class Loop {
  public:
   Loop(const WorkerServiceOptions& options, const WorkerIdentity& identity, Pool& pool,
        Wakeup& wakeup)
-      : socket_(options.endpoint, options.socket),
+      : socket_(options.endpoint, options.socket, options.keys),
         protocol_(identity, options.protocol, Rng(std::random_device{}())),
         endpoint_(options.endpoint),
+        find_(options.find),
         pool_(&pool),
         wakeup_(&wakeup) {}
 
@@ -60,10 +61,42 @@ class Loop {
     // Before the events: programs that died of the same signal did not fail.
     if (drain.load()) protocol_.on_drain(now);
     take_events(now);
-    if (socket_.lost()) protocol_.on_connection_lost(now);
+    if (socket_.lost()) {
+      tell_when_refused();
+      protocol_.on_connection_lost(now);
+    }
     protocol_.on_tick(now);
     carry_out();
     tell_when_alone(now);
+  }
+
+  void connect() {
+    if (find_) {
+      const Expected<CoordinatorAddress> found = find_();
+      if (!found) {
+        socket_.close(milliseconds{0});
+        tell_trouble(to_string(found.error()));
+        protocol_.on_connection_lost(clock_.now());
+        return;
+      }
+      endpoint_ = found->endpoint;
+      socket_.redirect(found->endpoint, found->keys);
+    }
+    socket_.connect();
+  }
+
+  /// The same sentence once, however often it is tried again.
+  void tell_trouble(const std::string& trouble) {
+    if (trouble == trouble_) return;
+    trouble_ = trouble;
+    log(LogLevel::Warning, "worker", "cannot connect; trying on", {{"reason", trouble}});
+  }
+
+  void tell_when_refused() {
+    if (!socket_.refused()) return;
+    tell_trouble(endpoint_ +
+                 " does not let this worker's key in: it is not in the coordinator's clients.toml, "
+                 "or has expired");
   }
 
   /// Once each time that nobody answers.
@@ -71,6 +104,7 @@ class Loop {
     if (protocol_.active()) {
       active_ = now;
       told_ = false;
+      trouble_.clear();
     }
     if (told_ || end_ || now - active_ < kLonely) return;
     told_ = true;
@@ -104,7 +138,7 @@ class Loop {
   }
 
   void carry_out(WorkerAction& action) {
-    std::visit(Overloaded{[&](OpenConnection) { socket_.connect(); },
+    std::visit(Overloaded{[&](OpenConnection) { connect(); },
                           [&](const SendToCoordinator& send) { this->send(send.frame); },
                           [&](const UseScenario& use) {
                             const Expected<void> used = pool_->use(use.scenario);
@@ -132,6 +166,8 @@ class Loop {
   ClientSocket socket_;
   WorkerProtocol protocol_;
   std::string endpoint_;
+  std::function<Expected<CoordinatorAddress>()> find_;
+  std::string trouble_;  ///< that was told
   TimePoint active_ = clock_.now();
   bool told_ = false;
   Pool* pool_;

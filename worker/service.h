@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <optional>
 #include <string>
 
 #include "proto/socket.h"
@@ -9,8 +11,18 @@
 
 namespace swarmsmith {
 
+/// Where a coordinator is, and the keys to talk to it; none: in plaintext.
+struct CoordinatorAddress {
+  std::string endpoint;  ///< tcp://host:port
+  std::optional<ClientKeys> keys;
+};
+
 struct WorkerServiceOptions {
   std::string endpoint;  ///< of the coordinator: tcp://host:port
+  std::optional<ClientKeys> keys{};
+  /// Asked before each try to connect, if it is there: a coordinator may move, and keys may change.
+  /// An error is a try that failed.
+  std::function<Expected<CoordinatorAddress>()> find{};
   WorkerOptions protocol;
   SocketOptions socket;
 };

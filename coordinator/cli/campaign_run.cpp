@@ -8,6 +8,9 @@
 #include <stop_token>
 #include <utility>
 
+#include "access/address.h"
+#include "access/key_file.h"
+#include "base/descriptor_limit.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/programs.h"
@@ -27,8 +30,12 @@
 namespace swarmsmith::cli {
 namespace {
 
-// Set by the handler, read by the loop.
+/// Of the process, besides its connections: stores, logs, workers' pipes.
+constexpr int kOtherDescriptors = 1'000;
+
+// Set by the handlers, read by the loop.
 volatile std::sig_atomic_t g_signal = 0;
+volatile std::sig_atomic_t g_read_clients = 0;
 
 void on_signal(int signal) {
   if (g_signal != 0) _exit(128 + signal);
@@ -41,6 +48,20 @@ void catch_signals() {
   sigemptyset(&action.sa_mask);
   sigaction(SIGINT, &action, nullptr);
   sigaction(SIGTERM, &action, nullptr);
+}
+
+void on_hangup(int) {
+  g_read_clients = 1;
+}
+
+/// Only where there is a list of clients to read again: else a terminal that goes away ends the
+/// run, as it ends others.
+void catch_hangup() {
+  struct sigaction action = {};
+  action.sa_handler = on_hangup;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGHUP, &action, nullptr);
 }
 
 WorkerScenario scenario_of(const Campaign& campaign) {
@@ -64,6 +85,13 @@ WorkerScenario scenario_of(const Campaign& campaign) {
   return scenario;
 }
 
+/// Where the coordinator listens, as tcp://HOST:PORT.
+std::string bind_of(const RunOptions& options) {
+  if (options.bind.empty()) return "tcp://127.0.0.1:*";
+  const bool has_scheme = options.bind.find("://") != std::string::npos;
+  return (has_scheme ? "" : "tcp://") + options.bind;
+}
+
 ServiceOptions service_options(const Campaign& campaign, const RunOptions& options) {
   ServiceOptions service;
   service.coordinator.scenario = to_bytes({scenario_of(campaign)});
@@ -76,10 +104,7 @@ ServiceOptions service_options(const Campaign& campaign, const RunOptions& optio
                           .stop_on_failure = campaign.stop_on_failure,
                           .audit_every = campaign.audit_every}};
   scheduler.evaluates_programs = campaign.target.has_value();
-  if (!options.bind.empty()) {
-    const bool has_scheme = options.bind.find("://") != std::string::npos;
-    service.bind = (has_scheme ? "" : "tcp://") + options.bind;
-  }
+  service.bind = bind_of(options);
   return service;
 }
 
@@ -118,29 +143,74 @@ class CampaignRun {
     if (!plans) return fail(output_, ExitCode::Usage, plans.error());
     CampaignRunner runner = replay(std::move(*plans));
     if (runner.error()) return fail_of(*runner.error());
+    if (!open_door()) return ExitCode::Usage;
     auto service = listen(runner);
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
-    if (options_.announce) announce((*service)->endpoint());
-    if (auto served = serve_pages(); !served)
+    const std::string endpoint = (*service)->endpoint();
+    if (auto served = serve_pages(); !served) {
       return fail(output_, exit_code_of(served.error()), served.error());
-    const int processes = local_processes(campaign_, options_);
-    if (processes == 0) return serve(**service, runner, nullptr);
-    auto workers =
-        LocalWorkers::start({.endpoint = (*service)->endpoint(),
-                             .processes = processes,
-                             .slots = static_cast<int>(options_.slots),
-                             .arguments = campaign_.target ? allow_arguments(*campaign_.target)
-                                                           : std::vector<std::string>{}});
-    if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
-    return serve(**service, runner, &*workers);
+    }
+    CoordinatorFile file = coordinator_file(options_.access, access_, endpoint);
+    if (pages_) file.http = "http://" + pages_->address();
+    if (const auto written = write_coordinator_file(coordinator_path(), file); !written) {
+      return fail(output_, ExitCode::Unreachable, written.error());
+    }
+    if (options_.announce) announce(endpoint);
+    const ExitCode ended = serve_with_workers(**service, runner);
+    remove_coordinator_file(coordinator_path(), file);
+    return ended;
   }
 
  private:
+  /// Keys and clients, or plaintext; false after having said what is wrong.
+  bool open_door() {
+    raise_descriptor_limit(SocketOptions().max_connections + kOtherDescriptors);
+    auto access = open_access(options_.access, bind_of(options_));
+    if (access) {
+      access_ = std::move(*access);
+      if (access_.watch) catch_hangup();
+      return true;
+    }
+    for (const Error& fault : access.error())
+      print_error(output_, fault);
+    return false;
+  }
+
+  std::filesystem::path coordinator_path() const {
+    if (!options_.access.coordinator_file.empty()) return options_.access.coordinator_file;
+    return coordinator_file_of(campaign_.store);
+  }
+
+  ExitCode serve_with_workers(Service& service, const CampaignRunner& runner) {
+    const int processes = local_processes(campaign_, options_);
+    if (processes == 0) return serve(service, runner, nullptr);
+    std::vector<std::string> arguments;
+    if (campaign_.target) arguments = allow_arguments(*campaign_.target);
+    if (access_.keys) {
+      if (const auto key = read_client_key(access_.local_key); !key) {
+        return fail(output_, ExitCode::Usage, key.error());
+      }
+      arguments.emplace_back("--key");
+      arguments.push_back(access_.local_key.string());
+    }
+    auto workers = LocalWorkers::start({.endpoint = local_endpoint(service.endpoint()),
+                                        .processes = processes,
+                                        .slots = static_cast<int>(options_.slots),
+                                        .arguments = std::move(arguments)});
+    if (!workers) return fail(output_, ExitCode::Unreachable, workers.error());
+    return serve(service, runner, &*workers);
+  }
+
   /// On the address that was asked for, or on one of the next ports where that will do.
   Expected<std::unique_ptr<Service>> listen(CampaignRunner& runner) {
     constexpr int kPorts = 100;
     ServiceOptions service_for = service_options(campaign_, options_);
     service_for.coordinator.scheduler.first_worker = store_.next_worker();
+    service_for.keys = access_.keys;
+    service_for.insecure_plaintext = access_.insecure_plaintext;
+    if (access_.watch) {
+      service_for.new_clients = [watch = access_.watch] { return watch->take(); };
+    }
     const std::string bind = service_for.bind;
     for (int next = 1;; ++next) {
       auto service =
@@ -199,6 +269,10 @@ class CampaignRun {
             [&](const LiveStatus& live) {
               last_ = live;
               if (pages_) pages_->publish(live);
+              if (g_read_clients != 0 && access_.watch) {
+                g_read_clients = 0;
+                access_.watch->look_now();
+              }
               listener_.update(live, clock_.now());
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
@@ -238,8 +312,11 @@ class CampaignRun {
   }
 
   void announce(const std::string& endpoint) {
-    const std::string address = endpoint.substr(endpoint.find("//") + 2);
-    print_note(output_, "waiting for workers: swarmsmith worker --connect " + address);
+    const std::string advertised = advertised_endpoint(endpoint, options_.access.advertise);
+    const std::string address = advertised.substr(advertised.find("//") + 2);
+    print_note(output_, "waiting for workers: swarmsmith worker --connect " + address +
+                            (access_.keys ? " --key " + access_.local_key.string() : "") +
+                            (access_.insecure_plaintext ? " --insecure-plaintext" : ""));
   }
 
   void print_resume() {
@@ -256,6 +333,7 @@ class CampaignRun {
   RunListener& listener_;
   LiveStatus last_;
   std::unique_ptr<HttpServer> pages_;
+  Access access_;
 };
 
 }  // namespace

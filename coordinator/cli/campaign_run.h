@@ -5,6 +5,7 @@
 #include <string>
 
 #include "coordinator/campaign/campaign.h"
+#include "coordinator/cli/access_flags.h"
 #include "coordinator/cli/options.h"
 #include "coordinator/cli/run_listener.h"
 
@@ -33,6 +34,7 @@ struct RunOptions {
   std::int64_t slots = 0;
   std::string bind;  ///< host:port; empty: a free port on loopback
   bool announce = false;
+  AccessFlags access{};
   /// When another program listens on the port of `bind`, one of the next ones will do.
   bool next_port = false;
   std::string http{};  ///< host:port of the pages; empty: none

@@ -19,19 +19,34 @@ Examples:
   swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db)";
 
 constexpr std::string_view kServeDetails =
-    R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. In this version
-on this host only.
+    R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. Beyond loopback
+connections are encrypted, and only listed keys come in: `swarmsmith keygen` makes them, and
+docs/security.md tells the rest. How the coordinator is found stands in STORE.coordinator as long as
+it runs.
 
 Examples:
   swarmsmith serve campaign.toml
-  swarmsmith serve campaign.toml --bind 127.0.0.1:5555)";
+  swarmsmith serve campaign.toml --bind 0.0.0.0:5555
+  swarmsmith serve campaign.toml --bind 0.0.0.0:5555 --keys thesis-keys --advertise login1)";
 
 constexpr std::string_view kWorkerDetails =
     R"(Evaluates for a coordinator until there is nothing more to do. SIGTERM lets it finish what it is
 at; it can come and go at any time. Starts the program swarmsmith-worker.
 
-Example:
-  swarmsmith worker --connect 127.0.0.1:5555 --slots 4)";
+Examples:
+  swarmsmith worker --connect 127.0.0.1:5555 --slots 4
+  swarmsmith worker --coordinator thesis.db.coordinator
+  swarmsmith worker --connect login1:5555 --key worker.key)";
+
+constexpr std::string_view kKeygenDetails =
+    R"(Makes a folder with the coordinator's key (server.key), a key for each role (worker.key,
+operator.key, reader.key), and the list of those who may connect (clients.toml); or, with --client,
+one more key in such a folder. Nothing is overwritten, and secrets are in files of mode 0600 only.
+
+Examples:
+  swarmsmith keygen
+  swarmsmith keygen thesis-keys
+  swarmsmith keygen thesis-keys --client guest --role reader --expires 2027-01-31)";
 
 constexpr std::string_view kVerifyDetails =
     R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
@@ -182,6 +197,8 @@ constexpr std::array kCommands = {
             declare_profile},
     Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
     Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
+    Command{"keygen", "Make keys for coordinator, workers and people", kKeygenDetails,
+            declare_keygen},
     Command{"irace", "Configure an algorithm as irace does, from irace's files", kIraceDetails,
             nullptr, run_irace},
     Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},

@@ -20,6 +20,7 @@ Run declare_init(Options& options);
 Run declare_check(Options& options);
 Run declare_serve(Options& options);
 Run declare_worker(Options& options);
+Run declare_keygen(Options& options);
 Run declare_evaluate(Options& options);
 Run declare_replay(Options& options);
 Run declare_profile(Options& options);

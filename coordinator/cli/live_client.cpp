@@ -6,13 +6,14 @@
 
 namespace swarmsmith::cli {
 
-Expected<std::string> ask_status(const std::string& endpoint, std::chrono::milliseconds patience) {
+Expected<std::string> ask_status(const FoundCoordinator& coordinator,
+                                 std::chrono::milliseconds patience) {
   using Clock = std::chrono::steady_clock;
   using std::chrono::milliseconds;
   const auto unreachable = [&](const std::string& how) {
-    return unexpected(ErrorKind::Unavailable, how, endpoint);
+    return unexpected(ErrorKind::Unavailable, how, coordinator.endpoint);
   };
-  ClientSocket socket(endpoint);
+  ClientSocket socket(coordinator.endpoint, {}, coordinator.keys);
   socket.connect();
   pb::ToCoordinator question;
   question.mutable_want_status();
@@ -26,8 +27,10 @@ Expected<std::string> ask_status(const std::string& endpoint, std::chrono::milli
       const auto answer = decode_to_worker(frame, arena);
       if (!answer) return Unexpected(answer.error());
       if ((*answer)->has_status_reply()) return std::string((*answer)->status_reply().json());
-      if ((*answer)->has_reject()) return bad_input((*answer)->reject().sentence(), endpoint);
+      if ((*answer)->has_reject())
+        return bad_input((*answer)->reject().sentence(), coordinator.endpoint);
     }
+    if (socket.refused()) return unreachable("the coordinator does not know this key");
     if (socket.lost()) return unreachable("no coordinator runs there");
     const auto left = std::chrono::ceil<milliseconds>(until - Clock::now());
     if (left.count() <= 0) return unreachable("the coordinator does not answer");

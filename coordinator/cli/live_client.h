@@ -3,13 +3,14 @@
 #include <chrono>
 #include <string>
 
+#include "access/find_coordinator.h"
 #include "base/expected.h"
-#include "coordinator/live_status.h"
 
 namespace swarmsmith::cli {
 
-/// The status of a running coordinator as JSON, asked over the wire. `endpoint` is tcp://HOST:PORT.
+/// The status of a running coordinator as JSON, asked over the wire.
 /// Errors: Unavailable (nobody answers in time), BadInput (it does not let this program read).
-Expected<std::string> ask_status(const std::string& endpoint, std::chrono::milliseconds patience);
+Expected<std::string> ask_status(const FoundCoordinator& coordinator,
+                                 std::chrono::milliseconds patience);
 
 }  // namespace swarmsmith::cli

@@ -8,6 +8,7 @@ namespace swarmsmith::cli {
 Run declare_run(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
+    AccessFlags access;
     std::optional<std::int64_t> workers;
     bool no_dashboard = false;
     HttpFlags http;
@@ -18,11 +19,13 @@ Run declare_run(Options& options) {
                   "Local worker processes; they share the cores");
   options.flag("--no-dashboard", arguments->no_dashboard,
                "Accepted; this version has no dashboard to leave out");
+  arguments->access.declare(options);
   arguments->http.declare(options, "default none");
   return [arguments](Output& output) {
     const auto campaign = arguments->campaign.read(output);
     if (!campaign) return ExitCode::Usage;
-    RunOptions run{.workers = arguments->workers, .bind = campaign->bind};
+    RunOptions run{
+        .workers = arguments->workers, .bind = campaign->bind, .access = arguments->access};
     arguments->http.put(run, "");
     return run_campaign(output, *campaign, run);
   };

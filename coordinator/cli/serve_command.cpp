@@ -8,6 +8,7 @@ namespace swarmsmith::cli {
 Run declare_serve(Options& options) {
   struct Arguments {
     CampaignFlags campaign;
+    AccessFlags access;
     std::string bind;
     HttpFlags http;
   };
@@ -17,10 +18,12 @@ Run declare_serve(Options& options) {
       "--bind", arguments->bind,
       "Address and port for workers (default 127.0.0.1:5555, or the next port that is free)");
   arguments->http.declare(options, "default 127.0.0.1:8347, or the next port that is free; none");
+  arguments->access.declare(options);
   return [arguments](Output& output) {
     const auto campaign = arguments->campaign.read(output);
     if (!campaign) return ExitCode::Usage;
-    RunOptions run{.workers = 0, .bind = arguments->bind, .announce = true};
+    RunOptions run{
+        .workers = 0, .bind = arguments->bind, .announce = true, .access = arguments->access};
     if (run.bind.empty()) run.bind = campaign->bind;
     if (run.bind.empty()) {
       run.bind = "127.0.0.1:5555";

@@ -6,11 +6,13 @@
 #include <memory>
 #include <thread>
 
+#include "access/coordinator_file.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/live_client.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/status_text.h"
 #include "coordinator/cli/store_argument.h"
+#include "proto/socket.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -18,6 +20,8 @@ namespace {
 struct Arguments {
   StoreArgument store;
   std::string connect;
+  std::string key;
+  bool insecure_plaintext = false;
   bool watch = false;
 };
 
@@ -81,13 +85,28 @@ void write_json(Output& output, const Status& status) {
              << ",\"failures\":" << status.failures.cells.front().front().text << "}\n";
 }
 
-/// Where a coordinator runs, tcp://HOST:PORT; empty when nobody says so.
-std::string endpoint_of(const Arguments& arguments) {
-  std::string address = arguments.connect;
+/// Where a coordinator is asked: at the address or by the file that a person names, else by the
+/// file beside the store. NotFound when nothing says that one runs.
+Expected<FoundCoordinator> coordinator_of(const Arguments& arguments) {
+  CoordinatorSearch search;
+  search.role = "reader";
+  search.key = arguments.key;
+  search.insecure_plaintext = arguments.insecure_plaintext;
+  std::string named = arguments.connect;
   const char* variable = std::getenv("SWARMSMITH_COORDINATOR");
-  if (address.empty() && variable != nullptr) address = variable;
-  if (address.empty() || address.find("://") != std::string::npos) return address;
-  return "tcp://" + address;
+  if (named.empty() && variable != nullptr) named = variable;
+  if (named.empty()) {
+    const auto store = arguments.store.path();
+    if (!store) return unexpected(ErrorKind::NotFound, store.error().message);
+    search.file = coordinator_file_of(*store);
+  } else if (const std::string endpoint =
+                 (named.find("://") == std::string::npos ? "tcp://" : "") + named;
+             is_tcp_address(endpoint)) {
+    search.endpoint = endpoint;
+  } else {
+    search.file = named;
+  }
+  return find_coordinator(search);
 }
 
 Screen screen_of(const Output& output) {
@@ -120,9 +139,11 @@ void write_live(const Arguments& arguments, Output& output, const LiveStatus& st
 }
 
 /// The coordinator's own word, as it came where JSON is wanted.
-Expected<void> show_live(const Arguments& arguments, const std::string& endpoint, Output& output) {
+Expected<void> show_live(const Arguments& arguments, Output& output) {
   constexpr auto kPatience = std::chrono::seconds(3);
-  const auto json = ask_status(endpoint, kPatience);
+  const auto coordinator = coordinator_of(arguments);
+  if (!coordinator) return Unexpected(coordinator.error());
+  const auto json = ask_status(*coordinator, kPatience);
   if (!json) return Unexpected(json.error());
   if (output.json) {
     output.out << *json << "\n";
@@ -149,24 +170,22 @@ ExitCode show_stored(const Arguments& arguments, Output& output, bool& running) 
 ExitCode run(const Arguments& arguments, Output& output) {
   // A person looks at a terminal, a file fills up.
   const auto pause = std::chrono::seconds(output.out_is_terminal ? 1 : 5);
+  const bool has_store = arguments.store.path().has_value();
   bool was_live = false;
   while (true) {
     bool running = true;
-    const std::string endpoint = endpoint_of(arguments);
-    const auto live = endpoint.empty() ? Expected<void>{} : show_live(arguments, endpoint, output);
-    const bool is_live = !endpoint.empty() && live;
-    // A coordinator that was there and is gone has come to its end; the store says to which.
-    const bool has_store = arguments.store.path().has_value();
+    const auto live = show_live(arguments, output);
     if (!live && !has_store) {
-      if (was_live) return ExitCode::Done;
-      return fail(output, ExitCode::Unreachable, live.error());
+      // A coordinator that was there and is gone has come to its end.
+      return was_live ? ExitCode::Done : fail(output, ExitCode::Unreachable, live.error());
     }
-    if (!is_live) {
-      if (!live && !was_live) print_note(output, to_string(live.error()) + "; from the store:");
+    if (!live) {
+      const bool is_news = live.error().kind != ErrorKind::NotFound && !was_live;
+      if (is_news) print_note(output, to_string(live.error()) + "; this is what the store says:");
       const ExitCode shown = show_stored(arguments, output, running);
       if (shown != ExitCode::Done) return shown;
     }
-    was_live |= is_live;
+    was_live |= live.has_value();
     output.out.flush();
     if (!arguments.watch || !running) return ExitCode::Done;
     std::this_thread::sleep_for(pause);
@@ -179,7 +198,14 @@ Run declare_status(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->store.declare(options);
   options.text("--connect", arguments->connect,
-               "Ask the coordinator at HOST:PORT (default SWARMSMITH_COORDINATOR)");
+               "Ask the coordinator at HOST:PORT, or the one whose file this is (default: "
+               "SWARMSMITH_COORDINATOR, else STORE.coordinator)");
+  options.text(
+      "--key", arguments->key,
+      "Key file, where the coordinator wants one (default: SWARMSMITH_KEY, else reader.key "
+      "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
+  options.flag("--insecure-plaintext", arguments->insecure_plaintext,
+               "Ask a coordinator on another host that does not encrypt");
   options.flag("--watch", arguments->watch, "Again and again, until the campaign ends");
   return [arguments](Output& output) { return run(*arguments, output); };
 }

@@ -134,7 +134,7 @@ bool has_token(std::string_view header, std::string_view token) {
   unsigned difference = header.size() == token.size() ? 0U : 1U;
   for (std::size_t i = 0; i < token.size(); ++i) {
     const char c = i < header.size() ? header[i] : '\0';
-    difference |= static_cast<unsigned char>(c) ^ static_cast<unsigned char>(token[i]);
+    difference |= static_cast<unsigned>(c ^ token[i]);
   }
   return difference == 0;
 }

@@ -33,6 +33,13 @@ Node converted(const toml::node& node) {
     }
     return {std::move(entries), place};
   }
+  if (const auto* date = node.as_date()) {
+    const toml::date& value = date->get();
+    return {DateOrTime{std::chrono::year_month_day(std::chrono::year(value.year),
+                                                   std::chrono::month(value.month),
+                                                   std::chrono::day(value.day))},
+            place};
+  }
   return {DateOrTime{}, place};
 }
 

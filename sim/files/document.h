@@ -1,6 +1,8 @@
 #pragma once
 
+#include <chrono>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -31,8 +33,10 @@ struct Array {
   std::vector<Node> items;
 };
 
-/// A date or a time, which no key of ours takes.
-struct DateOrTime {};
+/// A date, or nothing: a time, which no key of ours takes.
+struct DateOrTime {
+  std::optional<std::chrono::year_month_day> date;
+};
 
 struct Node {
   std::variant<bool, std::int64_t, double, std::string, Array, Table, DateOrTime> value;

@@ -209,6 +209,15 @@ std::optional<double> TableReader::seconds(std::string_view key, Limits<double> 
   return std::nullopt;
 }
 
+std::optional<std::chrono::year_month_day> TableReader::date(std::string_view key) {
+  const Node* node = take(key);
+  if (node == nullptr) return std::nullopt;
+  const auto* value = std::get_if<DateOrTime>(&node->value);
+  if (value != nullptr && value->date && value->date->ok()) return value->date;
+  complain_type(*node, key, "a date such as 2027-01-31, without quotes and without a time");
+  return std::nullopt;
+}
+
 std::optional<std::vector<std::string>> TableReader::texts(std::string_view key) {
   const Node* node = take(key);
   if (node == nullptr) return std::nullopt;

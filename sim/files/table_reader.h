@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -75,6 +76,8 @@ class TableReader {
                                     std::span<const std::string> not_yet = {});
   /// "30 s", "2 min", "500 ms", "1 h" as seconds.
   std::optional<double> seconds(std::string_view key, Limits<double> limits);
+  /// 2027-01-31, without quotes.
+  std::optional<std::chrono::year_month_day> date(std::string_view key);
   std::optional<std::vector<std::string>> texts(std::string_view key);
   std::optional<Limits<double>> interval(
       std::string_view key, std::string_view wanted = "a range of two numbers, such as [1, 100]");

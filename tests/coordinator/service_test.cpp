@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <atomic>
+#include <mutex>
 #include <thread>
 
 #include "base/rng.h"
@@ -17,10 +18,11 @@ namespace {
 using cluster::CampaignShape;
 using cluster::SyntheticCampaign;
 
-/// Evaluates a synthetic campaign in this process.
-EvaluatorFactory honest(const CampaignShape& shape) {
-  return [shape](const std::string&) -> Expected<Evaluator> {
-    return Evaluator([shape](const WorkItem& item) -> tl::expected<Measured, Failure> {
+/// Evaluates a synthetic campaign in this process; not while it is `paused`.
+EvaluatorFactory honest(const CampaignShape& shape, const std::atomic<bool>& paused) {
+  return [shape, &paused](const std::string&) -> Expected<Evaluator> {
+    return Evaluator([shape, &paused](const WorkItem& item) -> tl::expected<Measured, Failure> {
+      paused.wait(true);
       const cluster::Truth truth = cluster::truth_of(shape, unpack(item.key));
       if (truth.kind != cluster::Truth::Kind::Score) return tl::unexpected(Failure{"planted"});
       return Measured{.score = truth.score, .state_digest = truth.state_digest};
@@ -31,10 +33,11 @@ EvaluatorFactory honest(const CampaignShape& shape) {
 /// A real service on loopback; tests add workers and trouble.
 class Services : public ::testing::Test {
  protected:
-  void open(CampaignShape of = {}) {
+  void open(CampaignShape of = {}) { open_with({}, of); }
+
+  void open_with(ServiceOptions options, CampaignShape of) {
     shape = of;
     campaign = std::make_unique<SyntheticCampaign>(shape);
-    ServiceOptions options;
     options.coordinator.scenario = "scenario";
     auto opened = Service::open(options, {{"d", &store, campaign.get()}});
     ASSERT_TRUE(opened);
@@ -50,6 +53,8 @@ class Services : public ::testing::Test {
         malformed = status.malformed;
         done = status.done;
         in_trouble = !status.trouble.empty();
+        const auto refusals = status.refused.find("revoked key");
+        revoked = refusals != status.refused.end() ? refusals->second : 0;
       };
       end = service->run(stop, hooks);
       ended = true;
@@ -59,11 +64,12 @@ class Services : public ::testing::Test {
   std::jthread worker(std::string build = "1", int engine = 0) {
     return std::jthread([this, build, engine] {
       Wakeup wakeup;
-      Pool pool(2, honest(shape), [&] { wakeup.notify(); });
+      Pool pool(2, honest(shape, paused), [&] { wakeup.notify(); });
       WorkerIdentity identity = identity_of_this_process(2, build);
       identity.engine_version = engine;
-      last_end = serve({.endpoint = service->endpoint(), .protocol = {}, .socket = {}}, identity,
-                       pool, wakeup, never);
+      last_end = serve(
+          {.endpoint = service->endpoint(), .keys = worker_keys, .protocol = {}, .socket = {}},
+          identity, pool, wakeup, never);
     });
   }
 
@@ -82,7 +88,10 @@ class Services : public ::testing::Test {
   std::unique_ptr<Service> service;
   const std::atomic<bool> never{false};
   std::atomic<std::int64_t> workers{0}, malformed{0}, done{0};
+  std::atomic<std::uint64_t> revoked{0};
   std::atomic<bool> ended{false}, in_trouble{false};
+  std::optional<ClientKeys> worker_keys;
+  std::atomic<bool> paused{false};
   ServiceEnd end;
   WorkerEnd last_end;
 };
@@ -165,6 +174,98 @@ TEST_F(Services, ListenOnLoopbackOnly) {
   const auto opened = Service::open(options, {{"d", &store, &source}});
   ASSERT_FALSE(opened);
   EXPECT_EQ(opened.error().kind, ErrorKind::BadInput);
+}
+
+/// A service that only listed keys reach.
+class SecureServices : public Services {
+ protected:
+  ServiceOptions options() const {
+    ServiceOptions with_keys;
+    with_keys.keys = ServerKeys{.secret_key = server.secret_key, .clients = clients};
+    return with_keys;
+  }
+  ClientKeys keys_of(const KeyPair& pair) const {
+    return {.secret_key = pair.secret_key, .server_key = server.public_key};
+  }
+  std::unique_ptr<ClientSocket> connect(const KeyPair& pair) const {
+    auto socket =
+        std::make_unique<ClientSocket>(service->endpoint(), SocketOptions(), keys_of(pair));
+    socket->connect();
+    return socket;
+  }
+
+  const KeyPair server = make_key_pair();
+  const KeyPair node = make_key_pair();
+  const KeyPair desk = make_key_pair();
+  const std::vector<ListedClient> clients = {
+      {.name = "node", .role = Role::Worker, .public_key = node.public_key},
+      {.name = "desk", .role = Role::Reader, .public_key = desk.public_key}};
+};
+
+TEST_F(SecureServices, LetAKeyDoWhatItsRoleAllowsAndNothingElse) {
+  open_with(options(), {.seed = 5});
+  {
+    const std::jthread loop = run();
+    pb::ToCoordinator results;
+    results.set_incarnation(1);
+    results.mutable_results()->set_scenario(digest_of_scenario("scenario"));
+    results.mutable_results()->add_results()->mutable_key()->set_candidate(1);
+    pb::ToCoordinator command;
+    command.mutable_command()->set_kind(pb::Command::KIND_CANCEL);
+    pb::ToCoordinator question;
+    question.mutable_want_status();
+    const auto reader = connect(desk);
+    reader->send(encode(results));
+    reader->send(encode(command));
+    const auto worker_key = connect(node);
+    worker_key->send(encode(command));
+    worker_key->send(encode(question));
+    ASSERT_TRUE(eventually([&] { return malformed.load() == 4; })) << malformed.load();
+    reader->send(encode(question));
+    std::string frame;
+    ASSERT_TRUE(eventually([&] { return reader->receive(frame); }));
+    google::protobuf::Arena arena;
+    EXPECT_TRUE((*decode_to_worker(frame, arena))->has_status_reply());
+    worker_keys = keys_of(node);
+    const std::jthread one = worker();
+    ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  }
+  EXPECT_EQ(end.how, ServiceEnd::How::Finished);
+  EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
+}
+
+TEST_F(SecureServices, CutAWorkerOffWhoseKeyIsRevokedAndBlameNobody) {
+  std::mutex mutex;
+  std::optional<std::vector<ListedClient>> news;
+  const auto publish = [&](std::vector<ListedClient> list) {
+    const std::scoped_lock lock(mutex);
+    news = std::move(list);
+  };
+  ServiceOptions with_news = options();
+  with_news.new_clients = [&] {
+    const std::scoped_lock lock(mutex);
+    return std::exchange(news, std::nullopt);
+  };
+  open_with(std::move(with_news), {.seed = 6});
+  paused = true;
+  {
+    const std::jthread loop = run();
+    worker_keys = keys_of(node);
+    const std::jthread one = worker();
+    EXPECT_TRUE(eventually([&] { return workers.load() == 1; }));
+    publish({clients[1]});
+    EXPECT_TRUE(eventually([&] { return revoked.load() == 1 && workers.load() == 0; }));
+    EXPECT_FALSE(ended.load());
+    publish(clients);
+    paused = false;
+    paused.notify_all();
+    ASSERT_TRUE(eventually([&] { return ended.load(); }));
+  }
+  EXPECT_EQ(end.how, ServiceEnd::How::Finished);
+  EXPECT_EQ(campaign->dump(), cluster::undisturbed_dump(shape));
+  EXPECT_EQ(campaign->complaint(), "");
+  for (const EventRow& event : store.rows_of<EventRow>())
+    EXPECT_EQ(event.text.find("connection closed"), std::string::npos) << event.text;
 }
 
 }  // namespace

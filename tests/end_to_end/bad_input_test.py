@@ -461,8 +461,8 @@ class BadPeers(BadInput):
                 self.assert_refused(2, "is no address", "worker", "--connect", address)
                 self.assert_refused(2, "no address", "serve", self.file, "--bind", address)
         for address in ("0.0.0.0:0", "*:5555", "192.0.2.1:5555"):
-            self.assert_refused(2, "bind to tcp://127.0.0.1:PORT", "serve", self.file, "--bind",
-                                address)
+            self.assert_refused(2, "swarmsmith keygen", "serve", self.file, "--bind", address,
+                                "--keys", self.folder / "no-keys")
 
     def test_a_worker_without_a_coordinator_says_so(self):
         with socket.socket() as unused:

@@ -1,10 +1,8 @@
 // swarmsmith-worker: evaluates for one coordinator until it is sent home.
 
 #include <sys/prctl.h>
-#include <sys/resource.h>
 #include <unistd.h>
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <atomic>
 #include <csignal>
 #include <cstdlib>
@@ -12,6 +10,8 @@
 #include <string>
 #include <vector>
 
+#include "access/find_coordinator.h"
+#include "base/descriptor_limit.h"
 #include "base/log.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
@@ -48,22 +48,15 @@ void die_with_parent(pid_t parent) {
 
 struct Arguments {
   std::string connect;
+  std::string coordinator;
+  std::string key;
+  bool insecure_plaintext = false;
   int slots = 0;
   bool die_with_parent = false;
   pid_t parent = 0;
   std::vector<std::string> allow;
   bool allow_shell = false;
 };
-
-/// A running program takes three descriptors, and the usual limit of 1,024 is short for hundreds.
-void raise_descriptor_limit() {
-  struct rlimit limit = {};
-  if (getrlimit(RLIMIT_NOFILE, &limit) != 0) return;
-  const rlim_t wanted = rlim_t{4} * kMaxSlots;
-  if (limit.rlim_cur >= wanted) return;
-  limit.rlim_cur = std::min(limit.rlim_max, wanted);
-  setrlimit(RLIMIT_NOFILE, &limit);
-}
 
 Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
   AllowedPrograms allowed;
@@ -74,9 +67,37 @@ Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
     allowed.programs.push_back(std::move(*program));
   }
   if (allowed.programs.empty()) return allowed;
-  raise_descriptor_limit();
+  // A running program takes three.
+  raise_descriptor_limit(4 * static_cast<int>(kMaxSlots));
   if (auto started = start_guard(); !started) return Unexpected(started.error());
   return allowed;
+}
+
+int fail(const Error& error) {
+  log(LogLevel::Error, "worker", "failed", {{"reason", to_string(error)}});
+  return static_cast<int>(ExitCode::Usage);
+}
+
+/// How the coordinator is found, again before each try to connect. What a person must mend first is
+/// said at once; a coordinator's file that is not there yet is waited for.
+Expected<WorkerServiceOptions> service_options(const Arguments& arguments) {
+  const CoordinatorSearch search{.endpoint = arguments.connect,
+                                 .file = arguments.coordinator,
+                                 .key = arguments.key,
+                                 .role = "worker",
+                                 .insecure_plaintext = arguments.insecure_plaintext};
+  const auto find = [search]() -> Expected<CoordinatorAddress> {
+    Expected<FoundCoordinator> found = find_coordinator(search);
+    if (!found) return Unexpected(found.error());
+    return CoordinatorAddress{found->endpoint, std::move(found->keys)};
+  };
+  const auto first = find();
+  if (!first && first.error().kind != ErrorKind::NotFound) return Unexpected(first.error());
+  return WorkerServiceOptions{
+      .endpoint = arguments.connect.empty() ? arguments.coordinator : arguments.connect,
+      .find = find,
+      .protocol = {},
+      .socket = {}};
 }
 
 int run(const Arguments& arguments) {
@@ -86,18 +107,17 @@ int run(const Arguments& arguments) {
   identity.engine_version = kEngineVersion;
   identity.self_test = self_test_digest();
   Expected<AllowedPrograms> allowed = allowed_programs(arguments);
-  if (!allowed) {
-    log(LogLevel::Error, "worker", "failed", {{"reason", to_string(allowed.error())}});
-    return static_cast<int>(ExitCode::Usage);
-  }
+  if (!allowed) return fail(allowed.error());
+  const Expected<WorkerServiceOptions> options = service_options(arguments);
+  if (!options) return fail(options.error());
   Wakeup wakeup;
   handle_signals(wakeup);
   change_log_level_by_signals();
   Pool pool(slots, make_evaluators(std::move(*allowed)), [&wakeup] { wakeup.notify(); });
   log(LogLevel::Debug, "worker", "started",
-      {{"coordinator", arguments.connect}, {"slots", std::to_string(slots)}});
-  const WorkerEnd end = serve({.endpoint = arguments.connect, .protocol = {}, .socket = {}},
-                              identity, pool, wakeup, g_drain);
+      {{"coordinator", arguments.connect.empty() ? arguments.coordinator : arguments.connect},
+       {"slots", std::to_string(slots)}});
+  const WorkerEnd end = serve(*options, identity, pool, wakeup, g_drain);
   const LogLevel level = end.code == ExitCode::Done ? LogLevel::Debug : LogLevel::Error;
   log(level, "worker", "ended", {{"reason", end.reason}});
   // Slots that still run have missed the grace time; nobody waits for them any more.
@@ -111,9 +131,21 @@ int run_command_line(int argc, char** argv) {
       "Exit codes: 0 drained, 2 usage, 5 no coordinator for ten minutes, 7 refused by the "
       "coordinator\n(another build), 143 interrupted twice. SIGTERM drains."};
   app.name("swarmsmith-worker");
-  app.add_option("--connect", arguments.connect, "Where the coordinator listens")
-      ->type_name("tcp://HOST:PORT")
-      ->required();
+  CLI::Option_group* where = app.add_option_group("Where the coordinator is");
+  where->add_option("--connect", arguments.connect, "Where it listens")
+      ->type_name("tcp://HOST:PORT");
+  where
+      ->add_option("--coordinator", arguments.coordinator,
+                   "The file that it writes (STORE.coordinator); read again before each try to "
+                   "connect, so that one that moved is found")
+      ->type_name("FILE");
+  where->require_option(1);
+  app.add_option("--key", arguments.key,
+                 "Key file; default, where one is needed: SWARMSMITH_KEY, else worker.key in "
+                 "SWARMSMITH_KEYS or ~/.config/swarmsmith/keys")
+      ->type_name("FILE");
+  app.add_flag("--insecure-plaintext", arguments.insecure_plaintext,
+               "Talk to a coordinator on another host that does not encrypt");
   app.add_option("--slots", arguments.slots,
                  "Evaluations at a time; default SLURM_CPUS_PER_TASK, then the CPUs it may use")
       ->check(CLI::Range(1, static_cast<int>(kMaxSlots)));
@@ -133,6 +165,10 @@ int run_command_line(int argc, char** argv) {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
+  }
+  if (!arguments.connect.empty() && !is_tcp_address(arguments.connect)) {
+    return fail({ErrorKind::BadInput, "this is no address; it is written tcp://HOST:PORT",
+                 arguments.connect});
   }
   return run(arguments);
 }

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expected.h"
+#include "proto/role.h"
+
+namespace swarmsmith {
+
+/// Keys of CURVE, the encryption and authentication of ZeroMQ's connections
+/// (rfc.zeromq.org/spec/26, over Curve25519), as texts of 40 characters in Z85
+/// (rfc.zeromq.org/spec/32), which need no escapes in TOML.
+
+struct KeyPair {
+  std::string public_key;
+  std::string secret_key;
+};
+
+/// A new pair, from the system's random bytes. Throws std::runtime_error when libzmq was built
+/// without CURVE.
+KeyPair make_key_pair();
+
+/// Whether the text has the form of a key.
+bool is_key(std::string_view text);
+
+/// The public half that belongs to a secret key, which has the form of one.
+std::string public_key_of(const std::string& secret_key);
+
+/// Whose key a coordinator lets in.
+struct ListedClient {
+  std::string name;
+  Role role = Role::Worker;
+  std::string public_key;
+  bool expired = false;  ///< known, but its time is over: refused
+
+  friend bool operator==(const ListedClient&, const ListedClient&) = default;
+};
+
+/// What a server needs to admit clients by their keys, and nobody else.
+struct ServerKeys {
+  std::string secret_key;
+  std::vector<ListedClient> clients;
+};
+
+/// What a client shows, and whom it believes.
+struct ClientKeys {
+  std::string secret_key;
+  std::string server_key;  ///< the public one; who has another secret cannot answer
+
+  friend bool operator==(const ClientKeys&, const ClientKeys&) = default;
+};
+
+}  // namespace swarmsmith
