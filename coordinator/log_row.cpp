@@ -34,7 +34,7 @@ void write(LogLevel level, std::string_view event, const Fields& fields) {
 /// The event's own text is a JSON object of numbers and strings.
 Fields fields_of(const EventRow& event) {
   Fields fields;
-  const auto json = nlohmann::json::parse(event.text, nullptr, false);
+  const auto json = nlohmann::ordered_json::parse(event.text, nullptr, false);
   if (!json.is_object()) return {{"details", event.text}};
   for (const auto& [key, value] : json.items()) {
     if (value.is_number_integer()) {
@@ -51,6 +51,12 @@ Fields fields_of(const EventRow& event) {
 /// By convention of their kinds.
 bool is_of_the_pool(const EventRow& event) {
   return event.kind.starts_with("worker ") || event.kind.starts_with("peer ");
+}
+
+/// Empty for none.
+template <class Id>
+std::string name_or_nothing(Id id) {
+  return id ? to_string(id) : std::string();
 }
 
 std::string state_text(DesignState state) {
@@ -79,7 +85,7 @@ void write_step(const std::string& campaign, const RaceStepRow& row) {
          {"step", row.step},
          {"iteration", row.iteration},
          {"alive", row.alive_after},
-         {"best", to_string(row.best)},
+         {"best", name_or_nothing(row.best)},
          {"mean", row.mean_best},
          {"used", row.used}});
 }
@@ -121,7 +127,7 @@ void RowLog::add(std::size_t campaign, const std::string& name, const Row& row) 
                   {{"campaign", name},
                    {"design", to_string(state.design)},
                    {"used", state.used},
-                   {"best", to_string(state.best)},
+                   {"best", name_or_nothing(state.best)},
                    {"mean", state.best_mean},
                    {"reason", state.reason}});
           },
@@ -140,7 +146,7 @@ void RowLog::add(std::size_t campaign, const std::string& name, const Row& row) 
             write(LogLevel::Info, "command",
                   {{"campaign", name},
                    {"kind", command.kind},
-                   {"design", to_string(command.design)},
+                   {"design", name_or_nothing(command.design)},
                    {"budget", command.budget},
                    {"who", command.who}});
           },
