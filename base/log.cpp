@@ -1,58 +1,83 @@
 #include "base/log.h"
 
+#include <fmt/chrono.h>
 #include <fmt/format.h>
-#include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_sinks.h>
-#include <spdlog/spdlog.h>
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
 #include <cstdlib>
-#include <iterator>
-#include <memory>
+#include <mutex>
+
+#include "base/clock.h"
+#include "base/log_limiter.h"
+#include "base/log_line.h"
 
 namespace swarmsmith {
 namespace {
 
-bool wants_json() {
-  const char* form = std::getenv("SWARMSMITH_LOG");
-  return form != nullptr && std::string_view(form) == "json";
+// A signal's handler changes it: of a lock-free type, and there from the beginning.
+std::atomic<int> g_level{static_cast<int>(LogLevel::Info)};
+static_assert(std::atomic<int>::is_always_lock_free);
+
+std::string time_text() {
+  using std::chrono::milliseconds;
+  const auto now = std::chrono::time_point_cast<milliseconds>(std::chrono::system_clock::now());
+  const auto ms = (now.time_since_epoch() % std::chrono::seconds(1)).count();
+  return fmt::format("{:%Y-%m-%dT%H:%M:%S}.{:03}Z",
+                     fmt::gmtime(std::chrono::system_clock::to_time_t(now)), ms);
 }
 
-void append_quoted(std::string& out, std::string_view text) {
-  out += '"';
-  for (const char c : text) {
-    if (c == '"' || c == '\\') {
-      out += '\\';
-      out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      fmt::format_to(std::back_inserter(out), "\\u{:04x}", static_cast<unsigned char>(c));
-    } else {
-      out += c;
+class Log {
+ public:
+  Log() {
+    const char* words = std::getenv("SWARMSMITH_LOG");
+    asked_for_ = words != nullptr && *words != '\0';
+    if (!asked_for_) return;
+    const LogSettings settings = parse_log_settings(words);
+    json_ = settings.json;
+    has_level_ = settings.level.has_value();
+    if (settings.level) g_level = static_cast<int>(*settings.level);
+    if (settings.unknown.empty()) return;
+    const LogField fields[] = {{"word", settings.unknown},
+                               {"known", std::string("debug info warning error none text json")}};
+    put(LogLevel::Warning, "log", "SWARMSMITH_LOG has a word that means nothing", fields);
+  }
+  ~Log() { tell_left_out(true); }
+
+  void write(LogLevel level, std::string_view component, std::string_view event,
+             std::span<const LogField> fields) {
+    const std::scoped_lock lock(mutex_);
+    tell_left_out(false);
+    if (limiter_.admit(event, clock_.now())) put(level, component, event, fields);
+  }
+
+  bool asked_for() const { return asked_for_; }
+  bool has_level() const { return has_level_; }
+
+ private:
+  /// One write a line: lines of several processes on one terminal stay whole.
+  void put(LogLevel level, std::string_view component, std::string_view event,
+           std::span<const LogField> fields) {
+    const std::string line = log_line(json_, time_text(), level, component, event, fields) + "\n";
+    std::fwrite(line.data(), 1, line.size(), stderr);
+    std::fflush(stderr);
+  }
+
+  void tell_left_out(bool all) {
+    for (const LogLimiter::LeftOut& left_out : limiter_.take_left_out(clock_.now(), all)) {
+      const LogField fields[] = {{"of", left_out.event}, {"lines", left_out.count}};
+      put(LogLevel::Warning, "log", "lines left out", fields);
     }
   }
-  out += '"';
-}
 
-/// Bare when it reads as one word, quoted otherwise.
-void append_value(std::string& out, std::string_view text) {
-  const bool word = !text.empty() && text.find_first_of(" \t\n\r\"=\\") == std::string_view::npos;
-  if (word) {
-    out += text;
-  } else {
-    append_quoted(out, text);
-  }
-}
-
-struct Log {
-  bool json = wants_json();
-  std::shared_ptr<spdlog::logger> logger = [this] {
-    auto made = std::make_shared<spdlog::logger>("swarmsmith",
-                                                 std::make_shared<spdlog::sinks::stderr_sink_mt>());
-    made->set_formatter(std::make_unique<spdlog::pattern_formatter>(
-        json ? R"({"time":"%Y-%m-%dT%H:%M:%S.%eZ","level":"%l",%v})"
-             : "%Y-%m-%dT%H:%M:%S.%eZ level=%l %v",
-        spdlog::pattern_time_type::utc));
-    made->flush_on(spdlog::level::trace);
-    return made;
-  }();
+  std::mutex mutex_;
+  SystemClock clock_;
+  LogLimiter limiter_;
+  bool json_ = false;
+  bool asked_for_ = false;
+  bool has_level_ = false;
 };
 
 Log& the_log() {
@@ -60,57 +85,47 @@ Log& the_log() {
   return log;
 }
 
-spdlog::level::level_enum to_spdlog(LogLevel level) {
-  switch (level) {
-    case LogLevel::Debug:
-      return spdlog::level::debug;
-    case LogLevel::Info:
-      return spdlog::level::info;
-    case LogLevel::Warning:
-      return spdlog::level::warn;
-    case LogLevel::Error:
-      return spdlog::level::err;
-    case LogLevel::None:
-      return spdlog::level::off;
-  }
-  return spdlog::level::err;
+void on_signal(int signal) {
+  const int step = signal == SIGUSR1 ? -1 : 1;
+  const int level = g_level.load();
+  g_level = std::clamp(level + step, 0, static_cast<int>(LogLevel::None));
 }
 
 }  // namespace
 
 void log(LogLevel level, std::string_view component, std::string_view event,
-         std::initializer_list<LogField> fields) {
+         std::span<const LogField> fields) {
   Log& sink = the_log();
-  if (!sink.logger->should_log(to_spdlog(level))) return;
-  std::string line;
-  if (sink.json) {
-    line += "\"component\":";
-    append_quoted(line, component);
-    line += ",\"event\":";
-    append_quoted(line, event);
-    for (const LogField& field : fields) {
-      line += ',';
-      append_quoted(line, field.key);
-      line += ':';
-      append_quoted(line, field.value);
-    }
-  } else {
-    line += "component=";
-    append_value(line, component);
-    line += " event=";
-    append_quoted(line, event);
-    for (const LogField& field : fields) {
-      line += ' ';
-      line += field.key;
-      line += '=';
-      append_value(line, field.value);
-    }
-  }
-  sink.logger->log(to_spdlog(level), "{}", line);
+  if (level == LogLevel::None || static_cast<int>(level) < g_level.load()) return;
+  sink.write(level, component, event, fields);
+}
+
+void log(LogLevel level, std::string_view component, std::string_view event,
+         std::initializer_list<LogField> fields) {
+  log(level, component, event, std::span(fields.begin(), fields.size()));
 }
 
 void set_log_level(LogLevel level) {
-  the_log().logger->set_level(to_spdlog(level));
+  the_log();  // what the environment says comes first, and is replaced
+  g_level = static_cast<int>(level);
+}
+
+void set_default_log_level(LogLevel level) {
+  if (!the_log().has_level()) g_level = static_cast<int>(level);
+}
+
+bool log_is_asked_for() {
+  return the_log().asked_for();
+}
+
+void change_log_level_by_signals() {
+  the_log();
+  struct sigaction action = {};
+  action.sa_handler = on_signal;
+  action.sa_flags = SA_RESTART;
+  sigemptyset(&action.sa_mask);
+  sigaction(SIGUSR1, &action, nullptr);
+  sigaction(SIGUSR2, &action, nullptr);
 }
 
 }  // namespace swarmsmith

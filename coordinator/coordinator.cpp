@@ -141,7 +141,8 @@ void Coordinator::on_work(const Peer& peer, const pb::ToCoordinator& message, Ti
       return;
     case pb::ToCoordinator::kHeartbeat:
       running_of(message.heartbeat(), running_);
-      scheduler_.on_heartbeat(sender, message.heartbeat().credit(), running_, now);
+      scheduler_.on_heartbeat(sender, message.heartbeat().credit(), running_, now,
+                              slots_of(message.heartbeat()));
       return;
     case pb::ToCoordinator::kReturned:
       scheduler_.on_returned(sender, keys_of(message.returned()), now);
@@ -185,6 +186,7 @@ void Coordinator::on_cut_off(PeerId peer, TimePoint now) {
 
 void Coordinator::on_tick(TimePoint now) {
   scheduler_.on_tick(now);
+  sample_due_ = true;
 }
 
 // --- actions ---
@@ -333,6 +335,7 @@ void Coordinator::append(std::uint32_t index) {
 }
 
 std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
+  scheduler_.on_time(now);
   do {
     while (progress()) {
     }
@@ -351,6 +354,8 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     scheduler_.close(index, on_disk && campaign.source->finished());
   }
   pool_rows_.clear();
+  // After leasing: slots that are about to be given work are no idle ones.
+  if (std::exchange(sample_due_, false)) slots_.sample(scheduler_, holding_, now);
   return std::exchange(actions_, {});
 }
 
@@ -385,24 +390,60 @@ void Coordinator::on_committed(std::uint32_t index, std::uint64_t ticket) {
 LiveStatus Coordinator::status() const {
   const SchedulerCounters& counters = scheduler_.counters();
   const auto count = [](auto number) { return static_cast<std::int64_t>(number); };
-  return {.workers = count(scheduler_.workers().connected()),
-          .slots = scheduler_.workers().slots(),
-          .ready = count(scheduler_.leases().queued()),
-          .leased = count(scheduler_.leases().leased()),
-          .done = count(counters.done),
-          .rejected = count(counters.rejected),
-          .failed = count(counters.failed),
-          .requeued = count(counters.requeued),
-          .expired = count(counters.expired),
-          .lost_workers = count(counters.lost_workers),
-          .duplicates = count(counters.duplicates),
-          .conflicts = count(counters.conflicts),
-          .malformed = count(malformed_count_),
-          .uncommitted = count(waiting_.size()),
-          .evaluations_per_s = 0,
-          .trouble = {},
-          .insecure_plaintext = false,
-          .refused = {}};
+  LiveStatus status;
+  status.workers = count(scheduler_.workers().connected());
+  status.gone_workers = count(scheduler_.workers().all().size()) - status.workers;
+  status.slots = scheduler_.workers().slots();
+  for (const auto& [number, entry] : scheduler_.workers().all())
+    status.credit += entry.usable() ? entry.credit : 0;
+  status.ready = count(scheduler_.leases().queued());
+  status.leased = count(scheduler_.leases().leased());
+  status.done = count(counters.done);
+  status.rejected = count(counters.rejected);
+  status.failed = count(counters.failed);
+  status.requeued = count(counters.requeued);
+  status.expired = count(counters.expired);
+  status.duplicates = count(counters.duplicates);
+  status.conflicts = count(counters.conflicts);
+  status.unknown = count(counters.unknown);
+  status.audits = count(counters.audited);
+  status.quarantined =
+      count(scheduler_.workers().connected()) - count(scheduler_.workers().trusted());
+  status.lost_workers = count(counters.lost_workers);
+  status.reconnects = count(counters.reconnects);
+  status.malformed = count(malformed_count_);
+  status.malformed_by = malformed_;
+  status.uncommitted = count(waiting_.size());
+  status.slot_times = slots_.since_start();
+  status.slot_times_last_minute = slots_.last_minute();
+  return status;
+}
+
+std::vector<WorkerStatus> Coordinator::fleet(TimePoint now) const {
+  std::vector<WorkerStatus> fleet;
+  fleet.reserve(scheduler_.workers().all().size());
+  for (const auto& [number, entry] : scheduler_.workers().all()) {
+    const WorkerRate rate = slots_.rate_of(number);
+    const auto held = static_cast<std::int64_t>(scheduler_.leases().leases_of(number).size());
+    fleet.push_back(
+        {.number = number,
+         .state = !entry.connected    ? "gone"
+                  : entry.quarantined ? "quarantined"
+                                      : "connected",
+         .host = entry.hello.host,
+         .job = entry.hello.job,
+         .client = entry.hello.client,
+         .slots = entry.hello.slots,
+         .held = held,
+         .running = std::min(held, static_cast<std::int64_t>(entry.running)),
+         .done = entry.done,
+         .failed = entry.failed,
+         .connections = static_cast<std::int64_t>(entry.hello.incarnation),
+         .done_per_s = rate.done_per_s,
+         .busy = rate.busy,
+         .last_heard_s = std::chrono::duration<double>(now - entry.last_heard).count()});
+  }
+  return fleet;
 }
 
 }  // namespace swarmsmith

@@ -15,6 +15,7 @@
 #include "coordinator/live_status.h"
 #include "coordinator/messages.h"
 #include "coordinator/scheduler.h"
+#include "coordinator/slot_account.h"
 #include "coordinator/work_source.h"
 
 namespace swarmsmith {
@@ -81,8 +82,11 @@ class Coordinator {
   void on_tick(TimePoint now);
   void on_appended(std::uint32_t campaign, std::uint64_t ticket);
   void on_committed(std::uint32_t campaign, std::uint64_t ticket);
-  /// No leases from now on, or again: all is to stop.
-  void hold(bool held) { scheduler_.hold(held); }
+  /// No leases from now on, or again: the disks do not keep up, or all is to stop.
+  void hold(Holding holding) {
+    holding_ = holding;
+    scheduler_.hold(holding != Holding::No);
+  }
   /// The same for one campaign: its store cannot write.
   void hold(std::uint32_t campaign, bool held) { scheduler_.hold_design(campaign, 0, held); }
   /// Sends the workers home.
@@ -106,8 +110,10 @@ class Coordinator {
     return campaigns_[campaign].paused;
   }
 
-  /// Without rate and trouble, which need a clock and a store.
+  /// Without what needs a clock, a socket or a store: see Telemetry. Without the fleet.
   LiveStatus status() const;
+  /// Those that are here, and those that were lately, by number.
+  std::vector<WorkerStatus> fleet(TimePoint now) const;
   const Scheduler& scheduler() const { return scheduler_; }
   /// Frames that were dropped, by the part that was wrong.
   const std::map<std::string, std::uint64_t>& malformed() const { return malformed_; }
@@ -173,6 +179,9 @@ class Coordinator {
   std::vector<Campaign> campaigns_;
   std::vector<Row> pool_rows_;  ///< workers, and events that are of no campaign
   Scheduler scheduler_;
+  SlotAccount slots_;
+  Holding holding_ = Holding::No;
+  bool sample_due_ = false;
   std::vector<CoordinatorAction> actions_;
   std::size_t ahead_turn_ = 0;  ///< the campaign that is asked first for look-ahead
   /// Outcomes that are not on disk yet.

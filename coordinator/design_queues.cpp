@@ -121,6 +121,16 @@ bool DesignQueues::is_held(PoolDesign id) const {
   return !held_.empty() && (held_.contains({id.campaign, 0}) || held_.contains(id));
 }
 
+std::size_t DesignQueues::wanted_of(PoolDesign id) const {
+  std::size_t wanted = 0;
+  for (auto at = designs_.lower_bound(id);
+       at != designs_.end() && at->first.campaign == id.campaign; ++at) {
+    if (id.design != 0 && at->first.design != id.design) break;
+    wanted += at->second.wanted.size();
+  }
+  return wanted;
+}
+
 void DesignQueues::forget(std::uint32_t campaign) {
   std::erase_if(designs_, [&](const auto& entry) {
     const Design& design = entry.second;

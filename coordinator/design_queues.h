@@ -86,6 +86,8 @@ class DesignQueues {
   /// design is ready when neither is held.
   void hold(PoolDesign id, bool held);
   bool is_held(PoolDesign id) const;
+  /// As they were held; design 0 stands for a campaign.
+  const std::set<PoolDesign>& held() const { return held_; }
   /// Its tasks must be gone.
   void forget(std::uint32_t campaign);
 
@@ -99,6 +101,8 @@ class DesignQueues {
   /// Ready ones: not of designs that are held.
   std::size_t wanted() const { return wanted_; }
   std::size_t ahead() const { return ahead_; }
+  /// Held ones too; design 0 stands for the whole campaign.
+  std::size_t wanted_of(PoolDesign id) const;
   const std::map<PoolDesign, Design>& all() const { return designs_; }
 
  private:

@@ -40,6 +40,7 @@ Duration Scheduler::lease_time(std::uint32_t campaign) const {
 }
 
 void Scheduler::on_tick(TimePoint now) {
+  latest_ = now;
   if (ticked_ != TimePoint{} && now - ticked_ > options_.dead_after / 2) pardon(now);
   ticked_ = now;
   for (auto& [number, entry] : workers_.all()) {
@@ -111,6 +112,7 @@ void Scheduler::drain(TimePoint now) {
 /// In the order of their worth: what a race waits for; a second try at what it waits for longest;
 /// what it may want later.
 void Scheduler::dispatch(TimePoint now) {
+  latest_ = now;
   if (held_ || draining_ || workers_.trusted() == 0) return;
   dispatch_alone(now);
   dispatch_audits(now);

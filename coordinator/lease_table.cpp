@@ -1,5 +1,6 @@
 #include "coordinator/lease_table.h"
 
+#include <algorithm>
 #include <functional>
 #include <vector>
 
@@ -13,12 +14,13 @@ Lease* TaskRecord::lease_of(WorkerNumber worker) {
   return nullptr;
 }
 
-bool LeaseTable::add(Task task) {
+bool LeaseTable::add(Task task, TimePoint now) {
   const PackedKey key = key_of(task);
   const auto [at, inserted] = records_.try_emplace(key);
   if (!inserted) return false;
   TaskRecord& record = at->second;
   record.task = std::move(task);
+  record.added = now;
   record.design = &queues_.design(pool_design_of(key));
   enter_queue(record, false);
   return true;
@@ -84,8 +86,9 @@ void LeaseTable::remove_all(std::uint32_t campaign) {
   queues_.forget(campaign);
 }
 
-void LeaseTable::promote(TaskRecord& record) {
+void LeaseTable::promote(TaskRecord& record, TimePoint now) {
   SWARMSMITH_ASSERT(record.task.ahead, "only look-ahead is promoted");
+  record.added = now;
   if (!record.lease) {
     leave_queue(record);
     record.task.ahead = false;
@@ -120,14 +123,24 @@ TaskRecord* LeaseTable::next_ahead(WorkerNumber worker, bool skip_avoided) {
 }
 
 TaskRecord* LeaseTable::next_alone() {
-  for (const PackedKey key : alone_) {
-    TaskRecord* record = find(key);
-    if (!record->design->held) return record;
-  }
-  return nullptr;
+  const auto at = std::ranges::find_if(alone_, [&](PackedKey key) { return is_ready(key); });
+  return at == alone_.end() ? nullptr : find(*at);
+}
+
+std::size_t LeaseTable::wanted_of(PoolDesign id) const {
+  const auto alone = std::ranges::count_if(alone_, [&](PackedKey key) {
+    const PoolDesign of = pool_design_of(key);
+    return of.campaign == id.campaign && (id.design == 0 || of.design == id.design);
+  });
+  return queues_.wanted_of(id) + static_cast<std::size_t>(alone);
+}
+
+bool LeaseTable::has_alone() const {
+  return std::ranges::any_of(alone_, [&](PackedKey key) { return is_ready(key); });
 }
 
 Lease LeaseTable::leased_to(TaskRecord& record, WorkerNumber worker, TimePoint now) {
+  ++meters(record.task.campaign).leased;
   return {.worker = worker,
           .attempt = ++record.attempts,
           .granted = now,
@@ -142,9 +155,17 @@ void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now,
   SWARMSMITH_ASSERT(!record.lease, "a task that is granted has no lease");
   queues_.on_leased(*record.design, record.task.ahead, cost_us);
   leave_queue(record);
+  if (record.attempts == 0 && !record.task.ahead) {
+    meters(record.task.campaign).queue_wait.observe(now - record.added);
+  }
   record.lease = leased_to(record, worker, now);
   record.place = by_age_.insert(by_age_.end(), key_of(record.task));
   if (!record.task.ahead) ++wanted_leased_;
+}
+
+CampaignMeters& LeaseTable::meters(std::uint32_t campaign) {
+  if (campaign >= meters_.size()) meters_.resize(campaign + 1);
+  return meters_[campaign];
 }
 
 void LeaseTable::copy(TaskRecord& record, WorkerNumber worker, TimePoint now) {

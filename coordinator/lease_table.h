@@ -5,8 +5,10 @@
 #include <list>
 #include <optional>
 #include <unordered_map>
+#include <vector>
 
 #include "base/clock.h"
+#include "coordinator/campaign_meters.h"
 #include "coordinator/design_queues.h"
 #include "coordinator/task.h"
 #include "coordinator/task_key.h"
@@ -49,6 +51,7 @@ struct TaskRecord {
   Lease* lease_of(WorkerNumber worker);
 
   // Kept by the table.
+  TimePoint added;  ///< when it became wanted, or look-ahead
   DesignQueues::Design* design = nullptr;
   std::list<PackedKey>::iterator place;  ///< in a queue, or in the order of age while leased
 };
@@ -60,15 +63,15 @@ struct TaskRecord {
 /// it is wanted, since it may not run beside others or would end its campaign.
 class LeaseTable {
  public:
-  /// At the end of its queue. False when the key is there already.
-  bool add(Task task);
+  /// At the end of its queue. False when the key is there already. `now` is for the meters.
+  bool add(Task task, TimePoint now = {});
   TaskRecord* find(PackedKey key);
   const TaskRecord* find(PackedKey key) const;
   /// `by` has its outcome; other workers that have a lease of it hold it a while yet.
   void remove(PackedKey key, WorkerNumber by = 0);
   void remove_all(std::uint32_t campaign);
   /// Look-ahead that is wanted now: to the end of the queue of those, if it is queued.
-  void promote(TaskRecord& record);
+  void promote(TaskRecord& record, TimePoint now = {});
   /// Nothing more of the design is leased, or again; design 0 stands for the whole campaign.
   void hold(std::uint32_t campaign, std::int64_t design, bool held);
   bool is_held(std::uint32_t campaign, std::int64_t design) const;
@@ -105,18 +108,26 @@ class LeaseTable {
   std::size_t wanted_ready() const { return queues_.wanted(); }
   std::size_t wanted_leased() const { return wanted_leased_; }
   std::size_t ahead_ready() const { return queues_.ahead(); }
+  /// Queued ones that a race waits for, held or not; design 0 stands for the whole campaign.
+  std::size_t wanted_of(PoolDesign id) const;
   /// Queued ones that are not held.
-  bool has_alone() { return !alone_.empty() && next_alone() != nullptr; }
+  bool has_alone() const;
 
   WorkerLoads& loads() { return loads_; }
   const WorkerLoads& loads() const { return loads_; }
   const DesignQueues& queues() const { return queues_; }
+
+  /// Leases and waits are counted here, the rest by the scheduler. Grows with the campaigns.
+  CampaignMeters& meters(std::uint32_t campaign);
+  const std::vector<CampaignMeters>& meters() const { return meters_; }
 
  private:
   Lease leased_to(TaskRecord& record, WorkerNumber worker, TimePoint now);
   void end(TaskRecord& record, const Lease& lease);
   void enter_queue(TaskRecord& record, bool at_front);
   void leave_queue(TaskRecord& record);
+  /// A task that must run alone, and may.
+  bool is_ready(PackedKey key) const { return !find(key)->design->held; }
   TaskRecord* found(std::optional<PackedKey> key) { return key ? find(*key) : nullptr; }
 
   std::unordered_map<PackedKey, TaskRecord> records_;
@@ -124,6 +135,7 @@ class LeaseTable {
   std::list<PackedKey> alone_, parked_;
   std::list<PackedKey> by_age_;
   WorkerLoads loads_;
+  std::vector<CampaignMeters> meters_;
   std::size_t wanted_leased_ = 0;
   std::size_t copies_ = 0;
 };

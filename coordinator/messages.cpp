@@ -1,5 +1,7 @@
 #include "coordinator/messages.h"
 
+#include <algorithm>
+
 #include "proto/wire.h"
 
 namespace swarmsmith {
@@ -63,6 +65,15 @@ void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out)
   for (const pb::Running& running : heartbeat.running()) {
     out.push_back({*pack(running.key()), running.elapsed_ms()});
   }
+}
+
+std::optional<SlotReport> slots_of(const pb::Heartbeat& heartbeat) {
+  // Ten years for every slot that a worker may have: what is more is not true.
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;
+  if (!heartbeat.has_slot_us() || heartbeat.slot_us() > kMost) return std::nullopt;
+  return SlotReport{
+      .slot_us = static_cast<std::int64_t>(heartbeat.slot_us()),
+      .busy_us = static_cast<std::int64_t>(std::min(heartbeat.busy_us(), heartbeat.slot_us()))};
 }
 
 std::vector<PackedKey> keys_of(const pb::Returned& returned) {

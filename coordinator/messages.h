@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -15,6 +16,8 @@ namespace swarmsmith {
 WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uint64_t scenario);
 void results_of(const pb::Results& results, std::vector<WorkerResult>& out);
 void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out);
+/// Nothing of a worker that does not say it.
+std::optional<SlotReport> slots_of(const pb::Heartbeat& heartbeat);
 std::vector<PackedKey> keys_of(const pb::Returned& returned);
 
 /// What a worker is told about the campaigns.

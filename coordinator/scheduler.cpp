@@ -47,12 +47,12 @@ void Scheduler::add(std::vector<Task> tasks) {
   for (Task& task : tasks) {
     if (TaskRecord* record = leases_.find(key_of(task)); record != nullptr) {
       SWARMSMITH_ASSERT(record->task.ahead && !task.ahead, "a task is wanted once");
-      leases_.promote(*record);
+      leases_.promote(*record, latest_);
       continue;
     }
     // Look-ahead whose outcome was told after it became wanted and before this was said.
     if (done_.find(key_of(task)) != nullptr) continue;
-    leases_.add(std::move(task));
+    leases_.add(std::move(task), latest_);
   }
 }
 
@@ -130,6 +130,7 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
                                            " workers already, which is the limit");
   }
   if (options_.self_test.empty()) options_.self_test = hello.self_test;
+  if (entry != nullptr) ++counters_.reconnects;
   if (entry == nullptr) entry = &workers_.add(hello.identity);
   if (entry->connected) workers_.disconnect(*entry);
   entry->hello = std::move(hello);
@@ -181,6 +182,7 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
 }
 
 WorkerEntry* Scheduler::heard(const Sender& sender, TimePoint now) {
+  latest_ = now;
   WorkerEntry* entry = workers_.of_peer(sender.peer);
   if (entry == nullptr) {
     actions_.emplace_back(SendWhoAreYou{sender.peer});
@@ -193,6 +195,7 @@ WorkerEntry* Scheduler::heard(const Sender& sender, TimePoint now) {
 
 void Scheduler::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   entry.credit = std::min(credit, options_.max_credit);
+  entry.asked |= credit > 0;
   const auto slots = static_cast<std::size_t>(entry.usable() ? entry.hello.slots : 0);
   leases_.loads().set_capacity(entry.number, slots, slots > 0 ? entry.credit : 0);
 }
@@ -343,6 +346,9 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoi
     learn(record->task.campaign, result.wall_us);
     note_second_copy(*record, entry.number, now);
     const Lease* lease = record->lease_of(entry.number);
+    CampaignMeters& meters = leases_.meters(record->task.campaign);
+    meters.evaluation.observe(std::chrono::microseconds(std::max<std::int64_t>(result.wall_us, 0)));
+    if (lease != nullptr) meters.round_trip.observe(now - lease->granted);
     accept(
         {.key = record->task.key,
          .campaign = record->task.campaign,
@@ -373,7 +379,10 @@ void Scheduler::accept(const Outcome& outcome) {
   const PackedKey key = key_of(outcome);
   leases_.remove(key, outcome.worker);
   done_.insert(key, outcome.status, outcome.score, outcome.state_digest);
-  ++(outcome.status == EvaluationStatus::Ok ? counters_.done : counters_.rejected);
+  CampaignMeters& meters = leases_.meters(outcome.campaign);
+  const bool ok = outcome.status == EvaluationStatus::Ok;
+  ++(ok ? counters_.done : counters_.rejected);
+  ++(ok ? meters.done : meters.rejected);
   actions_.emplace_back(OutcomeAccepted{outcome});
 }
 
@@ -421,6 +430,7 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
   if (lease == nullptr || (!lease->adopted && lease->attempt != result.attempt)) return;
   ++entry.failed;
   ++counters_.failed;
+  ++leases_.meters(record->task.campaign).no_score;
   note("warning", "evaluation failed",
        {{"evaluation", name_of(record->task.key)},
         {"worker", entry.number},
@@ -456,11 +466,16 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
 }
 
 void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
-                             std::span<const RunningReport> running, TimePoint now) {
+                             std::span<const RunningReport> running, TimePoint now,
+                             const std::optional<SlotReport>& slots) {
   WorkerEntry* entry = heard(sender, now);
   if (entry == nullptr || sender.sequence <= entry->last_sequence) return;
   entry->last_sequence = sender.sequence;
   set_credit(*entry, credit);
+  if (slots && slots->slot_us > entry->slot_us) {
+    entry->slot_us = slots->slot_us;
+    entry->busy_us = slots->busy_us;
+  }
   entry->running = running.size();
   for (const RunningReport& report : running) {
     if (leases_.loads().renew_lingering(entry->number, report.key, now)) continue;
@@ -479,6 +494,7 @@ void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
 void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now) {
   ++entry.failed;
   ++counters_.failed;
+  ++leases_.meters(record.task.campaign).timed_out;
   note("warning", "evaluation timed out",
        {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign);
   note_attempt(record, entry.number, "timed out", now);

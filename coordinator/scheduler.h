@@ -53,7 +53,8 @@ class Scheduler {
   void on_credit(const Sender& sender, std::uint32_t tasks, TimePoint now);
   void on_results(const Sender& sender, std::span<const WorkerResult> results, TimePoint now);
   void on_heartbeat(const Sender& sender, std::uint32_t credit,
-                    std::span<const RunningReport> running, TimePoint now);
+                    std::span<const RunningReport> running, TimePoint now,
+                    const std::optional<SlotReport>& slots = {});
   void on_returned(const Sender& sender, std::span<const PackedKey> keys, TimePoint now);
   void on_goodbye(const Sender& sender, TimePoint now);
   /// Any other message: a sign of life. False, and a question, when the peer is not known.
@@ -65,10 +66,13 @@ class Scheduler {
   /// Heartbeats, silent workers, leases without progress; several times a second.
   void on_tick(TimePoint now);
 
+  /// What time it is, for the meters; most events say so, too.
+  void on_time(TimePoint now) { latest_ = now; }
   /// Leases what can be leased.
   void dispatch(TimePoint now);
   /// No leases from now on, or again.
   void hold(bool held) { held_ = held; }
+  bool held() const { return held_ || draining_; }
   /// A pause: nothing more of the design (0: of the whole campaign) is leased, until it is held no
   /// longer; what is leased goes on. A design is leased of when neither is held.
   void hold_design(std::uint32_t campaign, std::int64_t design, bool held) {
@@ -169,6 +173,7 @@ class Scheduler {
   WorkerNumber turn_ = 0;             ///< who was served last
   TimePoint forgot_;
   TimePoint ticked_;
+  TimePoint latest_;  ///< that was said to be now, for the meters
   bool held_ = false;
   bool draining_ = false;
   std::set<std::uint32_t> stopped_;  ///< campaigns

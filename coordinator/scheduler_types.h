@@ -51,6 +51,12 @@ struct RunningReport {
   std::int64_t elapsed_ms = 0;
 };
 
+/// What a worker says of its slots, in microseconds since its welcome.
+struct SlotReport {
+  std::int64_t slot_us = 0;
+  std::int64_t busy_us = 0;
+};
+
 /// Who sent a message, and as which of its messages.
 struct Sender {
   PeerId peer = 0;
@@ -186,10 +192,11 @@ struct SchedulerCounters {
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;
   std::uint64_t lost_workers = 0;
-  std::uint64_t copies = 0;  ///< second leases of stragglers
-  std::uint64_t ahead = 0;   ///< leases of look-ahead
+  std::uint64_t copies = 0;       ///< second leases of stragglers
+  std::uint64_t ahead = 0;        ///< leases of look-ahead
   std::uint64_t audited = 0;      ///< second results that were compared
   std::uint64_t quarantined = 0;  ///< workers
+  std::uint64_t reconnects = 0;   ///< hellos of workers that had been here before
 };
 
 }  // namespace swarmsmith

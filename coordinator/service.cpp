@@ -1,7 +1,6 @@
 #include "coordinator/service.h"
 
 #include <algorithm>
-#include <deque>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -10,6 +9,8 @@
 #include "access/address.h"
 #include "base/log.h"
 #include "base/overloaded.h"
+#include "coordinator/log_row.h"
+#include "coordinator/telemetry.h"
 
 namespace swarmsmith {
 namespace {
@@ -19,7 +20,11 @@ using std::chrono::milliseconds;
 constexpr milliseconds kTick{100};
 /// For the last words of workers when all is done.
 constexpr Duration kFarewell = std::chrono::seconds(5);
-constexpr Duration kRateWindow = std::chrono::seconds(3);
+/// The length of write-ahead logs is looked up this often.
+constexpr Duration kLookAtLogs = std::chrono::seconds(1);
+/// Outcomes that may wait for a disk that does not keep up; some seconds' worth at the highest
+/// rates. Nothing is leased until half of them are written.
+constexpr std::int64_t kMostUncommitted = 500'000;
 /// Frames that are read before the campaign moves on and answers go out.
 constexpr int kFramesAtOnce = 256;
 /// A storm of strangers makes a line a reason in this time.
@@ -49,20 +54,12 @@ class News {
   std::vector<std::optional<WriterNews>> news_;
 };
 
-/// Evaluations a second over the last few.
-class Rate {
- public:
-  double update(TimePoint now, std::int64_t done) {
-    points_.emplace_back(now, done);
-    while (points_.size() > 2 && now - points_.front().first > kRateWindow)
-      points_.pop_front();
-    const double seconds = std::chrono::duration<double>(now - points_.front().first).count();
-    return seconds > 0 ? static_cast<double>(done - points_.front().second) / seconds : 0;
-  }
-
- private:
-  std::deque<std::pair<TimePoint, std::int64_t>> points_;
-};
+std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& campaigns) {
+  std::vector<TelemetryCampaign> all;
+  for (const ServiceCampaign& campaign : campaigns)
+    all.push_back({campaign.name, campaign.designs, campaign.store->design_states()});
+  return all;
+}
 
 /// Says who was kept out, seldom.
 class RefusalLog {
@@ -88,13 +85,6 @@ class RefusalLog {
   std::map<std::string, Said> said_;
 };
 
-void log_event(const EventRow& event) {
-  const LogLevel level = event.severity == "error"     ? LogLevel::Error
-                         : event.severity == "warning" ? LogLevel::Warning
-                                                       : LogLevel::Info;
-  log(level, "coordinator", event.kind, {{"details", event.text}});
-}
-
 class Loop final : public Service {
  public:
   Loop(ServiceOptions options, std::unique_ptr<ServerSocket> socket,
@@ -103,8 +93,11 @@ class Loop final : public Service {
         news_(wakeup_, campaigns.size()),
         troubles_(campaigns.size()),
         socket_(std::move(socket)),
-        coordinator_(options_.coordinator, works) {
+        coordinator_(options_.coordinator, works),
+        telemetry_(telemetry_of(campaigns), clock_.now()) {
     for (const ServiceCampaign& campaign : campaigns) {
+      files_.push_back(campaign.file);
+      names_.push_back(campaign.name);
       const std::size_t index = stores_.size();
       stores_.push_back(campaign.store);
       campaign.store->set_listener(
@@ -170,6 +163,7 @@ class Loop final : public Service {
         more_frames_ = false;
         return;
       }
+      telemetry_.on_frame_in(received.frame.size());
       coordinator_.on_frame({received.peer, received.role, received.client}, received.frame, now);
     }
   }
@@ -179,10 +173,12 @@ class Loop final : public Service {
       const std::optional<WriterNews> news = news_.take(index);
       if (!news) continue;
       coordinator_.on_committed(index, news->committed);
+      telemetry_.on_committed(index, news->committed, clock_.now());
       if (news->trouble == troubles_[index]) continue;
       troubles_[index] = news->trouble;
       // The others' results find their place on disk.
       coordinator_.hold(index, !news->trouble.empty());
+      telemetry_.set_trouble(index, news->trouble);
       if (news->trouble.empty()) {
         log(LogLevel::Info, "coordinator", "store writes again");
       } else {
@@ -190,6 +186,15 @@ class Loop final : public Service {
             {{"reason", news->trouble}});
       }
     }
+    coordinator_.hold(holding());
+  }
+
+  /// Of a store that cannot write, its campaign alone is held.
+  Holding holding() {
+    const std::int64_t most = too_slow_ ? kMostUncommitted / 2 : kMostUncommitted;
+    too_slow_ = status_.uncommitted > most;
+    if (too_slow_) return Holding::Commit;
+    return stopping_ ? Holding::Other : Holding::No;
   }
 
   /// Of the stores; the first one that has any.
@@ -214,6 +219,7 @@ class Loop final : public Service {
   }
 
   void send(const SendFrame& send, TimePoint now) {
+    telemetry_.on_frame_out(send.frame.size());
     switch (socket_->send(send.peer, send.frame)) {
       case SendStatus::Sent:
         return;
@@ -226,32 +232,48 @@ class Loop final : public Service {
   }
 
   void append(AppendRows& append) {
+    const TimePoint now = clock_.now();
     const std::span<const Row> rows(append.rows);
-    tell(append.campaign, rows.first(rows.size() - append.of_pool));
+    tell(append.campaign, rows.first(rows.size() - append.of_pool), now);
     // Every store has them; here they are told once.
-    if (append.campaign == 0) tell(std::nullopt, rows.last(append.of_pool));
-    coordinator_.on_appended(append.campaign,
-                             stores_[append.campaign]->append(std::move(append.rows)));
+    if (append.campaign == 0) tell(std::nullopt, rows.last(append.of_pool), now);
+    const std::uint64_t ticket = stores_[append.campaign]->append(std::move(append.rows));
+    telemetry_.on_appended(append.campaign, ticket, now);
+    coordinator_.on_appended(append.campaign, ticket);
   }
 
-  void tell(std::optional<std::size_t> campaign, std::span<const Row> rows) const {
-    for (const Row& row : rows) {
-      if (const auto* event = std::get_if<EventRow>(&row)) log_event(*event);
-    }
-    if (hooks_->on_rows && !rows.empty()) hooks_->on_rows(campaign, rows);
+  void tell(std::optional<std::size_t> campaign, std::span<const Row> rows, TimePoint now) {
+    if (rows.empty()) return;
+    if (campaign) telemetry_.on_rows(*campaign, rows, now);
+    for (const Row& row : rows)
+      row_log_.add(campaign, campaign ? names_[*campaign] : "", row);
+    if (hooks_->on_rows) hooks_->on_rows(campaign, rows);
   }
 
   void answer(const AnswerStatus& answer, TimePoint now) {
-    send({answer.peer, status_reply_of(to_json(status_))}, now);
+    // Many may ask; it is written out once between two ticks.
+    if (status_json_.empty()) status_json_ = to_json(status_);
+    send({answer.peer, status_reply_of(status_json_)}, now);
   }
 
-  void report(TimePoint now) {
-    status_ = coordinator_.status();
-    status_.evaluations_per_s = rate_.update(now, status_.done);
+  void report(TimePoint now, bool all = false) {
+    if (now - looked_ >= kLookAtLogs) look_at_logs(now);
+    status_ = telemetry_.status(coordinator_, now, all);
     status_.trouble = trouble();
     status_.insecure_plaintext = options_.insecure_plaintext;
     status_.refused = socket_->refusals().counts;
+    status_json_.clear();
     if (hooks_->on_status) hooks_->on_status(status_);
+  }
+
+  void look_at_logs(TimePoint now) {
+    looked_ = now;
+    for (std::size_t index = 0; index < files_.size(); ++index) {
+      if (files_[index].empty()) continue;
+      std::error_code none;
+      const auto bytes = std::filesystem::file_size(files_[index].string() + "-wal", none);
+      telemetry_.set_wal_bytes(index, none ? 0 : static_cast<std::int64_t>(bytes));
+    }
   }
 
   void flush() {
@@ -262,7 +284,7 @@ class Loop final : public Service {
 
   void wait_for_running() {
     stopping_ = true;
-    coordinator_.hold(true);
+    coordinator_.hold(holding());
     const TimePoint until = clock_.now() + options_.grace;
     while (coordinator_.scheduler().leases().leased() > 0 && clock_.now() < until &&
            coordinator_.scheduler().workers().connected() > 0) {
@@ -271,12 +293,13 @@ class Loop final : public Service {
   }
 
   ServiceEnd halt() {
-    coordinator_.hold(true);
+    stopping_ = true;
+    coordinator_.hold(holding());
     carry_out();
     flush();
     hear_news();
     carry_out();
-    report(clock_.now());
+    report(clock_.now(), true);
     return {ServiceEnd::How::Interrupted, reasons()};
   }
 
@@ -288,7 +311,7 @@ class Loop final : public Service {
     const TimePoint until = clock_.now() + kFarewell;
     while (coordinator_.scheduler().workers().connected() > 0 && clock_.now() < until)
       step();
-    report(clock_.now());
+    report(clock_.now(), true);
     const std::vector<std::string> stopped = reasons();
     const bool all_well = std::ranges::all_of(stopped, &std::string::empty);
     return {all_well ? ServiceEnd::How::Finished : ServiceEnd::How::Stopped, stopped};
@@ -310,9 +333,15 @@ class Loop final : public Service {
   std::vector<Store*> stores_;
   Coordinator coordinator_;
   const ServiceHooks* hooks_ = nullptr;
-  Rate rate_;
+  Telemetry telemetry_;
+  RowLog row_log_;
+  std::vector<std::filesystem::path> files_;  ///< of the stores
+  std::vector<std::string> names_;            ///< of the campaigns
   RefusalLog refusal_log_;
   LiveStatus status_;
+  std::string status_json_;  ///< of it; empty until somebody asks
+  TimePoint looked_;
+  bool too_slow_ = false;  ///< the disk
   TimePoint next_tick_{};
   bool more_frames_ = false;
   bool stopping_ = false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -37,14 +38,18 @@ struct ServiceCampaign {
   std::string digest;
   Store* store = nullptr;  ///< its listener is taken over
   WorkSource* source = nullptr;
+  // For people.
+  std::string name{};
+  std::vector<DesignRow> designs{};
+  std::filesystem::path file{};  ///< of the store; empty for none
 };
 
 struct ServiceHooks {
   /// Rows of a campaign, just before they are appended to its store; rows of the pool, which every
   /// store has, without a campaign and once.
   std::function<void(std::optional<std::size_t> campaign, std::span<const Row>)> on_rows;
-  /// Ten times a second.
-  std::function<void(const LiveStatus&)> on_status;
+  /// Ten times a second. May add what this process alone knows: `launcher`.
+  std::function<void(LiveStatus&)> on_status;
 };
 
 struct ServiceEnd {

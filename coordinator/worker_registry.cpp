@@ -47,6 +47,9 @@ void WorkerRegistry::connect(WorkerEntry& entry, PeerId peer, TimePoint now) {
   entry.peer = peer;
   entry.last_sequence = 0;
   entry.credit = 0;
+  entry.asked = false;
+  entry.slot_us = 0;
+  entry.busy_us = 0;
   entry.reserved = false;
   entry.last_heard = now;
   by_peer_[peer] = entry.number;

@@ -24,7 +24,12 @@ struct WorkerEntry {
   TimePoint last_heard;
   TimePoint last_sent;
   std::uint32_t credit = 0;  ///< tasks that it wants to hold
+  bool asked = false;        ///< for work, on this connection
   std::size_t running = 0;   ///< tasks that ran when it last said so
+  /// Since its welcome, by its own clock: time of its slots, and how much of it they evaluated; it
+  /// says so in heartbeats. 0 before the first, and of workers that do not say it.
+  std::int64_t slot_us = 0;
+  std::int64_t busy_us = 0;
   /// Nothing more goes to it until it is idle, and then one task that must run alone.
   bool reserved = false;
   std::int64_t done = 0;

@@ -143,6 +143,8 @@ void WorkerProtocol::on_welcome(const pb::Welcome& welcome, TimePoint now) {
   backoff_ = options_.first_backoff;
   last_heard_ = now;
   last_beat_ = now;
+  welcomed_ = now;
+  busy_ = Duration{0};
   const auto or_default = [](std::int64_t ms, Duration fallback) {
     return ms > 0 ? Duration(std::chrono::milliseconds(ms)) : fallback;
   };
@@ -240,6 +242,7 @@ void WorkerProtocol::on_evaluated(Evaluated evaluated, TimePoint now) {
   // What ends this worker ends its programs too: such a failure says nothing of the evaluation.
   if (drain_until_ && !evaluated.failure.empty()) return on_taken_back({&key, 1}, now);
   evaluated.attempt = held->second.attempt;
+  count_busy(held->second, evaluated.wall_us, now);
   held_.erase(held);
   const auto spent_us = static_cast<double>(evaluated.wall_us);
   estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
@@ -346,6 +349,13 @@ void WorkerProtocol::update_credit(TimePoint now) {
   send(message, now);
 }
 
+/// What of an evaluation falls behind the welcome counts: the coordinator asks for this connection.
+void WorkerProtocol::count_busy(const Held& held, std::int64_t wall_us, TimePoint now) {
+  const Duration spent =
+      wall_us > 0 ? Duration(std::chrono::microseconds(wall_us)) : now - held.started.value_or(now);
+  busy_ += std::min(spent, now - welcomed_);
+}
+
 void WorkerProtocol::heartbeat(TimePoint now) {
   last_beat_ = now;
   pb::ToCoordinator message;
@@ -353,13 +363,24 @@ void WorkerProtocol::heartbeat(TimePoint now) {
   credit_sent_ = credit();
   beat.set_credit(credit_sent_);
   beat.set_held(static_cast<std::uint32_t>(held_.size()));
+  Duration busy = busy_;
   for (const auto& [key, held] : held_) {
-    if (!held.started || beat.running_size() >= kMaxItemsPerMessage) continue;
+    if (!held.started) continue;
+    busy += now - std::max(*held.started, welcomed_);
+    if (beat.running_size() >= kMaxItemsPerMessage) continue;
     pb::Running& running = *beat.add_running();
     unpack(key, *running.mutable_key());
     const auto elapsed = std::chrono::duration_cast<std::chrono::milliseconds>(now - *held.started);
     running.set_elapsed_ms(std::max<std::int64_t>(0, elapsed.count()));
   }
+  const auto us = [](Duration time) {
+    return static_cast<std::uint64_t>(
+        std::chrono::duration_cast<std::chrono::microseconds>(time).count());
+  };
+  const std::uint64_t slot_us = us(identity_.slots * (now - welcomed_));
+  beat.set_slot_us(slot_us);
+  // Slots tell of an end a little late: what begins meanwhile must not make more than there is.
+  beat.set_busy_us(std::min(us(busy), slot_us));
   send(message, now);
 }
 

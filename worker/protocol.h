@@ -131,6 +131,7 @@ class WorkerProtocol {
   std::uint32_t credit() const;
   void update_credit(TimePoint now);
   void heartbeat(TimePoint now);
+  void count_busy(const Held& held, std::int64_t wall_us, TimePoint now);
   void finish_draining(TimePoint now);
   void send(pb::ToCoordinator& message, TimePoint now);
 
@@ -162,6 +163,8 @@ class WorkerProtocol {
   bool has_scenario_ = false;
   TimePoint asked_;         ///< for the scenario
   double estimate_us_ = 0;  ///< of an evaluation's time
+  TimePoint welcomed_;
+  Duration busy_{0};  ///< slot time since then that finished evaluations took
   std::unordered_map<PackedKey, Held> held_;
   std::unordered_map<PackedKey, Finished> finished_;  ///< until acknowledged
   std::vector<PackedKey> unsent_;

@@ -18,6 +18,7 @@
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
+#include "coordinator/http/http_server.h"
 #include "coordinator/launchers/start_workers.h"
 #include "coordinator/launchers/worker_program.h"
 #include "coordinator/paused_designs.h"
@@ -144,6 +145,12 @@ Expected<void> check_agreement(const std::vector<Campaign>& campaigns, const Run
   return {};
 }
 
+/// The campaign's name, or, where others have the same, its store.
+std::string name_among(const std::vector<Campaign>& campaigns, const Campaign& campaign) {
+  const bool is_alone = std::ranges::count(campaigns, campaign.name, &Campaign::name) == 1;
+  return is_alone ? campaign.name : campaign.store.string();
+}
+
 /// How much worse than others an end is: a campaign that cannot go on outweighs one that can.
 int gravity(ExitCode code) {
   if (code == ExitCode::Done) return 0;
@@ -160,7 +167,7 @@ class CampaignRun {
               RunListener& listener)
       : output_(output), options_(options), listener_(listener) {
     for (const Campaign& campaign : campaigns)
-      members_.push_back({.campaign = &campaign});
+      members_.push_back({.campaign = &campaign, .name = name_among(campaigns, campaign)});
     if (options_.bind.empty()) options_.bind = campaigns.front().bind;
     // Workers from other hosts have to reach it; where it is, its file says.
     const bool local = launch_of(campaigns.front(), options_).kind == LaunchOptions::Kind::Local;
@@ -179,6 +186,7 @@ class CampaignRun {
  private:
   struct Member {
     const Campaign* campaign;
+    std::string name;                ///< that no other has
     std::unique_ptr<Store> store{};  ///< closed when the campaign was finished before
     std::unique_ptr<CampaignRunner> runner{};
     ExitCode end = ExitCode::Done;
@@ -225,7 +233,11 @@ class CampaignRun {
     auto service = listen();
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
     const std::string endpoint = (*service)->endpoint();
-    const CoordinatorFile file = coordinator_file(options_.access, access_, endpoint);
+    if (auto served = serve_pages(); !served) {
+      return fail(output_, exit_code_of(served.error()), served.error());
+    }
+    CoordinatorFile file = coordinator_file(options_.access, access_, endpoint);
+    if (pages_) file.http = "http://" + pages_->address();
     for (const std::filesystem::path& path : coordinator_paths()) {
       if (const auto written = write_coordinator_file(path, file); !written) {
         return fail(output_, ExitCode::Unreachable, written.error());
@@ -313,8 +325,8 @@ class CampaignRun {
     for (const std::size_t i : running_) {
       const Member& member = members_[i];
       campaigns.push_back(member.campaign);
-      served.push_back(
-          {campaign_digest(*member.campaign), member.store.get(), member.runner.get()});
+      served.push_back({campaign_digest(*member.campaign), member.store.get(), member.runner.get(),
+                        member.name, design_rows(*member.campaign), member.campaign->store});
       first_worker = std::max(first_worker, member.store->next_worker());
     }
     ServiceOptions service_for = service_options(campaigns, options_);
@@ -333,6 +345,24 @@ class CampaignRun {
       service_for.bind =
           bind.substr(0, colon) + std::to_string(std::stoi(bind.substr(colon)) + next);
     }
+  }
+
+  /// Of all campaigns, over HTTP, where that was asked for.
+  Expected<void> serve_pages() {
+    if (options_.http.empty()) return {};
+    auto address = parse_http_address(options_.http);
+    if (!address) return Unexpected(address.error());
+    HttpOptions http{.address = *address, .next_port = options_.http_next_port, .token = {}};
+    if (!options_.http_token_file.empty()) {
+      auto token = read_token(options_.http_token_file);
+      if (!token) return Unexpected(token.error());
+      http.token = *token;
+    }
+    auto pages = HttpServer::start(std::move(http));
+    if (!pages) return Unexpected(pages.error());
+    pages_ = std::move(*pages);
+    print_note(output_, "metrics, health and status: http://" + pages_->address());
+    return {};
   }
 
   void replay(Member& member, std::vector<DesignPlan> plans) {
@@ -366,16 +396,17 @@ class CampaignRun {
                 listener_.add(campaign, row, clock_.now());
             },
         .on_status =
-            [&](const LiveStatus& live) {
-              last_ = live;
+            [&](LiveStatus& live) {
               if (g_read_clients != 0 && access_.watch) {
                 g_read_clients = 0;
                 access_.watch->look_now();
               }
               if (workers != nullptr && worker_trouble.empty()) {
                 worker_trouble = workers->tend(clock_.now());
-                if (worker_trouble.empty()) last_.launcher = workers->status();
+                if (worker_trouble.empty()) live.launcher = workers->status();
               }
+              last_ = live;
+              if (pages_) pages_->publish(live);
               listener_.update(last_, clock_.now());
               if (g_signal != 0 || !worker_trouble.empty()) stop.request_stop();
             },
@@ -442,16 +473,16 @@ class CampaignRun {
   std::vector<std::size_t> running_;  ///< of `members_`, in the order of the service
   SystemClock clock_;
   LiveStatus last_;
+  std::unique_ptr<HttpServer> pages_;
   Access access_;
 };
 
-/// Lines of several campaigns begin with their names, or, where these are the same, their stores.
+/// Lines of several campaigns begin with their names.
 std::vector<ToldCampaign> told(const std::vector<Campaign>& campaigns) {
   std::vector<ToldCampaign> told;
   for (const Campaign& campaign : campaigns) {
-    std::string name = campaign.name;
-    if (std::ranges::count(campaigns, name, &Campaign::name) > 1) name = campaign.store.string();
-    told.push_back({campaigns.size() > 1 ? name : "", design_rows(campaign)});
+    told.push_back(
+        {campaigns.size() > 1 ? name_among(campaigns, campaign) : "", design_rows(campaign)});
   }
   return told;
 }

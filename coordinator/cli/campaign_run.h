@@ -26,6 +26,9 @@ struct RunOptions {
   AccessFlags access{};
   /// When another program listens on the port of `bind`, one of the next ones will do.
   bool next_port = false;
+  std::string http{};  ///< host:port of the pages; empty: none
+  bool http_next_port = false;
+  std::string http_token_file{};
   /// Whether an interrupted run goes on later; else its store is thrown away.
   bool keeps_store = true;
 };

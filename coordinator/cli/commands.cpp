@@ -141,11 +141,23 @@ Examples:
   swarmsmith profile pseudo-reality
   swarmsmith profile rvr -o my_rvr.toml)";
 
-constexpr std::string_view kStatusDetails = R"(Reads the store, also while a campaign runs.
+constexpr std::string_view kStatusDetails =
+    R"(Asks the running coordinator, where one is known: campaigns, why slots idle, designs, hosts with the
+worst first. Else it reads the store. On a terminal --watch redraws one screen until Ctrl-C or the end;
+elsewhere it writes a line every 5 s. docs/observability.md explains the numbers.
 
 Examples:
   swarmsmith status demo.db
+  swarmsmith status --connect 127.0.0.1:5555 --watch
   SWARMSMITH_STORE=demo.db swarmsmith status --watch)";
+
+constexpr std::string_view kExplainDetails =
+    R"(Which race asked for the evaluation and whether it counted there, who evaluated it, what went wrong on
+the way (lost, expired, failed, other results), and how to simulate it again.
+
+Examples:
+  swarmsmith explain e1000007 demo.db
+  swarmsmith explain e1000007 demo.db --json)";
 
 constexpr std::string_view kLsDetails =
     R"(Conditions and order are SQL over the columns, which --json shows all of.
@@ -227,6 +239,7 @@ constexpr std::array kCommands = {
     Command{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
             declare_ls},
     Command{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
+    Command{"explain", "Tell the history of one evaluation", kExplainDetails, declare_explain},
     Command{"query", "Ask a store in SQL", kQueryDetails, declare_query},
     Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate},
     Command{"assess", "Measure whether each module does what it promises", kAssessDetails,

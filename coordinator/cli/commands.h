@@ -30,6 +30,7 @@ Run declare_replay(Options& options);
 Run declare_profile(Options& options);
 Run declare_status(Options& options);
 Run declare_ls(Options& options);
+Run declare_explain(Options& options);
 Run declare_show(Options& options);
 Run declare_query(Options& options);
 Run declare_assess(Options& options);

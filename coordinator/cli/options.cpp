@@ -112,6 +112,7 @@ ExitCode run_command(const Command& command, std::vector<std::string> arguments,
   if (no_color) output.color = false;
   if (output.verbose) set_log_level(LogLevel::Debug);
   if (output.quiet) set_log_level(LogLevel::Error);
+  change_log_level_by_signals();
   return run(output);
 }
 

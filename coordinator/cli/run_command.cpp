@@ -3,6 +3,7 @@
 #include "coordinator/cli/campaign_flags.h"
 #include "coordinator/cli/campaign_run.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/http_flags.h"
 #include "coordinator/launchers/launch_text.h"
 
 namespace swarmsmith::cli {
@@ -13,6 +14,7 @@ Run declare_run(Options& options) {
     AccessFlags access;
     std::string workers;
     bool no_dashboard = false;
+    HttpFlags http;
   };
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Optional);
@@ -22,10 +24,12 @@ Run declare_run(Options& options) {
   options.flag("--no-dashboard", arguments->no_dashboard,
                "Accepted; this version has no dashboard to leave out");
   arguments->access.declare(options);
+  arguments->http.declare(options, "default none");
   return [arguments](Output& output) {
     const auto campaigns = arguments->campaign.read(output);
     if (!campaigns) return ExitCode::Usage;
     RunOptions run{.access = arguments->access};
+    arguments->http.put(run, "");
     if (!arguments->workers.empty()) {
       const auto launch = parse_workers(arguments->workers, campaigns->front().launch);
       if (!launch) {

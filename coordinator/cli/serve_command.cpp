@@ -4,6 +4,7 @@
 #include "coordinator/cli/campaign_flags.h"
 #include "coordinator/cli/campaign_run.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/http_flags.h"
 
 namespace swarmsmith::cli {
 
@@ -12,12 +13,14 @@ Run declare_serve(Options& options) {
     CampaignFlags campaign;
     AccessFlags access;
     std::string bind;
+    HttpFlags http;
   };
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Required);
   options.text(
       "--bind", arguments->bind,
       "Address and port for workers (default 127.0.0.1:5555, or the next port that is free)");
+  arguments->http.declare(options, "default 127.0.0.1:8347, or the next port that is free; none");
   arguments->access.declare(options);
   return [arguments](Output& output) {
     const auto campaigns = arguments->campaign.read(output);
@@ -28,6 +31,7 @@ Run declare_serve(Options& options) {
       run.bind = "127.0.0.1:5555";
       run.next_port = true;
     }
+    arguments->http.put(run, "127.0.0.1:8347");
     return run_campaigns(output, *campaigns, run);
   };
 }

@@ -1,16 +1,27 @@
+#include <sys/ioctl.h>
+#include <unistd.h>
 #include <chrono>
+#include <cstdlib>
+#include <limits>
 #include <memory>
 #include <thread>
 
+#include "access/coordinator_file.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/live_client.h"
 #include "coordinator/cli/query_output.h"
+#include "coordinator/cli/status_text.h"
 #include "coordinator/cli/store_argument.h"
+#include "proto/socket.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 struct Arguments {
   StoreArgument store;
+  std::string connect;
+  std::string key;
+  bool insecure_plaintext = false;
   bool watch = false;
 };
 
@@ -108,19 +119,110 @@ void write_json(Output& output, const Status& status) {
              << ",\"failures\":" << status.failures.cells.front().front().text << "}\n";
 }
 
-/// Once, or every two seconds until nothing changes any more.
+/// Where a coordinator is asked: at the address or by the file that a person names, else by the
+/// file beside the store. NotFound when nothing says that one runs.
+Expected<FoundCoordinator> coordinator_of(const Arguments& arguments) {
+  CoordinatorSearch search;
+  search.role = "reader";
+  search.key = arguments.key;
+  search.insecure_plaintext = arguments.insecure_plaintext;
+  std::string named = arguments.connect;
+  const char* variable = std::getenv("SWARMSMITH_COORDINATOR");
+  if (named.empty() && variable != nullptr) named = variable;
+  if (named.empty()) {
+    const auto store = arguments.store.path();
+    if (!store) return unexpected(ErrorKind::NotFound, store.error().message);
+    search.file = coordinator_file_of(*store);
+  } else if (const std::string endpoint =
+                 (named.find("://") == std::string::npos ? "tcp://" : "") + named;
+             is_tcp_address(endpoint)) {
+    search.endpoint = endpoint;
+  } else {
+    search.file = named;
+  }
+  return find_coordinator(search);
+}
+
+Screen screen_of(const Output& output) {
+  winsize size = {};
+  if (output.out_is_terminal && ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0) {
+    // The last line stays free: a line end there would scroll.
+    return {size.ws_col, size.ws_row > 1 ? size.ws_row - 1U : 23U};
+  }
+  constexpr auto kAll = std::numeric_limits<std::size_t>::max();
+  return {kAll, kAll};
+}
+
+/// A screenful in place of the one before, without a blank one between.
+void redraw(Output& output, const std::vector<std::string>& lines) {
+  output.out << "\x1b[H";
+  for (const std::string& line : lines)
+    output.out << line << "\x1b[K\n";
+  output.out << "\x1b[J";
+}
+
+void write_live(const Arguments& arguments, Output& output, const LiveStatus& status) {
+  if (!arguments.watch) {
+    for (const std::string& line : status_lines(status, screen_of(output)))
+      output.out << line << "\n";
+  } else if (output.out_is_terminal) {
+    redraw(output, status_lines(status, screen_of(output)));
+  } else {
+    output.out << status_summary(status) << "\n";
+  }
+}
+
+/// The coordinator's own word, as it came where JSON is wanted.
+Expected<void> show_live(const Arguments& arguments, Output& output) {
+  constexpr auto kPatience = std::chrono::seconds(3);
+  const auto coordinator = coordinator_of(arguments);
+  if (!coordinator) return Unexpected(coordinator.error());
+  const auto json = ask_status(*coordinator, kPatience);
+  if (!json) return Unexpected(json.error());
+  if (output.json) {
+    output.out << *json << "\n";
+    return {};
+  }
+  const auto status = live_status_of(*json);
+  if (!status) return Unexpected(status.error());
+  write_live(arguments, output, *status);
+  return {};
+}
+
+ExitCode show_stored(const Arguments& arguments, Output& output, bool& running) {
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const auto status = read_status(**store);
+  if (!status) return fail(output, ExitCode::Store, status.error());
+  if (arguments.watch && output.out_is_terminal) output.out << "\x1b[H\x1b[2J";
+  output.json ? write_json(output, *status) : write_text(output, *status);
+  running = status->of_campaign("state") == "running";
+  return ExitCode::Done;
+}
+
+/// Once, or again and again until there is nothing more to see.
 ExitCode run(const Arguments& arguments, Output& output) {
-  constexpr auto kPause = std::chrono::seconds(2);
+  // A person looks at a terminal, a file fills up.
+  const auto pause = std::chrono::seconds(output.out_is_terminal ? 1 : 5);
+  const bool has_store = arguments.store.path().has_value();
+  bool was_live = false;
   while (true) {
-    const auto store = arguments.store.open();
-    if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-    const auto status = read_status(**store);
-    if (!status) return fail(output, ExitCode::Store, status.error());
-    if (arguments.watch && output.out_is_terminal) output.out << "\x1b[H\x1b[2J";
-    output.json ? write_json(output, *status) : write_text(output, *status);
+    bool running = true;
+    const auto live = show_live(arguments, output);
+    if (!live && !has_store) {
+      // A coordinator that was there and is gone has come to its end.
+      return was_live ? ExitCode::Done : fail(output, ExitCode::Unreachable, live.error());
+    }
+    if (!live) {
+      const bool is_news = live.error().kind != ErrorKind::NotFound && !was_live;
+      if (is_news) print_note(output, to_string(live.error()) + "; this is what the store says:");
+      const ExitCode shown = show_stored(arguments, output, running);
+      if (shown != ExitCode::Done) return shown;
+    }
+    was_live |= live.has_value();
     output.out.flush();
-    if (!arguments.watch || status->of_campaign("state") != "running") return ExitCode::Done;
-    std::this_thread::sleep_for(kPause);
+    if (!arguments.watch || !running) return ExitCode::Done;
+    std::this_thread::sleep_for(pause);
   }
 }
 
@@ -129,7 +231,16 @@ ExitCode run(const Arguments& arguments, Output& output) {
 Run declare_status(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->store.declare(options);
-  options.flag("--watch", arguments->watch, "Write it again every 2 s until the campaign ends");
+  options.text("--connect", arguments->connect,
+               "Ask the coordinator at HOST:PORT, or the one whose file this is (default: "
+               "SWARMSMITH_COORDINATOR, else STORE.coordinator)");
+  options.text(
+      "--key", arguments->key,
+      "Key file, where the coordinator wants one (default: SWARMSMITH_KEY, else reader.key "
+      "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
+  options.flag("--insecure-plaintext", arguments->insecure_plaintext,
+               "Ask a coordinator on another host that does not encrypt");
+  options.flag("--watch", arguments->watch, "Again and again, until the campaign ends");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

@@ -1,6 +1,7 @@
 #include "tests/cluster/simulated_cluster.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "base/overloaded.h"
 #include "coordinator/paused_designs.h"
@@ -462,11 +463,11 @@ void SimulatedCluster::commit(std::uint32_t campaign) {
   Running& running = campaigns_[campaign];
   if (running.uncommitted.empty()) return;
   if (now_ < disk_full_until_) {
-    coordinator_->hold(true);
+    coordinator_->hold(Holding::Other);
     on_process(kCoordinator, disk_full_until_ - now_, [this, campaign] { commit(campaign); });
     return;
   }
-  coordinator_->hold(false);
+  coordinator_->hold(Holding::No);
   const Batch batch = std::move(running.uncommitted.front());
   running.uncommitted.pop_front();
   write(running, batch.rows);
@@ -512,6 +513,16 @@ void SimulatedCluster::check_leases() {
   for (const auto& [id, design] : leases.queues().all())
     of_designs += design.wanted_leased;
   if (wanted != leases.wanted_leased() || wanted != of_designs) fail("leases are miscounted");
+  check_slot_times();
+}
+
+/// The slots' time, by cause, is all of it and never less than none.
+void SimulatedCluster::check_slot_times() {
+  const SlotTimes times = coordinator_->status().slot_times;
+  const double rest = times.slots - times.busy - times.idle_total();
+  if (std::abs(rest) > 1e-6 * (1 + times.slots)) fail("idle times do not add up");
+  const bool negative = std::ranges::any_of(times.idle, [](double time) { return time < -1e-9; });
+  if (times.busy < 0 || negative) fail("a slot idles for less than no time");
 }
 
 // --- workers ---

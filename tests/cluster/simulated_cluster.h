@@ -156,6 +156,7 @@ class SimulatedCluster {
   void commit(std::uint32_t campaign);
   void write(Running& running, const std::vector<Row>& rows);
   void check_leases();
+  void check_slot_times();
   void check_answer(Running& running);
   void count();
 

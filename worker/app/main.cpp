@@ -130,6 +130,7 @@ int run(const Arguments& arguments) {
   if (!options) return fail(options.error());
   Wakeup wakeup;
   handle_signals(wakeup);
+  change_log_level_by_signals();
   if (arguments.watch_input) watch_input();
   Pool pool(slots, make_evaluators(std::move(*allowed)), [&wakeup] { wakeup.notify(); });
   log(LogLevel::Debug, "worker", "started",

@@ -32,7 +32,11 @@ void read_flags(const IraceSettings& settings, Output& output) {
   output.verbose = settings.is_on("--verbose");
   if (settings.is_on("--no-color")) output.color = false;
   // irace's lines tell what a person wants to know, and errors are explained.
-  set_log_level(output.verbose ? LogLevel::Debug : LogLevel::None);
+  if (output.verbose) {
+    set_log_level(LogLevel::Debug);
+  } else {
+    set_default_log_level(LogLevel::None);
+  }
 }
 
 const Command& this_command() {
