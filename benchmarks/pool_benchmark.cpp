@@ -10,6 +10,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
@@ -36,7 +37,7 @@ class BusyTime {
  public:
   explicit BusyTime(std::int64_t total) : from_(total / 4), to_(total - total / 4) {}
 
-  void add(const std::vector<Row>& rows) {
+  void add(std::span<const Row> rows) {
     for (const Row& row : rows) {
       const auto* evaluation = std::get_if<EvaluationRow>(&row);
       if (evaluation == nullptr || evaluation->wall_us == 0) continue;

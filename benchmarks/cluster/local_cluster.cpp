@@ -58,7 +58,7 @@ bool is_worker_row(const Row& row) {
 
 Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
                                  const std::function<void(const LiveStatus&)>& on_status,
-                                 const std::function<void(const std::vector<Row>&)>& on_rows) {
+                                 const std::function<void(std::span<const Row>)>& on_rows) {
   const Folder folder;
   auto store = open_store(folder.store(), shape.designs);
   if (!store) return Unexpected(store.error());

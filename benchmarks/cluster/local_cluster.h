@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "base/expected.h"
@@ -35,6 +36,6 @@ struct ClusterRun {
 /// unit of rows.
 Expected<ClusterRun> run_cluster(const ClusterShape& shape, WorkSource& source,
                                  const std::function<void(const LiveStatus&)>& on_status = {},
-                                 const std::function<void(const std::vector<Row>&)>& on_rows = {});
+                                 const std::function<void(std::span<const Row>)>& on_rows = {});
 
 }  // namespace swarmsmith::bench

@@ -17,9 +17,12 @@ class Malformed(Visited):
         self.frames_that_are_none()
         self.two_frames_are_not_one()
         self.too_long()
+        # From here on the campaign must not end under its visitors.
+        self.ask("pause")
         self.a_peer_is_refused_after_ten()
         self.wrong_major_version()
         self.wrong_build_and_self_test()
+        self.ask("resume")
         numbers = self.finish_undisturbed()
         self.assertEqual((numbers["rejected"], numbers["conflicts"]), (0, 0))
 

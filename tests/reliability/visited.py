@@ -5,6 +5,7 @@ import socket
 import time
 
 from network import Proxy
+from programs import call
 from rig import FaultTest, events, rows, stored
 from wire import COMMAND, Frames, frame, message
 
@@ -61,6 +62,11 @@ class Visited(FaultTest):
                  **changes}
         hello.pop("holds", None)
         return frame("ToCoordinator", {"sequence": 1, "incarnation": 1, "hello": hello})
+
+    def ask(self, command):
+        """Something of the coordinator, as a person does."""
+        done = call(command, self.store)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
 
     def malformed(self):
         return self.coordinator.progress().get("malformed", 0)
