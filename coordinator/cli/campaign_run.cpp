@@ -96,7 +96,8 @@ CampaignPolicy policy_of(const Campaign& campaign) {
   return {.task_timeout = std::chrono::duration_cast<Duration>(
               std::chrono::duration<double>(campaign.task_timeout_s)),
           .retries = campaign.retries,
-          .stop_on_failure = campaign.stop_on_failure};
+          .stop_on_failure = campaign.stop_on_failure,
+          .audit_every = campaign.audit_every};
 }
 
 /// The campaigns agree about everything but their scenarios and policies (`check_agreement`).

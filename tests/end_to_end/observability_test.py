@@ -190,6 +190,43 @@ class Observability(ProgramTest):
         stored = json.loads(call("status", self.store, "--json").stdout)
         self.assertIn("campaign", stored)
 
+    def test_a_run_tells_of_its_workers_of_pauses_and_of_audits(self):
+        self.file.write_text(self.file.read_text() + "[workers]\naudit_every = 3\n")
+        store = self.folder / "run.db"
+        process = self.start_campaign(store, "--workers", "2", "--http", "127.0.0.1:*")
+
+        def live():
+            done = call("status", store, "--json")
+            status = json.loads(done.stdout) if done.returncode == 0 else {}
+            return status if "fleet" in status else None
+
+        def once(holds):
+            end = time.monotonic() + 60
+            while time.monotonic() < end:
+                status = live()
+                if status and holds(status):
+                    return status
+                time.sleep(0.1)
+            self.fail(f"it did not come to it: {status}")
+
+        status = once(lambda s: s["workers"] == 2 and s["done"] > 100 and s["audits"] > 0)
+        launcher = status["launcher"]
+        self.assertEqual((launcher["name"], launcher["wanted"]), ("local", 2))
+        self.assertGreater(6 * status["audits"], status["done"] / 2)
+        self.assertIn("launcher local: 2 of 2 workers run", call("status", store).stdout)
+        self.assertFalse(status["campaigns"][0]["designs"][0]["paused"])
+        paused = call("pause", store)
+        self.assertEqual(paused.returncode, 0, paused.stderr)
+        before = once(lambda s: s["campaigns"][0]["designs"][0]["paused"] and s["leased"] == 0)
+        held = before["slot_times"]["idle_s"]["held"]
+        after = once(lambda s: s["slot_times"]["idle_s"]["held"] > held + 1)
+        self.assertEqual(after["slot_times"]["idle_s"]["commit"], 0)
+        self.assertRegex(call("status", store).stdout, r"d1 +paused")
+        self.assertEqual(call("resume", store).returncode, 0)
+        once(lambda s: s["done"] > after["done"] + 100)
+        send(process.pid, signal.SIGTERM)
+        process.wait(timeout=60)
+
     def test_an_evaluation_that_was_lost_with_its_worker_tells_its_history(self):
         process = self.serve()
         self.eventually(lambda: self.metric("swarmsmith_done_total") > 100)

@@ -194,7 +194,15 @@ class Manifest(unittest.TestCase):
         container, = pod_of(coordinator)["containers"]
         self.assertEqual(container["livenessProbe"]["httpGet"]["path"], "/healthz")
         self.assertEqual(container["readinessProbe"]["httpGet"]["path"], "/readyz")
-        store = container["args"][container["args"].index("--store") + 1]
+        args = container["args"]
+        # Pages beyond loopback: the kubelet asks at the pod's address.
+        pages, = [p["containerPort"] for p in container["ports"] if p["name"] == "http"]
+        self.assertEqual(args[args.index("--http") + 1], f"0.0.0.0:{pages}")
+        token = pathlib.PurePath(args[args.index("--http-token-file") + 1])
+        self.assertIn(str(token.parent), {m["mountPath"] for m in container["volumeMounts"]})
+        self.assertIn(f"--from-file=keys/{token.name}",
+                      (EXAMPLES / "kubernetes/swarmsmith.yaml").read_text())
+        store = args[args.index("--store") + 1]
         mounts = {m["mountPath"] for m in container["volumeMounts"] if m["name"] == "store"}
         self.assertIn(str(pathlib.PurePath(store).parent), mounts)
         worker, = self.of_kind("Deployment")
