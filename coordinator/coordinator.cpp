@@ -1,7 +1,6 @@
 #include "coordinator/coordinator.h"
 
 #include <algorithm>
-#include <iterator>
 
 #include "base/assert.h"
 #include "base/overloaded.h"
@@ -12,7 +11,6 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kArenaBytes = 256U << 10U;
-constexpr std::size_t kMaxFaults = 10'000;
 
 google::protobuf::ArenaOptions arena_options() {
   google::protobuf::ArenaOptions options;
@@ -42,12 +40,6 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
   }
 }
 
-bool Coordinator::settled() const {
-  return waiting_.empty() && std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
-           return campaign.unappended.empty() && campaign.appended.empty();
-         });
-}
-
 bool Coordinator::finished() const {
   const bool done = std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
     return campaign.stopped || campaign.source->finished();
@@ -55,141 +47,9 @@ bool Coordinator::finished() const {
   return done && settled() && !scheduler_.is_auditing();
 }
 
-void Coordinator::put_row(const Row& row) {
-  pool_rows_.push_back(row);
-}
-
 void Coordinator::send(PeerId peer, std::string frame) {
   actions_.emplace_back(SendFrame{peer, std::move(frame), {}});
 }
-
-// --- frames ---
-
-bool Coordinator::is_refused(PeerId peer, TimePoint now) {
-  if (faults_.empty()) return false;
-  const auto fault = faults_.find(peer);
-  if (fault == faults_.end() || fault->second.count < options_.malformed_limit) return false;
-  if (now < fault->second.refused_until) return true;
-  faults_.erase(fault);
-  return false;
-}
-
-void Coordinator::on_malformed(PeerId peer, const Error& error, TimePoint now) {
-  ++malformed_[error.where];
-  ++malformed_count_;
-  if (error.kind == ErrorKind::Conflict) {
-    send(peer, frame_of(SendReject{peer, 0, RejectReason::Protocol, error.message}));
-  }
-  // Connections come and go; the memory of their faults is bounded.
-  if (faults_.size() >= kMaxFaults) faults_.clear();
-  Fault& fault = faults_[peer];
-  if (++fault.count < options_.malformed_limit) return;
-  fault.refused_until = now + options_.refuse_for;
-  put_row(EventRow{
-      .severity = "warning",
-      .kind = "peer refused",
-      .text = event_text({{"frames", std::int64_t{fault.count}}, {"last", error.message}})});
-  scheduler_.on_refused(peer, now);
-}
-
-void Coordinator::on_frame(const Peer& peer, std::string_view frame, TimePoint now) {
-  if (is_refused(peer.id, now)) {
-    ++malformed_count_;
-    return;
-  }
-  const Expected<const pb::ToCoordinator*> message = decode_to_coordinator(frame, arena_);
-  if (message) {
-    on_message(peer, **message, now);
-  } else {
-    on_malformed(peer.id, message.error(), now);
-  }
-  arena_.Reset();
-}
-
-void Coordinator::on_message(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
-  const auto forbidden = [&] {
-    on_malformed(peer.id,
-                 {ErrorKind::BadInput,
-                  "the key \"" + std::string(peer.client) + "\" does not allow this", "role"},
-                 now);
-  };
-  if (message.has_command()) {
-    return may_command(peer.role) ? on_command(peer, message.command()) : forbidden();
-  }
-  if (message.has_want_status()) {
-    if (!may_read(peer.role)) return forbidden();
-    actions_.emplace_back(AnswerStatus{peer.id});
-    return;
-  }
-  return may_work(peer.role) ? on_work(peer, message, now) : forbidden();
-}
-
-void Coordinator::on_work(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
-  const Sender sender{peer.id, message.incarnation(), message.sequence()};
-  switch (message.body_case()) {
-    case pb::ToCoordinator::kHello: {
-      WorkerHello hello = hello_of(message.hello(), message.incarnation(), facts_.scenario_digest);
-      hello.client = peer.client;
-      scheduler_.on_hello(peer.id, std::move(hello), now);
-      return;
-    }
-    case pb::ToCoordinator::kCredit:
-      scheduler_.on_credit(sender, message.credit().tasks(), now);
-      return;
-    case pb::ToCoordinator::kResults:
-      on_results(sender, message.results(), now);
-      return;
-    case pb::ToCoordinator::kHeartbeat:
-      running_of(message.heartbeat(), running_);
-      scheduler_.on_heartbeat(sender, message.heartbeat().credit(), running_, now,
-                              slots_of(message.heartbeat()));
-      return;
-    case pb::ToCoordinator::kReturned:
-      scheduler_.on_returned(sender, keys_of(message.returned()), now);
-      return;
-    case pb::ToCoordinator::kGoodbye:
-      scheduler_.on_goodbye(sender, now);
-      return;
-    case pb::ToCoordinator::kWantScenario:
-      if (scheduler_.on_sign_of_life(sender, now)) {
-        send(peer.id, scenario_reply_of(facts_, sender.incarnation));
-      }
-      return;
-    case pb::ToCoordinator::kCommand:
-    case pb::ToCoordinator::kWantStatus:
-    case pb::ToCoordinator::BODY_NOT_SET:
-      scheduler_.on_sign_of_life(sender, now);
-      return;
-  }
-}
-
-void Coordinator::on_results(const Sender& sender, const pb::Results& results, TimePoint now) {
-  // Of another campaign that ran here before: nobody wants them.
-  if (results.scenario() != facts_.scenario_digest) {
-    on_malformed(sender.peer, {ErrorKind::BadInput, "results of another campaign", "campaign"},
-                 now);
-    return;
-  }
-  results_of(results, results_);
-  scheduler_.on_results(sender, results_, now);
-}
-
-void Coordinator::on_unreachable(const SendFrame& unsent, TimePoint now) {
-  faults_.erase(unsent.peer);
-  scheduler_.on_unreachable(unsent.peer, now, unsent.leases);
-}
-
-void Coordinator::on_cut_off(PeerId peer, TimePoint now) {
-  faults_.erase(peer);
-  scheduler_.on_refused(peer, now);
-}
-
-void Coordinator::on_tick(TimePoint now) {
-  scheduler_.on_tick(now);
-  sample_due_ = true;
-}
-
-// --- actions ---
 
 void Coordinator::carry_out(SchedulerAction& action) {
   std::visit(
@@ -233,32 +93,6 @@ void Coordinator::carry_out(SchedulerAction& action) {
           },
       },
       action);
-}
-
-/// On disk already: acknowledged now. Else with the first copy.
-void Coordinator::repeat(const OutcomeRepeated& action) {
-  const auto at = waiting_.find(action.key);
-  if (at == waiting_.end()) {
-    acknowledge({{action.worker, {action.key}}});
-    return;
-  }
-  Waiting& waiting = at->second;
-  if (waiting.first == action.worker || std::ranges::count(waiting.others, action.worker) > 0) {
-    return;
-  }
-  waiting.others.push_back(action.worker);
-}
-
-void Coordinator::acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys) {
-  for (const auto& [number, all] : keys) {
-    const WorkerEntry* worker = scheduler_.connected_worker(number);
-    if (worker == nullptr) continue;
-    for (std::size_t at = 0; at < all.size(); at += kMaxItemsPerMessage) {
-      const std::span<const PackedKey> some(
-          all.data() + at, std::min<std::size_t>(kMaxItemsPerMessage, all.size() - at));
-      send(worker->peer, acknowledgement_of(some, worker->hello.incarnation));
-    }
-  }
 }
 
 bool Coordinator::progress() {
@@ -311,29 +145,6 @@ bool Coordinator::look_ahead() {
   return any;
 }
 
-void Coordinator::append(std::uint32_t index) {
-  Campaign& campaign = campaigns_[index];
-  std::vector<Row> rows = campaign.source->take_rows();
-  note_if_all_is_paused(campaign);
-  rows.insert(rows.end(), std::make_move_iterator(campaign.own_rows.begin()),
-              std::make_move_iterator(campaign.own_rows.end()));
-  campaign.own_rows.clear();
-  rows.insert(rows.end(), pool_rows_.begin(), pool_rows_.end());
-  std::vector<SendFrame> replies = std::exchange(campaign.replies, {});
-  if (rows.empty()) {
-    std::ranges::move(replies, std::back_inserter(actions_));
-    return;
-  }
-  Unit unit{.replies = std::move(replies)};
-  for (const Row& row : rows) {
-    if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
-      unit.keys.push_back(pack(evaluation->key, index));
-    }
-  }
-  campaign.unappended.push_back(std::move(unit));
-  actions_.emplace_back(AppendRows{index, std::move(rows), pool_rows_.size()});
-}
-
 std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
   scheduler_.on_time(now);
   do {
@@ -357,93 +168,6 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
   // After leasing: slots that are about to be given work are no idle ones.
   if (std::exchange(sample_due_, false)) slots_.sample(scheduler_, holding_, now);
   return std::exchange(actions_, {});
-}
-
-void Coordinator::on_appended(std::uint32_t index, std::uint64_t ticket) {
-  Campaign& campaign = campaigns_[index];
-  SWARMSMITH_ASSERT(!campaign.unappended.empty(), "a ticket belongs to rows that were given out");
-  SWARMSMITH_ASSERT(campaign.appended.empty() || campaign.appended.back().ticket < ticket,
-                    "tickets count up");
-  campaign.appended.push_back(std::move(campaign.unappended.front()));
-  campaign.appended.back().ticket = ticket;
-  campaign.unappended.pop_front();
-}
-
-void Coordinator::on_committed(std::uint32_t index, std::uint64_t ticket) {
-  std::deque<Unit>& appended = campaigns_[index].appended;
-  std::map<WorkerNumber, std::vector<PackedKey>> keys;
-  while (!appended.empty() && appended.front().ticket <= ticket) {
-    for (const PackedKey key : appended.front().keys) {
-      const auto at = waiting_.find(key);
-      if (at == waiting_.end()) continue;
-      keys[at->second.first].push_back(key);
-      for (const WorkerNumber other : at->second.others)
-        keys[other].push_back(key);
-      waiting_.erase(at);
-    }
-    std::ranges::move(appended.front().replies, std::back_inserter(actions_));
-    appended.pop_front();
-  }
-  acknowledge(keys);
-}
-
-LiveStatus Coordinator::status() const {
-  const SchedulerCounters& counters = scheduler_.counters();
-  const auto count = [](auto number) { return static_cast<std::int64_t>(number); };
-  LiveStatus status;
-  status.workers = count(scheduler_.workers().connected());
-  status.gone_workers = count(scheduler_.workers().all().size()) - status.workers;
-  status.slots = scheduler_.workers().slots();
-  for (const auto& [number, entry] : scheduler_.workers().all())
-    status.credit += entry.usable() ? entry.credit : 0;
-  status.ready = count(scheduler_.leases().queued());
-  status.leased = count(scheduler_.leases().leased());
-  status.done = count(counters.done);
-  status.rejected = count(counters.rejected);
-  status.failed = count(counters.failed);
-  status.requeued = count(counters.requeued);
-  status.expired = count(counters.expired);
-  status.duplicates = count(counters.duplicates);
-  status.conflicts = count(counters.conflicts);
-  status.unknown = count(counters.unknown);
-  status.audits = count(counters.audited);
-  status.quarantined =
-      count(scheduler_.workers().connected()) - count(scheduler_.workers().trusted());
-  status.lost_workers = count(counters.lost_workers);
-  status.reconnects = count(counters.reconnects);
-  status.malformed = count(malformed_count_);
-  status.malformed_by = malformed_;
-  status.uncommitted = count(waiting_.size());
-  status.slot_times = slots_.since_start();
-  status.slot_times_last_minute = slots_.last_minute();
-  return status;
-}
-
-std::vector<WorkerStatus> Coordinator::fleet(TimePoint now) const {
-  std::vector<WorkerStatus> fleet;
-  fleet.reserve(scheduler_.workers().all().size());
-  for (const auto& [number, entry] : scheduler_.workers().all()) {
-    const WorkerRate rate = slots_.rate_of(number);
-    const auto held = static_cast<std::int64_t>(scheduler_.leases().leases_of(number).size());
-    fleet.push_back(
-        {.number = number,
-         .state = !entry.connected    ? "gone"
-                  : entry.quarantined ? "quarantined"
-                                      : "connected",
-         .host = entry.hello.host,
-         .job = entry.hello.job,
-         .client = entry.hello.client,
-         .slots = entry.hello.slots,
-         .held = held,
-         .running = std::min(held, static_cast<std::int64_t>(entry.running)),
-         .done = entry.done,
-         .failed = entry.failed,
-         .connections = static_cast<std::int64_t>(entry.hello.incarnation),
-         .done_per_s = rate.done_per_s,
-         .busy = rate.busy,
-         .last_heard_s = std::chrono::duration<double>(now - entry.last_heard).count()});
-  }
-  return fleet;
 }
 
 }  // namespace swarmsmith

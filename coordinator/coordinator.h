@@ -150,6 +150,7 @@ class Coordinator {
     std::optional<std::string> stopped{};
   };
 
+  // coordinator_frames.cpp
   bool is_refused(PeerId peer, TimePoint now);
   void on_malformed(PeerId peer, const Error& error, TimePoint now);
   void on_message(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
@@ -164,15 +165,17 @@ class Coordinator {
   Expected<std::uint32_t> campaign_of(const pb::Command& command) const;
   void note_if_all_is_paused(Campaign& campaign);
 
-  void carry_out(SchedulerAction& action);
+  // coordinator_rows.cpp
   void repeat(const OutcomeRepeated& action);
   /// For the stores of all campaigns.
   void put_row(const Row& row);
+  void append(std::uint32_t campaign);
   void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
+
+  void carry_out(SchedulerAction& action);
   void send(PeerId peer, std::string frame);
   bool progress();
   bool look_ahead();
-  void append(std::uint32_t campaign);
 
   CoordinatorOptions options_;
   PoolFacts facts_;
