@@ -5,7 +5,7 @@ import sqlite3
 import time
 import unittest
 
-from programs import ProgramTest, call, send
+from programs import ProgramTest, call, children_of, send
 
 
 class Commands(ProgramTest):
@@ -32,6 +32,19 @@ class Commands(ProgramTest):
         done = call(*arguments, timeout=60)
         self.assertEqual(done.returncode, code, done.stdout + done.stderr)
         return done.stdout + done.stderr
+
+    def ask_running(self, process, *arguments):
+        """The same while its workers stand still: under load the race would be over before the
+        program that asks has started."""
+        workers = children_of(process.pid)
+        self.assertTrue(workers)
+        for worker in workers:
+            send(worker, signal.SIGSTOP)
+        try:
+            return self.ask(*arguments)
+        finally:
+            for worker in workers:
+                send(worker, signal.SIGCONT)
 
     def until(self, condition, what, timeout=60):
         deadline = time.monotonic() + timeout
@@ -72,7 +85,7 @@ class Commands(ProgramTest):
 
     def test_a_paused_design_stands_still_and_goes_on_to_the_same_answer(self):
         process = self.begin()
-        self.assertIn("paused: d2", self.ask("pause", self.store, "d2"))
+        self.assertIn("paused: d2", self.ask_running(process, "pause", self.store, "d2"))
         # What was leased when the command came ends, and counts.
         self.until(lambda: self.designs()[1]["state"] == "finished", "d1 does not end")
         stands = self.used(2)
@@ -106,7 +119,8 @@ class Commands(ProgramTest):
 
     def test_a_cancelled_design_stops_where_it_is_whatever_happens_then(self):
         process = self.begin()
-        self.assertIn("d2 is cancelled", self.ask("cancel", self.store, "d2"))
+        self.assertIn("d2 is cancelled",
+                      self.ask_running(process, "cancel", self.store, "d2"))
         send(process.pid, signal.SIGKILL)
         process.wait()
         # What was confirmed is on disk: the same campaign, undisturbed from here, and killed again.
@@ -159,7 +173,8 @@ class Commands(ProgramTest):
 
     def test_an_extension_while_running_acts_at_the_end_of_the_race(self):
         process = self.begin()
-        self.assertIn("gets 900", self.ask("extend", self.store, "d1", "--budget", "900"))
+        self.assertIn("gets 900", self.ask_running(process, "extend", self.store, "d1", "--budget",
+                                                   "900"))
         send(process.pid, signal.SIGKILL)
         process.wait()
         self.go_on()
