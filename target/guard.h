@@ -12,7 +12,8 @@ namespace swarmsmith {
 /// `unguard` do nothing.
 Expected<void> start_guard();
 
-/// A process group that is to end with this process. Any thread.
+/// A process group that is to end with this process. Any thread, and a child of vfork: it only
+/// writes to a pipe.
 void guard(pid_t group);
 /// It has ended.
 void unguard(pid_t group);

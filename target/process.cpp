@@ -29,7 +29,6 @@ class Running {
  public:
   Running(const ProcessCall& call, Child child, const Interrupt& interrupt)
       : call_(call), child_(std::move(child)), interrupt_(interrupt) {
-    guard(child_.pid);
     if (call_.limit.count() > 0) next_signal_ = Clock::now() + call_.limit;
   }
 

@@ -43,6 +43,8 @@ struct Birth {
   setpgid(0, 0);
   prctl(PR_SET_PDEATHSIG, birth.death_signal);
   if (getppid() != birth.parent) _exit(127);
+  // By the child, before it is the program: a parent that is killed right now cannot say it.
+  guard(getpid());
   if (birth.folder != nullptr && chdir(birth.folder) != 0) give_up(birth, "its folder");
   if (dup2(birth.input, 0) < 0 || dup2(birth.output, 1) < 0 || dup2(birth.errors, 2) < 0) {
     give_up(birth, "its pipes");
@@ -173,7 +175,10 @@ Expected<Child> spawn(const std::string& program, const std::vector<std::string>
   }
   if (child.pid < 0) birth.error = errno;
   if (birth.error != 0) {
-    if (child.pid > 0) waitpid(child.pid, nullptr, 0);
+    if (child.pid > 0) {
+      unguard(child.pid);
+      waitpid(child.pid, nullptr, 0);
+    }
     return cannot(program, birth);
   }
   // Not by its wrapper: glibc 2.36 declares it for C only.
