@@ -33,12 +33,14 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
   SWARMSMITH_ASSERT(campaigns.size() == options_.scheduler.campaigns.size(),
                     "each campaign has a policy");
   for (const CampaignWork& campaign : campaigns) {
-    scheduler_.know(static_cast<std::uint32_t>(campaigns_.size()), campaign.known);
+    const auto index = static_cast<std::uint32_t>(campaigns_.size());
+    close_ended(index, *campaign.source);
+    scheduler_.know(index, campaign.known);
     facts_.campaign_digests.push_back(campaign.digest);
     campaigns_.push_back({.source = campaign.source, .paused = paused_designs(campaign.commands)});
     if (!campaign.commands.empty()) campaigns_.back().commands = campaign.commands.back().number;
     for (const DesignId design : campaigns_.back().paused)
-      scheduler_.hold_design(static_cast<std::uint32_t>(campaigns_.size() - 1), design.value, true);
+      scheduler_.hold_design(index, design.value, true);
   }
 }
 
@@ -259,6 +261,11 @@ void Coordinator::acknowledge(const std::map<WorkerNumber, std::vector<PackedKey
   }
 }
 
+void Coordinator::close_ended(std::uint32_t index, WorkSource& source) {
+  for (const DesignId design : source.take_ended())
+    scheduler_.close_design(index, design);
+}
+
 bool Coordinator::progress() {
   std::vector<SchedulerAction> actions = scheduler_.take_actions();
   for (SchedulerAction& action : actions)
@@ -284,6 +291,7 @@ bool Coordinator::progress() {
     for (const EvaluationKey& key : campaign.source->take_dropped())
       dropped.push_back(pack(key, index));
     scheduler_.drop(dropped);
+    close_ended(index, *campaign.source);
   }
   return more;
 }

@@ -164,6 +164,7 @@ class Coordinator {
   void put_row(const Row& row);
   void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
   void send(PeerId peer, std::string frame);
+  void close_ended(std::uint32_t index, WorkSource& source);
   bool progress();
   bool look_ahead();
   void append(std::uint32_t campaign);

@@ -30,6 +30,10 @@ class WorkSource {
   /// Tasks of `take_more` that nobody will want any more: they need not be run.
   virtual std::vector<EvaluationKey> take_dropped() { return {}; }
 
+  /// Designs, since the last call, of which nothing will be wanted any more, whatever is commanded:
+  /// second results of theirs need not be recognised. Tasks that were given may still be told.
+  virtual std::vector<DesignId> take_ended() { return {}; }
+
   /// Carries out "cancel" or "extend"; its row comes by `take_rows`, with the step at which it
   /// acts. Errors: no such design, or one of which it cannot be asked, with what can.
   virtual Expected<void> carry_out(const CommandRow& command) {

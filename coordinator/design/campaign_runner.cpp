@@ -16,7 +16,10 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
   for (DesignPlan& plan : plans) {
     const DesignId id = plan.row.id;
     all_.push_back(id);
-    if (std::ranges::find(finished, id) != finished.end()) continue;
+    if (std::ranges::find(finished, id) != finished.end()) {
+      ended_.push_back(id);
+      continue;
+    }
     plan.commands = commands_to(id, commands);
     auto known = stored.extract(id);
     waiting_.emplace(id,
@@ -96,6 +99,7 @@ void CampaignRunner::put_away(DesignId id) {
     ended = kept_.extract(kept_order_.front());
     kept_order_.erase(kept_order_.begin());
   }
+  ended_.push_back(ended.key());
   for (const auto& [key, bound] : ended.mapped().outstanding())
     late_.emplace(key, Late{bound, ended.mapped().source()});
 }

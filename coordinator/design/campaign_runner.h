@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/expected.h"
@@ -42,6 +43,7 @@ class CampaignRunner final : public WorkSource {
   /// first, and of these the design that is the nearest to a barrier.
   std::vector<Task> take_more(std::size_t count) override;
   std::vector<EvaluationKey> take_dropped() override;
+  std::vector<DesignId> take_ended() override { return std::exchange(ended_, {}); }
   Expected<void> carry_out(const CommandRow& command) override;
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override;
@@ -82,6 +84,7 @@ class CampaignRunner final : public WorkSource {
   std::map<EvaluationKey, Late> late_;
   std::vector<Task> tasks_;
   std::vector<EvaluationKey> dropped_;  ///< of designs that were put away
+  std::vector<DesignId> ended_;
   std::vector<Row> rows_;
   std::optional<Error> error_;
   bool state_recorded_ = false;
