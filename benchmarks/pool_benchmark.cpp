@@ -44,7 +44,7 @@ class BusyTime {
       const auto* evaluation = std::get_if<EvaluationRow>(&row);
       if (evaluation == nullptr) continue;
       // The second row of an evaluation that was made ahead: a race uses it.
-      if (evaluation->wall_us == 0) {
+      if (evaluation->worker == 0) {
         --unused_;
         continue;
       }
@@ -92,6 +92,7 @@ Expected<std::vector<DesignPlan>> plans_for(const Case& c) {
 int report(const Case& c, const Expected<ClusterRun>& run, const BusyTime& busy,
            std::int64_t unused) {
   if (!run) return std::fprintf(stderr, "%s\n", to_string(run.error()).c_str()), 1;
+  if (c.memory) std::fprintf(stderr, "at the end: %.0f MB\n", run->resident_mb);
   const int slots = c.shape.processes * c.shape.each.slots;
   // Over the whole campaign, its end included; what was not used does not count.
   const double efficiency =

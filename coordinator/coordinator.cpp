@@ -299,13 +299,14 @@ bool Coordinator::progress() {
 /// Asks the campaigns in turn for work for slots that would idle. False when there is none.
 bool Coordinator::look_ahead() {
   std::size_t idle = scheduler_.idle_slots();
+  const auto slots = static_cast<std::size_t>(scheduler_.workers().slots());
   bool any = false;
   for (std::size_t asked = 0; asked < campaigns_.size() && idle > 0; ++asked) {
     const auto index = static_cast<std::uint32_t>(ahead_turn_);
     ahead_turn_ = (ahead_turn_ + 1) % campaigns_.size();
     Campaign& campaign = campaigns_[index];
     if (campaign.stopped || campaign.sees_no_further || scheduler_.is_held(index)) continue;
-    std::vector<Task> tasks = campaign.source->take_more(idle);
+    std::vector<Task> tasks = campaign.source->take_more(idle, slots);
     campaign.sees_no_further = tasks.empty();
     if (tasks.empty()) continue;
     idle -= std::min(idle, tasks.size());

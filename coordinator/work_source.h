@@ -22,10 +22,10 @@ class WorkSource {
   /// wanted.
   virtual std::vector<Task> take_tasks() = 0;
 
-  /// At most about `count` further tasks for slots that would idle: designs that are not begun yet
-  /// are begun, and then evaluations are asked for that will probably be wanted (Task::ahead).
-  /// Their outcomes change nothing of the answer.
-  virtual std::vector<Task> take_more(std::size_t /*count*/) { return {}; }
+  /// At most about `count` further tasks for slots that would idle, of `slots` in all: designs that
+  /// are not begun yet are begun, and then evaluations are asked for that will probably be wanted
+  /// (Task::ahead). Their outcomes change nothing of the answer.
+  virtual std::vector<Task> take_more(std::size_t /*count*/, std::size_t /*slots*/) { return {}; }
 
   /// Tasks of `take_more` that nobody will want any more: they need not be run.
   virtual std::vector<EvaluationKey> take_dropped() { return {}; }

@@ -117,8 +117,8 @@ std::vector<Task> RacedCampaign::take_tasks() {
   return tasks;
 }
 
-std::vector<Task> RacedCampaign::take_more(std::size_t count) {
-  std::vector<Task> tasks = runner_.take_more(count);
+std::vector<Task> RacedCampaign::take_more(std::size_t count, std::size_t slots) {
+  std::vector<Task> tasks = runner_.take_more(count, slots);
   for (const Task& task : tasks)
     note(task);
   return tasks;

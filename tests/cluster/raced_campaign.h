@@ -47,7 +47,7 @@ class RacedCampaign final : public WorkSource {
                 std::vector<DesignId> finished);
 
   std::vector<Task> take_tasks() override;
-  std::vector<Task> take_more(std::size_t count) override;
+  std::vector<Task> take_more(std::size_t count, std::size_t slots) override;
   std::vector<EvaluationKey> take_dropped() override { return runner_.take_dropped(); }
   std::vector<DesignId> take_ended() override;
   void tell(const Outcome& outcome) override;
