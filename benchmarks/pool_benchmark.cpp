@@ -3,12 +3,13 @@
 // Races are real ones over synthetic scores, or go as recorded ones did.
 //
 //   pool_benchmark [--designs N] [--budget N | --recorded FILE [--ahead N]]
-//                  [--processes P] [--slots S] [--sleep-us T] [--curve]
+//                  [--processes P] [--slots S] [--sleep-us T] [--curve] [--memory]
 
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -29,6 +30,7 @@ struct Case {
   std::int64_t budget = 5'000;
   std::string recorded;
   std::size_t ahead = 0;  ///< of recorded races
+  bool memory = false;
   ClusterShape shape{.processes = 8, .each = {.slots = 8}};
 };
 
@@ -40,7 +42,13 @@ class BusyTime {
   void add(std::span<const Row> rows) {
     for (const Row& row : rows) {
       const auto* evaluation = std::get_if<EvaluationRow>(&row);
-      if (evaluation == nullptr || evaluation->wall_us == 0) continue;
+      if (evaluation == nullptr) continue;
+      // The second row of an evaluation that was made ahead: a race uses it.
+      if (evaluation->worker == 0) {
+        --unused_;
+        continue;
+      }
+      if (evaluation->iteration == 0 && evaluation->key.purpose == Purpose::Race) ++unused_;
       ++done_;
       if (done_ == from_) begin_ = Clock::now();
       if (done_ > from_ && done_ <= to_) busy_us_ += evaluation->wall_us;
@@ -55,12 +63,15 @@ class BusyTime {
     return static_cast<double>(to_ - from_) / std::chrono::duration<double>(end_ - begin_).count();
   }
   std::int64_t done() const { return done_; }
+  /// Look-ahead that no race asked for; of recorded races the rows do not say.
+  std::int64_t unused() const { return unused_; }
 
  private:
   using Clock = std::chrono::steady_clock;
   std::int64_t from_;
   std::int64_t to_;
   std::int64_t done_ = 0;
+  std::int64_t unused_ = 0;
   std::int64_t busy_us_ = 0;
   Clock::time_point begin_;
   Clock::time_point end_;
@@ -78,40 +89,58 @@ Expected<std::vector<DesignPlan>> plans_for(const Case& c) {
   return plans_of(*campaign);
 }
 
-int report(const Case& c, const Expected<ClusterRun>& run, const BusyTime& busy) {
+int report(const Case& c, const Expected<ClusterRun>& run, const BusyTime& busy,
+           std::int64_t unused) {
   if (!run) return std::fprintf(stderr, "%s\n", to_string(run.error()).c_str()), 1;
+  if (c.memory) std::fprintf(stderr, "at the end: %.0f MB\n", run->resident_mb);
   const int slots = c.shape.processes * c.shape.each.slots;
-  // Over the whole campaign, its end included.
+  // Over the whole campaign, its end included; what was not used does not count.
   const double efficiency =
-      static_cast<double>(busy.done() * c.shape.work.us) / (1e6 * run->wall_s * slots);
-  std::printf("| %d | %s | %d x %d | %.1f | %lld | %.0f | %.1f %% | %.1f %% | %.1f |\n", c.designs,
-              c.recorded.empty() ? std::to_string(c.budget).c_str() : "recorded", c.shape.processes,
-              c.shape.each.slots, 1e-3 * static_cast<double>(c.shape.work.us),
+      static_cast<double>((busy.done() - unused) * c.shape.work.us) / (1e6 * run->wall_s * slots);
+  std::printf("| %d | %s | %d x %d | %.1f | %lld | %.0f | %.1f %% | %.1f %% | %.1f %% | %.1f |\n",
+              c.designs, c.recorded.empty() ? std::to_string(c.budget).c_str() : "recorded",
+              c.shape.processes, c.shape.each.slots, 1e-3 * static_cast<double>(c.shape.work.us),
               static_cast<long long>(busy.done()), busy.rate(), 100 * busy.share(slots),
+              100 * static_cast<double>(unused) / static_cast<double>(busy.done()),
               100 * efficiency, 1e6 * run->coordinator.all() / static_cast<double>(busy.done()));
   return 0;
+}
+
+/// Says what the coordinator takes each half a million evaluations.
+std::function<void(const LiveStatus&)> watch_of(const Case& c) {
+  if (!c.memory) return {};
+  constexpr std::int64_t kEvery = 500'000;
+  return [next = std::int64_t{0}](const LiveStatus& status) mutable {
+    if (status.done < next) return;
+    std::fprintf(stderr, "%lld evaluations: %.0f MB\n", static_cast<long long>(status.done),
+                 resident_mb());
+    next = (status.done / kEvery + 1) * kEvery;
+  };
 }
 
 int measure(Case& c) {
   std::printf(
       "| designs | budget of each | processes x slots | ms an evaluation | evaluations | "
-      "evaluations/s | busy slots | efficiency of the whole | coordinator's CPU, us |\n"
-      "| --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
+      "evaluations/s | busy slots | made ahead and not used | efficiency of the whole | "
+      "coordinator's CPU, us |\n"
+      "| --- | --- | --- | --- | --- | --- | --- | --- | --- | --- |\n");
   c.shape.designs = c.designs;
   if (!c.recorded.empty()) {
     const auto races = read_races(c.recorded);
     if (!races) return std::fprintf(stderr, "%s\n", to_string(races.error()).c_str()), 1;
     RecordedRaces source(*races, c.designs, c.ahead);
     BusyTime busy(source.total());
-    return report(c, run_cluster(c.shape, source, {}, [&](const auto& rows) { busy.add(rows); }),
-                  busy);
+    const auto run =
+        run_cluster(c.shape, source, watch_of(c), [&](const auto& rows) { busy.add(rows); });
+    return report(c, run, busy, source.told() - source.total());
   }
   auto plans = plans_for(c);
   if (!plans) return std::fprintf(stderr, "%s\n", to_string(plans.error()).c_str()), 1;
   CampaignRunner source(std::move(*plans), {}, {});
   BusyTime busy(c.budget * c.designs);
-  return report(c, run_cluster(c.shape, source, {}, [&](const auto& rows) { busy.add(rows); }),
-                busy);
+  const auto run =
+      run_cluster(c.shape, source, watch_of(c), [&](const auto& rows) { busy.add(rows); });
+  return report(c, run, busy, busy.unused());
 }
 
 int run(int argc, char** argv) {
@@ -123,6 +152,7 @@ int run(int argc, char** argv) {
   app.add_option("--recorded", c.recorded, "Races that go like those of this file");
   app.add_flag("--curve", c.shape.curve, "Encrypt the connections");
   app.add_option("--ahead", c.ahead, "Tests that recorded races look ahead, at most");
+  app.add_flag("--memory", c.memory, "Say what the coordinator takes, on the way");
   app.add_option("--processes", c.shape.processes);
   app.add_option("--slots", c.shape.each.slots, "Of each process");
   app.add_option("--sleep-us", c.shape.work.us, "Mean time of an evaluation, +- 30 %");

@@ -49,6 +49,8 @@ class Audits {
   Verdict hear(PackedKey key, const Word& word);
 
   bool knows(PackedKey key) const { return open_.contains(key); }
+  /// The result of an open audit's task that counts.
+  const Word& kept(PackedKey key) const { return open_.at(key).words.front(); }
   /// Tasks that a worker may be found for among these, or has been.
   bool can_go_on(const std::vector<WorkerNumber>& workers) const;
   std::size_t waiting() const { return queue_.size(); }

@@ -31,12 +31,14 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
   SWARMSMITH_ASSERT(campaigns.size() == options_.scheduler.campaigns.size(),
                     "each campaign has a policy");
   for (const CampaignWork& campaign : campaigns) {
-    scheduler_.know(static_cast<std::uint32_t>(campaigns_.size()), campaign.known);
+    const auto index = static_cast<std::uint32_t>(campaigns_.size());
+    close_ended(index, *campaign.source);
+    scheduler_.know(index, campaign.known);
     facts_.campaign_digests.push_back(campaign.digest);
     campaigns_.push_back({.source = campaign.source, .paused = paused_designs(campaign.commands)});
     if (!campaign.commands.empty()) campaigns_.back().commands = campaign.commands.back().number;
     for (const DesignId design : campaigns_.back().paused)
-      scheduler_.hold_design(static_cast<std::uint32_t>(campaigns_.size() - 1), design.value, true);
+      scheduler_.hold_design(index, design.value, true);
   }
 }
 
@@ -95,6 +97,11 @@ void Coordinator::carry_out(SchedulerAction& action) {
       action);
 }
 
+void Coordinator::close_ended(std::uint32_t index, WorkSource& source) {
+  for (const DesignId design : source.take_ended())
+    scheduler_.close_design(index, design);
+}
+
 bool Coordinator::progress() {
   std::vector<SchedulerAction> actions = scheduler_.take_actions();
   for (SchedulerAction& action : actions)
@@ -120,6 +127,7 @@ bool Coordinator::progress() {
     for (const EvaluationKey& key : campaign.source->take_dropped())
       dropped.push_back(pack(key, index));
     scheduler_.drop(dropped);
+    close_ended(index, *campaign.source);
   }
   return more;
 }
@@ -127,13 +135,14 @@ bool Coordinator::progress() {
 /// Asks the campaigns in turn for work for slots that would idle. False when there is none.
 bool Coordinator::look_ahead() {
   std::size_t idle = scheduler_.idle_slots();
+  const auto slots = static_cast<std::size_t>(scheduler_.workers().slots());
   bool any = false;
   for (std::size_t asked = 0; asked < campaigns_.size() && idle > 0; ++asked) {
     const auto index = static_cast<std::uint32_t>(ahead_turn_);
     ahead_turn_ = (ahead_turn_ + 1) % campaigns_.size();
     Campaign& campaign = campaigns_[index];
     if (campaign.stopped || campaign.sees_no_further || scheduler_.is_held(index)) continue;
-    std::vector<Task> tasks = campaign.source->take_more(idle);
+    std::vector<Task> tasks = campaign.source->take_more(idle, slots);
     campaign.sees_no_further = tasks.empty();
     if (tasks.empty()) continue;
     idle -= std::min(idle, tasks.size());

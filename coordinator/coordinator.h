@@ -174,6 +174,7 @@ class Coordinator {
 
   void carry_out(SchedulerAction& action);
   void send(PeerId peer, std::string frame);
+  void close_ended(std::uint32_t index, WorkSource& source);
   bool progress();
   bool look_ahead();
 

@@ -1,5 +1,6 @@
 #include "coordinator/done_table.h"
 
+#include "base/assert.h"
 #include "base/hash.h"
 
 namespace swarmsmith {
@@ -9,45 +10,89 @@ namespace {
 constexpr std::uint64_t kRejectedBits = 0x7ff8000000000001U;
 constexpr std::size_t kFirstSize = 1024;
 
-DoneEntry entry_of(PackedKey key, EvaluationStatus status, double score,
-                   std::uint64_t state_digest) {
-  if (status == EvaluationStatus::Rejected) return {key, kRejectedBits, 0};
-  return {key, std::bit_cast<std::uint64_t>(score), state_digest};
+/// From 1, as candidates are numbered.
+DesignId design_of_key(PackedKey key) {
+  return design_of(CandidateId{candidate_of(key)});
 }
 
 }  // namespace
 
-std::size_t DoneTable::place_of(PackedKey key) const {
-  const std::size_t mask = entries_.size() - 1;
+DoneEntry DoneTable::entry_of(PackedKey key, EvaluationStatus status, double score,
+                              std::uint64_t state_digest) {
+  if (status == EvaluationStatus::Rejected) return {key, kRejectedBits, 0};
+  return {key, std::bit_cast<std::uint64_t>(score), state_digest};
+}
+
+std::size_t DoneTable::Outcomes::place_of(PackedKey key) const {
+  const std::size_t mask = entries.size() - 1;
   std::size_t at = static_cast<std::size_t>(mix64(key)) & mask;
-  while (entries_[at].key != 0 && entries_[at].key != key)
+  while (entries[at].key != 0 && entries[at].key != key)
     at = (at + 1) & mask;
   return at;
 }
 
-void DoneTable::grow() {
-  std::vector<DoneEntry> old(entries_.empty() ? kFirstSize : entries_.size() * 2);
-  old.swap(entries_);
+void DoneTable::Outcomes::grow() {
+  std::vector<DoneEntry> old(entries.empty() ? kFirstSize : entries.size() * 2);
+  old.swap(entries);
   for (const DoneEntry& entry : old) {
-    if (entry.key != 0) entries_[place_of(entry.key)] = entry;
+    if (entry.key != 0) entries[place_of(entry.key)] = entry;
   }
+}
+
+const DoneTable::Outcomes* DoneTable::outcomes_of(PackedKey key) const {
+  const std::uint32_t campaign = campaign_of(key);
+  if (campaign >= designs_.size()) return nullptr;
+  const auto index = static_cast<std::size_t>(design_of_key(key).value - 1);
+  return index < designs_[campaign].size() ? &designs_[campaign][index] : nullptr;
+}
+
+DoneTable::Outcomes& DoneTable::at(std::uint32_t campaign, DesignId design) {
+  SWARMSMITH_ASSERT(design.value > 0, "designs count from 1");
+  if (campaign >= designs_.size()) designs_.resize(campaign + 1);
+  std::vector<Outcomes>& designs = designs_[campaign];
+  const auto index = static_cast<std::size_t>(design.value - 1);
+  if (index >= designs.size()) designs.resize(index + 1);
+  return designs[index];
 }
 
 const DoneEntry* DoneTable::insert(PackedKey key, EvaluationStatus status, double score,
                                    std::uint64_t state_digest) {
-  if (4 * (size_ + 1) > 3 * entries_.size()) grow();
-  DoneEntry& entry = entries_[place_of(key)];
+  Outcomes& outcomes = at(campaign_of(key), design_of_key(key));
+  if (outcomes.closed) return nullptr;
+  if (4 * (outcomes.size + 1) > 3 * outcomes.entries.size()) outcomes.grow();
+  DoneEntry& entry = outcomes.entries[outcomes.place_of(key)];
   if (entry.key == 0) {
     entry = entry_of(key, status, score, state_digest);
-    ++size_;
+    ++outcomes.size;
   }
   return &entry;
 }
 
 const DoneEntry* DoneTable::find(PackedKey key) const {
-  if (entries_.empty()) return nullptr;
-  const DoneEntry& entry = entries_[place_of(key)];
+  const Outcomes* outcomes = outcomes_of(key);
+  if (outcomes == nullptr || outcomes->entries.empty()) return nullptr;
+  const DoneEntry& entry = outcomes->entries[outcomes->place_of(key)];
   return entry.key == 0 ? nullptr : &entry;
+}
+
+void DoneTable::close(std::uint32_t campaign, DesignId design) {
+  Outcomes& outcomes = at(campaign, design);
+  outcomes = {};
+  outcomes.closed = true;
+}
+
+bool DoneTable::is_closed(PackedKey key) const {
+  const Outcomes* outcomes = outcomes_of(key);
+  return outcomes != nullptr && outcomes->closed;
+}
+
+std::size_t DoneTable::size() const {
+  std::size_t size = 0;
+  for (const std::vector<Outcomes>& designs : designs_) {
+    for (const Outcomes& outcomes : designs)
+      size += outcomes.size;
+  }
+  return size;
 }
 
 bool DoneTable::same(const DoneEntry& entry, EvaluationStatus status, double score,

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "coordinator/task_key.h"
 #include "proto/key.h"
 #include "storage/rows.h"
 
@@ -17,25 +18,40 @@ struct DoneEntry {
   std::uint64_t state_digest = 0;  ///< of a rejected evaluation: kRejected
 };
 
-/// Every outcome of a campaign, 24 bytes each in one array (open addressing, linear probing, at
-/// most three quarters full): three million of them are 100 MB.
+/// The outcomes of the designs that go on, by design: 24 bytes each in one array (open addressing,
+/// linear probing, at most three quarters full), so that a design of 100,000 takes 6 MB. Of a
+/// design that is over only that is remembered, and memory does not grow with the campaign.
 class DoneTable {
  public:
-  /// Inserts, or returns the entry that is there already.
+  /// Inserts, or returns the entry that is there already; null when the design is over.
   const DoneEntry* insert(PackedKey key, EvaluationStatus status, double score,
                           std::uint64_t state_digest);
   const DoneEntry* find(PackedKey key) const;
-  std::size_t size() const { return size_; }
+  /// Forgets the design's outcomes: nobody will want any more of it, whatever comes.
+  void close(std::uint32_t campaign, DesignId design);
+  bool is_closed(PackedKey key) const;
+  std::size_t size() const;
 
+  static DoneEntry entry_of(PackedKey key, EvaluationStatus status, double score,
+                            std::uint64_t state_digest);
   static bool same(const DoneEntry& entry, EvaluationStatus status, double score,
                    std::uint64_t state_digest);
 
  private:
-  std::size_t place_of(PackedKey key) const;
-  void grow();
+  struct Outcomes {
+    std::vector<DoneEntry> entries;
+    std::size_t size = 0;
+    bool closed = false;
 
-  std::vector<DoneEntry> entries_;
-  std::size_t size_ = 0;
+    std::size_t place_of(PackedKey key) const;
+    void grow();
+  };
+
+  /// Null when nothing was ever known of it.
+  const Outcomes* outcomes_of(PackedKey key) const;
+  Outcomes& at(std::uint32_t campaign, DesignId design);
+
+  std::vector<std::vector<Outcomes>> designs_;  ///< by campaign, by design from 0
 };
 
 }  // namespace swarmsmith

@@ -168,8 +168,7 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
     if (!held.contains(key)) take_back(*leases_.find(key), entry.number);
   }
   for (const PackedKey key : entry.hello.holds) {
-    if (held.contains(key) && done_.find(key) != nullptr)
-      leases_.loads().linger(entry.number, key, now);
+    if (held.contains(key) && is_done(key)) leases_.loads().linger(entry.number, key, now);
   }
   if (held_ || draining_ || entry.quarantined || !entry.hello.same_scenario) return;
   for (const PackedKey key : entry.hello.holds) {
@@ -361,11 +360,9 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoi
          .time = result.time});
     return;
   }
-  if (const DoneEntry* known = done_.find(result.key); known != nullptr) {
-    const bool asked = record != nullptr && record->lease && record->lease->worker == entry.number;
-    if (asked) return on_audited(entry, *record, *known, result, now);
-    return repeat(entry, *known, result);
-  }
+  const bool is_audit = record != nullptr && record->lease_of(entry.number) != nullptr;
+  if (is_audit) return on_audited(entry, result, now);
+  if (is_done(result.key)) return repeat(entry, result);
   // Wanted later, perhaps: after a restart the race may not have come so far. Not acknowledged, so
   // it comes again.
   ++counters_.unknown;
@@ -394,13 +391,12 @@ void Scheduler::note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint 
   }
 }
 
-void Scheduler::repeat(const WorkerEntry& entry, const DoneEntry& known,
-                       const WorkerResult& result) {
+void Scheduler::repeat(const WorkerEntry& entry, const WorkerResult& result) {
   ++counters_.duplicates;
   actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
   // Two runs of a program may differ, in its time at least: the first one counts.
   if (options_.evaluates_programs) return;
-  judge(entry, known, result);
+  if (const DoneEntry* known = done_.find(result.key)) judge(entry, *known, result);
 }
 
 /// Another result with other bits: the campaign is not deterministic, or somebody lies.

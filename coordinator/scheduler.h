@@ -46,6 +46,10 @@ class Scheduler {
   /// Nothing more is wanted of the campaign, or again: results that nobody asked for, such as
   /// look-ahead of a coordinator that crashed, need not be kept by their workers.
   void close(std::uint32_t campaign, bool closed) { closed_[campaign] = closed; }
+  /// Nothing more will be wanted of the design, ever: what is known of its outcomes is forgotten.
+  /// Tasks of it that were added go on to their outcomes; other results are acknowledged as
+  /// duplicates, and not compared any more.
+  void close_design(std::uint32_t campaign, DesignId design) { done_.close(campaign, design); }
   /// The campaign is stopped: its tasks are forgotten, and what still comes of it is not kept.
   void forget(std::uint32_t campaign);
 
@@ -119,14 +123,15 @@ class Scheduler {
   void note_attempt(PackedKey key, const Lease& lease, const char* outcome, TimePoint now);
   void note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now);
   void dispatch_audits(TimePoint now);
-  void on_audited(WorkerEntry& entry, TaskRecord& record, const DoneEntry& known,
-                  const WorkerResult& result, TimePoint now);
+  void on_audited(WorkerEntry& entry, const WorkerResult& result, TimePoint now);
+  /// It has an outcome, or is of a design that is over.
+  bool is_done(PackedKey key) const { return done_.find(key) != nullptr || done_.is_closed(key); }
   void judge(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
   /// `worker` failed at what somebody else has done.
   void strike(WorkerNumber worker, TimePoint now);
   void quarantine(WorkerEntry& entry, const std::string& reason, TimePoint now);
   void accept(const Outcome& outcome);
-  void repeat(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
+  void repeat(const WorkerEntry& entry, const WorkerResult& result);
   void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
               const FailureDetails& details = {});
   void stop(std::uint32_t campaign, const std::string& reason);

@@ -71,15 +71,18 @@ void Scheduler::dispatch_audits(TimePoint now) {
   });
 }
 
-void Scheduler::on_audited(WorkerEntry& entry, TaskRecord& record, const DoneEntry& known,
-                           const WorkerResult& result, TimePoint now) {
+void Scheduler::on_audited(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {
   ++counters_.audited;
   // Nothing is written for it, so that the worker may forget it when the first one is on disk.
   actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
-  judge(entry, known, result);
+  // The design may be over, and its outcomes forgotten; the audit remembers its own.
+  const Audits::Word& kept = audits_.kept(result.key);
+  judge(entry, DoneTable::entry_of(result.key, EvaluationStatus::Ok, kept.score, kept.state_digest),
+        result);
   const Audits::Verdict verdict =
       audits_.hear(result.key, {entry.number, result.score, result.state_digest});
-  note_attempt(record, entry.number, verdict.differs ? "conflict" : "audited", now);
+  note_attempt(*leases_.find(result.key), entry.number, verdict.differs ? "conflict" : "audited",
+               now);
   leases_.remove(result.key, entry.number);
   if (verdict.no_two_agree) {
     note("error", "three results of one evaluation",

@@ -22,13 +22,17 @@ class WorkSource {
   /// wanted.
   virtual std::vector<Task> take_tasks() = 0;
 
-  /// At most about `count` further tasks for slots that would idle: designs that are not begun yet
-  /// are begun, and then evaluations are asked for that will probably be wanted (Task::ahead).
-  /// Their outcomes change nothing of the answer.
-  virtual std::vector<Task> take_more(std::size_t /*count*/) { return {}; }
+  /// At most about `count` further tasks for slots that would idle, of `slots` in all: designs that
+  /// are not begun yet are begun, and then evaluations are asked for that will probably be wanted
+  /// (Task::ahead). Their outcomes change nothing of the answer.
+  virtual std::vector<Task> take_more(std::size_t /*count*/, std::size_t /*slots*/) { return {}; }
 
   /// Tasks of `take_more` that nobody will want any more: they need not be run.
   virtual std::vector<EvaluationKey> take_dropped() { return {}; }
+
+  /// Designs, since the last call, of which nothing will be wanted any more, whatever is commanded:
+  /// second results of theirs need not be recognised. Tasks that were given may still be told.
+  virtual std::vector<DesignId> take_ended() { return {}; }
 
   /// Carries out "cancel" or "extend"; its row comes by `take_rows`, with the step at which it
   /// acts. Errors: no such design, or one of which it cannot be asked, with what can.

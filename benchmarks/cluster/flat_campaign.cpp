@@ -34,6 +34,8 @@ std::vector<Task> FlatCampaign::take_tasks() {
 
 void FlatCampaign::tell(const Outcome& outcome) {
   ++told_;
+  const DesignId design = design_of(outcome.key.candidate);
+  if (--left_[static_cast<std::size_t>(design.value - 1)] == 0) ended_.push_back(design);
   rows_.emplace_back(EvaluationRow{.key = outcome.key,
                                    .iteration = 1,
                                    .status = outcome.status,

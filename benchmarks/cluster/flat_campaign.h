@@ -10,17 +10,18 @@
 namespace swarmsmith::bench {
 
 /// Independent tasks without a barrier, some ten thousand wanted at a time: what is left is the
-/// price of leases, messages and rows. A hundred evaluations a candidate; a design holds at most
-/// 200,000.
+/// price of leases, messages and rows. A hundred evaluations a candidate, 100,000 a design; designs
+/// end one after the other.
 class FlatCampaign final : public WorkSource {
  public:
-  static constexpr std::int64_t kPerDesign = 200'000;
+  static constexpr std::int64_t kPerDesign = 100'000;
 
   explicit FlatCampaign(std::int64_t total, std::int64_t window = 10'000)
-      : total_(total), window_(window) {}
+      : total_(total), window_(window), left_(static_cast<std::size_t>(designs()), kPerDesign) {}
 
   std::vector<Task> take_tasks() override;
   void tell(const Outcome& outcome) override;
+  std::vector<DesignId> take_ended() override { return std::exchange(ended_, {}); }
   std::vector<Row> take_rows() override { return std::exchange(rows_, {}); }
   bool finished() const override { return told_ == total_; }
 
@@ -33,6 +34,8 @@ class FlatCampaign final : public WorkSource {
   std::int64_t window_;
   std::int64_t asked_ = 0;
   std::int64_t told_ = 0;
+  std::vector<std::int64_t> left_;  ///< by design
+  std::vector<DesignId> ended_;
   std::vector<Row> rows_;
 };
 

@@ -202,7 +202,8 @@ class Model {
       idle += std::max<std::int64_t>(0, worker.slots - worker.leased);
     const auto ready = static_cast<std::int64_t>(ahead_.size());
     if (idle > ready) {
-      for (const Task& task : source_->take_more(static_cast<std::size_t>(idle - ready)))
+      for (const Task& task : source_->take_more(static_cast<std::size_t>(idle - ready),
+                                                 static_cast<std::size_t>(shape_.slots)))
         ahead_.emplace(task.key, item_of(task).us);
     }
     for (std::size_t number = 0; number < workers_.size() && !ahead_.empty(); ++number) {

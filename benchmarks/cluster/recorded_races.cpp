@@ -145,7 +145,7 @@ void RecordedRaces::drop(Design& design, const RecordedTest& test) {
   }
 }
 
-std::vector<Task> RecordedRaces::take_more(std::size_t count) {
+std::vector<Task> RecordedRaces::take_more(std::size_t count, std::size_t /*slots*/) {
   std::vector<Task> more;
   for (std::size_t number = 0; number < designs_.size(); ++number) {
     Design& design = designs_[number];

@@ -33,7 +33,7 @@ class RecordedRaces final : public WorkSource {
   RecordedRaces(const std::vector<RecordedRace>& races, int designs, std::size_t ahead = 0);
 
   std::vector<Task> take_tasks() override { return std::exchange(tasks_, {}); }
-  std::vector<Task> take_more(std::size_t count) override;
+  std::vector<Task> take_more(std::size_t count, std::size_t slots) override;
   std::vector<EvaluationKey> take_dropped() override { return std::exchange(dropped_, {}); }
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override { return std::exchange(rows_, {}); }

@@ -7,6 +7,12 @@
 #include "base/assert.h"
 
 namespace swarmsmith {
+namespace {
+
+/// Ten designs that look ahead keep 64 slots busy (docs/performance.md).
+constexpr std::size_t kSlotsOfADesign = 6;
+
+}  // namespace
 
 CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
                                std::map<DesignId, StoredDesign> stored,
@@ -16,7 +22,10 @@ CampaignRunner::CampaignRunner(std::vector<DesignPlan> plans,
   for (DesignPlan& plan : plans) {
     const DesignId id = plan.row.id;
     all_.push_back(id);
-    if (std::ranges::find(finished, id) != finished.end()) continue;
+    if (std::ranges::find(finished, id) != finished.end()) {
+      ended_.push_back(id);
+      continue;
+    }
     plan.commands = commands_to(id, commands);
     auto known = stored.extract(id);
     waiting_.emplace(id,
@@ -31,21 +40,35 @@ std::vector<Task> CampaignRunner::take_tasks() {
   return std::exchange(tasks_, {});
 }
 
-std::vector<Task> CampaignRunner::take_more(std::size_t count) {
-  while (!error_ && tasks_.size() < count && open_.size() < most_.at_most && !waiting_.empty())
-    open(waiting_.begin());
+/// One pair ahead costs little, since most tests drop nobody; a further design costs nothing but
+/// memory; more pairs ahead may be for nothing.
+std::vector<Task> CampaignRunner::take_more(std::size_t count, std::size_t slots) {
   std::vector<Task> more = take_tasks();
+  open_more(count, std::min(most_.at_most, slots / kSlotsOfADesign), more);
+  look_ahead(count, 1, more);
+  open_more(count, most_.at_most, more);
+  for (std::int64_t pairs = 1; pairs <= kMostPairsAhead; pairs *= 2)
+    look_ahead(count, pairs, more);
+  return more;
+}
+
+void CampaignRunner::open_more(std::size_t count, std::size_t limit, std::vector<Task>& tasks) {
+  while (!error_ && tasks.size() < count && open_.size() < limit && !waiting_.empty()) {
+    open(waiting_.begin());
+    std::ranges::move(take_tasks(), std::back_inserter(tasks));
+  }
+}
+
+void CampaignRunner::look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks) {
+  if (tasks.size() >= count) return;
   std::vector<DesignRunner*> designs;
   for (auto& [id, design] : open_)
     designs.push_back(&design);
   std::ranges::stable_sort(designs, {}, &DesignRunner::awaited);
-  for (std::int64_t pairs = 1; pairs <= kMostPairsAhead; pairs *= 2) {
-    for (DesignRunner* design : designs) {
-      if (more.size() >= count) return more;
-      design->look_ahead(count - more.size(), pairs, more, rows_);
-    }
+  for (DesignRunner* design : designs) {
+    if (tasks.size() >= count) return;
+    design->look_ahead(count - tasks.size(), pairs, tasks, rows_);
   }
-  return more;
 }
 
 std::vector<EvaluationKey> CampaignRunner::take_dropped() {
@@ -96,6 +119,7 @@ void CampaignRunner::put_away(DesignId id) {
     ended = kept_.extract(kept_order_.front());
     kept_order_.erase(kept_order_.begin());
   }
+  ended_.push_back(ended.key());
   for (const auto& [key, bound] : ended.mapped().outstanding())
     late_.emplace(key, Late{bound, ended.mapped().source()});
 }

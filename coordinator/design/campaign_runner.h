@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/expected.h"
@@ -38,10 +39,12 @@ class CampaignRunner final : public WorkSource {
                  const std::vector<CommandRow>& commands = {}, OpenDesigns most = {});
 
   std::vector<Task> take_tasks() override;
-  /// Further designs are opened first; then all that race are looked ahead in, the nearest pairs
-  /// first, and of these the design that is the nearest to a barrier.
-  std::vector<Task> take_more(std::size_t count) override;
+  /// Designs are opened up to one for six slots. Then all that race are looked ahead in by one
+  /// pair, first the design that is the nearest to a barrier; then any designs are opened, up to
+  /// the limit; then come further pairs.
+  std::vector<Task> take_more(std::size_t count, std::size_t slots) override;
   std::vector<EvaluationKey> take_dropped() override;
+  std::vector<DesignId> take_ended() override { return std::exchange(ended_, {}); }
   Expected<void> carry_out(const CommandRow& command) override;
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override;
@@ -63,6 +66,10 @@ class CampaignRunner final : public WorkSource {
     std::string source;
   };
 
+  /// While there are fewer tasks than `count` and fewer open designs than `limit`.
+  void open_more(std::size_t count, std::size_t limit, std::vector<Task>& tasks);
+  /// Adds tasks up to `count`.
+  void look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks);
   void open_designs();
   /// Starts the design that waits, or the next one.
   void open(std::map<DesignId, Waiting>::iterator next);
@@ -82,6 +89,7 @@ class CampaignRunner final : public WorkSource {
   std::map<EvaluationKey, Late> late_;
   std::vector<Task> tasks_;
   std::vector<EvaluationKey> dropped_;  ///< of designs that were put away
+  std::vector<DesignId> ended_;
   std::vector<Row> rows_;
   std::optional<Error> error_;
   bool state_recorded_ = false;

@@ -99,7 +99,9 @@ std::vector<DesignPlan> plans_of(const CampaignShape& shape) {
 
 RacedCampaign::RacedCampaign(const CampaignShape& shape, std::map<DesignId, StoredDesign> stored,
                              std::vector<DesignId> finished)
-    : runner_(plans_of(shape), std::move(stored), std::move(finished)) {}
+    // Some forget a design when it ends, some keep a few.
+    : runner_(plans_of(shape), std::move(stored), std::move(finished), {},
+              {.finished = static_cast<std::size_t>(shape.seed % 3)}) {}
 
 RacedCampaign::RacedCampaign(const CampaignShape& shape, const SimulatedDisk& disk)
     : RacedCampaign(shape, by_design(disk.scores(), disk.steps(), finished_on(disk)),
@@ -115,8 +117,8 @@ std::vector<Task> RacedCampaign::take_tasks() {
   return tasks;
 }
 
-std::vector<Task> RacedCampaign::take_more(std::size_t count) {
-  std::vector<Task> tasks = runner_.take_more(count);
+std::vector<Task> RacedCampaign::take_more(std::size_t count, std::size_t slots) {
+  std::vector<Task> tasks = runner_.take_more(count, slots);
   for (const Task& task : tasks)
     note(task);
   return tasks;
@@ -146,6 +148,19 @@ void RacedCampaign::tell(const Outcome& outcome) {
   } else {
     runner_.tell(outcome);
   }
+}
+
+std::vector<DesignId> RacedCampaign::take_ended() {
+  std::vector<DesignId> ended = runner_.take_ended();
+  ended_.insert(ended.begin(), ended.end());
+  return ended;
+}
+
+bool RacedCampaign::is_void(PackedKey key) const {
+  const EvaluationKey unpacked = unpack(key);
+  const auto asked = asked_.find(pack(unpacked));
+  const bool told = asked != asked_.end() && asked->second.told;
+  return !told && ended_.contains(design_of(unpacked.candidate));
 }
 
 std::string RacedCampaign::complaint() const {

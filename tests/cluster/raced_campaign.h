@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -46,14 +47,17 @@ class RacedCampaign final : public WorkSource {
                 std::vector<DesignId> finished);
 
   std::vector<Task> take_tasks() override;
-  std::vector<Task> take_more(std::size_t count) override;
+  std::vector<Task> take_more(std::size_t count, std::size_t slots) override;
   std::vector<EvaluationKey> take_dropped() override { return runner_.take_dropped(); }
+  std::vector<DesignId> take_ended() override;
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override { return runner_.take_rows(); }
   bool finished() const override { return runner_.finished(); }
   std::vector<DesignId> unfinished() const override { return runner_.unfinished(); }
 
   std::string complaint() const;
+  /// Of a design that is over, and nobody was told of it: it need not be kept.
+  bool is_void(PackedKey key) const;
 
  private:
   /// What is known of an evaluation that was asked for.
@@ -65,6 +69,7 @@ class RacedCampaign final : public WorkSource {
 
   CampaignRunner runner_;
   std::map<PackedKey, Asked> asked_;
+  std::set<DesignId> ended_;
   std::string complaint_;
 };
 

@@ -338,9 +338,10 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
   if (!message) return fail("the coordinator sent a frame that is malformed");
   for (const pb::Key& key : (*message)->acknowledged().keys()) {
     const PackedKey packed = *pack(key);
-    const SimulatedDisk& disk = campaigns_.at(campaign_of(packed)).disk;
+    const Running& running = campaigns_.at(campaign_of(packed));
+    const SimulatedDisk& disk = running.disk;
     // What nobody wants any more need not be kept.
-    if (disk.finished()) continue;
+    if (disk.finished() || running.source->is_void(packed)) continue;
     if (!disk.holds(packed) && !failed_.contains(packed)) fail("acknowledged what is not on disk");
   }
 }

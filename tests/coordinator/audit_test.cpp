@@ -122,6 +122,20 @@ TEST_F(AuditedScheduler, MakesAnEvaluationTwiceAndKeepsTheFirstResult) {
   EXPECT_EQ(all<AttemptEnded>().at(0).row.outcome, "audited");
 }
 
+TEST_F(AuditedScheduler, ComparesTheBitsOfADesignThatIsOver) {
+  hello(1), hello(2);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 3.0);
+  credit(1, 0);
+  credit(2, 1);
+  scheduler.close_design(0, {1});
+  answer(2, 1, 4.0);
+  EXPECT_EQ(scheduler.counters().audited, 1U);
+  ASSERT_EQ(all<ConflictFound>().size(), 1U);
+  EXPECT_EQ(all<ConflictFound>()[0].row.kept_score, 3.0);
+}
+
 TEST_F(AuditedScheduler, DoesNotWaitForASecondWorkerThatIsNotThere) {
   hello(1);
   credit(1, 5);

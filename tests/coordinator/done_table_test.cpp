@@ -29,6 +29,26 @@ TEST(DoneTable, ComparesEveryBit) {
   EXPECT_FALSE(DoneTable::same(rejected, kOk, 0, 0));
 }
 
+TEST(DoneTable, ForgetsADesignThatIsOver) {
+  const auto key = [](std::int64_t design, std::uint32_t campaign) {
+    return pack({.candidate = candidate_id({design}, 1), .pair = 1}, campaign);
+  };
+  DoneTable table;
+  table.insert(key(1, 0), kOk, 1.5, 7);
+  table.insert(key(2, 0), kOk, 2.5, 7);
+  table.insert(key(1, 1), kOk, 3.5, 7);
+  table.close(0, {1});
+  EXPECT_EQ(table.find(key(1, 0)), nullptr);
+  EXPECT_EQ(table.insert(key(1, 0), kOk, 1.5, 7), nullptr);
+  EXPECT_TRUE(table.is_closed(key(1, 0)));
+  EXPECT_FALSE(table.is_closed(key(2, 0)));
+  EXPECT_FALSE(table.is_closed(key(1, 1)));
+  EXPECT_FALSE(table.is_closed(key(9, 9)));
+  EXPECT_NE(table.find(key(2, 0)), nullptr);
+  EXPECT_NE(table.find(key(1, 1)), nullptr);
+  EXPECT_EQ(table.size(), 2U);
+}
+
 TEST(DoneTable, FindsAMillion) {
   DoneTable table;
   for (PackedKey key = 1; key <= 1'000'000; ++key) {

@@ -59,6 +59,25 @@ TEST_F(Schedulers, ReportASecondResultWithOtherBits) {
   EXPECT_EQ(all<ConflictFound>()[0].row.other_score, 2.6);
 }
 
+TEST_F(Schedulers, AcknowledgeWhateverComesOfADesignThatIsOver) {
+  hello(1);
+  credit(1, 2);
+  want(1, 2);
+  answer(1, 1, 2.5);
+  scheduler.close_design(0, {1});
+  answer(1, 1, 2.6);
+  EXPECT_TRUE(all<ConflictFound>().empty()) << "it is not compared any more";
+  answer(1, 77);  // nobody asked for it
+  EXPECT_EQ(all<OutcomeRepeated>().size(), 2U);
+  EXPECT_EQ(scheduler.counters().duplicates, 2U);
+  EXPECT_EQ(scheduler.counters().unknown, 0U);
+  // What was given still gets its outcome.
+  answer(1, 2, 3.5);
+  answer(1, 2, 3.5);
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 2U);
+  EXPECT_EQ(scheduler.counters().duplicates, 3U);
+}
+
 TEST_F(Schedulers, TakeAResultThatWasNeverLeased) {
   hello(1);
   want(1, 1);

@@ -135,6 +135,18 @@ TEST(CampaignRunner, KeepsTheBudgetAndTestsTheWinnerOnFreshSeeds) {
   }
 }
 
+TEST(CampaignRunner, SaysWhichDesignsAreOverForGood) {
+  Memory memory;
+  CampaignRunner runner(small_plans(3), {}, {DesignId{2}}, {},
+                        {.at_least = 2, .at_most = 2, .finished = 1});
+  EXPECT_EQ(runner.take_ended(), std::vector<DesignId>{{2}});
+  run(runner, memory, Rng(1));
+  ASSERT_TRUE(runner.finished());
+  // The last one can be extended yet.
+  ASSERT_EQ(runner.take_ended().size(), 1U);
+  EXPECT_TRUE(runner.take_ended().empty());
+}
+
 TEST(CampaignRunner, ARejectedCandidateIsDroppedAndItsLaterRunsCountNowhere) {
   Memory memory;
   CampaignRunner runner(small_plans(1), {}, {});

@@ -43,7 +43,7 @@ class IdlePool {
     for (const Task& task : runner_.take_tasks())
       hold(task);
     if (rng_.bernoulli(looks_)) {
-      for (const Task& task : runner_.take_more(1 + rng_.below(12)))
+      for (const Task& task : runner_.take_more(1 + rng_.below(12), 8))
         hold(task);
     }
     for (const EvaluationKey& key : runner_.take_dropped()) {

@@ -68,7 +68,7 @@ TEST(LookAhead, ComesAfterWhatIsWantedAndIsGivenOnce) {
   const std::size_t wanted = given.size();
   std::int64_t last_pair = 0;
   for (;;) {
-    const std::vector<Task> more = runner.take_more(7);
+    const std::vector<Task> more = runner.take_more(7, 8);
     EXPECT_LE(more.size(), 7U);
     if (more.empty()) break;
     for (const Task& task : more) {
@@ -86,7 +86,7 @@ TEST(LookAhead, WhatIsWantedComesAgainAndWhatIsVoidIsDropped) {
   CampaignRunner runner(batched(plans(campaign_with("max_experiments = 600"))), {}, {});
   const std::vector<Task> first = runner.take_tasks();
   std::map<EvaluationKey, int> ahead;
-  for (const Task& task : runner.take_more(1000))
+  for (const Task& task : runner.take_more(1000, 8))
     ahead[task.key] = 0;
   ASSERT_FALSE(ahead.empty());
   for (const Task& task : first)
@@ -101,11 +101,11 @@ TEST(LookAhead, WhatIsWantedComesAgainAndWhatIsVoidIsDropped) {
   EXPECT_GT(dropped.size(), 0U);
   for (const EvaluationKey& key : dropped)
     EXPECT_EQ(++ahead.at(key), 1);
-  for (const Task& task : runner.take_more(1000))
+  for (const Task& task : runner.take_more(1000, 8))
     EXPECT_FALSE(ahead.contains(task.key)) << "it may be running still";
 }
 
-TEST(LookAhead, OpensFurtherDesignsFirst) {
+TEST(LookAhead, OpensADesignForEachSixSlotsAndMoreWhenOnePairAheadIsNotEnough) {
   std::vector<DesignPlan> designs = batched(plans(campaign_with("max_experiments = 600")));
   const DesignPlan one = designs.front();
   for (std::int64_t id = 2; id <= 9; ++id) {
@@ -120,13 +120,20 @@ TEST(LookAhead, OpensFurtherDesignsFirst) {
     return found.size();
   };
   EXPECT_EQ(designs_in(runner.take_tasks()), 2U);
-  const std::vector<Task> third = runner.take_more(1);
+  const std::vector<Task> third = runner.take_more(1, 18);
   EXPECT_EQ(designs_in(third), 1U);
   EXPECT_TRUE(std::ranges::none_of(third, &Task::ahead));
-  const std::vector<Task> more = runner.take_more(100'000);
+  const std::vector<Task> near = runner.take_more(1, 18);
+  ASSERT_EQ(near.size(), 1U) << "there is one for each six slots";
+  EXPECT_TRUE(near.front().ahead);
+  const std::vector<Task> more = runner.take_more(100'000, 8);
   EXPECT_EQ(designs_in(more), 5U) << "two that were not open, and all five ahead";
   EXPECT_TRUE(std::ranges::any_of(more, &Task::ahead));
-  EXPECT_TRUE(runner.take_more(10).empty());
+  const auto is_new = [](const Task& task) {
+    return !task.ahead && design_of(task.key.candidate) > DesignId{3};
+  };
+  EXPECT_TRUE(std::ranges::any_of(more, is_new));
+  EXPECT_TRUE(runner.take_more(10, 8).empty());
 }
 
 TEST(LookAhead, TheDesignThatIsNearestToABarrierComesFirst) {
@@ -138,7 +145,7 @@ TEST(LookAhead, TheDesignThatIsNearestToABarrierComesFirst) {
   for (const Task& task : runner.take_tasks()) {
     if (design_of(task.key.candidate) == DesignId{2} && ++left > 3) runner.tell(honest(task));
   }
-  for (const Task& task : runner.take_more(4))
+  for (const Task& task : runner.take_more(4, 8))
     EXPECT_EQ(design_of(task.key.candidate), DesignId{2});
 }
 
@@ -148,7 +155,7 @@ TEST(LookAhead, OutcomesAfterTheEndAreStored) {
                         {.at_least = 1, .at_most = 1, .finished = 0});
   std::vector<Task> tasks = runner.take_tasks();
   std::map<EvaluationKey, Task> ahead;
-  for (const Task& task : runner.take_more(1000))
+  for (const Task& task : runner.take_more(1000, 8))
     ahead.emplace(task.key, task);
   for (; !tasks.empty(); tasks = runner.take_tasks()) {
     for (const Task& task : tasks) {
