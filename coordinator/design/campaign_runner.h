@@ -13,7 +13,7 @@
 
 namespace swarmsmith {
 
-/// How many designs a campaign holds in memory; one of 100,000 experiments takes some 20 MB.
+/// How many designs a campaign holds in memory; one of 100,000 experiments takes some 40 MB.
 struct OpenDesigns {
   /// Race at the same time whatever the workers: one alone leaves slots idle at each of its
   /// barriers (docs/decisions/0008).
