@@ -76,7 +76,7 @@ Expected<HttpAddress> parse_http_address(const std::string& text) {
   int number = 0;
   const auto [end, error] = std::from_chars(port->data(), port->data() + port->size(), number);
   const bool whole = error == std::errc() && end == port->data() + port->size();
-  if (!whole || number < 1 || number > 65535) return wrong();
+  if (!whole || number < 0 || number > 65535) return wrong();
   return HttpAddress{host, number};
 }
 

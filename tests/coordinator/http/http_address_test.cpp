@@ -14,7 +14,8 @@ TEST(HttpAddress, IsHostAndPort) {
   EXPECT_EQ(parse_http_address("127.0.0.1:8347")->port, 8347);
   EXPECT_EQ(parse_http_address("[::1]:80")->host, "::1");
   EXPECT_EQ(parse_http_address("localhost:*")->port, 0);
-  for (const char* wrong : {"", "8347", "a:", "a:0", "a:65536", "a:80x", ":80", "[::1]", "[::1"})
+  EXPECT_EQ(parse_http_address("localhost:0")->port, 0);
+  for (const char* wrong : {"", "8347", "a:", "a:-1", "a:65536", "a:80x", ":80", "[::1]", "[::1"})
     EXPECT_FALSE(parse_http_address(wrong)) << wrong;
 }
 
