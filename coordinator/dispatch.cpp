@@ -1,4 +1,4 @@
-// The scheduler's other half: who gets what, and what the passing of time does.
+// Who gets what from the scheduler, and what the passing of time does.
 
 #include <algorithm>
 

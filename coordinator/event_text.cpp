@@ -40,4 +40,8 @@ std::string event_text(std::initializer_list<EventField> fields) {
   return out + "}";
 }
 
+std::string name_of(const EvaluationKey& key) {
+  return to_string(key.candidate) + " on pair " + std::to_string(key.pair);
+}
+
 }  // namespace swarmsmith
