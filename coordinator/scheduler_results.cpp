@@ -1,0 +1,245 @@
+// What comes back to the scheduler: scores, failures, signs of life, time-outs.
+
+#include <algorithm>
+#include <bit>
+
+#include "coordinator/scheduler.h"
+#include "target/runner.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr int kFailuresOfARejection = 2;
+
+double value_of(const DoneEntry& entry) {
+  return std::bit_cast<double>(entry.score_bits);
+}
+
+}  // namespace
+
+void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> results,
+                           TimePoint now) {
+  WorkerEntry* entry = heard(sender, now);
+  if (entry == nullptr) return;
+  SendAcknowledged acknowledged{entry->peer, entry->hello.incarnation, {}};
+  for (const WorkerResult& result : results) {
+    leases_.loads().settle(entry->number, result.key);
+    if (entry->quarantined || stopped_.contains(campaign_of(result.key))) {
+      acknowledged.keys.push_back(result.key);
+    } else if (result.failure.empty()) {
+      on_score(*entry, result, now);
+    } else {
+      on_failure(*entry, result, acknowledged, now);
+    }
+  }
+  if (!acknowledged.keys.empty()) actions_.emplace_back(std::move(acknowledged));
+}
+
+void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {
+  TaskRecord* record = leases_.find(result.key);
+  if (record != nullptr && !record->audit) {
+    ++entry.done;
+    const bool failed_elsewhere = record->avoid != 0 && record->avoid != entry.number;
+    if (failed_elsewhere) strike(record->avoid, now);
+    const std::int64_t every = options_.evaluates_programs ? 0 : policy_of(*record).audit_every;
+    if (!result.rejected && Audits::chooses(result.key, every)) {
+      audits_.open(record->task, {entry.number, result.score, result.state_digest});
+    }
+    learn(record->task.campaign, result.wall_us);
+    note_second_copy(*record, entry.number, now);
+    const Lease* lease = record->lease_of(entry.number);
+    CampaignMeters& meters = leases_.meters(record->task.campaign);
+    meters.evaluation.observe(std::chrono::microseconds(std::max<std::int64_t>(result.wall_us, 0)));
+    if (lease != nullptr) meters.round_trip.observe(now - lease->granted);
+    accept(
+        {.key = record->task.key,
+         .campaign = record->task.campaign,
+         .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
+         .score = result.rejected ? 0 : result.score,
+         .state_digest = result.state_digest,
+         .wall_us = result.wall_us,
+         .worker = entry.number,
+         .attempt = lease != nullptr ? lease->attempt : std::max<std::int64_t>(record->attempts, 1),
+         .time = result.time});
+    return;
+  }
+  const bool is_audit = record != nullptr && record->lease_of(entry.number) != nullptr;
+  if (is_audit) return on_audited(entry, result, now);
+  if (is_done(result.key)) return repeat(entry, result);
+  // Wanted later, perhaps: after a restart the race may not have come so far. Not acknowledged, so
+  // it comes again.
+  ++counters_.unknown;
+  const std::uint32_t campaign = campaign_of(result.key);
+  if (campaign < closed_.size() && closed_[campaign]) {
+    actions_.emplace_back(SendAcknowledged{entry.peer, entry.hello.incarnation, {result.key}});
+  }
+}
+
+void Scheduler::accept(const Outcome& outcome) {
+  const PackedKey key = key_of(outcome);
+  leases_.remove(key, outcome.worker);
+  done_.insert(key, outcome.status, outcome.score, outcome.state_digest);
+  CampaignMeters& meters = leases_.meters(outcome.campaign);
+  const bool ok = outcome.status == EvaluationStatus::Ok;
+  ++(ok ? counters_.done : counters_.rejected);
+  ++(ok ? meters.done : meters.rejected);
+  actions_.emplace_back(OutcomeAccepted{outcome});
+}
+
+/// A row for the copy that came second, or will.
+void Scheduler::note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now) {
+  if (!record.second) return;
+  for (const Lease* lease : {&*record.lease, &*record.second}) {
+    if (lease->worker != by) note_attempt(key_of(record.task), *lease, "second copy", now);
+  }
+}
+
+void Scheduler::repeat(const WorkerEntry& entry, const WorkerResult& result) {
+  ++counters_.duplicates;
+  actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
+  // Two runs of a program may differ, in its time at least: the first one counts.
+  if (options_.evaluates_programs) return;
+  if (const DoneEntry* known = done_.find(result.key)) judge(entry, *known, result);
+}
+
+/// Another result with other bits: the campaign is not deterministic, or somebody lies.
+void Scheduler::judge(const WorkerEntry& entry, const DoneEntry& known,
+                      const WorkerResult& result) {
+  if (DoneTable::same(known, EvaluationStatus::Ok, result.score, result.state_digest)) return;
+  ++counters_.conflicts;
+  const EvaluationKey key = unpack(result.key);
+  actions_.emplace_back(ConflictFound{campaign_of(result.key),
+                                      {.key = key,
+                                       .kept_score = value_of(known),
+                                       .other_score = result.score,
+                                       .other_state_digest = result.state_digest,
+                                       .other_worker = entry.number}});
+  note("error", "not deterministic",
+       {{"evaluation", name_of(key)}, {"worker", entry.number}, {"host", entry.hello.host}},
+       campaign_of(result.key));
+}
+
+void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
+                           SendAcknowledged& acknowledged, TimePoint now) {
+  // A failure is told once: for the lease under which it ran. Nothing is written, so the worker
+  // may forget it at once.
+  acknowledged.keys.push_back(result.key);
+  TaskRecord* record = leases_.find(result.key);
+  const Lease* lease = record == nullptr ? nullptr : record->lease_of(entry.number);
+  if (lease == nullptr || (!lease->adopted && lease->attempt != result.attempt)) return;
+  ++entry.failed;
+  ++counters_.failed;
+  ++leases_.meters(record->task.campaign).no_score;
+  note("warning", "evaluation failed",
+       {{"evaluation", name_of(record->task.key)},
+        {"worker", entry.number},
+        {"reason", result.failure}},
+       record->task.campaign);
+  actions_.emplace_back(FailureKept{record->task.campaign,
+                                    {.key = record->task.key,
+                                     .attempt = lease->attempt,
+                                     .worker = entry.number,
+                                     .reason = result.failure,
+                                     .command = result.details.command,
+                                     .output = result.details.output,
+                                     .errors = result.details.errors}});
+  note_attempt(*record, entry.number, "failed", now);
+  if (record->audit) {
+    // The strike may send the worker to quarantine, which takes its leases back.
+    take_back(*record, entry.number);
+    return strike(entry.number, now);
+  }
+  record->avoid = entry.number;
+  if (record->second) {
+    // The other copy tells; two of them count once.
+    leases_.requeue(*record, entry.number);
+    return;
+  }
+  ++record->failures;
+  // A program's worker has tried again by itself, as often as the campaign allows.
+  if (options_.evaluates_programs || record->failures >= kFailuresOfARejection) {
+    reject(*record, entry.number, result.failure, result.details);
+  } else {
+    take_back(*record, entry.number);
+  }
+}
+
+void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
+                             std::span<const RunningReport> running, TimePoint now,
+                             const std::optional<SlotReport>& slots) {
+  WorkerEntry* entry = heard(sender, now);
+  if (entry == nullptr || sender.sequence <= entry->last_sequence) return;
+  entry->last_sequence = sender.sequence;
+  set_credit(*entry, credit);
+  if (slots && slots->slot_us > entry->slot_us) {
+    entry->slot_us = slots->slot_us;
+    entry->busy_us = slots->busy_us;
+  }
+  entry->running = running.size();
+  for (const RunningReport& report : running) {
+    if (leases_.loads().renew_lingering(entry->number, report.key, now)) continue;
+    TaskRecord* record = leases_.find(report.key);
+    Lease* lease = record == nullptr ? nullptr : record->lease_of(entry->number);
+    if (lease == nullptr) continue;
+    lease->renewed = now;
+    // Of a program the worker itself keeps the time.
+    if (options_.evaluates_programs) continue;
+    const auto limit = policy_of(*record).task_timeout;
+    if (std::chrono::milliseconds(report.elapsed_ms) > limit) on_timeout(*entry, *record, now);
+  }
+}
+
+/// A time never becomes a score: another try elsewhere, then the end.
+void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now) {
+  ++entry.failed;
+  ++counters_.failed;
+  ++leases_.meters(record.task.campaign).timed_out;
+  note("warning", "evaluation timed out",
+       {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign);
+  note_attempt(record, entry.number, "timed out", now);
+  if (record.audit) {
+    take_back(record, entry.number);
+    return strike(entry.number, now);
+  }
+  record.avoid = entry.number;
+  const CampaignPolicy& policy = policy_of(record);
+  // Two copies that hang count once.
+  const bool is_last = !record.second && ++record.timeouts > policy.retries;
+  record.troubled = is_last && record.task.ahead;
+  leases_.requeue(record, entry.number);
+  if (is_last && !record.task.ahead) {
+    stop(record.task.campaign,
+         "the evaluation of " + name_of(record.task.key) + " took longer than " +
+             std::to_string(
+                 std::chrono::duration_cast<std::chrono::seconds>(policy.task_timeout).count()) +
+             " s in " + std::to_string(record.timeouts) +
+             " attempts: raise task_timeout_s, or retries");
+  }
+}
+
+/// `record` is gone afterwards, unless the campaign stops.
+void Scheduler::reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
+                       const FailureDetails& details) {
+  const EvaluationKey key = record.task.key;
+  if (policy_of(record).stop_on_failure && record.task.ahead) {
+    // Nobody may ever ask for it: no reason to stop before somebody does.
+    record.troubled = true;
+    leases_.requeue(record, worker);
+    return;
+  }
+  if (policy_of(record).stop_on_failure) {
+    std::string message = "the evaluation of " + name_of(key) + " failed: ";
+    message += message_of(reason, details);
+    if (!details.command.empty()) message += "It is kept in the table `failure` of the store.";
+    return stop(record.task.campaign, message);
+  }
+  note("warning", "evaluation rejected", {{"evaluation", name_of(key)}, {"reason", reason}},
+       record.task.campaign);
+  accept({.key = key,
+          .campaign = record.task.campaign,
+          .status = EvaluationStatus::Rejected,
+          .worker = worker,
+          .attempt = std::max<std::int64_t>(record.attempts, 1)});
+}
+
+}  // namespace swarmsmith
