@@ -1,4 +1,5 @@
 """Workers behind a real sshd: whichever end dies, nothing stays behind, and the answer is the same."""
+import contextlib
 import os
 import pathlib
 import signal
@@ -62,8 +63,12 @@ class Ssh(ProgramTest):
         return process
 
     def workers(self):
-        return [pid for pid in processes(str(self.worker))
-                if os.path.basename(os.readlink(f"/proc/{pid}/exe")) == "swarmsmith-worker"]
+        found = []
+        for pid in processes(str(self.worker)):
+            with contextlib.suppress(FileNotFoundError):  # it ended meanwhile
+                if os.path.basename(os.readlink(f"/proc/{pid}/exe")) == "swarmsmith-worker":
+                    found.append(pid)
+        return found
 
     def wait_for_workers(self, count):
         wait_for(lambda: len(self.workers()) == count, f"{count} workers\n", 30)
