@@ -14,16 +14,12 @@ class HostsTest(FaultTest):
 
     def fleet(self, first=800):
         self.hosts = Hosts(self, ["w1", "w2"])
-        # The coordinator listens on loopback; the host hands it what comes over the network. That
-        # keeps ZeroMQ's connections end to end.
-        host = self.hosts.host("c")
-        self.hosts.on(host, "sysctl", "-qw", "net.ipv4.conf.all.route_localnet=1")
-        self.hosts.on(host, "nft", "add table ip entry; add chain ip entry in { type nat hook "
-                      "prerouting priority -100; }; add rule ip entry in tcp dport "
-                      f"{self.port} dnat to 127.0.0.1")
-        self.coordinator = self.serve(bind=f"127.0.0.1:{self.port}", prefix=self.hosts.at("c"))
-        self.workers = [self.worker(f"10.77.0.1:{self.port}", prefix=self.hosts.at(name))
-                        for name in ("w1", "w2")]
+        # Off loopback, so with keys.
+        keys = self.keygen(self.folder / "keys")
+        address = f"10.77.0.1:{self.port}"
+        self.coordinator = self.serve("--keys", keys, bind=address, prefix=self.hosts.at("c"))
+        self.workers = [self.worker(address, "--key", keys / "worker.key",
+                                    prefix=self.hosts.at(name)) for name in ("w1", "w2")]
         if first:
             self.wait_stored(first)
 

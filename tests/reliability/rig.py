@@ -182,6 +182,11 @@ class FaultTest(unittest.TestCase):
             self.assertTrue(it.alive(), it.tail())
         return it
 
+    def keygen(self, folder, *arguments):
+        done = call("keygen", folder, *arguments)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return folder
+
     def run_local(self, *arguments, env=None, prefix=()):
         """A coordinator with local workers."""
         return self.start("run", SWARMSMITH, "run", self.file, "--store", self.store, "--json",
