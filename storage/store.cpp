@@ -156,7 +156,7 @@ Expected<std::unique_ptr<Store>> Store::open(const fs::path& path, const Campaig
                                              const std::vector<DesignRow>& designs,
                                              const StoreOptions& options) {
   if (auto folder = check_folder(path); !folder) return Unexpected(folder.error());
-  auto lock = LockFile::acquire(path);
+  auto lock = LockFile::acquire(path, options.patience);
   if (!lock) return Unexpected(lock.error());
   const bool exists = fs::exists(path);
   const bool unclean = exists && (lock->left_behind() || has_pending_log(path));

@@ -1,6 +1,7 @@
 #include "coordinator/cli/campaign_members.h"
 
 #include <algorithm>
+#include <chrono>
 #include <csignal>
 #include <set>
 #include <utility>
@@ -15,6 +16,12 @@
 #include "coordinator/paused_designs.h"
 
 namespace swarmsmith::cli {
+namespace {
+
+/// A command to the campaign at rest (pause, resume) may be about to end.
+constexpr std::chrono::milliseconds kPatience{2000};
+
+}  // namespace
 
 std::string name_among(const std::vector<Campaign>& campaigns, const Campaign& campaign) {
   const bool is_alone = std::ranges::count(campaigns, campaign.name, &Campaign::name) == 1;
@@ -32,6 +39,7 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
   for (std::size_t i = 0; i < members_.size(); ++i) {
     const Campaign& campaign = *members_[i].campaign;
     StoreOptions options;
+    options.patience = kPatience;
     // A run of a program may have cost minutes: it waits for nobody.
     if (campaign.target) options.gather = std::chrono::milliseconds(0);
     auto store =

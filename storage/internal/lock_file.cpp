@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include <fmt/format.h>
@@ -40,8 +41,11 @@ bool still_there(int descriptor, const std::filesystem::path& path) {
 
 }  // namespace
 
-Expected<LockFile> LockFile::acquire(const std::filesystem::path& store) {
+Expected<LockFile> LockFile::acquire(const std::filesystem::path& store,
+                                     std::chrono::milliseconds patience) {
+  constexpr std::chrono::milliseconds kLookAgain{20};
   const std::filesystem::path path = store.string() + ".lock";
+  const auto deadline = std::chrono::steady_clock::now() + patience;
   while (true) {
     const int descriptor = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
     if (descriptor < 0) {
@@ -53,6 +57,10 @@ Expected<LockFile> LockFile::acquire(const std::filesystem::path& store) {
     if (::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
       const std::string holder = read_holder(descriptor);
       ::close(descriptor);
+      if (std::chrono::steady_clock::now() < deadline) {
+        std::this_thread::sleep_for(kLookAgain);
+        continue;
+      }
       return unexpected(ErrorKind::Conflict,
                         fmt::format("another process is writing this store ({}); wait for it to "
                                     "end or stop it, or read with a read-only command",

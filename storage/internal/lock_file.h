@@ -1,5 +1,6 @@
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 
 #include "base/expected.h"
@@ -12,9 +13,10 @@ namespace swarmsmith {
 /// store is suspect.
 class LockFile {
  public:
-  /// Conflict when another process (or another store of this one) holds it, with its pid and host;
-  /// BadInput when the file cannot be made.
-  static Expected<LockFile> acquire(const std::filesystem::path& store);
+  /// Conflict when another process (or another store of this one) holds it for as long as that, with
+  /// its pid and host; BadInput when the file cannot be made.
+  static Expected<LockFile> acquire(const std::filesystem::path& store,
+                                    std::chrono::milliseconds patience);
 
   LockFile(LockFile&& other) noexcept;
   LockFile& operator=(LockFile&&) = delete;

@@ -53,6 +53,12 @@ class Commands(ProgramTest):
                 self.fail(what)
             time.sleep(0.02)
 
+    def until_coordinated_by(self, process):
+        """Until this program has said where it is, not one that was killed before it."""
+        file = self.folder / "campaign.db.coordinator"
+        self.until(lambda: file.exists() and f"pid = {process.pid}" in file.read_text().splitlines(),
+                   "no coordinator")
+
     def designs(self):
         """State and experiments of each design; nothing while the store is not there yet."""
         # Not by the program, which takes so long to start under load that the race is over then.
@@ -95,7 +101,7 @@ class Commands(ProgramTest):
         send(process.pid, signal.SIGKILL)
         process.wait()
         process = self.start_campaign(self.store, "--workers", "2")
-        self.until(lambda: (self.folder / "campaign.db.coordinator").exists(), "no coordinator")
+        self.until_coordinated_by(process)
         self.assertIn("nothing to do", self.ask("pause", self.store, "d2"))
         self.assertEqual(self.used(2), stands)
         self.assertIn("d2", self.ask("status", self.store))
@@ -109,7 +115,7 @@ class Commands(ProgramTest):
         self.assertIn("paused: d1, d2", self.ask("pause", self.store))
         before = self.used(1)
         process = self.start_campaign(self.store, "--workers", "2")
-        self.until(lambda: (self.folder / "campaign.db.coordinator").exists(), "no coordinator")
+        self.until_coordinated_by(process)
         self.assertIn("nothing to do", self.ask("pause", self.store))
         self.assertEqual(self.used(1), before)
         self.stop(process)

@@ -7,6 +7,7 @@
 
 #include <fstream>
 #include <functional>
+#include <thread>
 
 #include "storage/internal/file_checks.h"
 #include "storage/internal/schema.h"
@@ -133,6 +134,17 @@ TEST_F(OpeningTest, RefusesASecondWriterOfTheSameProcess) {
   const auto first = open_store(path, campaign);
   EXPECT_EQ(refusal().kind, ErrorKind::Conflict);
   EXPECT_THAT(refusal().message, HasSubstr(fmt::format("pid={}", ::getpid())));
+}
+
+TEST_F(OpeningTest, WaitsForAWriterThatIsSoonDone) {
+  auto first = open_store(path, campaign);
+  const std::jthread brief([&first] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    first.reset();
+  });
+  const auto second = Store::open(path, campaign.campaign, campaign.designs,
+                                  {.patience = std::chrono::milliseconds(60'000)});
+  EXPECT_TRUE(second.has_value());
 }
 
 /// A child that does `work`, then writes a byte and waits to be killed.
