@@ -8,7 +8,7 @@
 #include <string_view>
 #include <vector>
 
-#include "analysis/svg.h"
+#include "analysis/drawing/svg.h"
 #include "tests/sim/engine/comparison.h"
 #include "tests/sim/engine/open_loop.h"
 

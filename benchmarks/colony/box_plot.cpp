@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "analysis/svg.h"
+#include "analysis/drawing/svg.h"
 
 namespace swarmsmith {
 namespace {

@@ -6,8 +6,8 @@
 #include <string_view>
 #include <utility>
 
-#include "analysis/arena_picture.h"
-#include "analysis/svg.h"
+#include "analysis/arena/arena_picture.h"
+#include "analysis/drawing/svg.h"
 #include "sim/control/module.h"
 #include "sim/mission/trajectory_csv.h"
 

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/reading_columns.h"
+#include "analysis/arena/reading_columns.h"
 #include "base/expected.h"
 #include "coordinator/cli/options.h"
 #include "sim/control/machine.h"

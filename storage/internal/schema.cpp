@@ -8,6 +8,7 @@
 
 #include "embedded/kClusterSchema.h"
 #include "embedded/kInitialSchema.h"
+#include "embedded/kResultsSchema.h"
 #include "embedded/kTargetsSchema.h"
 #include "embedded/kViews.h"
 
@@ -30,9 +31,10 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 2> kMigrations = {
+  static const std::array<Migration, 3> kMigrations = {
       Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
       Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
+      Migration{4, [](sqlite::Connection& connection) { connection.execute(kResultsSchema); }},
   };
   return kMigrations;
 }

@@ -65,13 +65,13 @@ LEFT JOIN pair AS p
 -- Where a targetEvaluator says the costs, its calls for test instances have negative instances.
 CREATE VIEW v_design_scores AS
 SELECT d.id AS design, d.mission, d.method, d.repetition, d.best AS candidate,
-       s.name AS source, e.pair, p.instance, p.seed, iif(v.pair IS NULL, e.score, v.score) AS score
+       s.name AS source, CASE e.purpose WHEN 2 THEN 'test' ELSE 'score' END AS purpose, e.pair, p.instance, p.seed, iif(v.pair IS NULL, e.score, v.score) AS score
 FROM design AS d
-JOIN evaluation AS e ON e.candidate = d.best AND e.purpose = 2
+JOIN evaluation AS e ON e.candidate = d.best AND e.purpose IN (2, 4) AND e.score IS NOT NULL
 JOIN source AS s ON s.id = e.source
-LEFT JOIN pair AS p ON p.design = d.id AND p.purpose = 2 AND p.number = e.pair
+LEFT JOIN pair AS p ON p.design = d.id AND p.purpose = e.purpose AND p.number = e.pair
 LEFT JOIN pair AS q
-  ON q.design = d.id AND q.purpose = 5 AND q.instance = -p.instance AND q.seed = p.seed
+  ON e.purpose = 2 AND q.design = d.id AND q.purpose = 5 AND q.instance = -p.instance AND q.seed = p.seed
 LEFT JOIN evaluation AS v
   ON v.candidate = e.candidate AND v.purpose = 5 AND v.pair = q.number
 WHERE d.state = 3;
@@ -83,7 +83,7 @@ SELECT mission,
 FROM (SELECT d.mission, d.id AS design, d.method, d.repetition, d.best AS candidate, d.best_mean,
              avg(t.score) AS test_mean, count(t.score) AS test_runs
       FROM design AS d
-      LEFT JOIN v_design_scores AS t ON t.design = d.id
+      LEFT JOIN v_design_scores AS t ON t.design = d.id AND t.purpose = 'test'
       WHERE d.state = 3 AND d.best IS NOT NULL
       GROUP BY d.id);
 

@@ -14,10 +14,13 @@ struct OldStore {
   std::int64_t schema;
   const char* digest;
   std::size_t evaluations;
+
+  friend void PrintTo(const OldStore& old, std::ostream* out) { *out << "schema " << old.schema; }
 };
 
 constexpr OldStore kOldStores[] = {{1, "c1ab46cfade6d60d3caa2324616eca67", 251},
-                                   {2, "5edcb3cb406469e4e5ce487520d2afe4", 253}};
+                                   {2, "5edcb3cb406469e4e5ce487520d2afe4", 253},
+                                   {3, "8541a7690103a070b99e928c2d645e00", 315}};
 
 struct MigrationTest : testing::TestWithParam<OldStore> {
   const OldStore& old = GetParam();

@@ -21,7 +21,7 @@ const std::map<std::string, std::string> kColumns{
      "modules runs mean eliminated_in eliminated_at eliminated_by"},
     {"v_convergence", "design iteration rank candidate mean n experiments_used"},
     {"v_design_scores",
-     "design mission method repetition candidate source pair instance seed score"},
+     "design mission method repetition candidate source purpose pair instance seed score"},
     {"v_designs",
      "design mission method repetition seed state budget used iteration best_candidate best_mean "
      "reason"},

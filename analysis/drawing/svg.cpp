@@ -1,4 +1,4 @@
-#include "analysis/svg.h"
+#include "analysis/drawing/svg.h"
 
 #include <algorithm>
 #include <array>

@@ -1,4 +1,4 @@
-#include "analysis/internal/arena_view.h"
+#include "analysis/arena/internal/arena_view.h"
 
 #include <algorithm>
 #include <limits>

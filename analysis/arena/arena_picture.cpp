@@ -1,12 +1,12 @@
-#include "analysis/arena_picture.h"
+#include "analysis/arena/arena_picture.h"
 
 #include <map>
 
-#include "analysis/internal/arena_drawing.h"
-#include "analysis/internal/arena_view.h"
-#include "analysis/internal/figure_style.h"
-#include "analysis/internal/legend.h"
-#include "analysis/svg.h"
+#include "analysis/arena/internal/arena_drawing.h"
+#include "analysis/arena/internal/arena_view.h"
+#include "analysis/drawing/figure_style.h"
+#include "analysis/drawing/legend.h"
+#include "analysis/drawing/svg.h"
 
 namespace swarmsmith {
 namespace {

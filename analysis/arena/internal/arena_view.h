@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "analysis/svg.h"
+#include "analysis/drawing/svg.h"
 #include "sim/mission/arena.h"
 #include "sim/mission/pose.h"
 #include "sim/mission/solid.h"

@@ -1,4 +1,4 @@
-#include "analysis/arena_picture.h"
+#include "analysis/arena/arena_picture.h"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "analysis/svg.h"
+#include "analysis/drawing/svg.h"
 
 namespace swarmsmith {
 

@@ -1,10 +1,10 @@
-#include "analysis/internal/legend.h"
+#include "analysis/drawing/legend.h"
 
 #include <algorithm>
 #include <array>
 #include <utility>
 
-#include "analysis/internal/figure_style.h"
+#include "analysis/drawing/figure_style.h"
 
 namespace swarmsmith {
 namespace {

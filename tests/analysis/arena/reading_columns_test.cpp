@@ -1,4 +1,4 @@
-#include "analysis/reading_columns.h"
+#include "analysis/arena/reading_columns.h"
 
 #include <gmock/gmock.h>
 

@@ -2,9 +2,9 @@
 
 #include <cstddef>
 
-#include "analysis/arena_picture.h"
-#include "analysis/internal/arena_view.h"
-#include "analysis/svg.h"
+#include "analysis/arena/arena_picture.h"
+#include "analysis/arena/internal/arena_view.h"
+#include "analysis/drawing/svg.h"
 
 namespace swarmsmith {
 

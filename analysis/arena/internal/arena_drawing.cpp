@@ -1,4 +1,4 @@
-#include "analysis/internal/arena_drawing.h"
+#include "analysis/arena/internal/arena_drawing.h"
 
 #include <algorithm>
 #include <array>
@@ -8,7 +8,7 @@
 #include <string_view>
 #include <utility>
 
-#include "analysis/internal/figure_style.h"
+#include "analysis/drawing/figure_style.h"
 #include "base/math.h"
 #include "base/overloaded.h"
 

@@ -1,0 +1,230 @@
+#include "analysis/records/records.h"
+
+#include <charconv>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace swarmsmith {
+namespace {
+
+using Cell = StoreReader::Cell;
+using Cells = std::vector<Cell>;
+
+/// Nobody looks at more, and a figure of it could not be drawn.
+constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000, .seconds = 600};
+
+double real(const Cell& cell) {
+  double value = 0;
+  std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
+  return value;
+}
+
+std::int64_t integer(const Cell& cell) {
+  std::int64_t value = 0;
+  std::from_chars(cell.text.data(), cell.text.data() + cell.text.size(), value);
+  return value;
+}
+
+bool is_null(const Cell& cell) {
+  return cell.type == Cell::Type::Null;
+}
+
+std::optional<double> maybe_real(const Cell& cell) {
+  return is_null(cell) ? std::nullopt : std::optional(real(cell));
+}
+
+std::optional<CandidateId> maybe_candidate(const Cell& cell) {
+  return is_null(cell) ? std::nullopt : std::optional(CandidateId{integer(cell)});
+}
+
+std::string sql_text(std::string_view text) {
+  std::string result = "'";
+  for (const char letter : text) {
+    if (letter == '\'') result += '\'';
+    result += letter;
+  }
+  return result + "'";
+}
+
+/// " WHERE ..." over the columns mission, method and design of `table`.
+std::string where(const RecordFilter& filter, std::string_view table = "") {
+  std::vector<std::string> terms;
+  if (!filter.mission.empty())
+    terms.push_back(fmt::format("{}mission = {}", table, sql_text(filter.mission)));
+  if (!filter.method.empty())
+    terms.push_back(fmt::format("{}method = {}", table, sql_text(filter.method)));
+  if (filter.design) terms.push_back(fmt::format("{}design = {}", table, filter.design->value));
+  return terms.empty() ? "" : fmt::format(" WHERE {}", fmt::join(terms, " AND "));
+}
+
+template <class Record, class Make>
+Expected<std::vector<Record>> read(StoreReader& store, const std::string& sql, const Make& make) {
+  std::vector<Record> records;
+  const auto end = store.query(
+      sql, kLimits, [](const std::vector<std::string>&) {},
+      [&](const Cells& row) { records.push_back(make(row)); });
+  if (!end) return Unexpected(end.error());
+  if (end->truncated) {
+    return bad_input(
+        fmt::format("reading took over {} s: ask for one mission or design", kLimits.seconds), sql);
+  }
+  return records;
+}
+
+}  // namespace
+
+Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter) {
+  return read<DesignScore>(store,
+                           "SELECT design, mission, method, repetition, candidate, source, "
+                           "purpose, pair, instance, seed,"
+                           " score FROM v_design_scores" +
+                               where(filter) + " ORDER BY design, purpose, source, pair",
+                           [](const Cells& row) {
+                             return DesignScore{.design = {integer(row[0])},
+                                                .mission = row[1].text,
+                                                .method = row[2].text,
+                                                .repetition = integer(row[3]),
+                                                .candidate = {integer(row[4])},
+                                                .source = row[5].text,
+                                                .purpose = row[6].text,
+                                                .pair = integer(row[7]),
+                                                .instance = integer(row[8]),
+                                                .seed = integer(row[9]),
+                                                .score = real(row[10])};
+                           });
+}
+
+Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter) {
+  return read<DesignRecord>(
+      store,
+      "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.budget, d.used, d.iteration,"
+      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, '') FROM v_designs AS d"
+      " LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate" +
+          where(filter, "d.") + " ORDER BY d.design",
+      [](const Cells& row) {
+        return DesignRecord{.design = {integer(row[0])},
+                            .mission = row[1].text,
+                            .method = row[2].text,
+                            .repetition = integer(row[3]),
+                            .state = row[4].text,
+                            .budget = integer(row[5]),
+                            .used = integer(row[6]),
+                            .iteration = integer(row[7]),
+                            .best = maybe_candidate(row[8]),
+                            .best_mean = maybe_real(row[9]),
+                            .machine = row[10].text};
+      });
+}
+
+Expected<std::vector<EliteRecord>> elites(StoreReader& store, const RecordFilter& filter) {
+  return read<EliteRecord>(
+      store,
+      "SELECT e.design, e.iteration, e.rank, e.candidate, e.mean, e.n, e.experiments_used"
+      " FROM v_convergence AS e JOIN v_designs AS d ON d.design = e.design" +
+          where(filter, "d.") + " ORDER BY e.design, e.iteration, e.rank",
+      [](const Cells& row) {
+        return EliteRecord{.design = {integer(row[0])},
+                           .iteration = integer(row[1]),
+                           .rank = integer(row[2]),
+                           .candidate = {integer(row[3])},
+                           .mean = real(row[4]),
+                           .runs = integer(row[5]),
+                           .experiments_used = integer(row[6])};
+      });
+}
+
+Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
+                                                          const RecordFilter& filter) {
+  const RecordFilter of_group{.mission = filter.mission, .method = filter.method};
+  return read<ModuleFrequency>(
+      store,
+      "SELECT mission, method, module, avg_occurrences, occurrence_rate FROM v_module_frequency" +
+          where(of_group) + " ORDER BY mission, method, module",
+      [](const Cells& row) {
+        return ModuleFrequency{.mission = row[0].text,
+                               .method = row[1].text,
+                               .module = row[2].text,
+                               .average_occurrences = real(row[3]),
+                               .occurrence_rate = real(row[4])};
+      });
+}
+
+Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
+                                           std::int64_t iteration) {
+  return read<RaceCell>(
+      store,
+      fmt::format("SELECT step, pair, instance, seed, candidate, score, rank FROM v_race_matrix"
+                  " WHERE design = {} AND iteration = {} ORDER BY step, candidate",
+                  design.value, iteration),
+      [](const Cells& row) {
+        return RaceCell{.step = integer(row[0]),
+                        .pair = integer(row[1]),
+                        .instance = integer(row[2]),
+                        .seed = integer(row[3]),
+                        .candidate = {integer(row[4])},
+                        .score = maybe_real(row[5]),
+                        .rank = maybe_real(row[6])};
+      });
+}
+
+Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design) {
+  return read<StepRecord>(
+      store,
+      fmt::format(
+          "SELECT step, iteration, pair, marker, alive_before, alive_after, best, mean_best,"
+          " used, statistic, p_value FROM v_race_steps WHERE design = {} ORDER BY step",
+          design.value),
+      [](const Cells& row) {
+        return StepRecord{.step = integer(row[0]),
+                          .iteration = integer(row[1]),
+                          .pair = integer(row[2]),
+                          .marker = row[3].text,
+                          .alive_before = integer(row[4]),
+                          .alive_after = integer(row[5]),
+                          .best = maybe_candidate(row[6]),
+                          .mean_best = real(row[7]),
+                          .used = integer(row[8]),
+                          .statistic = maybe_real(row[9]),
+                          .p_value = maybe_real(row[10])};
+      });
+}
+
+Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, DesignId design) {
+  return read<EliminationRecord>(
+      store,
+      fmt::format("SELECT candidate, iteration, step, reason FROM v_eliminations"
+                  " WHERE design = {} ORDER BY iteration, step, candidate",
+                  design.value),
+      [](const Cells& row) {
+        return EliminationRecord{.candidate = {integer(row[0])},
+                                 .iteration = integer(row[1]),
+                                 .step = integer(row[2]),
+                                 .reason = row[3].text};
+      });
+}
+
+Expected<std::vector<ParameterRecord>> parameters(StoreReader& store, DesignId design,
+                                                  const std::vector<CandidateId>& candidates) {
+  std::string among;
+  for (const CandidateId candidate : candidates)
+    among += fmt::format("{}{}", among.empty() ? "" : ",", candidate.value);
+  if (!among.empty()) among = " AND candidate IN (" + among + ")";
+  return read<ParameterRecord>(
+      store,
+      fmt::format("SELECT candidate, iteration, parameter, value FROM v_parameters"
+                  " WHERE design = {}{}",
+                  design.value, among),
+      [](const Cells& row) {
+        return ParameterRecord{
+            .candidate = {integer(row[0])},
+            .iteration = integer(row[1]),
+            .parameter = row[2].text,
+            .value = row[3].text,
+            .is_number = row[3].type == Cell::Type::Integer || row[3].type == Cell::Type::Real};
+      });
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,133 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "base/id.h"
+#include "storage/store.h"
+
+namespace swarmsmith {
+
+/// What figures, tables and tests of a paper begin with: rows of the store's views
+/// (docs/storage.md) as plain values, in the order of the view's keys. They read nothing but the
+/// views, so that anyone can have the same numbers by SQL.
+
+/// A score that a finished design's winner got outside of its race.
+struct DesignScore {
+  DesignId design;
+  std::string mission;
+  std::string method;
+  std::int64_t repetition = 0;
+  CandidateId candidate;
+  std::string source;   ///< a simulator profile, `real`, or what an import called it
+  std::string purpose;  ///< `test` (on the campaign's own seeds), `score` (asked for later)
+  std::int64_t pair = 0;
+  std::int64_t instance = 0;
+  std::int64_t seed = 0;
+  double score = 0;
+};
+
+/// A design and its best machine, the winner when it is finished.
+struct DesignRecord {
+  DesignId design;
+  std::string mission;
+  std::string method;
+  std::int64_t repetition = 0;
+  std::string state;
+  std::int64_t budget = 0;
+  std::int64_t used = 0;
+  std::int64_t iteration = 0;
+  std::optional<CandidateId> best;
+  std::optional<double> best_mean;
+  std::string machine;  ///< of the best; text of the grammar, empty without one
+};
+
+/// An elite at the end of an iteration.
+struct EliteRecord {
+  DesignId design;
+  std::int64_t iteration = 0;
+  std::int64_t rank = 0;
+  CandidateId candidate;
+  double mean = 0;
+  std::int64_t runs = 0;
+  std::int64_t experiments_used = 0;
+};
+
+/// A candidate on the pair of one step of a race.
+struct RaceCell {
+  std::int64_t step = 0;
+  std::int64_t pair = 0;
+  std::int64_t instance = 0;
+  std::int64_t seed = 0;
+  CandidateId candidate;
+  std::optional<double> score;  ///< none when rejected
+  std::optional<double> rank;   ///< 1 is best, ties share their mean
+};
+
+/// A step of a race, and the test after it.
+struct StepRecord {
+  std::int64_t step = 0;
+  std::int64_t iteration = 0;
+  std::int64_t pair = 0;
+  std::string marker;
+  std::int64_t alive_before = 0;
+  std::int64_t alive_after = 0;
+  std::optional<CandidateId> best;
+  double mean_best = 0;
+  std::int64_t used = 0;
+  std::optional<double> statistic;
+  std::optional<double> p_value;
+};
+
+struct EliminationRecord {
+  CandidateId candidate;
+  std::int64_t iteration = 0;
+  std::int64_t step = 0;
+  std::string reason;
+};
+
+/// How often the winners of a mission and method have a module.
+struct ModuleFrequency {
+  std::string mission;
+  std::string method;
+  std::string module;
+  double average_occurrences = 0;
+  double occurrence_rate = 0;
+};
+
+/// A parameter of a candidate.
+struct ParameterRecord {
+  CandidateId candidate;
+  std::int64_t iteration = 0;
+  std::string parameter;
+  std::string value;
+  bool is_number = false;
+};
+
+/// What is asked for; what is empty asks for all.
+struct RecordFilter {
+  std::string mission;
+  std::string method;
+  std::optional<DesignId> design;
+};
+
+/// Errors: BadInput with SQLite's words when a view is missing (a store of an older schema) or the
+/// time limit of a query was too short.
+Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter);
+Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter);
+Expected<std::vector<EliteRecord>> elites(StoreReader& store, const RecordFilter& filter);
+Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
+                                                          const RecordFilter& filter);
+/// Of one design, and one of its iterations.
+Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
+                                           std::int64_t iteration);
+Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design);
+Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, DesignId design);
+/// Of the candidates of one design, or of some of them.
+Expected<std::vector<ParameterRecord>> parameters(StoreReader& store, DesignId design,
+                                                  const std::vector<CandidateId>& candidates = {});
+
+}  // namespace swarmsmith

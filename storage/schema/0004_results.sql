@@ -1,0 +1,1 @@
+-- Schema 4: what a paper needs besides the races. (docs/storage.md)

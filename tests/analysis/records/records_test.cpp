@@ -1,0 +1,80 @@
+#include "analysis/records/records.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+struct RecordsTest : testing::Test {
+  TemporaryFolder folder;
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 2, .iterations = 3});
+  std::unique_ptr<StoreReader> reader;
+
+  RecordsTest() {
+    auto store = open_store(folder / "s.db", campaign);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
+    store.reset();
+    reader = open_reader(folder / "s.db");
+  }
+};
+
+TEST_F(RecordsTest, DesignsHaveTheirBestMachine) {
+  const auto all = designs(*reader, {});
+  ASSERT_TRUE(all);
+  ASSERT_EQ(all->size(), 2U);
+  EXPECT_EQ(all->front().state, "finished");
+  EXPECT_EQ(all->front().mission, campaign.designs.front().mission);
+  ASSERT_TRUE(all->front().best);
+  EXPECT_FALSE(all->front().machine.empty());
+  const auto second = designs(*reader, {.design = DesignId{2}});
+  ASSERT_TRUE(second);
+  ASSERT_EQ(second->size(), 1U);
+  EXPECT_EQ(second->front().design, DesignId{2});
+  EXPECT_TRUE(designs(*reader, {.mission = "it's not there"})->empty());
+}
+
+TEST_F(RecordsTest, ScoresAreTheWinnersTests) {
+  const auto scores = design_scores(*reader, {.design = DesignId{1}});
+  ASSERT_TRUE(scores);
+  EXPECT_EQ(scores->size(), 4U);
+  for (const DesignScore& score : *scores) {
+    EXPECT_EQ(score.purpose, "test");
+    EXPECT_EQ(score.candidate, *designs(*reader, {.design = DesignId{1}})->front().best);
+  }
+}
+
+TEST_F(RecordsTest, ARaceHasACellForEachLivingCandidateAndStep) {
+  const auto steps = race_steps(*reader, DesignId{1});
+  const auto cells = race_cells(*reader, DesignId{1}, 2);
+  ASSERT_TRUE(steps);
+  ASSERT_TRUE(cells);
+  for (const StepRecord& step : *steps) {
+    if (step.iteration != 2) continue;
+    EXPECT_EQ(std::ranges::count(*cells, step.step, &RaceCell::step), step.alive_before);
+  }
+}
+
+TEST_F(RecordsTest, ElitesEndEachIteration) {
+  const auto all = elites(*reader, {.design = DesignId{2}});
+  ASSERT_TRUE(all);
+  ASSERT_FALSE(all->empty());
+  EXPECT_EQ(all->back().iteration, 3);
+  EXPECT_GT(all->back().experiments_used, all->front().experiments_used);
+}
+
+TEST_F(RecordsTest, ParametersAreNumbersOrTexts) {
+  const CandidateId best = *designs(*reader, {})->front().best;
+  const auto values = parameters(*reader, DesignId{1}, {best});
+  ASSERT_TRUE(values);
+  ASSERT_FALSE(values->empty());
+  EXPECT_TRUE(std::ranges::all_of(*values, [&](const auto& p) { return p.candidate == best; }));
+  EXPECT_TRUE(std::ranges::any_of(*values, &ParameterRecord::is_number));
+}
+
+}  // namespace
+}  // namespace swarmsmith
