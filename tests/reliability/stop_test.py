@@ -46,6 +46,7 @@ class Stop(Stopping):
 
 class StopLong(Stopping):
     """Shorter and longer than the 5 s after which a silent worker is taken for dead."""
+    budget = 20000
     times = (1, 10, 60)
 
     def test_workers(self):

@@ -96,6 +96,7 @@ class Malformed(Visited):
 
 class Strangers(Visited):
     """Bounded in count and time, on loopback only."""
+    budget = 60000
 
     def visit(self, seconds, *visitors):
         """Visits for so long; the honest rate meanwhile, over the rate before."""
@@ -123,11 +124,13 @@ class Strangers(Visited):
                 it.sendall(rng.randbytes(rng.randrange(1, 3000)))
             self.count("garbage")
 
-        for _ in range(3):
-            with connect(self.address) as it:
-                it.sendall(b"GET / HTTP/1.1\r\nHost: coordinator\r\n\r\n")
-                self.assertTrue(closed(it, 5), "an HTTP request is not closed")
-            self.count("HTTP request")
+        with contextlib.ExitStack() as stack:
+            browsers = [stack.enter_context(connect(self.address)) for _ in range(3)]
+            for browser in browsers:
+                browser.sendall(b"GET / HTTP/1.1\r\nHost: coordinator\r\n\r\n")
+                self.count("HTTP request")
+            for browser in browsers:
+                self.assertTrue(closed(browser, 5), "an HTTP request is not closed")
         self.visit(2, scan, garbage)
         self.finish_undisturbed()
 
