@@ -38,7 +38,7 @@ struct StoreOptions {
   std::chrono::milliseconds retry{1000};
   /// The least time from one commit to the next, unless somebody waits in flush(): what comes in
   /// meanwhile shares one transaction, and a commit costs the kernel as much as a hundred rows.
-  std::chrono::milliseconds gather{20};
+  std::chrono::milliseconds gather{60};
   /// How long to wait for another process that is writing the store: a command to a campaign at
   /// rest does so for a moment.
   std::chrono::milliseconds patience{0};

@@ -18,7 +18,7 @@ constexpr milliseconds kLinger{500};
 /// Without a coordinator, before a person is told.
 constexpr std::chrono::seconds kLonely{3};
 /// While results come, the slots do not wake the loop for each.
-constexpr milliseconds kLookAgain{2};
+constexpr milliseconds kLookAgain{5};
 
 class Loop {
  public:
