@@ -74,6 +74,8 @@ struct DesignRow {
   DesignId id;
   std::string mission;
   std::string method;
+  /// Of the machines' texts; empty for the space of a parameter file.
+  std::string flavour;
   std::int64_t repetition = 0;  ///< from 1
   std::int64_t seed = 0;        ///< of the race
   std::int64_t budget = 0;      ///< experiments

@@ -82,11 +82,21 @@ void write_birth(Connection& connection, const CampaignRow& campaign,
             "INSERT INTO campaign (id, name, digest, deciding, file, seed) VALUES (1,?,?,?,?,?)")
       .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
   Statement design(connection,
-                   "INSERT INTO design (id, mission, method, repetition, seed, budget)"
-                   " VALUES (?,?,?,?,?,?)");
+                   "INSERT INTO design (id, mission, method, flavour, repetition, seed, budget)"
+                   " VALUES (?,?,?,?,?,?,?)");
   for (const DesignRow& row : designs) {
-    design.run(row.id.value, row.mission, row.method, row.repetition, row.seed, row.budget);
+    design.run(row.id.value, row.mission, row.method, row.flavour, row.repetition, row.seed,
+               row.budget);
   }
+  transaction.commit();
+}
+
+/// A store of a schema before 4 does not say in which flavour its machines are written.
+void name_flavours(Connection& connection, const std::vector<DesignRow>& designs) {
+  sqlite::Transaction transaction(connection);
+  Statement design(connection, "UPDATE design SET flavour = ?2 WHERE id = ?1 AND flavour = ''");
+  for (const DesignRow& row : designs)
+    if (!row.flavour.empty()) design.run(row.id.value, row.flavour);
   transaction.commit();
 }
 
@@ -133,6 +143,7 @@ Expected<Connection> prepare(const fs::path& path, bool unclean, const CampaignR
   if (auto same = check_campaign(connection, path, campaign); !same) {
     return Unexpected(same.error());
   }
+  name_flavours(connection, designs);
   return connection;
 }
 

@@ -101,7 +101,7 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
   return read<DesignRecord>(
       store,
       "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.budget, d.used, d.iteration,"
-      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, '') FROM v_designs AS d"
+      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, ''), d.flavour FROM v_designs AS d"
       " LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate" +
           where(filter, "d.") + " ORDER BY d.design",
       [](const Cells& row) {
@@ -115,7 +115,8 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
                             .iteration = integer(row[7]),
                             .best = maybe_candidate(row[8]),
                             .best_mean = maybe_real(row[9]),
-                            .machine = row[10].text};
+                            .machine = row[10].text,
+                            .flavour = row[11].text};
       });
 }
 

@@ -43,6 +43,7 @@ struct DesignRecord {
   std::optional<CandidateId> best;
   std::optional<double> best_mean;
   std::string machine;  ///< of the best; text of the grammar, empty without one
+  std::string flavour;  ///< that it is written in; empty for the parameters of a program
 };
 
 /// An elite at the end of an iteration.

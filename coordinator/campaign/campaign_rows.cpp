@@ -66,6 +66,7 @@ std::vector<DesignRow> design_rows(const Campaign& campaign) {
         rows.push_back({.id = {id},
                         .mission = mission.mission.name,
                         .method = method.name,
+                        .flavour = method.parameters.empty() ? method.flavour : "",
                         .repetition = repetition,
                         .seed = design_seed(campaign.seed, id),
                         .budget = budget});

@@ -166,12 +166,14 @@ CampaignRow read_campaign(const sqlite::Connection& connection) {
 
 std::vector<DesignRow> read_designs(const sqlite::Connection& connection) {
   std::vector<DesignRow> designs;
-  Statement row(connection,
-                "SELECT id, mission, method, repetition, seed, budget FROM design ORDER BY id");
+  const std::string flavour = schema_of(connection) < 4 ? "''" : "flavour";
+  Statement row(connection, "SELECT id, mission, method, repetition, seed, budget, " + flavour +
+                                " FROM design ORDER BY id");
   while (row.step()) {
     designs.push_back({.id = design_at(row, 0),
                        .mission = row.text(1),
                        .method = row.text(2),
+                       .flavour = row.text(6),
                        .repetition = row.integer(3),
                        .seed = row.integer(4),
                        .budget = row.integer(5)});

@@ -1,1 +1,23 @@
--- Schema 4: what a paper needs besides the races. (docs/storage.md)
+-- Schema 4: what a paper needs besides the races. A store may hold designs of several campaigns
+-- (merged, imported), and each design says in which flavour its machines are written.
+
+-- The designs of a campaign have the ids designs_before + 1, designs_before + 2, ...
+CREATE TABLE campaign_of_several (
+  id             INTEGER PRIMARY KEY,
+  name           TEXT NOT NULL,
+  digest         TEXT NOT NULL,
+  deciding       TEXT NOT NULL,
+  file           TEXT NOT NULL,
+  seed           INTEGER NOT NULL,
+  state          TEXT NOT NULL DEFAULT 'running',
+  created        TEXT NOT NULL DEFAULT (strftime('%Y-%m-%dT%H:%M:%fZ', 'now')),
+  finished       TEXT,
+  designs_before INTEGER NOT NULL DEFAULT 0
+) STRICT;
+INSERT INTO campaign_of_several
+SELECT id, name, digest, deciding, file, seed, state, created, finished, 0 FROM campaign;
+DROP TABLE campaign;
+ALTER TABLE campaign_of_several RENAME TO campaign;
+
+ALTER TABLE design ADD COLUMN campaign INTEGER NOT NULL DEFAULT 1;
+ALTER TABLE design ADD COLUMN flavour TEXT NOT NULL DEFAULT '';

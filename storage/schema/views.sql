@@ -20,7 +20,7 @@ SELECT id AS design, mission, method, repetition, seed,
        CASE state WHEN 0 THEN 'waiting' WHEN 1 THEN 'racing' WHEN 2 THEN 'testing'
                   WHEN 3 THEN 'finished' WHEN 4 THEN 'stopped' END AS state,
        budget, used, iteration, best AS best_candidate,
-       CASE WHEN best IS NOT NULL THEN best_mean END AS best_mean, reason
+       CASE WHEN best IS NOT NULL THEN best_mean END AS best_mean, reason, flavour, campaign
 FROM design;
 
 CREATE VIEW v_candidates AS

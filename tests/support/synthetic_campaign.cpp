@@ -225,6 +225,7 @@ SyntheticCampaign synthetic_campaign(const SyntheticSize& size, std::uint64_t se
     made.designs.push_back({.id = id,
                             .mission = number % 2 == 1 ? "aggregation" : "color_selection",
                             .method = "watermelon",
+                            .flavour = "watermelon",
                             .repetition = (number + 1) / 2,
                             .seed = number * 17,
                             .budget = 100000});

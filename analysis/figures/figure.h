@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "analysis/records/records.h"
+#include "base/expected.h"
+#include "storage/store.h"
+
+namespace swarmsmith {
+
+/// A figure as it goes to a paper: the picture, and the numbers that it shows.
+struct Figure {
+  std::string svg;
+  std::string csv;  ///< RFC 4180, header, a row a point, full precision: everything that was drawn
+  std::string tex;  ///< TikZ, of machines alone; else empty
+};
+
+/// What a figure is drawn of. What does not concern a kind is refused by it with a sentence.
+struct FigureOptions {
+  RecordFilter filter;
+  double width_mm = 84;  ///< a column of a paper; the height follows
+  std::string by;        ///< groups of a comparison: source, method or mission
+  std::string source;    ///< only scores of this source; empty: of all
+  std::optional<CandidateId> candidate;
+  std::optional<std::int64_t> iteration;
+  std::string parameter;  ///< of the sampling figure; empty: the most telling ones
+};
+
+/// Draws from a store. Errors: BadInput (an option that makes no sense here), NotFound (the store
+/// has nothing of this kind yet, with what to do).
+using FigureMaker = Expected<Figure> (*)(StoreReader& store, const FigureOptions& options);
+
+struct FigureKind {
+  std::string_view name;     ///< as typed: `swarmsmith figure NAME STORE`
+  std::string_view summary;  ///< a line of the help
+  FigureMaker make = nullptr;
+};
+
+/// All kinds, in the order of the help.
+std::span<const FigureKind> figure_kinds();
+
+/// Null when there is none of this name.
+const FigureKind* find_figure_kind(std::string_view name);
+
+}  // namespace swarmsmith
