@@ -3,6 +3,7 @@
 #include <string>
 
 #include "base/assert.h"
+#include "storage/internal/candidate_code.h"
 
 namespace swarmsmith {
 namespace {
@@ -64,15 +65,40 @@ IterationRow iteration(const Statement& row) {
           .model_digest = row.bits(7)};
 }
 
-CandidateRow candidate(const Statement& row) {
-  return {.id = candidate_at(row, 0),
-          .iteration = row.integer(1),
-          .parent = candidate_at(row, 2),
-          .parameters = row.text(3),
-          .machine = row.text(4),
-          .modules = row.text(5),
-          .states = row.integer(6),
-          .transitions = row.integer(7)};
+std::optional<std::string> optional_text(const Statement& row, int column) {
+  return row.is_null(column) ? std::nullopt : std::optional(row.text(column));
+}
+
+/// Every candidate by id. Stores before schema 4 know no phrases: their texts are as they are.
+void each_candidate(const sqlite::Connection& connection, const OnRow& on_row) {
+  const bool coded = schema_of(connection) >= 4;
+  PhraseBook phrases;
+  if (coded) phrases.load(connection);
+  const std::string codes = coded ? "code, module_code" : "NULL, NULL";
+  Statement row(
+      connection,
+      "SELECT id, iteration, parent, states, transitions, machine, parameters, modules, " + codes +
+          " FROM candidate ORDER BY id");
+  while (row.step()) {
+    CandidateRow candidate{.id = candidate_at(row, 0),
+                           .iteration = row.integer(1),
+                           .parent = candidate_at(row, 2),
+                           .parameters = {},
+                           .machine = {},
+                           .modules = {},
+                           .states = row.integer(3),
+                           .transitions = row.integer(4)};
+    const StoredTexts texts{.machine = row.text(5),
+                            .parameters = row.text(6),
+                            .modules = row.text(7),
+                            .code = optional_text(row, 8),
+                            .module_code = optional_text(row, 9)};
+    if (!phrases.decode(texts, candidate)) {
+      connection.fail(SQLITE_CORRUPT,
+                      "candidate " + to_string(candidate.id) + " names phrases that do not exist");
+    }
+    on_row(candidate);
+  }
 }
 
 PairRow pair(const Statement& row) {
@@ -242,10 +268,7 @@ void read_answer(const sqlite::Connection& connection, const OnRow& on_row) {
   each(connection,
        std::string("SELECT *") + (first ? ", 0" : "") + " FROM iteration ORDER BY design, number",
        on_row, iteration);
-  each(connection,
-       "SELECT id, iteration, parent, parameters, machine, modules, states, transitions"
-       " FROM candidate ORDER BY id",
-       on_row, candidate);
+  each_candidate(connection, on_row);
   // A pair that only look-ahead has touched so far is not part of the answer.
   each(connection,
        "SELECT * FROM pair WHERE purpose IN (2, 5)"

@@ -23,14 +23,35 @@ SELECT id AS design, mission, method, repetition, seed,
        CASE WHEN best IS NOT NULL THEN best_mean END AS best_mean, reason, flavour, campaign
 FROM design;
 
+-- Not public: the rows of the table with their texts, made of phrases where they have a code
+-- (internal/candidate_code.h). A text costs its time only where it is asked for. json_each gives
+-- the pieces in order, and CROSS JOIN keeps them so.
+CREATE VIEW candidate_text AS
+SELECT c.id, d.id AS design, c.iteration, c.parent, c.states, c.transitions,
+       CASE WHEN c.code IS NULL OR c.machine <> '' THEN c.machine ELSE
+         (SELECT coalesce(group_concat(p.machine || j.value, ' '), '')
+          FROM json_each('{"' || replace(replace(c.code, ';', '","'), ' ', '":"') || '"}') AS j
+          CROSS JOIN phrase AS p ON p.id = j.key) END AS machine,
+       CASE WHEN c.code IS NULL THEN c.parameters ELSE
+         (SELECT '{' || group_concat(p.parameters || j.value, ',') || '}'
+          FROM json_each('{"' || replace(replace(c.code, ';', '","'), ' ', '":"') || '"}') AS j
+          CROSS JOIN phrase AS p ON p.id = j.key) END AS parameters,
+       CASE WHEN c.module_code IS NULL THEN c.modules ELSE
+         (SELECT '{' || group_concat(p.modules, ',') || '}'
+          FROM json_each('[' || replace(c.module_code, ';', ',') || ']') AS j
+          CROSS JOIN phrase AS p ON p.id = j.value) END AS modules
+FROM candidate AS c
+JOIN design AS d ON d.id = (c.id - 1) / 1000000 + 1
+  AND c.id BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000;
+
 CREATE VIEW v_candidates AS
-SELECT c.id AS candidate, (c.id - 1) / 1000000 + 1 AS design, (c.id - 1) % 1000000 + 1 AS number,
+SELECT c.id AS candidate, c.design, (c.id - 1) % 1000000 + 1 AS number,
        c.iteration, c.parent, c.states AS n_states, c.transitions AS n_transitions,
        c.machine AS fsm_config, c.parameters, c.modules,
        coalesce(t.runs, 0) AS runs,
        CASE WHEN t.runs > 0 THEN t.score_sum / t.runs END AS mean,
        x.iteration AS eliminated_in, x.step AS eliminated_at, x.reason AS eliminated_by
-FROM candidate AS c
+FROM candidate_text AS c
 LEFT JOIN candidate_totals AS t ON t.candidate = c.id
 LEFT JOIN elimination AS x ON x.candidate = c.id
   AND x.iteration = (SELECT max(iteration) FROM elimination AS l WHERE l.candidate = c.id);
@@ -124,19 +145,18 @@ WINDOW peers AS (PARTITION BY t.design, t.step ORDER BY t.score DESC
                  RANGE BETWEEN CURRENT ROW AND CURRENT ROW);
 
 CREATE VIEW v_parameters AS
-SELECT c.id AS candidate, (c.id - 1) / 1000000 + 1 AS design, c.iteration,
-       j.key AS parameter, j.value
-FROM candidate AS c, json_each(iif(c.parameters = '', '{}', c.parameters)) AS j;
+SELECT c.id AS candidate, c.design, c.iteration, j.key AS parameter, j.value
+FROM candidate_text AS c, json_each(nullif(c.parameters, '')) AS j;
 
 -- Over the winners of finished designs; a module that another winner of the store has counts as 0.
 CREATE VIEW v_module_frequency AS
 WITH winner AS (
-  SELECT d.id AS design, d.mission, d.method, iif(c.modules = '', '{}', c.modules) AS modules
-  FROM design AS d JOIN candidate AS c ON c.id = d.best
+  SELECT d.id AS design, d.mission, d.method, c.modules
+  FROM design AS d JOIN candidate_text AS c ON c.id = d.best
   WHERE d.state = 3
 ), held AS (
   SELECT w.design, j.key AS module, j.value AS occurrences
-  FROM winner AS w, json_each(w.modules) AS j
+  FROM winner AS w, json_each(nullif(w.modules, '')) AS j
 )
 SELECT w.mission, w.method, m.module,
        avg(coalesce(h.occurrences, 0)) AS avg_occurrences,
