@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -262,26 +263,37 @@ void SyntheticDesign::test_winner() {
 
 }  // namespace
 
-SyntheticCampaign synthetic_campaign(const SyntheticSize& size, std::uint64_t seed) {
+SyntheticCampaign synthetic_header(const SyntheticSize& size, std::uint64_t seed) {
   SyntheticCampaign made;
   made.campaign = {.name = "synthetic",
                    .digest = fmt::format("{:032x}", seed),
                    .deciding = fmt::format(R"({{"seed":{},"race":{{"budget":100000}}}})", seed),
                    .file = "name = \"synthetic\"\n",
                    .seed = static_cast<std::int64_t>(seed)};
-  const Rng rng(seed);
   for (std::int64_t number = 1; number <= size.designs; ++number) {
-    const DesignId id{number};
-    made.designs.push_back({.id = id,
+    made.designs.push_back({.id = {number},
                             .mission = number % 2 == 1 ? "aggregation" : "color_selection",
                             .method = "watermelon",
                             .flavour = "watermelon",
                             .repetition = (number + 1) / 2,
                             .seed = number * 17,
                             .budget = 100000});
-    SyntheticDesign(size, id, rng.split("design", static_cast<std::uint64_t>(number)), made.batches)
-        .make();
   }
+  return made;
+}
+
+std::vector<std::vector<Row>> synthetic_design(const SyntheticSize& size, DesignId id,
+                                               std::uint64_t seed) {
+  std::vector<std::vector<Row>> batches;
+  const Rng rng = Rng(seed).split("design", static_cast<std::uint64_t>(id.value));
+  SyntheticDesign(size, id, rng, batches).make();
+  return batches;
+}
+
+SyntheticCampaign synthetic_campaign(const SyntheticSize& size, std::uint64_t seed) {
+  SyntheticCampaign made = synthetic_header(size, seed);
+  for (const DesignRow& design : made.designs)
+    std::ranges::move(synthetic_design(size, design.id, seed), std::back_inserter(made.batches));
   made.batches.push_back({CampaignStateRow{.state = "finished"}});
   return made;
 }
