@@ -108,20 +108,45 @@ std::string key_of(const Phrase& phrase) {
   return key;
 }
 
-/// Goes through a code: calls `on_piece` with the number of the phrase and the number after it.
+/// Takes `text` from the front of `from`, if it is there.
+bool take(std::string_view& from, std::string_view text) {
+  if (!from.starts_with(text)) return false;
+  from.remove_prefix(text.size());
+  return true;
+}
+
+bool take(std::string_view& from, std::int64_t& number) {
+  const auto [end, error] = std::from_chars(from.data(), from.data() + from.size(), number);
+  if (error != std::errc()) return false;
+  from.remove_prefix(static_cast<std::size_t>(end - from.data()));
+  return true;
+}
+
+/// Calls `on_piece` with each phrase of {"1":"56","2":"0.5"} and the number after it; false when it
+/// says so, or the code is none.
 template <class OnPiece>
 bool each_piece(std::string_view code, OnPiece on_piece) {
-  while (true) {
-    const std::string_view piece = code.substr(0, code.find(';'));
+  if (!take(code, "{")) return false;
+  do {
     std::int64_t number = 0;
-    const auto [rest, error] = std::from_chars(piece.data(), piece.data() + piece.size(), number);
-    if (error != std::errc()) return false;
-    auto value = piece.substr(static_cast<std::size_t>(rest - piece.data()));
-    if (value.starts_with(' ')) value.remove_prefix(1);
+    if (!take(code, "\"") || !take(code, number) || !take(code, "\":\"")) return false;
+    const std::string_view value = code.substr(0, code.find('"'));
     if (!on_piece(number, value)) return false;
-    if (piece.size() == code.size()) return true;
-    code.remove_prefix(piece.size() + 1);
-  }
+    code.remove_prefix(value.size());
+    if (!take(code, "\"")) return false;
+  } while (take(code, ","));
+  return code == "}";
+}
+
+/// The same for [3,4].
+template <class OnPhrase>
+bool each_phrase(std::string_view code, OnPhrase on_phrase) {
+  if (!take(code, "[")) return false;
+  do {
+    std::int64_t number = 0;
+    if (!take(code, number) || !on_phrase(number, std::string_view())) return false;
+  } while (take(code, ","));
+  return code == "]";
 }
 
 }  // namespace
@@ -188,8 +213,8 @@ std::optional<std::vector<PhraseBook::Piece>> PhraseBook::cut_parameters(
   return pieces;
 }
 
-std::optional<std::string> PhraseBook::code_of(const std::vector<Piece>& pieces, bool with_numbers,
-                                               const OnNew& on_new) {
+std::optional<std::vector<std::int64_t>> PhraseBook::numbers_of(const std::vector<Piece>& pieces,
+                                                                const OnNew& on_new) {
   std::vector<std::string> keys;
   std::size_t unknown = 0;
   for (const Piece& piece : pieces) {
@@ -197,18 +222,49 @@ std::optional<std::string> PhraseBook::code_of(const std::vector<Piece>& pieces,
     unknown += numbers_.contains(keys.back()) ? 0U : 1U;
   }
   if (numbers_.size() + unknown > kMostPhrases) return std::nullopt;
-  std::string code;
+  std::vector<std::int64_t> numbers;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     if (!numbers_.contains(keys[i])) {
       const std::int64_t number = last_ + 1;
       on_new(number, pieces[i].phrase);
       add(number, pieces[i].phrase);
     }
-    if (i > 0) code += ';';
-    code += std::to_string(numbers_.at(keys[i]));
-    if (with_numbers) code += ' ' + pieces[i].number;
+    numbers.push_back(numbers_.at(keys[i]));
   }
-  return code;
+  return numbers;
+}
+
+void PhraseBook::encode_parameters(const OnNew& on_new, StoredTexts& stored) {
+  const auto pieces = cut_parameters(stored.parameters, stored.machine);
+  if (!pieces) return;
+  const auto numbers = numbers_of(*pieces, on_new);
+  if (!numbers) return;
+  std::string code;
+  for (std::size_t i = 0; i < pieces->size(); ++i) {
+    const std::string number = std::to_string((*numbers)[i]);
+    code.append(i == 0 ? "{\"" : ",\"").append(number).append("\":\"");
+    code.append((*pieces)[i].number).append("\"");
+  }
+  stored.code = code + "}";
+  stored.parameters.clear();
+  if (pieces->front().phrase.machine) stored.machine.clear();
+}
+
+void PhraseBook::encode_modules(const OnNew& on_new, StoredTexts& stored) {
+  const auto modules = members_of(stored.modules);
+  if (!modules) return;
+  std::vector<Piece> pieces;
+  for (std::size_t i = 0; i < modules->size(); ++i) {
+    if (i % kModulesInPhrase == 0) pieces.emplace_back();
+    join(pieces.back().phrase.modules, (*modules)[i].text, ',');
+  }
+  const auto numbers = numbers_of(pieces, on_new);
+  if (!numbers) return;
+  std::string code;
+  for (const std::int64_t number : *numbers)
+    code.append(code.empty() ? "[" : ",").append(std::to_string(number));
+  stored.module_code = code + "]";
+  stored.modules.clear();
 }
 
 StoredTexts PhraseBook::encode(const CandidateRow& row, const OnNew& on_new) {
@@ -217,20 +273,8 @@ StoredTexts PhraseBook::encode(const CandidateRow& row, const OnNew& on_new) {
                      .modules = row.modules,
                      .code = {},
                      .module_code = {}};
-  if (const auto pieces = cut_parameters(row.parameters, row.machine)) {
-    stored.code = code_of(*pieces, true, on_new);
-    if (stored.code) stored.parameters.clear();
-    if (stored.code && pieces->front().phrase.machine) stored.machine.clear();
-  }
-  if (const auto modules = members_of(row.modules)) {
-    std::vector<Piece> pieces;
-    for (std::size_t i = 0; i < modules->size(); ++i) {
-      if (i % kModulesInPhrase == 0) pieces.emplace_back();
-      join(pieces.back().phrase.modules, (*modules)[i].text, ',');
-    }
-    stored.module_code = code_of(pieces, false, on_new);
-    if (stored.module_code) stored.modules.clear();
-  }
+  encode_parameters(on_new, stored);
+  encode_modules(on_new, stored);
   return stored;
 }
 
@@ -259,7 +303,7 @@ bool PhraseBook::decode(const StoredTexts& stored, CandidateRow& row) const {
     row.parameters = "{" + parameters.value_or("") + "}";
   }
   if (stored.module_code) {
-    if (!each_piece(*stored.module_code, say)) return false;
+    if (!each_phrase(*stored.module_code, say)) return false;
     row.modules = "{" + modules.value_or("") + "}";
   }
   return true;

@@ -21,12 +21,12 @@ namespace swarmsmith {
 ///   machine     --s0 0 --rwm0 56 --n0 1 --n0x0 0 --p0x0 0.5
 ///   phrases     1: "S0":"exploration","RWM0":                  --s0 0 --rwm0
 ///               2: "NumConnections0":1,"N0x0":0,"P0x0":        --n0 1 --n0x0 0 --p0x0
-///   code        1 56;2 0.5
+///   code        {"1":"56","2":"0.5"}
 ///
-/// A code is phrases in order, each followed by a blank and the number that ends it in both texts
-/// (nothing for most phrases of choices). Parameters are the phrases joined by commas and set in
-/// braces, the machine is the phrases joined by blanks; the views do the same in SQL. `modules` has
-/// a code of its own, numbers of phrases joined by semicolons.
+/// A code is phrases in order, each with the number that ends it in both texts (nothing after
+/// choices alone). Parameters are the phrases joined by commas and set in braces, the machine is
+/// the phrases joined by blanks; the views do the same in SQL. `modules` has a code of its own, an
+/// array of phrases.
 
 /// The part of a text that candidates share; what belongs to another text is none.
 struct Phrase {
@@ -72,8 +72,10 @@ class PhraseBook {
   void add(std::int64_t number, Phrase phrase);
   std::optional<std::vector<Piece>> cut_parameters(const std::string& parameters,
                                                    const std::string& machine);
-  std::optional<std::string> code_of(const std::vector<Piece>& pieces, bool with_numbers,
-                                     const OnNew& on_new);
+  std::optional<std::vector<std::int64_t>> numbers_of(const std::vector<Piece>& pieces,
+                                                      const OnNew& on_new);
+  void encode_parameters(const OnNew& on_new, StoredTexts& stored);
+  void encode_modules(const OnNew& on_new, StoredTexts& stored);
 
   std::unordered_map<std::int64_t, Phrase> phrases_;
   std::unordered_map<std::string, std::int64_t> numbers_;  ///< by all texts of the phrase

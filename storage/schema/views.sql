@@ -30,15 +30,15 @@ CREATE VIEW candidate_text AS
 SELECT c.id, d.id AS design, c.iteration, c.parent, c.states, c.transitions,
        CASE WHEN c.code IS NULL OR c.machine <> '' THEN c.machine ELSE
          (SELECT coalesce(group_concat(p.machine || j.value, ' '), '')
-          FROM json_each('{"' || replace(replace(c.code, ';', '","'), ' ', '":"') || '"}') AS j
+          FROM json_each(c.code) AS j
           CROSS JOIN phrase AS p ON p.id = j.key) END AS machine,
        CASE WHEN c.code IS NULL THEN c.parameters ELSE
          (SELECT '{' || group_concat(p.parameters || j.value, ',') || '}'
-          FROM json_each('{"' || replace(replace(c.code, ';', '","'), ' ', '":"') || '"}') AS j
+          FROM json_each(c.code) AS j
           CROSS JOIN phrase AS p ON p.id = j.key) END AS parameters,
        CASE WHEN c.module_code IS NULL THEN c.modules ELSE
          (SELECT '{' || group_concat(p.modules, ',') || '}'
-          FROM json_each('[' || replace(c.module_code, ';', ',') || ']') AS j
+          FROM json_each(c.module_code) AS j
           CROSS JOIN phrase AS p ON p.id = j.value) END AS modules
 FROM candidate AS c
 JOIN design AS d ON d.id = (c.id - 1) / 1000000 + 1
