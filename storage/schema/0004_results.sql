@@ -32,3 +32,5 @@ CREATE TABLE phrase (
 ) STRICT;
 ALTER TABLE candidate ADD COLUMN code TEXT;
 ALTER TABLE candidate ADD COLUMN module_code TEXT;
+
+CREATE INDEX race_step_of_iteration ON race_step (design, iteration, step);
