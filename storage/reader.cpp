@@ -90,6 +90,8 @@ std::vector<std::string> SqliteReader::integrity() {
       faults.push_back(fmt::format("rows of {} name rows of {} that do not exist: {}",
                                    foreign.text(0), foreign.text(1), foreign.integer(2)));
     }
+    if (const std::int64_t lost = candidates_without_phrases(connection_); lost > 0)
+      faults.push_back(fmt::format("candidates name phrases that do not exist: {}", lost));
   } catch (const sqlite::SqliteError& error) {
     faults.emplace_back(error.what());
   }

@@ -20,6 +20,9 @@ std::int64_t read_next_worker(const sqlite::Connection& connection);
 /// Whether the campaign's row says that it is finished.
 bool is_finished(const sqlite::Connection& connection);
 
+/// How many candidates have texts that cannot be made, for want of a phrase of the table.
+std::int64_t candidates_without_phrases(const sqlite::Connection& connection);
+
 /// Every row of the answer in canonical order: states of the designs, iterations, candidates,
 /// pairs, evaluations, steps, eliminations, elites, totals, commands that acted; each kind by
 /// its key.
