@@ -33,6 +33,9 @@ void configure_reader(sqlite::Connection& connection);
 /// Makes tables and views in an empty database; the caller holds a transaction.
 void create_schema(sqlite::Connection& connection);
 
+/// Writes into a new store on which host it was made, and by which SQLite.
+void write_maker(sqlite::Connection& connection);
+
 /// A database without a table that nobody has claimed: new, or left by a crash at its birth.
 bool is_blank(const sqlite::Connection& connection);
 
@@ -45,5 +48,12 @@ Expected<void> check_identity(const sqlite::Connection& connection,
 /// the store is up to date.
 void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
              std::span<const Migration> steps);
+
+/// The same without a copy: of a file that is one.
+void upgrade(sqlite::Connection& connection, std::span<const Migration> steps);
+
+/// Makes the tables of an earlier schema in an empty database, with neither views nor version; the
+/// caller holds a transaction.
+void create_tables(sqlite::Connection& connection, std::int64_t schema);
 
 }  // namespace swarmsmith
