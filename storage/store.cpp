@@ -80,16 +80,8 @@ void write_birth(Connection& connection, const CampaignRow& campaign,
   sqlite::Transaction transaction(connection);
   create_schema(connection);
   write_maker(connection);
-  Statement(connection,
-            "INSERT INTO campaign (id, name, digest, deciding, file, seed) VALUES (1,?,?,?,?,?)")
-      .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
-  Statement design(connection,
-                   "INSERT INTO design (id, mission, method, flavour, repetition, seed, budget)"
-                   " VALUES (?,?,?,?,?,?,?)");
-  for (const DesignRow& row : designs) {
-    design.run(row.id.value, row.mission, row.method, row.flavour, row.repetition, row.seed,
-               row.budget);
-  }
+  write_campaign(connection, campaign);
+  write_designs(connection, designs);
   transaction.commit();
 }
 

@@ -64,9 +64,13 @@ void create_tables(sqlite::Connection& connection, std::int64_t schema) {
 
 void create_schema(sqlite::Connection& connection) {
   create_tables(connection, kSchemaVersion);
-  connection.execute(kViews);
+  finish_schema(connection, kSchemaVersion);
+}
+
+void finish_schema(sqlite::Connection& connection, std::int64_t schema) {
+  if (schema == kSchemaVersion) connection.execute(kViews);
   connection.execute(fmt::format("PRAGMA application_id = {}", kApplicationId));
-  set_version(connection, kSchemaVersion);
+  set_version(connection, schema);
 }
 
 void write_maker(sqlite::Connection& connection) {
@@ -75,6 +79,25 @@ void write_maker(sqlite::Connection& connection) {
   sqlite::Statement meta(connection, "INSERT OR REPLACE INTO meta VALUES (?,?)");
   meta.run(std::string_view("host"), std::string_view(host.data()));
   meta.run(std::string_view("sqlite"), std::string_view(sqlite3_libversion()));
+}
+
+void write_campaign(sqlite::Connection& connection, const CampaignRow& campaign) {
+  sqlite::Statement(
+      connection,
+      "INSERT INTO campaign (id, name, digest, deciding, file, seed) VALUES (1,?,?,?,?,?)")
+      .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
+}
+
+void write_designs(sqlite::Connection& connection, const std::vector<DesignRow>& designs,
+                   std::int64_t campaign, std::int64_t designs_before) {
+  sqlite::Statement design(
+      connection,
+      "INSERT OR IGNORE INTO design (id, campaign, mission, method, flavour, repetition, seed,"
+      " budget) VALUES (?,?,?,?,?,?,?,?)");
+  for (const DesignRow& row : designs) {
+    design.run(row.id.value + designs_before, campaign, row.mission, row.method, row.flavour,
+               row.repetition, row.seed, row.budget);
+  }
 }
 
 bool is_blank(const sqlite::Connection& connection) {
