@@ -22,13 +22,14 @@ std::vector<TableShape> shapes_of_schema(std::int64_t schema) {
   return table_shapes(memory);
 }
 
-/// A row of sqlite_schema that names a table: its name and the page that its tree begins on.
+/// A row of sqlite_schema that names a table or an index: its name and the page that its tree
+/// begins on.
 std::optional<std::pair<std::string, std::uint32_t>> root_in(const StoredRecord& record) {
   using Type = StoredValue::Type;
   const auto& values = record.values;
   const bool is_schema_row = record.rowid && values.size() == 5 && values[0].type == Type::Text &&
                              values[1].type == Type::Text && values[3].type == Type::Integer &&
-                             values[0].bytes == "table";
+                             (values[0].bytes == "table" || values[0].bytes == "index");
   if (!is_schema_row || values[3].integer < 2) return std::nullopt;
   return std::pair(values[1].bytes, static_cast<std::uint32_t>(values[3].integer));
 }
@@ -49,7 +50,7 @@ class Salvager {
   template <class OnRow>
   void each_row(OnRow on_row) {
     for (std::size_t table = 0; table < shapes_.size(); ++table) {
-      const auto root = roots_.find(shapes_[table].name);
+      const auto root = roots_.find(shapes_[table].tree);
       if (root != roots_.end()) walk(table, root->second, on_row);
     }
     for (std::uint32_t number = 1; number <= image_.pages(); ++number) {
@@ -107,7 +108,9 @@ class Salvager {
       std::optional<std::size_t> place;
       int places = 0;
       for (std::size_t table = 0; table < shapes_.size(); ++table) {
-        if (!shapes_[table].fits(record)) continue;
+        // Rows of an index cannot be told from those of another.
+        const bool is_table = shapes_[table].tree == shapes_[table].name;
+        if (!is_table || !shapes_[table].fits(record)) continue;
         place = table;
         ++places;
       }
@@ -229,9 +232,15 @@ PageFind salvage_pages(PageImage& image, Connection& into) {
     transaction.commit();
   }
   upgrade(into, migrations());
-  found.tables = salvager.finds();
-  for (std::size_t i = 0; i < found.tables.size(); ++i)
-    found.tables[i].rows -= doubled[i];
+  for (std::size_t i = 0; i < shapes.size(); ++i) {
+    TableFind find = salvager.finds()[i];
+    find.rows -= doubled[i];
+    if (shapes[i].tree == shapes[i].name) {
+      found.tables.push_back(find);
+    } else {  // what the table itself had lost
+      std::ranges::find(found.tables, find.name, &TableFind::name)->rows += find.rows;
+    }
+  }
   found.unplaced = salvager.unplaced();
   return found;
 }

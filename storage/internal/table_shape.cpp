@@ -77,7 +77,8 @@ std::vector<TableShape> table_shapes(const sqlite::Connection& connection) {
                   "SELECT name, wr FROM pragma_table_list WHERE schema = 'main' AND type = 'table'"
                   " AND name NOT LIKE 'sqlite_%' ORDER BY name");
   while (table.step()) {
-    TableShape shape{.name = table.text(0), .has_rowids = table.integer(1) == 0};
+    TableShape shape{
+        .name = table.text(0), .tree = table.text(0), .has_rowids = table.integer(1) == 0};
     // Records of tables without rowids begin with the key's columns.
     Statement column(connection,
                      "SELECT name, type, \"notnull\", dflt_value IS NOT NULL, pk"
@@ -95,6 +96,11 @@ std::vector<TableShape> table_shapes(const sqlite::Connection& connection) {
     }
     shapes.push_back(std::move(shape));
   }
+  shapes.push_back(
+      {.name = "source",
+       .tree = "sqlite_autoindex_source_1",
+       .has_rowids = false,
+       .columns = {{.name = "name", .type = "TEXT"}, {.name = "id", .type = "INTEGER"}}});
   return shapes;
 }
 

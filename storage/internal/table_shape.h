@@ -19,6 +19,8 @@ struct TableShape {
     bool may_be_null = false;
   };
   std::string name;
+  /// Under which name sqlite_schema has the tree: the table's, or an index' of it.
+  std::string tree;
   bool has_rowids = true;
   int alias = -1;  ///< the column that is the rowid, and NULL in the record
   /// In the order of the record.
@@ -30,7 +32,8 @@ struct TableShape {
   std::string insertion(std::size_t columns) const;
 };
 
-/// Of all tables of a database of ours.
+/// Of all tables of a database of ours, and of the one index that has all of a table: that of the
+/// sources' names, without which no score says where it is from.
 std::vector<TableShape> table_shapes(const sqlite::Connection& connection);
 
 }  // namespace swarmsmith
