@@ -1,11 +1,12 @@
-#include <unistd.h>
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
 
 #include <fmt/format.h>
 
-#include "base/hash.h"
-#include "storage/answer.h"
 #include "storage/internal/file_checks.h"
 #include "storage/internal/query.h"
+#include "storage/internal/reading.h"
 #include "storage/internal/row_reader.h"
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
@@ -20,116 +21,89 @@ using sqlite::Statement;
 
 class SqliteReader final : public StoreReader {
  public:
-  explicit SqliteReader(Connection connection) : connection_(std::move(connection)) {}
+  explicit SqliteReader(std::shared_ptr<Connection> connection,
+                        std::optional<std::int64_t> only = std::nullopt)
+      : connection_(std::move(connection)), only_(only) {}
 
-  CampaignRow campaign() override { return read_campaign(connection_); }
-  std::vector<DesignRow> designs() override { return read_designs(connection_); }
-  std::vector<StoredScore> scores() override { return read_scores(connection_); }
-  std::vector<CommandRow> commands() override { return read_commands(connection_); }
-  bool finished() override { return is_finished(connection_); }
+  std::vector<StoredCampaign> campaigns() override;
+  std::unique_ptr<StoreReader> alone(std::int64_t campaign) override;
+  std::int64_t schema() override { return schema_of(*connection_); }
+  std::vector<DesignRow> designs() override { return read_designs(*connection_, part()); }
+  std::vector<StoredScore> scores() override { return read_scores(*connection_, part()); }
+  std::vector<CommandRow> commands() override { return read_commands(*connection_, part()); }
+  bool finished() override {
+    return std::ranges::all_of(campaigns(),
+                               [](const auto& each) { return each.state == "finished"; });
+  }
 
   std::string digest() override;
   void each_answer_row(const std::function<void(const Row&)>& on_row) override;
   std::vector<std::string> integrity() override;
   Expected<QueryEnd> query(const std::string& sql, const QueryLimits& limits,
                            const std::function<void(const std::vector<std::string>&)>& on_columns,
-                           const std::function<void(const std::vector<Cell>&)>& on_row) override {
-    return run_query(connection_, sql, limits, on_columns, on_row);
-  }
+                           const std::function<void(const std::vector<Cell>&)>& on_row) override;
 
  private:
-  Connection connection_;
+  /// The designs that are looked at.
+  Part part();
+
+  std::shared_ptr<Connection> connection_;
+  std::optional<std::int64_t> only_;  ///< the campaign that is looked at; none: all
 };
 
-/// One state of the store for several statements; a reader's transaction only ever reads.
-class Snapshot {
- public:
-  explicit Snapshot(Connection& connection) : connection_(connection) {
-    connection_.execute("BEGIN");
+std::vector<StoredCampaign> SqliteReader::campaigns() {
+  std::vector<StoredCampaign> campaigns = read_campaigns(*connection_);
+  if (only_) std::erase_if(campaigns, [&](const auto& each) { return each.id != *only_; });
+  return campaigns;
+}
+
+std::unique_ptr<StoreReader> SqliteReader::alone(std::int64_t campaign) {
+  const auto known = read_campaigns(*connection_);
+  if (std::ranges::find(known, campaign, &StoredCampaign::id) == known.end()) {
+    throw std::invalid_argument(fmt::format("the store has no campaign {}", campaign));
   }
-  Snapshot(const Snapshot&) = delete;
-  Snapshot& operator=(const Snapshot&) = delete;
-  ~Snapshot() { sqlite3_exec(connection_.handle(), "ROLLBACK", nullptr, nullptr, nullptr); }
+  return std::make_unique<SqliteReader>(connection_, campaign);
+}
 
- private:
-  Connection& connection_;
-};
+Part SqliteReader::part() {
+  if (!only_) return {};
+  const StoredCampaign campaign = campaigns().front();
+  return {.designs_before = campaign.designs_before, .designs = campaign.designs};
+}
 
 void SqliteReader::each_answer_row(const std::function<void(const Row&)>& on_row) {
-  const Snapshot snapshot(connection_);
-  read_answer(connection_, on_row);
+  const Snapshot snapshot(*connection_);
+  read_answer(*connection_, part(), on_row);
 }
 
 std::string SqliteReader::digest() {
-  const Snapshot snapshot(connection_);
-  Digest digest;
-  digest.add(read_campaign(connection_).digest);
-  for (const DesignRow& row : read_designs(connection_)) {
-    digest.add(row.id.value);
-    digest.add(row.mission);
-    digest.add(row.method);
-    digest.add(row.repetition);
-    digest.add(row.seed);
-    digest.add(row.budget);
-  }
-  read_answer(connection_, [&](const Row& row) { add_answer(digest, row); });
-  return digest.hex();
+  const Snapshot snapshot(*connection_);
+  const std::vector<StoredCampaign> all = campaigns();
+  return all.size() == 1 ? digest_of_campaign(*connection_, all.front())
+                         : digest_of_store(*connection_);
+}
+
+Expected<StoreReader::QueryEnd> SqliteReader::query(
+    const std::string& sql, const QueryLimits& limits,
+    const std::function<void(const std::vector<std::string>&)>& on_columns,
+    const std::function<void(const std::vector<Cell>&)>& on_row) {
+  auto end = run_query(*connection_, sql, limits, on_columns, on_row);
+  const std::int64_t schema = schema_of(*connection_);
+  if (end || schema >= kSchemaVersion || !end.error().message.starts_with("no such ")) return end;
+  Error error = end.error();
+  const std::string file = sqlite3_db_filename(connection_->handle(), "main");
+  error.message += "; " + older_schema_text(schema, fs::path(file).filename().string());
+  return Unexpected(error);
 }
 
 std::vector<std::string> SqliteReader::integrity() {
-  std::vector<std::string> faults;
-  try {
-    Statement check(connection_, "PRAGMA integrity_check");
-    while (check.step()) {
-      if (check.text(0) != "ok") faults.push_back(check.text(0));
-    }
-    Statement foreign(connection_,
-                      "SELECT \"table\", parent, count(*) FROM pragma_foreign_key_check"
-                      " GROUP BY \"table\", parent");
-    while (foreign.step()) {
-      faults.push_back(fmt::format("rows of {} name rows of {} that do not exist: {}",
-                                   foreign.text(0), foreign.text(1), foreign.integer(2)));
-    }
-    if (const std::int64_t lost = candidates_without_phrases(connection_); lost > 0)
-      faults.push_back(fmt::format("candidates name phrases that do not exist: {}", lost));
-  } catch (const sqlite::SqliteError& error) {
-    faults.emplace_back(error.what());
-  }
-  return faults;
-}
-
-bool cannot_make_files(const fs::path& path) {
-  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
-  return ::access(folder.c_str(), W_OK) != 0;
-}
-
-/// A file: URI in which every byte that could mean something else is written as %XX.
-std::string immutable_uri(const fs::path& path) {
-  std::string uri = "file:";
-  for (const char c : fs::absolute(path).string()) {
-    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                       c == '/' || c == '.' || c == '-' || c == '_';
-    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
-  }
-  return uri + "?immutable=1";
-}
-
-/// A store in WAL mode needs a -shm file beside it. Where none can be made and no log waits, nobody
-/// can be writing, and the file may be read as it is.
-Connection connect(const fs::path& path) {
-  const bool still = cannot_make_files(path) && !has_pending_log(path);
-  Connection connection =
-      still ? Connection(immutable_uri(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI)
-            : Connection(path.string(), SQLITE_OPEN_READONLY);
-  configure_reader(connection);
-  return connection;
+  return faults_of(*connection_);
 }
 
 Unexpected refused(const sqlite::SqliteError& error, const fs::path& path) {
   const int code = error.primary_code();
   if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
-    return unexpected(ErrorKind::Corrupt, fmt::format("the store is damaged: {}", error.what()),
-                      path.string());
+    return unexpected(ErrorKind::Corrupt, damaged_text(error.what()), path.string());
   }
   if (cannot_make_files(path)) {
     return unexpected(ErrorKind::Unavailable,
@@ -144,6 +118,14 @@ Unexpected refused(const sqlite::SqliteError& error, const fs::path& path) {
 
 }  // namespace
 
+Expected<StoredCampaign> StoreReader::campaign_of(DesignId design) {
+  for (StoredCampaign& campaign : campaigns()) {
+    const std::int64_t number = design.value - campaign.designs_before;
+    if (number >= 1 && number <= campaign.designs) return std::move(campaign);
+  }
+  return unexpected(ErrorKind::NotFound, "the store has no design " + to_string(design));
+}
+
 std::vector<Row> StoreReader::answer_rows() {
   std::vector<Row> rows;
   each_answer_row([&](const Row& row) { rows.push_back(row); });
@@ -157,13 +139,13 @@ Expected<std::unique_ptr<StoreReader>> StoreReader::open(const fs::path& path) {
   }
   if (auto sound = check_database_file(path); !sound) return Unexpected(sound.error());
   try {
-    Connection connection = connect(path);
+    Connection connection = connect_for_reading(path);
     if (is_blank(connection)) {
       return unexpected(ErrorKind::NotFound, "the file is empty: no campaign has begun in it",
                         path.string());
     }
     if (auto ours = check_identity(connection, path); !ours) return Unexpected(ours.error());
-    return std::make_unique<SqliteReader>(std::move(connection));
+    return std::make_unique<SqliteReader>(std::make_shared<Connection>(std::move(connection)));
   } catch (const sqlite::SqliteError& error) {
     return refused(error, path);
   }

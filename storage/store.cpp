@@ -1,8 +1,5 @@
 #include "storage/store.h"
 
-#include <unistd.h>
-
-#include <array>
 #include <utility>
 
 #include <fmt/format.h>
@@ -58,7 +55,16 @@ std::string differing_keys(const Connection& connection, const std::string& here
 
 Expected<void> check_campaign(const Connection& connection, const fs::path& path,
                               const CampaignRow& wanted) {
-  const CampaignRow here = read_campaign(connection);
+  const std::vector<StoredCampaign> all = read_campaigns(connection);
+  if (all.size() > 1) {
+    return unexpected(
+        ErrorKind::Conflict,
+        fmt::format("the store holds {} campaigns: it was merged or imported into, and is there to "
+                    "be read; name the campaign's own store, or a new one",
+                    all.size()),
+        path.string());
+  }
+  const CampaignRow& here = all.front().row;
   if (here.digest == wanted.digest) return {};
   return unexpected(
       ErrorKind::Conflict,
@@ -71,23 +77,11 @@ Expected<void> check_campaign(const Connection& connection, const fs::path& path
 
 void write_birth(Connection& connection, const CampaignRow& campaign,
                  const std::vector<DesignRow>& designs) {
-  std::array<char, 256> host{};
-  if (::gethostname(host.data(), host.size() - 1) != 0) host = {"unknown"};
   sqlite::Transaction transaction(connection);
   create_schema(connection);
-  Statement meta(connection, "INSERT INTO meta VALUES (?,?)");
-  meta.run(std::string_view("host"), std::string_view(host.data()));
-  meta.run(std::string_view("sqlite"), std::string_view(sqlite3_libversion()));
-  Statement(connection,
-            "INSERT INTO campaign (id, name, digest, deciding, file, seed) VALUES (1,?,?,?,?,?)")
-      .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
-  Statement design(connection,
-                   "INSERT INTO design (id, mission, method, flavour, repetition, seed, budget)"
-                   " VALUES (?,?,?,?,?,?,?)");
-  for (const DesignRow& row : designs) {
-    design.run(row.id.value, row.mission, row.method, row.flavour, row.repetition, row.seed,
-               row.budget);
-  }
+  write_maker(connection);
+  write_campaign(connection, campaign);
+  write_designs(connection, designs);
   transaction.commit();
 }
 
@@ -106,10 +100,7 @@ Expected<void> recover(Connection& connection, const fs::path& path) {
   if (auto sound = check_database_file(path); !sound) return sound;
   const std::string fault = sqlite::text_of(connection, "PRAGMA quick_check(1)");
   if (fault == "ok") return {};
-  return unexpected(ErrorKind::Corrupt,
-                    fmt::format("the store was not closed properly, and is damaged: {}; take it "
-                                "from a backup, or export what can be read with sqlite3's .recover",
-                                fault),
+  return unexpected(ErrorKind::Corrupt, damaged_text(fault + ", and it was not closed properly"),
                     path.string());
 }
 
@@ -150,11 +141,7 @@ Expected<Connection> prepare(const fs::path& path, bool unclean, const CampaignR
 Unexpected refused(const sqlite::SqliteError& error, const fs::path& path) {
   const int code = error.primary_code();
   if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
-    return unexpected(ErrorKind::Corrupt,
-                      fmt::format("the store is damaged: {}; take it from a backup, or export what "
-                                  "can be read with sqlite3's .recover",
-                                  error.what()),
-                      path.string());
+    return unexpected(ErrorKind::Corrupt, damaged_text(error.what()), path.string());
   }
   return unexpected(ErrorKind::Unavailable,
                     fmt::format("the store cannot be opened for writing: {}", error.what()),

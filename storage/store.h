@@ -90,27 +90,50 @@ class Store {
   virtual bool finished() = 0;
 };
 
+/// A campaign of a store. Most stores have one; merged ones, and ones into which results were
+/// imported, have several.
+struct StoredCampaign {
+  std::int64_t id = 1;  ///< its number in the store
+  CampaignRow row;
+  std::string state;                ///< as CampaignStateRow; "imported": there is no race to play
+  std::int64_t designs_before = 0;  ///< its designs have the ids after that
+  std::int64_t designs = 0;         ///< how many
+};
+
 /// A read-only look at a store, for any process, also while a campaign runs. One thread. Each call
 /// sees the store as it is at that moment. Members throw std::runtime_error when the disk fails.
 class StoreReader {
  public:
   /// Errors: NotFound, Corrupt, Newer, Unavailable (a folder in which SQLite cannot make its -shm
-  /// file, while a log waits there). A store of an older schema is read as it is.
+  /// file, while a log waits there). A store of an older schema is read as it is; a query that
+  /// names what it lacks is told how to come to a newer one.
   static Expected<std::unique_ptr<StoreReader>> open(const std::filesystem::path& path);
   virtual ~StoreReader() = default;
 
-  virtual CampaignRow campaign() = 0;
+  /// The campaigns by number; only the one that is looked at, of a reader that `alone` gave.
+  virtual std::vector<StoredCampaign> campaigns() = 0;
+  /// One campaign of the store as if it were alone in it, with the ids that it has in a store of
+  /// its own. Queries and the integrity check see the whole store all the same. A number that the
+  /// store lacks is a std::invalid_argument. Lives on its own.
+  virtual std::unique_ptr<StoreReader> alone(std::int64_t campaign) = 0;
+  /// The first campaign: the only one, where nothing was merged or imported.
+  CampaignRow campaign() { return campaigns().front().row; }
+  /// The campaign that has the design; NotFound when none does.
+  Expected<StoredCampaign> campaign_of(DesignId design);
+  /// Version of the tables and views that the file has.
+  virtual std::int64_t schema() = 0;
   virtual std::vector<DesignRow> designs() = 0;
   virtual std::vector<StoredScore> scores() = 0;
   virtual std::vector<CommandRow> commands() = 0;
   /// One hash over every table that is part of the answer (answer.h), row by row in key order:
-  /// equal for two stores of one campaign, however they came about.
+  /// equal for two stores of one campaign, however they came about. Of several campaigns a hash
+  /// over the digests that they have alone, in whatever order they came together.
   virtual std::string digest() = 0;
   /// The rows that the digest covers, in its order: states of designs, iterations, candidates,
   /// pairs, evaluations, steps, eliminations, elites, totals, commands that acted.
   virtual void each_answer_row(const std::function<void(const Row&)>& on_row) = 0;
   std::vector<Row> answer_rows();
-  /// Whether the campaign's row says that it is finished.
+  /// Whether the rows of all campaigns say that they are finished.
   virtual bool finished() = 0;
   /// SQLite's own integrity check and foreign keys: a sentence a fault, none when clean.
   virtual std::vector<std::string> integrity() = 0;

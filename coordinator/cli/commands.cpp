@@ -206,6 +206,33 @@ number of workers and the history of crashes.
 Example:
   swarmsmith digest demo.db)";
 
+constexpr std::string_view kBackupDetails =
+    R"(A whole copy of the store as it is now, also while a campaign runs; checked, and never over another
+file. The copy has this program's schema: so an old store is brought up to date without touching it.
+
+Examples:
+  swarmsmith backup demo.db demo-monday.db
+  swarmsmith backup thesis-2024.db thesis.db)";
+
+constexpr std::string_view kMergeDetails =
+    R"(Puts the campaigns of several stores into a new one, to be read together: figures, tables, queries.
+Designs are numbered on from store to store (c3 of the second store, after one with two designs, is
+c2000003), and the answer of each campaign stays as it was. The stores are not changed; the new one is
+for reading, campaigns go on in their own.
+
+Examples:
+  swarmsmith merge aggregation.db grid.db color.db -o thesis.db
+  swarmsmith ls designs thesis.db)";
+
+constexpr std::string_view kRecoverDetails =
+    R"(Makes a new store of what can be read of a damaged one: every whole row of every page that is left,
+also without the file's header. What follows from scores is derived from them anew, and what is missing
+is said. Run the campaign on the new store: it evaluates what was lost, and comes to the same answer.
+
+Examples:
+  swarmsmith recover demo.db -o rescued.db && swarmsmith run --store rescued.db
+  swarmsmith recover thesis.db -o rescued.db --campaign thesis.toml)";
+
 constexpr std::string_view kIraceDetails =
     R"(Takes the place of irace: reads the same scenario, parameter, instance and configuration files, calls
 the same target-runner, means the same by the same options, and ends with the same report. All that
@@ -251,6 +278,11 @@ constexpr std::array kCommands = {
             declare_import},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
+    Command{"backup", "Copy a store, also while a campaign runs", kBackupDetails, declare_backup},
+    Command{"merge", "Put several stores into a new one, for reading", kMergeDetails,
+            declare_merge},
+    Command{"recover", "Make a new store of what is left of a damaged one", kRecoverDetails,
+            declare_recover},
     Command{"version", "Print the version", "", declare_version},
 };
 

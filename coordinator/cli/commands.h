@@ -38,6 +38,9 @@ Run declare_export(Options& options);
 Run declare_import(Options& options);
 Run declare_digest(Options& options);
 Run declare_verify(Options& options);
+Run declare_backup(Options& options);
+Run declare_merge(Options& options);
+Run declare_recover(Options& options);
 Run declare_version(Options& options);
 
 }  // namespace swarmsmith::cli

@@ -108,6 +108,13 @@ class Control {
     if (wish_.store.empty()) return by_wire(environment("SWARMSMITH_COORDINATOR"));
     const auto reader = StoreReader::open(wish_.store);
     if (!reader) return fail(output_, exit_code_of_store(reader.error()), reader.error());
+    if (const auto all = (*reader)->campaigns(); all.size() > 1) {
+      return fail(output_, ExitCode::Store,
+                  Error{ErrorKind::Conflict,
+                        "the store holds " + std::to_string(all.size()) +
+                            " campaigns and is there to be read; name the campaign's own store",
+                        wish_.store});
+    }
     campaign_ = (*reader)->campaign();
     const std::vector<DesignRow> designs = (*reader)->designs();
     for (const DesignId design : wish_.designs) {

@@ -34,7 +34,14 @@ Expected<Campaign> campaign_of(const std::string& file, Output& output) {
   if (!is_store(file)) return campaign_or_last(read_campaign(file), output);
   const auto store = StoreReader::open(file);
   if (!store) return Unexpected(store.error());
-  return campaign_or_last(parse_campaign((*store)->campaign().file, file), output);
+  const std::vector<StoredCampaign> campaigns = (*store)->campaigns();
+  if (campaigns.size() > 1) {
+    return unexpected(ErrorKind::Conflict,
+                      "the store holds " + std::to_string(campaigns.size()) +
+                          " campaigns; name a campaign file, or the store of one campaign",
+                      file);
+  }
+  return campaign_or_last(parse_campaign(campaigns.front().row.file, file), output);
 }
 
 Expected<DesignRow> find_design(const Campaign& campaign, const std::string& word) {

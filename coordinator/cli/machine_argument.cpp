@@ -49,18 +49,21 @@ Expected<NamedMachine> machine_of_file(const std::string& file) {
 Expected<NamedMachine> machine_of_store(const std::string& id, const StoreArgument& argument) {
   const auto store = argument.open();
   if (!store) return Unexpected(store.error());
-  const auto rows = select(**store,
-                           "SELECT c.fsm_config, d.mission, d.method FROM v_candidates AS "
-                           "c JOIN v_designs AS d ON d.design = c.design "
-                           "WHERE c.candidate = " +
-                               id.substr(1));
+  const auto rows =
+      select(**store,
+             "SELECT c.fsm_config, d.mission, d.method, d.design FROM v_candidates AS "
+             "c JOIN v_designs AS d ON d.design = c.design "
+             "WHERE c.candidate = " +
+                 id.substr(1));
   if (!rows) return Unexpected(rows.error());
   if (rows->cells.empty()) {
     return unexpected(ErrorKind::NotFound, "the store has no candidate " + id);
   }
   const auto& cells = rows->cells.front();
   NamedMachine machine{.text = cells[0].text};
-  const auto campaign = parse_campaign((*store)->campaign().file, "campaign.toml");
+  const auto stored = (*store)->campaign_of({std::stoll(cells[3].text)});
+  if (!stored) return Unexpected(stored.error());
+  const auto campaign = parse_campaign(stored->row.file, "campaign.toml");
   if (!campaign) return machine;  // of another method, imported: flags must say it
   if (!campaign->target) machine.profile = campaign->profile;
   for (const CampaignMission& mission : campaign->missions) {

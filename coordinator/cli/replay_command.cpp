@@ -34,17 +34,16 @@ std::string values_text(double score, std::uint64_t digest) {
 }
 
 /// Both values, and why they may differ.
-std::string difference_text(const StoredRun& run, const SimulationResult& result,
-                            int engine_version) {
+std::string difference_text(const StoredRun& run, const SimulationResult& result) {
   std::string text = name_of(run) + ": the replay gives " +
                      values_text(result.score, result.state_digest) + "; the store holds " +
                      values_text(run.outcome->score, run.outcome->state_digest);
-  const std::string older = other_engine(engine_version);
+  const std::string older = other_engine(run.engine_version);
   if (!older.empty()) text += "; " + older;
   return text;
 }
 
-std::string as_json(const StoredRun& run, const SimulationResult& result, int engine_version) {
+std::string as_json(const StoredRun& run, const SimulationResult& result) {
   const auto or_null = [&](const std::string& text) { return run.outcome ? text : "null"; };
   const StoredOutcome stored = run.outcome.value_or(StoredOutcome{});
   const bool same = run.outcome && same_bits(stored, result);
@@ -56,7 +55,7 @@ std::string as_json(const StoredRun& run, const SimulationResult& result, int en
          ",\"digest\":" + json_text(hexadecimal(result.state_digest)) +
          ",\"stored_digest\":" + or_null(json_text(hexadecimal(stored.state_digest))) +
          ",\"engine\":" + std::to_string(kEngineVersion) +
-         ",\"stored_engine\":" + std::to_string(engine_version) + "}\n";
+         ",\"stored_engine\":" + std::to_string(run.engine_version) + "}\n";
 }
 
 /// The line that says how the comparison went.
@@ -73,8 +72,7 @@ std::vector<std::string> details_of(const StoredRun& run, const SimulationResult
   return {run.candidate, "seed " + std::to_string(run.seed), "score " + score_text(result.score)};
 }
 
-ExitCode replay_one(const StoredRun& run, const Arguments& arguments, int engine_version,
-                    Output& output) {
+ExitCode replay_one(const StoredRun& run, const Arguments& arguments, Output& output) {
   auto recording = Recording::start(arguments.recording, run.mission, run.machine, output);
   if (!recording) return fail(output, exit_code_of_recording(recording.error()), recording.error());
   const SimulationResult result = simulate(run.setup(), recording->recorder());
@@ -82,14 +80,14 @@ ExitCode replay_one(const StoredRun& run, const Arguments& arguments, int engine
   if (!written) return fail(output, ExitCode::Failed, written.error());
   const bool differs = run.outcome && !same_bits(*run.outcome, result);
   if (output.json) {
-    output.out << as_json(run, result, engine_version);
+    output.out << as_json(run, result);
   } else if (!differs && arguments.recording.takes_standard_output()) {
     print_note(output, as_line(run, result));
   } else if (!differs) {
     output.out << as_line(run, result) << "\n";
   }
   if (!differs) return ExitCode::Done;
-  return fail(output, ExitCode::Failed, difference_text(run, result, engine_version));
+  return fail(output, ExitCode::Failed, difference_text(run, result));
 }
 
 /// The run that the words name.
@@ -126,8 +124,7 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
     if (same_bits(*run->outcome, result)) continue;
     ++different;
     different_json += (different_json.empty() ? "" : ",") + json_text(id);
-    print_error(output,
-                {ErrorKind::Conflict, difference_text(*run, result, runs.engine_version()), ""});
+    print_error(output, {ErrorKind::Conflict, difference_text(*run, result), ""});
   }
   counter.tell(replayed, of);
   if (output.json) {
@@ -172,7 +169,7 @@ ExitCode run(Arguments arguments, Output& output) {
     const bool missing = found.error().kind == ErrorKind::NotFound;
     return fail(output, missing ? ExitCode::NoSuchId : ExitCode::Usage, found.error());
   }
-  return replay_one(*found, arguments, runs->engine_version(), output);
+  return replay_one(*found, arguments, output);
 }
 
 }  // namespace

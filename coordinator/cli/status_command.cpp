@@ -53,9 +53,9 @@ struct Status {
   Rows commands;
   Rows paused;
 
-  std::string of_campaign(const std::string& column) const {
+  std::string of_campaign(std::size_t row, const std::string& column) const {
     for (std::size_t i = 0; i < campaign.columns.size(); ++i) {
-      if (campaign.columns[i] == column) return campaign.cells.front()[i].text;
+      if (campaign.columns[i] == column) return campaign.cells[row][i].text;
     }
     return "";
   }
@@ -93,15 +93,22 @@ Expected<Status> read_status(StoreReader& store) {
   return status;
 }
 
-/// One line of the campaign, then its designs, then who works.
+/// A line a campaign, then the designs, then who works.
 void write_text(Output& output, const Status& status) {
-  output.out << "campaign " << status.of_campaign("name") << "  " << status.of_campaign("state")
-             << "  designs " << status.of_campaign("designs_finished") << "/"
-             << status.of_campaign("designs") << "  experiments " << status.of_campaign("used")
-             << "/" << status.of_campaign("budget") << "  candidates "
-             << status.of_campaign("candidates") << "  failed "
-             << status.failures.cells.front().front().text << "\n\n"
-             << rows_as_text(status.designs);
+  const std::size_t campaigns = status.campaign.cells.size();
+  const std::string failures = status.failures.cells.front().front().text;
+  for (std::size_t i = 0; i < campaigns; ++i) {
+    output.out << "campaign " << status.of_campaign(i, "name") << "  "
+               << status.of_campaign(i, "state") << "  designs "
+               << status.of_campaign(i, "designs_finished") << "/"
+               << status.of_campaign(i, "designs") << "  experiments "
+               << status.of_campaign(i, "used") << "/" << status.of_campaign(i, "budget")
+               << "  candidates " << status.of_campaign(i, "candidates");
+    if (campaigns == 1) output.out << "  failed " << failures;
+    output.out << "\n";
+  }
+  if (campaigns > 1) output.out << "failed " << failures << "\n";
+  output.out << "\n" << rows_as_text(status.designs);
   for (std::size_t i = 0; i < status.paused.cells.size(); ++i)
     output.out << (i == 0 ? "\npaused: " : ", ") << status.paused.cells[i].front().text;
   if (!status.paused.cells.empty()) output.out << "\n";
@@ -111,8 +118,10 @@ void write_text(Output& output, const Status& status) {
 }
 
 void write_json(Output& output, const Status& status) {
-  output.out << "{\"campaign\":" << row_as_json(status.campaign, 0)
-             << ",\"designs\":" << rows_as_json(status.designs)
+  output.out << "{\"campaign\":" << row_as_json(status.campaign, 0);
+  if (status.campaign.cells.size() > 1)
+    output.out << ",\"campaigns\":" << rows_as_json(status.campaign);
+  output.out << ",\"designs\":" << rows_as_json(status.designs)
              << ",\"workers\":" << rows_as_json(status.workers)
              << ",\"paused\":" << rows_as_json(status.paused)
              << ",\"commands\":" << rows_as_json(status.commands)
@@ -196,7 +205,7 @@ ExitCode show_stored(const Arguments& arguments, Output& output, bool& running) 
   if (!status) return fail(output, ExitCode::Store, status.error());
   if (arguments.watch && output.out_is_terminal) output.out << "\x1b[H\x1b[2J";
   output.json ? write_json(output, *status) : write_text(output, *status);
-  running = status->of_campaign("state") == "running";
+  running = status->campaign.cells.size() == 1 && status->of_campaign(0, "state") == "running";
   return ExitCode::Done;
 }
 

@@ -40,7 +40,7 @@ std::string sql_text(const std::string& text) {
 /// With a run's columns in the order of `read_outcome`.
 std::string select_evaluations(const std::string& condition) {
   return "SELECT e.id, 'c' || e.candidate, e.seed, e.status, e.score, e.state_digest, e.source, "
-         "c.fsm_config, d.mission, d.method FROM (SELECT * FROM v_evaluations WHERE " +
+         "c.fsm_config, d.mission, d.method, d.design FROM (SELECT * FROM v_evaluations WHERE " +
          condition +
          ") AS e JOIN v_candidates AS c ON c.candidate = e.candidate "
          "JOIN v_designs AS d ON d.design = e.design";
@@ -56,6 +56,19 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
                                 static_cast<std::uint64_t>(integer_of(cells[5]))};
   }
   return run;
+}
+
+Expected<Profile> profile_of(const Campaign& campaign, const std::string& source) {
+  if (!campaign.target && source == campaign.profile.name) return campaign.profile;
+  if (source == "real") {
+    return bad_input("it was filmed, not simulated: there is nothing to simulate again");
+  }
+  if (campaign.target) {
+    return bad_input(
+        "a program scored it: there is nothing to simulate again; `show` has its seed "
+        "and what was given to the program");
+  }
+  return built_in_profile(source);
 }
 
 }  // namespace
@@ -74,15 +87,31 @@ std::string other_engine(int stored_version) {
 }
 
 Expected<StoredRuns> StoredRuns::open(std::unique_ptr<StoreReader> store) {
-  const CampaignRow row = store->campaign();
-  auto campaign = parse_campaign(row.file, "the store's campaign file");
-  const int engine_version = engine_version_in(row.deciding);
-  if (campaign) return StoredRuns(std::move(store), std::move(*campaign), engine_version);
+  const std::vector<StoredCampaign> campaigns = store->campaigns();
+  StoredRuns runs(std::move(store));
+  if (campaigns.size() > 1) return runs;
+  const auto source = runs.source_of({campaigns.front().designs_before + 1});
+  if (!source) return Unexpected(source.error());
+  if (!(*source)->campaign) return Unexpected((*source)->campaign.error());
+  return runs;
+}
+
+Expected<const StoredRuns::Source*> StoredRuns::source_of(DesignId design) {
+  const auto stored = store_->campaign_of(design);
+  if (!stored) return Unexpected(stored.error());
+  const auto known = sources_.find(stored->id);
+  if (known != sources_.end()) return &known->second;
+  const int engine_version = engine_version_in(stored->row.deciding);
+  auto campaign = parse_campaign(stored->row.file, "the store's campaign file");
+  if (campaign) {
+    return &sources_.emplace(stored->id, Source{std::move(*campaign), engine_version})
+                .first->second;
+  }
   Error error = campaign.error().front();
   const std::string older = other_engine(engine_version);
   error.message += "; this version cannot replay the store";
   if (!older.empty()) error.message += " (" + older + ")";
-  return Unexpected(error);
+  return &sources_.emplace(stored->id, Source{Unexpected(error), engine_version}).first->second;
 }
 
 Expected<StoredRun> StoredRuns::evaluation(const ThingId& id) {
@@ -97,35 +126,41 @@ Expected<StoredRun> StoredRuns::evaluation(const ThingId& id) {
     return bad_input("the store does not say on which seed it was made", name);
   }
   StoredRun run = read_outcome(cells);
-  const auto completed =
-      complete(run, {cells[7].text, cells[8].text, cells[9].text, cells[6].text});
+  const auto completed = complete(
+      run, {cells[7].text, cells[8].text, cells[9].text, cells[6].text, {integer_of(cells[10])}});
   if (!completed) return bad_input(to_string(completed.error()), name);
   return run;
 }
 
 Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) {
-  const auto rows = select(*store_,
-                           "SELECT c.fsm_config, d.mission, d.method FROM v_candidates AS c "
-                           "JOIN v_designs AS d ON d.design = c.design WHERE c.candidate = " +
-                               id.digits);
+  const auto rows =
+      select(*store_,
+             "SELECT c.fsm_config, d.mission, d.method, d.design FROM v_candidates AS c "
+             "JOIN v_designs AS d ON d.design = c.design WHERE c.candidate = " +
+                 id.digits);
   if (!rows) return Unexpected(rows.error());
   if (rows->cells.empty()) {
     return unexpected(ErrorKind::NotFound, "the store has no candidate c" + id.digits);
   }
+  const auto& cells = rows->cells.front();
+  const DesignId design{integer_of(cells[3])};
+  const auto source = source_of(design);
+  if (!source) return Unexpected(source.error());
+  if (!(*source)->campaign) return Unexpected((*source)->campaign.error());
+  const std::string& profile = (*(*source)->campaign).profile.name;
   // The pair may have served the race and more: all of these hold the same outcome.
   const auto known =
       select(*store_,
              select_evaluations("candidate = " + id.digits + " AND seed = " + std::to_string(seed) +
-                                " AND source = " + sql_text(campaign_.profile.name)) +
+                                " AND source = " + sql_text(profile)) +
                  " ORDER BY e.purpose = 'race' DESC, e.pair",
              {.rows = 1});
   if (!known) return Unexpected(known.error());
   StoredRun run{.id = {}, .candidate = "c" + id.digits};
   if (!known->cells.empty()) run = read_outcome(known->cells.front());
   run.seed = seed;
-  const auto& cells = rows->cells.front();
   const auto completed =
-      complete(run, {cells[0].text, cells[1].text, cells[2].text, campaign_.profile.name});
+      complete(run, {cells[0].text, cells[1].text, cells[2].text, profile, design});
   if (!completed) return bad_input(to_string(completed.error()), run.candidate);
   return run;
 }
@@ -148,32 +183,24 @@ Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
   return ids;
 }
 
-Expected<Profile> StoredRuns::profile_of(const std::string& source) const {
-  if (!campaign_.target && source == campaign_.profile.name) return campaign_.profile;
-  if (source == "real") {
-    return bad_input("it was filmed, not simulated: there is nothing to simulate again");
-  }
-  if (campaign_.target) {
-    return bad_input(
-        "a program scored it: there is nothing to simulate again; `show` has its seed "
-        "and what was given to the program");
-  }
-  return built_in_profile(source);
-}
-
-Expected<void> StoredRuns::complete(StoredRun& run, const Origin& origin) const {
-  auto profile = profile_of(origin.source);
+Expected<void> StoredRuns::complete(StoredRun& run, const Origin& origin) {
+  const auto source = source_of(origin.design);
+  if (!source) return Unexpected(source.error());
+  if (!(*source)->campaign) return Unexpected((*source)->campaign.error());
+  const Campaign& campaign = *(*source)->campaign;
+  run.engine_version = (*source)->engine_version;
+  auto profile = profile_of(campaign, origin.source);
   if (!profile) return Unexpected(profile.error());
   run.profile = std::move(*profile);
   const auto mission = std::ranges::find_if(
-      campaign_.missions, [&](const auto& known) { return known.mission.name == origin.mission; });
-  if (mission == campaign_.missions.end()) {
+      campaign.missions, [&](const auto& known) { return known.mission.name == origin.mission; });
+  if (mission == campaign.missions.end()) {
     return bad_input("the store's campaign has no mission " + origin.mission);
   }
   run.mission = mission->mission;
   const auto method = std::ranges::find_if(
-      campaign_.methods, [&](const Method& known) { return known.name == origin.method; });
-  if (method == campaign_.methods.end()) {
+      campaign.methods, [&](const Method& known) { return known.name == origin.method; });
+  if (method == campaign.methods.end()) {
     return bad_input("the store's campaign has no method " + origin.method);
   }
   auto flavour = find_flavour(method->flavour, method->turn_clock);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -28,6 +29,7 @@ struct StoredRun {
   std::string candidate;  ///< c812
   std::int64_t seed = 0;
   bool rejected = false;
+  int engine_version = 0;  ///< that made the stored outcome; 0 when the store does not say
   std::optional<StoredOutcome> outcome;  ///< none: rejected, or not in the store
   Machine machine;
   Flavour flavour;
@@ -44,7 +46,8 @@ bool same_bits(const StoredOutcome& stored, const SimulationResult& result);
 /// The evaluations of a store, to be simulated again.
 class StoredRuns {
  public:
-  /// Fails when the campaign file that the store keeps cannot be read by this version.
+  /// Fails when a store's only campaign file cannot be read by this version; of several campaigns,
+  /// which may be imported ones, each run tells for itself.
   static Expected<StoredRuns> open(std::unique_ptr<StoreReader> store);
 
   /// NotFound when the store has no such evaluation; BadInput when it cannot be simulated: it was
@@ -56,12 +59,13 @@ class StoredRuns {
   /// the order of candidates; all when there are fewer.
   Expected<std::vector<std::string>> sample(std::int64_t count);
 
-  /// Version of the engine that made the store's scores; 0 when it does not say.
-  int engine_version() const { return engine_version_; }
-
  private:
-  StoredRuns(std::unique_ptr<StoreReader> store, Campaign campaign, int engine_version)
-      : store_(std::move(store)), campaign_(std::move(campaign)), engine_version_(engine_version) {}
+  /// A campaign of the store, read from its file.
+  struct Source {
+    Expected<Campaign> campaign;
+    int engine_version = 0;
+  };
+  explicit StoredRuns(std::unique_ptr<StoreReader> store) : store_(std::move(store)) {}
 
   /// What the run is a function of, besides its machine's text and its seed.
   struct Origin {
@@ -69,13 +73,13 @@ class StoredRuns {
     std::string mission;
     std::string method;
     std::string source;
+    DesignId design;
   };
-  Expected<void> complete(StoredRun& run, const Origin& origin) const;
-  Expected<Profile> profile_of(const std::string& source) const;
+  Expected<const Source*> source_of(DesignId design);
+  Expected<void> complete(StoredRun& run, const Origin& origin);
 
   std::unique_ptr<StoreReader> store_;
-  Campaign campaign_;
-  int engine_version_;
+  std::map<std::int64_t, Source> sources_;  ///< by the campaign's number, those that were needed
 };
 
 /// The stored version differs from this program's: a sentence that says so, else empty.

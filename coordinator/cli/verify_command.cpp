@@ -35,11 +35,10 @@ Run declare_verify(Options& options) {
   return [argument](Output& output) {
     const auto store = argument->open();
     if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-    auto plans = plans_of(**store);
-    if (!plans) return fail(output, ExitCode::Store, plans.error());
-    const Verification found = verify(**store, std::move(*plans));
-    write(output, found);
-    return found.complaints.empty() ? ExitCode::Done : ExitCode::Store;
+    const auto found = verify(**store);
+    if (!found) return fail(output, ExitCode::Store, found.error());
+    write(output, *found);
+    return found->complaints.empty() ? ExitCode::Done : ExitCode::Store;
   };
 }
 

@@ -26,6 +26,7 @@ struct DesignAnswer {
   std::map<std::int64_t, std::string> pairs;
   std::set<std::int64_t> stepped;
   std::map<CandidateId, std::string> totals;
+  std::map<CandidateId, std::string> candidates;
   std::optional<DesignStateRow> state;
   std::int64_t evaluations = 0;
 };
@@ -58,6 +59,8 @@ void add(const Row& row, DesignAnswer& answer) {
     answer.state = *state;
   } else if (const auto* totals = std::get_if<CandidateTotalsRow>(&row)) {
     answer.totals[totals->candidate] = describe(row);
+  } else if (const auto* candidate = std::get_if<CandidateRow>(&row)) {
+    answer.candidates[candidate->id] = describe(row);
   } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
     if (evaluation->key.purpose == Purpose::Race) ++answer.evaluations;
   } else if (const auto* pair = std::get_if<PairRow>(&row);
@@ -73,6 +76,24 @@ void add_stepped_pairs(DesignAnswer& answer) {
   for (const auto& [number, row] : answer.pairs) {
     if (answer.stepped.contains(number)) answer.rows.push_back(row);
   }
+}
+
+/// Candidates as rows; but those of an unfinished design that come after all that its scores give,
+/// as they stand in a recovered store, are only counted.
+std::int64_t add_candidates(DesignAnswer& stored, DesignAnswer& replayed, bool finished) {
+  const CandidateId last =
+      replayed.candidates.empty() ? CandidateId{} : replayed.candidates.rbegin()->first;
+  std::int64_t later = 0;
+  for (const auto& [id, row] : stored.candidates) {
+    if (!finished && id > last) {
+      ++later;
+    } else {
+      stored.rows.push_back(row);
+    }
+  }
+  for (const auto& [id, row] : replayed.candidates)
+    replayed.rows.push_back(row);
+  return later;
 }
 
 /// What stands in `some` and not in `all`, at most so many; both get sorted.
@@ -155,6 +176,12 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   add_stepped_pairs(replayed);
   add_stepped_pairs(stored);
   if (!stored.state) complaints.push_back(name + ": the store has no row of this design");
+  if (const std::int64_t later = add_candidates(stored, replayed, finished); later > 0) {
+    complaints.push_back(fmt::format(
+        "{}: {} candidates stand after a gap: {} evaluations before them are missing, the first is "
+        "{}; run the campaign on this store to have them again",
+        name, later, tasks.size(), tasks.empty() ? "unknown" : to_string(tasks.front().key)));
+  }
   if (finished && !tasks.empty()) {
     complaints.push_back(
         fmt::format("{}: the design is finished, but {} of its evaluations are "
@@ -188,17 +215,14 @@ void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complai
   if (!found) complaints.push_back(to_string(found.error()));
 }
 
-}  // namespace
-
-Verification verify(StoreReader& store, std::vector<DesignPlan> plans) {
-  Verification result{.complaints = store.integrity()};
-  complain_of_conflicts(store, result.complaints);
+/// The races of one campaign, which the reader shows as if it were alone.
+void verify_campaign(StoreReader& store, std::vector<DesignPlan> plans, Verification& result) {
   std::map<DesignId, DesignAnswer> stored;
   store.each_answer_row([&](const Row& row) {
     if (const auto id = design_of(row)) add(row, stored[*id]);
   });
   const std::vector<StoredScore> all = store.scores();
-  result.evaluations = static_cast<std::int64_t>(all.size());
+  result.evaluations += static_cast<std::int64_t>(all.size());
   auto scores = by_design(all, {}, {});
   const std::vector<CommandRow> commands = acted(store.commands());
   for (DesignPlan& plan : plans) {
@@ -209,11 +233,42 @@ Verification verify(StoreReader& store, std::vector<DesignPlan> plans) {
     if (answer.state && answer.state->state == DesignState::Finished) ++result.finished;
     verify_design(std::move(plan), std::move(scores[id]), answer, result.complaints);
   }
+}
+
+/// "campaign 2, tuning"
+std::string name_of(const StoredCampaign& campaign) {
+  return fmt::format("campaign {}, {}", campaign.id, campaign.row.name);
+}
+
+}  // namespace
+
+Expected<Verification> verify(StoreReader& store) {
+  Verification result{.complaints = store.integrity()};
+  complain_of_conflicts(store, result.complaints);
+  const std::vector<StoredCampaign> campaigns = store.campaigns();
+  for (const StoredCampaign& campaign : campaigns) {
+    if (campaign.state == "imported") continue;
+    const auto alone = store.alone(campaign.id);
+    auto plans = plans_of(campaign.row);
+    if (!plans && campaigns.size() == 1) return Unexpected(plans.error());
+    Verification found;
+    if (plans) {
+      verify_campaign(*alone, std::move(*plans), found);
+    } else {
+      found.complaints.push_back(to_string(plans.error()));
+    }
+    result.designs += found.designs;
+    result.finished += found.finished;
+    result.evaluations += found.evaluations;
+    for (const std::string& complaint : found.complaints) {
+      result.complaints.push_back(campaigns.size() == 1 ? complaint
+                                                        : name_of(campaign) + ": " + complaint);
+    }
+  }
   return result;
 }
 
-Expected<std::vector<DesignPlan>> plans_of(StoreReader& store) {
-  const CampaignRow row = store.campaign();
+Expected<std::vector<DesignPlan>> plans_of(const CampaignRow& row) {
   const auto campaign = parse_campaign(row.file, "the store's campaign file");
   if (!campaign) return Unexpected(campaign.error().front());
   if (campaign_digest(*campaign) != row.digest) {

@@ -20,10 +20,13 @@ struct Verification {
 /// Plays every race of the store again from the stored scores, and compares what comes out with
 /// what is stored: candidates, pairs, steps, eliminations, elites, budget, winner. A design that is
 /// not finished is compared as far as it has come. Also evaluations with two different results,
-/// SQLite's own integrity check, and whether the store's campaign is the one of `plans`.
-Verification verify(StoreReader& store, std::vector<DesignPlan> plans);
+/// SQLite's own integrity check, and whether each campaign is the one of the file that the store
+/// keeps of it. Of several campaigns each is looked at as if it were alone, and so are the ids in
+/// its complaints. Imported ones have no races. Fails when a campaign cannot be played by this
+/// program at all.
+Expected<Verification> verify(StoreReader& store);
 
-/// The designs of a store, made from the campaign file that it keeps.
-Expected<std::vector<DesignPlan>> plans_of(StoreReader& store);
+/// The designs of a store's only campaign, made from the file that it keeps.
+Expected<std::vector<DesignPlan>> plans_of(const CampaignRow& row);
 
 }  // namespace swarmsmith

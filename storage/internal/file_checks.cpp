@@ -16,6 +16,9 @@ namespace {
 constexpr std::size_t kHeaderBytes = 100;
 constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 
+constexpr std::string_view kWayOut =
+    "take it from a backup, or let `swarmsmith recover` make a new store of what can be read";
+
 std::uint64_t big_endian(const std::array<char, kHeaderBytes>& header, std::size_t at,
                          std::size_t bytes) {
   std::uint64_t value = 0;
@@ -28,13 +31,16 @@ std::uint64_t big_endian(const std::array<char, kHeaderBytes>& header, std::size
 Unexpected truncated(const std::filesystem::path& path, std::uint64_t has, std::uint64_t wants) {
   return unexpected(ErrorKind::Corrupt,
                     fmt::format("the store is truncated: it has {} bytes, and its header speaks of "
-                                "{}; take it from a backup, or export what can be read with "
-                                "sqlite3's .recover",
-                                has, wants),
+                                "{}; {}",
+                                has, wants, kWayOut),
                     path.string());
 }
 
 }  // namespace
+
+std::string damaged_text(const std::string& fault) {
+  return fmt::format("the store is damaged: {}; {}", fault, kWayOut);
+}
 
 Expected<void> check_database_file(const std::filesystem::path& path) {
   std::error_code trouble;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "base/expected.h"
 
@@ -8,6 +9,9 @@ namespace swarmsmith {
 
 /// Looks at a store from outside, before SQLite does, since SQLite's own words ("database disk
 /// image is malformed") say neither what is wrong nor what to do.
+
+/// "the store is damaged: FAULT; take it from a backup, or ..."
+std::string damaged_text(const std::string& fault);
 
 /// Corrupt when the file does not begin as a SQLite database does, or is shorter than its header
 /// says (unless a write-ahead log lies beside it, which may hold the rest). An empty file passes.

@@ -2,8 +2,11 @@
 
 #include <string>
 
+#include <fmt/format.h>
+
 #include "base/assert.h"
 #include "storage/internal/candidate_code.h"
+#include "storage/renumber.h"
 
 namespace swarmsmith {
 namespace {
@@ -22,26 +25,42 @@ EvaluationKey key_at(const Statement& row, int column) {
           row.integer(column + 2)};
 }
 
-std::int64_t schema_of(const sqlite::Connection& connection) {
-  return sqlite::integer_of(connection, "PRAGMA user_version");
-}
-
 /// A store of schema 1, which has none of the columns that targets brought: read as it is.
 bool is_first_schema(const sqlite::Connection& connection) {
   return schema_of(connection) == 1;
 }
 
-/// Runs `sql` and hands on what `make` makes of each row.
-template <class Make>
-void each(const sqlite::Connection& connection, const std::string& sql, const OnRow& on_row,
-          Make make) {
-  Statement row(connection, sql);
-  while (row.step())
-    on_row(make(row));
+/// Conditions on a column that names a design, or a candidate.
+std::string designs_of(const Part& part, const char* column) {
+  if (!part.designs) return "1";
+  return fmt::format("{} BETWEEN {} AND {}", column, part.designs_before + 1,
+                     part.designs_before + *part.designs);
+}
+std::string candidates_of(const Part& part, const char* column) {
+  if (!part.designs) return "1";
+  return fmt::format("{} BETWEEN {} AND {}", column, part.designs_before * kCandidatesPerDesign + 1,
+                     (part.designs_before + *part.designs) * kCandidatesPerDesign);
 }
 
-constexpr const char* kDesignStates =
-    "SELECT id, state, used, iteration, best, best_mean, reason FROM design ORDER BY id";
+/// To the ids of a store of its own.
+Shift shift_of(const Part& part) {
+  return {.designs = -part.designs_before};
+}
+
+/// Runs `sql` and hands on what `make` makes of each row.
+template <class Make>
+void each(const sqlite::Connection& connection, const Part& part, const std::string& sql,
+          const OnRow& on_row, Make make) {
+  Statement row(connection, sql);
+  const Shift shift = shift_of(part);
+  while (row.step())
+    on_row(shift.designs == 0 ? Row(make(row)) : shifted(make(row), shift));
+}
+
+std::string design_states_of(const Part& part) {
+  return "SELECT id, state, used, iteration, best, best_mean, reason FROM design WHERE " +
+         designs_of(part, "id") + " ORDER BY id";
+}
 
 DesignStateRow design_state(const Statement& row) {
   return {.design = design_at(row, 0),
@@ -76,13 +95,15 @@ std::string codes_in(const sqlite::Connection& connection) {
 /// Calls `take(candidate, whole)` with every candidate by id; `whole` is false when the store lacks
 /// phrases of its texts. Stores before schema 4 know no phrases: their texts are as they are.
 template <class Take>
-void each_candidate(const sqlite::Connection& connection, Take take) {
+void each_candidate(const sqlite::Connection& connection, const Part& part, Take take) {
   PhraseBook phrases;
   if (schema_of(connection) >= 4) phrases.load(connection);
   Statement row(
       connection,
       "SELECT id, iteration, parent, states, transitions, machine, parameters, modules, " +
-          codes_in(connection) + " FROM candidate ORDER BY id");
+          codes_in(connection) + " FROM candidate WHERE " + candidates_of(part, "id") +
+          " ORDER BY id");
+  const Shift shift = shift_of(part);
   while (row.step()) {
     CandidateRow candidate{.id = candidate_at(row, 0),
                            .iteration = row.integer(1),
@@ -98,7 +119,7 @@ void each_candidate(const sqlite::Connection& connection, Take take) {
                             .code = optional_text(row, 8),
                             .module_code = optional_text(row, 9)};
     const bool whole = phrases.decode(texts, candidate);
-    take(candidate, whole);
+    take(std::get<CandidateRow>(shifted(std::move(candidate), shift)), whole);
   }
 }
 
@@ -181,23 +202,40 @@ CommandRow command(const Statement& row) {
 
 }  // namespace
 
-CampaignRow read_campaign(const sqlite::Connection& connection) {
-  Statement row(connection, "SELECT name, digest, deciding, file, seed FROM campaign");
-  if (!row.step()) connection.fail(SQLITE_CORRUPT, "the table campaign has no row");
-  return {.name = row.text(0),
-          .digest = row.text(1),
-          .deciding = row.text(2),
-          .file = row.text(3),
-          .seed = row.integer(4)};
+std::int64_t schema_of(const sqlite::Connection& connection) {
+  return sqlite::integer_of(connection, "PRAGMA user_version");
 }
 
-std::vector<DesignRow> read_designs(const sqlite::Connection& connection) {
+std::vector<StoredCampaign> read_campaigns(const sqlite::Connection& connection) {
+  std::vector<StoredCampaign> campaigns;
+  const bool several = schema_of(connection) >= 4;
+  Statement row(connection, std::string("SELECT name, digest, deciding, file, seed, id, state, ") +
+                                (several ? "designs_before, (SELECT count(*) FROM design AS d"
+                                           " WHERE d.campaign = campaign.id)"
+                                         : "0, (SELECT count(*) FROM design)") +
+                                " FROM campaign ORDER BY id");
+  while (row.step()) {
+    campaigns.push_back({.id = row.integer(5),
+                         .row = {.name = row.text(0),
+                                 .digest = row.text(1),
+                                 .deciding = row.text(2),
+                                 .file = row.text(3),
+                                 .seed = row.integer(4)},
+                         .state = row.text(6),
+                         .designs_before = row.integer(7),
+                         .designs = row.integer(8)});
+  }
+  if (campaigns.empty()) connection.fail(SQLITE_CORRUPT, "the table campaign has no row");
+  return campaigns;
+}
+
+std::vector<DesignRow> read_designs(const sqlite::Connection& connection, const Part& part) {
   std::vector<DesignRow> designs;
   const std::string flavour = schema_of(connection) < 4 ? "''" : "flavour";
   Statement row(connection, "SELECT id, mission, method, repetition, seed, budget, " + flavour +
-                                " FROM design ORDER BY id");
+                                " FROM design WHERE " + designs_of(part, "id") + " ORDER BY id");
   while (row.step()) {
-    designs.push_back({.id = design_at(row, 0),
+    designs.push_back({.id = {row.integer(0) - part.designs_before},
                        .mission = row.text(1),
                        .method = row.text(2),
                        .flavour = row.text(6),
@@ -208,14 +246,16 @@ std::vector<DesignRow> read_designs(const sqlite::Connection& connection) {
   return designs;
 }
 
-std::vector<StoredScore> read_scores(const sqlite::Connection& connection) {
+std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const Part& part) {
   std::vector<StoredScore> scores;
   const std::string times = is_first_schema(connection) ? "NULL, NULL" : "time, bound";
   Statement row(connection, "SELECT candidate, purpose, pair, status, score, state_digest, " +
-                                times +
-                                ", iteration FROM evaluation ORDER BY candidate, purpose, pair");
+                                times + ", iteration FROM evaluation WHERE " +
+                                candidates_of(part, "candidate") +
+                                " ORDER BY candidate, purpose, pair");
+  const Shift shift = shift_of(part);
   while (row.step()) {
-    scores.push_back({.key = key_at(row, 0),
+    scores.push_back({.key = shifted(key_at(row, 0), shift),
                       .status = static_cast<EvaluationStatus>(row.integer(3)),
                       .score = row.real(4),
                       .state_digest = row.bits(5),
@@ -237,19 +277,20 @@ std::vector<StoredStep> read_steps(const sqlite::Connection& connection) {
 
 std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection) {
   std::vector<DesignStateRow> states;
-  Statement row(connection, kDesignStates);
+  Statement row(connection, design_states_of({}));
   while (row.step())
     states.push_back(design_state(row));
   return states;
 }
 
-std::vector<CommandRow> read_commands(const sqlite::Connection& connection) {
+std::vector<CommandRow> read_commands(const sqlite::Connection& connection, const Part& part) {
   std::vector<CommandRow> commands;
   if (schema_of(connection) < 3) return commands;
-  Statement row(connection,
-                "SELECT number, kind, design, step, budget, who FROM command ORDER BY number");
-  while (row.step())
-    commands.push_back(command(row));
+  each(
+      connection, part,
+      "SELECT number, kind, design, step, budget, who FROM command WHERE " +
+          designs_of(part, "design") + " ORDER BY number",
+      [&](const Row& row) { commands.push_back(std::get<CommandRow>(row)); }, command);
   return commands;
 }
 
@@ -259,52 +300,69 @@ std::int64_t read_next_worker(const sqlite::Connection& connection) {
 }
 
 bool is_finished(const sqlite::Connection& connection) {
-  Statement row(connection, "SELECT state FROM campaign");
-  return row.step() && row.text(0) == "finished";
+  return sqlite::integer_of(connection,
+                            "SELECT count(*) FROM campaign WHERE state <> 'finished'") == 0;
 }
 
-std::int64_t candidates_without_phrases(const sqlite::Connection& connection) {
-  std::int64_t lost = 0;
-  each_candidate(connection, [&](const CandidateRow&, bool whole) { lost += whole ? 0 : 1; });
+std::vector<CandidateId> candidates_without_phrases(const sqlite::Connection& connection) {
+  std::vector<CandidateId> lost;
+  each_candidate(connection, {}, [&](const CandidateRow& candidate, bool whole) {
+    if (!whole) lost.push_back(candidate.id);
+  });
   return lost;
 }
 
-void read_answer(const sqlite::Connection& connection, const OnRow& on_row) {
-  each(connection, kDesignStates, on_row, design_state);
-  const bool first = is_first_schema(connection);
-  each(connection,
-       std::string("SELECT *") + (first ? ", 0" : "") + " FROM iteration ORDER BY design, number",
-       on_row, iteration);
-  each_candidate(connection, [&](const CandidateRow& candidate, bool whole) {
+void read_candidates(const sqlite::Connection& connection, const Part& part, const OnRow& on_row) {
+  each_candidate(connection, part, [&](const CandidateRow& candidate, bool whole) {
     if (!whole) {
       connection.fail(SQLITE_CORRUPT, to_string(candidate.id) + " names phrases that do not exist");
     }
     on_row(candidate);
   });
+}
+
+void read_answer(const sqlite::Connection& connection, const Part& part, const OnRow& on_row) {
+  const std::string designs = designs_of(part, "design");
+  const std::string candidates = candidates_of(part, "candidate");
+  each(connection, part, design_states_of(part), on_row, design_state);
+  const bool first = is_first_schema(connection);
+  each(connection, part,
+       std::string("SELECT *") + (first ? ", 0" : "") + " FROM iteration WHERE " + designs +
+           " ORDER BY design, number",
+       on_row, iteration);
+  read_candidates(connection, part, on_row);
   // A pair that only look-ahead has touched so far is not part of the answer.
-  each(connection,
-       "SELECT * FROM pair WHERE purpose IN (2, 5)"
-       " OR purpose = 0 AND (design, number) IN (SELECT design, pair FROM race_step)"
-       " ORDER BY design, purpose, number",
+  each(connection, part,
+       "SELECT * FROM pair WHERE " + designs +
+           " AND (purpose IN (2, 5)"
+           " OR purpose = 0 AND (design, number) IN (SELECT design, pair FROM race_step))"
+           " ORDER BY design, purpose, number",
        on_row, pair);
-  each(connection,
+  each(connection, part,
        std::string("SELECT candidate, purpose, pair, iteration, status, score, state_digest,"
                    " (SELECT name FROM source WHERE id = evaluation.source), wall_us, worker,"
                    " attempt, ") +
-           (first ? "NULL, NULL" : "time, bound") +
-           " FROM evaluation WHERE purpose IN (2, 5) OR purpose = 0 AND iteration IS NOT NULL"
+           (first ? "NULL, NULL" : "time, bound") + " FROM evaluation WHERE " + candidates +
+           " AND (purpose IN (2, 5) OR purpose = 0 AND iteration IS NOT NULL)"
            " ORDER BY candidate, purpose, pair",
        on_row, evaluation);
-  each(connection,
-       std::string("SELECT *") + (first ? ", NULL" : "") + " FROM race_step ORDER BY design, step",
+  each(connection, part,
+       std::string("SELECT *") + (first ? ", NULL" : "") + " FROM race_step WHERE " + designs +
+           " ORDER BY design, step",
        on_row, race_step);
-  each(connection, "SELECT * FROM elimination ORDER BY candidate, iteration", on_row, elimination);
-  each(connection, "SELECT * FROM elite ORDER BY design, iteration, rank", on_row, elite);
-  each(connection, "SELECT * FROM candidate_totals ORDER BY candidate", on_row, totals);
+  each(connection, part,
+       "SELECT * FROM elimination WHERE " + candidates + " ORDER BY candidate, iteration", on_row,
+       elimination);
+  each(connection, part,
+       "SELECT * FROM elite WHERE " + designs + " ORDER BY design, iteration, rank", on_row, elite);
+  each(connection, part,
+       "SELECT * FROM candidate_totals WHERE " + candidates + " ORDER BY candidate", on_row,
+       totals);
   if (schema_of(connection) < 3) return;
-  each(connection,
+  each(connection, part,
        "SELECT number, kind, design, step, budget, who FROM command"
-       " WHERE kind IN ('cancel', 'extend') AND step IS NOT NULL ORDER BY design, step, number",
+       " WHERE kind IN ('cancel', 'extend') AND step IS NOT NULL AND " +
+           designs + " ORDER BY design, step, number",
        on_row, command);
 }
 

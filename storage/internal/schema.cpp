@@ -1,5 +1,6 @@
 #include "storage/internal/schema.h"
 
+#include <unistd.h>
 #include <array>
 #include <string>
 #include <vector>
@@ -54,13 +55,49 @@ void configure_reader(sqlite::Connection& connection) {
       "PRAGMA query_only = ON; PRAGMA trusted_schema = OFF; PRAGMA cache_size = -65536");
 }
 
-void create_schema(sqlite::Connection& connection) {
+void create_tables(sqlite::Connection& connection, std::int64_t schema) {
   connection.execute(kInitialSchema);
-  for (const Migration& step : migrations())
-    step.apply(connection);
-  connection.execute(kViews);
+  for (const Migration& step : migrations()) {
+    if (step.to <= schema) step.apply(connection);
+  }
+}
+
+void create_schema(sqlite::Connection& connection) {
+  create_tables(connection, kSchemaVersion);
+  finish_schema(connection, kSchemaVersion);
+}
+
+void finish_schema(sqlite::Connection& connection, std::int64_t schema) {
+  if (schema == kSchemaVersion) connection.execute(kViews);
   connection.execute(fmt::format("PRAGMA application_id = {}", kApplicationId));
-  set_version(connection, kSchemaVersion);
+  set_version(connection, schema);
+}
+
+void write_maker(sqlite::Connection& connection) {
+  std::array<char, 256> host{};
+  if (::gethostname(host.data(), host.size() - 1) != 0) host = {"unknown"};
+  sqlite::Statement meta(connection, "INSERT OR REPLACE INTO meta VALUES (?,?)");
+  meta.run(std::string_view("host"), std::string_view(host.data()));
+  meta.run(std::string_view("sqlite"), std::string_view(sqlite3_libversion()));
+}
+
+void write_campaign(sqlite::Connection& connection, const CampaignRow& campaign) {
+  sqlite::Statement(
+      connection,
+      "INSERT INTO campaign (id, name, digest, deciding, file, seed) VALUES (1,?,?,?,?,?)")
+      .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
+}
+
+void write_designs(sqlite::Connection& connection, const std::vector<DesignRow>& designs,
+                   std::int64_t campaign, std::int64_t designs_before) {
+  sqlite::Statement design(
+      connection,
+      "INSERT OR IGNORE INTO design (id, campaign, mission, method, flavour, repetition, seed,"
+      " budget) VALUES (?,?,?,?,?,?,?,?)");
+  for (const DesignRow& row : designs) {
+    design.run(row.id.value + designs_before, campaign, row.mission, row.method, row.flavour,
+               row.repetition, row.seed, row.budget);
+  }
 }
 
 bool is_blank(const sqlite::Connection& connection) {
@@ -96,6 +133,11 @@ void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
   const std::string copy = fmt::format("{}.before-v{}", path.string(), steps.back().to);
   std::filesystem::remove(copy);
   sqlite::Statement(connection, "VACUUM INTO ?").run(copy);
+  upgrade(connection, steps);
+}
+
+void upgrade(sqlite::Connection& connection, std::span<const Migration> steps) {
+  const std::int64_t from = sqlite::integer_of(connection, "PRAGMA user_version");
   for (const Migration& step : steps) {
     if (step.to <= from) continue;
     sqlite::Transaction transaction(connection);

@@ -4,9 +4,11 @@
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <vector>
 
 #include "base/expected.h"
 #include "storage/internal/sqlite.h"
+#include "storage/rows.h"
 
 namespace swarmsmith {
 
@@ -33,6 +35,15 @@ void configure_reader(sqlite::Connection& connection);
 /// Makes tables and views in an empty database; the caller holds a transaction.
 void create_schema(sqlite::Connection& connection);
 
+/// Writes into a new store on which host it was made, and by which SQLite.
+void write_maker(sqlite::Connection& connection);
+
+/// The row of a store's only campaign.
+void write_campaign(sqlite::Connection& connection, const CampaignRow& campaign);
+/// A campaign's designs, after so many others; those that are there stay.
+void write_designs(sqlite::Connection& connection, const std::vector<DesignRow>& designs,
+                   std::int64_t campaign = 1, std::int64_t designs_before = 0);
+
 /// A database without a table that nobody has claimed: new, or left by a crash at its birth.
 bool is_blank(const sqlite::Connection& connection);
 
@@ -45,5 +56,15 @@ Expected<void> check_identity(const sqlite::Connection& connection,
 /// the store is up to date.
 void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
              std::span<const Migration> steps);
+
+/// The same without a copy: of a file that is one.
+void upgrade(sqlite::Connection& connection, std::span<const Migration> steps);
+
+/// Makes the tables of an earlier schema in an empty database, with neither views nor version; the
+/// caller holds a transaction.
+void create_tables(sqlite::Connection& connection, std::int64_t schema);
+/// Marks a database with the tables of a schema as a store of it. The newest one's views are made;
+/// an earlier one gets its views when it is upgraded.
+void finish_schema(sqlite::Connection& connection, std::int64_t schema);
 
 }  // namespace swarmsmith

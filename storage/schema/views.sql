@@ -1,19 +1,26 @@
 -- The public schema: documented column by column in docs/storage.md, fixed by
 -- tests/storage/views_test.cpp. A change is a new schema version.
 
+-- Ids of candidates are numbered through designs: those of a campaign's designs lie in one range.
 CREATE VIEW v_campaign_status AS
-SELECT c.name, c.state, c.seed,
-       (SELECT count(*) FROM design) AS designs,
-       (SELECT count(*) FROM design WHERE state = 3) AS designs_finished,
-       (SELECT count(*) FROM design WHERE state = 4) AS designs_stopped,
-       (SELECT coalesce(sum(budget), 0) FROM design) AS budget,
-       (SELECT coalesce(sum(used), 0) FROM design) AS used,
-       (SELECT count(*) FROM candidate) AS candidates,
-       (SELECT count(*) FROM evaluation) AS evaluations,
-       (SELECT count(*) FROM worker WHERE worker.state = 'connected') AS workers,
-       (SELECT count(*) FROM conflict) AS conflicts,
-       c.created, c.finished
-FROM campaign AS c;
+SELECT c.name, c.state, c.seed, c.designs, c.designs_finished, c.designs_stopped, c.budget, c.used,
+       (SELECT count(*) FROM candidate AS a
+        WHERE a.id > c.designs_before * 1000000
+          AND a.id <= (c.designs_before + c.designs) * 1000000) AS candidates,
+       (SELECT count(*) FROM evaluation AS e
+        WHERE e.candidate > c.designs_before * 1000000
+          AND e.candidate <= (c.designs_before + c.designs) * 1000000) AS evaluations,
+       (SELECT count(*) FROM worker AS w WHERE w.state = 'connected') AS workers,
+       (SELECT count(*) FROM conflict AS f
+        WHERE f.candidate > c.designs_before * 1000000
+          AND f.candidate <= (c.designs_before + c.designs) * 1000000) AS conflicts,
+       c.created, c.finished, c.campaign
+FROM (SELECT k.id AS campaign, k.name, k.state, k.seed, k.designs_before, k.created, k.finished,
+             count(d.id) AS designs, count(nullif(d.state = 3, 0)) AS designs_finished,
+             count(nullif(d.state = 4, 0)) AS designs_stopped, coalesce(sum(d.budget), 0) AS budget,
+             coalesce(sum(d.used), 0) AS used
+      FROM campaign AS k LEFT JOIN design AS d ON d.campaign = k.id
+      GROUP BY k.id) AS c;
 
 CREATE VIEW v_designs AS
 SELECT id AS design, mission, method, repetition, seed,

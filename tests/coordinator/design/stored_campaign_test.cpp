@@ -56,7 +56,7 @@ class StoredCampaign : public ::testing::Test {
   void expect_clean(const std::string& name) {
     auto reader = StoreReader::open(folder_ / name);
     ASSERT_TRUE(reader);
-    const Verification found = verify(**reader, *plans_of(**reader));
+    const Verification found = *verify(**reader);
     EXPECT_THAT(found.complaints, IsEmpty());
   }
 

@@ -1,0 +1,90 @@
+#include "storage/backup.h"
+
+#include <fmt/format.h>
+
+#include "storage/internal/copying.h"
+#include "storage/internal/file_checks.h"
+#include "storage/internal/new_file.h"
+#include "storage/internal/reading.h"
+#include "storage/internal/row_reader.h"
+#include "storage/internal/schema.h"
+#include "storage/store.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+using sqlite::Connection;
+using sqlite::SqliteError;
+
+/// All pages of one database, into another that is empty. The source's transaction must be open:
+/// it fixes the state that is copied, however much is written meanwhile.
+void copy_pages(const Connection& from, const Connection& to, const OnCopied& on_copied) {
+  constexpr int kPagesAtOnce = 512;
+  sqlite3_backup* copying = sqlite3_backup_init(to.handle(), "main", from.handle(), "main");
+  if (copying == nullptr) to.fail(sqlite3_extended_errcode(to.handle()));
+  int code = SQLITE_OK;
+  while (code == SQLITE_OK) {
+    code = sqlite3_backup_step(copying, kPagesAtOnce);
+    const std::int64_t all = sqlite3_backup_pagecount(copying);
+    on_copied(all - sqlite3_backup_remaining(copying), all);
+  }
+  sqlite3_backup_finish(copying);
+  if (code != SQLITE_DONE) to.fail(code, sqlite3_errstr(code));
+}
+
+}  // namespace
+
+Unexpected damaged(const fs::path& store, const std::string& fault) {
+  return unexpected(ErrorKind::Corrupt, damaged_text(fault), store.string());
+}
+
+Unexpected copying_failed(const SqliteError& error, const fs::path& from, const fs::path& to) {
+  const int code = error.primary_code();
+  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) return damaged(from, error.what());
+  return unexpected(ErrorKind::Unavailable, fmt::format("cannot be written: {}", error.what()),
+                    to.string());
+}
+
+Expected<Backup> copy_store(const fs::path& store, const fs::path& to, const OnCopied& on_copied) {
+  // Says what is wrong with a file that is no store, or a newer one.
+  if (const auto reader = StoreReader::open(store); !reader) return Unexpected(reader.error());
+  Backup made;
+  try {
+    Connection original = connect_for_reading(store);
+    const Snapshot snapshot(original);
+    const std::int64_t schema = schema_of(original);  // the snapshot begins with the first reading
+    Connection copy(to.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    copy_pages(original, copy, on_copied);
+    configure_writer(copy);
+    upgrade(copy, migrations());
+    if (const auto faults = faults_of(copy); !faults.empty()) return damaged(store, faults.front());
+    const Snapshot of_copy(copy);
+    made.digest = digest_of_store(copy);
+    if (made.digest != digest_of_store(original)) {
+      return damaged(store, "what was read and what was copied differ");
+    }
+    made.schema = schema_of(copy);
+    if (schema != made.schema) made.migrated = schema;
+  } catch (const SqliteError& error) {
+    return copying_failed(error, store, to);
+  }
+  std::error_code ignored;
+  made.bytes = static_cast<std::int64_t>(fs::file_size(to, ignored));
+  return made;
+}
+
+Expected<Backup> back_up(const fs::path& store, const fs::path& copy, const OnCopied& on_copied) {
+  auto file = NewFile::beside(copy);
+  if (!file) return Unexpected(file.error());
+  auto made = copy_store(store, file->path(), on_copied);
+  if (!made) {
+    // Its own name says nothing to anybody.
+    if (made.error().where == file->path().string()) made.error().where = copy.string();
+    return made;
+  }
+  if (auto published = file->publish(); !published) return Unexpected(published.error());
+  return made;
+}
+
+}  // namespace swarmsmith

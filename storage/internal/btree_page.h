@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "storage/internal/page_image.h"
+
+namespace swarmsmith {
+
+/// A value of a record.
+struct StoredValue {
+  enum class Type { Null, Integer, Real, Text, Blob } type = Type::Null;
+  std::int64_t integer = 0;
+  double real = 0;
+  std::string bytes;
+};
+
+/// What one cell holds.
+struct StoredRecord {
+  std::optional<std::int64_t> rowid;  ///< none in the trees of tables WITHOUT ROWID and of indices
+  std::vector<StoredValue> values;
+};
+
+/// A page of a b-tree, read without trust: cells that are no whole record are left out.
+/// https://www.sqlite.org/fileformat2.html, sections 1.6 and 2.1
+struct BtreePage {
+  bool is_leaf = false;
+  bool has_rowids = false;  ///< of a table with rowids
+  std::vector<std::uint32_t> children;
+  std::vector<StoredRecord> records;
+  std::int64_t broken = 0;  ///< cells that are no whole record
+};
+
+/// None when the page is no page of a b-tree.
+std::optional<BtreePage> read_btree_page(const PageImage& image, std::uint32_t number);
+
+}  // namespace swarmsmith

@@ -1,0 +1,106 @@
+#include "storage/internal/reading.h"
+
+#include <unistd.h>
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "storage/answer.h"
+#include "storage/internal/file_checks.h"
+#include "storage/internal/row_reader.h"
+#include "storage/internal/schema.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+using sqlite::Connection;
+using sqlite::Statement;
+
+/// A file: URI in which every byte that could mean something else is written as %XX.
+std::string immutable_uri(const fs::path& path) {
+  std::string uri = "file:";
+  for (const char c : fs::absolute(path).string()) {
+    const bool plain = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                       c == '/' || c == '.' || c == '-' || c == '_';
+    uri += plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  }
+  return uri + "?immutable=1";
+}
+
+}  // namespace
+
+bool cannot_make_files(const fs::path& path) {
+  const fs::path folder = path.parent_path().empty() ? fs::path(".") : path.parent_path();
+  return ::access(folder.c_str(), W_OK) != 0;
+}
+
+/// A store in WAL mode needs a -shm file beside it. Where none can be made and no log waits, nobody
+/// can be writing, and the file may be read as it is.
+sqlite::Connection connect_for_reading(const fs::path& path) {
+  const bool still = cannot_make_files(path) && !has_pending_log(path);
+  Connection connection =
+      still ? Connection(immutable_uri(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI)
+            : Connection(path.string(), SQLITE_OPEN_READONLY);
+  configure_reader(connection);
+  return connection;
+}
+
+std::string digest_of_campaign(const Connection& connection, const StoredCampaign& campaign) {
+  const Part part{.designs_before = campaign.designs_before, .designs = campaign.designs};
+  Digest digest;
+  digest.add(campaign.row.digest);
+  for (const DesignRow& row : read_designs(connection, part)) {
+    digest.add(row.id.value);
+    digest.add(row.mission);
+    digest.add(row.method);
+    digest.add(row.repetition);
+    digest.add(row.seed);
+    digest.add(row.budget);
+  }
+  read_answer(connection, part, [&](const Row& row) { add_answer(digest, row); });
+  return digest.hex();
+}
+
+std::string digest_of_store(const Connection& connection) {
+  std::vector<std::string> digests;
+  for (const StoredCampaign& campaign : read_campaigns(connection))
+    digests.push_back(digest_of_campaign(connection, campaign));
+  if (digests.size() == 1) return digests.front();
+  std::ranges::sort(digests);
+  Digest digest;
+  for (const std::string& each : digests)
+    digest.add(each);
+  return digest.hex();
+}
+
+std::vector<std::string> faults_of(const sqlite::Connection& connection) {
+  std::vector<std::string> faults;
+  try {
+    Statement check(connection, "PRAGMA integrity_check");
+    while (check.step()) {
+      if (check.text(0) != "ok") faults.push_back(check.text(0));
+    }
+    Statement foreign(connection,
+                      "SELECT \"table\", parent, count(*) FROM pragma_foreign_key_check"
+                      " GROUP BY \"table\", parent");
+    while (foreign.step()) {
+      faults.push_back(fmt::format("rows of {} name rows of {} that do not exist: {}",
+                                   foreign.text(0), foreign.text(1), foreign.integer(2)));
+    }
+    if (const auto lost = candidates_without_phrases(connection); !lost.empty())
+      faults.push_back(fmt::format("candidates name phrases that do not exist: {}", lost.size()));
+  } catch (const sqlite::SqliteError& error) {
+    faults.emplace_back(error.what());
+  }
+  return faults;
+}
+
+std::string older_schema_text(std::int64_t schema, const std::string& name) {
+  return fmt::format(
+      "this store has schema {}; `swarmsmith backup {} new.db` makes a copy with schema {}", schema,
+      name, kSchemaVersion);
+}
+
+}  // namespace swarmsmith

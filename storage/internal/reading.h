@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "storage/internal/sqlite.h"
+#include "storage/store.h"
+
+namespace swarmsmith {
+
+/// A folder in which this user cannot make files.
+bool cannot_make_files(const std::filesystem::path& store);
+
+/// A connection that only reads, also where no file can be made beside the store. Throws
+/// SqliteError.
+sqlite::Connection connect_for_reading(const std::filesystem::path& path);
+
+/// One state of the store for several statements; a reader's transaction only ever reads.
+class Snapshot {
+ public:
+  explicit Snapshot(sqlite::Connection& connection) : connection_(connection) {
+    connection_.execute("BEGIN");
+  }
+  Snapshot(const Snapshot&) = delete;
+  Snapshot& operator=(const Snapshot&) = delete;
+  ~Snapshot() { sqlite3_exec(connection_.handle(), "ROLLBACK", nullptr, nullptr, nullptr); }
+
+ private:
+  sqlite::Connection& connection_;
+};
+
+/// The digest of one campaign, which has the ids of a store of its own. Within a Snapshot.
+std::string digest_of_campaign(const sqlite::Connection& connection,
+                               const StoredCampaign& campaign);
+/// StoreReader::digest of the whole store. Within a Snapshot.
+std::string digest_of_store(const sqlite::Connection& connection);
+
+/// What SQLite's integrity check and foreign keys find: a sentence a fault.
+std::vector<std::string> faults_of(const sqlite::Connection& connection);
+
+/// "this store has schema 3; `swarmsmith backup old.db new.db` makes a copy with schema 4".
+std::string older_schema_text(std::int64_t schema, const std::string& name);
+
+}  // namespace swarmsmith

@@ -1,0 +1,177 @@
+#include "storage/merge.h"
+
+#include <array>
+#include <map>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "storage/internal/copying.h"
+#include "storage/internal/new_file.h"
+#include "storage/internal/reading.h"
+#include "storage/internal/row_reader.h"
+#include "storage/internal/row_writer.h"
+#include "storage/internal/schema.h"
+#include "storage/renumber.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+using sqlite::Connection;
+using sqlite::SqliteError;
+using sqlite::Statement;
+
+/// How far ids move, and with them the numbers of campaigns.
+struct Move : Shift {
+  std::int64_t campaigns = 0;
+};
+
+/// Tables whose rows are copied column by column. Candidates go through their rows, `source` by its
+/// names, and `meta` is each file's own.
+constexpr std::array<const char*, 14> kCopied{
+    "campaign",    "design", "pair",   "iteration", "candidate_totals", "evaluation", "race_step",
+    "elimination", "elite",  "worker", "conflict",  "failure",          "attempt",    "event"};
+
+/// What becomes of a column: an expression over the source's row.
+std::string moved(std::string_view table, const std::string& column, const Move& move) {
+  const auto plus = [&](std::int64_t by) { return fmt::format("{} + {}", column, by); };
+  const auto worker = [&] {
+    return fmt::format("iif({0} = 0, 0, {0} + {1})", column, move.workers);
+  };
+  if (column == "id") {
+    if (table == "campaign") return plus(move.campaigns);
+    if (table == "design") return plus(move.designs);
+    return plus(move.workers);  // of the table worker
+  }
+  if (column == "design" || column == "designs_before") return plus(move.designs);
+  if (column == "candidate" || column == "best") return plus(move.designs * kCandidatesPerDesign);
+  if (column == "campaign") return plus(move.campaigns);
+  if (column == "worker" || column == "other_worker") return worker();
+  if (column == "number" && table == "command") return plus(move.commands);
+  if (column == "seq") return "NULL";
+  if (column == "source") {
+    return "(SELECT m.id FROM main.source AS m JOIN other.source AS s ON s.name = m.name"
+           " WHERE s.id = t.source)";
+  }
+  return column;
+}
+
+void copy_table(Connection& connection, const std::string& table, const Move& move) {
+  std::string columns;
+  std::string values;
+  Statement column(connection, "SELECT name FROM pragma_table_info(?) ORDER BY cid");
+  column.bind(table);
+  while (column.step()) {
+    const std::string name = column.text(0);
+    columns += (columns.empty() ? "" : ", ") + name;
+    values += (values.empty() ? "" : ", ") + moved(table, name, move);
+  }
+  const std::string order = columns.find("seq") == 0 ? " ORDER BY seq" : "";
+  connection.execute(fmt::format("INSERT INTO main.{} ({}) SELECT {} FROM other.{} AS t{}", table,
+                                 columns, values, table, order));
+}
+
+std::int64_t largest(const Connection& connection, const char* column, const char* table) {
+  return sqlite::integer_of(connection,
+                            fmt::format("SELECT coalesce(max({}), 0) FROM {}", column, table));
+}
+
+/// One store into the new one; `copy` is its copy, of the newest schema.
+void take(Connection& connection, const fs::path& copy) {
+  const Move move{{.designs = largest(connection, "id", "design"),
+                   .workers = largest(connection, "id", "worker"),
+                   .commands = largest(connection, "number", "command")},
+                  largest(connection, "id", "campaign")};
+  Connection other(copy.string(), SQLITE_OPEN_READONLY);
+  configure_reader(other);
+  Statement(connection, "ATTACH ? AS other").run(copy.string());
+  {
+    sqlite::Transaction transaction(connection);
+    connection.execute("PRAGMA defer_foreign_keys = ON");
+    RowWriter writer(connection);
+    read_candidates(other, {}, [&](const Row& row) { writer.write(shifted(row, move)); });
+    connection.execute(
+        "INSERT OR IGNORE INTO main.source (name) SELECT name FROM other.source"
+        " ORDER BY id");
+    for (const char* table : kCopied)
+      copy_table(connection, table, move);
+    copy_table(connection, "command", move);
+    transaction.commit();
+  }
+  connection.execute("DETACH other");
+}
+
+/// A campaign that was there before cannot come again: its designs would be two.
+Expected<void> check_new(const std::vector<StoredCampaign>& coming, const fs::path& store,
+                         std::map<std::string, fs::path>& known) {
+  for (const StoredCampaign& campaign : coming) {
+    const auto [found, is_new] = known.emplace(campaign.row.digest, store);
+    if (is_new) continue;
+    return unexpected(ErrorKind::Conflict,
+                      fmt::format("the campaign {} (digest {}) is in {}, too; a campaign is merged "
+                                  "once: leave one of the two stores out",
+                                  campaign.row.name, campaign.row.digest, found->second.string()),
+                      store.string());
+  }
+  return {};
+}
+
+void warn_of_unfinished(const std::vector<StoredCampaign>& campaigns, const fs::path& store,
+                        std::vector<std::string>& warnings) {
+  for (const StoredCampaign& campaign : campaigns) {
+    if (campaign.state == "finished" || campaign.state == "imported") continue;
+    warnings.push_back(
+        fmt::format("{}: the campaign {} is not finished ({}); its designs are taken "
+                    "as they are now",
+                    store.string(), campaign.row.name, campaign.state));
+  }
+}
+
+}  // namespace
+
+Expected<Merged> merge_stores(const std::vector<fs::path>& stores, const fs::path& into,
+                              const OnStore& on_store) {
+  auto file = NewFile::beside(into);
+  if (!file) return Unexpected(file.error());
+  Merged merged;
+  std::map<std::string, fs::path> known;
+  try {
+    Connection connection(file->path().string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    configure_writer(connection);
+    {
+      sqlite::Transaction transaction(connection);
+      create_schema(connection);
+      write_maker(connection);
+      transaction.commit();
+    }
+    for (std::size_t i = 0; i < stores.size(); ++i) {
+      on_store(static_cast<std::int64_t>(i), static_cast<std::int64_t>(stores.size()));
+      auto copy = NewFile::beside(into.string() + fmt::format("-{}", i + 1));
+      if (!copy) return Unexpected(copy.error());
+      if (auto copied = copy_store(stores[i], copy->path(), [](auto, auto) {}); !copied) {
+        return Unexpected(copied.error());
+      }
+      const auto campaigns =
+          read_campaigns(Connection(copy->path().string(), SQLITE_OPEN_READONLY));
+      if (auto fresh = check_new(campaigns, stores[i], known); !fresh) {
+        return Unexpected(fresh.error());
+      }
+      warn_of_unfinished(campaigns, stores[i], merged.warnings);
+      take(connection, copy->path());
+    }
+    if (const auto faults = faults_of(connection); !faults.empty()) {
+      return unexpected(ErrorKind::Corrupt, "what was merged is damaged: " + faults.front(),
+                        into.string());
+    }
+    merged.campaigns = read_campaigns(connection);
+    const Snapshot snapshot(connection);
+    merged.digest = digest_of_store(connection);
+  } catch (const SqliteError& error) {
+    return copying_failed(error, into, into);
+  }
+  if (auto published = file->publish(); !published) return Unexpected(published.error());
+  return merged;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,273 @@
+#include "storage/recover.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/format.h>
+
+#include "storage/internal/copying.h"
+#include "storage/internal/new_file.h"
+#include "storage/internal/reading.h"
+#include "storage/internal/row_reader.h"
+#include "storage/internal/row_writer.h"
+#include "storage/internal/salvage.h"
+#include "storage/internal/schema.h"
+#include "storage/renumber.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+using sqlite::Connection;
+using sqlite::SqliteError;
+using sqlite::Statement;
+
+/// Ids that only damage can have made, and what no column's type forbids.
+constexpr std::array kNonsense{
+    "DELETE FROM design WHERE id < 1 OR state NOT BETWEEN 0 AND 4",
+    "DELETE FROM candidate WHERE id < 1 OR iteration < 0",
+    "DELETE FROM pair WHERE number < 1 OR purpose NOT BETWEEN 0 AND 5",
+    "DELETE FROM evaluation WHERE pair < 1 OR purpose NOT BETWEEN 0 AND 5"
+    " OR status NOT BETWEEN 0 AND 1 OR (status = 0) <> (score IS NOT NULL)",
+    "DELETE FROM race_step WHERE step < 1",
+};
+
+/// What names something that is lost. Each may make others so: they are repeated until nothing
+/// more goes.
+constexpr std::array kOrphans{
+    "DELETE FROM candidate WHERE (id - 1) / 1000000 + 1 NOT IN (SELECT id FROM design)",
+    "DELETE FROM candidate WHERE parent IS NOT NULL AND parent NOT IN (SELECT id FROM candidate)",
+    "DELETE FROM evaluation WHERE candidate NOT IN (SELECT id FROM candidate)"
+    " OR source NOT IN (SELECT id FROM source)",
+    "DELETE FROM candidate_totals WHERE candidate NOT IN (SELECT id FROM candidate)",
+    "DELETE FROM elimination WHERE candidate NOT IN (SELECT id FROM candidate)",
+    "DELETE FROM elite WHERE candidate NOT IN (SELECT id FROM candidate)"
+    " OR design NOT IN (SELECT id FROM design)",
+    "DELETE FROM iteration WHERE design NOT IN (SELECT id FROM design)",
+    "DELETE FROM pair WHERE design NOT IN (SELECT id FROM design)",
+    "DELETE FROM race_step WHERE design NOT IN (SELECT id FROM design)"
+    " OR best IS NOT NULL AND best NOT IN (SELECT id FROM candidate)",
+    "DELETE FROM command WHERE design IS NOT NULL AND design NOT IN (SELECT id FROM design)",
+};
+
+/// By the tables' words for whose rows they are.
+struct Bounds {
+  std::int64_t first_design, last_design, first_candidate, last_candidate;
+
+  explicit Bounds(const StoredCampaign& campaign)
+      : first_design(campaign.designs_before + 1),
+        last_design(campaign.designs_before + campaign.designs),
+        first_candidate(campaign.designs_before * kCandidatesPerDesign + 1),
+        last_candidate(last_design * kCandidatesPerDesign) {}
+};
+
+Part part_of(const StoredCampaign& campaign) {
+  return {.designs_before = campaign.designs_before, .designs = campaign.designs};
+}
+
+class SqliteRecovery final : public Recovery {
+ public:
+  SqliteRecovery(NewFile file, Connection connection, const PageFind& found, bool header)
+      : file_(std::move(file)), connection_(std::move(connection)) {
+    found_ = {.schema = found.schema,
+              .header_is_damaged = header || found.schema_is_guessed,
+              .pages = found.pages,
+              .unplaced = found.unplaced,
+              .tables = {}};
+    for (const TableFind& table : found.tables)
+      found_.tables.push_back({table.name, table.rows, table.lost_pages, table.broken});
+    for (const char* statement : kNonsense)
+      remove(statement);
+  }
+
+  const Salvaged& found() const override { return found_; }
+
+  std::vector<StoredCampaign> campaigns() override {
+    if (sqlite::integer_of(connection_, "SELECT count(*) FROM campaign") == 0) return {};
+    return read_campaigns(connection_);
+  }
+
+  void put_campaign(const CampaignRow& campaign) override { write_campaign(connection_, campaign); }
+  Expected<void> put_designs(const StoredCampaign& campaign,
+                             const std::vector<DesignRow>& designs) override;
+
+  std::vector<StoredScore> scores(const StoredCampaign& campaign) override {
+    return read_scores(connection_, part_of(campaign));
+  }
+  std::vector<StoredStep> steps(const StoredCampaign& campaign) override {
+    const Bounds bounds(campaign);
+    std::vector<StoredStep> steps = read_steps(connection_);
+    std::erase_if(steps, [&](const StoredStep& step) {
+      return step.design.value < bounds.first_design || step.design.value > bounds.last_design;
+    });
+    for (StoredStep& step : steps)
+      step.design.value -= campaign.designs_before;
+    return steps;
+  }
+  std::vector<CommandRow> commands(const StoredCampaign& campaign) override {
+    return read_commands(connection_, part_of(campaign));
+  }
+
+  void replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
+                       const std::string& source) override;
+  Expected<End> finish() override;
+
+ private:
+  void remove(const std::string& statement) {
+    connection_.execute(statement);
+    orphans_ += connection_.changes();
+  }
+
+  NewFile file_;
+  Connection connection_;
+  Salvaged found_;
+  std::int64_t orphans_ = 0;
+};
+
+Expected<void> SqliteRecovery::put_designs(const StoredCampaign& campaign,
+                                           const std::vector<DesignRow>& designs) {
+  for (const DesignRow& stored : read_designs(connection_, part_of(campaign))) {
+    const auto same = std::ranges::find_if(designs, [&](const DesignRow& design) {
+      return design.id == stored.id && design.mission == stored.mission &&
+             design.method == stored.method && design.repetition == stored.repetition &&
+             design.seed == stored.seed;
+    });
+    if (same != designs.end()) continue;
+    return unexpected(
+        ErrorKind::Conflict,
+        fmt::format("a design {} of {} and {}, repetition {}, seed {} was found, which "
+                    "the campaign {} has not; name the campaign's own file",
+                    to_string(stored.id), stored.mission, stored.method, stored.repetition,
+                    stored.seed, campaign.row.name));
+  }
+  write_designs(connection_, designs, campaign.id, campaign.designs_before);
+  return {};
+}
+
+void SqliteRecovery::replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
+                                     const std::string& source) {
+  const Bounds bounds(campaign);
+  sqlite::Transaction transaction(connection_);
+  const auto run = [&](const char* statement, std::int64_t first, std::int64_t last) {
+    Statement(connection_, statement).run(first, last);
+  };
+  for (const char* table : {"iteration", "race_step", "elite"}) {
+    run(fmt::format("DELETE FROM {} WHERE design BETWEEN ? AND ?", table).c_str(),
+        bounds.first_design, bounds.last_design);
+  }
+  for (const char* table : {"candidate_totals", "elimination"}) {
+    run(fmt::format("DELETE FROM {} WHERE candidate BETWEEN ? AND ?", table).c_str(),
+        bounds.first_candidate, bounds.last_candidate);
+  }
+  run("DELETE FROM pair WHERE purpose IN (2, 5) AND design BETWEEN ? AND ?", bounds.first_design,
+      bounds.last_design);
+  run("UPDATE design SET state = 0, used = 0, iteration = 0, best = NULL, best_mean = 0,"
+      " reason = '' WHERE id BETWEEN ? AND ?",
+      bounds.first_design, bounds.last_design);
+  RowWriter writer(connection_);
+  const Shift shift{.designs = campaign.designs_before};
+  for (const Row& row : derived.rows)
+    writer.write(shifted(row, shift));
+  for (const EvaluationKey& key : derived.ahead)
+    writer.write(UnusedRow{shifted(key, shift)});
+  Statement gone(connection_,
+                 "DELETE FROM evaluation WHERE candidate = ? AND purpose = ? AND pair = ?");
+  for (const EvaluationKey& key : derived.unasked) {
+    const EvaluationKey stored = shifted(key, shift);
+    gone.run(stored.candidate.value, static_cast<std::int64_t>(stored.purpose), stored.pair);
+  }
+  Statement(connection_,
+            "UPDATE campaign SET state = iif((SELECT count(*) FROM design"
+            " WHERE campaign = ?1 AND state <> 3) = 0, state, 'running') WHERE id = ?1")
+      .run(campaign.id);
+  // A number that stands without a name was the campaign's own source, of which there is one.
+  if (!source.empty()) {
+    Statement(connection_,
+              "INSERT OR IGNORE INTO source (id, name) SELECT DISTINCT source, ?3 FROM evaluation"
+              " WHERE source NOT IN (SELECT id FROM source) AND purpose IN (0, 1, 2, 3)"
+              " AND candidate BETWEEN ?1 AND ?2")
+        .run(bounds.first_candidate, bounds.last_candidate, source);
+    Statement(connection_,
+              "UPDATE evaluation SET source = (SELECT id FROM source WHERE name = ?3)"
+              " WHERE source NOT IN (SELECT id FROM source) AND purpose IN (0, 1, 2, 3)"
+              " AND candidate BETWEEN ?1 AND ?2")
+        .run(bounds.first_candidate, bounds.last_candidate, source);
+  }
+  transaction.commit();
+}
+
+Expected<Recovery::End> SqliteRecovery::finish() {
+  End end;
+  try {
+    if (campaigns().empty()) {
+      return unexpected(ErrorKind::Corrupt,
+                        "the campaign's own row is lost; name the campaign's file, so that the new "
+                        "store knows whose rows these are: `--campaign campaign.toml`");
+    }
+    for (const CandidateId lost : candidates_without_phrases(connection_))
+      remove(fmt::format("DELETE FROM candidate WHERE id = {}", lost.value).c_str());
+    std::int64_t before = -1;
+    while (before != orphans_) {
+      before = orphans_;
+      for (const char* statement : kOrphans)
+        remove(statement);
+    }
+    connection_.execute(
+        "UPDATE design SET best = NULL WHERE best NOT IN (SELECT id FROM candidate)");
+    write_maker(connection_);
+    if (const auto faults = faults_of(connection_); !faults.empty()) {
+      return unexpected(ErrorKind::Corrupt,
+                        "what was recovered is no whole store: " + faults.front());
+    }
+    {
+      const Snapshot snapshot(connection_);
+      end.digest = digest_of_store(connection_);
+      end.evaluations = sqlite::integer_of(connection_, "SELECT count(*) FROM evaluation");
+      end.orphans = orphans_;
+    }
+    connection_ = Connection(":memory:", SQLITE_OPEN_READWRITE);
+  } catch (const SqliteError& error) {
+    return copying_failed(error, file_.path(), file_.path());
+  }
+  if (auto published = file_.publish(); !published) return Unexpected(published.error());
+  return end;
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<Recovery>> Recovery::begin(const fs::path& damaged, const fs::path& into) {
+  std::error_code trouble;
+  if (!fs::is_regular_file(damaged, trouble)) {
+    return unexpected(ErrorKind::NotFound, "there is no such file", damaged.string());
+  }
+  auto file = NewFile::beside(into);
+  if (!file) return Unexpected(file.error());
+  auto image = PageImage::read(damaged);
+  if (!image) return Unexpected(image.error());
+  if (image->user_version() > kSchemaVersion && image->user_version() < 1000) {
+    return unexpected(ErrorKind::Newer,
+                      fmt::format("the store has schema {}, and this program knows {} at most; use "
+                                  "the version of swarmsmith that wrote it, or a later one",
+                                  image->user_version(), kSchemaVersion),
+                      damaged.string());
+  }
+  try {
+    Connection connection(file->path().string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    configure_writer(connection);
+    connection.execute("PRAGMA foreign_keys = OFF");
+    const PageFind found = salvage_pages(*image, connection);
+    const bool nothing = std::ranges::all_of(found.tables, [](const TableFind& table) {
+      return table.rows == 0 || table.name == "meta";
+    });
+    if (nothing) {
+      return unexpected(ErrorKind::Corrupt, "nothing of a store can be found in this file",
+                        damaged.string());
+    }
+    return std::make_unique<SqliteRecovery>(std::move(*file), std::move(connection), found,
+                                            !image->has_header());
+  } catch (const SqliteError& error) {
+    return copying_failed(error, into, into);
+  }
+}
+
+}  // namespace swarmsmith

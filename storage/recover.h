@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "storage/store.h"
+
+namespace swarmsmith {
+
+/// What was found of one table of a damaged store.
+struct SalvagedTable {
+  std::string name;
+  std::int64_t rows = 0;        ///< whole ones
+  std::int64_t lost_pages = 0;  ///< that held more of them, and cannot be read
+  std::int64_t broken = 0;      ///< rows of which a part is lost
+};
+
+struct Salvaged {
+  std::int64_t schema = 0;
+  bool header_is_damaged = false;  ///< sizes and schema were concluded from the pages
+  std::int64_t pages = 0;
+  std::int64_t unplaced = 0;  ///< rows of which it cannot be told to which table they belong
+  std::vector<SalvagedTable> tables;
+};
+
+/// What of one campaign's rows follows from its scores (coordinator/design/rebuild.h), and what has
+/// to go.
+struct DerivedRows {
+  std::vector<Row> rows;  ///< by the ids of a store of its own
+  /// Scores that the race has not come to again: they stay, as if they were computed ahead.
+  std::vector<EvaluationKey> ahead;
+  /// Scores that count wherever they stand, and that nobody has asked for (of tests): they go.
+  std::vector<EvaluationKey> unasked;
+};
+
+/// A new store that is made of what can be read of a damaged one: page by page, without SQLite,
+/// every row that is whole, those of the write-ahead log included. The damaged file is only read.
+/// The order of calls: `begin`; `put_campaign` where there is none; `put_designs` and
+/// `replace_derived` for each campaign whose races can be played; `finish`.
+class Recovery {
+ public:
+  /// Errors: BadInput (no such file, something of the new name is there), Corrupt (nothing of a
+  /// store is in it), Newer (its header says so), Unavailable (the disk refuses).
+  static Expected<std::unique_ptr<Recovery>> begin(const std::filesystem::path& damaged,
+                                                   const std::filesystem::path& into);
+  virtual ~Recovery() = default;
+
+  virtual const Salvaged& found() const = 0;
+  /// Those of which the row was found; may be none.
+  virtual std::vector<StoredCampaign> campaigns() = 0;
+  /// Gives the store the row of its only campaign, where that is lost.
+  virtual void put_campaign(const CampaignRow& campaign) = 0;
+  /// Gives a campaign the rows of its designs that are lost. Conflict when designs were found that
+  /// are not the campaign's.
+  virtual Expected<void> put_designs(const StoredCampaign& campaign,
+                                     const std::vector<DesignRow>& designs) = 0;
+  /// Of one campaign, by the ids of a store of its own.
+  virtual std::vector<StoredScore> scores(const StoredCampaign& campaign) = 0;
+  virtual std::vector<StoredStep> steps(const StoredCampaign& campaign) = 0;
+  virtual std::vector<CommandRow> commands(const StoredCampaign& campaign) = 0;
+  /// Takes away what follows from scores, and puts these rows in its place. `source` is that of
+  /// scores whose own is lost.
+  virtual void replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
+                               const std::string& source) = 0;
+
+  struct End {
+    std::string digest;
+    std::int64_t evaluations = 0;  ///< that the new store has
+    std::int64_t orphans = 0;      ///< rows left out since what they belong to is lost
+  };
+  /// Leaves out rows that belong to nothing, checks the file, and gives it its name.
+  virtual Expected<End> finish() = 0;
+};
+
+}  // namespace swarmsmith

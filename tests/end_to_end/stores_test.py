@@ -1,0 +1,196 @@
+"""Stores as files: copied while a campaign runs, merged, and recovered from damage."""
+import json
+import random
+import shutil
+import sqlite3
+import time
+import unittest
+
+from programs import ProgramTest, call
+
+PAGE = 8192
+
+
+class Stores(ProgramTest):
+    budget = 1400
+    tests = 10
+
+    def made(self, name, seed):
+        """A finished store of the test's campaign with another seed."""
+        store = self.folder / name
+        done = self.run_campaign(store, "--workers", "2", "--seed", seed)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return store
+
+    def answer(self, *arguments):
+        done = call(*arguments, "--json")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        return json.loads(done.stdout)
+
+
+class Backup(Stores):
+    budget = 6000
+
+    def test_a_copy_that_is_made_while_a_campaign_runs_goes_on_to_the_same_answer(self):
+        store, copy = self.folder / "running.db", self.folder / "copy.db"
+        process = self.start_campaign(store, "--workers", "2")
+        deadline = time.monotonic() + 120
+        while not (store.exists() and call("status", store).returncode == 0 and
+                   self.query(store, "SELECT used FROM v_designs")[0]["used"] > 500):
+            self.assertLess(time.monotonic(), deadline)
+            self.assertIsNone(process.poll())
+            time.sleep(0.05)
+        made = self.answer("backup", store, copy)
+        self.assertIsNone(process.poll(), "the campaign was over before it was copied")
+        self.assertEqual(self.digest(copy), made["digest"])
+        self.assert_clean(copy)
+        self.assertEqual(process.wait(timeout=200), 0)
+        self.assertNotEqual(self.digest(store), made["digest"])
+        self.assertEqual(self.run_campaign(copy, "--workers", "2").returncode, 0)
+        self.assertEqual(self.digest(copy), self.digest(store))
+
+    def test_nothing_is_overwritten(self):
+        kept = self.folder / "kept"
+        kept.write_text("mine")
+        done = call("backup", self.folder / "none.db", kept)
+        self.assertIn("nothing is overwritten", done.stderr)
+        self.assertEqual((done.returncode, kept.read_text()), (1, "mine"))
+        self.assertEqual(call("backup", self.folder / "none.db", self.folder / "x").returncode, 3)
+        self.assertEqual(call("backup", "one").returncode, 2)
+
+
+class Merge(Stores):
+    def setUp(self):
+        super().setUp()
+        self.first, self.second = self.made("first.db", 7), self.made("second.db", 8)
+        self.merged = self.folder / "merged.db"
+        self.told = self.answer("merge", self.first, self.second, "-o", self.merged)
+
+    def test_commands_read_it_with_the_new_numbers(self):
+        self.assert_clean(self.merged)
+        digests = self.answer("digest", self.merged)
+        self.assertEqual(digests["digest"], self.told["digest"])
+        self.assertEqual([each["digest"] for each in digests["campaigns"]],
+                         [self.digest(self.first), self.digest(self.second)])
+        self.assertEqual(len(self.answer("status", self.merged)["campaigns"]), 2)
+        self.assertEqual([row["design"] for row in self.answer("ls", "designs", self.merged)["rows"]],
+                         ["d1", "d2"])
+        self.assertEqual(self.answer("show", "d2", self.merged)["design"]["campaign"], 2)
+        for store, design in (self.first, 1), (self.second, 2):
+            own = self.query(store, "SELECT id, score FROM v_evaluations WHERE purpose = 'test'"
+                                    " ORDER BY pair")[0]
+            there = self.query(self.merged, "SELECT id, score FROM v_evaluations WHERE purpose ="
+                                            f" 'test' AND design = {design} ORDER BY pair")[0]
+            self.assertEqual(there["score"], own["score"])
+            self.assertEqual(there["id"] == own["id"], design == 1)
+            self.assertTrue(self.answer("replay", there["id"], self.merged)["same_bits"])
+            self.assertEqual(self.answer("explain", there["id"], self.merged)["id"], there["id"])
+        machines = self.answer("export", self.merged, "--format", "json")["machines"]
+        own = self.answer("export", self.second, "--format", "json")["machines"]
+        self.assertEqual(machines[1]["fsm_config"], own[0]["fsm_config"])
+        best = machines[1]["candidate"]
+        done = call("evaluate", best, "--store", self.merged, "--seeds", "1-2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_it_is_there_to_be_read(self):
+        digest = self.told["digest"]
+        for words in (["run", self.file, "--store", self.merged], ["pause", self.merged],
+                      ["extend", self.merged, "d1", "--budget", 100]):
+            done = call(*words)
+            self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+            self.assertIn("the store holds 2 campaigns", done.stderr)
+        self.assertEqual(self.answer("digest", self.merged)["digest"], digest)
+
+    def test_a_score_that_was_changed_is_told_with_its_campaign(self):
+        with sqlite3.connect(self.merged) as store:
+            store.execute("UPDATE evaluation SET score = score + 1 WHERE candidate > 1000000"
+                          " AND purpose = 0 AND pair = 1")
+        store.close()
+        done = call("verify", self.merged)
+        self.assertEqual(done.returncode, 3, done.stdout)
+        self.assertIn("campaign 2, survival: d1", done.stdout)
+        self.assertNotIn("campaign 1", done.stdout)
+
+    def test_a_campaign_is_merged_once(self):
+        done = call("merge", self.merged, self.first, "-o", self.folder / "x.db")
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("a campaign is merged once", done.stderr)
+        self.assertFalse((self.folder / "x.db").exists())
+
+
+class Recover(Stores):
+    def setUp(self):
+        super().setUp()
+        self.store = self.made("whole.db", self.seed)
+        self.wanted = self.digest(self.store)
+        self.bytes = self.store.read_bytes()
+        self.damaged, self.new = self.folder / "damaged.db", self.folder / "new.db"
+
+    def recover(self, data, *arguments):
+        """What `recover` says of a store of these bytes."""
+        self.new.unlink(missing_ok=True)
+        self.damaged.write_bytes(data)
+        return self.answer("recover", self.damaged, "-o", self.new, *arguments)
+
+    def assert_goes_on_to_the_same_answer(self):
+        done = self.run_campaign(self.new, "--workers", "2")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.digest(self.new), self.wanted)
+        self.assert_clean(self.new)
+
+    def lost(self, told):
+        return sum(table["lost_pages"] + table["broken"] for table in told["tables"])
+
+    def test_a_damaged_header_costs_nothing(self):
+        for damage in 16, 100, PAGE:
+            told = self.recover(bytes(damage) + self.bytes[damage:])
+            self.assertTrue(told["header_damaged"])
+            self.assertEqual((told["digest"], self.lost(told)), (self.wanted, 0))
+            self.assert_clean(self.new)
+
+    def test_what_is_cut_off_is_evaluated_again(self):
+        for part in 0.9, 0.6, 0.3:
+            told = self.recover(self.bytes[:int(len(self.bytes) * part)], "--campaign",
+                                self.file)
+            self.assertGreater(self.lost(told), 0)
+            self.assert_goes_on_to_the_same_answer()
+
+    def test_pages_that_were_overwritten_are_evaluated_again(self):
+        generator = random.Random(1)
+        missing = 0
+        for _ in range(8):
+            data = bytearray(self.bytes)
+            for _ in range(generator.randint(1, 6)):
+                page = generator.randrange(len(data) // PAGE)
+                data[page * PAGE:(page + 1) * PAGE] = generator.randbytes(PAGE)
+            told = self.recover(data, "--campaign", self.file)
+            missing += told["designs"][0]["missing"]
+            done = call("verify", self.new)
+            if done.returncode != 0:
+                self.assertIn("run the campaign on this store", done.stdout)
+            self.assert_goes_on_to_the_same_answer()
+        self.assertGreater(missing, 0, "the damage never met a score")
+
+    def test_a_score_that_was_changed_is_said(self):
+        copy = self.folder / "changed.db"
+        shutil.copy(self.store, copy)
+        with sqlite3.connect(copy) as store:
+            store.execute("UPDATE evaluation SET score = score + 100 WHERE purpose = 0"
+                          " AND candidate = 7 AND pair = 2")
+        store.close()
+        told = self.recover(copy.read_bytes())
+        self.assertIn("a score of it, or before it, was changed", " ".join(told["complaints"]))
+
+    def test_errors_say_that_it_can_be_done(self):
+        self.damaged.write_bytes(self.bytes[:len(self.bytes) // 2])
+        done = call("digest", self.damaged)
+        self.assertEqual(done.returncode, 3)
+        self.assertIn("swarmsmith recover", done.stderr)
+        self.assertEqual(call("recover", self.file, "-o", self.new).returncode, 3)
+        self.assertEqual(call("recover", self.damaged).returncode, 2)
+        self.assertEqual(call("recover", self.damaged, "-o", self.store).returncode, 1)
+        self.assertEqual(self.digest(self.store), self.wanted)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,257 @@
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <functional>
+
+#include "storage/backup.h"
+#include "storage/internal/sqlite.h"
+#include "storage/merge.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+using Cells = std::vector<std::string>;
+using testing::HasSubstr;
+
+const auto kNobodyWatches = [](std::int64_t, std::int64_t) {};
+
+std::string old_store(int schema) {
+  return std::string(SWARMSMITH_TEST_DATA) + "/stores/schema-" + std::to_string(schema) + ".sqlite";
+}
+
+/// A campaign with a row in every table.
+SyntheticCampaign campaign_of_all_kinds(std::uint64_t seed, std::int64_t designs) {
+  SyntheticCampaign made = synthetic_campaign({.designs = designs, .iterations = 2}, seed);
+  made.campaign.name = "campaign " + std::to_string(seed);
+  made.campaign.digest = "digest " + std::to_string(seed);
+  const EvaluationKey key{candidate_id({designs}, 2), Purpose::Race, 1};
+  std::vector<Row> rows;
+  for (std::int64_t worker = 1; worker <= 2; ++worker) {
+    WorkerRow row;
+    row.id = worker;
+    row.host = "host of " + std::to_string(seed);
+    row.state = "left";
+    rows.emplace_back(row);
+  }
+  EvaluationRow scored;
+  scored.key = {candidate_id({designs}, 1), Purpose::Score, 1};
+  scored.source = "source of " + std::to_string(seed);
+  scored.worker = 2;
+  rows.emplace_back(PairRow{.design = {designs}, .purpose = Purpose::Score, .number = 1});
+  rows.emplace_back(scored);
+  rows.emplace_back(ConflictRow{.key = key, .other_score = 3, .other_worker = 2});
+  rows.emplace_back(FailureRow{.key = key, .worker = 1, .reason = "no output"});
+  rows.emplace_back(AttemptRow{.key = key, .worker = 2, .outcome = "lost"});
+  rows.emplace_back(EventRow{.severity = "info", .kind = "look-ahead", .text = "{}"});
+  rows.emplace_back(
+      CommandRow{.number = 1, .kind = "extend", .design = {designs}, .step = 3, .budget = 10});
+  made.batches.push_back(std::move(rows));
+  return made;
+}
+
+void write_store(const fs::path& path, const SyntheticCampaign& campaign) {
+  const auto store = open_store(path, campaign);
+  for (const auto& batch : campaign.batches)
+    store->append(batch);
+}
+
+struct CopiesTest : testing::Test {
+  TemporaryFolder folder;
+  fs::path a = folder / "a.db", b = folder / "b.db", out = folder / "out.db";
+
+  std::vector<std::string> files() {
+    std::vector<std::string> names;
+    for (const auto& entry : fs::directory_iterator(folder / "."))
+      names.push_back(entry.path().filename().string());
+    return names;
+  }
+};
+
+TEST_F(CopiesTest, ABackupIsTheWholeStoreAlsoWhileItIsWritten) {
+  const SyntheticCampaign campaign = campaign_of_all_kinds(1, 2);
+  const auto store = open_store(a, campaign);
+  store->append(campaign.batches[0]);
+  store->flush();  // in the log, and not in the file
+  std::int64_t told = 0;
+  const auto made = back_up(a, out, [&](std::int64_t done, std::int64_t of) {
+    // What comes while pages are copied is not in the copy.
+    if (told++ == 0) {
+      store->append(campaign.batches[1]);
+      store->flush();
+    }
+    EXPECT_LE(done, of);
+  });
+  ASSERT_TRUE(made) << to_string(made.error());
+  EXPECT_GT(told, 0);
+  EXPECT_EQ(digest_of(out), made->digest);
+  EXPECT_EQ(made->digest, digest_after(campaign, {campaign.batches[0]}));
+  EXPECT_NE(made->digest, digest_of(a));
+  EXPECT_TRUE(open_reader(out)->integrity().empty());
+  EXPECT_FALSE(fs::exists(out.string() + "-wal") && fs::file_size(out.string() + "-wal") > 0);
+}
+
+TEST_F(CopiesTest, ABackupOverwritesNothingAndLeavesNothingBehind) {
+  write_store(a, campaign_of_all_kinds(1, 1));
+  std::ofstream(out) << "mine";
+  const auto refused = back_up(a, out, kNobodyWatches);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().message, HasSubstr("nothing is overwritten"));
+  EXPECT_EQ(fs::file_size(out), 4U);
+  EXPECT_FALSE(back_up(folder / "none.db", folder / "copy.db", kNobodyWatches));
+  EXPECT_THAT(files(), testing::Not(testing::Contains(HasSubstr(".part"))));
+}
+
+TEST_F(CopiesTest, ABackupOfADamagedStoreIsRefusedWithAWayOut) {
+  write_store(a, campaign_of_all_kinds(1, 2));
+  const auto size = fs::file_size(a);
+  {
+    std::fstream file(a, std::ios::binary | std::ios::in | std::ios::out);
+    file.seekp(static_cast<std::streamoff>(size / 8192 / 2 * 8192));
+    file << std::string(8192, 'x');
+  }
+  const auto refused = back_up(a, out, kNobodyWatches);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::Corrupt);
+  EXPECT_THAT(refused.error().message, HasSubstr("swarmsmith recover"));
+  EXPECT_FALSE(fs::exists(out));
+}
+
+struct OldStores : CopiesTest, testing::WithParamInterface<int> {};
+
+TEST_P(OldStores, ABackupMigratesTheCopyAndNotTheOriginal) {
+  const std::string digest = open_reader(old_store(GetParam()))->digest();
+  const auto made = back_up(old_store(GetParam()), out, kNobodyWatches);
+  ASSERT_TRUE(made) << to_string(made.error());
+  EXPECT_EQ(made->migrated, GetParam());
+  EXPECT_EQ(made->digest, digest);
+  const auto copy = open_reader(out);
+  EXPECT_EQ(copy->digest(), digest);
+  EXPECT_EQ(copy->schema(), made->schema);
+  EXPECT_TRUE(copy->integrity().empty());
+  EXPECT_EQ(cells_of(*copy, "SELECT campaign FROM v_designs").front(), Cells{"1"});
+  EXPECT_EQ(open_reader(old_store(GetParam()))->schema(), GetParam());
+}
+
+TEST_P(OldStores, AQueryThatAnOldStoreCannotAnswerSaysHowItCould) {
+  fs::copy_file(old_store(GetParam()), a);
+  const auto reader = open_reader(a);
+  const auto end = reader->query(
+      "SELECT flavour FROM v_designs", {}, [](const auto&) {}, [](const auto&) {});
+  ASSERT_FALSE(end);
+  EXPECT_THAT(end.error().message,
+              HasSubstr("this store has schema " + std::to_string(GetParam()) +
+                        "; `swarmsmith backup a.db new.db` makes a copy with schema"));
+}
+
+TEST_P(OldStores, AreMergedAsTheyAre) {
+  write_store(b, campaign_of_all_kinds(2, 2));
+  const auto merged = merge_stores({b, old_store(GetParam())}, out, kNobodyWatches);
+  ASSERT_TRUE(merged) << to_string(merged.error());
+  const auto reader = open_reader(out);
+  EXPECT_EQ(reader->alone(1)->digest(), digest_of(b));
+  EXPECT_EQ(reader->alone(2)->digest(), open_reader(old_store(GetParam()))->digest());
+}
+
+INSTANTIATE_TEST_SUITE_P(Schema, OldStores, testing::Values(1, 2, 3));
+
+struct MergeTest : CopiesTest {
+  void SetUp() override {
+    write_store(a, campaign_of_all_kinds(1, 2));
+    write_store(b, campaign_of_all_kinds(2, 3));
+  }
+  std::int64_t count(const fs::path& store, const std::string& table) {
+    return std::stoll(cells_of(*open_reader(store), "SELECT count(*) FROM " + table)[0][0]);
+  }
+};
+
+TEST_F(MergeTest, KeepsEachCampaignsAnswerAndEveryRow) {
+  const auto merged = merge_stores({a, b}, out, kNobodyWatches);
+  ASSERT_TRUE(merged) << to_string(merged.error());
+  const auto reader = open_reader(out);
+  ASSERT_EQ(reader->campaigns().size(), 2U);
+  EXPECT_EQ(reader->alone(1)->digest(), digest_of(a));
+  EXPECT_EQ(reader->alone(2)->digest(), digest_of(b));
+  EXPECT_EQ(reader->digest(), merged->digest);
+  EXPECT_TRUE(reader->integrity().empty());
+  EXPECT_THROW(reader->alone(3), std::invalid_argument);
+  // A table that is new in the schema must be merged, too.
+  for (const Cells& table :
+       cells_of(*reader, "SELECT name FROM sqlite_schema WHERE type = 'table'")) {
+    if (table[0] == "meta" || table[0] == "source") continue;
+    EXPECT_GT(count(a, table[0]), 0) << table[0];
+    EXPECT_EQ(count(out, table[0]), count(a, table[0]) + count(b, table[0])) << table[0];
+  }
+}
+
+TEST_F(MergeTest, RenumbersWhatTheRowsName) {
+  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  const auto reader = open_reader(out);
+  EXPECT_EQ(cells_of(*reader, "SELECT campaign, name, designs FROM v_campaign_status"),
+            (std::vector<Cells>{{"1", "campaign 1", "2"}, {"2", "campaign 2", "3"}}));
+  EXPECT_EQ(cells_of(*reader, "SELECT design, campaign FROM v_designs"),
+            (std::vector<Cells>{{"1", "1"}, {"2", "1"}, {"3", "2"}, {"4", "2"}, {"5", "2"}}));
+  EXPECT_EQ(cells_of(*reader,
+                     "SELECT candidate, source, worker FROM v_evaluations"
+                     " WHERE purpose = 'score'"),
+            (std::vector<Cells>{{"1000001", "source of 1", "2"}, {"4000001", "source of 2", "4"}}));
+  EXPECT_EQ(cells_of(*reader, "SELECT candidate, host FROM v_attempts"),
+            (std::vector<Cells>{{"1000002", "host of 1"}, {"4000002", "host of 2"}}));
+  EXPECT_EQ(cells_of(*reader, "SELECT number, design FROM v_commands"),
+            (std::vector<Cells>{{"1", "2"}, {"2", "5"}}));
+  EXPECT_EQ(cells_of(*reader,
+                     "SELECT count(*) FROM v_candidates AS c JOIN v_candidates AS p"
+                     " ON p.candidate = c.parent WHERE p.design <> c.design")[0][0],
+            "0");
+  const auto campaign = reader->campaign_of({4});
+  ASSERT_TRUE(campaign);
+  EXPECT_EQ(campaign->row.name, "campaign 2");
+  EXPECT_FALSE(reader->campaign_of({6}));
+  EXPECT_EQ(reader->alone(2)->designs().front().id, DesignId{1});
+  EXPECT_EQ(reader->alone(2)->commands().front().design, DesignId{3});
+}
+
+TEST_F(MergeTest, MergedStoresCanBeMergedAndTheOrderDoesNotChangeTheDigest) {
+  const fs::path c = folder / "c.db";
+  const fs::path all = folder / "all.db";
+  const fs::path other = folder / "other.db";
+  write_store(c, campaign_of_all_kinds(3, 1));
+  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  const auto one = merge_stores({c, out}, all, kNobodyWatches);
+  ASSERT_TRUE(one) << to_string(one.error());
+  const auto two = merge_stores({b, a, c}, other, kNobodyWatches);
+  ASSERT_TRUE(two);
+  EXPECT_EQ(one->digest, two->digest);
+  EXPECT_EQ(open_reader(all)->alone(3)->digest(), digest_of(b));
+  EXPECT_NE(one->digest, digest_of(out));
+}
+
+TEST_F(MergeTest, RefusesTheSameCampaignTwice) {
+  const auto merged = merge_stores({a, b, a}, out, kNobodyWatches);
+  ASSERT_FALSE(merged);
+  EXPECT_EQ(merged.error().kind, ErrorKind::Conflict);
+  EXPECT_THAT(merged.error().message, HasSubstr("a campaign is merged once"));
+  EXPECT_THAT(files(), testing::Not(testing::Contains(HasSubstr("out.db"))));
+}
+
+TEST_F(MergeTest, TakesUnfinishedCampaignsWithAWarning) {
+  SyntheticCampaign unfinished = campaign_of_all_kinds(4, 1);
+  unfinished.batches.resize(2);
+  write_store(folder / "c.db", unfinished);
+  const auto merged = merge_stores({a, folder / "c.db"}, out, kNobodyWatches);
+  ASSERT_TRUE(merged);
+  EXPECT_THAT(merged->warnings, testing::Contains(HasSubstr("campaign 4 is not finished")));
+}
+
+TEST_F(MergeTest, AMergedStoreIsNotWrittenByACampaign) {
+  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  const SyntheticCampaign campaign = campaign_of_all_kinds(1, 2);
+  const auto store = Store::open(out, campaign.campaign, campaign.designs);
+  ASSERT_FALSE(store);
+  EXPECT_EQ(store.error().kind, ErrorKind::Conflict);
+  EXPECT_THAT(store.error().message, HasSubstr("the store holds 2 campaigns"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,201 @@
+#include "storage/recover.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <iterator>
+#include <set>
+
+#include "base/rng.h"
+#include "storage/internal/page_image.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::HasSubstr;
+
+constexpr std::size_t kPage = 8192;
+
+std::string read_bytes(const fs::path& path) {
+  std::ifstream stream(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+void write_bytes(const fs::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary | std::ios::trunc) << bytes;
+}
+
+/// A store of some 40 pages, which is damaged and recovered.
+struct RecoverTest : testing::Test {
+  TemporaryFolder folder;
+  fs::path damaged = folder / "damaged.db", out = folder / "out.db";
+  SyntheticCampaign campaign =
+      synthetic_campaign({.designs = 2, .iterations = 6, .candidates = 40});
+  std::string bytes, digest;
+
+  void SetUp() override {
+    {
+      const auto store = open_store(damaged, campaign);
+      for (const auto& batch : campaign.batches)
+        store->append(batch);
+    }
+    digest = digest_of(damaged);
+    for (const char* ending : {"-wal", "-shm"})
+      fs::remove(damaged.string() + ending);
+    bytes = read_bytes(damaged);
+    ASSERT_GT(bytes.size(), 20 * kPage);
+  }
+
+  /// The digest of what comes out; the file is there afterwards.
+  std::string recovered() {
+    fs::remove(out);
+    auto recovery = Recovery::begin(damaged, out);
+    EXPECT_TRUE(recovery) << to_string(recovery.error());
+    if (!recovery) return "";
+    if ((*recovery)->campaigns().empty()) (*recovery)->put_campaign(campaign.campaign);
+    const auto put = (*recovery)->put_designs((*recovery)->campaigns().front(), campaign.designs);
+    EXPECT_TRUE(put) << to_string(put.error());
+    found = (*recovery)->found();
+    const auto end = (*recovery)->finish();
+    EXPECT_TRUE(end) << to_string(end.error());
+    return end ? end->digest : "";
+  }
+  Salvaged found;
+
+  /// Every row of `reader` that the original has, too, and how many there are.
+  std::size_t expect_no_other_rows() {
+    const fs::path original = folder / "original.db";
+    write_bytes(original, bytes);
+    const auto whole = cells_of(*open_reader(original), kScores);
+    const std::set<std::vector<std::string>> known(whole.begin(), whole.end());
+    const auto rows = cells_of(*open_reader(out), kScores);
+    for (const auto& row : rows)
+      EXPECT_TRUE(known.contains(row)) << row[0];
+    return rows.size();
+  }
+  static constexpr const char* kScores =
+      "SELECT id, score, state_digest, source FROM v_evaluations";
+};
+
+TEST_F(RecoverTest, AWholeStoreComesOutWhole) {
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_FALSE(found.header_is_damaged);
+  EXPECT_EQ(found.unplaced, 0);
+}
+
+TEST_F(RecoverTest, WithoutHeaderOrFirstPageNothingIsLost) {
+  for (const std::size_t lost : {std::size_t{16}, std::size_t{100}, kPage}) {
+    write_bytes(damaged, std::string(lost, '\xff') + bytes.substr(lost));
+    EXPECT_FALSE(StoreReader::open(damaged));
+    EXPECT_EQ(recovered(), digest) << lost << " bytes";
+    EXPECT_TRUE(found.header_is_damaged);
+  }
+}
+
+TEST_F(RecoverTest, WhatWasOnlyInTheLogIsFoundThere) {
+  fs::remove(damaged);
+  const auto store = open_store(damaged, campaign);
+  for (const auto& batch : campaign.batches)
+    store->append(batch);
+  store->flush();
+  fs::copy_file(damaged, folder / "crashed.db");
+  fs::copy_file(damaged.string() + "-wal", folder / "crashed.db-wal");
+  ASSERT_GT(fs::file_size(folder / "crashed.db-wal"), bytes.size() / 2);
+  damaged = folder / "crashed.db";
+  EXPECT_EQ(recovered(), digest);
+  // A log that was cut off gives what was committed before.
+  fs::resize_file(folder / "crashed.db-wal", fs::file_size(folder / "crashed.db-wal") / 2);
+  EXPECT_NE(recovered(), digest);
+  expect_no_other_rows();
+}
+
+TEST_F(RecoverTest, OfPagesThatAreOverwrittenTheOthersAreKept) {
+  Rng rng(5);
+  for (int round = 0; round < 15; ++round) {
+    std::string broken = bytes;
+    for (int pages = 0; pages <= round % 4; ++pages) {
+      const auto page = static_cast<std::size_t>(
+          rng.uniform_int(1, static_cast<std::int64_t>(bytes.size() / kPage) - 1));
+      for (std::size_t i = 0; i < kPage; ++i)
+        broken[page * kPage + i] = static_cast<char>(rng.uniform_int(0, 255));
+    }
+    write_bytes(damaged, broken);
+    recovered();
+    EXPECT_GT(expect_no_other_rows(), 0U) << "round " << round;
+    EXPECT_TRUE(open_reader(out)->integrity().empty());
+  }
+}
+
+TEST_F(RecoverTest, BytesThatAreChangedAnywhereBreakNothing) {
+  Rng rng(6);
+  for (int round = 0; round < 15; ++round) {
+    std::string broken = bytes;
+    for (int i = 0; i < 200; ++i) {
+      const auto at = rng.uniform_int(0, static_cast<std::int64_t>(bytes.size()) - 1);
+      broken[static_cast<std::size_t>(at)] = static_cast<char>(rng.uniform_int(0, 255));
+    }
+    write_bytes(damaged, broken);
+    fs::remove(out);
+    auto recovery = Recovery::begin(damaged, out);
+    if (!recovery) continue;  // the schema's number may say that it is a newer store
+    if ((*recovery)->campaigns().empty()) (*recovery)->put_campaign(campaign.campaign);
+    const auto end = (*recovery)->finish();
+    ASSERT_TRUE(end) << to_string(end.error());
+    EXPECT_TRUE(open_reader(out)->integrity().empty());
+  }
+}
+
+TEST_F(RecoverTest, ATruncatedStoreGivesWhatIsLeftAndSaysWhatIsNot) {
+  write_bytes(damaged, bytes.substr(0, bytes.size() * 6 / 10 + 100));
+  EXPECT_NE(recovered(), digest);
+  expect_no_other_rows();
+  std::int64_t lost = 0;
+  for (const SalvagedTable& table : found.tables)
+    lost += table.lost_pages;
+  EXPECT_GT(lost, 0);
+}
+
+TEST_F(RecoverTest, SaysWhatCannotBe) {
+  write_bytes(damaged, std::string(50'000, 'x'));
+  auto nothing = Recovery::begin(damaged, out);
+  ASSERT_FALSE(nothing);
+  EXPECT_THAT(nothing.error().message, HasSubstr("nothing of a store"));
+  EXPECT_FALSE(Recovery::begin(folder / "none.db", out));
+  write_bytes(out, "mine");
+  const auto taken = Recovery::begin(damaged, out);
+  ASSERT_FALSE(taken);
+  EXPECT_THAT(taken.error().message, HasSubstr("nothing is overwritten"));
+  EXPECT_EQ(read_bytes(out), "mine");
+}
+
+TEST_F(RecoverTest, ACampaignOfOtherDesignsIsRefused) {
+  auto recovery = Recovery::begin(damaged, out);
+  ASSERT_TRUE(recovery);
+  std::vector<DesignRow> others = campaign.designs;
+  others.front().seed += 1;
+  EXPECT_FALSE((*recovery)->put_designs((*recovery)->campaigns().front(), others));
+}
+
+TEST(Recover, OldSchemasAreRecoveredAsSuchWithAndWithoutTheirHeader) {
+  for (const int schema : {1, 2, 3}) {
+    const TemporaryFolder folder;
+    const std::string file =
+        std::string(SWARMSMITH_TEST_DATA) + "/stores/schema-" + std::to_string(schema) + ".sqlite";
+    const std::string digest = digest_of(file);
+    const std::string bytes = read_bytes(file);
+    for (const std::size_t lost : {std::size_t{0}, std::size_t{100}}) {
+      write_bytes(folder / "old.db", std::string(lost, '\0') + bytes.substr(lost));
+      auto recovery = Recovery::begin(folder / "old.db", folder / ("new" + std::to_string(lost)));
+      ASSERT_TRUE(recovery) << to_string(recovery.error());
+      EXPECT_EQ((*recovery)->found().header_is_damaged, lost > 0);
+      const auto end = (*recovery)->finish();
+      ASSERT_TRUE(end) << to_string(end.error());
+      EXPECT_EQ(end->digest, digest) << "schema " << schema << " without " << lost << " bytes";
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swarmsmith
