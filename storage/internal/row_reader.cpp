@@ -39,8 +39,11 @@ void each(const sqlite::Connection& connection, const std::string& sql, const On
     on_row(make(row));
 }
 
-constexpr const char* kDesignStates =
-    "SELECT id, state, used, iteration, best, best_mean, reason FROM design ORDER BY id";
+/// Of the designs that meet `condition`.
+std::string design_states(const std::string& condition) {
+  return "SELECT id, state, used, iteration, best, best_mean, reason FROM design WHERE " +
+         condition + " ORDER BY id";
+}
 
 DesignStateRow design_state(const Statement& row) {
   return {.design = design_at(row, 0),
@@ -155,7 +158,7 @@ CommandRow command(const Statement& row) {
 }  // namespace
 
 CampaignRow read_campaign(const sqlite::Connection& connection) {
-  Statement row(connection, "SELECT name, digest, deciding, file, seed FROM campaign");
+  Statement row(connection, "SELECT name, digest, deciding, file, seed FROM campaign ORDER BY id");
   if (!row.step()) connection.fail(SQLITE_CORRUPT, "the table campaign has no row");
   return {.name = row.text(0),
           .digest = row.text(1),
@@ -210,7 +213,7 @@ std::vector<StoredStep> read_steps(const sqlite::Connection& connection) {
 
 std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection) {
   std::vector<DesignStateRow> states;
-  Statement row(connection, kDesignStates);
+  Statement row(connection, design_states("campaign = 1"));
   while (row.step())
     states.push_back(design_state(row));
   return states;
@@ -232,12 +235,12 @@ std::int64_t read_next_worker(const sqlite::Connection& connection) {
 }
 
 bool is_finished(const sqlite::Connection& connection) {
-  Statement row(connection, "SELECT state FROM campaign");
+  Statement row(connection, "SELECT state FROM campaign ORDER BY id");
   return row.step() && row.text(0) == "finished";
 }
 
 void read_answer(const sqlite::Connection& connection, const OnRow& on_row) {
-  each(connection, kDesignStates, on_row, design_state);
+  each(connection, design_states("true"), on_row, design_state);
   const bool first = is_first_schema(connection);
   each(connection,
        std::string("SELECT *") + (first ? ", 0" : "") + " FROM iteration ORDER BY design, number",

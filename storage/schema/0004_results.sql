@@ -21,3 +21,5 @@ ALTER TABLE campaign_of_several RENAME TO campaign;
 
 ALTER TABLE design ADD COLUMN campaign INTEGER NOT NULL DEFAULT 1;
 ALTER TABLE design ADD COLUMN flavour TEXT NOT NULL DEFAULT '';
+-- As it was called where it was imported from; empty for a design of a campaign.
+ALTER TABLE design ADD COLUMN name TEXT NOT NULL DEFAULT '';
