@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "coordinator/campaign/campaign.h"
+#include "coordinator/cli/design_worlds.h"
 #include "coordinator/cli/thing_id.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
@@ -48,7 +48,7 @@ class StoredRuns {
   static Expected<StoredRuns> open(std::unique_ptr<StoreReader> store);
 
   /// NotFound when the store has no such evaluation; BadInput when it cannot be simulated: it was
-  /// filmed, its pair is gone, or its profile is none of this program.
+  /// filmed or imported, its pair is gone, or its profile is none of this program.
   Expected<StoredRun> evaluation(const ThingId& id);
   /// A candidate on any seed; what the store holds of that pair comes with it.
   Expected<StoredRun> candidate(const ThingId& id, std::int64_t seed);
@@ -60,25 +60,19 @@ class StoredRuns {
   int engine_version() const { return engine_version_; }
 
  private:
-  StoredRuns(std::unique_ptr<StoreReader> store, Campaign campaign, int engine_version)
-      : store_(std::move(store)), campaign_(std::move(campaign)), engine_version_(engine_version) {}
+  StoredRuns(std::unique_ptr<StoreReader> store, DesignWorlds worlds, int engine_version)
+      : store_(std::move(store)), worlds_(std::move(worlds)), engine_version_(engine_version) {}
 
-  /// What the run is a function of, besides its machine's text and its seed.
-  struct Origin {
-    std::string machine;
-    std::string mission;
-    std::string method;
-    std::string source;
-  };
-  Expected<void> complete(StoredRun& run, const Origin& origin) const;
-  Expected<Profile> profile_of(const std::string& source) const;
+  /// The design's world, or why there is none.
+  Expected<DesignWorld> world_of(DesignId design) const;
 
   std::unique_ptr<StoreReader> store_;
-  Campaign campaign_;
+  DesignWorlds worlds_;
   int engine_version_;
 };
 
-/// The stored version differs from this program's: a sentence that says so, else empty.
+/// The stored version (0: not known) differs from this program's: a sentence that says so, else
+/// empty.
 std::string other_engine(int stored_version);
 
 }  // namespace swarmsmith::cli
