@@ -6,6 +6,7 @@
 
 #include "storage/internal/file_checks.h"
 #include "storage/internal/group_writer.h"
+#include "storage/internal/open_writer.h"
 #include "storage/internal/row_reader.h"
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
@@ -78,8 +79,7 @@ Expected<void> check_campaign(const Connection& connection, const fs::path& path
 void write_birth(Connection& connection, const CampaignRow& campaign,
                  const std::vector<DesignRow>& designs) {
   sqlite::Transaction transaction(connection);
-  create_schema(connection);
-  write_maker(connection);
+  write_empty_store(connection);
   write_campaign(connection, campaign);
   write_designs(connection, designs);
   transaction.commit();
@@ -94,58 +94,21 @@ void name_flavours(Connection& connection, const std::vector<DesignRow>& designs
   transaction.commit();
 }
 
-/// Folds in the log that a crash has left and looks at every page.
-Expected<void> recover(Connection& connection, const fs::path& path) {
-  connection.execute("PRAGMA wal_checkpoint(TRUNCATE)");
-  if (auto sound = check_database_file(path); !sound) return sound;
-  const std::string fault = sqlite::text_of(connection, "PRAGMA quick_check(1)");
-  if (fault == "ok") return {};
-  return unexpected(ErrorKind::Corrupt, damaged_text(fault + ", and it was not closed properly"),
-                    path.string());
-}
-
-/// Checks first and changes nothing until it is sure that the file is ours.
+/// Changes nothing until it is sure that the store is the campaign's.
 Expected<Connection> prepare(const fs::path& path, bool unclean, const CampaignRow& campaign,
                              const std::vector<DesignRow>& designs) {
-  Connection connection(path.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  if (sqlite3_db_readonly(connection.handle(), "main") != 0) {
-    return bad_input("the store may not be written by this user", path.string());
-  }
-  // A reader may be the first to open a store whose coordinator was killed: it then recovers the
-  // log, and holds the file for that moment.
-  sqlite3_busy_timeout(connection.handle(), 5000);
-  const bool blank = is_blank(connection);
-  if (!blank) {
-    if (auto ours = check_identity(connection, path); !ours) return Unexpected(ours.error());
-  }
-  configure_writer(connection);
-  if (sqlite::text_of(connection, "PRAGMA journal_mode") != "wal") {
-    return bad_input("the file system cannot hold a write-ahead log; put the store on a local disk",
-                     path.string());
-  }
-  if (blank) {
-    write_birth(connection, campaign, designs);
+  auto connection = connect_writer(path, unclean);
+  if (!connection) return connection;
+  if (is_blank(*connection)) {
+    write_birth(*connection, campaign, designs);
     return connection;
   }
-  if (unclean) {
-    if (auto sound = recover(connection, path); !sound) return Unexpected(sound.error());
-  }
-  migrate(connection, path, migrations());
-  if (auto same = check_campaign(connection, path, campaign); !same) {
+  migrate(*connection, path, migrations());
+  if (auto same = check_campaign(*connection, path, campaign); !same) {
     return Unexpected(same.error());
   }
-  name_flavours(connection, designs);
+  name_flavours(*connection, designs);
   return connection;
-}
-
-Unexpected refused(const sqlite::SqliteError& error, const fs::path& path) {
-  const int code = error.primary_code();
-  if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
-    return unexpected(ErrorKind::Corrupt, damaged_text(error.what()), path.string());
-  }
-  return unexpected(ErrorKind::Unavailable,
-                    fmt::format("the store cannot be opened for writing: {}", error.what()),
-                    path.string());
 }
 
 }  // namespace
@@ -154,21 +117,15 @@ Expected<std::unique_ptr<Store>> Store::open(const fs::path& path, const Campaig
                                              const std::vector<DesignRow>& designs,
                                              const StoreOptions& options) {
   if (auto folder = check_folder(path); !folder) return Unexpected(folder.error());
-  auto lock = LockFile::acquire(path, options.patience);
+  auto lock = lock_for_writing(path, options.patience);
   if (!lock) return Unexpected(lock.error());
-  const bool exists = fs::exists(path);
-  const bool unclean = exists && (lock->left_behind() || has_pending_log(path));
-  lock->set_suspect(unclean);
-  if (exists) {
-    if (auto sound = check_database_file(path); !sound) return Unexpected(sound.error());
-  }
   try {
-    auto connection = prepare(path, unclean, campaign, designs);
+    auto connection = prepare(path, lock->unclean, campaign, designs);
     if (!connection) return Unexpected(connection.error());
-    lock->set_suspect(false);
-    return std::make_unique<GroupWriter>(std::move(*lock), std::move(*connection), options);
+    lock->file.set_suspect(false);
+    return std::make_unique<GroupWriter>(std::move(lock->file), std::move(*connection), options);
   } catch (const sqlite::SqliteError& error) {
-    return refused(error, path);
+    return not_writable(error, path);
   }
 }
 

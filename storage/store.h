@@ -80,7 +80,8 @@ class Store {
   /// Every evaluation that is stored, for replay; read before the first append.
   virtual std::vector<StoredScore> scores() = 0;
   virtual std::vector<StoredStep> steps() = 0;
-  /// How far each design is, in the order of their ids.
+  /// How far each design of the campaign is, in the order of their ids. What was merged or imported
+  /// into the store is no part of it.
   virtual std::vector<DesignStateRow> design_states() = 0;
   /// What people asked of the campaign, by number.
   virtual std::vector<CommandRow> commands() = 0;

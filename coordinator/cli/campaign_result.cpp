@@ -19,7 +19,7 @@ constexpr const char* kResult =
     "d.best_candidate AS candidate, d.best_mean AS race_mean, c.fsm_config "
     "FROM v_designs AS d LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate "
     "ORDER BY d.design";
-constexpr const char* kTests = "SELECT design, score FROM v_design_scores";
+constexpr const char* kTests = "SELECT design, score FROM v_design_scores WHERE purpose = 'test'";
 
 Expected<std::map<std::string, std::vector<double>>> tests_by_design(StoreReader& store) {
   const auto rows = select(store, kTests);

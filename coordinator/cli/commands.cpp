@@ -99,10 +99,13 @@ Examples:
 
 constexpr std::string_view kEvaluateDetails =
     R"(Simulates the machine once for each seed, in this process. A larger score is better, in every mission.
-With --json one line a run: {"seed":1,"score":2}.
+Scores of a store's candidates are stored there, with the profile as their source; `best` are the winners
+of the finished designs. With --json one line a run: {"seed":1,"score":2}.
 
 Examples:
-  swarmsmith evaluate c812 --store demo.db --seeds 1-100
+  swarmsmith evaluate best --store demo.db
+  swarmsmith evaluate best --store demo.db --profile pseudo-reality
+  swarmsmith evaluate c812 --store demo.db --seeds 1-100 --no-store
   swarmsmith evaluate best.fsm --mission aggregation
   swarmsmith evaluate best.fsm --mission my_mission.toml --profile my_rvr.toml
   swarmsmith evaluate --nstates 1 --s0 0 --rwm0 10 --mission grid_exploration --json
@@ -191,13 +194,20 @@ Examples:
   swarmsmith export campaign.toml --format irace --design d1 -o folder)";
 
 constexpr std::string_view kImportDetails =
-    R"(Turns a scenario of irace, with the files that it names, into a campaign file that runs the same race:
-`swarmsmith run` it, change it, add missions, methods and repetitions. `swarmsmith irace` runs a
-scenario as it is.
+    R"(Without --into: turns a scenario of irace, with the files that it names, into a campaign file that runs
+the same race. `swarmsmith irace` runs a scenario as it is.
+
+With --into: takes results from elsewhere into a store, all or nothing, and a second time nothing.
+  scores    CSV with score (or cost), who (candidate, design, fsm_id, or mission, method, repetition), and
+            source, seed, instance, time, note
+  machines  a text a line, or CSV with fsm (or fsm_config), fsm_id, mission, method
+  logs      irace.Rdata (needs Rscript), or the folder of its tables
 
 Examples:
   swarmsmith import scenario.txt -o campaign.toml
-  swarmsmith import tuning/scenario.txt > campaign.toml)";
+  swarmsmith import robots.csv --source real --into demo.db
+  swarmsmith import machines.txt --flavour watermelon-argos3 --mission aggregation --into theirs.db
+  swarmsmith import irace.Rdata --into tuning.db)";
 
 constexpr std::string_view kDigestDetails =
     R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
@@ -274,7 +284,7 @@ constexpr std::array kCommands = {
     Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
             declare_replay},
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
-    Command{"import", "Turn a scenario of irace into a campaign file", kImportDetails,
+    Command{"import", "Take in scenarios, scores, machines and logs from elsewhere", kImportDetails,
             declare_import},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},

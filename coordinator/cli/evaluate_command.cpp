@@ -1,148 +1,24 @@
+#include <chrono>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/counter.h"
-#include "coordinator/cli/design_argument.h"
-#include "coordinator/cli/machine_argument.h"
+#include "coordinator/cli/evaluation_plan.h"
 #include "coordinator/cli/mean_interval.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/recording.h"
-#include "coordinator/cli/seeds.h"
-#include "coordinator/cli/world_argument.h"
-#include "sim/control/machine_text.h"
+#include "coordinator/cli/score_keeper.h"
 #include "sim/engine/simulate.h"
-#include "sim/files/file_text.h"
-#include "sim/mission/instance_csv.h"
+#include "storage/answer.h"
 
 namespace swarmsmith::cli {
 namespace {
 
-struct Arguments {
-  std::string machine;
-  std::string flavour;
-  std::string profile;
-  std::string mission;
-  std::string campaign;
-  std::string design;
-  std::string seeds = "1-10";
-  std::string starts;
-  std::string patches;
-  StoreArgument store;
+struct Arguments : EvaluateArguments {
   RecordingArguments recording;
 };
-
-/// Everything that the runs have in common.
-struct Plan {
-  Machine machine;
-  Flavour flavour;
-  Profile profile;
-  Mission mission;
-  std::vector<std::int64_t> seeds;
-  ExplicitInstances given;
-};
-
-/// The first text that is not empty.
-std::string first_of(const std::string& a, const std::string& b, const std::string& c) {
-  if (!a.empty()) return a;
-  return b.empty() ? c : b;
-}
-
-/// A candidate's method has a say in its flavour's constants; another flavour has its own.
-Expected<Flavour> flavour_of(const Arguments& arguments, const NamedMachine& named) {
-  const std::string name = first_of(arguments.flavour, named.flavour, "watermelon");
-  const auto known = find_flavour(name);
-  if (!known) return Unexpected(known.error());
-  if (name != named.flavour || !named.turn_clock) return **known;
-  return find_flavour(name, *named.turn_clock);
-}
-
-/// A candidate's own mission may have been changed by its file; the flag names a built-in one, or a
-/// file.
-Expected<Mission> mission_of(const Arguments& arguments, const NamedMachine& named,
-                             Output& output) {
-  if (arguments.mission.empty()) {
-    if (named.mission) return named.mission->mission;
-    return bad_input(
-        "on which mission? Add --mission aggregation, grid_exploration, color_selection or a file",
-        "--mission");
-  }
-  if (named.mission && named.mission->mission.name == arguments.mission) {
-    return named.mission->mission;
-  }
-  return find_mission_or_complain(arguments.mission, "--mission", output);
-}
-
-/// The candidate's own profile, or what the flag says.
-Expected<Profile> profile_of(const Arguments& arguments, const NamedMachine& named,
-                             Output& output) {
-  if (named.profile && (arguments.profile.empty() || arguments.profile == named.profile->name)) {
-    return *named.profile;
-  }
-  const std::string word = arguments.profile.empty() ? "rvr" : arguments.profile;
-  return find_profile_or_complain(word, "--profile", output);
-}
-
-/// A table of a file; errors say "file:line".
-template <class Table>
-Expected<Table> read_table(const std::string& file, Expected<Table> (*parse)(std::string_view)) {
-  const auto text = read_file(file, "table");
-  if (!text) return Unexpected(text.error());
-  auto table = parse(*text);
-  if (table) return table;
-  return bad_input(table.error().message, file + ":" + table.error().where);
-}
-
-/// The tables, where they are named.
-Expected<void> read_instances(const Arguments& arguments, Plan& plan, Output& output) {
-  if (!arguments.starts.empty()) {
-    auto starts = read_table(arguments.starts, parse_starts_csv);
-    if (!starts) return Unexpected(starts.error());
-    plan.given.starts = std::move(*starts);
-  }
-  if (arguments.patches.empty()) return {};
-  if (plan.mission.shuffled.places.empty()) {
-    print_note(output,
-               "mission " + plan.mission.name + " shuffles no patches: --patches is not used");
-    return {};
-  }
-  auto patches = read_table(arguments.patches, parse_patches_csv);
-  if (!patches) return Unexpected(patches.error());
-  plan.given.patches = std::move(*patches);
-  return {};
-}
-
-/// Everything that the command line says, read and checked.
-Expected<Plan> make_plan(const Arguments& arguments, Output& output) {
-  Plan plan;
-  auto named = find_machine(arguments.machine, arguments.store);
-  if (!named) return Unexpected(named.error());
-  if (!arguments.campaign.empty()) {
-    auto source = campaign_of(arguments.campaign, output);
-    if (!source) return Unexpected(source.error());
-    const auto design = find_design(*source, arguments.design);
-    if (!design) return Unexpected(design.error());
-    put_into_world(*named, *source, *design);
-  }
-  auto flavour = flavour_of(arguments, *named);
-  if (!flavour) return bad_input(flavour.error().message, "--flavour");
-  plan.flavour = std::move(*flavour);
-  auto machine = parse_machine(named->text, plan.flavour);
-  if (!machine) return bad_input(machine.error().message, "MACHINE, " + machine.error().where);
-  plan.machine = std::move(*machine);
-  auto profile = profile_of(arguments, *named, output);
-  if (!profile) return Unexpected(profile.error());
-  plan.profile = std::move(*profile);
-  auto mission = mission_of(arguments, *named, output);
-  if (!mission) return Unexpected(mission.error());
-  plan.mission = std::move(*mission);
-  auto seeds = parse_seeds(arguments.seeds);
-  if (!seeds) return Unexpected(seeds.error());
-  plan.seeds = std::move(*seeds);
-  if (auto read = read_instances(arguments, plan, output); !read) return Unexpected(read.error());
-  return plan;
-}
 
 /// For people: mean and interval.
 void write_summary(std::ostream& out, const std::vector<double>& scores) {
@@ -181,8 +57,141 @@ Recorder counted(Recorder recorder, const Mission& mission, Counter& counter) {
           sensors};
 }
 
+/// One run as it is told.
+struct Told {
+  const EvaluationJob* job = nullptr;
+  std::int64_t seed = 0;
+  double score = 0;
+  std::optional<ScoreKeeper::Kept> kept;  ///< nothing: it is printed only
+};
+
+using How = ScoreKeeper::Kept::How;
+
+std::string as_json(const Told& told) {
+  std::string text = "{";
+  if (const CandidateId candidate = told.job->candidate) {
+    text += "\"design\":" + json_text(to_string(design_of(candidate))) +
+            ",\"candidate\":" + json_text(to_string(candidate)) +
+            ",\"source\":" + json_text(told.job->profile.name) + ",";
+  }
+  text += "\"seed\":" + std::to_string(told.seed) + ",\"score\":" + json_number(told.score);
+  if (told.kept) {
+    constexpr const char* kHow[] = {"new", "known", "conflict"};
+    text += ",\"id\":" + json_text(to_string(told.kept->key)) +
+            ",\"stored\":" + json_text(kHow[static_cast<std::size_t>(told.kept->how)]);
+  }
+  return text + "}\n";
+}
+
+std::string as_line(const Told& told) {
+  std::string text;
+  if (const CandidateId candidate = told.job->candidate) {
+    text = to_string(design_of(candidate)) + "  " + to_string(candidate) + "  " +
+           told.job->profile.name + "  ";
+  }
+  text += "seed " + std::to_string(told.seed) + "  score " + json_number(told.score);
+  if (told.kept && told.kept->how == How::New) text += "  stored as " + to_string(told.kept->key);
+  if (told.kept && told.kept->how == How::Known)
+    text += "  was stored as " + to_string(told.kept->key);
+  return text + "\n";
+}
+
+/// Both scores of one place.
+Error conflict_of(const Told& told) {
+  return {ErrorKind::Conflict,
+          "seed " + std::to_string(told.seed) + " gives score " + json_number(told.score) +
+              ", and the store holds " + json_number(told.kept->stored) +
+              " or another last state; both are kept, the first one counts. Another version of the "
+              "program made one of them, or a machine computes wrongly",
+          to_string(told.kept->key)};
+}
+
+/// Runs the jobs one after the other, and tells of each run.
+class Evaluation {
+ public:
+  Evaluation(const Arguments& arguments, const EvaluationPlan& plan, Output& output)
+      : arguments_(arguments),
+        plan_(plan),
+        output_(output),
+        answer_(arguments.recording.takes_standard_output() ? output.err : output.out),
+        counter_(output, "simulated", "runs"),
+        of_(static_cast<std::int64_t>(plan.jobs.size() * plan.seeds.size())) {}
+
+  ExitCode run() {
+    if (plan_.stores) {
+      auto keeper = ScoreKeeper::open(*arguments_.store.path());
+      if (!keeper) return fail(output_, ExitCode::Store, keeper.error());
+      keeper_ = std::move(*keeper);
+    }
+    auto recording = Recording::start(arguments_.recording, plan_.jobs.front().mission,
+                                      plan_.jobs.front().machine, output_);
+    if (!recording) {
+      return fail(output_, exit_code_of_recording(recording.error()), recording.error());
+    }
+    for (const EvaluationJob& job : plan_.jobs) {
+      for (std::size_t i = 0; i < plan_.seeds.size(); ++i)
+        run_one(job, i, recording->recorder());
+      // A design at a time, so that little is lost when this is ended.
+      if (!keeper_) continue;
+      if (auto written = keeper_->commit(); !written) {
+        return fail(output_, ExitCode::Store, written.error());
+      }
+    }
+    counter_.tell(of_, of_);
+    const auto written =
+        recording->finish(details_of(arguments_, plan_.seeds.front(), scores_.front()),
+                          plan_.jobs.front().instances.front());
+    if (!written) return fail(output_, ExitCode::Failed, written.error());
+    if (!output_.json && plan_.jobs.size() == 1) write_summary(answer_, scores_);
+    return output_.out.good() && !conflicts_ ? ExitCode::Done : ExitCode::Failed;
+  }
+
+ private:
+  void run_one(const EvaluationJob& job, std::size_t i, Recorder recorder) {
+    Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(plan_.seeds[i]));
+    const auto begin = std::chrono::steady_clock::now();
+    const SimulationResult result = simulate({.machine = job.machine,
+                                              .flavour = job.flavour,
+                                              .profile = job.profile,
+                                              .mission = job.mission,
+                                              .instance = job.instances[i],
+                                              .seed = plan_.seeds[i]},
+                                             counted(std::move(recorder), job.mission, cycles));
+    const auto wall = std::chrono::duration_cast<std::chrono::microseconds>(
+        std::chrono::steady_clock::now() - begin);
+    scores_.push_back(result.score);
+    Told told{.job = &job, .seed = plan_.seeds[i], .score = result.score, .kept = {}};
+    if (keeper_) {
+      const ScorePlace place{.candidate = job.candidate,
+                             .source = job.profile.name,
+                             .instance = {},
+                             .seed = told.seed};
+      told.kept = keeper_->keep(place, result, wall.count());
+    }
+    if (of_ > 1) counter_.tell(static_cast<std::int64_t>(scores_.size()), of_);
+    if (output_.json) {
+      output_.out << as_json(told);
+    } else {
+      answer_ << as_line(told);
+    }
+    if (!told.kept || told.kept->how != How::Conflict) return;
+    conflicts_ = true;
+    print_error(output_, conflict_of(told));
+  }
+
+  const Arguments& arguments_;
+  const EvaluationPlan& plan_;
+  Output& output_;
+  std::ostream& answer_;
+  Counter counter_;
+  std::int64_t of_;
+  std::optional<ScoreKeeper> keeper_;
+  std::vector<double> scores_;
+  bool conflicts_ = false;
+};
+
 ExitCode run(const Arguments& arguments, Output& output) {
-  const auto plan = make_plan(arguments, output);
+  const auto plan = plan_evaluations(arguments, output);
   if (!plan) {
     const Error& error = plan.error();
     const bool no_candidate = error.kind == ErrorKind::NotFound && error.where.empty();
@@ -191,53 +200,22 @@ ExitCode run(const Arguments& arguments, Output& output) {
     if (no_store && !of_files) return fail(output, ExitCode::Store, error);
     return fail(output, no_candidate ? ExitCode::NoSuchId : ExitCode::Usage, error);
   }
-  // All instances first, so that a missing row stops everything and not the second half.
-  std::vector<Instance> instances;
-  for (const std::int64_t seed : plan->seeds) {
-    auto instance = instance_of(plan->mission, seed, plan->given);
-    if (!instance) return fail(output, ExitCode::Usage, instance.error());
-    instances.push_back(std::move(*instance));
-  }
-  if (arguments.recording.any() && plan->seeds.size() > 1) {
+  if (arguments.recording.any() && plan->seeds.size() * plan->jobs.size() > 1) {
     return fail(output, ExitCode::Usage,
                 "--seeds: tables and pictures are of one run; name one seed");
   }
-  auto recording = Recording::start(arguments.recording, plan->mission, plan->machine, output);
-  if (!recording) return fail(output, exit_code_of_recording(recording.error()), recording.error());
-  std::ostream& answer = arguments.recording.takes_standard_output() ? output.err : output.out;
-  std::vector<double> scores;
-  for (std::size_t i = 0; i < instances.size(); ++i) {
-    Counter counter(output, "simulated", "cycles of seed " + std::to_string(plan->seeds[i]));
-    const SimulationResult result =
-        simulate({.machine = plan->machine,
-                  .flavour = plan->flavour,
-                  .profile = plan->profile,
-                  .mission = plan->mission,
-                  .instance = instances[i],
-                  .seed = plan->seeds[i]},
-                 counted(recording->recorder(), plan->mission, counter));
-    scores.push_back(result.score);
-    const std::string score = json_number(result.score);
-    if (output.json) {
-      output.out << "{\"seed\":" << plan->seeds[i] << ",\"score\":" << score << "}\n";
-    } else {
-      answer << "seed " << plan->seeds[i] << "  score " << score << "\n";
-    }
-  }
-  const auto written = recording->finish(details_of(arguments, plan->seeds.front(), scores.front()),
-                                         instances.front());
-  if (!written) return fail(output, ExitCode::Failed, written.error());
-  if (!output.json) write_summary(answer, scores);
-  return output.out.good() ? ExitCode::Done : ExitCode::Failed;
+  return Evaluation(arguments, *plan, output).run();
 }
 
 }  // namespace
 
 Run declare_evaluate(Options& options) {
   auto arguments = std::make_shared<Arguments>();
-  options.text("MACHINE", arguments->machine,
-               "Text that begins with --nstates or --fsm-config, a file, or a candidate (c812)",
-               Options::Need::Required);
+  options.text(
+      "MACHINE", arguments->machine,
+      "Text that begins with --nstates or --fsm-config, a file, a candidate (c812), or best: "
+      "the winner of each finished design",
+      Options::Need::Required);
   options.text("--flavour", arguments->flavour,
                "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
                "candidate's, else watermelon)");
@@ -250,12 +228,16 @@ Run declare_evaluate(Options& options) {
       "aggregation, grid_exploration, color_selection or a file (default: the candidate's)");
   options.text("--campaign", arguments->campaign,
                "Campaign file or store that says flavour, profile and mission");
-  options.text(
-      "--design", arguments->design,
-      "Which of the campaign's designs (default: d1, when they differ in repetition alone)");
-  options.text("--seeds", arguments->seeds, "Seeds of the runs: 1-10 or 1,4,7-9 (default 1-10)");
+  options.texts("--design", arguments->designs,
+                "Which of the campaign's designs (default: d1, when they differ in repetition "
+                "alone); with best as often as you like (default: all)");
+  options.text("--seeds", arguments->seeds,
+               "Seeds of the runs: 1-10 or 1,4,7-9 (default 1-10; for candidates one that no race "
+               "or test of the store had)");
   options.text("--starts", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
   options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");
+  options.flag("--no-store", arguments->no_store,
+               "Only print the scores of candidates, and do not store them");
   arguments->store.declare(options, false);
   arguments->recording.declare(options);
   return [arguments](Output& output) { return run(*arguments, output); };

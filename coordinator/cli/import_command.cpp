@@ -8,6 +8,7 @@
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/irace_campaign.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/import_results.h"
 #include "irace_core/files/command_line.h"
 #include "irace_core/files/setup.h"
 #include "sim/files/toml_text.h"
@@ -17,8 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Arguments {
-  std::string file;
+struct Arguments : ImportArguments {
   std::string out;
 };
 
@@ -84,12 +84,22 @@ ExitCode import_scenario(const Arguments& arguments, Output& output) {
   return ExitCode::Done;
 }
 
-/// What is imported shows in the file's name.
+/// Results go into a store, a scenario becomes a campaign file.
 ExitCode run(const Arguments& arguments, Output& output) {
-  const std::string ending = fs::path(arguments.file).extension().string();
-  if (ending == ".csv" || ending == ".Rdata") {
+  if (!arguments.into.empty()) {
+    if (arguments.out.empty()) return import_into_store(arguments, output);
     return fail(output, ExitCode::Usage,
-                "importing a " + ending + " file is not there yet; scenarios of irace are");
+                Error{ErrorKind::BadInput, "is of scenarios; --into names the store", "--output"});
+  }
+  const std::string ending = fs::path(arguments.file).extension().string();
+  const bool has_store_words = !arguments.flavour.empty() || !arguments.missions.empty() ||
+                               !arguments.method.empty() || !arguments.source.empty() ||
+                               !arguments.name.empty() || !arguments.costs_of.empty() ||
+                               arguments.replace;
+  if (ending == ".csv" || ending == ".Rdata" || has_store_words) {
+    return fail(
+        output, ExitCode::Usage,
+        Error{ErrorKind::BadInput, "into which store? Add --into results.db", arguments.file});
   }
   return import_scenario(arguments, output);
 }
@@ -98,8 +108,26 @@ ExitCode run(const Arguments& arguments, Output& output) {
 
 Run declare_import(Options& options) {
   auto arguments = std::make_shared<Arguments>();
-  options.text("FILE", arguments->file, "A scenario of irace", Options::Need::Required);
-  options.text("-o,--output", arguments->out, "The campaign file (default: standard output)");
+  options.text("FILE", arguments->file,
+               "A scenario of irace; with --into scores or machines (.csv), machines (a text a "
+               "line), or a log of irace (.Rdata)",
+               Options::Need::Required);
+  options.text("-o,--output", arguments->out,
+               "Of a scenario: the campaign file (default: standard output)");
+  options.text("--into", arguments->into,
+               "The store; a new one is made for machines and logs, scores need their designs");
+  options.text("--flavour", arguments->flavour,
+               "Flavour of the machines, or of a log's configurations: watermelon, "
+               "watermelon-argos3, chocolate");
+  options.texts("--mission", arguments->missions,
+                "Mission of rows that name none; OLD=NEW renames one; may be repeated");
+  options.text("--method", arguments->method,
+               "Method of machines that name none (default: the flavour), or of a log (irace)");
+  options.text("--name", arguments->name, "Name of the campaign that machines or a log become");
+  options.text("--source", arguments->source, "Who made scores that do not say it, such as real");
+  options.texts("--cost-of", arguments->costs_of,
+                "A mission whose scores in the file are costs (smaller is better)");
+  options.flag("--replace", arguments->replace, "Scores give way to others of the same place");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

@@ -2,7 +2,6 @@
 
 #include <fstream>
 
-#include "coordinator/campaign/campaign_file.h"
 #include "coordinator/cli/query_output.h"
 
 namespace swarmsmith::cli {
@@ -13,12 +12,6 @@ std::string trimmed(const std::string& text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
   if (first == std::string::npos) return "";
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
-}
-
-/// c and digits; a file of such a name is written ./c12.
-bool is_candidate(const std::string& word) {
-  return word.size() > 1 && word.size() < 19 && word.front() == 'c' &&
-         word.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
 /// Comments and line breaks are what `export` and people put in.
@@ -45,49 +38,45 @@ Expected<NamedMachine> machine_of_file(const std::string& file) {
   return NamedMachine{.text = machine};
 }
 
-/// The store's own campaign says on what the candidate was tried.
-Expected<NamedMachine> machine_of_store(const std::string& id, const StoreArgument& argument) {
-  const auto store = argument.open();
-  if (!store) return Unexpected(store.error());
-  const auto rows =
-      select(**store,
-             "SELECT c.fsm_config, d.mission, d.method, d.design FROM v_candidates AS "
-             "c JOIN v_designs AS d ON d.design = c.design "
-             "WHERE c.candidate = " +
-                 id.substr(1));
-  if (!rows) return Unexpected(rows.error());
-  if (rows->cells.empty()) {
-    return unexpected(ErrorKind::NotFound, "the store has no candidate " + id);
-  }
-  const auto& cells = rows->cells.front();
-  NamedMachine machine{.text = cells[0].text};
-  const auto stored = (*store)->campaign_of({std::stoll(cells[3].text)});
-  if (!stored) return Unexpected(stored.error());
-  const auto campaign = parse_campaign(stored->row.file, "campaign.toml");
-  if (!campaign) return machine;  // of another method, imported: flags must say it
-  if (!campaign->target) machine.profile = campaign->profile;
-  for (const CampaignMission& mission : campaign->missions) {
-    if (campaign->target) break;  // its world is its programs'
-    if (mission.mission.name == cells[1].text) machine.mission = mission;
-  }
-  for (const Method& method : campaign->methods) {
-    if (method.name != cells[2].text) continue;
-    if (!method.parameters.empty()) {
-      return bad_input(id + " is a configuration of the method's parameter file, and no machine");
-    }
-    machine.flavour = method.flavour;
-    machine.turn_clock = method.turn_clock;
-  }
-  return machine;
+}  // namespace
+
+bool is_candidate(const std::string& word) {
+  return word.size() > 1 && word.size() < 19 && word.front() == 'c' &&
+         word.find_first_not_of("0123456789", 1) == std::string::npos;
 }
 
-}  // namespace
+Expected<NamedMachine> machine_of_candidate(StoreReader& store, const DesignWorlds& worlds,
+                                            CandidateId candidate) {
+  const auto rows = select(store, "SELECT fsm_config FROM v_candidates WHERE candidate = " +
+                                      std::to_string(candidate.value));
+  if (!rows) return Unexpected(rows.error());
+  if (rows->cells.empty()) {
+    return unexpected(ErrorKind::NotFound, "the store has no candidate " + to_string(candidate));
+  }
+  NamedMachine machine{.text = rows->cells.front().front().text, .candidate = candidate};
+  auto world = worlds.of(design_of(candidate));
+  if (!world || !*world) return machine;  // a file of another version: flags must say it
+  if ((*world)->has_parameters) {
+    return bad_input(to_string(candidate) +
+                     " is a configuration of the method's parameter file, and no machine");
+  }
+  machine.design_mission = (*world)->design.mission;
+  machine.mission = std::move((*world)->mission);
+  machine.flavour = std::move((*world)->flavour);
+  machine.turn_clock = (*world)->turn_clock;
+  machine.profile = std::move((*world)->profile);
+  return machine;
+}
 
 Expected<NamedMachine> find_machine(const std::string& word, const StoreArgument& store) {
   const std::string text = trimmed(word);
   if (text.starts_with("--")) return NamedMachine{.text = text};
-  if (is_candidate(text)) return machine_of_store(text, store);
-  return machine_of_file(text);
+  if (!is_candidate(text)) return machine_of_file(text);
+  const auto reader = store.open();
+  if (!reader) return Unexpected(reader.error());
+  const auto worlds = DesignWorlds::read(**reader);
+  if (!worlds) return Unexpected(worlds.error());
+  return machine_of_candidate(**reader, *worlds, {std::stoll(text.substr(1))});
 }
 
 }  // namespace swarmsmith::cli

@@ -16,13 +16,6 @@ namespace {
 
 using Cell = StoreReader::Cell;
 
-/// From the JSON object of what decides the campaign, whose values are texts.
-int engine_version_in(const std::string& deciding) {
-  constexpr std::string_view kKey = R"("engine.version":")";
-  const std::size_t at = deciding.find(kKey);
-  return at == std::string::npos ? 0 : std::atoi(deciding.c_str() + at + kKey.size());
-}
-
 std::int64_t integer_of(const Cell& cell) {
   return std::strtoll(cell.text.c_str(), nullptr, 10);
 }
@@ -40,10 +33,8 @@ std::string sql_text(const std::string& text) {
 /// With a run's columns in the order of `read_outcome`.
 std::string select_evaluations(const std::string& condition) {
   return "SELECT e.id, 'c' || e.candidate, e.seed, e.status, e.score, e.state_digest, e.source, "
-         "c.fsm_config, d.mission, d.method, d.design FROM (SELECT * FROM v_evaluations WHERE " +
-         condition +
-         ") AS e JOIN v_candidates AS c ON c.candidate = e.candidate "
-         "JOIN v_designs AS d ON d.design = e.design";
+         "c.fsm_config, e.design FROM (SELECT * FROM v_evaluations WHERE " +
+         condition + ") AS e JOIN v_candidates AS c ON c.candidate = e.candidate";
 }
 
 /// What the evaluation's own row says.
@@ -58,17 +49,44 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
   return run;
 }
 
-Expected<Profile> profile_of(const Campaign& campaign, const std::string& source) {
-  if (!campaign.target && source == campaign.profile.name) return campaign.profile;
+/// The profile behind a source, or why there is none.
+Expected<Profile> profile_of(const DesignWorld& world, const std::string& source) {
+  if (world.profile && source == world.profile->name) return *world.profile;
   if (source == "real") {
     return bad_input("it was filmed, not simulated: there is nothing to simulate again");
   }
-  if (campaign.target) {
+  if (world.has_programs || source == "command") {
     return bad_input(
         "a program scored it: there is nothing to simulate again; `show` has its seed "
         "and what was given to the program");
   }
-  return built_in_profile(source);
+  auto built_in = built_in_profile(source);
+  if (built_in) return built_in;
+  return bad_input("neither the store nor this program has the profile " + source +
+                   " with which it was made; `evaluate` simulates it with --profile FILE");
+}
+
+/// Puts in what the run is a function of, besides its seed and its profile.
+Expected<void> complete(StoredRun& run, const DesignWorld& world, const std::string& text) {
+  if (!world.mission) {
+    return bad_input("the store's campaign has no mission " + world.design.mission);
+  }
+  run.engine_version = world.engine_version;
+  run.mission = world.mission->mission;
+  if (world.flavour.empty()) {
+    return bad_input("the store's campaign has no method " + world.design.method);
+  }
+  auto flavour = world.turn_clock ? find_flavour(world.flavour, *world.turn_clock)
+                                  : find_flavour(world.flavour, TurnClock::Cycles);
+  if (!flavour) return Unexpected(flavour.error());
+  run.flavour = std::move(*flavour);
+  auto machine = parse_machine(text, run.flavour);
+  if (!machine) return Unexpected(machine.error());
+  run.machine = std::move(*machine);
+  auto instance = instance_of(run.mission, run.seed);
+  if (!instance) return Unexpected(instance.error());
+  run.instance = std::move(*instance);
+  return {};
 }
 
 }  // namespace
@@ -80,38 +98,22 @@ bool same_bits(const StoredOutcome& stored, const SimulationResult& result) {
 }
 
 std::string other_engine(int stored_version) {
-  if (stored_version == kEngineVersion) return "";
+  if (stored_version == kEngineVersion || stored_version == 0) return "";
   return "the store's scores are of version " + std::to_string(stored_version) +
          " of the engine, this program has version " + std::to_string(kEngineVersion) +
          ", which need not give the same bits";
 }
 
 Expected<StoredRuns> StoredRuns::open(std::unique_ptr<StoreReader> store) {
-  const std::vector<StoredCampaign> campaigns = store->campaigns();
-  StoredRuns runs(std::move(store));
-  if (campaigns.size() > 1) return runs;
-  const auto source = runs.source_of({campaigns.front().designs_before + 1});
-  if (!source) return Unexpected(source.error());
-  if (!(*source)->campaign) return Unexpected((*source)->campaign.error());
-  return runs;
-}
-
-Expected<const StoredRuns::Source*> StoredRuns::source_of(DesignId design) {
-  const auto stored = store_->campaign_of(design);
-  if (!stored) return Unexpected(stored.error());
-  const auto known = sources_.find(stored->id);
-  if (known != sources_.end()) return &known->second;
-  const int engine_version = engine_version_in(stored->row.deciding);
-  auto campaign = parse_campaign(stored->row.file, "the store's campaign file");
-  if (campaign) {
-    return &sources_.emplace(stored->id, Source{std::move(*campaign), engine_version})
-                .first->second;
-  }
-  Error error = campaign.error().front();
-  const std::string older = other_engine(engine_version);
+  auto worlds = DesignWorlds::read(*store);
+  if (!worlds) return Unexpected(worlds.error());
+  const auto first = worlds->of(worlds->designs().front().id);
+  if (first) return StoredRuns(std::move(store), std::move(*worlds));
+  Error error = first.error();
+  const std::string older = other_engine(worlds->first_engine_version());
   error.message += "; this version cannot replay the store";
   if (!older.empty()) error.message += " (" + older + ")";
-  return &sources_.emplace(stored->id, Source{Unexpected(error), engine_version}).first->second;
+  return Unexpected(error);
 }
 
 Expected<StoredRun> StoredRuns::evaluation(const ThingId& id) {
@@ -122,57 +124,72 @@ Expected<StoredRun> StoredRuns::evaluation(const ThingId& id) {
     return unexpected(ErrorKind::NotFound, "the store has no evaluation " + name);
   }
   const auto& cells = rows->cells.front();
+  const auto world = world_of({integer_of(cells[8])});
+  if (!world) return bad_input(to_string(world.error()), name);
+  auto profile = profile_of(*world, cells[6].text);
+  if (!profile) return bad_input(to_string(profile.error()), name);
   if (cells[2].type == Cell::Type::Null) {
     return bad_input("the store does not say on which seed it was made", name);
   }
   StoredRun run = read_outcome(cells);
-  const auto completed = complete(
-      run, {cells[7].text, cells[8].text, cells[9].text, cells[6].text, {integer_of(cells[10])}});
+  if (run.outcome && run.outcome->state_digest == 0) {
+    return bad_input(
+        "it was imported, and its last state is not known: there is nothing to compare with; "
+        "`replay " +
+            run.candidate + " --seed " + std::to_string(run.seed) + "` simulates it",
+        name);
+  }
+  run.profile = std::move(*profile);
+  const auto completed = complete(run, *world, cells[7].text);
   if (!completed) return bad_input(to_string(completed.error()), name);
   return run;
 }
 
 Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) {
   const auto rows =
-      select(*store_,
-             "SELECT c.fsm_config, d.mission, d.method, d.design FROM v_candidates AS c "
-             "JOIN v_designs AS d ON d.design = c.design WHERE c.candidate = " +
-                 id.digits);
+      select(*store_, "SELECT fsm_config, design FROM v_candidates WHERE candidate = " + id.digits);
   if (!rows) return Unexpected(rows.error());
+  StoredRun run{.id = {}, .candidate = "c" + id.digits};
   if (rows->cells.empty()) {
-    return unexpected(ErrorKind::NotFound, "the store has no candidate c" + id.digits);
+    return unexpected(ErrorKind::NotFound, "the store has no candidate " + run.candidate);
   }
   const auto& cells = rows->cells.front();
-  const DesignId design{integer_of(cells[3])};
-  const auto source = source_of(design);
-  if (!source) return Unexpected(source.error());
-  if (!(*source)->campaign) return Unexpected((*source)->campaign.error());
-  const std::string& profile = (*(*source)->campaign).profile.name;
+  const auto world = world_of({integer_of(cells[1])});
+  if (!world) return bad_input(to_string(world.error()), run.candidate);
+  if (!world->profile && !world->has_programs) {
+    return bad_input("it was imported, and its store names no profile; `evaluate " + run.candidate +
+                         " --profile P --seeds " + std::to_string(seed) + "` simulates it",
+                     run.candidate);
+  }
+  const std::string source = world->profile ? world->profile->name : "command";
+  auto profile = profile_of(*world, source);
+  if (!profile) return bad_input(to_string(profile.error()), run.candidate);
   // The pair may have served the race and more: all of these hold the same outcome.
   const auto known =
       select(*store_,
              select_evaluations("candidate = " + id.digits + " AND seed = " + std::to_string(seed) +
-                                " AND source = " + sql_text(profile)) +
+                                " AND state_digest <> 0 AND source = " + sql_text(source)) +
                  " ORDER BY e.purpose = 'race' DESC, e.pair",
              {.rows = 1});
   if (!known) return Unexpected(known.error());
-  StoredRun run{.id = {}, .candidate = "c" + id.digits};
   if (!known->cells.empty()) run = read_outcome(known->cells.front());
   run.seed = seed;
-  const auto completed =
-      complete(run, {cells[0].text, cells[1].text, cells[2].text, profile, design});
+  run.profile = std::move(*profile);
+  const auto completed = complete(run, *world, cells[0].text);
   if (!completed) return bad_input(to_string(completed.error()), run.candidate);
   return run;
 }
 
 Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
-  // The n-th of N rows is taken when a multiple of N / count lies in (n - 1, n].
+  // The n-th of N rows is taken when a multiple of N / count lies in (n - 1, n]. What was not
+  // simulated here has no last state.
   const std::string number = std::to_string(count);
   const auto rows =
       select(*store_,
              "WITH all_of (id, n, total) AS (SELECT id, row_number() OVER (ORDER BY candidate, "
              "purpose, pair), count(*) OVER () FROM v_evaluations "
-             "WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL) "
+             "WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL "
+             "AND (state_digest <> 0 OR purpose <> 'score')) "
              "SELECT id FROM all_of WHERE n * " +
                  number + " / total > (n - 1) * " + number + " / total ORDER BY n",
              {.rows = 1'000'000'000, .seconds = 600});
@@ -183,36 +200,11 @@ Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
   return ids;
 }
 
-Expected<void> StoredRuns::complete(StoredRun& run, const Origin& origin) {
-  const auto source = source_of(origin.design);
-  if (!source) return Unexpected(source.error());
-  if (!(*source)->campaign) return Unexpected((*source)->campaign.error());
-  const Campaign& campaign = *(*source)->campaign;
-  run.engine_version = (*source)->engine_version;
-  auto profile = profile_of(campaign, origin.source);
-  if (!profile) return Unexpected(profile.error());
-  run.profile = std::move(*profile);
-  const auto mission = std::ranges::find_if(
-      campaign.missions, [&](const auto& known) { return known.mission.name == origin.mission; });
-  if (mission == campaign.missions.end()) {
-    return bad_input("the store's campaign has no mission " + origin.mission);
-  }
-  run.mission = mission->mission;
-  const auto method = std::ranges::find_if(
-      campaign.methods, [&](const Method& known) { return known.name == origin.method; });
-  if (method == campaign.methods.end()) {
-    return bad_input("the store's campaign has no method " + origin.method);
-  }
-  auto flavour = find_flavour(method->flavour, method->turn_clock);
-  if (!flavour) return Unexpected(flavour.error());
-  run.flavour = std::move(*flavour);
-  auto machine = parse_machine(origin.machine, run.flavour);
-  if (!machine) return Unexpected(machine.error());
-  run.machine = std::move(*machine);
-  auto instance = instance_of(run.mission, run.seed);
-  if (!instance) return Unexpected(instance.error());
-  run.instance = std::move(*instance);
-  return {};
+Expected<DesignWorld> StoredRuns::world_of(DesignId design) const {
+  auto world = worlds_.of(design);
+  if (!world) return Unexpected(world.error());
+  if (!*world) return bad_input("the store has no design " + to_string(design));
+  return std::move(**world);
 }
 
 }  // namespace swarmsmith::cli

@@ -1,14 +1,13 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "base/expected.h"
-#include "coordinator/campaign/campaign.h"
+#include "coordinator/cli/design_worlds.h"
 #include "coordinator/cli/thing_id.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
@@ -29,13 +28,13 @@ struct StoredRun {
   std::string candidate;  ///< c812
   std::int64_t seed = 0;
   bool rejected = false;
-  int engine_version = 0;  ///< that made the stored outcome; 0 when the store does not say
   std::optional<StoredOutcome> outcome;  ///< none: rejected, or not in the store
   Machine machine;
   Flavour flavour;
   Profile profile;
   Mission mission;
   Instance instance;
+  int engine_version = 0;  ///< that made the stored outcome; 0 when the store does not say
 
   SimulationSetup setup() const { return {machine, flavour, profile, mission, instance, seed}; }
 };
@@ -46,12 +45,11 @@ bool same_bits(const StoredOutcome& stored, const SimulationResult& result);
 /// The evaluations of a store, to be simulated again.
 class StoredRuns {
  public:
-  /// Fails when a store's only campaign file cannot be read by this version; of several campaigns,
-  /// which may be imported ones, each run tells for itself.
+  /// Fails when the campaign file that the store keeps cannot be read by this version.
   static Expected<StoredRuns> open(std::unique_ptr<StoreReader> store);
 
   /// NotFound when the store has no such evaluation; BadInput when it cannot be simulated: it was
-  /// filmed, its pair is gone, or its profile is none of this program.
+  /// filmed or imported, its pair is gone, or its profile is none of this program.
   Expected<StoredRun> evaluation(const ThingId& id);
   /// A candidate on any seed; what the store holds of that pair comes with it.
   Expected<StoredRun> candidate(const ThingId& id, std::int64_t seed);
@@ -60,29 +58,18 @@ class StoredRuns {
   Expected<std::vector<std::string>> sample(std::int64_t count);
 
  private:
-  /// A campaign of the store, read from its file.
-  struct Source {
-    Expected<Campaign> campaign;
-    int engine_version = 0;
-  };
-  explicit StoredRuns(std::unique_ptr<StoreReader> store) : store_(std::move(store)) {}
+  StoredRuns(std::unique_ptr<StoreReader> store, DesignWorlds worlds)
+      : store_(std::move(store)), worlds_(std::move(worlds)) {}
 
-  /// What the run is a function of, besides its machine's text and its seed.
-  struct Origin {
-    std::string machine;
-    std::string mission;
-    std::string method;
-    std::string source;
-    DesignId design;
-  };
-  Expected<const Source*> source_of(DesignId design);
-  Expected<void> complete(StoredRun& run, const Origin& origin);
+  /// The design's world, or why there is none.
+  Expected<DesignWorld> world_of(DesignId design) const;
 
   std::unique_ptr<StoreReader> store_;
-  std::map<std::int64_t, Source> sources_;  ///< by the campaign's number, those that were needed
+  DesignWorlds worlds_;
 };
 
-/// The stored version differs from this program's: a sentence that says so, else empty.
+/// The stored version (0: not known) differs from this program's: a sentence that says so, else
+/// empty.
 std::string other_engine(int stored_version);
 
 }  // namespace swarmsmith::cli

@@ -277,7 +277,9 @@ std::vector<StoredStep> read_steps(const sqlite::Connection& connection) {
 
 std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection) {
   std::vector<DesignStateRow> states;
-  Statement row(connection, design_states_of({}));
+  Statement row(connection,
+                "SELECT id, state, used, iteration, best, best_mean, reason FROM design"
+                " WHERE campaign = 1 ORDER BY id");
   while (row.step())
     states.push_back(design_state(row));
   return states;
@@ -301,7 +303,8 @@ std::int64_t read_next_worker(const sqlite::Connection& connection) {
 
 bool is_finished(const sqlite::Connection& connection) {
   return sqlite::integer_of(connection,
-                            "SELECT count(*) FROM campaign WHERE state <> 'finished'") == 0;
+                            "SELECT count(*) FROM campaign"
+                            " WHERE state NOT IN ('finished', 'imported')") == 0;
 }
 
 std::vector<CandidateId> candidates_without_phrases(const sqlite::Connection& connection) {

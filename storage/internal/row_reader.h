@@ -24,6 +24,7 @@ std::vector<StoredCampaign> read_campaigns(const sqlite::Connection& connection)
 std::vector<DesignRow> read_designs(const sqlite::Connection& connection, const Part& part = {});
 std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const Part& part = {});
 std::vector<StoredStep> read_steps(const sqlite::Connection& connection);
+/// Of the first campaign, the one that runs in the store; of schema 4.
 std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection);
 std::vector<CommandRow> read_commands(const sqlite::Connection& connection, const Part& part = {});
 std::int64_t read_next_worker(const sqlite::Connection& connection);

@@ -34,9 +34,10 @@ constexpr char kTotals[] =
 constexpr char kDesignState[] =
     "UPDATE design SET state = ?2, used = ?3, iteration = ?4, best = ?5, best_mean = ?6,"
     " reason = ?7 WHERE id = ?1";
+// The first campaign of a store is the one that runs; others were merged or imported into it.
 constexpr char kCampaignState[] =
     "UPDATE campaign SET state = ?1, finished = CASE WHEN ?1 = 'finished' THEN"
-    " coalesce(finished, strftime('%Y-%m-%dT%H:%M:%fZ', 'now')) END";
+    " coalesce(finished, strftime('%Y-%m-%dT%H:%M:%fZ', 'now')) END WHERE id = 1";
 constexpr char kWorker[] =
     "INSERT INTO worker (id, identity, host, pid, slots, build, state, done, failed, job, cpu,"
     " client, connections)"

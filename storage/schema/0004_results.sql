@@ -21,6 +21,8 @@ ALTER TABLE campaign_of_several RENAME TO campaign;
 
 ALTER TABLE design ADD COLUMN campaign INTEGER NOT NULL DEFAULT 1;
 ALTER TABLE design ADD COLUMN flavour TEXT NOT NULL DEFAULT '';
+-- As it was called where it was imported from; empty for a design of a campaign.
+ALTER TABLE design ADD COLUMN name TEXT NOT NULL DEFAULT '';
 
 -- What the texts of candidates have in common (internal/candidate_code.h). A text that is empty
 -- where there is a code is made of the code's phrases; candidates of earlier schemas stay as told.

@@ -27,7 +27,8 @@ SELECT id AS design, mission, method, repetition, seed,
        CASE state WHEN 0 THEN 'waiting' WHEN 1 THEN 'racing' WHEN 2 THEN 'testing'
                   WHEN 3 THEN 'finished' WHEN 4 THEN 'stopped' END AS state,
        budget, used, iteration, best AS best_candidate,
-       CASE WHEN best IS NOT NULL THEN best_mean END AS best_mean, reason, flavour, campaign
+       CASE WHEN best IS NOT NULL AND used > 0 THEN best_mean END AS best_mean, reason, flavour,
+       campaign, name
 FROM design;
 
 -- Not public: the rows of the table with their texts, made of phrases where they have a code
@@ -82,7 +83,7 @@ SELECT 'e' || (e.candidate * 100000 + e.pair)
        d.id AS design, e.candidate,
        CASE e.purpose WHEN 0 THEN 'race' WHEN 1 THEN 'look-ahead' WHEN 2 THEN 'test'
                       WHEN 3 THEN 'audit' WHEN 4 THEN 'score' ELSE 'evaluator' END AS purpose,
-       e.pair, p.instance, p.seed, e.iteration,
+       e.pair, p.instance, nullif(p.seed, 0) AS seed, e.iteration,
        CASE e.status WHEN 0 THEN 'ok' WHEN 1 THEN 'rejected' END AS status,
        e.score, e.time, e.bound, e.wall_us / 1000.0 AS wall_ms, nullif(e.worker, 0) AS worker, e.attempt,
        s.name AS source, e.purpose <> 1 AND (e.purpose <> 0 OR e.iteration IS NOT NULL) AS used,
@@ -96,7 +97,8 @@ LEFT JOIN pair AS p ON p.design = d.id AND p.purpose = e.purpose AND p.number = 
 -- Where a targetEvaluator says the costs, its calls for test instances have negative instances.
 CREATE VIEW v_design_scores AS
 SELECT d.id AS design, d.mission, d.method, d.repetition, d.best AS candidate,
-       s.name AS source, CASE e.purpose WHEN 2 THEN 'test' ELSE 'score' END AS purpose, e.pair, p.instance, p.seed, iif(v.pair IS NULL, e.score, v.score) AS score
+       s.name AS source, CASE e.purpose WHEN 2 THEN 'test' ELSE 'score' END AS purpose, e.pair, p.instance, nullif(p.seed, 0) AS seed,
+       iif(v.pair IS NULL, e.score, v.score) AS score
 FROM design AS d
 JOIN evaluation AS e ON e.candidate = d.best AND e.purpose IN (2, 4) AND e.score IS NOT NULL
 JOIN source AS s ON s.id = e.source
@@ -111,7 +113,8 @@ CREATE VIEW v_leaderboard AS
 SELECT mission,
        rank() OVER (PARTITION BY mission ORDER BY coalesce(test_mean, best_mean) DESC) AS rank,
        design, method, repetition, candidate, test_mean, test_runs, best_mean AS race_mean
-FROM (SELECT d.mission, d.id AS design, d.method, d.repetition, d.best AS candidate, d.best_mean,
+FROM (SELECT d.mission, d.id AS design, d.method, d.repetition, d.best AS candidate,
+             CASE WHEN d.used > 0 THEN d.best_mean END AS best_mean,
              avg(t.score) AS test_mean, count(t.score) AS test_runs
       FROM design AS d
       LEFT JOIN v_design_scores AS t ON t.design = d.id AND t.purpose = 'test'

@@ -24,7 +24,7 @@ const std::map<std::string, std::string> kColumns{
      "design mission method repetition candidate source purpose pair instance seed score"},
     {"v_designs",
      "design mission method repetition seed state budget used iteration best_candidate best_mean "
-     "reason flavour campaign"},
+     "reason flavour campaign name"},
     {"v_eliminations", "design candidate iteration step pair rank_sum reason"},
     {"v_evaluations",
      "id design candidate purpose pair instance seed iteration status score time bound wall_ms "

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "coordinator/campaign/campaign.h"
+#include "coordinator/results/known_designs.h"
+#include "storage/store.h"
+
+namespace swarmsmith::cli {
+
+/// What the machines of a design are simulated in, as far as its store says it.
+struct DesignWorld {
+  KnownDesign design;
+  std::optional<CampaignMission> mission;  ///< nothing: its programs', or of an unknown name
+  std::string flavour;
+  std::optional<TurnClock> turn_clock;
+  std::optional<Profile> profile;  ///< the campaign's; nothing for imported machines
+  int engine_version = 0;          ///< that made its scores; 0 when the store does not say
+  bool has_programs = false;       ///< programs evaluate
+  bool has_parameters = false;     ///< its candidates are parameters of a file, no machines
+};
+
+/// The worlds of all designs of a store: of a campaign's file, or, for imported machines, by their
+/// flavour and the name of their mission, when that is built in.
+class DesignWorlds {
+ public:
+  static Expected<DesignWorlds> read(StoreReader& store);
+
+  /// Nothing when the store has no such design. BadInput when its campaign's file cannot be read by
+  /// this version.
+  Expected<std::optional<DesignWorld>> of(DesignId design) const;
+  const std::vector<KnownDesign>& designs() const { return designs_; }
+  /// Of the store's first campaign.
+  std::uint64_t seed() const { return seed_; }
+  int first_engine_version() const { return files_.begin()->second.engine_version; }
+
+ private:
+  std::vector<KnownDesign> designs_;
+  struct File {
+    std::string text;  ///< empty for an imported campaign
+    int engine_version = 0;
+  };
+  std::map<std::int64_t, File> files_;  ///< of the campaigns
+  std::uint64_t seed_ = 0;
+};
+
+}  // namespace swarmsmith::cli

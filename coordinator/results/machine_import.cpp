@@ -1,0 +1,204 @@
+#include "coordinator/results/machine_import.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "base/hash.h"
+#include "coordinator/campaign/machine_space.h"
+#include "sim/control/machine_text.h"
+#include "sim/files/mission_file.h"
+
+namespace swarmsmith {
+namespace {
+
+/// The first of the columns that the table has; nothing when it has none.
+std::optional<std::string> first_column(const CsvTable& table,
+                                        std::initializer_list<const char*> names) {
+  for (const char* name : names) {
+    if (table.column(name)) return name;
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> machine_column(const CsvTable& table) {
+  return first_column(table, {"fsm", "fsm_config", "machine"});
+}
+
+/// Without blanks, and without a colon or comma between name and machine.
+std::string trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r:,";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return "";
+  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
+}
+
+/// The next repetition of a mission and method.
+class Repetitions {
+ public:
+  explicit Repetitions(const std::vector<KnownDesign>& known) {
+    for (const KnownDesign& design : known) {
+      std::int64_t& last = last_[{design.mission, design.method}];
+      last = std::max(last, design.repetition);
+    }
+  }
+  std::int64_t next(const std::string& mission, const std::string& method) {
+    return ++last_[{mission, method}];
+  }
+
+ private:
+  std::map<std::pair<std::string, std::string>, std::int64_t> last_;
+};
+
+/// What is wrong with a design's own words.
+std::optional<std::string> complaint_about(const std::string& mission, const std::string& method) {
+  if (mission.empty()) {
+    return "no mission is named; add a column mission, or --mission aggregation";
+  }
+  if (!is_name(mission)) {
+    return "`" + mission +
+           "` is no name for a mission: letters, digits, _ - . are; rename it with "
+           "--mission OLD=NEW";
+  }
+  if (!is_name(method)) {
+    return "`" + method + "` is no name for a method: letters, digits, _ - . are";
+  }
+  return std::nullopt;
+}
+
+void add_design(Addition& addition, DesignRow design, const MachineText& from,
+                const Machine& machine, const Flavour& flavour) {
+  const CandidateId winner = candidate_id(design.id, 1);
+  addition.rows.emplace_back(
+      CandidateRow{.id = winner,
+                   .iteration = 0,
+                   .parent = {},
+                   .parameters = "{}",
+                   .machine = print_machine(machine, flavour),
+                   .modules = modules_json(machine),
+                   .states = static_cast<std::int64_t>(machine.states.size()),
+                   .transitions = transition_count(machine)});
+  addition.rows.emplace_back(DesignStateRow{.design = design.id,
+                                            .state = DesignState::Finished,
+                                            .used = 0,
+                                            .iteration = 0,
+                                            .best = winner,
+                                            .best_mean = 0,
+                                            .reason = "imported"});
+  addition.designs.push_back({std::move(design), from.name});
+}
+
+}  // namespace
+
+OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
+                                                      const std::string& file) {
+  std::vector<MachineText> machines;
+  std::vector<Error> errors;
+  for (std::size_t number = 1; !text.empty(); ++number) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    const std::string line = trimmed(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+    if (line.empty() || line.front() == '#') continue;
+    const std::string place = file + ":" + std::to_string(number);
+    const std::size_t at = std::min(line.find("--nstates"), line.find("--fsm-config"));
+    if (at == std::string::npos) {
+      errors.push_back({ErrorKind::BadInput,
+                        "a machine begins with --nstates or --fsm-config, one a line", place});
+      continue;
+    }
+    machines.push_back({.name = trimmed(std::string_view(line).substr(0, at)),
+                        .mission = {},
+                        .method = {},
+                        .text = line.substr(at),
+                        .place = place});
+  }
+  if (machines.empty() && errors.empty()) {
+    errors.push_back({ErrorKind::BadInput, "the file holds no machine", file});
+  }
+  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  return machines;
+}
+
+bool has_machines(const CsvTable& table) {
+  return machine_column(table).has_value();
+}
+
+OrErrors<std::vector<MachineText>> read_machine_table(const CsvTable& table) {
+  const auto machine = machine_column(table);
+  if (!machine || table.rows.empty()) {
+    return tl::unexpected(std::vector{
+        Error{ErrorKind::BadInput,
+              machine ? "the table has no rows" : "there is no column fsm, fsm_config or machine",
+              table.file}});
+  }
+  const std::string name = first_column(table, {"fsm_id", "name"}).value_or("");
+  std::vector<MachineText> machines;
+  for (const CsvRow& row : table.rows) {
+    machines.push_back({.name = cell_of(table, row, name),
+                        .mission = cell_of(table, row, "mission"),
+                        .method = cell_of(table, row, "method"),
+                        .text = cell_of(table, row, *machine),
+                        .place = table.place(row)});
+  }
+  return machines;
+}
+
+OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
+                                   const MachineImport& known) {
+  std::vector<Error> errors;
+  Addition addition;
+  Digest digest;
+  digest.add("machines");
+  digest.add(known.flavour.name);
+  Repetitions repetitions(known.designs);
+  std::int64_t id = known.designs.empty() ? 0 : known.designs.back().id.value;
+  std::map<std::pair<std::string, std::string>, std::string> names;
+  for (const MachineText& from : machines) {
+    const std::string mission = known.missions.name_of(from.mission);
+    const std::string method = from.method.empty() ? known.method : from.method;
+    if (auto complaint = complaint_about(mission, method)) {
+      errors.push_back({ErrorKind::BadInput, std::move(*complaint), from.place});
+      continue;
+    }
+    if (!from.name.empty()) {
+      const auto [other, is_new] = names.emplace(std::pair{mission, from.name}, from.place);
+      if (!is_new) {
+        errors.push_back({ErrorKind::BadInput,
+                          from.name + " is the name of the machine of " + other->second + ", too",
+                          from.place});
+      }
+    }
+    const auto machine = parse_machine(from.text, known.flavour);
+    if (!machine) {
+      errors.push_back({ErrorKind::BadInput, machine.error().message,
+                        from.place + ", " + machine.error().where});
+      continue;
+    }
+    for (const std::string& text :
+         {from.name, mission, method, print_machine(*machine, known.flavour)})
+      digest.add(text);
+    add_design(addition,
+               {.id = {++id},
+                .mission = mission,
+                .method = method,
+                .flavour = known.flavour.name,
+                .repetition = repetitions.next(mission, method),
+                .seed = 0,
+                .budget = 0},
+               from, *machine, known.flavour);
+  }
+  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  addition.campaign = CampaignRow{
+      .name = known.campaign,
+      .digest = digest.hex(),
+      .deciding = fmt::format(R"({{"imported":"machines","flavour":"{}","machines":"{}"}})",
+                              known.flavour.name, machines.size()),
+      .file = "",
+      .seed = 0};
+  return addition;
+}
+
+}  // namespace swarmsmith

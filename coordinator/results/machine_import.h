@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expected.h"
+#include "coordinator/results/csv_table.h"
+#include "coordinator/results/import_words.h"
+#include "coordinator/results/known_designs.h"
+#include "sim/control/flavour.h"
+#include "storage/store_at_rest.h"
+
+namespace swarmsmith {
+
+/// A machine that was designed elsewhere, as a file has it.
+struct MachineText {
+  std::string name;     ///< may be empty
+  std::string mission;  ///< as the file calls it; may be empty
+  std::string method;   ///< may be empty
+  std::string text;     ///< of the grammar
+  std::string place;    ///< file:line
+};
+
+/// A text a line, from `--nstates` or `--fsm-config` on, a name before it or none; blank lines and
+/// lines that begin with # say nothing.
+OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
+                                                      const std::string& file);
+
+/// Columns `fsm`, `fsm_config` or `machine`; `fsm_id` or `name`, `mission` and `method` may be
+/// missing or empty.
+OrErrors<std::vector<MachineText>> read_machine_table(const CsvTable& table);
+
+/// Whether a table's columns are those of machines.
+bool has_machines(const CsvTable& table);
+
+struct MachineImport {
+  std::string campaign;  ///< name of the campaign that they become
+  Flavour flavour;
+  MissionWords missions;
+  std::string method;                ///< of machines without one
+  std::vector<KnownDesign> designs;  ///< that the store has
+};
+
+/// A campaign with the state "imported": each machine a finished design with one candidate, its
+/// winner. Designs are numbered after those of the store; a design of a mission and method that the
+/// store has is a further repetition. The campaign's digest is one over names, missions, methods,
+/// flavour and machines, so that the same file is known again. All that is wrong, with its line.
+OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
+                                   const MachineImport& known);
+
+}  // namespace swarmsmith

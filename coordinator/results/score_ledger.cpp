@@ -1,0 +1,98 @@
+#include "coordinator/results/score_ledger.h"
+
+#include <algorithm>
+#include <limits>
+
+#include "base/assert.h"
+#include "coordinator/results/csv_table.h"
+
+namespace swarmsmith {
+namespace {
+
+// Tests first: where both know a place, the test is what counts, and the first stays.
+constexpr char kScores[] =
+    "SELECT candidate, purpose, pair, instance, seed, source, score, state_digest"
+    " FROM v_evaluations WHERE purpose IN ('test', 'score')"
+    " ORDER BY purpose = 'score', candidate, pair";
+
+std::int64_t integer(const StoreReader::Cell& cell) {
+  return integer_in(cell.text).value_or(0);
+}
+
+}  // namespace
+
+Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
+  ScoreLedger ledger;
+  const auto take = [&](const std::vector<StoreReader::Cell>& row) {
+    const CandidateId candidate{integer(row[0])};
+    const DesignId design = design_of(candidate);
+    const Purpose purpose = row[1].text == "test" ? Purpose::Test : Purpose::Score;
+    const LedgerScore known{.key = {candidate, purpose, integer(row[2])},
+                            .instance = integer(row[3]),
+                            .score = number_in(row[6].text).value_or(0),
+                            .state_digest = static_cast<std::uint64_t>(integer(row[7]))};
+    const std::string& source = row[5].text;
+    const std::int64_t seed = integer(row[4]);
+    if (purpose == Purpose::Score) {
+      ledger.pairs_.emplace(Pair{design, source, seed, known.instance}, known.key.pair);
+      std::int64_t& last = ledger.last_pair_[design];
+      last = std::max(last, known.key.pair);
+    }
+    if (row[6].type == StoreReader::Cell::Type::Null) return;  // rejected: there is no score
+    ledger.scores_.emplace(Place{candidate, source, seed, known.instance}, known);
+  };
+  constexpr std::int64_t kAll = 1'000'000'000;
+  const auto end = store.query(
+      kScores, {.rows = kAll, .seconds = 600}, [](const auto&) {}, take);
+  if (!end) return Unexpected(end.error());
+  if (end->truncated) {
+    return unexpected(ErrorKind::Unavailable, "the store's scores took longer than 600 s to read");
+  }
+  return ledger;
+}
+
+ScoreLedger::Scores::const_iterator ScoreLedger::at(const ScorePlace& place) const {
+  constexpr std::int64_t kFirst = std::numeric_limits<std::int64_t>::min();
+  const auto found = scores_.lower_bound(
+      Place{place.candidate, place.source, place.seed, place.instance.value_or(kFirst)});
+  if (found == scores_.end()) return found;
+  const auto& [candidate, source, seed, instance] = found->first;
+  const bool same = candidate == place.candidate && source == place.source && seed == place.seed &&
+                    place.instance.value_or(instance) == instance;
+  return same ? found : scores_.end();
+}
+
+const LedgerScore* ScoreLedger::find(const ScorePlace& place) const {
+  const auto found = at(place);
+  return found == scores_.end() ? nullptr : &found->second;
+}
+
+EvaluationKey ScoreLedger::add(const ScorePlace& place, double score, std::uint64_t state_digest,
+                               std::vector<Row>& rows) {
+  const DesignId design = design_of(place.candidate);
+  const std::int64_t instance = place.instance.value_or(1);
+  const auto [pair, is_new] = pairs_.emplace(Pair{design, place.source, place.seed, instance}, 0);
+  if (is_new) {
+    pair->second = ++last_pair_[design];
+    rows.emplace_back(PairRow{.design = design,
+                              .purpose = Purpose::Score,
+                              .number = pair->second,
+                              .instance = instance,
+                              .seed = place.seed});
+  }
+  const EvaluationKey key{place.candidate, Purpose::Score, pair->second};
+  scores_.insert_or_assign(Place{place.candidate, place.source, place.seed, instance},
+                           LedgerScore{key, instance, score, state_digest});
+  return key;
+}
+
+void ScoreLedger::replace(const ScorePlace& place, double score) {
+  const auto found = at(place);
+  SWARMSMITH_ASSERT(found != scores_.end(), "what is replaced is known");
+  LedgerScore changed = found->second;
+  changed.score = score;
+  changed.state_digest = 0;
+  scores_.insert_or_assign(found->first, changed);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,36 @@
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+
+#include "base/expected.h"
+#include "storage/internal/lock_file.h"
+#include "storage/internal/sqlite.h"
+
+namespace swarmsmith {
+
+/// What every writer of a store begins with, whatever it is going to write.
+
+/// The right to write, and whether the last writer did not end well.
+struct WriterLock {
+  LockFile file;
+  bool unclean = false;
+};
+
+/// Takes the lock, which is suspect as long as an unclean store has not been looked at, and looks
+/// at the file from outside. Errors as of Store::open.
+Expected<WriterLock> lock_for_writing(const std::filesystem::path& path,
+                                      std::chrono::milliseconds patience);
+
+/// Opens the file for writing, or makes an empty one: ours or blank, of any schema up to this
+/// program's, in WAL mode; when `unclean`, its log is folded in and every page checked. Changes no
+/// content. Throws SqliteError.
+Expected<sqlite::Connection> connect_writer(const std::filesystem::path& path, bool unclean);
+
+/// Tables, views and where the file was made, in a blank file; the caller holds a transaction.
+void write_empty_store(sqlite::Connection& connection);
+
+/// The error that a failure while opening stands for: Corrupt or Unavailable.
+Unexpected not_writable(const sqlite::SqliteError& error, const std::filesystem::path& path);
+
+}  // namespace swarmsmith

@@ -1,0 +1,138 @@
+#include "storage/store_at_rest.h"
+
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "storage/internal/file_checks.h"
+#include "storage/internal/open_writer.h"
+#include "storage/internal/row_writer.h"
+#include "storage/internal/schema.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+using sqlite::Connection;
+using sqlite::Statement;
+
+constexpr char kCampaign[] =
+    "INSERT INTO campaign (id, name, digest, deciding, file, seed, state, designs_before, finished)"
+    " SELECT coalesce(max(id), 0) + 1, ?, ?, ?, ?, ?, 'imported', (SELECT count(*) FROM design),"
+    " strftime('%Y-%m-%dT%H:%M:%fZ', 'now') FROM campaign";
+constexpr char kDesign[] =
+    "INSERT INTO design (id, mission, method, flavour, repetition, seed, budget, name, campaign)"
+    " SELECT ?, ?, ?, ?, ?, ?, ?, ?, max(id) FROM campaign";
+
+class SqliteAtRest final : public StoreAtRest {
+ public:
+  SqliteAtRest(LockFile lock, Connection connection, fs::path path, bool is_new)
+      : lock_(std::move(lock)),
+        connection_(std::move(connection)),
+        path_(std::move(path)),
+        is_new_(is_new) {}
+
+  ~SqliteAtRest() override {
+    // Only tidies up: what was committed is on disk.
+    sqlite3_wal_checkpoint_v2(connection_->handle(), nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr,
+                              nullptr);
+    connection_.reset();
+    std::error_code ignored;
+    if (is_new_) fs::remove(path_, ignored);
+  }
+
+  bool is_new() const override { return is_new_; }
+  Expected<void> add(const Addition& addition) override;
+
+ private:
+  Expected<void> add_campaign(const Addition& addition);
+  void remove(const EvaluationKey& key);
+
+  LockFile lock_;
+  std::optional<Connection> connection_;
+  fs::path path_;
+  bool is_new_;
+};
+
+Expected<void> SqliteAtRest::add(const Addition& addition) {
+  for (const Row& row : addition.rows)
+    require_finite(row);
+  try {
+    sqlite::Transaction transaction(*connection_);
+    if (is_new_) write_empty_store(*connection_);
+    if (auto added = add_campaign(addition); !added) return added;
+    for (const EvaluationKey& key : addition.removed)
+      remove(key);
+    {
+      RowWriter writer(*connection_);
+      for (const Row& row : addition.rows)
+        writer.write(row);
+    }
+    transaction.commit();
+  } catch (const sqlite::SqliteError& error) {
+    return unexpected(
+        ErrorKind::Unavailable,
+        fmt::format("the store cannot be written: {}; nothing was added", error.what()),
+        path_.string());
+  }
+  is_new_ = false;
+  return {};
+}
+
+Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
+  if (!addition.campaign) return {};
+  const CampaignRow& campaign = *addition.campaign;
+  std::int64_t designs =
+      sqlite::integer_of(*connection_, "SELECT coalesce(max(id), 0) FROM design");
+  Statement(*connection_, kCampaign)
+      .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
+  Statement insert(*connection_, kDesign);
+  for (const auto& [row, name] : addition.designs) {
+    if (row.id.value != ++designs) {
+      return unexpected(
+          ErrorKind::Conflict,
+          fmt::format("design {} does not follow on d{}", to_string(row.id), designs - 1),
+          path_.string());
+    }
+    insert.run(row.id.value, row.mission, row.method, row.flavour, row.repetition, row.seed,
+               row.budget, name);
+  }
+  return {};
+}
+
+void SqliteAtRest::remove(const EvaluationKey& key) {
+  Statement(*connection_, "DELETE FROM evaluation WHERE candidate = ? AND purpose = ? AND pair = ?")
+      .run(key.candidate.value, static_cast<std::int64_t>(key.purpose), key.pair);
+}
+
+}  // namespace
+
+Expected<std::unique_ptr<StoreAtRest>> StoreAtRest::open(const fs::path& path, IfMissing if_missing,
+                                                         std::chrono::milliseconds patience) {
+  std::error_code trouble;
+  const bool exists = fs::exists(path, trouble);
+  if (!exists && if_missing == IfMissing::Refuse) {
+    return unexpected(ErrorKind::NotFound, "there is no such store", path.string());
+  }
+  if (auto folder = check_folder(path); !folder) return Unexpected(folder.error());
+  auto lock = lock_for_writing(path, patience);
+  if (!lock) return Unexpected(lock.error());
+  try {
+    auto connection = connect_writer(path, lock->unclean);
+    if (!connection) return Unexpected(connection.error());
+    const bool blank = is_blank(*connection);
+    if (blank && exists && if_missing == IfMissing::Refuse) {
+      return unexpected(ErrorKind::NotFound, "the file is empty: no campaign has begun in it",
+                        path.string());
+    }
+    if (!blank) migrate(*connection, path, migrations());
+    lock->file.set_suspect(false);
+    return std::make_unique<SqliteAtRest>(std::move(lock->file), std::move(*connection), path,
+                                          blank);
+  } catch (const sqlite::SqliteError& error) {
+    return not_writable(error, path);
+  }
+}
+
+}  // namespace swarmsmith

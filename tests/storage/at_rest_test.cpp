@@ -1,0 +1,140 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "storage/store_at_rest.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Cells = std::vector<std::string>;
+using IfMissing = StoreAtRest::IfMissing;
+
+/// A finished design with its winner, and a score of it.
+Addition imported(std::int64_t design, double score) {
+  const CandidateId winner = candidate_id({design}, 1);
+  return {
+      .campaign =
+          CampaignRow{
+              .name = "from elsewhere", .digest = "x", .deciding = "{}", .file = "", .seed = 0},
+      .designs = {{.row = {.id = {design},
+                           .mission = "m",
+                           .method = "by hand",
+                           .flavour = "watermelon",
+                           .repetition = 1},
+                   .name = "hA1"}},
+      .removed = {},
+      .rows = {
+          CandidateRow{.id = winner,
+                       .parameters = "{}",
+                       .machine = "--nstates 1",
+                       .modules = R"({"stop":1})",
+                       .states = 1},
+          DesignStateRow{.design = {design},
+                         .state = DesignState::Finished,
+                         .best = winner,
+                         .reason = "imported"},
+          PairRow{
+              .design = {design}, .purpose = Purpose::Score, .number = 1, .instance = 1, .seed = 5},
+          EvaluationRow{.key = {winner, Purpose::Score, 1}, .score = score, .source = "real"}}};
+}
+
+struct AtRestTest : testing::Test {
+  TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_ / "s.db";
+
+  std::vector<Cells> all(const std::string& sql) { return cells_of(*open_reader(path_), sql); }
+};
+
+TEST_F(AtRestTest, MakesAStoreOfItsOwnWithoutACampaignFile) {
+  {
+    auto store = StoreAtRest::open(path_, IfMissing::Make);
+    ASSERT_TRUE(store) << to_string(store.error());
+    EXPECT_TRUE((*store)->is_new());
+    const auto added = (*store)->add(imported(1, 2.5));
+    ASSERT_TRUE(added) << to_string(added.error());
+    EXPECT_FALSE((*store)->is_new());
+  }
+  EXPECT_THAT(all("SELECT name, state FROM v_campaign_status"),
+              ElementsAre(Cells{"from elsewhere", "imported"}));
+  // No race was held: there is no mean of one.
+  EXPECT_THAT(all("SELECT design, name, state, best_candidate, best_mean, flavour FROM v_designs"),
+              ElementsAre(Cells{"1", "hA1", "finished", "1", "NULL", "watermelon"}));
+  EXPECT_THAT(all("SELECT candidate, source, purpose, seed, score FROM v_design_scores"),
+              ElementsAre(Cells{"1", "real", "score", "5", "2.5"}));
+}
+
+TEST_F(AtRestTest, LeavesNoFileWhereNothingWasAdded) {
+  { ASSERT_TRUE(StoreAtRest::open(path_, IfMissing::Make)); }
+  EXPECT_FALSE(std::filesystem::exists(path_));
+  const auto refused = StoreAtRest::open(path_, IfMissing::Refuse);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::NotFound);
+}
+
+TEST_F(AtRestTest, TakesAllOfAnAdditionOrNothing) {
+  auto store = StoreAtRest::open(path_, IfMissing::Make);
+  ASSERT_TRUE(store);
+  ASSERT_TRUE((*store)->add(imported(1, 1)));
+  Addition second = imported(3, 1);  // design 2 is not there
+  const auto refused = (*store)->add(second);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::Conflict);
+  second = imported(2, 1);
+  // A row that no store takes: a design that is not there.
+  second.rows.emplace_back(
+      EvaluationRow{.key = {candidate_id({7}, 1), Purpose::Score, 1}, .source = "real"});
+  EXPECT_FALSE((*store)->add(second));
+  EXPECT_THAT(all("SELECT count(*) FROM v_designs"), ElementsAre(Cells{"1"}));
+  EXPECT_THROW(static_cast<void>((*store)->add(imported(2, std::nan("")))), std::invalid_argument);
+}
+
+TEST_F(AtRestTest, KeepsWhatIsThereUntilItIsRemoved) {
+  auto store = StoreAtRest::open(path_, IfMissing::Make);
+  ASSERT_TRUE(store);
+  ASSERT_TRUE((*store)->add(imported(1, 1)));
+  const EvaluationRow other{
+      .key = {candidate_id({1}, 1), Purpose::Score, 1}, .score = 9, .source = "real"};
+  ASSERT_TRUE((*store)->add({.campaign = {}, .designs = {}, .removed = {}, .rows = {other}}));
+  EXPECT_THAT(all("SELECT score FROM v_design_scores"), ElementsAre(Cells{"1"}));
+  ASSERT_TRUE(
+      (*store)->add({.campaign = {}, .designs = {}, .removed = {other.key}, .rows = {other}}));
+  EXPECT_THAT(all("SELECT score FROM v_design_scores"), ElementsAre(Cells{"9"}));
+}
+
+TEST_F(AtRestTest, StaysOutWhileACampaignWrites) {
+  const SyntheticCampaign made = synthetic_campaign({.designs = 2, .iterations = 1});
+  const auto campaign = Store::open(path_, made.campaign, made.designs);
+  ASSERT_TRUE(campaign);
+  const auto refused = StoreAtRest::open(path_, IfMissing::Refuse);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::Conflict);
+  EXPECT_THAT(refused.error().message, HasSubstr("pid"));
+}
+
+TEST_F(AtRestTest, LeavesTheCampaignThatRunsThereAlone) {
+  const SyntheticCampaign made = synthetic_campaign({.designs = 2, .iterations = 1});
+  { ASSERT_TRUE(Store::open(path_, made.campaign, made.designs)); }
+  const auto designs = static_cast<std::int64_t>(made.designs.size());
+  {
+    auto store = StoreAtRest::open(path_, IfMissing::Refuse);
+    ASSERT_TRUE(store);
+    EXPECT_FALSE((*store)->is_new());
+    ASSERT_TRUE((*store)->add(imported(designs + 1, 1)));
+  }
+  auto store = Store::open(path_, made.campaign, made.designs);
+  ASSERT_TRUE(store) << to_string(store.error());
+  EXPECT_EQ((*store)->design_states().size(), made.designs.size());
+  EXPECT_FALSE((*store)->finished());
+  (*store)->append({CampaignStateRow{.state = "finished"}});
+  (*store)->flush();
+  EXPECT_TRUE((*store)->finished());
+  EXPECT_THAT(all("SELECT state FROM v_campaign_status ORDER BY state"),
+              ElementsAre(Cells{"finished"}, Cells{"imported"}));
+}
+
+}  // namespace
+}  // namespace swarmsmith
