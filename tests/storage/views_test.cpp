@@ -2,12 +2,14 @@
 
 #include <map>
 
+#include "storage/internal/sqlite.h"
 #include "tests/storage/fixture.h"
 
 namespace swarmsmith {
 namespace {
 
 using testing::ElementsAre;
+using testing::IsEmpty;
 using Cells = std::vector<std::string>;
 
 /// The public schema. Scripts rely on it: a change here is a new version of the schema, and a line
@@ -192,6 +194,40 @@ TEST_F(ViewsTest, CountTheModulesOfWinnersWithZeroForThoseThatLackOne) {
 TEST_F(ViewsTest, ShowParametersInLongForm) {
   EXPECT_THAT(all("SELECT parameter, value FROM v_parameters WHERE candidate = 1"),
               ElementsAre(Cells{"tau", "5"}, Cells{"behaviour", "stop"}));
+}
+
+/// What SQLite goes through row by row in a query for some part of a view.
+std::vector<std::string> scans(const std::filesystem::path& path, const std::string& sql) {
+  const sqlite::Connection connection(path.string(), SQLITE_OPEN_READONLY);
+  sqlite::Statement plan(connection, "EXPLAIN QUERY PLAN " + sql);
+  std::vector<std::string> found;
+  while (plan.step()) {
+    const std::string detail = plan.text(3);
+    const bool of_a_text = detail.find("VIRTUAL TABLE") != std::string::npos;
+    if (detail.starts_with("SCAN") && !of_a_text) found.push_back(detail);
+  }
+  return found;
+}
+
+TEST_F(ViewsTest, OfOneDesignReadTheRowsOfThatDesignAlone) {
+  for (const std::string view : {"v_candidates", "v_parameters", "v_evaluations", "v_eliminations",
+                                 "v_race_steps", "v_iterations"}) {
+    EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM " + view + " WHERE design = 2"), IsEmpty())
+        << view;
+  }
+  for (const std::string view : {"v_candidates", "v_parameters", "v_evaluations"}) {
+    EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM " + view + " WHERE candidate = 2"), IsEmpty())
+        << view;
+  }
+}
+
+TEST_F(ViewsTest, TheRaceMatrixOfADesignIterationOrStepReadsNothingElse) {
+  for (const std::string also : {"", " AND iteration = 1", " AND step = 2"}) {
+    EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM v_race_matrix WHERE design = 2" + also),
+                testing::Each(testing::AnyOf("SCAN r", testing::StartsWith("SCAN (subquery"),
+                                             "SCAN v_race_matrix")))
+        << also;
+  }
 }
 
 }  // namespace
