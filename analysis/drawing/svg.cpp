@@ -148,6 +148,15 @@ void Svg::circle(PagePoint centre, double radius, const Paint& paint) {
            attribute("r", number(radius)) + attributes_of(paint) + "/>\n";
 }
 
+void Svg::dots(std::span<const PagePoint> centres, double radius, std::string_view color) {
+  if (centres.empty()) return;
+  // A line of no length has round ends, which are a circle.
+  std::string data;
+  for (const PagePoint centre : centres)
+    data += "M" + number(centre.x) + " " + number(centre.y) + "h0";
+  path(data, stroked(color, 2 * radius), R"( stroke-linecap="round")");
+}
+
 void Svg::image(PagePoint top_left, double width, double height, std::string_view png,
                 double opacity) {
   text_ += "<image" + attribute("x", number(top_left.x)) + attribute("y", number(top_left.y)) +

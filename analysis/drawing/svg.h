@@ -63,6 +63,8 @@ class Svg {
   Svg(double width_mm, double height_mm, std::string_view title, std::string_view description);
 
   void circle(PagePoint centre, double radius, const Paint& paint);
+  /// Filled circles, short in the file: all of them are one shape.
+  void dots(std::span<const PagePoint> centres, double radius, std::string_view color);
   /// Closed.
   void polygon(std::span<const PagePoint> corners, const Paint& paint);
   /// Everything of the page outside of a closed polygon.

@@ -30,6 +30,12 @@ bool has_word(std::string_view words, std::string_view word) {
 
 std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
+      FigureKind{"box", "Box plots with points of the winners' scores, a panel a mission",
+                 box_figure, "mission method design by source"},
+      FigureKind{"scores", "How often each score occurred, bars of groups side by side",
+                 scores_figure, "mission method design by source"},
+      FigureKind{"modules", "How often the winners have each module, as bars and numbers",
+                 modules_figure, "mission method"},
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
                  "mission method design"},
   };
