@@ -130,7 +130,7 @@ void draw_vertical_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::s
   }
   draw_line(svg, {area.left, area.top}, {area.left, area.bottom()}, kInk, 0.2);
   if (label.empty()) return;
-  svg.text({kMargin, area.top - 1.6}, label, ink(TextStyle::Anchor::Start));
+  svg.text({kMargin, area.top - 1.9}, label, ink(TextStyle::Anchor::Start));
 }
 
 void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis,

@@ -65,10 +65,6 @@ std::string path_through(std::span<const PagePoint> points) {
   return data;
 }
 
-bool begins_character(char letter) {
-  return (static_cast<unsigned char>(letter) & 0xc0U) != 0x80U;
-}
-
 /// Distance of a point from the segment from `a` to `b`.
 double distance_from(PagePoint point, PagePoint a, PagePoint b) {
   const double dx = b.x - a.x;
@@ -111,26 +107,6 @@ std::string lightened(const std::string& color, double towards_white) {
     result += kDigits[mixed % 16];
   }
   return result;
-}
-
-std::size_t characters_in(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
-}
-
-double text_width(std::string_view text, double size) {
-  // DejaVu Sans, the widest of the common ones, has 0.6 of its size a letter on average.
-  return 0.6 * size * static_cast<double>(characters_in(text));
-}
-
-std::string fitted_text(std::string_view text, double size, double width) {
-  if (text_width(text, size) <= width) return std::string(text);
-  while (!text.empty() && text_width(text, size) + text_width("x", size) > width) {
-    // A character goes with all of its bytes.
-    while (text.size() > 1 && !begins_character(text.back()))
-      text.remove_suffix(1);
-    text.remove_suffix(1);
-  }
-  return std::string(text) + "\xe2\x80\xa6";
 }
 
 Svg::Svg(double width_mm, double height_mm, std::string_view title, std::string_view description)

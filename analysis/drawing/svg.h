@@ -50,10 +50,10 @@ std::string lightened(const std::string& color, double towards_white);
 /// Characters of a UTF-8 text.
 std::size_t characters_in(std::string_view text);
 
-/// An upper estimate of a text's width in common sans-serif fonts, mm.
+/// A text's width in DejaVu Sans, which is at least that in the other common sans-serif fonts, mm.
 double text_width(std::string_view text, double size);
 
-/// The text, with its end replaced by an ellipsis when it is estimated wider than `width` mm.
+/// The text, with its end replaced by an ellipsis when it is wider than `width` mm.
 std::string fitted_text(std::string_view text, double size, double width);
 
 /// A picture that grows shape by shape, later ones on top.

@@ -21,6 +21,7 @@ namespace {
 
 constexpr double kLabelSize = 2.5;
 constexpr double kHeadingSize = 2.6;
+constexpr double kNumberSize = 2.5;
 constexpr double kLeastColumn = 17.6;  ///< two numbers side by side, mm
 constexpr double kGap = 1.5;           ///< between columns, and within one
 constexpr double kRow = 7.5;
@@ -118,8 +119,8 @@ void draw_bar(Svg& svg, PagePoint at, double width, double part, const std::stri
 void draw_cell(Svg& svg, PagePoint at, const ChartLayout& layout, const ModuleChart::Cell& cell) {
   const double half = (layout.column - kGap) / 2;
   const double second = at.x + half + kGap;
-  svg.text({at.x, at.y + kTextSize}, fmt::format("{:.1f}", cell.average), ink(kTextSize));
-  svg.text({second, at.y + kTextSize}, fmt::format("{:.0f} %", 100 * cell.rate), ink(kTextSize));
+  svg.text({at.x, at.y + kTextSize}, fmt::format("{:.1f}", cell.average), ink(kNumberSize));
+  svg.text({second, at.y + kTextSize}, fmt::format("{:.0f} %", 100 * cell.rate), ink(kNumberSize));
   const double bar = at.y + kTextSize + 0.8;
   draw_bar(svg, {at.x, bar}, half, cell.average / layout.largest, distinct_color(0));
   draw_bar(svg, {second, bar}, half, cell.rate, distinct_color(4));

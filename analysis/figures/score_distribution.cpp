@@ -52,17 +52,28 @@ ValueRange shares_of(const ScorePanel& panel, const ScoreBins& bins) {
   return rounded({0, most}, kMostTicks);
 }
 
-ValueRange range_of(const ScoreBins& bins) {
-  return {bins.low, bins.low + bins.width * static_cast<double>(bins.count)};
+double edge_of(const ScoreBins& bins, std::size_t number) {
+  return bins.low + bins.width * static_cast<double>(number);
 }
 
-/// The panel's area: of a histogram the texts of ticks reach over its right end.
+ValueRange range_of(const ScoreBins& bins) {
+  return {bins.low, edge_of(bins, bins.count)};
+}
+
+/// The width of the texts at ends of bins.
+double widest_edge(const ScoreBins& bins) {
+  double widest = 0;
+  for (std::size_t i = 0; i <= bins.count; ++i)
+    widest = std::max(widest, text_width(tick_text(edge_of(bins, i), bins.width), kTextSize));
+  return widest;
+}
+
+/// The panel's area: of a histogram the texts of ticks reach over its ends.
 PlotArea area_of(const ScorePanel& panel, double left, double top, double width) {
   const ScoreBins bins = score_bins(values_of(panel));
-  PlotArea area{.left = left + tick_room(shares_of(panel, bins), kMostTicks), .top = top};
-  const double beyond = bins.single ? 0 : (tick_room(range_of(bins), kMostTicks) - 1.5) / 2;
-  area.width = left + width - area.left - beyond;
-  return area;
+  const double beyond = bins.single ? 0 : widest_edge(bins) / 2;
+  const double room = std::max(beyond, tick_room(shares_of(panel, bins), kMostTicks));
+  return {.left = left + room, .top = top, .width = width - room - beyond};
 }
 
 std::string axis_label(const ScoreBins& bins) {
@@ -111,19 +122,15 @@ void draw_bars(Svg& svg, const ScorePanel& panel, const ScoreBins& bins, const P
 /// The axis of a histogram: its ticks are ends of bins, as many as have room.
 void draw_edges(Svg& svg, const ScoreBins& bins, const PlotArea& area) {
   const Axis x(range_of(bins), area.left, area.right());
-  const auto edge = [&](std::size_t i) { return bins.low + bins.width * static_cast<double>(i); };
-  double widest = 0;
-  for (std::size_t i = 0; i <= bins.count; ++i)
-    widest = std::max(widest, text_width(tick_text(edge(i), bins.width), kTextSize));
   const double apart = area.width / static_cast<double>(bins.count);
-  const auto every = static_cast<std::size_t>(std::ceil((widest + 1) / apart));
+  const auto every = static_cast<std::size_t>(std::ceil((widest_edge(bins) + 1) / apart));
   draw_segment(svg, {area.left, area.bottom()}, {area.right(), area.bottom()});
   const TextStyle middle{
       .size = kTextSize, .anchor = TextStyle::Anchor::Middle, .fill = std::string(kInk)};
   for (std::size_t i = 0; i <= bins.count; i += every) {
-    const double at = x.at(edge(i));
+    const double at = x.at(edge_of(bins, i));
     draw_segment(svg, {at, area.bottom()}, {at, area.bottom() + 1});
-    svg.text({at, area.bottom() + 1 + kTextSize}, tick_text(edge(i), bins.width), middle);
+    svg.text({at, area.bottom() + 1 + kTextSize}, tick_text(edge_of(bins, i), bins.width), middle);
   }
   svg.text({area.left + area.width / 2, area.bottom() + 1 + kTextSize + kLineHeight},
            axis_label(bins), middle);

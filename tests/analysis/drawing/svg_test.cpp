@@ -49,11 +49,11 @@ TEST(Svg, TheOutsideOfAPolygonIsThePageLessThePolygon) {
 }
 
 TEST(Text, ThatIsTooWideEndsInAnEllipsis) {
-  // 0.6 mm a letter at 1 mm.
-  EXPECT_EQ(fitted_text("abcdef", 1, 3.6), "abcdef");
-  EXPECT_EQ(fitted_text("abcdef", 1, 3.5), "abcd\xe2\x80\xa6");
+  EXPECT_NEAR(text_width("abcdef", 1), 3.4, 1e-9);
+  EXPECT_EQ(fitted_text("abcdef", 1, 3.41), "abcdef");
+  EXPECT_EQ(fitted_text("abcdef", 1, 3.39), "abc\xe2\x80\xa6");
   // Letters of two bytes are taken whole.
-  EXPECT_EQ(fitted_text("\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4", 1, 2), "\xc3\xa4\xc3\xa4\xe2\x80\xa6");
+  EXPECT_EQ(fitted_text("\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4", 1, 3), "\xc3\xa4\xc3\xa4\xe2\x80\xa6");
 }
 
 TEST(Color, IsMixedWithWhite) {
