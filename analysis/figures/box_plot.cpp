@@ -30,7 +30,7 @@ constexpr double kRatio = 0.62;  ///< height of the area by its width, within li
 constexpr std::size_t kMostCounted = 7;
 constexpr std::string_view kExplanation =
     "Box: quartiles; line: median; diamond: mean; whiskers: last values within 1.5 box heights; "
-    "each point a score; n: their number";
+    "n: values, each a point";
 
 /// How often each value occurs, where that is worth writing: some do, and few differ.
 std::map<double, std::size_t> repeated(const std::vector<double>& values) {
