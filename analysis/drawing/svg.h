@@ -75,6 +75,8 @@ class Svg {
   void image(PagePoint top_left, double width, double height, std::string_view png, double opacity);
   /// `at` is on the base line.
   void text(PagePoint at, std::string_view text, const TextStyle& style);
+  /// All shapes of another picture, its upper left corner at `at`.
+  void add(const Svg& other, PagePoint at);
 
   double width() const { return width_; }
   double height() const { return height_; }
@@ -87,7 +89,8 @@ class Svg {
 
   double width_;
   double height_;
-  std::string text_;
+  std::string head_;    ///< the file's begin, with title and description
+  std::string shapes_;  ///< an element a line
 };
 
 /// The points of an open line that matter: what is left out lies within `tolerance` of what is kept

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <utility>
@@ -11,10 +12,13 @@
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/cli/thing_id.h"
+#include "coordinator/cli/trajectories_figure.h"
 #include "coordinator/cli/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
+
+constexpr std::string_view kTrajectories = "trajectories";
 
 struct Arguments {
   std::string kind;
@@ -23,13 +27,23 @@ struct Arguments {
   std::string width;
   std::string design;
   std::string candidate;
+  std::vector<std::string> seeds;
   FigureOptions options;
 };
+
+/// Those that are drawn from views alone, then the one that simulates.
+std::vector<FigureKind> all_kinds() {
+  std::vector<FigureKind> kinds(figure_kinds().begin(), figure_kinds().end());
+  kinds.push_back({.name = kTrajectories,
+                   .summary = "Runs of a machine from above, simulated again, side by side",
+                   .options = "design candidate seed"});
+  return kinds;
+}
 
 /// A line a kind, with its options below it.
 std::string kinds_text() {
   std::string text = "Kinds:\n";
-  for (const FigureKind& kind : figure_kinds()) {
+  for (const FigureKind& kind : all_kinds()) {
     const std::string name(kind.name);
     text += "  " + name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') +
             std::string(kind.summary) + "\n";
@@ -43,7 +57,7 @@ std::string kinds_text() {
 
 std::string kinds_json() {
   std::string text;
-  for (const FigureKind& kind : figure_kinds()) {
+  for (const FigureKind& kind : all_kinds()) {
     text += std::string(text.empty() ? "" : ",") + "{\"kind\":" + json_text(kind.name) +
             ",\"summary\":" + json_text(kind.summary) + "}";
   }
@@ -88,6 +102,26 @@ Expected<FigureOptions> read_options(const Arguments& arguments) {
     return options;
   return bad_input("a figure is 60mm to 1000mm wide (also cm, in), not \"" + arguments.width + "\"",
                    "--width");
+}
+
+/// Seeds of runs that are simulated again.
+Expected<std::vector<std::int64_t>> read_seeds(const Arguments& arguments) {
+  constexpr std::int64_t kLargest = 2'147'483'647;
+  std::vector<std::int64_t> seeds;
+  if (!arguments.seeds.empty() && arguments.kind != kTrajectories)
+    return bad_input("means nothing to the figure `" + arguments.kind + "`", "--seed");
+  if (arguments.seeds.size() > kMostTrajectories) {
+    return bad_input("at most " + std::to_string(kMostTrajectories) + " runs are drawn", "--seed");
+  }
+  for (const std::string& text : arguments.seeds) {
+    std::int64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    const bool is_whole = error == std::errc() && end == text.data() + text.size();
+    if (!is_whole || seed < 1 || seed > kLargest)
+      return bad_input("wants a number from 1 to 2147483647, not \"" + text + "\"", "--seed");
+    seeds.push_back(seed);
+  }
+  return seeds;
 }
 
 /// The ending of the file's name, which says what is written; ".svg" for standard output.
@@ -146,7 +180,8 @@ std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options
 }
 
 ExitCode exit_code_of(const Error& error) {
-  return error.kind == ErrorKind::NotFound ? ExitCode::NoSuchId : ExitCode::Usage;
+  if (error.kind == ErrorKind::NotFound) return ExitCode::NoSuchId;
+  return error.kind == ErrorKind::Conflict ? ExitCode::Failed : ExitCode::Usage;
 }
 
 /// The bytes of the file with this ending.
@@ -163,13 +198,16 @@ ExitCode draw_figure(const FigureKind& kind, const Arguments& arguments, Output&
   if (!options) return fail(output, ExitCode::Usage, options.error());
   if (const auto refused = refused_option(kind, *options))
     return fail(output, ExitCode::Usage, *refused);
+  const auto seeds = read_seeds(arguments);
+  if (!seeds) return fail(output, ExitCode::Usage, seeds.error());
   const auto ending = ending_of(arguments, output);
   if (!ending) return fail(output, ExitCode::Usage, ending.error());
-  const auto store = arguments.store.open();
+  auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   if (const auto missing = missing_in(**store, *options))
     return fail(output, exit_code_of(*missing), *missing);
-  auto figure = kind.make(**store, *options);
+  auto figure = kind.make != nullptr ? kind.make(**store, *options)
+                                     : trajectories_figure(std::move(*store), *options, *seeds);
   if (!figure) return fail(output, exit_code_of(figure.error()), figure.error());
   const std::size_t points = rows_of_csv(figure->csv);
   const auto bytes = bytes_of(std::move(*figure), *ending, arguments.kind);
@@ -191,8 +229,8 @@ ExitCode draw_figure(const FigureKind& kind, const Arguments& arguments, Output&
 }
 
 ExitCode run(const Arguments& arguments, Output& output) {
-  if (const FigureKind* kind = find_figure_kind(arguments.kind))
-    return draw_figure(*kind, arguments, output);
+  for (const FigureKind& kind : all_kinds())
+    if (kind.name == arguments.kind) return draw_figure(kind, arguments, output);
   output.out << (output.json ? kinds_json() : kinds_text());
   return ExitCode::Done;
 }
@@ -204,7 +242,7 @@ Run declare_figure(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   FigureOptions& figure = arguments->options;
   std::vector<std::string> kinds;
-  for (const FigureKind& kind : figure_kinds())
+  for (const FigureKind& kind : all_kinds())
     kinds.emplace_back(kind.name);
   options.choice("KIND", arguments->kind, kinds, "What to draw; without it all kinds are told");
   arguments->store.declare(options);
@@ -219,6 +257,7 @@ Run declare_figure(Options& options) {
   options.choice("--by", figure.by, {"source", "method", "mission"}, "What is compared");
   options.text("--source", figure.source, "Only scores of this source: a profile, real, ...");
   options.text("--parameter", figure.parameter, "Of this parameter: rwm0");
+  options.texts("--seed", arguments->seeds, "Of runs of this seed; once for each");
   options.explain(kinds_text());
   return [arguments](Output& output) { return run(*arguments, output); };
 }

@@ -14,7 +14,8 @@ from programs import CAMPAIGN, SWARMSMITH, call
 
 SVG = "{http://www.w3.org/2000/svg}"
 #: Kinds with the options that they need, and the least number of rows in their tables.
-KINDS = {"box": ([], 20), "scores": ([], 20), "modules": ([], 3), "convergence": ([], 2)}
+KINDS = {"box": ([], 20), "scores": ([], 20), "modules": ([], 3), "convergence": ([], 2),
+         "trajectories": (["--design", "d1"], 4 * 3 * 1201)}
 
 
 class Figure(unittest.TestCase):
@@ -71,6 +72,20 @@ class Figure(unittest.TestCase):
         done = call("query", self.store, "SELECT score FROM v_design_scores ORDER BY pair",
                     "--json")
         self.assertEqual(scores, [row["score"] for row in json.loads(done.stdout)["rows"]])
+
+    def test_runs_are_those_of_the_seeds(self):
+        table, replayed = self.folder / "figure.csv", self.folder / "replay.csv"
+        self.figure("trajectories", "--candidate", "c1", "--seed", "7", "--seed", "8", "-o", table)
+        done = call("replay", "c1", self.store, "--seed", "8", "--csv", replayed)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(table, newline="") as one, open(replayed, newline="") as other:
+            rows = [row for row in csv.DictReader(one) if row["seed"] == "8"]
+            expected = list(csv.DictReader(other))
+        columns = ("cycle", "robot", "x", "y", "theta")
+        self.assertEqual([[row[c] for c in columns] for row in rows],
+                         [[row[c] for c in columns] for row in expected])
+        table.unlink()
+        replayed.unlink()
 
     def test_widths_are_those_asked_for(self):
         root = xml.fromstring(self.figure("box", "--width", "3.5in"))
@@ -148,6 +163,9 @@ class Figure(unittest.TestCase):
                 (("box", self.store, "-o", self.folder / "a.png"), ".svg, .pdf, .csv or .tex"),
                 (("box", self.store, "-o", self.folder / "a.tex"), "has no TeX form"),
                 (("box", self.store, "--json"), "name a file"),
+                (("box", self.store, "--seed", "7"), "--seed"),
+                (("trajectories", self.store, "--candidate", "c1", "--seed", "x"), "--seed"),
+                (("trajectories", self.store, "--source", "rvr"), "--source"),
         ):
             with self.subTest(words=words):
                 self.assertIn(sentence, self.refused(2, *words))

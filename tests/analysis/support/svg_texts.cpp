@@ -91,6 +91,20 @@ std::vector<double> coordinates(std::string_view data) {
   return values;
 }
 
+/// Where the group begins that an element stands in; 0, 0 outside of groups.
+std::pair<double, double> origin_of(std::string_view svg, std::string_view element) {
+  const std::string_view before =
+      svg.substr(0, static_cast<std::size_t>(element.data() - svg.data()));
+  constexpr std::string_view kGroup = "<g transform=\"translate(";
+  const std::size_t group = before.rfind(kGroup);
+  const std::size_t end = before.rfind("</g>");
+  if (group == std::string_view::npos) return {0, 0};
+  if (end != std::string_view::npos && end > group) return {0, 0};
+  const std::vector<double> at = coordinates(
+      before.substr(group + kGroup.size(), before.find(')', group) - group - kGroup.size()));
+  return {at.at(0), at.at(1)};
+}
+
 bool overlap(const TextBox& a, const TextBox& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
 }
@@ -111,11 +125,12 @@ std::vector<TextBox> texts_of(std::string_view svg) {
     const double size = number(attribute(element, "font-size"));
     const double width = width_of(box.text, size, attribute(element, "font-weight") == "bold");
     const std::string_view anchor = attribute(element, "text-anchor");
-    box.left = number(attribute(element, "x"));
+    const auto [x0, y0] = origin_of(svg, element);
+    box.left = x0 + number(attribute(element, "x"));
     if (anchor == "middle") box.left -= width / 2;
     if (anchor == "end") box.left -= width;
     box.right = box.left + width;
-    const double y = number(attribute(element, "y"));
+    const double y = y0 + number(attribute(element, "y"));
     const bool descends = box.text.find_first_of("gjpqyQ,;()_|") != std::string::npos;
     box.top = y - 0.73 * size;
     box.bottom = y + (descends ? 0.21 : 0.01) * size;
@@ -143,16 +158,19 @@ std::vector<std::string> shape_problems(std::string_view svg) {
   std::vector<std::string> problems;
   const auto [width, height] = page_of(svg);
   for (const std::string_view element : elements(svg, "path")) {
+    const auto [x0, y0] = origin_of(svg, element);
     const std::vector<double> values = coordinates(attribute(element, "d"));
     for (std::size_t i = 0; i < values.size(); ++i) {
+      const double value = values[i] + (i % 2 == 0 ? x0 : y0);
       const double most = i % 2 == 0 ? width : height;
-      if (values[i] < 0 || values[i] > most)
-        problems.push_back(fmt::format("{} of a path is not within {}", values[i], most));
+      if (value < 0 || value > most)
+        problems.push_back(fmt::format("{} of a path is not within {}", value, most));
     }
   }
   for (const std::string_view element : elements(svg, "circle")) {
-    const double x = number(attribute(element, "cx"));
-    const double y = number(attribute(element, "cy"));
+    const auto [x0, y0] = origin_of(svg, element);
+    const double x = x0 + number(attribute(element, "cx"));
+    const double y = y0 + number(attribute(element, "cy"));
     if (x < 0 || x > width || y < 0 || y > height)
       problems.push_back(fmt::format("a circle at {}, {} is not on the page", x, y));
   }
