@@ -1,49 +1,21 @@
-#include <algorithm>
-#include <charconv>
 #include <filesystem>
 #include <memory>
 #include <utility>
 
-#include "analysis/drawing/svg.h"
 #include "analysis/figures/figure.h"
-#include "base/suggestion.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/figure_arguments.h"
 #include "coordinator/cli/pdf.h"
-#include "coordinator/cli/query_output.h"
-#include "coordinator/cli/store_argument.h"
-#include "coordinator/cli/thing_id.h"
 #include "coordinator/cli/trajectories_figure.h"
 #include "coordinator/cli/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
 
-constexpr std::string_view kTrajectories = "trajectories";
-
-struct Arguments {
-  std::string kind;
-  StoreArgument store;
-  std::string file;
-  std::string width;
-  std::string design;
-  std::string candidate;
-  std::vector<std::string> seeds;
-  FigureOptions options;
-};
-
-/// Those that are drawn from views alone, then the one that simulates.
-std::vector<FigureKind> all_kinds() {
-  std::vector<FigureKind> kinds(figure_kinds().begin(), figure_kinds().end());
-  kinds.push_back({.name = kTrajectories,
-                   .summary = "Runs of a machine from above, simulated again, side by side",
-                   .options = "design candidate seed"});
-  return kinds;
-}
-
 /// A line a kind, with its options below it.
 std::string kinds_text() {
   std::string text = "Kinds:\n";
-  for (const FigureKind& kind : all_kinds()) {
+  for (const FigureKind& kind : all_figure_kinds()) {
     const std::string name(kind.name);
     text += "  " + name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') +
             std::string(kind.summary) + "\n";
@@ -57,7 +29,7 @@ std::string kinds_text() {
 
 std::string kinds_json() {
   std::string text;
-  for (const FigureKind& kind : all_kinds()) {
+  for (const FigureKind& kind : all_figure_kinds()) {
     text += std::string(text.empty() ? "" : ",") + "{\"kind\":" + json_text(kind.name) +
             ",\"summary\":" + json_text(kind.summary) + "}";
   }
@@ -75,57 +47,8 @@ std::size_t rows_of_csv(const std::string& csv) {
   return rows == 0 ? 0 : rows - 1;
 }
 
-/// The number behind `letter` in d3 or c812.
-Expected<std::int64_t> number_of(const std::string& text, char letter, const char* option) {
-  const auto id = parse_thing_id(text);
-  if (id && id->letter == letter) return std::stoll(id->digits);
-  const std::string example = letter == 'd' ? "d3" : "c812";
-  return bad_input("wants an id such as " + example + ", not \"" + text + "\"", option);
-}
-
-/// What the words mean, before any store is opened.
-Expected<FigureOptions> read_options(const Arguments& arguments) {
-  FigureOptions options = arguments.options;
-  if (!arguments.design.empty()) {
-    const auto design = number_of(arguments.design, 'd', "--design");
-    if (!design) return Unexpected(design.error());
-    options.filter.design = DesignId{*design};
-  }
-  if (!arguments.candidate.empty()) {
-    const auto candidate = number_of(arguments.candidate, 'c', "--candidate");
-    if (!candidate) return Unexpected(candidate.error());
-    options.candidate = CandidateId{*candidate};
-  }
-  if (arguments.width.empty()) return options;
-  options.width_mm = millimetres_from_text(arguments.width);
-  if (options.width_mm >= kLeastFigureWidth_mm && options.width_mm <= kMostFigureWidth_mm)
-    return options;
-  return bad_input("a figure is 60mm to 1000mm wide (also cm, in), not \"" + arguments.width + "\"",
-                   "--width");
-}
-
-/// Seeds of runs that are simulated again.
-Expected<std::vector<std::int64_t>> read_seeds(const Arguments& arguments) {
-  constexpr std::int64_t kLargest = 2'147'483'647;
-  std::vector<std::int64_t> seeds;
-  if (!arguments.seeds.empty() && arguments.kind != kTrajectories)
-    return bad_input("means nothing to the figure `" + arguments.kind + "`", "--seed");
-  if (arguments.seeds.size() > kMostTrajectories) {
-    return bad_input("at most " + std::to_string(kMostTrajectories) + " runs are drawn", "--seed");
-  }
-  for (const std::string& text : arguments.seeds) {
-    std::int64_t seed = 0;
-    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
-    const bool is_whole = error == std::errc() && end == text.data() + text.size();
-    if (!is_whole || seed < 1 || seed > kLargest)
-      return bad_input("wants a number from 1 to 2147483647, not \"" + text + "\"", "--seed");
-    seeds.push_back(seed);
-  }
-  return seeds;
-}
-
 /// The ending of the file's name, which says what is written; ".svg" for standard output.
-Expected<std::string> ending_of(const Arguments& arguments, const Output& output) {
+Expected<std::string> ending_of(const FigureArguments& arguments, const Output& output) {
   if (arguments.file.empty() || arguments.file == "-") {
     if (!output.json) return std::string(".svg");
     return bad_input("standard output has the answer of --json; name a file for the figure", "-o");
@@ -135,48 +58,6 @@ Expected<std::string> ending_of(const Arguments& arguments, const Output& output
     if (ending == known) return ending;
   return bad_input("the file's ending says what is written: .svg, .pdf, .csv or .tex",
                    arguments.file);
-}
-
-/// A name that no design of the store has, with those that there are.
-std::optional<Error> unknown_name(const std::string& given, const char* option,
-                                  std::vector<std::string> known) {
-  if (given.empty() || std::ranges::find(known, given) != known.end()) return std::nullopt;
-  std::ranges::sort(known);
-  const auto same = std::ranges::unique(known);
-  known.erase(same.begin(), same.end());
-  return Error{ErrorKind::BadInput,
-               "the store has no \"" + given + "\"" + did_you_mean(given, known) +
-                   "; it has: " + joined(known),
-               option};
-}
-
-/// What is asked for and not in the store: a mission, a method (BadInput), an id (NotFound).
-std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options) {
-  const auto all = designs(store, {});
-  if (!all) return all.error();
-  std::vector<std::string> missions;
-  std::vector<std::string> methods;
-  bool has_design = !options.filter.design;
-  for (const DesignRecord& design : *all) {
-    missions.push_back(design.mission);
-    methods.push_back(design.method);
-    has_design = has_design || design.design == *options.filter.design;
-  }
-  if (auto error = unknown_name(options.filter.mission, "--mission", std::move(missions)))
-    return error;
-  if (auto error = unknown_name(options.filter.method, "--method", std::move(methods)))
-    return error;
-  if (!has_design) {
-    return Error{ErrorKind::NotFound,
-                 "the store has no design " + to_string(*options.filter.design), "--design"};
-  }
-  if (!options.candidate) return std::nullopt;
-  const auto found = select(store, "SELECT 1 FROM v_candidates WHERE candidate = " +
-                                       std::to_string(options.candidate->value));
-  if (!found) return found.error();
-  if (!found->cells.empty()) return std::nullopt;
-  return Error{ErrorKind::NotFound, "the store has no candidate " + to_string(*options.candidate),
-               "--candidate"};
 }
 
 ExitCode exit_code_of(const Error& error) {
@@ -193,7 +74,7 @@ Expected<std::string> bytes_of(Figure figure, const std::string& ending, const s
   return bad_input("the figure `" + kind + "` has no TeX form; write an .svg, .pdf or .csv", "-o");
 }
 
-ExitCode draw_figure(const FigureKind& kind, const Arguments& arguments, Output& output) {
+ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, Output& output) {
   const auto options = read_options(arguments);
   if (!options) return fail(output, ExitCode::Usage, options.error());
   if (const auto refused = refused_option(kind, *options))
@@ -228,8 +109,8 @@ ExitCode draw_figure(const FigureKind& kind, const Arguments& arguments, Output&
   return ExitCode::Done;
 }
 
-ExitCode run(const Arguments& arguments, Output& output) {
-  for (const FigureKind& kind : all_kinds())
+ExitCode run(const FigureArguments& arguments, Output& output) {
+  for (const FigureKind& kind : all_figure_kinds())
     if (kind.name == arguments.kind) return draw_figure(kind, arguments, output);
   output.out << (output.json ? kinds_json() : kinds_text());
   return ExitCode::Done;
@@ -238,26 +119,8 @@ ExitCode run(const Arguments& arguments, Output& output) {
 }  // namespace
 
 Run declare_figure(Options& options) {
-  constexpr std::int64_t kLargest = 1'000'000;
-  auto arguments = std::make_shared<Arguments>();
-  FigureOptions& figure = arguments->options;
-  std::vector<std::string> kinds;
-  for (const FigureKind& kind : all_kinds())
-    kinds.emplace_back(kind.name);
-  options.choice("KIND", arguments->kind, kinds, "What to draw; without it all kinds are told");
-  arguments->store.declare(options);
-  options.text("-o,--output", arguments->file,
-               "Write to this .svg, .pdf, .csv or .tex file (else SVG to standard output)");
-  options.text("--width", arguments->width, "Such as 84mm, 17.5cm or 3.3in (default 84mm)");
-  options.text("--mission", figure.filter.mission, "Only of this mission");
-  options.text("--method", figure.filter.method, "Only of this method");
-  options.text("--design", arguments->design, "Only of this design: d3");
-  options.text("--candidate", arguments->candidate, "Of this candidate: c812");
-  options.integer("--iteration", figure.iteration, {1, kLargest}, "Of this iteration of the race");
-  options.choice("--by", figure.by, {"source", "method", "mission"}, "What is compared");
-  options.text("--source", figure.source, "Only scores of this source: a profile, real, ...");
-  options.text("--parameter", figure.parameter, "Of this parameter: rwm0");
-  options.texts("--seed", arguments->seeds, "Of runs of this seed; once for each");
+  auto arguments = std::make_shared<FigureArguments>();
+  arguments->declare(options);
   options.explain(kinds_text());
   return [arguments](Output& output) { return run(*arguments, output); };
 }

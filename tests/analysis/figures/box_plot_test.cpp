@@ -74,6 +74,9 @@ TEST(BoxPlot, CountsAreWrittenWhereAllIsTied) {
   const std::string svg = draw(plot);
   EXPECT_THAT(words_of(svg), Contains("\u00d730"));
   EXPECT_EQ(dots_in(svg), 30U);
+  // Also where there are many.
+  plot.panels[0].groups[0].values.resize(12'000, 6.0);
+  EXPECT_THAT(words_of(draw(plot)), Contains("\u00d712000"));
   EXPECT_THAT(text_problems(svg), IsEmpty());
   // The points stand beside each other.
   const std::string data = svg.substr(svg.find("d=\"M", svg.find("h0") - 20));
