@@ -99,7 +99,8 @@ void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis, std:
 inline constexpr double kHorizontalAxisRoom = 9;
 
 /// A line below the area with a text a band. Where they are too wide side by side they are broken
-/// at blanks, on at most `kBandLines` lines, and shortened then.
+/// at blanks, on at most `kBandLines` lines, written a little smaller when words are still too
+/// wide, and shortened then.
 void draw_band_axis(Svg& svg, const PlotArea& area, const Bands& bands,
                     const std::vector<std::string>& names);
 inline constexpr std::size_t kBandLines = 3;

@@ -34,6 +34,15 @@ std::optional<Error> unknown_name(const std::string& given, const char* option,
                option};
 }
 
+/// What SQLite says of a view that a store of an older schema does not have, as a sentence.
+Error of_older_store(const Error& error) {
+  if (error.message.find("no such ") == std::string::npos) return error;
+  return {ErrorKind::Corrupt,
+          "its schema is older than what figures are drawn of; `swarmsmith run` with its campaign "
+          "file migrates it, and runs nothing again",
+          "the store"};
+}
+
 }  // namespace
 
 void FigureArguments::declare(Options& words) {
@@ -106,7 +115,7 @@ Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments)
 
 std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options) {
   const auto all = designs(store, {});
-  if (!all) return all.error();
+  if (!all) return of_older_store(all.error());
   std::vector<std::string> missions;
   std::vector<std::string> methods;
   bool has_design = !options.filter.design;

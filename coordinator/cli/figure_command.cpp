@@ -62,6 +62,7 @@ Expected<std::string> ending_of(const FigureArguments& arguments, const Output& 
 
 ExitCode exit_code_of(const Error& error) {
   if (error.kind == ErrorKind::NotFound) return ExitCode::NoSuchId;
+  if (error.kind == ErrorKind::Corrupt) return ExitCode::Store;
   return error.kind == ErrorKind::Conflict ? ExitCode::Failed : ExitCode::Usage;
 }
 

@@ -9,6 +9,7 @@ namespace {
 
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 TEST(Svg, IsAFileInMillimetres) {
@@ -46,6 +47,16 @@ TEST(Svg, TheOutsideOfAPolygonIsThePageLessThePolygon) {
   svg.outside(points, {.fill = "#ffffff", .stroke = "none", .width = 0, .dashes = {}});
   EXPECT_THAT(svg.finish(), HasSubstr("M0 0L10 0 10 20 0 20ZM1 1L2 1 2 2Z"));
   EXPECT_THAT(svg.finish(), HasSubstr("fill-rule=\"evenodd\""));
+}
+
+TEST(Svg, AddsThePicturesOfOthers) {
+  Svg inner(5, 5, "inner", "d");
+  inner.circle({1, 2}, 1, filled("#ff0000"));
+  Svg outer(20, 20, "outer", "d");
+  outer.add(inner, {7.5, 3});
+  EXPECT_THAT(outer.finish(), HasSubstr("<g transform=\"translate(7.5 3)\">\n<circle cx=\"1\""));
+  EXPECT_THAT(outer.finish(), Not(HasSubstr("inner")));
+  EXPECT_THAT(outer.finish(), EndsWith("</g>\n</svg>\n"));
 }
 
 TEST(Text, ThatIsTooWideEndsInAnEllipsis) {
