@@ -104,7 +104,9 @@ GroupedScores grouped(const std::vector<DesignScore>& scores, std::string_view b
     for (auto& place_and_group : groups)
       result.panels.back().groups.push_back(std::move(place_and_group.second));
   }
-  result.details = {fmt::format("{} scores of {} designs", scores.size(), names.designs.size())};
+  result.details = {fmt::format("{} score{} of {} design{}", scores.size(),
+                                scores.size() == 1 ? "" : "s", names.designs.size(),
+                                names.designs.size() == 1 ? "" : "s")};
   return result;
 }
 
