@@ -17,9 +17,10 @@
 #include <sstream>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
-#include "benchmarks/colony/box_plot.h"
+#include "analysis/figures/box_plot.h"
 #include "benchmarks/colony/colony.h"
 #include "benchmarks/colony/rank_sum.h"
 #include "irace_core/iterated_race.h"
@@ -114,7 +115,7 @@ double median_of_random() {
     const auto* sampled = std::get_if<ConfigurationSampled>(&event);
     if (sampled != nullptr) costs.push_back(colony::true_cost(sampled->configuration));
   }
-  return quantile_of(costs, 0.5);
+  return box_numbers(costs).median;
 }
 
 void write(const std::string& file, const std::string& text) {
@@ -134,7 +135,7 @@ int main(int count, char** words) {
       static_cast<std::size_t>(count == 5 ? std::max(1, std::atoi(words[4])) : 20);
   const Costs of_r = read_costs(words[1]);
   std::string rows = "engine,benchmark,budget,seed,cost,n_experiments_used\n";
-  std::vector<BoxedSample> boxes;
+  ScorePanel boxes{.title = "R's irace and ours, by budget", .groups = {}};
   bool worse = false;
   fmt::print(
       "| budget | R, median (n) | R with its defect | ours, median (n) | ours / R | p (ours worse) "
@@ -154,20 +155,23 @@ int main(int count, char** words) {
     const auto unmended = of_r.find({kUnmended, budget});
     const double p = p_of_larger(ours, mended);
     worse = worse || p < 0.01;
-    const double median = quantile_of(ours, 0.5);
-    const double median_of_r = quantile_of(mended, 0.5);
+    const double median = box_numbers(ours).median;
+    const double median_of_r = box_numbers(mended).median;
     fmt::print(
         "| {} | {:.4f} ({}) | {} | {:.4f} ({}) | {:.3f} | {:.3f} | {} |\n", budget, median_of_r,
         mended.size(),
-        unmended == of_r.end() ? "" : fmt::format("{:.4f}", quantile_of(unmended->second, 0.5)),
+        unmended == of_r.end() ? "" : fmt::format("{:.4f}", box_numbers(unmended->second).median),
         median, ours.size(), median / median_of_r, p, most);
     std::fflush(stdout);
-    boxes.push_back({"R", std::to_string(budget), 0, mended});
-    boxes.push_back({"ours", std::to_string(budget), 1, ours});
+    boxes.groups.push_back({"R " + std::to_string(budget), 0, mended});
+    boxes.groups.push_back({"ours " + std::to_string(budget), 1, ours});
   }
   fmt::print("\nRandom configurations: median {:.4f}.\n", median_of_random());
-  write(words[2], box_plot(boxes, "True cost of the winners on the benchmark colony",
-                           "true cost of the winner (smaller is better), by budget"));
+  write(words[2], draw(BoxPlot{.title = "True cost of the winners on the benchmark colony",
+                               .details = {},
+                               .axis = "true cost of the winner (smaller is better)",
+                               .panels = {std::move(boxes)},
+                               .width_mm = 131}));
   if (count >= 4) write(words[3], rows);
   return worse ? 1 : 0;
 }

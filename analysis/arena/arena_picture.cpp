@@ -52,7 +52,7 @@ std::vector<LegendEntry> legend_of(const ArenaPicture& picture) {
 
 }  // namespace
 
-std::string draw(const ArenaPicture& picture) {
+Svg drawing_of(const ArenaPicture& picture) {
   const double width = picture.width_mm - 2 * kMargin;
   const auto lines = wrapped(picture.details, kTextSize, width);
   const double top = kMargin + kLineHeight * static_cast<double>(lines.size() + 1) + 0.6;
@@ -79,7 +79,11 @@ std::string draw(const ArenaPicture& picture) {
   }
   draw_scale(svg, view, scale_top);
   legend.draw(svg, legend_top);
-  return svg.finish();
+  return svg;
+}
+
+std::string draw(const ArenaPicture& picture) {
+  return drawing_of(picture).finish();
 }
 
 }  // namespace swarmsmith

@@ -13,6 +13,7 @@ namespace {
 
 constexpr std::string_view kGrid = "#dddddd";
 constexpr double kTick = 1;
+constexpr double kBandGap = 0.6;  ///< between names of neighbouring bands
 constexpr std::size_t kMostTicks = 7;
 
 int decimals_of(double step) {
@@ -49,12 +50,35 @@ std::size_t ticks_across(const Axis& axis) {
   return most;
 }
 
+double widest_word(std::string_view text, double size) {
+  double widest = 0;
+  while (!text.empty()) {
+    const std::size_t blank = std::min(text.find(' '), text.size());
+    widest = std::max(widest, text_width(text.substr(0, blank), size));
+    text.remove_prefix(std::min(blank + 1, text.size()));
+  }
+  return widest;
+}
+
+/// The largest size at which every word of the names fits into its band, of those that can be read.
+double band_text_size(const Bands& bands, const std::vector<std::string>& names) {
+  constexpr std::array<double, 3> kSizes = {kTextSize, 2.5, 2.2};
+  for (const double size : kSizes) {
+    const bool fits = std::ranges::all_of(names, [&](const std::string& name) {
+      return widest_word(name, size) <= bands.width() - kBandGap;
+    });
+    if (fits) return size;
+  }
+  return kSizes.back();
+}
+
 std::vector<std::vector<std::string>> band_lines(const Bands& bands,
                                                  const std::vector<std::string>& names) {
+  const double size = band_text_size(bands, names);
   std::vector<std::vector<std::string>> lines;
   lines.reserve(names.size());
   for (const std::string& name : names)
-    lines.push_back(broken_text(name, kTextSize, bands.width() - 0.6, kBandLines));
+    lines.push_back(broken_text(name, size, bands.width() - kBandGap, kBandLines));
   return lines;
 }
 
@@ -129,7 +153,8 @@ void draw_vertical_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::s
              ink(TextStyle::Anchor::End));
   }
   draw_line(svg, {area.left, area.top}, {area.left, area.bottom()}, kInk, 0.2);
-  svg.text({kMargin, area.top - 1.6}, label, ink(TextStyle::Anchor::Start));
+  if (label.empty()) return;
+  svg.text({kMargin, area.top - 1.9}, label, ink(TextStyle::Anchor::Start));
 }
 
 void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis,
@@ -157,10 +182,12 @@ void draw_band_axis(Svg& svg, const PlotArea& area, const Bands& bands,
                     const std::vector<std::string>& names) {
   draw_line(svg, {area.left, area.bottom()}, {area.right(), area.bottom()}, kInk, 0.2);
   const auto texts = band_lines(bands, names);
+  TextStyle style = ink(TextStyle::Anchor::Middle);
+  style.size = band_text_size(bands, names);
   for (std::size_t i = 0; i < texts.size(); ++i) {
     double y = area.bottom() + kTick + kTextSize;
     for (const std::string& line : texts[i]) {
-      svg.text({bands.centre(i), y}, line, ink(TextStyle::Anchor::Middle));
+      svg.text({bands.centre(i), y}, line, style);
       y += kLineHeight;
     }
   }

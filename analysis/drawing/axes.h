@@ -89,7 +89,8 @@ double tick_room(ValueRange range, std::size_t most_ticks);
 double draw_heading(Svg& svg, std::string_view title, const std::vector<std::string>& details);
 
 /// Horizontal lines through the ticks of an axis that goes up, their texts left of the area, and
-/// `label` above its upper left corner: texts that stand upright need no turned head.
+/// `label` above its upper left corner: texts that stand upright need no turned head. None when
+/// empty.
 void draw_vertical_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::string_view label);
 
 /// The line below the area with ticks, their texts and the label below them.
@@ -98,7 +99,8 @@ void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis, std:
 inline constexpr double kHorizontalAxisRoom = 9;
 
 /// A line below the area with a text a band. Where they are too wide side by side they are broken
-/// at blanks, on at most `kBandLines` lines, and shortened then.
+/// at blanks, on at most `kBandLines` lines, written a little smaller when words are still too
+/// wide, and shortened then.
 void draw_band_axis(Svg& svg, const PlotArea& area, const Bands& bands,
                     const std::vector<std::string>& names);
 inline constexpr std::size_t kBandLines = 3;

@@ -65,10 +65,6 @@ std::string path_through(std::span<const PagePoint> points) {
   return data;
 }
 
-bool begins_character(char letter) {
-  return (static_cast<unsigned char>(letter) & 0xc0U) != 0x80U;
-}
-
 /// Distance of a point from the segment from `a` to `b`.
 double distance_from(PagePoint point, PagePoint a, PagePoint b) {
   const double dx = b.x - a.x;
@@ -113,52 +109,41 @@ std::string lightened(const std::string& color, double towards_white) {
   return result;
 }
 
-std::size_t characters_in(std::string_view text) {
-  return static_cast<std::size_t>(std::ranges::count_if(text, begins_character));
-}
-
-double text_width(std::string_view text, double size) {
-  // DejaVu Sans, the widest of the common ones, has 0.6 of its size a letter on average.
-  return 0.6 * size * static_cast<double>(characters_in(text));
-}
-
-std::string fitted_text(std::string_view text, double size, double width) {
-  if (text_width(text, size) <= width) return std::string(text);
-  while (!text.empty() && text_width(text, size) + text_width("x", size) > width) {
-    // A character goes with all of its bytes.
-    while (text.size() > 1 && !begins_character(text.back()))
-      text.remove_suffix(1);
-    text.remove_suffix(1);
-  }
-  return std::string(text) + "\xe2\x80\xa6";
-}
-
 Svg::Svg(double width_mm, double height_mm, std::string_view title, std::string_view description)
     : width_(width_mm), height_(height_mm) {
   const std::string w = number(width_mm);
   const std::string h = number(height_mm);
-  text_ = "<svg xmlns=\"http://www.w3.org/2000/svg\"" + attribute("width", w + "mm") +
+  head_ = "<svg xmlns=\"http://www.w3.org/2000/svg\"" + attribute("width", w + "mm") +
           attribute("height", h + "mm") + attribute("viewBox", "0 0 " + w + " " + h) +
           " role=\"img\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\">\n<title>" +
           escaped(title) + "</title>\n<desc>" + escaped(description) + "</desc>\n";
 }
 
 void Svg::circle(PagePoint centre, double radius, const Paint& paint) {
-  text_ += "<circle" + attribute("cx", number(centre.x)) + attribute("cy", number(centre.y)) +
-           attribute("r", number(radius)) + attributes_of(paint) + "/>\n";
+  shapes_ += "<circle" + attribute("cx", number(centre.x)) + attribute("cy", number(centre.y)) +
+             attribute("r", number(radius)) + attributes_of(paint) + "/>\n";
+}
+
+void Svg::dots(std::span<const PagePoint> centres, double radius, std::string_view color) {
+  if (centres.empty()) return;
+  // A line of no length has round ends, which are a circle.
+  std::string data;
+  for (const PagePoint centre : centres)
+    data += "M" + number(centre.x) + " " + number(centre.y) + "h0";
+  path(data, stroked(color, 2 * radius), R"( stroke-linecap="round")");
 }
 
 void Svg::image(PagePoint top_left, double width, double height, std::string_view png,
                 double opacity) {
-  text_ += "<image" + attribute("x", number(top_left.x)) + attribute("y", number(top_left.y)) +
-           attribute("width", number(width)) + attribute("height", number(height)) +
-           attribute("preserveAspectRatio", "none") + attribute("opacity", number(opacity)) +
-           attribute("image-rendering", "pixelated") +
-           attribute("href", "data:image/png;base64," + base64_text(png)) + "/>\n";
+  shapes_ += "<image" + attribute("x", number(top_left.x)) + attribute("y", number(top_left.y)) +
+             attribute("width", number(width)) + attribute("height", number(height)) +
+             attribute("preserveAspectRatio", "none") + attribute("opacity", number(opacity)) +
+             attribute("image-rendering", "pixelated") +
+             attribute("href", "data:image/png;base64," + base64_text(png)) + "/>\n";
 }
 
 void Svg::path(const std::string& data, const Paint& paint, std::string_view more) {
-  text_ += "<path" + attribute("d", data) + attributes_of(paint) + std::string(more) + "/>\n";
+  shapes_ += "<path" + attribute("d", data) + attributes_of(paint) + std::string(more) + "/>\n";
 }
 
 void Svg::polygon(std::span<const PagePoint> corners, const Paint& paint) {
@@ -175,16 +160,21 @@ void Svg::line(std::span<const PagePoint> points, const Paint& paint) {
 }
 
 void Svg::text(PagePoint at, std::string_view text, const TextStyle& style) {
-  text_ += "<text" + attribute("x", number(at.x)) + attribute("y", number(at.y)) +
-           attribute("font-size", number(style.size));
-  if (style.anchor == TextStyle::Anchor::Middle) text_ += attribute("text-anchor", "middle");
-  if (style.anchor == TextStyle::Anchor::End) text_ += attribute("text-anchor", "end");
-  if (style.bold) text_ += attribute("font-weight", "bold");
-  text_ += attribute("fill", style.fill) + ">" + escaped(text) + "</text>\n";
+  shapes_ += "<text" + attribute("x", number(at.x)) + attribute("y", number(at.y)) +
+             attribute("font-size", number(style.size));
+  if (style.anchor == TextStyle::Anchor::Middle) shapes_ += attribute("text-anchor", "middle");
+  if (style.anchor == TextStyle::Anchor::End) shapes_ += attribute("text-anchor", "end");
+  if (style.bold) shapes_ += attribute("font-weight", "bold");
+  shapes_ += attribute("fill", style.fill) + ">" + escaped(text) + "</text>\n";
+}
+
+void Svg::add(const Svg& other, PagePoint at) {
+  shapes_ += "<g" + attribute("transform", "translate(" + number(at.x) + " " + number(at.y) + ")") +
+             ">\n" + other.shapes_ + "</g>\n";
 }
 
 std::string Svg::finish() const {
-  return text_ + "</svg>\n";
+  return head_ + shapes_ + "</svg>\n";
 }
 
 std::vector<PagePoint> simplified(std::span<const PagePoint> points, double tolerance) {

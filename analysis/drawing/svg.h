@@ -50,10 +50,10 @@ std::string lightened(const std::string& color, double towards_white);
 /// Characters of a UTF-8 text.
 std::size_t characters_in(std::string_view text);
 
-/// An upper estimate of a text's width in common sans-serif fonts, mm.
+/// A text's width in DejaVu Sans, which is at least that in the other common sans-serif fonts, mm.
 double text_width(std::string_view text, double size);
 
-/// The text, with its end replaced by an ellipsis when it is estimated wider than `width` mm.
+/// The text, with its end replaced by an ellipsis when it is wider than `width` mm.
 std::string fitted_text(std::string_view text, double size, double width);
 
 /// A picture that grows shape by shape, later ones on top.
@@ -63,6 +63,8 @@ class Svg {
   Svg(double width_mm, double height_mm, std::string_view title, std::string_view description);
 
   void circle(PagePoint centre, double radius, const Paint& paint);
+  /// Filled circles, short in the file: all of them are one shape.
+  void dots(std::span<const PagePoint> centres, double radius, std::string_view color);
   /// Closed.
   void polygon(std::span<const PagePoint> corners, const Paint& paint);
   /// Everything of the page outside of a closed polygon.
@@ -73,6 +75,8 @@ class Svg {
   void image(PagePoint top_left, double width, double height, std::string_view png, double opacity);
   /// `at` is on the base line.
   void text(PagePoint at, std::string_view text, const TextStyle& style);
+  /// All shapes of another picture, its upper left corner at `at`.
+  void add(const Svg& other, PagePoint at);
 
   double width() const { return width_; }
   double height() const { return height_; }
@@ -85,7 +89,8 @@ class Svg {
 
   double width_;
   double height_;
-  std::string text_;
+  std::string head_;    ///< the file's begin, with title and description
+  std::string shapes_;  ///< an element a line
 };
 
 /// The points of an open line that matter: what is left out lies within `tolerance` of what is kept

@@ -7,6 +7,9 @@ namespace swarmsmith {
 /// One maker a kind of figure (figure.h); each in a file of its own, with the plot's data and its
 /// drawing beside it.
 
+Expected<Figure> box_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> scores_figure(StoreReader& store, const FigureOptions& options);
 
 }  // namespace swarmsmith

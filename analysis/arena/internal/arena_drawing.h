@@ -11,6 +11,9 @@ namespace swarmsmith {
 /// Swarms up to this size are told apart robot by robot.
 inline constexpr std::size_t kMostNamedRobots = 8;
 
+/// The whole picture, with its texts.
+Svg drawing_of(const ArenaPicture& picture);
+
 /// Floor, patches, walls, and the obstacles.
 void draw_place(Svg& svg, const ArenaPicture& picture, const ArenaView& view);
 

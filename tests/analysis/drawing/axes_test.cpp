@@ -49,6 +49,21 @@ TEST(Axes, BreaksNamesAtBlanksAndShortensWhatIsTooLong) {
   EXPECT_THAT(broken_text("one two three four", 2.8, 8, 2), ElementsAre("one", "two\u2026"));
 }
 
+TEST(Axes, NamesOfNarrowBandsAreWrittenSmallerBeforeTheyAreCut) {
+  const std::vector<std::string> names = {"watermelon rvr", "chocolate rvr"};
+  const auto drawn = [&](double width) {
+    Svg svg(60, 40, "t", "d");
+    const PlotArea area{10, 5, width, 20};
+    draw_band_axis(svg, area, {2, area.left, area.right()}, names);
+    return svg.finish();
+  };
+  EXPECT_THAT(drawn(40), HasSubstr("font-size=\"2.8\""));
+  EXPECT_THAT(drawn(34), HasSubstr("font-size=\"2.5\""));
+  EXPECT_THAT(drawn(34), HasSubstr(">watermelon<"));
+  EXPECT_THAT(drawn(20), HasSubstr("font-size=\"2.2\""));
+  EXPECT_THAT(drawn(20), HasSubstr("\u2026<"));
+}
+
 TEST(Axes, TextsOfAWideAxisStandClearOfEachOther) {
   Svg svg(60, 40, "t", "d");
   const PlotArea area{10, 5, 45, 20};

@@ -9,6 +9,7 @@ namespace {
 
 using testing::EndsWith;
 using testing::HasSubstr;
+using testing::Not;
 using testing::StartsWith;
 
 TEST(Svg, IsAFileInMillimetres) {
@@ -48,12 +49,22 @@ TEST(Svg, TheOutsideOfAPolygonIsThePageLessThePolygon) {
   EXPECT_THAT(svg.finish(), HasSubstr("fill-rule=\"evenodd\""));
 }
 
+TEST(Svg, AddsThePicturesOfOthers) {
+  Svg inner(5, 5, "inner", "d");
+  inner.circle({1, 2}, 1, filled("#ff0000"));
+  Svg outer(20, 20, "outer", "d");
+  outer.add(inner, {7.5, 3});
+  EXPECT_THAT(outer.finish(), HasSubstr("<g transform=\"translate(7.5 3)\">\n<circle cx=\"1\""));
+  EXPECT_THAT(outer.finish(), Not(HasSubstr("inner")));
+  EXPECT_THAT(outer.finish(), EndsWith("</g>\n</svg>\n"));
+}
+
 TEST(Text, ThatIsTooWideEndsInAnEllipsis) {
-  // 0.6 mm a letter at 1 mm.
-  EXPECT_EQ(fitted_text("abcdef", 1, 3.6), "abcdef");
-  EXPECT_EQ(fitted_text("abcdef", 1, 3.5), "abcd\xe2\x80\xa6");
+  EXPECT_NEAR(text_width("abcdef", 1), 3.4, 1e-9);
+  EXPECT_EQ(fitted_text("abcdef", 1, 3.41), "abcdef");
+  EXPECT_EQ(fitted_text("abcdef", 1, 3.39), "abc\xe2\x80\xa6");
   // Letters of two bytes are taken whole.
-  EXPECT_EQ(fitted_text("\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4", 1, 2), "\xc3\xa4\xc3\xa4\xe2\x80\xa6");
+  EXPECT_EQ(fitted_text("\xc3\xa4\xc3\xa4\xc3\xa4\xc3\xa4", 1, 3), "\xc3\xa4\xc3\xa4\xe2\x80\xa6");
 }
 
 TEST(Color, IsMixedWithWhite) {

@@ -1,0 +1,181 @@
+#include "analysis/figures/box_plot.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/drawing/axes.h"
+#include "analysis/drawing/figure_style.h"
+#include "analysis/figures/internal/box_marks.h"
+#include "analysis/figures/internal/panel_grid.h"
+#include "analysis/figures/internal/quantile.h"
+#include "analysis/figures/internal/score_groups.h"
+#include "analysis/figures/makers.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::size_t kMostTicks = 7;
+constexpr double kLeastBand = 9;     ///< a box with air on both sides, mm
+constexpr double kMostBand = 24;     ///< boxes that are further apart are hard to compare
+constexpr double kLongestName = 19;  ///< longer words are cut
+constexpr double kAboveLine = 1.5;   ///< the lowest values
+constexpr double kRatio = 0.62;      ///< height of the area by its width, within limits
+constexpr std::string_view kExplanation =
+    "Box: quartiles; line: median; diamond: mean; whiskers: last values within 1.5 box heights; "
+    "n: values, each a point";
+
+/// The room that counts need at the right of a box; 0 without any.
+double counts_beside(const ScorePanel& panel) {
+  double room = 0;
+  for (const ScoreGroup& group : panel.groups)
+    room = std::max(room, count_room(group.values));
+  return room;
+}
+
+ValueRange range_of(const ScorePanel& panel) {
+  std::vector<double> all;
+  for (const ScoreGroup& group : panel.groups)
+    all.insert(all.end(), group.values.begin(), group.values.end());
+  return rounded(range_over(all), kMostTicks);
+}
+
+std::vector<std::string> names_of(const ScorePanel& panel) {
+  std::vector<std::string> names;
+  for (const ScoreGroup& group : panel.groups)
+    names.push_back(group.name);
+  return names;
+}
+
+/// The width that each group of a panel needs.
+double least_band(const ScorePanel& panel) {
+  double least = kLeastBand + counts_beside(panel);
+  for (const std::string& name : names_of(panel)) {
+    for (const std::string& word : broken_text(name, kTextSize, 1000, 1000))
+      least = std::max(least, std::min(text_width(word, kTextSize) + 1, kLongestName));
+  }
+  return least;
+}
+
+double least_width(const ScorePanel& panel) {
+  return tick_room(range_of(panel), kMostTicks) +
+         least_band(panel) * static_cast<double>(panel.groups.size());
+}
+
+/// The panel's data area within its place in the grid; groups stand together, not spread over it.
+PlotArea area_of(const ScorePanel& panel, double left, double top, double width) {
+  PlotArea area{.left = left + tick_room(range_of(panel), kMostTicks), .top = top};
+  area.width =
+      std::min(left + width - area.left, kMostBand * static_cast<double>(panel.groups.size()));
+  return area;
+}
+
+Bands bands_of(const ScorePanel& panel, const PlotArea& area) {
+  return {panel.groups.size(), area.left, area.right()};
+}
+
+void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
+  const TextStyle middle{
+      .size = kTextSize, .anchor = TextStyle::Anchor::Middle, .fill = std::string(kInk)};
+  // The lowest values stand clear of the line below them.
+  const Axis y(range_of(panel), area.bottom() - kAboveLine, area.top);
+  draw_vertical_axis(svg, area, y, "");
+  const Bands bands = bands_of(panel, area);
+  const double counts = counts_beside(panel);
+  const double half = std::clamp((bands.width() - counts - 1) / 2 * 0.8, 0.8, 4.0);
+  for (std::size_t i = 0; i < panel.groups.size(); ++i) {
+    const BoxPlace place{.x = bands.centre(i) - counts / 2,
+                         .half = half,
+                         .right = bands.centre(i) + bands.width() / 2};
+    draw_marks(svg, panel.groups[i], place, y);
+  }
+  draw_band_axis(svg, area, bands, names_of(panel));
+  const double below = area.bottom() + band_axis_room(bands, names_of(panel)) + kTextSize;
+  svg.text({area.left - 1, below}, "n",
+           {.size = kTextSize, .anchor = TextStyle::Anchor::End, .fill = std::string(kInk)});
+  for (std::size_t i = 0; i < panel.groups.size(); ++i)
+    svg.text({bands.centre(i), below}, fmt::format("{}", panel.groups[i].values.size()), middle);
+}
+
+/// The places on the page: an area a panel, and where the last row ends.
+struct BoxLayout {
+  std::vector<PlotArea> areas;
+  double bottom = 0;
+};
+
+BoxLayout layout_of(const BoxPlot& plot, const PanelGrid& grid, double top) {
+  BoxLayout layout{.bottom = top};
+  for (std::size_t row = 0; row < grid.rows(); ++row) {
+    const double height = std::clamp(kRatio * grid.width(), 36.0, 60.0);
+    double below = 0;
+    for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+      if (grid.row_of(i) != row) continue;
+      const ScorePanel& panel = plot.panels[i];
+      PlotArea area =
+          area_of(panel, grid.left_of(i), layout.bottom + kPanelTitleRoom, grid.width());
+      area.height = height;
+      below = std::max(below, band_axis_room(bands_of(panel, area), names_of(panel)));
+      layout.areas.push_back(area);
+    }
+    layout.bottom += kPanelTitleRoom + height + below + kLineHeight + 2;
+  }
+  return layout;
+}
+
+}  // namespace
+
+BoxNumbers box_numbers(std::vector<double> values) {
+  std::ranges::sort(values);
+  BoxNumbers box{.lower_quartile = type_7_quantile(values, 0.25),
+                 .median = type_7_quantile(values, 0.5),
+                 .upper_quartile = type_7_quantile(values, 0.75)};
+  const double reach = 1.5 * (box.upper_quartile - box.lower_quartile);
+  box.lower_whisker = *std::ranges::lower_bound(values, box.lower_quartile - reach);
+  box.upper_whisker = *std::prev(std::ranges::upper_bound(values, box.upper_quartile + reach));
+  // No value may lie between a quartile and the end of its whisker.
+  box.lower_whisker = std::min(box.lower_whisker, box.lower_quartile);
+  box.upper_whisker = std::max(box.upper_whisker, box.upper_quartile);
+  box.mean =
+      std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  return box;
+}
+
+std::string draw(const BoxPlot& plot) {
+  double needed = 0;
+  for (const ScorePanel& panel : plot.panels)
+    needed = std::max(needed, least_width(panel));
+  const PanelGrid grid(plot.panels.size(), needed, plot.width_mm);
+  const double heading = kMargin + (plot.title.empty() ? 0 : kTitleSize) +
+                         kLineHeight * static_cast<double>(plot.details.size()) + 2;
+  const BoxLayout layout = layout_of(plot, grid, heading + kLineHeight);
+  const auto explanation = broken_text(kExplanation, kTextSize, plot.width_mm - 2 * kMargin, 6);
+  const double bottom = layout.bottom + kLineHeight * static_cast<double>(explanation.size());
+  Svg svg(plot.width_mm, bottom + kMargin, plot.title,
+          fmt::format("Box plots with points in {} panels; {}", plot.panels.size(), plot.axis));
+  const double top = draw_heading(svg, plot.title, plot.details);
+  const TextStyle ink{.size = kTextSize, .fill = std::string(kInk)};
+  svg.text({kMargin, top + kTextSize}, fitted_text(plot.axis, kTextSize, plot.width_mm - 4), ink);
+  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
+    draw_panel_title(svg, plot.panels[i].title, grid.left_of(i), layout.areas[i].top, grid.width());
+    draw_panel(svg, plot.panels[i], layout.areas[i]);
+  }
+  for (std::size_t i = 0; i < explanation.size(); ++i) {
+    svg.text({kMargin, layout.bottom + kLineHeight * static_cast<double>(i) + kTextSize},
+             explanation[i], ink);
+  }
+  return svg.finish();
+}
+
+Expected<Figure> box_figure(StoreReader& store, const FigureOptions& options) {
+  auto scores = grouped_scores(store, options);
+  if (!scores) return Unexpected(scores.error());
+  const BoxPlot plot{.title = "Scores by " + scores->by,
+                     .details = std::move(scores->details),
+                     .panels = std::move(scores->panels),
+                     .width_mm = options.width_mm};
+  return Figure{.svg = draw(plot), .csv = std::move(scores->csv), .tex = {}};
+}
+
+}  // namespace swarmsmith

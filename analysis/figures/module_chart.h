@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+namespace swarmsmith {
+
+/// How often winners have each module: a table with bars, rows of modules and columns of missions,
+/// the columns of a method below those of the other.
+struct ModuleChart {
+  struct Cell {
+    double average = 0;  ///< occurrences a machine
+    double rate = 0;     ///< part of the machines that have it
+  };
+  struct Column {
+    std::string mission;
+    std::size_t designs = 0;
+    std::vector<Cell> cells;  ///< one a module
+  };
+  struct Block {
+    std::string method;
+    std::vector<Column> columns;
+  };
+
+  std::string title;
+  std::vector<std::string> details;
+  std::vector<std::string> modules;
+  std::vector<Block> blocks;
+  double width_mm = 84;
+};
+
+/// As SVG. Columns that do not fit side by side continue below.
+std::string draw(const ModuleChart& chart);
+
+}  // namespace swarmsmith

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/figures/internal/csv_text.h"
+#include "analysis/figures/internal/panel_grid.h"
+#include "analysis/figures/makers.h"
+#include "analysis/figures/module_chart.h"
+#include "sim/control/module.h"
+
+namespace swarmsmith {
+namespace {
+
+using WinnerCounts = std::map<std::pair<std::string, std::string>, std::size_t>;
+
+/// Behaviours, then conditions, as the papers have them; what this program does not know last.
+bool stands_before(const std::string& a, const std::string& b) {
+  const auto place = [](const std::string& id) {
+    const auto module = module_from_id(id);
+    return module ? static_cast<int>(*module) : 1000;
+  };
+  return std::tuple(place(a), a) < std::tuple(place(b), b);
+}
+
+/// Winners of each (method, mission).
+Expected<WinnerCounts> winners(StoreReader& store, const RecordFilter& filter) {
+  const auto all = designs(store, filter);
+  if (!all) return Unexpected(all.error());
+  WinnerCounts counts;
+  for (const DesignRecord& design : *all)
+    if (design.state == "finished" && design.best) ++counts[{design.method, design.mission}];
+  return counts;
+}
+
+/// By method, then mission, then module.
+void sort_as_drawn(std::vector<ModuleFrequency>& frequencies) {
+  std::ranges::sort(frequencies, [](const ModuleFrequency& a, const ModuleFrequency& b) {
+    const auto group_a = std::tie(a.method, a.mission);
+    const auto group_b = std::tie(b.method, b.mission);
+    return group_a != group_b ? group_a < group_b : stands_before(a.module, b.module);
+  });
+}
+
+/// The ids of all modules, in the order of the rows.
+std::vector<std::string> ids_of(const std::vector<ModuleFrequency>& frequencies) {
+  std::vector<std::string> ids;
+  for (const ModuleFrequency& frequency : frequencies)
+    if (std::ranges::find(ids, frequency.module) == ids.end()) ids.push_back(frequency.module);
+  std::ranges::sort(ids, stands_before);
+  return ids;
+}
+
+/// Puts a number of the sorted table into its place.
+void add(ModuleChart& chart, const ModuleFrequency& frequency, std::size_t designs,
+         const std::vector<std::string>& ids) {
+  if (chart.blocks.empty() || chart.blocks.back().method != frequency.method)
+    chart.blocks.push_back({.method = frequency.method});
+  auto& columns = chart.blocks.back().columns;
+  const std::string mission = as_words(frequency.mission);
+  if (columns.empty() || columns.back().mission != mission)
+    columns.push_back({mission, designs, std::vector<ModuleChart::Cell>(ids.size())});
+  const auto place = std::ranges::find(ids, frequency.module) - ids.begin();
+  columns.back().cells[static_cast<std::size_t>(place)] = {frequency.average_occurrences,
+                                                           frequency.occurrence_rate};
+}
+
+}  // namespace
+
+Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options) {
+  const auto counts = winners(store, options.filter);
+  if (!counts) return Unexpected(counts.error());
+  auto frequencies = module_frequencies(store, options.filter);
+  if (!frequencies) return Unexpected(frequencies.error());
+  if (frequencies->empty()) {
+    return unexpected(ErrorKind::NotFound,
+                      counts->empty() ? "none of these designs is finished yet; `swarmsmith ls "
+                                        "designs` shows how far they are"
+                                      : "the winners have no modules: they configure a program");
+  }
+  sort_as_drawn(*frequencies);
+  const std::vector<std::string> ids = ids_of(*frequencies);
+  ModuleChart chart{.title = "Modules of the winners", .width_mm = options.width_mm};
+  Figure figure{.csv = "mission,method,module,designs,avg_occurrences,occurrence_rate\r\n"};
+  for (const ModuleFrequency& frequency : *frequencies) {
+    const std::size_t designs = counts->at({frequency.method, frequency.mission});
+    add(chart, frequency, designs, ids);
+    figure.csv += fmt::format("{},{},{},{},{},{}\r\n", csv_text(frequency.mission),
+                              csv_text(frequency.method), csv_text(frequency.module), designs,
+                              frequency.average_occurrences, frequency.occurrence_rate);
+  }
+  std::ranges::transform(ids, std::back_inserter(chart.modules), as_words);
+  figure.svg = draw(chart);
+  return figure;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,134 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "analysis/figures/figure.h"
+#include "tests/analysis/support/svg_texts.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::Contains;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::Not;
+using testing::StartsWith;
+
+std::ptrdiff_t rows_of(const Figure& figure) {
+  return std::ranges::count(figure.csv, '\n') - 1;
+}
+
+/// A store of four designs, each tested by simulation and run once on robots.
+struct FigureKinds : testing::Test {
+  TemporaryFolder folder;
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 4, .iterations = 3});
+  std::unique_ptr<StoreReader> reader;
+
+  FigureKinds() {
+    auto store = open_store(folder / "s.db", campaign);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
+    store->flush();
+    const auto known = designs(*open_reader(folder / "s.db"), {});
+    for (const DesignRecord& design : *known) {
+      store->append({PairRow{design.design, Purpose::Score, 1, 1, 77},
+                     EvaluationRow{.key = {*design.best, Purpose::Score, 1},
+                                   .score = static_cast<double>(design.design.value),
+                                   .source = "real"}});
+    }
+    store.reset();
+    reader = open_reader(folder / "s.db");
+  }
+
+  Figure made(std::string_view kind, const FigureOptions& options = {}) {
+    const FigureKind* found = find_figure_kind(kind);
+    EXPECT_NE(found, nullptr) << kind;
+    auto figure = found->make(*reader, options);
+    EXPECT_TRUE(figure) << kind << ": " << (figure ? "" : to_string(figure.error()));
+    return figure ? *figure : Figure{};
+  }
+
+  Error refusal(std::string_view kind, const FigureOptions& options) {
+    const auto figure = find_figure_kind(kind)->make(*reader, options);
+    EXPECT_FALSE(figure);
+    return figure ? Error{} : figure.error();
+  }
+};
+
+TEST_F(FigureKinds, AreDrawnWithoutTextOverTextAtEveryWidth) {
+  for (const char* kind : {"box", "scores", "modules", "convergence"}) {
+    for (const double width : {60.0, 84.0, 175.0}) {
+      const Figure figure = made(kind, {.width_mm = width});
+      EXPECT_THAT(figure.svg, StartsWith("<svg "));
+      EXPECT_THAT(text_problems(figure.svg), IsEmpty()) << kind << " " << width;
+      EXPECT_THAT(shape_problems(figure.svg), IsEmpty()) << kind << " " << width;
+      EXPECT_LT(figure.svg.size(), 200'000U);
+      EXPECT_GT(rows_of(figure), 0);
+      EXPECT_EQ(figure.svg, made(kind, {.width_mm = width}).svg);
+    }
+  }
+}
+
+TEST_F(FigureKinds, BoxHasAPointForEachRowOfItsTable) {
+  const Figure figure = made("box");
+  EXPECT_EQ(rows_of(figure), 4 * (4 + 1));
+  EXPECT_EQ(dots_in(figure.svg), 20U);
+  const Figure real = made("box", {.source = "real"});
+  EXPECT_EQ(rows_of(real), 4);
+  EXPECT_THAT(real.csv, Not(HasSubstr(",rvr,")));
+  EXPECT_EQ(rows_of(made("box", {.filter = {.design = DesignId{2}}})), 5);
+}
+
+TEST_F(FigureKinds, GroupsNeverMixSources) {
+  for (const char* by : {"source", "method", "mission"}) {
+    const auto texts = texts_of(made("box", {.by = by}).svg);
+    // Two missions, each with a box a source.
+    EXPECT_EQ(std::ranges::count(texts, "rvr", &TextBox::text), 2) << by;
+    EXPECT_EQ(std::ranges::count(texts, "real", &TextBox::text), 2) << by;
+    EXPECT_EQ(std::ranges::count(texts, "8", &TextBox::text), 2) << by;
+  }
+}
+
+TEST_F(FigureKinds, ModulesAreThoseOfTheView) {
+  const Figure figure = made("modules");
+  const auto rows = cells_of(*reader,
+                             "SELECT mission, module, avg_occurrences FROM "
+                             "v_module_frequency ORDER BY mission, module");
+  EXPECT_EQ(rows_of(figure), static_cast<std::ptrdiff_t>(rows.size()));
+  for (const auto& row : rows)
+    EXPECT_THAT(figure.csv, HasSubstr(row[0] + ",watermelon," + row[1] + ",2," + row[2]));
+}
+
+TEST_F(FigureKinds, WhatTheStoreDoesNotHaveIsSaid) {
+  const Error source = refusal("scores", {.source = "rael"});
+  EXPECT_EQ(source.kind, ErrorKind::BadInput);
+  EXPECT_THAT(source.message, HasSubstr("did you mean \"real\""));
+  for (const char* kind : {"box", "scores", "modules", "convergence"})
+    EXPECT_EQ(refusal(kind, {.filter = {.mission = "none"}}).kind, ErrorKind::NotFound) << kind;
+}
+
+TEST(FigureOptionsOfKinds, ThatMeanNothingAreRefused) {
+  const FigureKind* modules = find_figure_kind("modules");
+  ASSERT_NE(modules, nullptr);
+  EXPECT_FALSE(refused_option(*modules, {.filter = {.mission = "m", .method = "w"}}));
+  const auto refused = refused_option(*modules, {.by = "source"});
+  ASSERT_TRUE(refused);
+  EXPECT_EQ(refused->where, "--by");
+  EXPECT_THAT(refused->message, HasSubstr("--width, --mission, --method"));
+  EXPECT_TRUE(refused_option(*modules, {.iteration = 3}));
+  EXPECT_TRUE(refused_option(*modules, {.candidate = CandidateId{3}}));
+}
+
+TEST(FigureKindNames, AreDifferentAndHaveASummary) {
+  std::set<std::string_view> names;
+  for (const FigureKind& kind : figure_kinds()) {
+    EXPECT_TRUE(names.insert(kind.name).second) << kind.name;
+    EXPECT_FALSE(kind.summary.empty());
+  }
+  EXPECT_EQ(find_figure_kind("pie"), nullptr);
+}
+
+}  // namespace
+}  // namespace swarmsmith
