@@ -13,12 +13,14 @@ namespace {
 constexpr double kOverlap = 2000;      // of two things that must not, and more by its depth
 constexpr double kUnderBox = 60;       // a curve that passes under a box,
 constexpr double kUnderBoxLength = 8;  // and more by the mm of it
-constexpr double kThroughState = 150;
+constexpr double kThroughState = 1000;
 constexpr double kCrossing = 7;
-constexpr double kCrowded = 6;  // a mm of two ends of curves that are nearer than kEndDistance
-constexpr double kEndDistance = 3;
-constexpr double kSideways = 0.45;  // a mm from the chord
-constexpr double kAlong = 0.3;      // a mm from its middle
+constexpr double kCrowded = 8;  // a mm of two ends of curves that are nearer than kEndDistance
+constexpr double kEndDistance = 2.4;
+constexpr double kSideways = 0.35;  // a mm that the curve goes away from its chord,
+constexpr double kBent = 30;        // and the square of that by the chord's length
+constexpr double kAlong = 0.3;      // a mm from the middle of the chord
+constexpr double kWrongSide = 5;    // so that the two directions keep to two sides
 
 /// Between a box and its own states: the arrow head, and some of the line.
 constexpr double kOwnGap = kArrowLength + 1.6;
@@ -88,8 +90,10 @@ void meet_states(const PlacingTask& task, const PlacingTask::Edge& edge, Place& 
     if (own) continue;
     const PageBox around{task.states[state], task.radius, task.radius};
     if (overlap_of(place.around, around, 1) <= 0) continue;
-    for (const PagePoint& point : place.line) {
-      if (length_of(point - task.states[state]) > task.radius + 1) continue;
+    for (std::size_t i = 0; i < kSegments; ++i) {
+      const double distance =
+          distance_to_segment(task.states[state], place.line[i], place.line[i + 1]);
+      if (distance > task.radius + 1) continue;
       place.alone += kThroughState;
       place.clear = false;
       break;
@@ -129,7 +133,9 @@ std::vector<Place> places_of(const PlacingTask& task, const PlacingTask::Edge& e
     for (int row = -rows; row <= rows; ++row) {
       const PagePoint at = source + part * chord + row * step * normal;
       Place place = make_place(task, edge, at);
-      place.alone += kSideways * std::abs(row) * step + kAlong * std::fabs(part - 0.5) * length;
+      const double away = std::abs(row) * step / (4 * part * (1 - part));
+      place.alone += kSideways * away + kBent * (away / length) * (away / length) +
+                     kAlong * std::fabs(part - 0.5) * length + (row < 0 ? kWrongSide : 0);
       places.push_back(place);
     }
   }
@@ -150,17 +156,73 @@ class Placer {
     chosen_.assign(places_.size(), kNone);
     for (const std::size_t edge : order)
       improve(edge);
-    for (int sweep = 0; sweep < kPlacingSweeps; ++sweep) {
+    sweep(order);
+    return result();
+  }
+
+  /// Takes some boxes that are near to each other out and puts them in again in another order, and
+  /// keeps what gets better: the way out of places that are best only as long as nobody else moves.
+  Placing refine(const std::vector<PagePoint>& boxes) {
+    start_from(boxes);
+    Placing best = result();
+    for (int round = 0; round < kRefinements; ++round) {
+      const double before = best.cost;
+      for (std::size_t edge = 0; edge < places_.size(); ++edge) {
+        for (std::size_t group = 2; group <= 4; ++group)
+          reorder(neighbourhood(edge, group), best);
+      }
+      if (best.cost >= before - 1e-9) break;
+    }
+    return best;
+  }
+
+ private:
+  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
+
+  void start_from(const std::vector<PagePoint>& boxes) {
+    chosen_.assign(places_.size(), kNone);
+    for (std::size_t edge = 0; edge < places_.size(); ++edge) {
+      const auto found = std::ranges::find_if(
+          places_[edge], [&](const Place& place) { return place.box.centre == boxes[edge]; });
+      chosen_[edge] = static_cast<std::size_t>(found - places_[edge].begin());
+    }
+  }
+
+  /// The edge and those whose boxes are nearest to its box, the nearest first.
+  std::vector<std::size_t> neighbourhood(std::size_t edge, std::size_t count) const {
+    std::vector<std::size_t> edges(places_.size());
+    std::iota(edges.begin(), edges.end(), 0U);
+    const PagePoint here = place_of(edge).box.centre;
+    std::ranges::stable_sort(
+        edges, {}, [&](std::size_t other) { return length_of(place_of(other).box.centre - here); });
+    edges.resize(std::min(count, edges.size()));
+    return edges;
+  }
+
+  void reorder(std::vector<std::size_t> edges, Placing& best) {
+    const std::vector<std::size_t> before = chosen_;
+    std::ranges::reverse(edges);
+    for (const std::size_t edge : edges)
+      chosen_[edge] = kNone;
+    for (const std::size_t edge : edges)
+      improve(edge);
+    sweep(edges);
+    Placing now = result();
+    if (now.cost < best.cost - 1e-9) {
+      best = std::move(now);
+    } else {
+      chosen_ = before;
+    }
+  }
+
+  void sweep(const std::vector<std::size_t>& order) {
+    for (int i = 0; i < kPlacingSweeps; ++i) {
       bool better = false;
       for (const std::size_t edge : order)
         better = improve(edge) || better;
       if (!better) break;
     }
-    return result();
   }
-
- private:
-  static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
 
   const Place& place_of(std::size_t edge) const { return places_[edge][chosen_[edge]]; }
 
@@ -252,6 +314,10 @@ Placing place_conditions(const PlacingTask& task) {
   std::ranges::reverse(order);
   const Placing backwards = placer.place(order);
   return backwards.cost < best.cost ? backwards : best;
+}
+
+Placing refine_conditions(const PlacingTask& task, const Placing& placing) {
+  return Placer(task).refine(placing.boxes);
 }
 
 }  // namespace swarmsmith

@@ -46,4 +46,8 @@ EdgeCurve edge_curve(const PlacingTask& task, const PlacingTask::Edge& edge, Pag
 Placing place_conditions(const PlacingTask& task);
 inline constexpr int kPlacingSweeps = 8;
 
+/// Goes on from a placing of the same task, `kRefinements` rounds at most.
+Placing refine_conditions(const PlacingTask& task, const Placing& placing);
+inline constexpr int kRefinements = 5;
+
 }  // namespace swarmsmith

@@ -98,6 +98,14 @@ double length_within(PagePoint from, PagePoint to, const PageBox& box) {
   return (last - first) * length_of(step);
 }
 
+double distance_to_segment(PagePoint point, PagePoint from, PagePoint to) {
+  const PagePoint step = to - from;
+  const double length2 = dot(step, step);
+  double part = 0;
+  if (length2 > 0) part = std::clamp(dot(point - from, step) / length2, 0.0, 1.0);
+  return length_of(point - (from + part * step));
+}
+
 bool segments_cross(PagePoint a, PagePoint b, PagePoint c, PagePoint d) {
   const double side_c = cross(b - a, c - a);
   const double side_d = cross(b - a, d - a);

@@ -44,6 +44,9 @@ EdgeCurve curve_through(const PageCircle& from, const PageCircle& to, PagePoint 
 /// The length of a segment that lies within a box.
 double length_within(PagePoint from, PagePoint to, const PageBox& box);
 
+/// From a point to the nearest one of a segment.
+double distance_to_segment(PagePoint point, PagePoint from, PagePoint to);
+
 bool segments_cross(PagePoint a, PagePoint b, PagePoint c, PagePoint d);
 
 }  // namespace swarmsmith

@@ -9,12 +9,13 @@
 namespace swarmsmith {
 namespace {
 
-constexpr double kGrow = 1.18;
+constexpr double kGrow = 1.15;
 constexpr int kMostHeights = 14;
 /// Heights that are still tried after one that leaves nothing to be wished for.
 constexpr int kFurther = 1;
 /// What a millimetre of height costs beside the costs of a placing.
 constexpr double kHeightCost = 0.6;
+constexpr double kWidthCost = 0.15;
 
 /// The states of the four corners, from the upper left one clockwise. State 0 is the first; the
 /// others stand so that few transitions go across, and then few up and down, where boxes, which are
@@ -92,14 +93,14 @@ Placing place_all(PlacingTask& task, std::size_t states) {
   double least = std::numeric_limits<double>::infinity();
   std::vector<PagePoint> found;
   for (const double width : widths_for(task, states)) {
-    double height = 2 * task.radius + 8;
+    double height = 2 * task.radius + 14;
     // Neighbours on an ellipse do not touch.
     if (states > 4) height = std::max(height, static_cast<double>(states) * task.radius);
     int further = kFurther;
     for (int i = 0; i < kMostHeights && further >= 0; ++i) {
       task.states = centres(task, states, width, height);
       Placing placing = place_conditions(task);
-      const double cost = placing.cost + kHeightCost * (states > 2 ? height : 0);
+      const double cost = placing.cost + kHeightCost * height + kWidthCost * width;
       if (cost < least) {
         least = cost;
         best = std::move(placing);
@@ -111,7 +112,7 @@ Placing place_all(PlacingTask& task, std::size_t states) {
     }
   }
   task.states = std::move(found);
-  return best;
+  return refine_conditions(task, best);
 }
 
 }  // namespace swarmsmith
