@@ -15,8 +15,10 @@ constexpr double kUnderBox = 60;       // a curve that passes under a box,
 constexpr double kUnderBoxLength = 8;  // and more by the mm of it
 constexpr double kThroughState = 1000;
 constexpr double kCrossing = 7;
-constexpr double kCrowded = 8;  // a mm of two ends of curves that are nearer than kEndDistance
+constexpr double kCrowded = 12;  // a mm of two ends of curves that are nearer than kEndDistance
 constexpr double kEndDistance = 2.4;
+constexpr double kAlongside = 3;  // a tenth of a curve that is nearer to another than kLineDistance
+constexpr double kLineDistance = 1.3;
 constexpr double kSideways = 0.35;  // a mm that the curve goes away from its chord,
 constexpr double kBent = 30;        // and the square of that by the chord's length
 constexpr double kAlong = 0.3;      // a mm from the middle of the chord
@@ -68,6 +70,23 @@ int crossings(const Place& a, const Place& b) {
   for (std::size_t i = 0; i < kSegments; ++i) {
     for (std::size_t j = 0; j < kSegments; ++j)
       count += segments_cross(a.line[i], a.line[i + 1], b.line[j], b.line[j + 1]) ? 1 : 0;
+  }
+  return count;
+}
+
+/// How many points of a curve lie beside another one.
+int points_alongside(const Place& a, const Place& b) {
+  if (overlap_of(a.around, b.around, kLineDistance) <= 0) return 0;
+  int count = 0;
+  for (const PagePoint& point : a.line) {
+    const double x = std::fabs(point.x - b.around.centre.x) - b.around.half_width;
+    const double y = std::fabs(point.y - b.around.centre.y) - b.around.half_height;
+    if (std::max(x, y) > kLineDistance) continue;
+    for (std::size_t i = 0; i < kSegments; ++i) {
+      if (distance_to_segment(point, b.line[i], b.line[i + 1]) > kLineDistance) continue;
+      ++count;
+      break;
+    }
   }
   return count;
 }
@@ -253,7 +272,8 @@ class Placer {
       if (cost >= most) break;
       cost += under_cost(length_under(place, there)) + under_cost(length_under(there, place));
       if (cost >= most) break;
-      cost += kCrossing * crossings(place, there) + crowding(edge, place, other, there);
+      cost += kCrossing * crossings(place, there) + crowding(edge, place, other, there) +
+              kAlongside * (points_alongside(place, there) + points_alongside(there, place)) / 2;
     }
     return cost;
   }
@@ -311,9 +331,17 @@ Placing place_conditions(const PlacingTask& task) {
   std::vector<std::size_t> order(task.edges.size());
   std::iota(order.begin(), order.end(), 0U);
   Placing best = placer.place(order);
-  std::ranges::reverse(order);
-  const Placing backwards = placer.place(order);
-  return backwards.cost < best.cost ? backwards : best;
+  for (int turn = 1; turn < kPlacingOrders; ++turn) {
+    // Turned round, then by halves: the first ones get the straight ways.
+    if (turn % 2 == 1) {
+      std::ranges::reverse(order);
+    } else {
+      std::ranges::rotate(order, order.begin() + static_cast<std::ptrdiff_t>(order.size() / 3));
+    }
+    Placing other = placer.place(order);
+    if (other.cost < best.cost) best = std::move(other);
+  }
+  return best;
 }
 
 Placing refine_conditions(const PlacingTask& task, const Placing& placing) {

@@ -45,6 +45,8 @@ EdgeCurve edge_curve(const PlacingTask& task, const PlacingTask::Edge& edge, Pag
 /// task, always.
 Placing place_conditions(const PlacingTask& task);
 inline constexpr int kPlacingSweeps = 8;
+/// In so many orders.
+inline constexpr int kPlacingOrders = 4;
 
 /// Goes on from a placing of the same task, `kRefinements` rounds at most.
 Placing refine_conditions(const PlacingTask& task, const Placing& placing);

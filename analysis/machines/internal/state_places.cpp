@@ -11,6 +11,8 @@ namespace {
 
 constexpr double kGrow = 1.15;
 constexpr int kMostHeights = 14;
+/// Of the trials, those that are worked out further.
+constexpr std::size_t kRefined = 4;
 /// Heights that are still tried after one that leaves nothing to be wished for.
 constexpr int kFurther = 1;
 /// What a millimetre of height costs beside the costs of a placing.
@@ -86,12 +88,18 @@ std::vector<double> widths_for(const PlacingTask& task, std::size_t states) {
   return widths;
 }
 
-}  // namespace
+/// A way to place the states, with what came of it.
+struct Trial {
+  std::vector<PagePoint> states;
+  Placing placing;
+  double size_cost = 0;
 
-Placing place_all(PlacingTask& task, std::size_t states) {
-  Placing best;
-  double least = std::numeric_limits<double>::infinity();
-  std::vector<PagePoint> found;
+  double cost() const { return placing.cost + size_cost; }
+};
+
+/// All distances of states, the cheapest first.
+std::vector<Trial> trials_of(PlacingTask& task, std::size_t states) {
+  std::vector<Trial> trials;
   for (const double width : widths_for(task, states)) {
     double height = 2 * task.radius + 14;
     // Neighbours on an ellipse do not touch.
@@ -99,20 +107,30 @@ Placing place_all(PlacingTask& task, std::size_t states) {
     int further = kFurther;
     for (int i = 0; i < kMostHeights && further >= 0; ++i) {
       task.states = centres(task, states, width, height);
-      Placing placing = place_conditions(task);
-      const double cost = placing.cost + kHeightCost * height + kWidthCost * width;
-      if (cost < least) {
-        least = cost;
-        best = std::move(placing);
-        found = task.states;
-      }
-      if (best.apart && best.clear) --further;
+      trials.push_back({.states = task.states,
+                        .placing = place_conditions(task),
+                        .size_cost = kHeightCost * height + kWidthCost * width});
+      if (trials.back().placing.apart && trials.back().placing.clear) --further;
       if (states <= 2) break;
       height *= kGrow;
     }
   }
-  task.states = std::move(found);
-  return refine_conditions(task, best);
+  std::ranges::stable_sort(trials, {}, &Trial::cost);
+  return trials;
+}
+
+}  // namespace
+
+Placing place_all(PlacingTask& task, std::size_t states) {
+  std::vector<Trial> trials = trials_of(task, states);
+  if (trials.size() > kRefined) trials.resize(kRefined);
+  for (Trial& trial : trials) {
+    task.states = trial.states;
+    trial.placing = refine_conditions(task, trial.placing);
+  }
+  Trial& best = *std::ranges::min_element(trials, {}, &Trial::cost);
+  task.states = std::move(best.states);
+  return std::move(best.placing);
 }
 
 }  // namespace swarmsmith
