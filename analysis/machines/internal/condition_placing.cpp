@@ -30,7 +30,7 @@ constexpr double kOwnGap = kArrowLength + 1.6;
 constexpr double kCurveGap = 0.7;
 
 constexpr std::size_t kSegments = 10;
-constexpr std::size_t kMostPlaces = 260;
+constexpr std::size_t kMostPlaces = 200;
 constexpr std::array<double, 9> kParts = {0.5, 0.44, 0.56, 0.38, 0.62, 0.32, 0.68, 0.26, 0.74};
 
 /// A place of an edge's box, and what follows from it.
@@ -74,19 +74,25 @@ int crossings(const Place& a, const Place& b) {
   return count;
 }
 
+/// Whether a point is nearer to a segment than `kLineDistance`.
+bool lies_beside(PagePoint point, PagePoint from, PagePoint to) {
+  // Most are far away, which takes no division to see.
+  if (point.x < std::min(from.x, to.x) - kLineDistance) return false;
+  if (point.x > std::max(from.x, to.x) + kLineDistance) return false;
+  if (point.y < std::min(from.y, to.y) - kLineDistance) return false;
+  if (point.y > std::max(from.y, to.y) + kLineDistance) return false;
+  return distance_to_segment(point, from, to) < kLineDistance;
+}
+
 /// How many points of a curve lie beside another one.
 int points_alongside(const Place& a, const Place& b) {
   if (overlap_of(a.around, b.around, kLineDistance) <= 0) return 0;
   int count = 0;
   for (const PagePoint& point : a.line) {
-    const double x = std::fabs(point.x - b.around.centre.x) - b.around.half_width;
-    const double y = std::fabs(point.y - b.around.centre.y) - b.around.half_height;
-    if (std::max(x, y) > kLineDistance) continue;
-    for (std::size_t i = 0; i < kSegments; ++i) {
-      if (distance_to_segment(point, b.line[i], b.line[i + 1]) > kLineDistance) continue;
-      ++count;
-      break;
-    }
+    bool beside = false;
+    for (std::size_t i = 0; i < kSegments && !beside; ++i)
+      beside = lies_beside(point, b.line[i], b.line[i + 1]);
+    count += beside ? 1 : 0;
   }
   return count;
 }
@@ -245,6 +251,13 @@ class Placer {
 
   const Place& place_of(std::size_t edge) const { return places_[edge][chosen_[edge]]; }
 
+  bool share_a_state(std::size_t a, std::size_t b) const {
+    const PlacingTask::Edge& first = task_.edges[a];
+    const PlacingTask::Edge& second = task_.edges[b];
+    return first.source == second.source || first.source == second.target ||
+           first.target == second.source || first.target == second.target;
+  }
+
   /// Two ends of curves that come too near to each other at a state that they share.
   double crowding(std::size_t a, const Place& at, std::size_t b, const Place& other) const {
     const auto ends = [](const PlacingTask::Edge& edge, const Place& place) {
@@ -264,16 +277,22 @@ class Placer {
   /// What the place costs beside the others, as far as they have one; gives up beyond `most`.
   double cost_of(std::size_t edge, const Place& place, double most) const {
     double cost = place.alone;
+    // What is quickly known and costs most comes first.
+    for (std::size_t other = 0; other < places_.size(); ++other) {
+      if (other == edge || chosen_[other] == kNone) continue;
+      const double overlap = overlap_of(place.box, place_of(other).box, kBoxGap - 1e-6);
+      if (overlap > 0) cost += kOverlap + 100 * overlap;
+    }
     for (std::size_t other = 0; other < places_.size() && cost < most; ++other) {
       if (other == edge || chosen_[other] == kNone) continue;
       const Place& there = place_of(other);
-      const double overlap = overlap_of(place.box, there.box, kBoxGap - 1e-6);
-      if (overlap > 0) cost += kOverlap + 100 * overlap;
-      if (cost >= most) break;
       cost += under_cost(length_under(place, there)) + under_cost(length_under(there, place));
       if (cost >= most) break;
-      cost += kCrossing * crossings(place, there) + crowding(edge, place, other, there) +
-              kAlongside * (points_alongside(place, there) + points_alongside(there, place)) / 2;
+      cost += kCrossing * crossings(place, there);
+      if (cost >= most) break;
+      cost += crowding(edge, place, other, there);
+      if (cost >= most || !share_a_state(edge, other)) continue;
+      cost += kAlongside * (points_alongside(place, there) + points_alongside(there, place)) / 2;
     }
     return cost;
   }

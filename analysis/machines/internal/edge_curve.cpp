@@ -11,10 +11,6 @@ constexpr int kCurveSteps = 4;
 /// Where within a parabola its given point may be; nearer to an end it would rear up.
 constexpr double kFirstPart = 0.2;
 
-double cross(PagePoint a, PagePoint b) {
-  return a.x * b.y - a.y * b.x;
-}
-
 /// `length` long; to the right when there is no direction.
 PagePoint directed(PagePoint direction, double length) {
   const double norm = length_of(direction);
@@ -23,32 +19,6 @@ PagePoint directed(PagePoint direction, double length) {
 }
 
 }  // namespace
-
-PagePoint operator+(PagePoint a, PagePoint b) {
-  return {a.x + b.x, a.y + b.y};
-}
-
-PagePoint operator-(PagePoint a, PagePoint b) {
-  return {a.x - b.x, a.y - b.y};
-}
-
-PagePoint operator*(double factor, PagePoint a) {
-  return {factor * a.x, factor * a.y};
-}
-
-double dot(PagePoint a, PagePoint b) {
-  return a.x * b.x + a.y * b.y;
-}
-
-double length_of(PagePoint a) {
-  return std::sqrt(dot(a, a));
-}
-
-double overlap_of(const PageBox& a, const PageBox& b, double gap) {
-  const double x = a.half_width + b.half_width + gap - std::fabs(a.centre.x - b.centre.x);
-  const double y = a.half_height + b.half_height + gap - std::fabs(a.centre.y - b.centre.y);
-  return std::max(0.0, std::min(x, y));
-}
 
 double distance_to(const PageBox& box, PagePoint point) {
   const double x = std::max(0.0, std::fabs(point.x - box.centre.x) - box.half_width);
@@ -79,6 +49,10 @@ EdgeCurve curve_through(const PageCircle& from, const PageCircle& to, PagePoint 
 }
 
 double length_within(PagePoint from, PagePoint to, const PageBox& box) {
+  if (std::max(from.x, to.x) <= box.centre.x - box.half_width) return 0;
+  if (std::min(from.x, to.x) >= box.centre.x + box.half_width) return 0;
+  if (std::max(from.y, to.y) <= box.centre.y - box.half_height) return 0;
+  if (std::min(from.y, to.y) >= box.centre.y + box.half_height) return 0;
   // Liang and Barsky: the part of the segment between its first and its last border.
   double first = 0;
   double last = 1;
@@ -96,22 +70,6 @@ double length_within(PagePoint from, PagePoint to, const PageBox& box) {
     return 0;
   }
   return (last - first) * length_of(step);
-}
-
-double distance_to_segment(PagePoint point, PagePoint from, PagePoint to) {
-  const PagePoint step = to - from;
-  const double length2 = dot(step, step);
-  double part = 0;
-  if (length2 > 0) part = std::clamp(dot(point - from, step) / length2, 0.0, 1.0);
-  return length_of(point - (from + part * step));
-}
-
-bool segments_cross(PagePoint a, PagePoint b, PagePoint c, PagePoint d) {
-  const double side_c = cross(b - a, c - a);
-  const double side_d = cross(b - a, d - a);
-  const double side_a = cross(d - c, a - c);
-  const double side_b = cross(d - c, b - c);
-  return side_c * side_d < 0 && side_a * side_b < 0;
 }
 
 }  // namespace swarmsmith

@@ -1,7 +1,8 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
-#include <span>
+#include <cmath>
 
 #include "analysis/drawing/svg.h"
 
@@ -9,11 +10,24 @@ namespace swarmsmith {
 
 /// Curves of transitions, and what they meet. Lengths are mm.
 
-PagePoint operator+(PagePoint a, PagePoint b);
-PagePoint operator-(PagePoint a, PagePoint b);
-PagePoint operator*(double factor, PagePoint a);
-double dot(PagePoint a, PagePoint b);
-double length_of(PagePoint a);
+inline PagePoint operator+(PagePoint a, PagePoint b) {
+  return {a.x + b.x, a.y + b.y};
+}
+inline PagePoint operator-(PagePoint a, PagePoint b) {
+  return {a.x - b.x, a.y - b.y};
+}
+inline PagePoint operator*(double factor, PagePoint a) {
+  return {factor * a.x, factor * a.y};
+}
+inline double dot(PagePoint a, PagePoint b) {
+  return a.x * b.x + a.y * b.y;
+}
+inline double cross(PagePoint a, PagePoint b) {
+  return a.x * b.y - a.y * b.x;
+}
+inline double length_of(PagePoint a) {
+  return std::sqrt(dot(a, a));
+}
 
 /// A rectangle by its middle and half its sides.
 struct PageBox {
@@ -23,7 +37,11 @@ struct PageBox {
 };
 
 /// How deep two boxes reach into each other, when each is `gap` wider than it is; 0 when apart.
-double overlap_of(const PageBox& a, const PageBox& b, double gap);
+inline double overlap_of(const PageBox& a, const PageBox& b, double gap) {
+  const double x = a.half_width + b.half_width + gap - std::fabs(a.centre.x - b.centre.x);
+  const double y = a.half_height + b.half_height + gap - std::fabs(a.centre.y - b.centre.y);
+  return std::max(0.0, std::min(x, y));
+}
 
 /// From the nearest point of the box to a point; 0 within.
 double distance_to(const PageBox& box, PagePoint point);
@@ -45,8 +63,20 @@ EdgeCurve curve_through(const PageCircle& from, const PageCircle& to, PagePoint 
 double length_within(PagePoint from, PagePoint to, const PageBox& box);
 
 /// From a point to the nearest one of a segment.
-double distance_to_segment(PagePoint point, PagePoint from, PagePoint to);
+inline double distance_to_segment(PagePoint point, PagePoint from, PagePoint to) {
+  const PagePoint step = to - from;
+  const double length2 = dot(step, step);
+  double part = 0;
+  if (length2 > 0) part = std::clamp(dot(point - from, step) / length2, 0.0, 1.0);
+  return length_of(point - (from + part * step));
+}
 
-bool segments_cross(PagePoint a, PagePoint b, PagePoint c, PagePoint d);
+inline bool segments_cross(PagePoint a, PagePoint b, PagePoint c, PagePoint d) {
+  const double side_c = cross(b - a, c - a);
+  const double side_d = cross(b - a, d - a);
+  const double side_a = cross(d - c, a - c);
+  const double side_b = cross(d - c, b - c);
+  return side_c * side_d < 0 && side_a * side_b < 0;
+}
 
 }  // namespace swarmsmith

@@ -12,11 +12,11 @@ namespace {
 constexpr double kGrow = 1.15;
 constexpr int kMostHeights = 14;
 /// Of the trials, those that are worked out further.
-constexpr std::size_t kRefined = 4;
+constexpr std::size_t kRefined = 3;
 /// Heights that are still tried after one that leaves nothing to be wished for.
 constexpr int kFurther = 1;
 /// What a millimetre of height costs beside the costs of a placing.
-constexpr double kHeightCost = 0.6;
+constexpr double kHeightCost = 0.8;
 constexpr double kWidthCost = 0.15;
 
 /// The states of the four corners, from the upper left one clockwise. State 0 is the first; the
