@@ -46,6 +46,22 @@ std::array<std::size_t, 4> corners_by_traffic(const PlacingTask& task) {
   return best;
 }
 
+/// The busiest pair stands side by side, where boxes are stacked best; the third state below it, or
+/// above it when it is state 0, which is read first.
+std::vector<PagePoint> triangle(const PlacingTask& task, PagePoint middle, double x, double y) {
+  std::array<std::size_t, 3> traffic{};  // of the two others, by the third
+  for (const PlacingTask::Edge& edge : task.edges)
+    ++traffic[3 - edge.source - edge.target];
+  const auto third = static_cast<std::size_t>(std::ranges::max_element(traffic) - traffic.begin());
+  const PagePoint left{middle.x - x, middle.y};
+  const PagePoint right{middle.x + x, middle.y};
+  const PagePoint above{middle.x, middle.y - y};
+  const PagePoint below{middle.x, middle.y + y};
+  if (third == 0) return {above, right, left};
+  if (third == 1) return {left, below, right};
+  return {left, right, below};
+}
+
 /// Centres for states that are `width` and `height` apart.
 std::vector<PagePoint> centres(const PlacingTask& task, std::size_t states, double width,
                                double height) {
@@ -54,7 +70,7 @@ std::vector<PagePoint> centres(const PlacingTask& task, std::size_t states, doub
   const double y = height / 2;
   if (states == 1) return {{middle, 0}};
   if (states == 2) return {{middle - x, 0}, {middle + x, 0}};
-  if (states == 3) return {{middle, -y}, {middle + x, y}, {middle - x, y}};
+  if (states == 3) return triangle(task, {middle, 0}, x, height);
   std::vector<PagePoint> result(states);
   if (states == 4) {
     const std::array<PagePoint, 4> corners = {
