@@ -10,6 +10,8 @@ namespace swarmsmith {
 std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure},
+      FigureKind{"machine", "A state machine: states, conditions and their parameters",
+                 machine_figure},
   };
   return kKinds;
 }
