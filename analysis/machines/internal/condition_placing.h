@@ -3,25 +3,11 @@
 #include <cstddef>
 #include <vector>
 
-#include "analysis/machines/internal/edge_curve.h"
+#include "analysis/machines/internal/edge_places.h"
 
 namespace swarmsmith {
 
 /// Where the boxes of conditions go, when the states have their places.
-
-struct PlacingTask {
-  struct Edge {
-    std::size_t source = 0;
-    std::size_t target = 0;
-    double width = 0;  ///< of the condition's box
-    double height = 0;
-  };
-  std::vector<PagePoint> states;
-  double radius = 0;  ///< of each state
-  std::vector<Edge> edges;
-  double left = 0;  ///< nothing may lie beyond these two
-  double right = 0;
-};
 
 struct Placing {
   std::vector<PagePoint> boxes;  ///< centres, one an edge
@@ -31,14 +17,6 @@ struct Placing {
   bool apart = false;  ///< neither boxes nor states overlap, and all are on the page
   bool clear = false;  ///< nor does a curve pass under a box or through a state
 };
-
-/// What an arrow head takes of an edge.
-inline constexpr double kArrowLength = 2.2;
-/// The least that is between boxes, and between a box and a state.
-inline constexpr double kBoxGap = 1;
-
-/// The curve of an edge whose box is at `box`, up to the arrow head.
-EdgeCurve edge_curve(const PlacingTask& task, const PlacingTask::Edge& edge, PagePoint box);
 
 /// Tries places in a grid round the middle of each edge: first one edge after the other, then
 /// again and again until nothing gets better or `kPlacingSweeps` are over. The same for the same
