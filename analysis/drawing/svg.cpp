@@ -159,6 +159,12 @@ void Svg::line(std::span<const PagePoint> points, const Paint& paint) {
   path(path_through(points), paint, R"( stroke-linejoin="round" stroke-linecap="round")");
 }
 
+void Svg::curve(PagePoint from, PagePoint control, PagePoint to, const Paint& paint) {
+  path("M" + number(from.x) + " " + number(from.y) + "Q" + number(control.x) + " " +
+           number(control.y) + " " + number(to.x) + " " + number(to.y),
+       paint, "");
+}
+
 void Svg::text(PagePoint at, std::string_view text, const TextStyle& style) {
   shapes_ += "<text" + attribute("x", number(at.x)) + attribute("y", number(at.y)) +
              attribute("font-size", number(style.size));

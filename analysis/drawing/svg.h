@@ -71,6 +71,8 @@ class Svg {
   void outside(std::span<const PagePoint> corners, const Paint& paint);
   /// Open; round joints.
   void line(std::span<const PagePoint> points, const Paint& paint);
+  /// A quadratic Bezier curve: it leaves `from` towards `control` and comes to `to` from there.
+  void curve(PagePoint from, PagePoint control, PagePoint to, const Paint& paint);
   /// The bytes of a PNG file, stretched over a rectangle, pixels left sharp; `opacity` in [0, 1].
   void image(PagePoint top_left, double width, double height, std::string_view png, double opacity);
   /// `at` is on the base line.

@@ -38,6 +38,8 @@ std::span<const FigureKind> figure_kinds() {
                  modules_figure, "mission method"},
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
                  "mission method design"},
+      FigureKind{"machine", "A state machine: states, conditions and their parameters",
+                 machine_figure, "mission method design candidate"},
   };
   return kKinds;
 }

@@ -11,5 +11,6 @@ Expected<Figure> box_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> scores_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> machine_figure(StoreReader& store, const FigureOptions& options);
 
 }  // namespace swarmsmith

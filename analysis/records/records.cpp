@@ -1,5 +1,6 @@
 #include "analysis/records/records.h"
 
+#include <algorithm>
 #include <charconv>
 #include <string_view>
 #include <utility>
@@ -60,6 +61,19 @@ std::string where(const RecordFilter& filter, std::string_view table = "") {
   return terms.empty() ? "" : fmt::format(" WHERE {}", fmt::join(terms, " AND "));
 }
 
+/// What stands for the flavour of a design `d`: stores of a schema before 4 do not have it.
+Expected<std::string> flavour_column(StoreReader& store) {
+  std::string column = "''";
+  const auto end = store.query(
+      "SELECT * FROM v_designs LIMIT 0", kLimits,
+      [&](const std::vector<std::string>& names) {
+        if (std::ranges::find(names, "flavour") != names.end()) column = "d.flavour";
+      },
+      [](const Cells&) {});
+  if (!end) return Unexpected(end.error());
+  return column;
+}
+
 template <class Record, class Make>
 Expected<std::vector<Record>> read(StoreReader& store, const std::string& sql, const Make& make) {
   std::vector<Record> records;
@@ -98,11 +112,15 @@ Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const Recor
 }
 
 Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter) {
+  const auto flavour = flavour_column(store);
+  if (!flavour) return Unexpected(flavour.error());
   return read<DesignRecord>(
       store,
       "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.budget, d.used, d.iteration,"
-      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, ''), d.flavour FROM v_designs AS d"
-      " LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate" +
+      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, ''), " +
+          *flavour +
+          " FROM v_designs AS d"
+          " LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate" +
           where(filter, "d.") + " ORDER BY d.design",
       [](const Cells& row) {
         return DesignRecord{.design = {integer(row[0])},
@@ -118,6 +136,32 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
                             .machine = row[10].text,
                             .flavour = row[11].text};
       });
+}
+
+Expected<CandidateRecord> candidate(StoreReader& store, CandidateId id) {
+  const auto flavour = flavour_column(store);
+  if (!flavour) return Unexpected(flavour.error());
+  auto found = read<CandidateRecord>(
+      store,
+      fmt::format(
+          "SELECT c.candidate, c.design, d.mission, d.method, d.repetition, c.fsm_config, {}"
+          " FROM v_candidates AS c JOIN v_designs AS d ON d.design = c.design"
+          " WHERE c.candidate = {}",
+          *flavour, id.value),
+      [](const Cells& row) {
+        return CandidateRecord{.candidate = {integer(row[0])},
+                               .design = {integer(row[1])},
+                               .mission = row[2].text,
+                               .method = row[3].text,
+                               .repetition = integer(row[4]),
+                               .machine = row[5].text,
+                               .flavour = row[6].text};
+      });
+  if (!found) return Unexpected(found.error());
+  if (found->empty()) {
+    return unexpected(ErrorKind::NotFound, "the store has no candidate " + to_string(id));
+  }
+  return std::move(found->front());
 }
 
 Expected<std::vector<EliteRecord>> elites(StoreReader& store, const RecordFilter& filter) {

@@ -43,7 +43,20 @@ struct DesignRecord {
   std::optional<CandidateId> best;
   std::optional<double> best_mean;
   std::string machine;  ///< of the best; text of the grammar, empty without one
-  std::string flavour;  ///< that it is written in; empty for the parameters of a program
+  /// That it is written in; empty for the parameters of a program, and in stores of a schema before
+  /// 4 that nobody has written to since.
+  std::string flavour;
+};
+
+/// A machine that a design tried.
+struct CandidateRecord {
+  CandidateId candidate;
+  DesignId design;
+  std::string mission;
+  std::string method;
+  std::int64_t repetition = 0;
+  std::string machine;  ///< text of the grammar, or a program's configuration
+  std::string flavour;  ///< as in DesignRecord
 };
 
 /// An elite at the end of an iteration.
@@ -119,6 +132,8 @@ struct RecordFilter {
 /// time limit of a query was too short.
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter);
 Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter);
+/// NotFound when the store has no such candidate.
+Expected<CandidateRecord> candidate(StoreReader& store, CandidateId id);
 Expected<std::vector<EliteRecord>> elites(StoreReader& store, const RecordFilter& filter);
 Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
                                                           const RecordFilter& filter);

@@ -197,9 +197,12 @@ constexpr std::string_view kExportDetails =
     R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
 With --format irace the campaign, from its file or its store, becomes a folder of irace's files in which
 `irace --scenario scenario.txt` does one of its designs, with this simulator behind the target-runner.
+Pictures show states and conditions with their parameters (docs/machines.md); PDF needs rsvg-convert.
+With --format argos each machine becomes a file that the ARGoS of the thesis runs.
 
 Examples:
   swarmsmith export demo.db -o best.fsm
+  swarmsmith export demo.db --design d1 --format svg --width 174mm -o best.svg
   swarmsmith export demo.db --what elites --format json
   swarmsmith export campaign.toml --format irace --design d1 -o folder)";
 

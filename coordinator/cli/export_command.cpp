@@ -1,10 +1,14 @@
-#include <fstream>
+#include <algorithm>
 #include <memory>
+#include <optional>
 
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/export_irace.h"
+#include "coordinator/cli/export_machines.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
+#include "coordinator/cli/thing_id.h"
+#include "coordinator/cli/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -14,11 +18,24 @@ struct Arguments {
   std::string what = "best";
   std::string format = "fsm-config";
   std::string file;
-  IraceExport irace;
+  std::string design;
+  std::string candidate;
+  std::string width;
+  std::optional<std::int64_t> seed;
+  std::string irace_version = "4";
 };
 
+/// The number behind the letter of an id.
+Expected<std::string> digits_of(const std::string& text, char letter, const char* option) {
+  const auto id = parse_thing_id(text);
+  if (id && id->letter == letter) return id->digits;
+  const std::string example = letter == 'd' ? "d3" : "c812";
+  return bad_input("wants an id such as " + example + ", not \"" + text + "\"", option);
+}
+
 /// Machines with what a person wants to know of each; `selected` gives (design, candidate).
-std::string statement(const std::string& what) {
+Expected<std::string> statement(const Arguments& arguments) {
+  const std::string& what = arguments.what;
   std::string selected =
       "SELECT design, best_candidate AS candidate FROM v_designs "
       "WHERE best_candidate IS NOT NULL";
@@ -28,11 +45,23 @@ std::string statement(const std::string& what) {
         "(SELECT max(iteration) FROM v_convergence AS l WHERE l.design = e.design)";
   }
   if (what == "all") selected = "SELECT design, candidate FROM v_candidates";
+  std::string which;
+  if (!arguments.candidate.empty()) {
+    const auto digits = digits_of(arguments.candidate, 'c', "--candidate");
+    if (!digits) return Unexpected(digits.error());
+    selected = "SELECT design, candidate FROM v_candidates WHERE candidate = " + *digits;
+  }
+  if (!arguments.design.empty()) {
+    const auto digits = digits_of(arguments.design, 'd', "--design");
+    if (!digits) return Unexpected(digits.error());
+    which = " WHERE s.design = " + *digits;
+  }
   return "SELECT s.design, d.mission, d.method, d.repetition, s.candidate, c.iteration, c.mean, "
          "c.runs, c.fsm_config, c.parameters, c.modules FROM (" +
          selected +
          ") AS s JOIN v_designs AS d ON d.design = s.design "
-         "JOIN v_candidates AS c ON c.candidate = s.candidate ORDER BY s.design, s.candidate";
+         "JOIN v_candidates AS c ON c.candidate = s.candidate" +
+         which + " ORDER BY s.design, s.candidate";
 }
 
 enum Column {
@@ -84,17 +113,69 @@ std::string as_json(const Rows& rows) {
   return text + "]}\n";
 }
 
+bool is_picture(const std::string& format) {
+  return format == "svg" || format == "pdf" || format == "dot" || format == "tikz";
+}
+
+/// An option that says nothing in this format is no mistake to pass over.
+std::optional<Error> misplaced_option(const Arguments& arguments) {
+  const std::string with = " means nothing with --format " + arguments.format;
+  if (arguments.seed && arguments.format != "argos") {
+    return Error{ErrorKind::BadInput, "it" + with, "--seed"};
+  }
+  const bool sized = is_picture(arguments.format) && arguments.format != "dot";
+  if (!arguments.width.empty() && !sized) return Error{ErrorKind::BadInput, "it" + with, "--width"};
+  return std::nullopt;
+}
+
+std::vector<CandidateId> candidates_of(const Rows& rows) {
+  std::vector<CandidateId> candidates;
+  for (const auto& cells : rows.cells)
+    candidates.push_back({std::stoll(cells[kCandidate].text)});
+  return candidates;
+}
+
+/// Nothing to export is ordinary, unless somebody named it.
+ExitCode nothing_found(const Arguments& arguments, Output& output) {
+  if (arguments.design.empty() && arguments.candidate.empty()) {
+    print_note(output, "the store has no such machines yet");
+    return ExitCode::Done;
+  }
+  const bool named = !arguments.candidate.empty();
+  return fail(output, ExitCode::NoSuchId,
+              named ? "the store has no candidate " + arguments.candidate +
+                          (arguments.design.empty() ? "" : " in " + arguments.design)
+                    : "the store has no such machine of " + arguments.design);
+}
+
 ExitCode run(const Arguments& arguments, Output& output) {
+  if (const auto misplaced = misplaced_option(arguments)) {
+    return fail(output, ExitCode::Usage, *misplaced);
+  }
   if (arguments.format == "irace") {
     const auto source = arguments.store.path();
     if (!source) return fail(output, ExitCode::Usage, source.error());
-    return export_irace(*source, arguments.irace, arguments.file, output);
+    return export_irace(*source, {.design = arguments.design, .version = arguments.irace_version},
+                        arguments.file, output);
   }
+  const auto sql = statement(arguments);
+  if (!sql) return fail(output, ExitCode::Usage, sql.error());
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  auto rows = select(**store, statement(arguments.what), {.rows = 1'000'000'000, .seconds = 600});
+  auto rows = select(**store, *sql, {.rows = 1'000'000'000, .seconds = 600});
   if (!rows) return fail(output, ExitCode::Store, rows.error());
-  if (rows->cells.empty()) print_note(output, "the store has no such machines yet");
+  if (rows->cells.empty()) {
+    const ExitCode code = nothing_found(arguments, output);
+    if (code != ExitCode::Done) return code;
+  }
+  if (is_picture(arguments.format) || arguments.format == "argos") {
+    return export_machines(**store, candidates_of(*rows),
+                           {.format = arguments.format,
+                            .width = arguments.width,
+                            .seed = arguments.seed.value_or(1),
+                            .place = arguments.file},
+                           output);
+  }
   letter_ids(*rows);
   const bool json = output.json || arguments.format == "json";
   const std::string text = json ? as_json(*rows) : as_fsm_config(*rows);
@@ -102,11 +183,8 @@ ExitCode run(const Arguments& arguments, Output& output) {
     output.out << text;
     return ExitCode::Done;
   }
-  std::ofstream stream(arguments.file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (stream) return ExitCode::Done;
-  return fail(output, ExitCode::Failed, cannot_write(arguments.file));
+  const auto done = write_whole_file(arguments.file, text);
+  return done ? ExitCode::Done : fail(output, ExitCode::Failed, done.error());
 }
 
 }  // namespace
@@ -117,14 +195,18 @@ Run declare_export(Options& options) {
   options.choice("--what", arguments->what, {"best", "elites", "all"},
                  "Each design's best machine, its last elites, or every candidate");
   options.choice(
-      "--format", arguments->format, {"fsm-config", "json", "irace"},
-      "Text of the grammar with comment lines, JSON, or a folder in which R's irace does "
-      "the same design");
-  options.text("-o,--output", arguments->file, "Write to this file, or folder");
-  options.text("--design", arguments->irace.design,
-               "With --format irace: which design (default: d1, when they differ in repetition "
-               "alone)");
-  options.choice("--irace", arguments->irace.version, {"3.5", "4"},
+      "--format", arguments->format,
+      {"fsm-config", "json", "svg", "pdf", "dot", "tikz", "argos", "irace"},
+      "Text of the grammar with comment lines, JSON, a picture, an experiment file of the "
+      "original simulator, or a folder in which R's irace does the same design");
+  options.text("-o,--output", arguments->file,
+               "Write to this file; to this folder, a file a machine, where there are several");
+  options.text("--design", arguments->design, "Only this design's, such as d3");
+  options.text("--candidate", arguments->candidate, "This one, such as c812");
+  options.text("--width", arguments->width, "Of a picture: 84mm (default), 8.4cm, 3.3in");
+  options.integer("--seed", arguments->seed, {1, 4'294'967'295},
+                  "With --format argos: the experiment's seed (default 1)");
+  options.choice("--irace", arguments->irace_version, {"3.5", "4"},
                  "With --format irace: the irace that reads the files (default 4)");
   return [arguments](Output& output) { return run(*arguments, output); };
 }

@@ -34,6 +34,12 @@ TEST(Svg, WritesShapesShort) {
   EXPECT_THAT(text, HasSubstr("<circle cx=\"1\" cy=\"2\" r=\"3\" fill=\"none\"/>"));
 }
 
+TEST(Svg, CurvesAreQuadratic) {
+  Svg svg(10, 10, "", "");
+  svg.curve({1, 2}, {3, 4.5}, {5, 6}, stroked("#123456", 0.4));
+  EXPECT_THAT(svg.finish(), HasSubstr("<path d=\"M1 2Q3 4.5 5 6\" fill=\"none\""));
+}
+
 TEST(Svg, KeepsTextAsText) {
   Svg svg(10, 10, "", "");
   svg.text({1, 2}, "n < 3", {.size = 2, .anchor = TextStyle::Anchor::End, .bold = true});

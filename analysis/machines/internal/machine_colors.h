@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "analysis/drawing/svg.h"
+
+namespace swarmsmith {
+
+/// What the three forms of a picture share, by the number of a state.
+
+inline constexpr double kEdgeWidth = 0.35;
+inline constexpr double kStateWidth = 0.45;
+inline constexpr std::string_view kPaper = "#ffffff";
+
+inline std::string state_color(std::size_t state) {
+  return distinct_color(state);
+}
+
+inline std::string state_fill(std::size_t state) {
+  return lightened(state_color(state), 0.88);
+}
+
+/// Lengths of strokes and gaps, mm; empty for a full line.
+inline std::string_view state_dashes(std::size_t state) {
+  constexpr std::string_view kDashes[] = {"", "2 0.8", "0.7 0.6", "2.4 0.6 0.6 0.6"};
+  return kDashes[state % 4];
+}
+
+}  // namespace swarmsmith

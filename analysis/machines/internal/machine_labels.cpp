@@ -1,0 +1,89 @@
+#include "analysis/machines/internal/machine_labels.h"
+
+#include <span>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+namespace swarmsmith {
+namespace {
+
+std::vector<std::string> name_lines(Module module) {
+  switch (module) {
+    case Module::Exploration:
+      return {"Exploration"};
+    case Module::Stop:
+      return {"Stop"};
+    case Module::Phototaxis:
+      return {"Phototaxis"};
+    case Module::AntiPhototaxis:
+      return {"Anti-", "phototaxis"};
+    case Module::Attraction:
+      return {"Attraction"};
+    case Module::Repulsion:
+      return {"Repulsion"};
+    case Module::BlackFloor:
+      return {"Black floor"};
+    case Module::GrayFloor:
+      return {"Gray floor"};
+    case Module::WhiteFloor:
+      return {"White floor"};
+    case Module::NeighbourCount:
+      return {"Neighbour count"};
+    case Module::InvertedNeighbourCount:
+      return {"Inverted", "neighbour count"};
+    case Module::FixedProbability:
+      return {"Fixed probability"};
+    case Module::ColorDetection:
+      return {"Color detection"};
+  }
+  throw std::invalid_argument("no such module");
+}
+
+/// The letter of the thesis.
+std::string symbol_of(const std::string& parameter) {
+  if (parameter == "tau") return "τ";
+  if (parameter == "alpha") return "α";
+  if (parameter == "beta") return "β";
+  if (parameter == "xi") return "ξ";
+  if (parameter == "eta") return "η";
+  return parameter;
+}
+
+/// The search has two decimals; numbers of people that have many are shortened, since the picture
+/// is not where a machine is read back from.
+std::string value_text(double value) {
+  std::string text = fmt::format("{}", value);
+  return text.size() <= 7 ? text : fmt::format("{:.4g}", value);
+}
+
+ModuleLabel label(Module module, std::span<const double> values, const Flavour& flavour) {
+  const ModuleSpec* spec = flavour.find(module);
+  if (spec == nullptr) {
+    throw std::invalid_argument("the flavour " + flavour.name + " has no module " +
+                                std::string(id_of(module)));
+  }
+  ModuleLabel result{.name = name_lines(module), .parameters = {}};
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const ParameterSpec& parameter = spec->parameters.at(i);
+    if (i > 0) result.parameters += ", ";
+    if (parameter.type == ParameterSpec::Type::Label) {
+      result.parameters += name_of(static_cast<ColorLabel>(static_cast<int>(values[i])));
+    } else {
+      result.parameters += symbol_of(parameter.name) + " = " + value_text(values[i]);
+    }
+  }
+  return result;
+}
+
+}  // namespace
+
+ModuleLabel label_of(const Behaviour& behaviour, const Flavour& flavour) {
+  return label(module_of(behaviour), parameters_of(behaviour), flavour);
+}
+
+ModuleLabel label_of(const Condition& condition, const Flavour& flavour) {
+  return label(module_of(condition), parameters_of(condition), flavour);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <cstddef>
+
+#include "analysis/machines/internal/condition_placing.h"
+
+namespace swarmsmith {
+
+/// Finds places for the states, and for the conditions by `place_conditions`: tries a fixed list of
+/// distances between states and keeps the best. Fills `task.states`.
+Placing place_all(PlacingTask& task, std::size_t states);
+
+}  // namespace swarmsmith

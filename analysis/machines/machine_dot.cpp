@@ -1,0 +1,48 @@
+#include <fmt/format.h>
+
+#include "analysis/machines/internal/machine_colors.h"
+#include "analysis/machines/machine_drawing.h"
+
+namespace swarmsmith {
+namespace {
+
+std::string dot_text(std::string_view text) {
+  std::string result = "\"";
+  for (const char letter : text) {
+    if (letter == '"' || letter == '\\') result += '\\';
+    result += letter;
+  }
+  return result + "\"";
+}
+
+/// Lines are joined by DOT's own sign for a centred line.
+std::string dot_label(const std::vector<LabelLine>& lines) {
+  std::string label = "\"";
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    label += (i > 0 ? "\\n" : "") + lines[i].text;
+  return label + "\"";
+}
+
+}  // namespace
+
+std::string dot_of(const MachineLayout& layout, std::string_view title) {
+  std::string text = "digraph " + dot_text(title) + " {\n";
+  text += "  node [fontname=\"Helvetica\", fontsize=10];\n  edge [arrowsize=0.7];\n";
+  for (std::size_t i = 0; i < layout.states.size(); ++i) {
+    text +=
+        fmt::format("  s{} [shape={}, style=filled, color=\"{}\", fillcolor=\"{}\", label={}];\n",
+                    i, layout.states[i].initial ? "doublecircle" : "circle", state_color(i),
+                    state_fill(i), dot_label(layout.states[i].lines));
+  }
+  for (std::size_t i = 0; i < layout.conditions.size(); ++i) {
+    const ConditionShape& shape = layout.conditions[i];
+    const std::string color = state_color(shape.source);
+    text += fmt::format("  c{} [shape=hexagon, margin=0, color=\"{}\", label={}];\n", i, color,
+                        dot_label(shape.lines));
+    text += fmt::format("  s{} -> c{} [color=\"{}\", arrowhead=none];\n", shape.source, i, color);
+    text += fmt::format("  c{} -> s{} [color=\"{}\"];\n", i, shape.target, color);
+  }
+  return text + "}\n";
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,48 @@
+#include "analysis/drawing/figure_style.h"
+#include "analysis/machines/internal/machine_colors.h"
+#include "analysis/machines/machine_drawing.h"
+
+namespace swarmsmith {
+namespace {
+
+void draw_lines(Svg& svg, const std::vector<LabelLine>& lines) {
+  for (const LabelLine& line : lines) {
+    svg.text(line.at, line.text,
+             {.size = line.size,
+              .anchor = TextStyle::Anchor::Middle,
+              .fill = std::string(line.is_name ? "#000000" : "#333333")});
+  }
+}
+
+}  // namespace
+
+std::string svg_of(const MachineLayout& layout, std::string_view title) {
+  Svg svg(
+      layout.width, layout.height, title,
+      "Probabilistic finite state machine: circles are behaviours, the double one is the initial "
+      "state; pointed boxes are conditions");
+  // All curves below all boxes, so that a box hides a curve and never a text.
+  for (const ConditionShape& shape : layout.conditions) {
+    Paint paint = stroked(state_color(shape.source), kEdgeWidth);
+    paint.dashes = state_dashes(shape.source);
+    svg.curve(shape.curve[0], shape.curve[1], shape.curve[2], paint);
+    svg.polygon(shape.head, filled(state_color(shape.source)));
+  }
+  for (std::size_t i = 0; i < layout.states.size(); ++i) {
+    const StateShape& shape = layout.states[i];
+    Paint paint = stroked(state_color(i), kStateWidth);
+    paint.fill = state_fill(i);
+    svg.circle(shape.centre, shape.radius, paint);
+    if (shape.initial) svg.circle(shape.centre, shape.radius - kInitialRing, paint);
+    draw_lines(svg, shape.lines);
+  }
+  for (const ConditionShape& shape : layout.conditions) {
+    Paint paint = stroked(state_color(shape.source), kEdgeWidth);
+    paint.fill = kPaper;
+    svg.polygon(corners_of(shape), paint);
+    draw_lines(svg, shape.lines);
+  }
+  return svg.finish();
+}
+
+}  // namespace swarmsmith

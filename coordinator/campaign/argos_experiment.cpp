@@ -1,0 +1,181 @@
+#include "coordinator/campaign/argos_experiment.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "sim/control/flavour.h"
+#include "sim/control/machine_text.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Where the original keeps a mission.
+struct LoopFunctions {
+  std::string_view mission;  ///< our name of it
+  std::string_view library;
+  std::string_view label;
+};
+
+constexpr std::array<LoopFunctions, 3> kLoopFunctions = {
+    {{"aggregation", "librvr_pow_aggregation_loopfunc.so", "aggregation_one_spot_loop_functions"},
+     {"grid_exploration", "librvr_pow_grid_exploration_loopfunc.so",
+      "grid_exploration_loop_functions"},
+     {"color_selection", "librvr_pow_color_aggregation_loopfunc.so",
+      "color_aggregation_loop_functions"}}};
+
+/// The controller reads a robot's number out of the sixth letter of its id.
+constexpr int kMostRobots = 9;
+/// The numbers of the thesis' robots, which end their ids; of further ones any.
+constexpr std::array<int, kMostRobots> kRobotLabels = {30, 40, 50, 51, 55, 56, 57, 58, 59};
+
+/// Centre of a wall in metres, and its turn in degrees (rvr-automode facts, section 7).
+struct ArgosWall {
+  double x;
+  double y;
+  int turn_deg;
+};
+
+constexpr std::array<ArgosWall, 12> kWalls = {{{-1.231, 0, 0},
+                                               {1.231, 0, 0},
+                                               {0, 1.231, 90},
+                                               {0, -1.231, 90},
+                                               {-0.615, -1.066, 60},
+                                               {-1.066, -0.615, 30},
+                                               {0.615, 1.066, 60},
+                                               {1.066, 0.615, 30},
+                                               {-0.615, 1.066, -60},
+                                               {-1.066, 0.615, -30},
+                                               {0.615, -1.066, -60},
+                                               {1.066, -0.615, -30}}};
+
+/// The thesis' mission that this one is, whatever it is called, however long, with however many
+/// robots; those three the file can say. Patches, walls and score are compiled into the loop
+/// functions or checked against our own.
+Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
+  for (const LoopFunctions& known : kLoopFunctions) {
+    auto original = built_in_mission(known.mission);
+    if (!original) return Unexpected(original.error());
+    original->name = mission.name;
+    original->cycles = mission.cycles;
+    original->robots = mission.robots;
+    if (*original == mission) return known;
+  }
+  return bad_input(
+      "the mission " + mission.name +
+      " is none of the thesis' three (aggregation, grid_exploration, color_selection): its arena, "
+      "floor, placement or score differ, and the original has no loop functions for it");
+}
+
+/// Within a comment of XML two hyphens must not meet.
+std::string comment_text(std::string_view text) {
+  std::string result;
+  for (const char letter : text) {
+    if (letter == '-' && !result.empty() && result.back() == '-') result += ' ';
+    if (static_cast<unsigned char>(letter) >= 0x20) result += letter;
+  }
+  return result;
+}
+
+std::string framework_text(const ArgosExperiment& experiment) {
+  return fmt::format(
+      "  <framework>\n"
+      "    <experiment length=\"{}\" ticks_per_second=\"10\" random_seed=\"{}\"/>\n"
+      "  </framework>\n",
+      experiment.mission.cycles / 10.0, experiment.seed);
+}
+
+/// Settings of the files that the thesis' machines ran with: range 0.4 m, 30 cm/s, no noise.
+std::string controllers_text(const std::string& machine) {
+  return fmt::format(
+      "  <controllers>\n"
+      "    <automode_controller id=\"automode\" library=\"libautomode.so\">\n"
+      "      <actuators>\n"
+      "        <rvr_wheels implementation=\"default\"/>\n"
+      "        <rvr_rgb_leds implementation=\"default\" medium=\"leds\"/>\n"
+      "      </actuators>\n"
+      "      <sensors>\n"
+      "        <rvr_proximity implementation=\"default\" range=\"0.4\" show_rays=\"false\"/>\n"
+      "        <rvr_light implementation=\"default\" show_rays=\"false\"/>\n"
+      "        <rvr_lidar implementation=\"default\" show_rays=\"false\"/>\n"
+      "        <rvr_ground implementation=\"rot_z_only\"/>\n"
+      "        <colored_blob_omnidirectional_camera implementation=\"rot_z_only\" medium=\"leds\""
+      " show_rays=\"false\"/>\n"
+      "      </sensors>\n"
+      "      <params fsm-config=\"{}\" real-robot=\"false\" velocity=\"30\"/>\n"
+      "    </automode_controller>\n"
+      "  </controllers>\n",
+      machine);
+}
+
+std::string robots_text(int robots) {
+  std::string text;
+  for (int i = 1; i <= robots; ++i) {
+    // The loop functions move the robots; until then they stand where the original's files have
+    // them.
+    text += fmt::format(
+        "    <rvr id=\"rvr_{:02}_{:02}\">\n"
+        "      <body position=\"{}\" orientation=\"0,0,0\"/>\n"
+        "      <controller config=\"automode\"/>\n"
+        "    </rvr>\n",
+        i, kRobotLabels[static_cast<std::size_t>(i - 1)], i == 1 ? "0,-0.4,0" : "0.4,-0.6,0");
+  }
+  return text;
+}
+
+std::string arena_text(int robots) {
+  std::string text =
+      "  <arena size=\"10, 10, 2\" center=\"0,0,0\">\n"
+      "    <floor id=\"floor\" source=\"loop_functions\" pixels_per_meter=\"300\"/>\n"
+      "    <light id=\"light\" position=\"0,-4.25,0.75\" orientation=\"0,0,0\" color=\"yellow\""
+      " intensity=\"0.0\" medium=\"leds\"/>\n";
+  for (std::size_t i = 0; i < kWalls.size(); ++i) {
+    text += fmt::format(
+        "    <box id=\"wall_{}\" size=\"0.01,0.66,0.08\" movable=\"false\">\n"
+        "      <body position=\"{},{},0\" orientation=\"{},0,0\"/>\n"
+        "    </box>\n",
+        i + 1, kWalls[i].x, kWalls[i].y, kWalls[i].turn_deg);
+  }
+  return text + robots_text(robots) + "  </arena>\n";
+}
+
+}  // namespace
+
+Expected<std::string> argos_experiment(const ArgosExperiment& experiment) {
+  const Mission& mission = experiment.mission;
+  const auto functions = loop_functions_of(mission);
+  if (!functions) return Unexpected(functions.error());
+  if (mission.robots > kMostRobots) {
+    return bad_input(fmt::format("an experiment file has at most {} robots", kMostRobots));
+  }
+  if (const auto wrong = check(experiment.machine, watermelon_argos3())) {
+    return unexpected(wrong->kind,
+                      "the original AutoMoDe cannot run this machine: " + wrong->message,
+                      wrong->where);
+  }
+  return fmt::format(
+      "<?xml version=\"1.0\"?>\n"
+      "<!-- {}\n"
+      "     For ARGoS 3.0.0-beta48 with the RVR plugin, the RVR loop functions and the AutoMoDe "
+      "of\n"
+      "     August 2022. ARGOS_PLUGIN_PATH has to name the folders of their libraries. -->\n"
+      "<argos-configuration>\n"
+      "{}"
+      "  <loop_functions library=\"{}\" label=\"{}\">\n"
+      "    <params dist_radius=\"1.2\" number_robots=\"{}\"/>\n"
+      "  </loop_functions>\n"
+      "{}{}"
+      "  <physics_engines>\n"
+      "    <dynamics2d id=\"dyn2d\"/>\n"
+      "  </physics_engines>\n"
+      "  <media>\n"
+      "    <led id=\"leds\"/>\n"
+      "  </media>\n"
+      "</argos-configuration>\n",
+      comment_text(experiment.title), framework_text(experiment), functions->library,
+      functions->label, mission.robots,
+      controllers_text(print_machine(experiment.machine, watermelon_argos3())),
+      arena_text(mission.robots));
+}
+
+}  // namespace swarmsmith

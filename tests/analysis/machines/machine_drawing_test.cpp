@@ -1,0 +1,118 @@
+#include "analysis/machines/machine_drawing.h"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <regex>
+#include <sstream>
+
+#include "tests/analysis/machines/machines_to_draw.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Explores until black, then stands; leaves again on green.
+Machine small_machine() {
+  return {{State{.behaviour = Exploration{42}, .transitions = {{BlackFloor{0.96}, 1}}},
+           State{.behaviour = Stop{},
+                 .transitions = {{ColorDetection{0.5, ColorLabel::Green}, 0},
+                                 {NeighbourCount{6.2, 2}, 0}}}}};
+}
+
+MachineLayout small_layout() {
+  return lay_out(small_machine(), watermelon(), 84);
+}
+
+std::size_t occurrences(const std::string& text, const std::string& part) {
+  std::size_t count = 0;
+  for (std::size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1))
+    ++count;
+  return count;
+}
+
+TEST(MachineSvg, HasNamesParametersAndTwoCirclesForTheInitialState) {
+  const std::string svg = svg_of(small_layout(), "d1 c7");
+  for (const char* word : {"<title>d1 c7</title>", ">Exploration<", ">τ = 42<", ">Stop<",
+                           ">Black floor<", ">β = 0.96<", ">Color detection<", ">β = 0.5, green<",
+                           ">Neighbour count<", ">ξ = 2, η = 6.2<"}) {
+    EXPECT_THAT(svg, HasSubstr(word));
+  }
+  EXPECT_EQ(occurrences(svg, "<circle"), 3U);
+}
+
+TEST(MachineSvg, CanStandInAPageWithOthers) {
+  const std::string svg = svg_of(small_layout(), "");
+  for (const char* word : {" id=", "marker", "<style", "url(", "<defs"})
+    EXPECT_THAT(svg, Not(HasSubstr(word)));
+}
+
+/// What a line of our pictures may be: commands of TikZ itself, with numbers, colours and the five
+/// letters of the thesis.
+bool is_tikz_line(const std::string& line) {
+  const std::string number = R"(-?[0-9]+(\.[0-9]+)?)";
+  const std::string point = "\\(" + number + "," + number + "\\)";
+  const std::string color = R"(\{rgb,255:red,[0-9]+;green,[0-9]+;blue,[0-9]+\})";
+  const std::string dashes = "(,dash pattern=(on " + number + "mm off " + number + "mm ?)+)?";
+  const std::string text = R"(([A-Za-z0-9 =.,+-]|\$\\(tau|alpha|beta|xi|eta)\$)+)";
+  for (const std::string& form :
+       {std::string(R"(\\begin\{tikzpicture\}\[x=1mm,y=-1mm\])"),
+        std::string(R"(\\end\{tikzpicture\})"),
+        R"(\\useasboundingbox )" + point + " rectangle " + point + ";",
+        R"(\\draw\[draw=)" + color + ",line width=" + number + "mm" + dashes + "\\] " + point +
+            " \\.\\. controls " + point + " and " + point + " \\.\\. " + point + ";",
+        R"(\\fill\[fill=)" + color + "\\] " + point + " -- " + point + " -- " + point +
+            " -- cycle;",
+        R"(\\draw\[draw=)" + color + ",fill=" + color + ",line width=" + number + "mm\\] " + point +
+            " circle\\[radius=" + number + "mm\\];",
+        R"(\\draw\[draw=)" + color + ",fill=" + color + ",line width=" + number + "mm\\]( " +
+            point + " --){6} cycle;",
+        R"(\\node\[anchor=base,inner sep=0pt,outer sep=0pt,scale=)" + number +
+            R"(,font=\\sffamily\\fontsize\{10\}\{12\}\\selectfont\] at )" + point + " \\{" + text +
+            "\\};"}) {
+    if (std::regex_match(line, std::regex(form))) return true;
+  }
+  return false;
+}
+
+TEST(MachineTikz, HoldsNothingButPlainTikz) {
+  std::vector<MachineLayout> layouts = {small_layout()};
+  for (const auto& [name, machine] : machines_of("argos-thesis-designs.csv"))
+    layouts.push_back(lay_out(machine, watermelon_argos3(), 84));
+  for (const MachineLayout& layout : layouts) {
+    std::istringstream lines(tikz_of(layout));
+    std::string line;
+    while (std::getline(lines, line))
+      EXPECT_TRUE(is_tikz_line(line)) << line;
+  }
+}
+
+TEST(MachineTikz, HasThePlacesOfTheSvg) {
+  const MachineLayout layout = small_layout();
+  const std::string tikz = tikz_of(layout);
+  EXPECT_THAT(tikz, HasSubstr("{$\\tau$ = 42};"));
+  EXPECT_THAT(tikz, HasSubstr("{$\\xi$ = 2, $\\eta$ = 6.2};"));
+  EXPECT_EQ(occurrences(tikz, "circle["), 3U);
+  std::ostringstream centre;
+  centre.precision(2);
+  centre << std::fixed << "(" << layout.states[1].centre.x << "," << layout.states[1].centre.y
+         << ") circle";
+  EXPECT_THAT(tikz, HasSubstr(centre.str()));
+}
+
+TEST(MachineDot, LeadsFromStatesThroughConditionsToStates) {
+  const std::string dot = dot_of(small_layout(), "a \"b\" \\");
+  EXPECT_THAT(dot, HasSubstr("digraph \"a \\\"b\\\" \\\\\" {"));
+  EXPECT_THAT(dot, HasSubstr("s0 [shape=doublecircle"));
+  EXPECT_THAT(dot, HasSubstr("label=\"Exploration\\nτ = 42\""));
+  EXPECT_THAT(dot, HasSubstr("s1 [shape=circle"));
+  EXPECT_THAT(dot, HasSubstr("label=\"Neighbour count\\nξ = 2, η = 6.2\""));
+  for (const char* edge : {"s0 -> c0", "c0 -> s1", "s1 -> c1", "c1 -> s0", "s1 -> c2", "c2 -> s0"})
+    EXPECT_THAT(dot, HasSubstr(edge));
+  EXPECT_EQ(occurrences(dot, "{"), occurrences(dot, "}"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

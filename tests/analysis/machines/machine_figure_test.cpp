@@ -1,0 +1,86 @@
+#include "analysis/figures/machine_figure.h"
+
+#include <gmock/gmock.h>
+
+#include "analysis/figures/figure.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+struct MachineFigureTest : testing::Test {
+  TemporaryFolder folder;
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 2, .iterations = 3});
+  std::unique_ptr<StoreReader> reader;
+
+  MachineFigureTest() {
+    auto store = open_store(folder / "s.db", campaign);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
+    store.reset();
+    reader = open_reader(folder / "s.db");
+  }
+
+  Expected<Figure> make(const FigureOptions& options) {
+    return find_figure_kind("machine")->make(*reader, options);
+  }
+};
+
+TEST_F(MachineFigureTest, DrawsTheBestOfTheOneDesignThatIsNamed) {
+  const auto figure = make({.filter = {.design = DesignId{2}}});
+  ASSERT_TRUE(figure) << to_string(figure.error());
+  const auto best = *designs(*reader, {.design = DesignId{2}})->front().best;
+  EXPECT_THAT(figure->svg, HasSubstr("<title>d2 " + to_string(best) + ", "));
+  EXPECT_THAT(figure->tex, StartsWith("\\begin{tikzpicture}"));
+  EXPECT_THAT(figure->csv, StartsWith("state,behaviour,behaviour_parameters,transition,target,"
+                                      "condition,condition_parameters\r\n0,exploration,tau="));
+  const auto named = make({.candidate = best});
+  ASSERT_TRUE(named);
+  EXPECT_EQ(named->svg, figure->svg);
+}
+
+TEST_F(MachineFigureTest, AsksWhichOneOfSeveral) {
+  const auto figure = make({});
+  ASSERT_FALSE(figure);
+  EXPECT_EQ(figure.error().kind, ErrorKind::BadInput);
+  EXPECT_THAT(figure.error().message, HasSubstr("name one, for instance d1"));
+}
+
+TEST_F(MachineFigureTest, SaysWhatIsMissingOrOutOfPlace) {
+  EXPECT_EQ(make({.candidate = CandidateId{999'999'999}}).error().kind, ErrorKind::NotFound);
+  EXPECT_EQ(make({.filter = {.mission = "gone"}}).error().kind, ErrorKind::NotFound);
+  EXPECT_THAT(make({.by = "source"}).error().message, HasSubstr("no --by"));
+  EXPECT_THAT(make({.width_mm = 40}).error().message, HasSubstr("60 mm"));
+}
+
+TEST(MachineOf, NeedsTheFlavour) {
+  CandidateRecord record{.candidate = CandidateId{7}, .machine = "--nstates 1 --s0 1"};
+  EXPECT_THAT(machine_of(record).error().message, HasSubstr("`swarmsmith run`"));
+  record.flavour = "melon";
+  EXPECT_THAT(machine_of(record).error().message, HasSubstr("flavour melon"));
+  record.flavour = "watermelon";
+  EXPECT_TRUE(machine_of(record));
+  record.machine = "--x 3.5";
+  EXPECT_THAT(machine_of(record).error().message, HasSubstr("configuration of a program"));
+}
+
+TEST(MachineCsv, HasARowForEachStateAndTransition) {
+  const StoredMachine stored{
+      .machine = {{State{.behaviour = Attraction{2.5},
+                         .transitions = {{ColorDetection{0.45, ColorLabel::Red}, 1},
+                                         {InvertedNeighbourCount{1.5, 3}, 1}}},
+                   State{.behaviour = Stop{}, .transitions = {}}}},
+      .flavour = &watermelon()};
+  EXPECT_EQ(machine_csv(stored),
+            "state,behaviour,behaviour_parameters,transition,target,condition,condition_parameters"
+            "\r\n0,attraction,alpha=2.5,,,,\r\n"
+            "0,attraction,alpha=2.5,0,1,color_detection,beta=0.45 label=red\r\n"
+            "0,attraction,alpha=2.5,1,1,inverted_neighbour_count,xi=3 eta=1.5\r\n"
+            "1,stop,,,,,\r\n");
+}
+
+}  // namespace
+}  // namespace swarmsmith
