@@ -65,6 +65,20 @@ std::string path_through(std::span<const PagePoint> points) {
   return data;
 }
 
+/// A number of hundredths without the 0 before its point: 45 as ".45", -120 as "-1.2".
+std::string hundredths_text(long hundredths) {
+  std::string text = number(static_cast<double>(hundredths) / 100);
+  const std::size_t at = text.starts_with('-') ? 1 : 0;
+  if (text.substr(at).starts_with("0.")) text.erase(at, 1);
+  return text;
+}
+
+/// Two numbers, with a blank only where they would run together.
+std::string number_pair(long first, long second) {
+  const std::string tail = hundredths_text(second);
+  return hundredths_text(first) + (tail.starts_with('-') ? "" : " ") + tail;
+}
+
 bool begins_character(char letter) {
   return (static_cast<unsigned char>(letter) & 0xc0U) != 0x80U;
 }
@@ -163,6 +177,25 @@ void Svg::path(const std::string& data, const Paint& paint, std::string_view mor
 
 void Svg::polygon(std::span<const PagePoint> corners, const Paint& paint) {
   path(path_through(corners) + "Z", paint, "");
+}
+
+void Svg::bars(std::span<const PageBar> bars, double height, std::string_view color) {
+  if (bars.empty()) return;
+  // Whole hundredths, so that the relative moves do not add up their rounding.
+  const auto hundredths = [](double value) { return std::lround(100 * value); };
+  std::string data;
+  long x = 0;
+  long y = 0;
+  for (const PageBar& bar : bars) {
+    const long left = hundredths(bar.start.x);
+    const long right = hundredths(bar.start.x + bar.length);
+    const long level = hundredths(bar.start.y);
+    data += (data.empty() ? "M" : "m") + number_pair(left - x, level - y);
+    data += "h" + hundredths_text(right - left);
+    x = right;
+    y = level;
+  }
+  path(data, stroked(color, height), R"( shape-rendering="crispEdges")");
 }
 
 void Svg::outside(std::span<const PagePoint> corners, const Paint& paint) {

@@ -10,6 +10,7 @@ namespace swarmsmith {
 std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure},
+      FigureKind{"race", "Who raced in an iteration, with ranks and eliminations", race_figure},
   };
   return kKinds;
 }

@@ -120,7 +120,7 @@ SELECT t.design, t.iteration, t.step, t.pair, p.instance, p.seed, t.candidate, t
          AS rank
 FROM tried AS t
 LEFT JOIN pair AS p ON p.design = t.design AND p.purpose = 0 AND p.number = t.pair
-WINDOW peers AS (PARTITION BY t.design, t.step ORDER BY t.score DESC
+WINDOW peers AS (PARTITION BY t.design, t.iteration, t.step ORDER BY t.score DESC
                  RANGE BETWEEN CURRENT ROW AND CURRENT ROW);
 
 CREATE VIEW v_parameters AS
