@@ -179,23 +179,26 @@ void Svg::polygon(std::span<const PagePoint> corners, const Paint& paint) {
   path(path_through(corners) + "Z", paint, "");
 }
 
-void Svg::bars(std::span<const PageBar> bars, double height, std::string_view color) {
+void Svg::bars(std::span<const PageBar> bars, double thickness, std::string_view color,
+               BarDirection direction) {
   if (bars.empty()) return;
   // Whole hundredths, so that the relative moves do not add up their rounding.
   const auto hundredths = [](double value) { return std::lround(100 * value); };
+  const bool is_right = direction == BarDirection::Right;
   std::string data;
   long x = 0;
   long y = 0;
   for (const PageBar& bar : bars) {
     const long left = hundredths(bar.start.x);
-    const long right = hundredths(bar.start.x + bar.length);
-    const long level = hundredths(bar.start.y);
-    data += (data.empty() ? "M" : "m") + number_pair(left - x, level - y);
-    data += "h" + hundredths_text(right - left);
-    x = right;
-    y = level;
+    const long top = hundredths(bar.start.y);
+    const double end = (is_right ? bar.start.x : bar.start.y) + bar.length;
+    const long length = hundredths(end) - (is_right ? left : top);
+    data += (data.empty() ? "M" : "m") + number_pair(left - x, top - y);
+    data += (is_right ? "h" : "v") + hundredths_text(length);
+    x = is_right ? left + length : left;
+    y = is_right ? top : top + length;
   }
-  path(data, stroked(color, height), R"( shape-rendering="crispEdges")");
+  path(data, stroked(color, thickness), R"( shape-rendering="crispEdges")");
 }
 
 void Svg::outside(std::span<const PagePoint> corners, const Paint& paint) {

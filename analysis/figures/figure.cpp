@@ -11,6 +11,7 @@ std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure},
       FigureKind{"race", "Who raced in an iteration, with ranks and eliminations", race_figure},
+      FigureKind{"sampling", "Values sampled of each parameter, by iteration", sampling_figure},
   };
   return kKinds;
 }
