@@ -12,6 +12,7 @@ std::span<const FigureKind> figure_kinds() {
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure},
       FigureKind{"race", "Who raced in an iteration, with ranks and eliminations", race_figure},
       FigureKind{"sampling", "Values sampled of each parameter, by iteration", sampling_figure},
+      FigureKind{"parallel", "Parameters of the elites among all candidates", parallel_figure},
   };
   return kKinds;
 }

@@ -10,5 +10,6 @@ namespace swarmsmith {
 Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> sampling_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& options);
 
 }  // namespace swarmsmith
