@@ -129,7 +129,7 @@ void draw_vertical_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::s
              ink(TextStyle::Anchor::End));
   }
   draw_line(svg, {area.left, area.top}, {area.left, area.bottom()}, kInk, 0.2);
-  svg.text({kMargin, area.top - 1.6}, label, ink(TextStyle::Anchor::Start));
+  if (!label.empty()) svg.text({kMargin, area.top - 1.6}, label, ink(TextStyle::Anchor::Start));
 }
 
 void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis,

@@ -129,49 +129,76 @@ std::string description_of(const ConvergencePlot& plot) {
   return text;
 }
 
+/// Where the panels are, mm.
+struct Layout {
+  ValueRange experiments;
+  std::size_t across = 1;
+  double room = 0;  ///< of the scores' texts, left of an area
+  double between = kBetween;
+  double pitch = 0;  ///< from panel to panel
+  double panel_height = 0;
+  double head = 0;
+  double area_top = 0;  ///< within a panel
+  double bottom = 0;    ///< of the last panel
+
+  PlotArea area(std::size_t panel) const {
+    const double width = pitch - between - room;
+    return {.left = kMargin + pitch * static_cast<double>(panel % across) + room,
+            .top = head + panel_height * static_cast<double>(panel / across) + area_top,
+            .width = width,
+            .height = kRatio * width};
+  }
+};
+
+Layout layout_of(const ConvergencePlot& plot) {
+  Layout at;
+  at.experiments = rounded({0, last_experiment(plot)}, kMostTicks);
+  for (const Panel& panel : plot.panels)
+    at.room = std::max(at.room, tick_room(scores_of(panel, has_band(plot)), kMostTicks));
+  at.across = plot.width_mm >= kWide && plot.panels.size() > 1 ? 2 : 1;
+  // The text of the last tick stands half beyond its area.
+  const double half = text_width(tick_text(at.experiments.high, 1), kTextSize) / 2;
+  const double beyond = std::max(2.0, half - kMargin + 1);
+  at.between = std::max(kBetween, beyond + 1);
+  at.pitch = (plot.width_mm - 2 * kMargin - beyond + at.between) / static_cast<double>(at.across);
+  at.area_top = (plot.panels.size() > 1 ? kLineHeight : 0) + kTextSize + kLabelAbove;
+  at.panel_height =
+      at.area_top + kRatio * (at.pitch - at.between - at.room) + kHorizontalAxisRoom + 3;
+  at.head = kMargin + kTitleSize + kLineHeight * static_cast<double>(plot.details.size()) + 2;
+  const std::size_t down = (plot.panels.size() + at.across - 1) / at.across;
+  at.bottom = at.head + at.panel_height * static_cast<double>(down);
+  return at;
+}
+
+void draw_panel(Svg& svg, const ConvergencePlot& plot, std::size_t number, const Layout& at) {
+  const Panel& panel = plot.panels[number];
+  const PlotArea area = at.area(number);
+  const double left = area.left - at.room;
+  TextStyle words{.size = kTextSize, .fill = std::string(kInk)};
+  svg.text({left, area.top - kLabelAbove}, kScoreLabel, words);
+  if (plot.panels.size() > 1) {
+    words.bold = true;
+    svg.text({left, area.top - at.area_top + kTextSize},
+             fitted_text(panel.name, kBolder * kTextSize, at.pitch - at.between), words);
+  }
+  const Axis x(at.experiments, area.left, area.right());
+  const Axis y(scores_of(panel, has_band(plot)), area.bottom(), area.top);
+  draw_vertical_axis(svg, area, y, "");
+  if (has_band(plot)) draw_band(svg, panel.lines.front(), x, y);
+  draw_horizontal_axis(svg, area, x, "experiments used");
+  draw_lines(svg, panel, x, y);
+}
+
 }  // namespace
 
 std::string draw(const ConvergencePlot& plot) {
-  const bool with_band = has_band(plot);
-  const ValueRange experiments = rounded({0, last_experiment(plot)}, kMostTicks);
+  const Layout at = layout_of(plot);
   const Legend legend = legend_of(plot);
-  double room = 0;
-  for (const Panel& panel : plot.panels)
-    room = std::max(room, tick_room(scores_of(panel, with_band), kMostTicks));
-  const std::size_t across = plot.width_mm >= kWide && plot.panels.size() > 1 ? 2 : 1;
-  const std::size_t down = (plot.panels.size() + across - 1) / across;
-  const double pitch = (plot.width_mm - 2 * kMargin - 2 + kBetween) / static_cast<double>(across);
-  const double area_width = pitch - between - room;
-  const double panel_top = (plot.panels.size() > 1 ? kLineHeight : 0) + kTextSize + kLabelAbove;
-  const double panel_height = panel_top + kRatio * area_width + kHorizontalAxisRoom + 3;
-  const double head =
-      kMargin + kTitleSize + kLineHeight * static_cast<double>(plot.details.size()) + 2;
-  const double bottom = head + panel_height * static_cast<double>(down);
-  Svg svg(plot.width_mm, bottom + legend.height() + kMargin, plot.title, description_of(plot));
+  Svg svg(plot.width_mm, at.bottom + legend.height() + kMargin, plot.title, description_of(plot));
   draw_heading(svg, plot.title, plot.details);
-  for (std::size_t i = 0; i < plot.panels.size(); ++i) {
-    const Panel& panel = plot.panels[i];
-    const double left = kMargin + pitch * static_cast<double>(i % across);
-    const double top = head + panel_height * static_cast<double>(i / across);
-    const PlotArea area{.left = left + room,
-                        .top = top + panel_top,
-                        .width = area_width,
-                        .height = kRatio * area_width};
-    const TextStyle words{.size = kTextSize, .fill = std::string(kInk)};
-    if (plot.panels.size() > 1) {
-      svg.text({left, top + kTextSize},
-               fitted_text(panel.name, kBolder * kTextSize, pitch - between),
-               {.size = kTextSize, .bold = true, .fill = std::string(kInk)});
-    }
-    const Axis x(experiments, area.left, area.right());
-    const Axis y(scores_of(panel, with_band), area.bottom(), area.top);
-    draw_vertical_axis(svg, area, y, "");
-    svg.text({left, area.top - kLabelAbove}, kScoreLabel, words);
-    if (with_band) draw_band(svg, panel.lines.front(), x, y);
-    draw_horizontal_axis(svg, area, x, "experiments used");
-    draw_lines(svg, panel, x, y);
-  }
-  legend.draw(svg, bottom);
+  for (std::size_t panel = 0; panel < plot.panels.size(); ++panel)
+    draw_panel(svg, plot, panel, at);
+  legend.draw(svg, at.bottom);
   return svg.finish();
 }
 
