@@ -111,14 +111,15 @@ class Layout {
     std::size_t lines = 1;
     while (lines < kMostLabelLines && widest > static_cast<double>(lines) * bands.width())
       ++lines;
-    const double room = static_cast<double>(lines) * bands.width() - 1;
+    // Places of labels of one line touch nowhere, also where the ends of the axis cut them.
+    const double half = static_cast<double>(lines) * bands.width() / 2 - 0.5;
     for (std::size_t i = 0; i < parameter.categories.size(); ++i) {
-      const std::string text = fitted_text(parameter.categories[i], kSmallText, room);
-      // What would stand out of the ends of the axis is moved inside.
-      const double half = text_width(text, kSmallText) / 2;
-      const double first = left_ - 1 + half;
-      const double x = std::clamp(bands.centre(i), first, std::max(first, right_ + 3 - half));
-      labels.push_back({x, text, i % lines});
+      const double from = std::max(bands.centre(i) - half, left_ - 1.5);
+      const double to = std::min(bands.centre(i) + half, right_ + 3);
+      const std::string text = fitted_text(parameter.categories[i], kSmallText, to - from);
+      const double text_half = std::min(text_width(text, kSmallText), to - from) / 2;
+      labels.push_back(
+          {std::clamp(bands.centre(i), from + text_half, to - text_half), text, i % lines});
     }
     return labels;
   }
