@@ -1,9 +1,6 @@
 #include "analysis/figures/sampling_plot.h"
 
 #include <algorithm>
-#include <array>
-#include <set>
-#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -12,6 +9,7 @@
 #include "analysis/drawing/figure_style.h"
 #include "analysis/drawing/legend.h"
 #include "analysis/figures/internal/category_colors.h"
+#include "analysis/figures/internal/sampling_panel.h"
 
 namespace swarmsmith {
 namespace {
@@ -20,31 +18,9 @@ constexpr double kBetween = 3;  ///< panels
 constexpr double kRatio = 0.62;
 constexpr double kTallest = 40;
 constexpr std::size_t kCaptionLines = 6;
-constexpr std::string_view kFrame = "#999999";
-/// Densities from which a shade begins, 1 being an even spread over the range.
-constexpr std::array<double, 4> kDensities = {0, 1, 2, 4};
-constexpr std::string_view kDensityColor = "#2c5f8a";
-
-std::string density_color(std::size_t shade) {
-  constexpr std::array<double, kDensities.size()> kPaleness = {0.85, 0.6, 0.3, 0};
-  return lightened(std::string(kDensityColor), kPaleness[shade]);
-}
 
 TextStyle ink(TextStyle::Anchor anchor) {
   return {.size = kTextSize, .anchor = anchor, .fill = std::string(kInk)};
-}
-
-/// A number of at most five letters or so.
-std::string end_text(double value) {
-  return fmt::format("{:.4g}", value);
-}
-
-/// The ends of the values themselves: whole numbers have half of their part beyond.
-double least(const SamplingPlot::Panel& panel) {
-  return panel.is_whole ? panel.low + 0.5 : panel.low;
-}
-double largest(const SamplingPlot::Panel& panel) {
-  return panel.is_whole ? panel.high - 0.5 : panel.high;
 }
 
 CategoryColors colors_of(const SamplingPlot& plot) {
@@ -53,107 +29,6 @@ CategoryColors colors_of(const SamplingPlot& plot) {
     lists.push_back(panel.categories);
   return CategoryColors(lists);
 }
-
-/// Draws one panel within its area.
-class PanelDrawing {
- public:
-  PanelDrawing(Svg& svg, const SamplingPlot::Panel& panel, const PlotArea& area)
-      : svg_(svg),
-        panel_(panel),
-        area_(area),
-        bands_(panel.columns.size(), area.left, area.right()) {
-    thickness_ = bands_.width() < 1 ? bands_.width() : 0.9 * bands_.width();
-  }
-
-  void shares(const CategoryColors& colors) {
-    for (std::size_t kind = 0; kind < panel_.categories.size(); ++kind) {
-      std::vector<PageBar> bars;
-      for (std::size_t column = 0; column < panel_.columns.size(); ++column) {
-        const auto& counts = panel_.columns[column].counts;
-        std::int64_t below = 0;
-        for (std::size_t i = 0; i < kind; ++i)
-          below += counts[i];
-        const auto all =
-            static_cast<double>(std::max<std::int64_t>(1, panel_.columns[column].candidates));
-        if (counts[kind] == 0) continue;
-        const double height = area_.height * static_cast<double>(counts[kind]) / all;
-        const double bottom = area_.bottom() - area_.height * static_cast<double>(below) / all;
-        bars.push_back({{bands_.centre(column), bottom - height}, height});
-      }
-      svg_.bars(bars, thickness_, colors.color(panel_.categories[kind]), BarDirection::Down);
-    }
-    ends("0", "1");
-  }
-
-  void densities() {
-    for (std::size_t shade = 0; shade < kDensities.size(); ++shade) {
-      std::vector<PageBar> bars;
-      double height = 0;
-      for (std::size_t column = 0; column < panel_.columns.size(); ++column) {
-        const auto& counts = panel_.columns[column].counts;
-        height = area_.height / static_cast<double>(counts.size());
-        std::int64_t active = 0;
-        for (const std::int64_t count : counts)
-          active += count;
-        for (std::size_t part = 0; part < counts.size(); ++part) {
-          const double even = static_cast<double>(active) / static_cast<double>(counts.size());
-          if (counts[part] == 0 || shade_of(static_cast<double>(counts[part]) / even) != shade)
-            continue;
-          const double y = area_.bottom() - height * (static_cast<double>(part) + 1);
-          bars.push_back({{bands_.centre(column), y}, height});
-        }
-      }
-      svg_.bars(bars, thickness_, density_color(shade), BarDirection::Down);
-    }
-    elites();
-    ends(end_text(least(panel_)), end_text(largest(panel_)));
-  }
-
-  /// `slot` is where the panel begins, with its numbers at the left.
-  void frame(double slot) {
-    const std::array<PagePoint, 4> corners = {{{area_.left, area_.top},
-                                               {area_.right(), area_.top},
-                                               {area_.right(), area_.bottom()},
-                                               {area_.left, area_.bottom()}}};
-    svg_.polygon(corners, stroked(kFrame, 0.12));
-    svg_.text({slot, area_.top - 1},
-              fitted_text(panel_.name, kTextSize, area_.right() + kBetween - 1 - slot),
-              ink(TextStyle::Anchor::Start));
-  }
-
- private:
-  static std::size_t shade_of(double density) {
-    std::size_t shade = 0;
-    while (shade + 1 < kDensities.size() && density > kDensities[shade + 1])
-      ++shade;
-    return shade;
-  }
-
-  void elites() {
-    const Axis axis({panel_.low, panel_.high > panel_.low ? panel_.high : panel_.low + 1},
-                    area_.bottom(), area_.top);
-    std::vector<PageBar> marks;
-    for (std::size_t column = 0; column < panel_.columns.size(); ++column) {
-      const auto& values = panel_.columns[column].elites;
-      for (const double value : std::set<double>(values.begin(), values.end())) {
-        const double left = bands_.centre(column) - thickness_ / 2;
-        marks.push_back({{left, axis.at(value)}, thickness_});
-      }
-    }
-    svg_.bars(marks, 0.3, "#000000");
-  }
-
-  void ends(const std::string& low, const std::string& high) {
-    svg_.text({area_.left - 0.8, area_.bottom()}, low, ink(TextStyle::Anchor::End));
-    svg_.text({area_.left - 0.8, area_.top + 0.72 * kTextSize}, high, ink(TextStyle::Anchor::End));
-  }
-
-  Svg& svg_;
-  const SamplingPlot::Panel& panel_;
-  PlotArea area_;
-  Bands bands_;
-  double thickness_ = 0;
-};
 
 /// First and last iteration below a panel.
 void draw_iterations(Svg& svg, const SamplingPlot& plot, const PlotArea& area) {
@@ -206,8 +81,8 @@ double ends_room(const SamplingPlot& plot) {
   double widest = text_width("0", kTextSize);
   for (const auto& panel : plot.panels) {
     if (!panel.categories.empty()) continue;
-    widest = std::max({widest, text_width(end_text(least(panel)), kTextSize),
-                       text_width(end_text(largest(panel)), kTextSize)});
+    for (const std::string& text : end_texts(panel))
+      widest = std::max(widest, text_width(text, kTextSize));
   }
   return widest + 1;
 }
@@ -252,13 +127,13 @@ std::string draw(const SamplingPlot& plot) {
                         .top = head + kLineHeight + line_height * static_cast<double>(i / across),
                         .width = area_width,
                         .height = area_height};
-    PanelDrawing drawing(svg, panel, area);
+    SamplingPanel drawing(svg, panel, area);
     if (panel.categories.empty()) {
       drawing.densities();
     } else {
       drawing.shares(colors);
     }
-    drawing.frame(area.left - room);
+    drawing.frame({area.left - room, area.top - 1}, pitch - 1);
     draw_iterations(svg, plot, area);
   }
   svg.text({kMargin, head + lines * line_height + kTextSize}, "from left to right: iterations",
