@@ -15,6 +15,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kMostAxes = 10;
+constexpr std::size_t kMostNamed = 14;  ///< by the user; more would make too large a file
 /// Of the others: they show what was tried, and some 250 letters each keep the file small.
 constexpr std::size_t kMostOthers = 250;
 
@@ -122,7 +123,7 @@ Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& option
   if (!table) return Unexpected(table.error());
   const auto kept = elites(store, {.design = design->design});
   if (!kept) return Unexpected(kept.error());
-  auto chosen = named_columns(*table, options.parameter);
+  auto chosen = named_columns(*table, options.parameter, kMostNamed);
   if (!chosen) return Unexpected(chosen.error());
   if (options.parameter.empty()) chosen = most_active(*table);
   const Drawn drawn = drawn_of(*table, *kept);

@@ -65,6 +65,10 @@ Expected<Race> read_race(StoreReader& store, const FigureOptions& options) {
     if (elite.iteration == *number - 1) race.elites_before.insert(elite.candidate);
     if (elite.iteration == *number) race.elites_after.emplace(elite.candidate, elite.rank);
   }
+  // The campaign may have stored a step since the steps were read.
+  std::erase_if(race.cells, [&](const RaceCell& cell) {
+    return std::ranges::find(race.steps, cell.step, &StepRecord::step) == race.steps.end();
+  });
   race.has_ended = !race.elites_after.empty();
   const auto iteration = std::ranges::find(*all, *number, &IterationRecord::iteration);
   race.iteration =

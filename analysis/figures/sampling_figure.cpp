@@ -126,7 +126,7 @@ Expected<Figure> sampling_figure(StoreReader& store, const FigureOptions& option
   const auto kept = elites(store, {.design = design->design});
   if (!kept) return Unexpected(kept.error());
   const bool is_named = !options.parameter.empty();
-  auto chosen = named_columns(*table, options.parameter);
+  auto chosen = named_columns(*table, options.parameter, kMostPanels);
   if (!chosen) return Unexpected(chosen.error());
   if (!is_named) chosen = most_moved(*table);
 

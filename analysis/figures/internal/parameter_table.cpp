@@ -143,7 +143,7 @@ double movement(const ParameterColumn& column) {
 }
 
 Expected<std::vector<std::size_t>> named_columns(const ParameterTable& table,
-                                                 std::string_view names) {
+                                                 std::string_view names, std::size_t most) {
   std::vector<std::size_t> found;
   while (!names.empty()) {
     const std::size_t comma = std::min(names.find(','), names.size());
@@ -162,6 +162,10 @@ Expected<std::vector<std::size_t>> named_columns(const ParameterTable& table,
                                    name.empty() ? "an empty name" : name, known));
     }
     found.push_back(static_cast<std::size_t>(column - table.columns.begin()));
+  }
+  if (found.size() > most) {
+    return bad_input(fmt::format("--parameter names {}, and this figure shows at most {} at a time",
+                                 found.size(), most));
   }
   return found;
 }

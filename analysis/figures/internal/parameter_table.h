@@ -44,9 +44,9 @@ Expected<ParameterTable> read_parameter_table(StoreReader& store, DesignId desig
 /// their range, and not being active counts as a value.
 double movement(const ParameterColumn& column);
 
-/// The columns that a list such as "s0,tau0" names, in its order. Errors: BadInput with what there
-/// is.
+/// The columns that a list such as "s0,tau0" names, in its order; none of an empty list. Errors:
+/// BadInput for a name that is not there (with those that are), or for more than `most`.
 Expected<std::vector<std::size_t>> named_columns(const ParameterTable& table,
-                                                 std::string_view names);
+                                                 std::string_view names, std::size_t most);
 
 }  // namespace swarmsmith

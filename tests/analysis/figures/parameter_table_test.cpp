@@ -30,7 +30,7 @@ ParameterTable small_table() {
 }
 
 const ParameterColumn& column(const ParameterTable& table, std::string_view name) {
-  return table.columns.at(named_columns(table, name).value().front());
+  return table.columns.at(named_columns(table, name, 9).value().front());
 }
 
 TEST(ParameterTable, FewWholeNumbersAreCategoriesInTheirOrder) {
@@ -61,12 +61,14 @@ TEST(ParameterTable, MovementIsTheTotalVariationOfTheThirds) {
 
 TEST(ParameterTable, NamesThatAreNotThereAreToldWithWhatIs) {
   const ParameterTable table = small_table();
-  EXPECT_THAT(named_columns(table, "tau, s0").value(), ElementsAre(3U, 0U));
-  const auto wrong = named_columns(table, "s0,speed");
+  EXPECT_THAT(named_columns(table, "tau, s0", 9).value(), ElementsAre(3U, 0U));
+  const auto wrong = named_columns(table, "s0,speed", 9);
   ASSERT_FALSE(wrong);
   EXPECT_EQ(wrong.error().kind, ErrorKind::BadInput);
   EXPECT_THAT(wrong.error().message, HasSubstr("speed"));
   EXPECT_THAT(wrong.error().message, HasSubstr("same, size, tau"));
+  EXPECT_THAT(named_columns(table, "s0,tau,size", 2).error().message, HasSubstr("at most 2"));
+  EXPECT_TRUE(named_columns(table, "", 2)->empty());
 }
 
 TEST(CategoryColors, ListsThatShareAValueShareAPalette) {

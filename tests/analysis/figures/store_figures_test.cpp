@@ -86,6 +86,32 @@ TEST_F(StoreFigures, RaceHasACellAScoreAndALineADroppedCandidate) {
   EXPECT_THAT(figure.svg, HasSubstr("iteration 2 of design d1"));
 }
 
+TEST_F(StoreFigures, ARaceThatGoesOnIsDrawnAsFarAsItIs) {
+  const SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 2});
+  auto store = open_store(folder / "part.db", campaign);
+  // An iteration is a batch for its beginning, one a step, and one for its elites.
+  for (std::size_t batch = 0; batch < 1 + 7 + 1 + 1 + 6; ++batch)
+    store->append(campaign.batches[batch]);
+  store.reset();
+  reader = open_reader(folder / "part.db");
+  const Figure figure = made("race", {});
+  EXPECT_THAT(figure.svg, HasSubstr("alive so far, after step 13; the race goes on"));
+  const DrawnPage page = drawn_page(figure.svg);
+  EXPECT_EQ(page.bars_of("#222222").size(), 3U);  // elites of before alone
+  EXPECT_THAT(page.collisions(), IsEmpty());
+  EXPECT_GT(rows_of(made("parallel", {}).csv), 5U);
+  // Before the first step there is nothing to draw, and that is said.
+  auto begun = open_store(folder / "begun.db", campaign);
+  begun->append(campaign.batches[0]);
+  begun.reset();
+  reader = open_reader(folder / "begun.db");
+  for (const char* kind : {"race", "parallel", "convergence"}) {
+    const auto none = make(kind, {});
+    ASSERT_FALSE(none) << kind;
+    EXPECT_EQ(none.error().kind, ErrorKind::NotFound) << kind;
+  }
+}
+
 TEST_F(StoreFigures, RaceRowsAreInTheOrderOfHowFarTheyCame) {
   const DrawnPage page =
       drawn_page(made("race", {.filter = {.design = {{1}}}, .iteration = 3}).svg);
