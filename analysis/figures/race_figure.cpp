@@ -2,6 +2,7 @@
 #include <limits>
 #include <map>
 #include <set>
+#include <string_view>
 #include <utility>
 
 #include <fmt/format.h>
@@ -191,19 +192,18 @@ Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options) {
   const auto race = read_race(store, options);
   if (!race) return Unexpected(race.error());
   const std::vector<Ranked> rows = rows_of(*race);
-  const std::int64_t left = race->steps.back().alive_after;
   RacePlot plot{.title = title_of(race->design),
                 .description = description_of(*race, rows),
                 .width_mm = options.width_mm};
+  std::string_view remark;
+  if (race->iteration.postselection) remark = " (postselection)";
+  if (!race->has_ended) remark = " (goes on)";
   plot.details.push_back(fmt::format("Race of {}, iteration {}{}", to_string(race->design.design),
-                                     race->iteration.iteration,
-                                     race->iteration.postselection ? " (postselection)" : ""));
+                                     race->iteration.iteration, remark));
   plot.details.push_back(fmt::format("Budget: {} of the design's {} experiments",
                                      race->iteration.budget, race->design.budget));
-  plot.details.push_back(fmt::format("{} candidates, {} {} step {}{}", rows.size(), left,
-                                     race->has_ended ? "alive after" : "alive so far, after",
-                                     race->steps.back().step,
-                                     race->has_ended ? "" : "; the race goes on"));
+  plot.details.push_back(fmt::format("{} candidates, {} alive after step {}", rows.size(),
+                                     race->steps.back().alive_after, race->steps.back().step));
   for (const StepRecord& step : race->steps)
     plot.steps.push_back({step.step, step.marker, step.alive_before});
   for (const Ranked& row : rows)
