@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -94,23 +95,44 @@ void draw_alive(Svg& svg, const RacePlot& plot, const Layout& at) {
   }
 }
 
+/// A marker and the steps [first, end) that have it.
+struct MarkerStretch {
+  std::string marker;
+  std::size_t first = 0;
+  std::size_t end = 0;
+
+  bool dropped_some() const { return marker == "-" || marker == "c"; }
+};
+
+/// Each step, or stretches of equal markers.
+std::vector<MarkerStretch> marker_stretches(const RacePlot& plot, bool each) {
+  std::vector<MarkerStretch> stretches;
+  for (std::size_t step = 0; step < plot.steps.size(); ++step) {
+    const std::string& marker = plot.steps[step].marker;
+    if (each || stretches.empty() || stretches.back().marker != marker)
+      stretches.push_back({marker, step, step});
+    stretches.back().end = step + 1;
+  }
+  return stretches;
+}
+
 /// One letter a step; where steps are narrower than a letter can be read, one for each stretch of
-/// equal ones that has the room.
+/// equal ones, as far as there is room: those that dropped somebody come first.
 void draw_markers(Svg& svg, const RacePlot& plot, const Layout& at) {
   constexpr double kLeast = 1.6;  ///< size of letters that are still read
   const double size = std::clamp(1.6 * at.column, kLeast, kTextSize);
-  const bool each = at.column >= 0.6 * kLeast;
-  for (std::size_t first = 0; first < plot.steps.size();) {
-    std::size_t end = first + 1;
-    while (!each && end < plot.steps.size() && plot.steps[end].marker == plot.steps[first].marker)
-      ++end;
-    const double left = at.column_left(first);
-    const double right = at.column_left(end);
-    if (each || right - left >= 0.6 * size) {
-      svg.text({(left + right) / 2, at.marker_line}, plot.steps[first].marker,
-               ink(TextStyle::Anchor::Middle, size));
-    }
-    first = end;
+  const double half = text_width("x", size) / 2;
+  const bool each = at.column >= 2 * half;
+  std::vector<MarkerStretch> stretches = marker_stretches(plot, each);
+  std::ranges::stable_partition(stretches, &MarkerStretch::dropped_some);
+  std::vector<double> taken;
+  for (const MarkerStretch& stretch : stretches) {
+    const double middle = (at.column_left(stretch.first) + at.column_left(stretch.end)) / 2;
+    const bool is_clear = std::ranges::none_of(
+        taken, [&](double other) { return std::abs(other - middle) < 2 * half; });
+    if (!each && !is_clear) continue;
+    svg.text({middle, at.marker_line}, stretch.marker, ink(TextStyle::Anchor::Middle, size));
+    taken.push_back(middle);
   }
 }
 

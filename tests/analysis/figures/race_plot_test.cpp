@@ -144,6 +144,14 @@ TEST(RacePlot, SaysWhatTheMarkersMeanThatOccur) {
   EXPECT_TRUE(page.has_text("10"));
 }
 
+TEST(RacePlot, NarrowStepsKeepTheMarkersOfThoseThatDropped) {
+  const RacePlot plot = random_race(400, 200, 174);
+  const DrawnPage page = drawn_page(draw(plot));
+  const auto dropped = std::ranges::count(plot.steps, "-", &RacePlot::Step::marker);
+  EXPECT_EQ(std::ranges::count(page.texts, "-", &DrawnPage::Text::text), dropped);
+  EXPECT_EQ(std::ranges::count(page.texts, "x", &DrawnPage::Text::text), 1);
+}
+
 TEST(RacePlot, RejectedAndMissingCellsHaveColoursOfTheirOwn) {
   RacePlot plot = random_race(6, 4, 84, false);
   plot.rows[2].cells[1].state = State::Rejected;
