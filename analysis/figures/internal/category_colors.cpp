@@ -1,9 +1,11 @@
 #include "analysis/figures/internal/category_colors.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstddef>
 #include <set>
+#include <string_view>
 
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/svg.h"
@@ -21,6 +23,22 @@ bool before(const std::string& a, const std::string& b) {
   double y = 0;
   if (is_number(a, x) && is_number(b, y)) return x < y;
   return a < b;
+}
+
+/// Okabe and Ito's colours, dark and pale by turns: parts that are stacked in this order have a
+/// border in a print in black and white, too.
+std::string stacked_color(std::size_t number) {
+  constexpr std::array<std::pair<std::string_view, double>, 7> kColors = {{{"#0072b2", 0},
+                                                                           {"#e69f00", 0.35},
+                                                                           {"#009e73", 0},
+                                                                           {"#56b4e9", 0.5},
+                                                                           {"#d55e00", 0},
+                                                                           {"#cc79a7", 0.45},
+                                                                           {"#000000", 0}}};
+  const auto& [color, paleness] = kColors[number % kColors.size()];
+  std::string result = lightened(std::string(color), paleness);
+  // Beyond them they begin again, paler.
+  return number < kColors.size() ? result : lightened(result, 0.55);
 }
 
 /// Sets of which no two share a value.
@@ -52,9 +70,7 @@ CategoryColors::CategoryColors(const std::vector<std::vector<std::string>>& list
     Family& family = families_.emplace_back();
     for (std::size_t i = 0; i < values.size(); ++i) {
       std::string color =
-          are_numbers ? sequential_color(static_cast<double>(i) / last) : distinct_color(i);
-      // Beyond the distinct colours they begin again, paler.
-      if (!are_numbers && i >= kDistinctColors) color = lightened(color, 0.55);
+          are_numbers ? sequential_color(static_cast<double>(i) / last) : stacked_color(i);
       family.emplace_back(values[i], std::move(color));
     }
   }

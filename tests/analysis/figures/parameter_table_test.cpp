@@ -71,6 +71,22 @@ TEST(ParameterTable, NamesThatAreNotThereAreToldWithWhatIs) {
   EXPECT_TRUE(named_columns(table, "", 2)->empty());
 }
 
+TEST(CategoryColors, NeighboursDifferInLightness) {
+  std::vector<std::string> values;
+  for (char letter = 'a'; letter < 'h'; ++letter)
+    values.emplace_back(1, letter);
+  const CategoryColors colors({values});
+  const auto grey = [&](std::size_t i) {
+    const std::string color = colors.color(values[i]);
+    const auto channel = [&](std::size_t at) {
+      return std::stoi(color.substr(at, 2), nullptr, 16);
+    };
+    return 0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5);
+  };
+  for (std::size_t i = 1; i < values.size(); ++i)
+    EXPECT_GT(std::abs(grey(i) - grey(i - 1)), 50) << i;
+}
+
 TEST(CategoryColors, ListsThatShareAValueShareAPalette) {
   const CategoryColors colors({{"b", "c"}, {"1", "10"}, {"a", "b"}, {}, {"2", "10"}});
   ASSERT_EQ(colors.families().size(), 2U);

@@ -6,6 +6,7 @@
 
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/svg.h"
+#include "analysis/figures/internal/category_colors.h"
 #include "tests/support/drawn_page.h"
 
 namespace swarmsmith {
@@ -37,9 +38,10 @@ SamplingPlot small_plot(std::size_t iterations) {
 
 TEST(SamplingPlot, StacksTheSharesOfTheCandidates) {
   const DrawnPage page = drawn_page(draw(small_plot(3)));
-  const auto attraction = page.bars_of(distinct_color(0));
-  const auto repulsion = page.bars_of(distinct_color(1));
-  const auto stop = page.bars_of(distinct_color(2));
+  const CategoryColors colors({{"attraction", "repulsion", "stop"}});
+  const auto attraction = page.bars_of(colors.color("attraction"));
+  const auto repulsion = page.bars_of(colors.color("repulsion"));
+  const auto stop = page.bars_of(colors.color("stop"));
   ASSERT_EQ(attraction.size(), 3U);
   ASSERT_EQ(repulsion.size(), 3U);
   ASSERT_EQ(stop.size(), 3U);
