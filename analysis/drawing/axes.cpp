@@ -129,7 +129,8 @@ void draw_vertical_axis(Svg& svg, const PlotArea& area, const Axis& axis, std::s
              ink(TextStyle::Anchor::End));
   }
   draw_line(svg, {area.left, area.top}, {area.left, area.bottom()}, kInk, 0.2);
-  if (!label.empty()) svg.text({kMargin, area.top - 1.6}, label, ink(TextStyle::Anchor::Start));
+  if (label.empty()) return;
+  svg.text({kMargin, area.top - 1.9}, label, ink(TextStyle::Anchor::Start));
 }
 
 void draw_horizontal_axis(Svg& svg, const PlotArea& area, const Axis& axis,

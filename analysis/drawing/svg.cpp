@@ -23,6 +23,20 @@ std::string number(double value) {
   return text == "-0" ? "0" : text;
 }
 
+/// A number of hundredths without the 0 before its point: 45 as ".45", -120 as "-1.2".
+std::string hundredths_text(long hundredths) {
+  std::string text = number(static_cast<double>(hundredths) / 100);
+  const std::size_t at = text.starts_with('-') ? 1 : 0;
+  if (text.substr(at).starts_with("0.")) text.erase(at, 1);
+  return text;
+}
+
+/// Two numbers, with a blank only where they would run together.
+std::string number_pair(long first, long second) {
+  const std::string tail = hundredths_text(second);
+  return hundredths_text(first) + (tail.starts_with('-') ? "" : " ") + tail;
+}
+
 std::string attribute(std::string_view name, std::string_view value) {
   return " " + std::string(name) + "=\"" + std::string(value) + "\"";
 }
@@ -63,20 +77,6 @@ std::string path_through(std::span<const PagePoint> points) {
     data += number(points[i].x) + " " + number(points[i].y);
   }
   return data;
-}
-
-/// A number of hundredths without the 0 before its point: 45 as ".45", -120 as "-1.2".
-std::string hundredths_text(long hundredths) {
-  std::string text = number(static_cast<double>(hundredths) / 100);
-  const std::size_t at = text.starts_with('-') ? 1 : 0;
-  if (text.substr(at).starts_with("0.")) text.erase(at, 1);
-  return text;
-}
-
-/// Two numbers, with a blank only where they would run together.
-std::string number_pair(long first, long second) {
-  const std::string tail = hundredths_text(second);
-  return hundredths_text(first) + (tail.starts_with('-') ? "" : " ") + tail;
 }
 
 bool begins_character(char letter) {

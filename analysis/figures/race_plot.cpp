@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -119,20 +118,23 @@ std::vector<MarkerStretch> marker_stretches(const RacePlot& plot, bool each) {
 /// One letter a step; where steps are narrower than a letter can be read, one for each stretch of
 /// equal ones, as far as there is room: those that dropped somebody come first.
 void draw_markers(Svg& svg, const RacePlot& plot, const Layout& at) {
-  constexpr double kLeast = 1.6;  ///< size of letters that are still read
-  const double size = std::clamp(1.6 * at.column, kLeast, kTextSize);
-  const double half = text_width("x", size) / 2;
-  const bool each = at.column >= 2 * half;
+  constexpr double kLeast = 1.6;      ///< size of letters that are still read
+  constexpr double kOfStretch = 2.2;  ///< size where not each step has one
+  const double fitting = at.column / (1.1 * text_width("=", 1));
+  const bool each = fitting >= kLeast;
+  const double size = each ? std::min(fitting, kTextSize) : kOfStretch;
   std::vector<MarkerStretch> stretches = marker_stretches(plot, each);
   std::ranges::stable_partition(stretches, &MarkerStretch::dropped_some);
-  std::vector<double> taken;
+  std::vector<ValueRange> taken;
   for (const MarkerStretch& stretch : stretches) {
     const double middle = (at.column_left(stretch.first) + at.column_left(stretch.end)) / 2;
-    const bool is_clear = std::ranges::none_of(
-        taken, [&](double other) { return std::abs(other - middle) < 2 * half; });
-    if (!each && !is_clear) continue;
+    const double half = text_width(stretch.marker, size) / 2;
+    const bool is_clear = std::ranges::none_of(taken, [&](const ValueRange& other) {
+      return middle - half < other.high && other.low < middle + half;
+    });
+    if (!is_clear) continue;
     svg.text({middle, at.marker_line}, stretch.marker, ink(TextStyle::Anchor::Middle, size));
-    taken.push_back(middle);
+    taken.push_back({middle - half, middle + half});
   }
 }
 
