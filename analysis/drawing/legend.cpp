@@ -11,6 +11,19 @@ namespace {
 
 constexpr double kSwatch = 2.4;
 constexpr double kSwatchSpace = 4;
+constexpr double kBetween = 2;  ///< entries of a flowing legend
+
+void draw_entry(Svg& svg, const LegendEntry& entry, PagePoint at) {
+  double indent = 0;
+  if (!entry.color.empty()) {
+    const auto [x, y] = at;
+    const std::array<PagePoint, 4> box = {
+        {{x, y}, {x + kSwatch, y}, {x + kSwatch, y + kSwatch}, {x, y + kSwatch}}};
+    svg.polygon(box, filled(entry.color));
+    indent = kSwatch + 0.8;
+  }
+  svg.text({at.x + indent, at.y + 2.2}, entry.text, {.size = kTextSize, .fill = std::string(kInk)});
+}
 
 }  // namespace
 
@@ -35,16 +48,30 @@ void Legend::draw(Svg& svg, double top) const {
     const std::size_t row = i / columns_;
     const double x = kMargin + column_width_ * static_cast<double>(i % columns_);
     const double y = top + kLineHeight * static_cast<double>(row);
-    double indent = 0;
-    if (!entries_[i].color.empty()) {
-      const std::array<PagePoint, 4> box = {
-          {{x, y}, {x + kSwatch, y}, {x + kSwatch, y + kSwatch}, {x, y + kSwatch}}};
-      svg.polygon(box, filled(entries_[i].color));
-      indent = kSwatch + 0.8;
-    }
-    svg.text({x + indent, y + 2.2}, entries_[i].text,
-             {.size = kTextSize, .fill = std::string(kInk)});
+    draw_entry(svg, entries_[i], {x, y});
   }
+}
+
+FlowingLegend::FlowingLegend(std::vector<LegendEntry> entries, double width)
+    : entries_(std::move(entries)) {
+  PagePoint place;
+  for (LegendEntry& entry : entries_) {
+    const double swatch = entry.color.empty() ? 0 : kSwatchSpace;
+    entry.text = fitted_text(entry.text, kTextSize, width - swatch);
+    const double needed = swatch + text_width(entry.text, kTextSize);
+    if (place.x > 0 && place.x + needed > width) place = {0, place.y + kLineHeight};
+    places_.push_back(place);
+    place.x += needed + kBetween;
+  }
+}
+
+double FlowingLegend::height() const {
+  return places_.empty() ? 0 : places_.back().y + kLineHeight;
+}
+
+void FlowingLegend::draw(Svg& svg, double top) const {
+  for (std::size_t i = 0; i < entries_.size(); ++i)
+    draw_entry(svg, entries_[i], {kMargin + places_[i].x, top + places_[i].y});
 }
 
 }  // namespace swarmsmith

@@ -28,4 +28,17 @@ class Legend {
   std::size_t columns_ = 1;
 };
 
+/// Entries one after the other, each as wide as it is, on as many lines as they need.
+class FlowingLegend {
+ public:
+  FlowingLegend(std::vector<LegendEntry> entries, double width);
+
+  double height() const;
+  void draw(Svg& svg, double top) const;
+
+ private:
+  std::vector<LegendEntry> entries_;
+  std::vector<PagePoint> places_;  ///< of each entry, from the legend's upper left corner
+};
+
 }  // namespace swarmsmith

@@ -23,6 +23,20 @@ std::string number(double value) {
   return text == "-0" ? "0" : text;
 }
 
+/// A number of hundredths without the 0 before its point: 45 as ".45", -120 as "-1.2".
+std::string hundredths_text(long hundredths) {
+  std::string text = number(static_cast<double>(hundredths) / 100);
+  const std::size_t at = text.starts_with('-') ? 1 : 0;
+  if (text.substr(at).starts_with("0.")) text.erase(at, 1);
+  return text;
+}
+
+/// Two numbers, with a blank only where they would run together.
+std::string number_pair(long first, long second) {
+  const std::string tail = hundredths_text(second);
+  return hundredths_text(first) + (tail.starts_with('-') ? "" : " ") + tail;
+}
+
 std::string attribute(std::string_view name, std::string_view value) {
   return " " + std::string(name) + "=\"" + std::string(value) + "\"";
 }
@@ -148,6 +162,28 @@ void Svg::path(const std::string& data, const Paint& paint, std::string_view mor
 
 void Svg::polygon(std::span<const PagePoint> corners, const Paint& paint) {
   path(path_through(corners) + "Z", paint, "");
+}
+
+void Svg::bars(std::span<const PageBar> bars, double thickness, std::string_view color,
+               BarDirection direction) {
+  if (bars.empty()) return;
+  // Whole hundredths, so that the relative moves do not add up their rounding.
+  const auto hundredths = [](double value) { return std::lround(100 * value); };
+  const bool is_right = direction == BarDirection::Right;
+  std::string data;
+  long x = 0;
+  long y = 0;
+  for (const PageBar& bar : bars) {
+    const long left = hundredths(bar.start.x);
+    const long top = hundredths(bar.start.y);
+    const double end = (is_right ? bar.start.x : bar.start.y) + bar.length;
+    const long length = hundredths(end) - (is_right ? left : top);
+    data += (data.empty() ? "M" : "m") + number_pair(left - x, top - y);
+    data += (is_right ? "h" : "v") + hundredths_text(length);
+    x = is_right ? left + length : left;
+    y = is_right ? top : top + length;
+  }
+  path(data, stroked(color, thickness), R"( shape-rendering="crispEdges")");
 }
 
 void Svg::outside(std::span<const PagePoint> corners, const Paint& paint) {

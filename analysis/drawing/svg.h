@@ -20,6 +20,13 @@ struct PagePoint {
   friend bool operator==(const PagePoint&, const PagePoint&) = default;
 };
 
+/// A bar that goes right or down: the middle of its first edge, and its length.
+enum class BarDirection { Right, Down };
+struct PageBar {
+  PagePoint start;
+  double length = 0;
+};
+
 /// How a shape is painted. Colours are "#rrggbb" or "none".
 struct Paint {
   std::string fill = "none";
@@ -73,6 +80,11 @@ class Svg {
   void line(std::span<const PagePoint> points, const Paint& paint);
   /// A quadratic Bezier curve: it leaves `from` towards `control` and comes to `to` from there.
   void curve(PagePoint from, PagePoint control, PagePoint to, const Paint& paint);
+  /// Many bars of one colour and thickness as one shape, in few letters each: cells of matrices.
+  /// Edges are drawn crisp, so that neighbours touch without a seam. Shortest when bars of a row
+  /// follow each other.
+  void bars(std::span<const PageBar> bars, double thickness, std::string_view color,
+            BarDirection direction = BarDirection::Right);
   /// The bytes of a PNG file, stretched over a rectangle, pixels left sharp; `opacity` in [0, 1].
   void image(PagePoint top_left, double width, double height, std::string_view png, double opacity);
   /// `at` is on the base line.

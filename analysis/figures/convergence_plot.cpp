@@ -1,116 +1,205 @@
 #include "analysis/figures/convergence_plot.h"
 
 #include <algorithm>
-#include <map>
+#include <set>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
 #include "analysis/drawing/legend.h"
-#include "analysis/figures/makers.h"
+#include "analysis/figures/internal/stairs.h"
 
 namespace swarmsmith {
 namespace {
 
-constexpr double kRatio = 0.62;  ///< height of the area by its width
+constexpr double kRatio = 0.62;      ///< height of an area by its width
+constexpr double kWide = 120;        ///< mm: from here on two panels stand side by side
+constexpr double kLabelAbove = 2.4;  ///< clear of the text of the highest tick
+constexpr double kBetween = 4;       ///< panels
+constexpr std::size_t kCrowd = 5;    ///< lines of a group that are better seen with their median
 constexpr std::size_t kMostTicks = 7;
 constexpr std::string_view kScoreLabel = "mean score (higher is better)";
 
-std::vector<double> means_of(const ConvergencePlot& plot) {
+using Line = ConvergencePlot::Line;
+using Panel = ConvergencePlot::Panel;
+
+bool has_band(const ConvergencePlot& plot) {
+  return plot.panels.size() == 1 && plot.panels.front().lines.size() == 1;
+}
+
+std::size_t lines_of(const Panel& panel, std::size_t group) {
+  return static_cast<std::size_t>(std::ranges::count(panel.lines, group, &Line::group));
+}
+
+/// The same number of ticks is asked for everywhere, so that the room for their texts is known.
+ValueRange scores_of(const Panel& panel, bool with_elites) {
   std::vector<double> means;
-  for (const auto& line : plot.lines)
-    for (const auto& point : line.points)
+  for (const Line& line : panel.lines) {
+    for (const auto& point : line.points) {
       means.push_back(point.mean);
-  return means;
+      if (!with_elites) continue;
+      means.push_back(point.least_elite);
+      means.push_back(point.largest_elite);
+    }
+  }
+  return rounded(range_over(means), kMostTicks);
 }
 
 double last_experiment(const ConvergencePlot& plot) {
-  double last = 0;
-  for (const auto& line : plot.lines)
-    for (const auto& point : line.points)
-      last = std::max(last, point.experiments);
+  double last = 1;
+  for (const Panel& panel : plot.panels)
+    for (const Line& line : panel.lines)
+      if (!line.points.empty()) last = std::max(last, line.points.back().experiments);
   return last;
 }
 
 Legend legend_of(const ConvergencePlot& plot) {
   std::vector<LegendEntry> entries;
-  for (std::size_t i = 0; i < plot.groups.size(); ++i)
-    entries.push_back({distinct_color(i), plot.groups[i]});
+  for (std::size_t group = 0; group < plot.groups.size(); ++group) {
+    const bool is_crowd = std::ranges::any_of(
+        plot.panels, [&](const Panel& panel) { return lines_of(panel, group) >= kCrowd; });
+    entries.push_back(
+        {distinct_color(group), plot.groups[group] + (is_crowd ? " (bold: median)" : "")});
+  }
+  if (has_band(plot))
+    entries.push_back({lightened(distinct_color(plot.panels.front().lines.front().group), 0.75),
+                       "least to best elite"});
   return {std::move(entries), plot.width_mm - 2 * kMargin};
 }
 
-/// Steps: a mean holds from the end of its iteration to the end of the next one.
-std::vector<PagePoint> stairs(const ConvergencePlot::Line& line, const Axis& x, const Axis& y) {
-  std::vector<PagePoint> points;
-  for (const auto& point : line.points) {
-    if (!points.empty()) points.push_back({x.at(point.experiments), points.back().y});
-    points.push_back({x.at(point.experiments), y.at(point.mean)});
-  }
+std::vector<PagePoint> on_page(const std::vector<StairPoint>& points, const Axis& x,
+                               const Axis& y) {
+  std::vector<PagePoint> result;
+  for (const StairPoint& point : points)
+    result.push_back({x.at(point.x), y.at(point.y)});
+  return result;
+}
+
+std::vector<StairPoint> points_of(const Line& line, double ConvergencePlot::Point::*value) {
+  std::vector<StairPoint> points;
+  for (const auto& point : line.points)
+    points.push_back({point.experiments, point.*value});
   return points;
+}
+
+void draw_band(Svg& svg, const Line& line, const Axis& x, const Axis& y) {
+  using Point = ConvergencePlot::Point;
+  std::vector<PagePoint> outline = on_page(stairs(points_of(line, &Point::largest_elite)), x, y);
+  const auto below = on_page(stairs(points_of(line, &Point::least_elite)), x, y);
+  outline.insert(outline.end(), below.rbegin(), below.rend());
+  svg.polygon(outline, filled(lightened(distinct_color(line.group), 0.75)));
+}
+
+void draw_lines(Svg& svg, const Panel& panel, const Axis& x, const Axis& y) {
+  for (const Line& line : panel.lines) {
+    const bool is_crowd = lines_of(panel, line.group) >= kCrowd;
+    std::string color = distinct_color(line.group);
+    if (is_crowd) color = lightened(color, 0.5);
+    const auto points = on_page(stairs(points_of(line, &ConvergencePlot::Point::mean)), x, y);
+    svg.line(points, stroked(color, is_crowd ? 0.15 : 0.4));
+    if (!points.empty()) svg.circle(points.back(), is_crowd ? 0.4 : 0.7, filled(color));
+  }
+  std::set<std::size_t> groups;
+  for (const Line& line : panel.lines)
+    groups.insert(line.group);
+  for (const std::size_t group : groups) {
+    if (lines_of(panel, group) < kCrowd) continue;
+    std::vector<std::vector<StairPoint>> all;
+    for (const Line& line : panel.lines) {
+      if (line.group == group) all.push_back(points_of(line, &ConvergencePlot::Point::mean));
+    }
+    svg.line(on_page(stairs(median_of(all)), x, y), stroked(distinct_color(group), 0.7));
+  }
+}
+
+std::string description_of(const ConvergencePlot& plot) {
+  std::string text = "Mean score of the best machine over the experiments used.";
+  for (const Panel& panel : plot.panels) {
+    text += fmt::format(" {}, {} {}:", panel.name, panel.lines.size(),
+                        panel.lines.size() == 1 ? "design" : "designs");
+    for (const Line& line : panel.lines) {
+      if (!line.points.empty())
+        text += fmt::format(" {} ends at {:.4g};", line.name, line.points.back().mean);
+    }
+    text.back() = '.';
+  }
+  return text;
+}
+
+/// Where the panels are, mm.
+struct Layout {
+  ValueRange experiments;
+  std::size_t across = 1;
+  double room = 0;  ///< of the scores' texts, left of an area
+  double between = kBetween;
+  double pitch = 0;  ///< from panel to panel
+  double panel_height = 0;
+  double head = 0;
+  double area_top = 0;  ///< within a panel
+  double bottom = 0;    ///< of the last panel
+
+  PlotArea area(std::size_t panel) const {
+    const double width = pitch - between - room;
+    return {.left = kMargin + pitch * static_cast<double>(panel % across) + room,
+            .top = head + panel_height * static_cast<double>(panel / across) + area_top,
+            .width = width,
+            .height = kRatio * width};
+  }
+};
+
+Layout layout_of(const ConvergencePlot& plot) {
+  Layout at;
+  at.experiments = rounded({0, last_experiment(plot)}, kMostTicks);
+  for (const Panel& panel : plot.panels)
+    at.room = std::max(at.room, tick_room(scores_of(panel, has_band(plot)), kMostTicks));
+  at.across = plot.width_mm >= kWide && plot.panels.size() > 1 ? 2 : 1;
+  // The text of the last tick stands half beyond its area.
+  const double half = text_width(tick_text(at.experiments.high, 1), kTextSize) / 2;
+  const double beyond = std::max(2.0, half - kMargin + 1);
+  at.between = std::max(kBetween, beyond + 1);
+  at.pitch = (plot.width_mm - 2 * kMargin - beyond + at.between) / static_cast<double>(at.across);
+  at.area_top = (plot.panels.size() > 1 ? kLineHeight : 0) + kTextSize + kLabelAbove;
+  at.panel_height =
+      at.area_top + kRatio * (at.pitch - at.between - at.room) + kHorizontalAxisRoom + 3;
+  at.head = kMargin + kTitleSize + kLineHeight * static_cast<double>(plot.details.size()) + 2;
+  const std::size_t down = (plot.panels.size() + at.across - 1) / at.across;
+  at.bottom = at.head + at.panel_height * static_cast<double>(down);
+  return at;
+}
+
+void draw_panel(Svg& svg, const ConvergencePlot& plot, std::size_t number, const Layout& at) {
+  const Panel& panel = plot.panels[number];
+  const PlotArea area = at.area(number);
+  const double left = area.left - at.room;
+  TextStyle words{.size = kTextSize, .fill = std::string(kInk)};
+  svg.text({left, area.top - kLabelAbove}, kScoreLabel, words);
+  if (plot.panels.size() > 1) {
+    words.bold = true;
+    svg.text({left, area.top - at.area_top + kTextSize},
+             fitted_text(panel.name, kBolder * kTextSize, at.pitch - at.between), words);
+  }
+  const Axis x(at.experiments, area.left, area.right());
+  const Axis y(scores_of(panel, has_band(plot)), area.bottom(), area.top);
+  draw_vertical_axis(svg, area, y, "");
+  if (has_band(plot)) draw_band(svg, panel.lines.front(), x, y);
+  draw_horizontal_axis(svg, area, x, "experiments used");
+  draw_lines(svg, panel, x, y);
 }
 
 }  // namespace
 
 std::string draw(const ConvergencePlot& plot) {
-  const ValueRange scores = rounded(range_over(means_of(plot)), kMostTicks);
-  const ValueRange experiments = rounded({0, std::max(1.0, last_experiment(plot))}, kMostTicks);
+  const Layout at = layout_of(plot);
   const Legend legend = legend_of(plot);
-  const double room = tick_room(scores, kMostTicks);
-  PlotArea area{.left = kMargin + room, .width = plot.width_mm - 2 * kMargin - room - 2};
-  area.height = kRatio * area.width;
-  area.top = kMargin + kTitleSize + kLineHeight * static_cast<double>(plot.details.size()) + 2 +
-             kLineHeight;
-  const double bottom = area.bottom() + kHorizontalAxisRoom + 3;
-  Svg svg(plot.width_mm, bottom + legend.height() + kMargin, plot.title,
-          fmt::format("Mean score of the best machine over the experiments used, {} designs",
-                      plot.lines.size()));
+  Svg svg(plot.width_mm, at.bottom + legend.height() + kMargin, plot.title, description_of(plot));
   draw_heading(svg, plot.title, plot.details);
-  const Axis x(experiments, area.left, area.right());
-  const Axis y(scores, area.bottom(), area.top);
-  draw_vertical_axis(svg, area, y, kScoreLabel);
-  draw_horizontal_axis(svg, area, x, "experiments used");
-  for (const auto& line : plot.lines) {
-    const std::string color = distinct_color(line.color);
-    const std::vector<PagePoint> points = stairs(line, x, y);
-    svg.line(points, stroked(color, 0.35));
-    if (!points.empty()) svg.circle(points.back(), 0.6, filled(color));
-  }
-  legend.draw(svg, bottom);
+  for (std::size_t panel = 0; panel < plot.panels.size(); ++panel)
+    draw_panel(svg, plot, panel, at);
+  legend.draw(svg, at.bottom);
   return svg.finish();
-}
-
-Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& options) {
-  const auto all = elites(store, options.filter);
-  if (!all) return Unexpected(all.error());
-  const auto known = designs(store, options.filter);
-  if (!known) return Unexpected(known.error());
-  if (all->empty()) {
-    return unexpected(ErrorKind::NotFound,
-                      "no iteration of these designs has ended yet; `swarmsmith ls designs` shows "
-                      "what the store has");
-  }
-  ConvergencePlot plot{.title = "Convergence", .width_mm = options.width_mm};
-  std::map<std::string, std::size_t> groups;
-  std::map<DesignId, std::size_t> lines;
-  for (const DesignRecord& design : *known) {
-    const std::string group = design.mission + ", " + design.method;
-    const auto [place, is_new] = groups.try_emplace(group, groups.size());
-    if (is_new) plot.groups.push_back(group);
-    lines[design.design] = plot.lines.size();
-    plot.lines.push_back({.name = to_string(design.design), .color = place->second});
-  }
-  Figure figure{.csv = "design,iteration,experiments_used,candidate,mean,n\r\n"};
-  for (const EliteRecord& elite : *all) {
-    if (elite.rank != 1) continue;
-    plot.lines[lines.at(elite.design)].points.push_back(
-        {static_cast<double>(elite.experiments_used), elite.mean});
-    figure.csv +=
-        fmt::format("{},{},{},{},{},{}\r\n", elite.design.value, elite.iteration,
-                    elite.experiments_used, elite.candidate.value, elite.mean, elite.runs);
-  }
-  figure.svg = draw(plot);
-  return figure;
 }
 
 }  // namespace swarmsmith

@@ -31,7 +31,7 @@ struct FigureOptions {
   std::string source;    ///< only scores of this source; empty: of all
   std::optional<CandidateId> candidate;
   std::optional<std::int64_t> iteration;
-  std::string parameter;  ///< of the sampling figure; empty: the most telling ones
+  std::string parameter;  ///< names, with commas between; empty: the most telling ones
 };
 
 /// Draws from a store. Errors: BadInput (an option that makes no sense here), NotFound (the store

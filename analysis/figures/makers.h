@@ -12,5 +12,8 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
 Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> scores_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> machine_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> sampling_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& options);
 
 }  // namespace swarmsmith

@@ -215,6 +215,35 @@ Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
       });
 }
 
+Expected<std::vector<IterationRecord>> iterations(StoreReader& store, DesignId design) {
+  return read<IterationRecord>(
+      store,
+      fmt::format("SELECT iteration, planned, budget, configurations, postselection"
+                  " FROM v_iterations WHERE design = {} ORDER BY iteration",
+                  design.value),
+      [](const Cells& row) {
+        return IterationRecord{.iteration = integer(row[0]),
+                               .planned = integer(row[1]),
+                               .budget = integer(row[2]),
+                               .configurations = integer(row[3]),
+                               .postselection = integer(row[4]) != 0};
+      });
+}
+
+Expected<std::vector<CandidateRecord>> candidates(StoreReader& store, DesignId design) {
+  return read<CandidateRecord>(
+      store,
+      fmt::format("SELECT candidate, iteration, runs, mean FROM v_candidates WHERE design = {}"
+                  " ORDER BY candidate",
+                  design.value),
+      [](const Cells& row) {
+        return CandidateRecord{.candidate = {integer(row[0])},
+                               .iteration = integer(row[1]),
+                               .runs = integer(row[2]),
+                               .mean = maybe_real(row[3])};
+      });
+}
+
 Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design) {
   return read<StepRecord>(
       store,

@@ -103,6 +103,23 @@ struct EliminationRecord {
   std::string reason;
 };
 
+/// An iteration, one race of a design.
+struct IterationRecord {
+  std::int64_t iteration = 0;
+  std::int64_t planned = 0;  ///< iterations planned when it began
+  std::int64_t budget = 0;   ///< experiments that it could use
+  std::int64_t configurations = 0;
+  bool postselection = false;  ///< the race after the last, with what was left
+};
+
+/// A candidate and how it did in the races.
+struct CandidateRecord {
+  CandidateId candidate;
+  std::int64_t iteration = 0;  ///< that it was sampled in
+  std::int64_t runs = 0;
+  std::optional<double> mean;
+};
+
 /// How often the winners of a mission and method have a module.
 struct ModuleFrequency {
   std::string mission;
@@ -140,6 +157,9 @@ Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
 /// Of one design, and one of its iterations.
 Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
                                            std::int64_t iteration);
+Expected<std::vector<IterationRecord>> iterations(StoreReader& store, DesignId design);
+/// All that a design tried, in the order in which they were sampled.
+Expected<std::vector<CandidateRecord>> candidates(StoreReader& store, DesignId design);
 Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design);
 Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, DesignId design);
 /// Of the candidates of one design, or of some of them.

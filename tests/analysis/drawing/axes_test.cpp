@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include "analysis/drawing/figure_style.h"
+#include "analysis/drawing/legend.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -79,6 +82,15 @@ TEST(Axes, SequentialColoursGetDarker) {
   EXPECT_EQ(sequential_color(1), "#440154");
   EXPECT_EQ(sequential_color(0.5), "#21918c");
   EXPECT_EQ(sequential_color(7), "#440154");
+}
+
+TEST(FlowingLegend, EntriesFollowEachOtherAndBreakWhereTheyMust) {
+  const std::vector<LegendEntry> entries = {
+      {"#000000", "one"}, {"#000000", "two"}, {"#000000", "a much longer third"}};
+  EXPECT_DOUBLE_EQ(FlowingLegend(entries, 80).height(), kLineHeight);
+  EXPECT_DOUBLE_EQ(FlowingLegend(entries, 40).height(), 2 * kLineHeight);
+  EXPECT_DOUBLE_EQ(FlowingLegend(entries, 12).height(), 3 * kLineHeight);
+  EXPECT_DOUBLE_EQ(FlowingLegend({}, 12).height(), 0);
 }
 
 }  // namespace

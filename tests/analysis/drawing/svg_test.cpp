@@ -123,5 +123,26 @@ TEST(Millimetres, AreReadWithTheirUnit) {
     EXPECT_LT(millimetres_from_text(wrong), 0) << wrong;
 }
 
+TEST(Svg, BarsAreOneShapeInFewLetters) {
+  Svg svg(10, 10, "t", "d");
+  const std::vector<PageBar> cells = {{{1, 2}, 0.5}, {{1.5, 2}, 1}, {{0.25, 3}, 0.5}};
+  svg.bars(cells, 0.9, "#123456");
+  svg.bars({}, 0.9, "#654321");
+  svg.bars(std::vector<PageBar>{{{1, 2}, 3}, {{2, 2}, 1}}, 0.5, "#abcdef", BarDirection::Down);
+  const std::string text = svg.finish();
+  EXPECT_THAT(text, HasSubstr("\"M1 2h.5m0 0h1m-2.25 1h.5\""));
+  EXPECT_THAT(text, HasSubstr("\"M1 2v3m1-3v1\""));
+  EXPECT_THAT(text, Not(HasSubstr("#654321")));
+}
+
+TEST(Svg, RoundingOfBarsDoesNotAddUp) {
+  Svg svg(10, 10, "t", "d");
+  std::vector<PageBar> cells;
+  for (int i = 0; i < 3; ++i)
+    cells.push_back({{i / 3.0, 0}, 1 / 3.0});
+  svg.bars(cells, 1, "#123456");
+  EXPECT_THAT(svg.finish(), HasSubstr("M0 0h.33m0 0h.34m0 0h.33"));
+}
+
 }  // namespace
 }  // namespace swarmsmith

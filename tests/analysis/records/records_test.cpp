@@ -59,6 +59,27 @@ TEST_F(RecordsTest, ARaceHasACellForEachLivingCandidateAndStep) {
   }
 }
 
+TEST_F(RecordsTest, CandidatesAreInTheOrderOfSampling) {
+  const auto all = candidates(*reader, DesignId{2});
+  ASSERT_TRUE(all);
+  ASSERT_EQ(all->size(), 3U * 8);
+  EXPECT_EQ(all->front().candidate, CandidateId{1000001});
+  EXPECT_EQ(all->front().iteration, 1);
+  EXPECT_EQ(all->back().iteration, 3);
+  EXPECT_TRUE(std::ranges::all_of(*all, [](const auto& row) { return row.runs > 0 && row.mean; }));
+}
+
+TEST_F(RecordsTest, IterationsSayTheirBudget) {
+  const auto all = iterations(*reader, DesignId{1});
+  ASSERT_TRUE(all);
+  ASSERT_EQ(all->size(), 3U);
+  EXPECT_EQ(all->back().iteration, 3);
+  EXPECT_EQ(all->back().planned, 3);
+  EXPECT_EQ(all->back().budget, 1000);
+  EXPECT_EQ(all->back().configurations, 8);
+  EXPECT_FALSE(all->back().postselection);
+}
+
 TEST_F(RecordsTest, ElitesEndEachIteration) {
   const auto all = elites(*reader, {.design = DesignId{2}});
   ASSERT_TRUE(all);

@@ -1,0 +1,100 @@
+#include <algorithm>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/figures/convergence_plot.h"
+#include "analysis/figures/design_choice.h"
+#include "analysis/figures/internal/csv_text.h"
+#include "analysis/figures/makers.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Designs in panels by mission and colours by method, both in the order of the designs. One design
+/// alone is a colour of its own name.
+class PlotOfDesigns {
+ public:
+  PlotOfDesigns(const std::vector<DesignRecord>& designs, double width_mm) {
+    plot_.title = "Convergence";
+    plot_.width_mm = width_mm;
+    if (!designs.empty()) plot_.details.push_back(details_of(designs));
+    for (const DesignRecord& design : designs)
+      add(design, designs.size() == 1);
+  }
+
+  /// The elites of a design come one after the other, those of an iteration by rank.
+  void add(const EliteRecord& elite) {
+    const auto place = places_.find(elite.design);
+    if (place == places_.end()) return;
+    auto& points = plot_.panels[place->second.first].lines[place->second.second].points;
+    if (elite.rank == 1) {
+      points.push_back(
+          {static_cast<double>(elite.experiments_used), elite.mean, elite.mean, elite.mean});
+    } else if (!points.empty()) {
+      points.back().least_elite = std::min(points.back().least_elite, elite.mean);
+      points.back().largest_elite = std::max(points.back().largest_elite, elite.mean);
+    }
+  }
+
+  const ConvergencePlot& plot() const { return plot_; }
+
+ private:
+  static std::string details_of(const std::vector<DesignRecord>& designs) {
+    if (designs.size() > 1) return fmt::format("Best machine of {} designs", designs.size());
+    return fmt::format("Best machine of {}: {}", to_string(designs.front().design),
+                       title_of(designs.front()));
+  }
+
+  void add(const DesignRecord& design, bool is_alone) {
+    const std::string group =
+        is_alone ? to_string(design.design) + ", best machine" : design.method;
+    const auto [panel, is_new_panel] = panels_.try_emplace(design.mission, panels_.size());
+    if (is_new_panel) plot_.panels.push_back({.name = design.mission, .lines = {}});
+    const auto [color, is_new_group] = groups_.try_emplace(group, groups_.size());
+    if (is_new_group) plot_.groups.push_back(group);
+    auto& lines = plot_.panels[panel->second].lines;
+    places_[design.design] = {panel->second, lines.size()};
+    lines.push_back({.name = to_string(design.design), .group = color->second, .points = {}});
+  }
+
+  ConvergencePlot plot_;
+  std::map<std::string, std::size_t> panels_;
+  std::map<std::string, std::size_t> groups_;
+  std::map<DesignId, std::pair<std::size_t, std::size_t>> places_;  ///< panel and line
+};
+
+}  // namespace
+
+Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& options) {
+  const auto known = designs(store, options.filter);
+  if (!known) return Unexpected(known.error());
+  const auto all = elites(store, options.filter);
+  if (!all) return Unexpected(all.error());
+  if (all->empty()) {
+    return unexpected(ErrorKind::NotFound,
+                      "no iteration of these designs has ended yet; `swarmsmith ls designs` shows "
+                      "what the store has");
+  }
+  PlotOfDesigns made(*known, options.width_mm);
+  std::map<DesignId, const DesignRecord*> by_id;
+  for (const DesignRecord& design : *known)
+    by_id.emplace(design.design, &design);
+  Figure figure{.csv =
+                    "design,mission,method,iteration,experiments_used,rank,candidate,mean,n\r\n"};
+  for (const EliteRecord& elite : *all) {
+    const auto design = by_id.find(elite.design);
+    // A design that came between the two queries is left for the next time.
+    if (design == by_id.end()) continue;
+    made.add(elite);
+    figure.csv += fmt::format("{},{},{},{},{},{},{},{},{}\r\n", elite.design.value,
+                              csv_text(design->second->mission), csv_text(design->second->method),
+                              elite.iteration, elite.experiments_used, elite.rank,
+                              elite.candidate.value, elite.mean, elite.runs);
+  }
+  figure.svg = draw(made.plot());
+  return figure;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,92 @@
+#include "analysis/figures/internal/category_colors.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <set>
+#include <string_view>
+
+#include "analysis/drawing/axes.h"
+#include "analysis/drawing/svg.h"
+
+namespace swarmsmith {
+namespace {
+
+bool is_number(const std::string& text, double& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc() && end == text.data() + text.size();
+}
+
+bool before(const std::string& a, const std::string& b) {
+  double x = 0;
+  double y = 0;
+  if (is_number(a, x) && is_number(b, y)) return x < y;
+  return a < b;
+}
+
+/// Okabe and Ito's colours, dark and pale by turns: parts that are stacked in this order have a
+/// border in a print in black and white, too.
+std::string stacked_color(std::size_t number) {
+  constexpr std::array<std::pair<std::string_view, double>, 7> kColors = {{{"#0072b2", 0},
+                                                                           {"#e69f00", 0.35},
+                                                                           {"#009e73", 0},
+                                                                           {"#56b4e9", 0.5},
+                                                                           {"#d55e00", 0},
+                                                                           {"#cc79a7", 0.45},
+                                                                           {"#000000", 0}}};
+  const auto& [color, paleness] = kColors[number % kColors.size()];
+  std::string result = lightened(std::string(color), paleness);
+  // Beyond them they begin again, paler.
+  return number < kColors.size() ? result : lightened(result, 0.55);
+}
+
+/// Sets of which no two share a value.
+std::vector<std::set<std::string>> value_sets(const std::vector<std::vector<std::string>>& lists) {
+  std::vector<std::set<std::string>> result;
+  for (const auto& list : lists) {
+    std::set<std::string> merged(list.begin(), list.end());
+    std::erase_if(result, [&](const std::set<std::string>& family) {
+      const bool shares = std::ranges::any_of(
+          list, [&](const std::string& value) { return family.contains(value); });
+      if (shares) merged.insert(family.begin(), family.end());
+      return shares;
+    });
+    if (!merged.empty()) result.push_back(std::move(merged));
+  }
+  return result;
+}
+
+}  // namespace
+
+CategoryColors::CategoryColors(const std::vector<std::vector<std::string>>& lists) {
+  for (const auto& set : value_sets(lists)) {
+    std::vector<std::string> values(set.begin(), set.end());
+    std::ranges::sort(values, before);
+    double number = 0;
+    const bool are_numbers = std::ranges::all_of(
+        values, [&](const std::string& value) { return is_number(value, number); });
+    const auto last = static_cast<double>(std::max<std::size_t>(2, values.size()) - 1);
+    Family& family = families_.emplace_back();
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      std::string color =
+          are_numbers ? sequential_color(static_cast<double>(i) / last) : stacked_color(i);
+      family.emplace_back(values[i], std::move(color));
+    }
+  }
+}
+
+std::string CategoryColors::color(const std::string& value) const {
+  for (const Family& family : families_) {
+    const auto found = std::ranges::find(family, value, &Family::value_type::first);
+    if (found != family.end()) return found->second;
+  }
+  return "#bbbbbb";
+}
+
+bool CategoryColors::belongs(const std::vector<std::string>& list, const Family& family) {
+  return !list.empty() &&
+         std::ranges::find(family, list.front(), &Family::value_type::first) != family.end();
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "analysis/drawing/axes.h"
+#include "analysis/figures/internal/category_colors.h"
+#include "analysis/figures/sampling_plot.h"
+
+namespace swarmsmith {
+
+/// Densities from which a shade begins, 1 being an even spread over the range.
+inline constexpr std::array<double, 4> kDensities = {0, 1, 2, 4};
+std::string density_color(std::size_t shade);
+
+/// The least and the largest number of a panel, as texts.
+std::array<std::string, 2> end_texts(const SamplingPlot::Panel& panel);
+
+/// Draws one panel within its area; the numbers at its ends stand left of it.
+class SamplingPanel {
+ public:
+  SamplingPanel(Svg& svg, const SamplingPlot::Panel& panel, const PlotArea& area);
+
+  /// Of categories: stacked.
+  void shares(const CategoryColors& colors);
+  /// Of numbers: shades, and the elites' values.
+  void densities();
+  /// And the name, on its base line and so wide at most.
+  void frame(PagePoint name, double width);
+
+ private:
+  void elites();
+  void ends(const std::string& low, const std::string& high);
+
+  Svg& svg_;
+  const SamplingPlot::Panel& panel_;
+  PlotArea area_;
+  Bands bands_;
+  double thickness_ = 0;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,206 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "analysis/drawing/axes.h"
+#include "analysis/figures/design_choice.h"
+#include "analysis/figures/figure.h"
+#include "tests/storage/fixture.h"
+#include "tests/support/drawn_page.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// The makers on a store: two designs of two missions, three iterations of seven steps.
+struct StoreFigures : testing::Test {
+  TemporaryFolder folder;
+  std::unique_ptr<StoreReader> reader;
+
+  StoreFigures() {
+    const SyntheticCampaign campaign = synthetic_campaign({.designs = 2, .iterations = 3});
+    auto store = open_store(folder / "s.db", campaign);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
+    store.reset();
+    reader = open_reader(folder / "s.db");
+  }
+
+  Expected<Figure> make(std::string_view kind, const FigureOptions& options) {
+    const FigureKind* found = find_figure_kind(kind);
+    if (found == nullptr) return bad_input("no such kind");
+    return found->make(*reader, options);
+  }
+
+  /// Of a figure that has to be there.
+  Figure made(std::string_view kind, const FigureOptions& options = {.filter = {.design = {{1}}}}) {
+    const auto figure = make(kind, options);
+    EXPECT_TRUE(figure) << (figure ? "" : to_string(figure.error()));
+    return figure ? *figure : Figure{};
+  }
+
+  std::string refusal(std::string_view kind, const FigureOptions& options) {
+    const auto figure = make(kind, options);
+    EXPECT_FALSE(figure);
+    if (figure) return "";
+    EXPECT_EQ(figure.error().kind, ErrorKind::BadInput);
+    return figure.error().message;
+  }
+};
+
+std::size_t rows_of(const std::string& csv) {
+  return static_cast<std::size_t>(std::ranges::count(csv, '\n')) - 1;
+}
+
+TEST_F(StoreFigures, EveryKindGivesTheSameBytesAgainWithTextsThatStandClear) {
+  for (const char* kind : {"convergence", "race", "sampling", "parallel"}) {
+    for (const double width : {84.0, 174.0}) {
+      const FigureOptions options{.filter = {.design = {{2}}}, .width_mm = width};
+      const Figure figure = made(kind, options);
+      EXPECT_EQ(figure.svg, made(kind, options).svg) << kind;
+      EXPECT_EQ(figure.csv, made(kind, options).csv) << kind;
+      EXPECT_THAT(drawn_page(figure.svg).collisions(), IsEmpty()) << kind << " " << width;
+      EXPECT_LT(figure.svg.size(), 200'000U) << kind;
+      EXPECT_GT(rows_of(figure.csv), 5U) << kind;
+    }
+  }
+}
+
+TEST_F(StoreFigures, RaceHasACellAScoreAndALineADroppedCandidate) {
+  const FigureOptions options{.filter = {.design = {{1}}}, .iteration = 2};
+  const Figure figure = made("race", options);
+  const auto cells = race_cells(*reader, DesignId{1}, 2);
+  EXPECT_EQ(rows_of(figure.csv), cells->size());
+  const auto dropped = eliminations(*reader, DesignId{1});
+  const auto by_test = std::ranges::count_if(*dropped, [](const EliminationRecord& row) {
+    return row.iteration == 2 && row.reason == "test";
+  });
+  ASSERT_GT(by_test, 0);
+  const DrawnPage page = drawn_page(figure.svg);
+  EXPECT_EQ(page.bars_of("#d55e00").size(), static_cast<std::size_t>(by_test));
+  EXPECT_EQ(page.bars_of("#222222").size(), 3U + 3U);  // elites before and after
+  EXPECT_THAT(figure.svg, HasSubstr("iteration 2 of design d1"));
+}
+
+TEST_F(StoreFigures, ARaceThatGoesOnIsDrawnAsFarAsItIs) {
+  const SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 2});
+  auto store = open_store(folder / "part.db", campaign);
+  // An iteration is a batch for its beginning, one a step, and one for its elites.
+  for (std::size_t batch = 0; batch < 1 + 7 + 1 + 1 + 6; ++batch)
+    store->append(campaign.batches[batch]);
+  store.reset();
+  reader = open_reader(folder / "part.db");
+  const Figure figure = made("race", {});
+  EXPECT_THAT(figure.svg, HasSubstr("iteration 2 (goes on)"));
+  const DrawnPage page = drawn_page(figure.svg);
+  EXPECT_EQ(page.bars_of("#222222").size(), 3U);  // elites of before alone
+  EXPECT_THAT(page.collisions(), IsEmpty());
+  EXPECT_GT(rows_of(made("parallel", {}).csv), 5U);
+  // Before the first step there is nothing to draw, and that is said.
+  auto begun = open_store(folder / "begun.db", campaign);
+  begun->append(campaign.batches[0]);
+  begun.reset();
+  reader = open_reader(folder / "begun.db");
+  for (const char* kind : {"race", "parallel", "convergence"}) {
+    const auto none = make(kind, {});
+    ASSERT_FALSE(none) << kind;
+    EXPECT_EQ(none.error().kind, ErrorKind::NotFound) << kind;
+  }
+}
+
+TEST_F(StoreFigures, RaceRowsAreInTheOrderOfHowFarTheyCame) {
+  const DrawnPage page =
+      drawn_page(made("race", {.filter = {.design = {{1}}}, .iteration = 3}).svg);
+  const auto kept = elites(*reader, {.design = DesignId{1}});
+  std::vector<std::string> names;
+  for (const auto& text : page.texts)
+    if (text.text.starts_with("c") && text.text.find(' ') == std::string::npos)
+      names.push_back(text.text);
+  ASSERT_GE(names.size(), 3U);
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_TRUE(std::ranges::any_of(*kept, [&](const EliteRecord& elite) {
+      return elite.iteration == 3 && to_string(elite.candidate) == names[i];
+    })) << names[i];
+  }
+}
+
+TEST_F(StoreFigures, RaceShowsTheLastIterationUnlessToldOtherwise) {
+  EXPECT_EQ(made("race").svg, made("race", {.filter = {.design = {{1}}}, .iteration = 3}).svg);
+  EXPECT_NE(made("race").svg, made("race", {.filter = {.design = {{1}}}, .iteration = 1}).svg);
+  EXPECT_EQ(refusal("race", {.filter = {.design = {{1}}}, .iteration = 9}),
+            "--iteration 9: d1 has raced the iterations 1 to 3");
+}
+
+TEST_F(StoreFigures, OneOfSeveralDesignsHasToBeNamed) {
+  for (const char* kind : {"race", "sampling", "parallel"}) {
+    EXPECT_THAT(refusal(kind, {}), HasSubstr("--design d1")) << kind;
+    // A mission that has one design is enough.
+    EXPECT_TRUE(make(kind, {.filter = {.mission = "aggregation"}})) << kind;
+    const auto none = make(kind, {.filter = {.design = {{7}}}});
+    ASSERT_FALSE(none) << kind;
+    EXPECT_EQ(none.error().kind, ErrorKind::NotFound) << kind;
+  }
+}
+
+TEST_F(StoreFigures, OptionsOfOtherKindsAreRefused) {
+  const RecordFilter one{.design = {{1}}};
+  EXPECT_THAT(refusal("race", {.filter = one, .by = "method"}), HasSubstr("takes no --by"));
+  EXPECT_THAT(refusal("race", {.filter = one, .parameter = "s"}), HasSubstr("no --parameter"));
+  EXPECT_THAT(refusal("sampling", {.filter = one, .iteration = 1}), HasSubstr("no --iteration"));
+  EXPECT_THAT(refusal("parallel", {.filter = one, .source = "rvr"}), HasSubstr("no --source"));
+  EXPECT_THAT(refusal("convergence", {.candidate = {{1}}}), HasSubstr("no --candidate"));
+}
+
+TEST_F(StoreFigures, SamplingCountsEveryCandidateOfAnIteration) {
+  const Figure figure =
+      made("sampling", {.filter = {.design = {{1}}}, .parameter = "states,s0.tau"});
+  // Eight candidates an iteration; each has a number of states.
+  std::int64_t counted = 0;
+  for (std::size_t at = figure.csv.find("1,states,1,8,value,"); at != std::string::npos;
+       at = figure.csv.find("1,states,1,8,value,", at + 1)) {
+    const std::size_t count = figure.csv.find(",,,", at) + 3;
+    counted += std::stoll(figure.csv.substr(count));
+  }
+  EXPECT_EQ(counted, 8);
+  EXPECT_THAT(figure.csv, HasSubstr("1,states,1,8,not active,,,,0\r\n"));
+  EXPECT_THAT(figure.csv, HasSubstr("1,s0.tau,3,8,elite,"));
+  EXPECT_THAT(refusal("sampling", {.filter = {.design = {{1}}}, .parameter = "speed"}),
+              HasSubstr("s0.behaviour"));
+}
+
+TEST_F(StoreFigures, SamplingChoosesTwelveAndSaysByWhichRule) {
+  const Figure figure = made("sampling");
+  EXPECT_THAT(figure.svg, HasSubstr("moved most between the first and the last third"));
+  EXPECT_THAT(figure.svg, HasSubstr("The 12 of 17 parameters"));
+}
+
+TEST_F(StoreFigures, ParallelHasEveryEliteAndNamedParametersInTheirOrder) {
+  const Figure figure =
+      made("parallel", {.filter = {.design = {{1}}}, .parameter = "s0.tau,states"});
+  EXPECT_EQ(rows_of(figure.csv), 2U * 24);  // 24 candidates, two parameters
+  const auto kept = elites(*reader, {.design = DesignId{1}});
+  for (const EliteRecord& elite : *kept) {
+    if (elite.iteration != 3) continue;
+    EXPECT_THAT(figure.csv, HasSubstr(fmt::format("1,{},1,", elite.candidate.value)));
+  }
+  EXPECT_LT(figure.csv.find("s0.tau"), figure.csv.find("states"));
+}
+
+TEST_F(StoreFigures, ConvergenceHasAPanelAMission) {
+  const DrawnPage page = drawn_page(made("convergence", {}).svg);
+  EXPECT_TRUE(page.has_text("aggregation"));
+  EXPECT_TRUE(page.has_text("color_selection"));
+  EXPECT_EQ(rows_of(made("convergence", {}).csv), 2U * 3 * 3);
+}
+
+TEST(CsvCell, QuotesWhatHasToBe) {
+  EXPECT_EQ(csv_cell("plain text"), "plain text");
+  EXPECT_EQ(csv_cell("a,\"b\""), "\"a,\"\"b\"\"\"");
+}
+
+}  // namespace
+}  // namespace swarmsmith
