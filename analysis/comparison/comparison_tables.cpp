@@ -114,9 +114,4 @@ std::string_view name_of(CompareUnit unit) {
   return unit == CompareUnit::Design ? "design" : "run";
 }
 
-std::string title_of(const ComparedPair& pair) {
-  return fmt::format("{}, {}: {} and {}", pair.mission, pair.paired ? pair.method : pair.source,
-                     pair.first, pair.second);
-}
-
 }  // namespace swarmsmith

@@ -18,7 +18,4 @@ std::string ranks_csv(const std::vector<ComparedRanks>& ranks);
 std::string_view name_of(CompareBy by);
 std::string_view name_of(CompareUnit unit);
 
-/// "aggregation, watermelon: real and rvr".
-std::string title_of(const ComparedPair& pair);
-
 }  // namespace swarmsmith

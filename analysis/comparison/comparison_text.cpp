@@ -68,12 +68,38 @@ std::string groups_text(const Comparison& comparison) {
   return aligned(table);
 }
 
+/// Each note once, and the numbers by which rows refer to them.
+class Footnotes {
+ public:
+  /// "1 3"; empty without notes.
+  std::string numbers_of(const std::vector<std::string>& notes) {
+    std::vector<std::size_t> numbers;
+    for (const std::string& note : notes) {
+      const auto known = std::ranges::find(notes_, note);
+      numbers.push_back(static_cast<std::size_t>(known - notes_.begin()) + 1);
+      if (known == notes_.end()) notes_.push_back(note);
+    }
+    return fmt::format("{}", fmt::join(numbers, " "));
+  }
+
+  std::string text() const {
+    std::string text;
+    for (std::size_t i = 0; i < notes_.size(); ++i)
+      text += fmt::format("  {}) {}\n", i + 1, notes_[i]);
+    return text;
+  }
+
+ private:
+  std::vector<std::string> notes_;
+};
+
 std::string pairs_text(const Comparison& comparison) {
   const bool paired = comparison.options.by == CompareBy::Source;
   TextTable table{
       .left = 4,
       .rows = {{"mission", paired ? "method" : "source", "first", "second", "n", paired ? "V" : "W",
-                "p", "Holm's p", "p is", "A12", "effect", "difference", "95 % interval"}}};
+                "p", "Holm's p", "p is", "A12", "effect", "difference", "95 % interval", "notes"}}};
+  Footnotes footnotes;
   for (const ComparedPair& pair : comparison.pairs) {
     table.rows.push_back(
         {pair.mission, pair.paired ? pair.method : pair.source, pair.first, pair.second,
@@ -82,14 +108,10 @@ std::string pairs_text(const Comparison& comparison) {
          shown(pair.test.statistic), shown_p(pair.test.p_value), shown_p(pair.p_holm),
          pair.test.exact ? "exact" : "normal", fmt::format("{:.3f}", pair.a12),
          std::string(magnitude_of(pair.a12)), shown(pair.difference.value),
-         fmt::format("[{}, {}]", shown(pair.difference.low), shown(pair.difference.high))});
+         fmt::format("[{}, {}]", shown(pair.difference.low), shown(pair.difference.high)),
+         footnotes.numbers_of(pair.notes)});
   }
-  std::string text = aligned(table);
-  for (const ComparedPair& pair : comparison.pairs) {
-    if (!pair.notes.empty())
-      text += fmt::format("  {}: {}\n", title_of(pair), fmt::join(pair.notes, "; "));
-  }
-  return text;
+  return aligned(table) + footnotes.text();
 }
 
 std::string ranks_text(const ComparedRanks& ranks) {

@@ -10,6 +10,8 @@ namespace swarmsmith {
 std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure},
+      FigureKind{"ranks", "Mean ranks of methods or sources with Friedman's 95 % intervals",
+                 ranks_figure},
   };
   return kKinds;
 }

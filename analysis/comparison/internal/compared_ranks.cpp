@@ -10,12 +10,11 @@ namespace {
 /// A row of Friedman's table before it is known to be complete: values by name.
 struct Block {
   std::string mission;
-  std::map<std::string, double> values;
+  std::map<std::string, double, NameOrder> values;
 };
 
 /// Blocks in order, those alone in which all of `names` have a value.
-std::optional<ComparedRanks> ranked(const std::set<std::string>& names,
-                                    const std::vector<Block>& blocks) {
+std::optional<ComparedRanks> ranked(const Names& names, const std::vector<Block>& blocks) {
   ComparedRanks ranks{.names = {names.begin(), names.end()}};
   std::vector<std::vector<double>> values;
   std::set<std::string> missions;
@@ -57,7 +56,7 @@ struct Repetition {
 
 void add_method_ranks(const ScoreTable& table, Comparison& comparison) {
   for (const std::string& source : names_in(table, &GroupKey::source)) {
-    std::set<std::string> methods;
+    Names methods;
     std::map<Repetition, Block> blocks;
     for (const auto& [key, designs] : table) {
       if (key.source != source) continue;
@@ -83,7 +82,7 @@ void add_method_ranks(const ScoreTable& table, Comparison& comparison) {
 }
 
 void add_source_ranks(const ScoreTable& table, Comparison& comparison) {
-  const std::set<std::string> sources = names_in(table, &GroupKey::source);
+  const Names sources = names_in(table, &GroupKey::source);
   if (sources.size() < 2) return;
   std::map<DesignId, Block> blocks;
   for (const auto& [key, designs] : table) {

@@ -1,6 +1,7 @@
 #include "analysis/comparison/internal/score_table.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace swarmsmith {
 namespace {
@@ -17,6 +18,17 @@ bool is_wanted(const DesignScore& score, const ComparisonOptions& options) {
 
 }  // namespace
 
+bool NameOrder::operator()(const std::string& a, const std::string& b) const {
+  constexpr std::string_view kLast = "real";
+  return std::pair(a == kLast, std::string_view(a)) < std::pair(b == kLast, std::string_view(b));
+}
+
+bool operator<(const GroupKey& a, const GroupKey& b) {
+  if (a.mission != b.mission) return a.mission < b.mission;
+  if (a.method != b.method) return a.method < b.method;
+  return NameOrder()(a.source, b.source);
+}
+
 ScoreTable score_table(const std::vector<DesignScore>& scores, const ComparisonOptions& options) {
   ScoreTable table;
   for (const DesignScore& score : scores) {
@@ -29,8 +41,8 @@ ScoreTable score_table(const std::vector<DesignScore>& scores, const ComparisonO
   return table;
 }
 
-std::set<std::string> names_in(const ScoreTable& table, std::string GroupKey::*part) {
-  std::set<std::string> names;
+Names names_in(const ScoreTable& table, std::string GroupKey::*part) {
+  Names names;
   for (const auto& [key, designs] : table)
     names.insert(key.*part);
   return names;

@@ -30,20 +30,26 @@ struct ScoredDesign {
 };
 using ScoredDesigns = std::map<DesignId, ScoredDesign>;
 
+/// By the letters, the source `real` last: differences are those of simulation to reality.
+struct NameOrder {
+  bool operator()(const std::string& a, const std::string& b) const;
+};
+
 struct GroupKey {
   std::string mission;
   std::string method;
   std::string source;
 
-  friend auto operator<=>(const GroupKey&, const GroupKey&) = default;
+  friend bool operator<(const GroupKey& a, const GroupKey& b);
 };
 using ScoreTable = std::map<GroupKey, ScoredDesigns>;
 
 /// Of the scores that the options ask for.
 ScoreTable score_table(const std::vector<DesignScore>& scores, const ComparisonOptions& options);
 
-/// The different texts of one part of the keys, sorted.
-std::set<std::string> names_in(const ScoreTable& table, std::string GroupKey::*part);
+/// The different texts of one part of the keys.
+using Names = std::set<std::string, NameOrder>;
+Names names_in(const ScoreTable& table, std::string GroupKey::*part);
 
 /// One value a design, or one a run.
 std::vector<double> values_of(const ScoredDesigns& designs, CompareUnit unit);
