@@ -141,16 +141,19 @@ std::string missions_of(const ComparedRanks& ranks) {
   return names;
 }
 
-RankPlot::Panel panel_of(const ComparedRanks& ranks, CompareBy by) {
+/// A panel that stands alone needs no title: its source is among the details.
+RankPlot::Panel panel_of(const ComparedRanks& ranks, CompareBy by, bool alone) {
   const FriedmanTest& test = ranks.test;
-  RankPlot::Panel panel;
+  RankPlot::Panel panel{.title = alone ? "" : ranks.source};
   panel.details.push_back(
       fmt::format("{} {}{}: {}", test.blocks, by == CompareBy::Method ? "repetitions" : "designs",
-                  ranks.source.empty() ? "" : " in " + ranks.source, missions_of(ranks)));
-  panel.details.push_back(test.p_value
-                              ? fmt::format("Friedman: \u03c7\u00b2 = {:.4g}, df {}, p = {:.3g}",
-                                            test.statistic, test.degrees, *test.p_value)
-                              : "All values are tied: there is no test");
+                  alone && !ranks.source.empty() ? " in " + ranks.source : "", missions_of(ranks)));
+  panel.details.push_back(
+      test.p_value
+          ? fmt::format(
+                "Friedman: \u03c7\u00b2\u00a0=\u00a0{:.4g}, df\u00a0{}, p\u00a0=\u00a0{:.3g}",
+                test.statistic, test.degrees, *test.p_value)
+          : "All values are tied: there is no test");
   for (std::size_t i = 0; i < ranks.names.size(); ++i)
     panel.rows.push_back({ranks.names[i], test.mean_ranks[i], test.half_width.value_or(0)});
   return panel;
@@ -199,10 +202,9 @@ Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options) 
   }
   RankPlot plot{.title = fmt::format("Ranks by {}", name_of(comparison->options.by)),
                 .width_mm = options.width_mm};
-  for (const ComparedRanks& ranks : comparison->ranks) {
-    plot.panels.push_back(panel_of(ranks, comparison->options.by));
-    if (comparison->ranks.size() > 1) plot.panels.back().title = ranks.source;
-  }
+  const bool alone = comparison->ranks.size() == 1;
+  for (const ComparedRanks& ranks : comparison->ranks)
+    plot.panels.push_back(panel_of(ranks, comparison->options.by, alone));
   return Figure{.svg = draw(plot), .csv = ranks_csv(comparison->ranks)};
 }
 

@@ -35,7 +35,7 @@ name = "one"
 flavour = "watermelon"
 max_states = 1
 [race]
-max_experiments = 1000
+max_experiments = 1100
 [simulator]
 profile = "rvr"
 """
@@ -79,7 +79,7 @@ class StatisticsAgainstR(unittest.TestCase):
 
     def test_other_samples_agree_too(self):
         made = self.folder / "statistics.json"
-        run("Rscript", GOLDEN / "make.R", made, SEED, 400, 200)
+        run("Rscript", GOLDEN / "make.R", made, SEED, 400, 200, 0.03)
         print(run(BIN / "statistics_golden_test", env={"SWARMSMITH_STATISTICS": str(made)}))
 
     def test_compare_says_what_r_says_of_the_same_store(self):

@@ -1,10 +1,11 @@
 # Makes statistics.json: random samples, and what R says about them. Base R alone.
-#   Rscript make.R [OUTPUT] [SEED] [TIED] [UNTIED]
+#   Rscript make.R [OUTPUT] [SEED] [TIED] [UNTIED] [PART-WITH-BOOTSTRAPS]
 arguments <- commandArgs(TRUE)
 output <- if (length(arguments) > 0) arguments[1] else "statistics.json"
 seed <- if (length(arguments) > 1) as.integer(arguments[2]) else 6L
 tied <- if (length(arguments) > 2) as.integer(arguments[3]) else 200L
 untied <- if (length(arguments) > 3) as.integer(arguments[4]) else 100L
+bootstrapped <- if (length(arguments) > 4) as.numeric(arguments[5]) else 0.06
 set.seed(seed, kind = "Mersenne-Twister", normal.kind = "Inversion", sample.kind = "Rejection")
 
 number <- function(v) ifelse(is.finite(v), sprintf("%.15g", v), "null")
@@ -26,20 +27,24 @@ wilcoxon <- function(x, y, paired) {
          method = text(trimws(two$method)))
 }
 
-# Mean ranks with the intervals whose overlap says "not significant": Conover 1999, section 5.8.
-# The largest value of a block has rank 1.
+# Mean ranks, the largest value of a block has rank 1, and half their least significant difference: that
+# of two means in a two-way analysis of variance of the ranks, from its residuals.
 friedman <- function(values) {
   ranks <- t(apply(-values, 1, rank))
   b <- nrow(values)
   k <- ncol(values)
-  sums <- colSums(ranks)
-  freedom <- (b - 1) * (k - 1)
-  spread <- max(0, 2 * (b * sum(ranks^2) - sum(sums^2)) / freedom)
-  half <- if (b > 1) qt(0.975, freedom) * sqrt(spread) / (2 * b) else NaN
+  half <- NaN
+  if (b > 1) {
+    table <- data.frame(rank = c(ranks), treatment = factor(c(col(ranks))), block = factor(c(row(ranks))))
+    model <- lm(rank ~ treatment + block, table)
+    variance <- sum(residuals(model)^2) / df.residual(model)
+    if (variance < 1e-20) variance <- 0
+    half <- qt(0.975, df.residual(model)) * sqrt(2 * variance / b) / 2
+  }
   # With one block R's function loses the shape of its matrix.
   test <- if (b > 1) friedman.test(values) else list(statistic = NaN, p.value = NaN)
   object(statistic = number(test$statistic), p = number(test$p.value),
-         mean_ranks = numbers(sums / b), half_width = number(half))
+         mean_ranks = numbers(colMeans(ranks)), half_width = number(half))
 }
 
 a12 <- function(x, y) mean(outer(x, y, ">") + 0.5 * outer(x, y, "=="))
@@ -92,7 +97,7 @@ data_set <- function(name, with_ties) {
     blocks <- matrix(reals(b * k, 0) + rep(runif(k, -1, 1), each = b), b, k)
     blocks <- round(blocks, 9)
   }
-  describe(name, with_ties, x, y, before, after, blocks, runif(1) < 0.06)
+  describe(name, with_ties, x, y, before, after, blocks, runif(1) < bootstrapped)
 }
 
 describe <- function(name, with_ties, x, y, before, after, blocks, resample) {
