@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "analysis/drawing/svg.h"
+#include "analysis/statistics/summary.h"
 
 namespace swarmsmith {
 namespace {
@@ -78,14 +79,6 @@ void draw_box(Svg& svg, const BoxedSample& sample, const Axis& axis, double x) {
 }
 
 }  // namespace
-
-double quantile_of(std::vector<double> values, double p) {
-  std::ranges::sort(values);
-  const double at = p * static_cast<double>(values.size() - 1);
-  const auto below = static_cast<std::size_t>(at);
-  const std::size_t above = std::min(below + 1, values.size() - 1);
-  return values[below] + (at - static_cast<double>(below)) * (values[above] - values[below]);
-}
 
 std::string box_plot(const std::vector<BoxedSample>& samples, const std::string& title,
                      const std::string& axis_name) {

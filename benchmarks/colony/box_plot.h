@@ -18,7 +18,4 @@ struct BoxedSample {
 std::string box_plot(const std::vector<BoxedSample>& samples, const std::string& title,
                      const std::string& axis);
 
-/// The p-quantile, linear between order statistics (R's type 7). `values` is not empty.
-double quantile_of(std::vector<double> values, double p);
-
 }  // namespace swarmsmith

@@ -10,7 +10,7 @@ import subprocess
 import tempfile
 import unittest
 
-BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
+BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"]).resolve()
 GOLDEN = pathlib.Path(__file__).resolve().parent.parent / "golden" / "statistics"
 SEED = os.environ.get("SEED", "2026")
 
