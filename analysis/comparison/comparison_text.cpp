@@ -124,7 +124,8 @@ std::string ranks_text(const ComparedRanks& ranks) {
                           fmt::format("[{:.3f}, {:.3f}]", mean - half, mean + half)});
   }
   std::string text = fmt::format(
-      "Ranks{} over {} ({} blocks{}): Friedman chi-squared {}, {} degree{} of freedom, p {}\n",
+      "Ranks of designs' means{} over {} ({} blocks{}): Friedman chi-squared {}, {} degree{} of "
+      "freedom, p {}\n",
       ranks.source.empty() ? "" : " in " + ranks.source, fmt::join(ranks.missions, ", "),
       test.blocks,
       ranks.incomplete == 0 ? "" : fmt::format(", {} incomplete ones left out", ranks.incomplete),

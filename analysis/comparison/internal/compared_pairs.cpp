@@ -61,7 +61,7 @@ void add_notes(ComparedPair& pair) {
   if (pair.n_first < 2 || pair.n_second < 2)
     pair.notes.emplace_back("of one value an interval has no width");
   if (pair.test.zeros > 0 && pair.test.p_value)
-    pair.notes.push_back(fmt::format("{} of {} differences are zero and say nothing to the test",
+    pair.notes.push_back(fmt::format("differences of zero, which say nothing to the test: {} of {}",
                                      pair.test.zeros, pair.n_first));
   if (pair.test.p_value && pair.test.least_p > kLevel) {
     pair.notes.push_back(
@@ -102,8 +102,8 @@ void compare_sources(const ScoreTable::value_type& one, const ScoreTable::value_
                               .paired = true},
                              values.first, values.second);
   if (values.alone > 0) {
-    pair.notes.push_back(fmt::format("{} {} that only one of both sources has were left out",
-                                     values.alone, by_run ? "runs" : "designs"));
+    pair.notes.push_back(fmt::format("{} left out, since only one of both sources has them: {}",
+                                     by_run ? "runs" : "designs", values.alone));
   }
   comparison.pairs.push_back(std::move(pair));
 }

@@ -72,7 +72,7 @@ TEST(Comparison, RunsArePairedBySeed) {
   ASSERT_EQ(comparison.pairs.size(), 1U);
   EXPECT_EQ(comparison.pairs.front().n_first, 6U);
   EXPECT_THAT(comparison.pairs.front().notes,
-              Contains("6 runs that only one of both sources has were left out"));
+              Contains("runs left out, since only one of both sources has them: 6"));
   EXPECT_THAT(comparison.notes, Contains(HasSubstr("not independent")));
 }
 
@@ -83,7 +83,7 @@ TEST(Comparison, DesignsInOneSourceAloneAreLeftOutAndCounted) {
   });
   const ComparedPair pair = compare(scores, {.by = CompareBy::Source}).pairs.front();
   EXPECT_EQ(pair.n_first, 5U);
-  EXPECT_THAT(pair.notes, Contains("1 designs that only one of both sources has were left out"));
+  EXPECT_THAT(pair.notes, Contains("designs left out, since only one of both sources has them: 1"));
   EXPECT_THAT(pair.notes, Contains(HasSubstr("n is too small")));
 }
 

@@ -50,7 +50,7 @@ TEST_F(Compare, BySourceIsTheDefault) {
   EXPECT_THAT(ran.out, HasSubstr("aggregation  chocolate   rvr    real    6"));
   EXPECT_THAT(ran.out, HasSubstr("aggregation  watermelon  rvr    real    6"));
   EXPECT_THAT(ran.out, HasSubstr("Wilcoxon signed-rank test, two-sided"));
-  EXPECT_THAT(ran.out, HasSubstr("Ranks over aggregation (12 blocks)"));
+  EXPECT_THAT(ran.out, HasSubstr("Ranks of designs' means over aggregation (12 blocks)"));
 }
 
 TEST_F(Compare, ByMethodIsWithinASource) {
