@@ -27,6 +27,7 @@ void add_groups(const ScoreTable& table, Comparison& comparison) {
 
 void adjust_p_values(std::vector<ComparedPair>& pairs) {
   std::vector<std::optional<double>> p_values;
+  p_values.reserve(pairs.size());
   for (const ComparedPair& pair : pairs)
     p_values.push_back(pair.test.p_value);
   const auto adjusted = holm_adjusted(p_values);

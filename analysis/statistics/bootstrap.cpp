@@ -36,6 +36,7 @@ MeanDifference mean_difference(std::span<const double> first, std::span<const do
 MeanDifference paired_mean_difference(std::span<const double> first, std::span<const double> second,
                                       std::size_t resamples, std::uint64_t seed) {
   std::vector<double> differences;
+  differences.reserve(first.size());
   for (std::size_t i = 0; i < first.size(); ++i)
     differences.push_back(first[i] - second[i]);
   Rng rng = Rng(seed).split("bootstrap");

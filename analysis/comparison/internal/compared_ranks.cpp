@@ -37,6 +37,7 @@ std::optional<ComparedRanks> ranked(const Names& names, const std::vector<Block>
 template <class Key>
 std::vector<Block> in_order(const std::map<Key, Block>& blocks) {
   std::vector<Block> result;
+  result.reserve(blocks.size());
   for (const auto& [key, block] : blocks)
     result.push_back(block);
   return result;
