@@ -40,9 +40,14 @@ std::span<const FigureKind> figure_kinds() {
                  "mission method design"},
       FigureKind{"machine", "A state machine: states, conditions and their parameters",
                  machine_figure, "mission method design candidate"},
-      FigureKind{"race", "Who raced in an iteration, with ranks and eliminations", race_figure, "mission method design iteration"},
-      FigureKind{"sampling", "Values sampled of each parameter, by iteration", sampling_figure, "mission method design parameter"},
-      FigureKind{"parallel", "Parameters of the elites among all candidates", parallel_figure, "mission method design parameter"},
+      FigureKind{"race", "Who raced in an iteration, with ranks and eliminations", race_figure,
+                 "mission method design iteration"},
+      FigureKind{"sampling", "Values sampled of each parameter, by iteration", sampling_figure,
+                 "mission method design parameter"},
+      FigureKind{"parallel", "Parameters of the elites among all candidates", parallel_figure,
+                 "mission method design parameter"},
+      FigureKind{"ranks", "Mean ranks of methods or sources with Friedman's 95 % intervals",
+                 ranks_figure, "mission method by source"},
   };
   return kKinds;
 }

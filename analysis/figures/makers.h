@@ -15,5 +15,6 @@ Expected<Figure> machine_figure(StoreReader& store, const FigureOptions& options
 Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> sampling_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options);
 
 }  // namespace swarmsmith

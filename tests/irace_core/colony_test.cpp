@@ -5,7 +5,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "benchmarks/colony/rank_sum.h"
 #include "irace_core/files/parameter_file.h"
 #include "tests/irace_core/golden.h"
 
@@ -60,28 +59,6 @@ TEST(Colony, SearchesTheSpaceOfItsParameterFile) {
   ASSERT_TRUE(file) << to_string(file.error());
   EXPECT_EQ(print_parameter_file(colony::space()).value(),
             print_parameter_file(file->space).value());
-}
-
-/// Values of R's wilcox.test(a, b, alternative = "greater").
-TEST(RankSum, IsThatOfR) {
-  const std::vector<double> a = {0.3, 1.2, 2.2, 3.1, 0.7};
-  const std::vector<double> b = {0.1, 0.2, 1.1, 2.0};
-  EXPECT_NEAR(p_of_larger(a, b), 0.142857142857143, 1e-14);
-  const std::vector<double> tied_a = {1, 2, 2, 3, 5};
-  const std::vector<double> tied_b = {2, 2, 4, 1};
-  EXPECT_NEAR(p_of_larger(tied_a, tied_b), 0.398584846566871, 1e-14);
-  std::vector<double> many;
-  std::vector<double> more;
-  for (int i = 1; i <= 20; ++i)
-    many.push_back(i * 1.01);
-  for (int i = 1; i <= 45; ++i)
-    more.push_back(i * 0.5);
-  EXPECT_NEAR(p_of_larger(many, more), 0.666406193902278, 1e-12);
-}
-
-TEST(RankSum, OfTheSameNumbersSaysNothing) {
-  const std::vector<double> same = {4, 4, 4};
-  EXPECT_EQ(p_of_larger(same, same), 1);
 }
 
 }  // namespace

@@ -146,15 +146,6 @@ TEST_F(StoreFigures, OneOfSeveralDesignsHasToBeNamed) {
   }
 }
 
-TEST_F(StoreFigures, OptionsOfOtherKindsAreRefused) {
-  const RecordFilter one{.design = {{1}}};
-  EXPECT_THAT(refusal("race", {.filter = one, .by = "method"}), HasSubstr("takes no --by"));
-  EXPECT_THAT(refusal("race", {.filter = one, .parameter = "s"}), HasSubstr("no --parameter"));
-  EXPECT_THAT(refusal("sampling", {.filter = one, .iteration = 1}), HasSubstr("no --iteration"));
-  EXPECT_THAT(refusal("parallel", {.filter = one, .source = "rvr"}), HasSubstr("no --source"));
-  EXPECT_THAT(refusal("convergence", {.candidate = {{1}}}), HasSubstr("no --candidate"));
-}
-
 TEST_F(StoreFigures, SamplingCountsEveryCandidateOfAnIteration) {
   const Figure figure =
       made("sampling", {.filter = {.design = {{1}}}, .parameter = "states,s0.tau"});
