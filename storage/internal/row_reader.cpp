@@ -272,7 +272,8 @@ std::int64_t read_next_worker(const sqlite::Connection& connection) {
 
 bool is_finished(const sqlite::Connection& connection) {
   return sqlite::integer_of(connection,
-                            "SELECT count(*) FROM campaign WHERE state <> 'finished'") == 0;
+                            "SELECT count(*) FROM campaign WHERE state NOT IN"
+                            " ('finished', 'imported')") == 0;
 }
 
 void read_candidates(const sqlite::Connection& connection, const Part& part, const OnRow& on_row) {
