@@ -1,13 +1,20 @@
-// storage_benchmark [FILE]: what a store costs. Fills one with a synthetic campaign of 95,000
-// experiments as fast as it takes them, and prints CPU and wall time a row, the size, and how long
-// each documented view takes. The file stays when it is named.
+// storage_benchmark [DESIGNS [FILE]]: what a store costs, and how fast its views are. Fills a store
+// with one synthetic design of 100,000 experiments as fast as it takes them, and then one with
+// DESIGNS of them (30: 3 million experiments), and reads every documented view, whole and for one
+// design. The last file stays when it is named; else it is made in the folder for temporary files.
+
+#include <unistd.h>
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <ctime>
 #include <filesystem>
+#include <limits>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "storage/store.h"
 #include "tests/support/synthetic_campaign.h"
@@ -16,79 +23,140 @@ namespace {
 
 using namespace swarmsmith;
 using Clock = std::chrono::steady_clock;
+namespace fs = std::filesystem;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
 }
 
+/// Of the whole process: on a machine that others use, too, it says more than the time on the wall.
 double cpu_seconds() {
   timespec now{};
   clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
   return static_cast<double>(now.tv_sec) + static_cast<double>(now.tv_nsec) * 1e-9;
 }
 
-/// Everything but the writer sleeps meanwhile, so that the process' CPU time is the writer's.
-void fill(const std::filesystem::path& path, SyntheticCampaign campaign, std::size_t in_flight) {
-  std::filesystem::remove(path);
-  auto store = Store::open(path, campaign.campaign, campaign.designs);
+std::size_t count_evaluations(const std::vector<std::vector<Row>>& batches) {
+  std::size_t count = 0;
+  for (const auto& batch : batches) {
+    for (const Row& row : batch)
+      count += std::holds_alternative<EvaluationRow>(row) ? 1U : 0U;
+  }
+  return count;
+}
+
+/// Design by design. While a design is stored, everything but the writer sleeps, so that the
+/// process' CPU time is the writer's.
+void fill(const fs::path& path, std::int64_t designs, std::size_t in_flight) {
+  fs::remove(path);
+  SyntheticSize size = kHundredThousand;
+  size.designs = designs;
+  const SyntheticCampaign header = synthetic_header(size);
+  auto store = Store::open(path, header.campaign, header.designs);
   if (!store) {
     fmt::print(stderr, "{}\n", to_string(store.error()));
     std::exit(1);
   }
+  double cpu = 0, wall = 0;
   std::size_t evaluations = 0;
-  for (const auto& batch : campaign.batches) {
-    for (const Row& row : batch)
-      evaluations += std::holds_alternative<EvaluationRow>(row) ? 1U : 0U;
+  for (const DesignRow& design : header.designs) {
+    auto batches = synthetic_design(size, design.id);
+    evaluations += count_evaluations(batches);
+    const double cpu_before = cpu_seconds();
+    const auto start = Clock::now();
+    std::size_t queued = 0;
+    for (auto& batch : batches) {
+      (*store)->append(std::move(batch));
+      if (++queued % in_flight == 0) (*store)->flush();
+    }
+    (*store)->flush();
+    wall += seconds_since(start);
+    cpu += cpu_seconds() - cpu_before;
   }
-  const double cpu = cpu_seconds();
-  const auto start = Clock::now();
-  std::size_t queued = 0;
-  for (auto& batch : campaign.batches) {
-    (*store)->append(std::move(batch));
-    if (++queued % in_flight == 0) (*store)->flush();
-  }
-  (*store)->flush();
-  const double wall = seconds_since(start);
-  const double used = cpu_seconds() - cpu;
+  store->reset();
   const auto count = static_cast<double>(evaluations);
-  fmt::print(
-      "{} evaluations, {} batches in flight: {:.2f} us of CPU, {:.2f} us of wall time each\n",
-      evaluations, in_flight, used / count * 1e6, wall / count * 1e6);
+  const auto bytes = static_cast<double>(fs::file_size(path));
+  fmt::print("{:9} {:9} {:12.2f} {:13.2f} {:9.1f} {:14.1f}\n", evaluations, in_flight,
+             cpu / count * 1e6, wall / count * 1e6, bytes / 1e6, bytes / count);
 }
 
-void time_views(StoreReader& reader) {
+std::vector<std::string> views_of(StoreReader& reader) {
   std::vector<std::string> names;
+  (void)reader.query(
+      "SELECT name FROM sqlite_schema WHERE type = 'view' AND name GLOB 'v_*' ORDER BY name", {},
+      [](const auto&) {}, [&](const auto& cells) { names.push_back(cells[0].text); });
+  return names;
+}
+
+bool has_column(StoreReader& reader, const std::string& view, const std::string& column) {
+  bool has = false;
+  (void)reader.query(
+      fmt::format("SELECT 1 FROM pragma_table_info('{}') WHERE name = '{}'", view, column), {},
+      [](const auto&) {}, [&](const auto&) { has = true; });
+  return has;
+}
+
+struct Reading {
+  std::int64_t rows = 0;
+  double seconds = 0;
+  double cpu = 0;
+};
+
+Reading read(StoreReader& reader, const std::string& sql) {
   const auto ignore = [](const auto&) {};
-  (void)reader.query("SELECT name FROM sqlite_schema WHERE type = 'view' ORDER BY name", {}, ignore,
-                     [&](const auto& cells) { names.push_back(cells[0].text); });
-  for (const std::string& name : names) {
-    const auto start = Clock::now();
-    const auto end = reader.query("SELECT * FROM " + name, {}, ignore, ignore);
-    fmt::print("{:20} {:8} rows {:7.3f} s\n", name, end ? end->rows : -1, seconds_since(start));
+  const double cpu = cpu_seconds();
+  const auto start = Clock::now();
+  const auto end = reader.query(
+      sql, {.rows = std::numeric_limits<std::int64_t>::max(), .seconds = 1e6}, ignore, ignore);
+  if (!end) fmt::print(stderr, "{}\n", to_string(end.error()));
+  return {end ? end->rows : -1, seconds_since(start), cpu_seconds() - cpu};
+}
+
+void time_views(const fs::path& path) {
+  auto start = Clock::now();
+  auto reader = StoreReader::open(path);
+  if (!reader) std::exit(1);
+  const std::string digest = (*reader)->digest();
+  fmt::print("digest {}: {:.2f} s\n\n", digest, seconds_since(start));
+  const std::int64_t design = (static_cast<std::int64_t>((*reader)->designs().size()) + 1) / 2;
+  const auto print = [](const Reading& r) {
+    fmt::print(" {:9} {:8.3f} {:8.3f}", r.rows, r.seconds, r.cpu);
+  };
+  fmt::print("{:19}", "view");
+  for (const char* what : {"rows", "of 1 design"})
+    fmt::print(" {:>11} {:>6} {:>8}", what, "s", "s of CPU");
+  fmt::print("\n");
+  for (const std::string& name : views_of(**reader)) {
+    fmt::print("{:19}", name);
+    print(read(**reader, "SELECT * FROM " + name));
+    if (has_column(**reader, name, "design"))
+      print(read(**reader, fmt::format("SELECT * FROM {} WHERE design = {}", name, design)));
+    fmt::print("\n");
   }
+}
+
+void print_costs_header() {
+  fmt::print("{:>9} {:>9} {:>12} {:>13} {:>9} {:>14}\n", "scores", "in flight", "us of CPU each",
+             "us each", "MB", "bytes each");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::filesystem::path path =
-      argc > 1 ? argv[1] : std::filesystem::temp_directory_path() / "storage_benchmark.db";
-  const SyntheticCampaign campaign = synthetic_campaign(kHundredThousand);
-  for (const std::size_t in_flight : {std::size_t{1}, std::size_t{4}, std::size_t{1000}}) {
-    fill(path, campaign, in_flight);
+  const std::int64_t designs = argc > 1 ? std::max(1L, std::atol(argv[1])) : 30;
+  const fs::path path =
+      argc > 2 ? fs::path(argv[2])
+               : fs::temp_directory_path() / fmt::format("storage_benchmark-{}.db", ::getpid());
+  print_costs_header();
+  for (const std::size_t in_flight : {std::size_t{1}, std::size_t{4}, std::size_t{1000}})
+    fill(path, 1, in_flight);
+  time_views(path);
+  fmt::print("\n");
+  if (designs > 1) {
+    print_costs_header();
+    fill(path, designs, 1000);
+    time_views(path);
   }
-  fmt::print("{:.2f} MB\n", static_cast<double>(std::filesystem::file_size(path)) / 1e6);
-
-  auto start = Clock::now();
-  auto reader = StoreReader::open(path);
-  if (!reader) return 1;
-  const std::size_t scores = (*reader)->scores().size();
-  fmt::print("scores: {} in {:.3f} s\n", scores, seconds_since(start));
-  start = Clock::now();
-  const std::string digest = (*reader)->digest();
-  fmt::print("digest: {} in {:.3f} s\n", digest, seconds_since(start));
-  time_views(**reader);
-  reader->reset();
-  if (argc < 2) std::filesystem::remove(path);
+  if (argc < 3) fs::remove(path);
   return 0;
 }

@@ -55,10 +55,12 @@ void Coordinator::on_frame(const Peer& peer, std::string_view frame, TimePoint n
 
 void Coordinator::on_message(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
   const auto forbidden = [&] {
-    on_malformed(peer.id,
-                 {ErrorKind::BadInput,
-                  "the key \"" + std::string(peer.client) + "\" does not allow this", "role"},
-                 now);
+    const std::string sentence = "the key \"" + std::string(peer.client) + "\" has a role that " +
+                                 "does not allow this; `role` in clients.toml says which it is";
+    // Whoever holds a listed key is told; strangers never come so far.
+    send(peer.id,
+         frame_of(SendReject{peer.id, message.incarnation(), RejectReason::Protocol, sentence}));
+    on_malformed(peer.id, {ErrorKind::BadInput, sentence, "role"}, now);
   };
   if (message.has_command()) {
     return may_command(peer.role) ? on_command(peer, message.command()) : forbidden();

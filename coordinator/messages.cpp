@@ -102,7 +102,7 @@ std::string frame_of(const SendReject& action) {
   pb::ToWorker message;
   message.set_incarnation(action.incarnation);
   message.mutable_reject()->set_reason(reason_of(action.reason));
-  message.mutable_reject()->set_sentence(action.sentence.substr(0, kMaxTextBytes));
+  message.mutable_reject()->set_sentence(clipped_text(action.sentence));
   return encode(message);
 }
 
@@ -167,7 +167,7 @@ std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation)
 std::string command_reply_of(bool done, const std::string& sentence) {
   pb::ToWorker message;
   message.mutable_command_reply()->set_done(done);
-  message.mutable_command_reply()->set_sentence(sentence.substr(0, kMaxTextBytes));
+  message.mutable_command_reply()->set_sentence(clipped_text(sentence));
   return encode(message);
 }
 

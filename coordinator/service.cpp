@@ -1,14 +1,13 @@
 #include "coordinator/service.h"
 
 #include <algorithm>
-#include <map>
-#include <mutex>
 #include <optional>
 #include <utility>
 
-#include "access/address.h"
 #include "base/log.h"
 #include "base/overloaded.h"
+#include "coordinator/campaign_stores.h"
+#include "coordinator/front_door.h"
 #include "coordinator/log_row.h"
 #include "coordinator/telemetry.h"
 
@@ -27,32 +26,6 @@ constexpr Duration kLookAtLogs = std::chrono::seconds(1);
 constexpr std::int64_t kMostUncommitted = 500'000;
 /// Frames that are read before the campaign moves on and answers go out.
 constexpr int kFramesAtOnce = 256;
-/// A storm of strangers makes a line a reason in this time.
-constexpr Duration kSayAgain = std::chrono::seconds(10);
-
-/// What the writers' threads say, a writer a campaign, for the loop's thread.
-class News {
- public:
-  News(Wakeup& wakeup, std::size_t campaigns) : wakeup_(&wakeup), news_(campaigns) {}
-
-  void put(std::size_t campaign, const WriterNews& news) {
-    {
-      const std::scoped_lock lock(mutex_);
-      news_[campaign] = news;
-    }
-    wakeup_->notify();
-  }
-
-  std::optional<WriterNews> take(std::size_t campaign) {
-    const std::scoped_lock lock(mutex_);
-    return std::exchange(news_[campaign], std::nullopt);
-  }
-
- private:
-  Wakeup* wakeup_;
-  std::mutex mutex_;
-  std::vector<std::optional<WriterNews>> news_;
-};
 
 std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& campaigns) {
   std::vector<TelemetryCampaign> all;
@@ -61,53 +34,15 @@ std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& 
   return all;
 }
 
-/// Says who was kept out, seldom.
-class RefusalLog {
- public:
-  void say(const Refusals& refusals, TimePoint now) {
-    for (const auto& [reason, count] : refusals.counts) {
-      Said& said = said_[reason];
-      if (count == said.count || (said.count > 0 && now - said.when < kSayAgain)) continue;
-      const auto from = refusals.last_from.find(reason);
-      log(LogLevel::Warning, "coordinator", "connection refused",
-          {{"reason", reason},
-           {"times", std::to_string(count - said.count)},
-           {"last_from", from != refusals.last_from.end() ? from->second : "unknown"}});
-      said = {count, now};
-    }
-  }
-
- private:
-  struct Said {
-    std::uint64_t count = 0;
-    TimePoint when;
-  };
-  std::map<std::string, Said> said_;
-};
-
 class Loop final : public Service {
  public:
   Loop(ServiceOptions options, std::unique_ptr<ServerSocket> socket,
        const std::vector<ServiceCampaign>& campaigns, const std::vector<CampaignWork>& works)
       : options_(std::move(options)),
-        news_(wakeup_, campaigns.size()),
-        troubles_(campaigns.size()),
+        stores_(campaigns, wakeup_),
         socket_(std::move(socket)),
         coordinator_(options_.coordinator, works),
-        telemetry_(telemetry_of(campaigns), clock_.now()) {
-    for (const ServiceCampaign& campaign : campaigns) {
-      files_.push_back(campaign.file);
-      names_.push_back(campaign.name);
-      const std::size_t index = stores_.size();
-      stores_.push_back(campaign.store);
-      campaign.store->set_listener(
-          [this, index](const WriterNews& news) { news_.put(index, news); });
-    }
-  }
-  ~Loop() override {
-    for (Store* store : stores_)
-      store->set_listener({});
-  }
+        telemetry_(telemetry_of(campaigns), clock_.now()) {}
 
   const std::string& endpoint() const override { return socket_->endpoint(); }
 
@@ -169,13 +104,12 @@ class Loop final : public Service {
   }
 
   void hear_news() {
-    for (std::uint32_t index = 0; index < stores_.size(); ++index) {
-      const std::optional<WriterNews> news = news_.take(index);
+    for (std::uint32_t index = 0; index < stores_.count(); ++index) {
+      const std::optional<WriterNews> news = stores_.take_news(index);
       if (!news) continue;
       coordinator_.on_committed(index, news->committed);
       telemetry_.on_committed(index, news->committed, clock_.now());
-      if (news->trouble == troubles_[index]) continue;
-      troubles_[index] = news->trouble;
+      if (!stores_.update_trouble(index, news->trouble)) continue;
       // The others' results find their place on disk.
       coordinator_.hold(index, !news->trouble.empty());
       telemetry_.set_trouble(index, news->trouble);
@@ -195,12 +129,6 @@ class Loop final : public Service {
     too_slow_ = status_.uncommitted > most;
     if (too_slow_) return Holding::Commit;
     return stopping_ ? Holding::Other : Holding::No;
-  }
-
-  /// Of the stores; the first one that has any.
-  std::string trouble() const {
-    const auto some = std::ranges::find_if_not(troubles_, &std::string::empty);
-    return some == troubles_.end() ? std::string() : *some;
   }
 
   void carry_out() {
@@ -237,7 +165,7 @@ class Loop final : public Service {
     tell(append.campaign, rows.first(rows.size() - append.of_pool), now);
     // Every store has them; here they are told once.
     if (append.campaign == 0) tell(std::nullopt, rows.last(append.of_pool), now);
-    const std::uint64_t ticket = stores_[append.campaign]->append(std::move(append.rows));
+    const std::uint64_t ticket = stores_.append(append.campaign, std::move(append.rows));
     telemetry_.on_appended(append.campaign, ticket, now);
     coordinator_.on_appended(append.campaign, ticket);
   }
@@ -246,7 +174,7 @@ class Loop final : public Service {
     if (rows.empty()) return;
     if (campaign) telemetry_.on_rows(*campaign, rows, now);
     for (const Row& row : rows)
-      row_log_.add(campaign, campaign ? names_[*campaign] : "", row);
+      row_log_.add(campaign, campaign ? stores_.name(*campaign) : "", row);
     if (hooks_->on_rows) hooks_->on_rows(campaign, rows);
   }
 
@@ -259,7 +187,7 @@ class Loop final : public Service {
   void report(TimePoint now, bool all = false) {
     if (now - looked_ >= kLookAtLogs) look_at_logs(now);
     status_ = telemetry_.status(coordinator_, now, all);
-    status_.trouble = trouble();
+    status_.trouble = stores_.trouble();
     status_.insecure_plaintext = options_.insecure_plaintext;
     status_.refused = socket_->refusals().counts;
     status_json_.clear();
@@ -268,18 +196,8 @@ class Loop final : public Service {
 
   void look_at_logs(TimePoint now) {
     looked_ = now;
-    for (std::size_t index = 0; index < files_.size(); ++index) {
-      if (files_[index].empty()) continue;
-      std::error_code none;
-      const auto bytes = std::filesystem::file_size(files_[index].string() + "-wal", none);
-      telemetry_.set_wal_bytes(index, none ? 0 : static_cast<std::int64_t>(bytes));
-    }
-  }
-
-  void flush() {
-    for (std::size_t index = 0; index < stores_.size(); ++index) {
-      if (troubles_[index].empty()) stores_[index]->flush();
-    }
+    stores_.each_log(
+        [this](std::size_t index, std::int64_t bytes) { telemetry_.set_wal_bytes(index, bytes); });
   }
 
   void wait_for_running() {
@@ -296,7 +214,7 @@ class Loop final : public Service {
     stopping_ = true;
     coordinator_.hold(holding());
     carry_out();
-    flush();
+    stores_.flush();
     hear_news();
     carry_out();
     report(clock_.now(), true);
@@ -306,7 +224,7 @@ class Loop final : public Service {
   ServiceEnd finish() {
     coordinator_.drain(clock_.now());
     carry_out();
-    flush();
+    stores_.flush();
     // A worker that did not hear of the end would look for the coordinator until somebody stops it.
     const TimePoint until = clock_.now() + kFarewell;
     while (coordinator_.scheduler().workers().connected() > 0 && clock_.now() < until)
@@ -319,7 +237,7 @@ class Loop final : public Service {
 
   std::vector<std::string> reasons() const {
     std::vector<std::string> reasons;
-    for (std::uint32_t index = 0; index < stores_.size(); ++index)
+    for (std::uint32_t index = 0; index < stores_.count(); ++index)
       reasons.push_back(coordinator_.stopped(index).value_or(""));
     return reasons;
   }
@@ -327,16 +245,12 @@ class Loop final : public Service {
   ServiceOptions options_;
   SystemClock clock_;
   Wakeup wakeup_;
-  News news_;
-  std::vector<std::string> troubles_;  ///< of the stores
+  CampaignStores stores_;
   std::unique_ptr<ServerSocket> socket_;
-  std::vector<Store*> stores_;
   Coordinator coordinator_;
   const ServiceHooks* hooks_ = nullptr;
   Telemetry telemetry_;
   RowLog row_log_;
-  std::vector<std::filesystem::path> files_;  ///< of the stores
-  std::vector<std::string> names_;            ///< of the campaigns
   RefusalLog refusal_log_;
   LiveStatus status_;
   std::string status_json_;  ///< of it; empty until somebody asks
@@ -351,34 +265,7 @@ class Loop final : public Service {
 
 Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options,
                                                  std::vector<ServiceCampaign> campaigns) {
-  const bool insisted = options.insecure_plaintext;
-  if (options.bind.empty()) options.bind = "tcp://127.0.0.1:*";
-  // A name of an interface is what a socket would look for.
-  if (constexpr std::string_view kName = "tcp://localhost:"; options.bind.starts_with(kName)) {
-    options.bind.replace(0, kName.size(), "tcp://127.0.0.1:");
-  }
-  const auto address = address_of(options.bind);
-  if (!address) {
-    return bad_input("this is no address to listen on; it is written 127.0.0.1:5555, host and port",
-                     options.bind);
-  }
-  options.insecure_plaintext = !options.keys && !is_loopback(*address);
-  if (options.insecure_plaintext && !insisted) {
-    return bad_input(
-        "other hosts may connect here, so that keys are needed: make them with `swarmsmith "
-        "keygen`, or listen on tcp://127.0.0.1:PORT",
-        options.bind);
-  }
-  if (options.insecure_plaintext) {
-    log(LogLevel::Warning, "coordinator",
-        "listening beyond loopback without encryption: whoever reaches the port can read the "
-        "campaign, send results and give commands",
-        {{"address", options.bind}});
-  }
-  // The last words of a campaign send its workers home.
-  options.socket.linger = milliseconds{200};
-  Expected<std::unique_ptr<ServerSocket>> socket =
-      ServerSocket::bind(options.bind, options.socket, std::move(options.keys));
+  Expected<std::unique_ptr<ServerSocket>> socket = open_front_door(options);
   if (!socket) return Unexpected(socket.error());
   std::vector<std::vector<StoredScore>> known;
   std::vector<std::vector<CommandRow>> commands;

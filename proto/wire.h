@@ -29,6 +29,10 @@ inline constexpr std::size_t kMaxFrameToWorkerBytes = 32U << 20U;
 inline constexpr int kMaxItemsPerMessage = 4096;  ///< tasks, results or keys
 inline constexpr std::size_t kMaxMachineBytes = 16U << 10U;
 inline constexpr std::size_t kMaxTextBytes = 4U << 10U;
+/// As much of a text as a message may carry.
+inline std::string clipped_text(const std::string& text) {
+  return text.substr(0, kMaxTextBytes);
+}
 inline constexpr std::uint32_t kMaxSlots = 4096;
 inline constexpr std::size_t kWorkerIdBytes = 16;
 

@@ -204,6 +204,8 @@ Expected<Recovery::End> SqliteRecovery::finish() {
                         "the campaign's own row is lost; name the campaign's file, so that the new "
                         "store knows whose rows these are: `--campaign campaign.toml`");
     }
+    for (const CandidateId lost : candidates_without_phrases(connection_))
+      remove(fmt::format("DELETE FROM candidate WHERE id = {}", lost.value).c_str());
     std::int64_t before = -1;
     while (before != orphans_) {
       before = orphans_;

@@ -89,6 +89,8 @@ std::vector<std::string> faults_of(const sqlite::Connection& connection) {
       faults.push_back(fmt::format("rows of {} name rows of {} that do not exist: {}",
                                    foreign.text(0), foreign.text(1), foreign.integer(2)));
     }
+    if (const auto lost = candidates_without_phrases(connection); !lost.empty())
+      faults.push_back(fmt::format("candidates name phrases that do not exist: {}", lost.size()));
   } catch (const sqlite::SqliteError& error) {
     faults.emplace_back(error.what());
   }

@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "base/assert.h"
+#include "storage/internal/candidate_code.h"
 #include "storage/renumber.h"
 
 namespace swarmsmith {
@@ -83,15 +84,43 @@ IterationRow iteration(const Statement& row) {
           .model_digest = row.bits(7)};
 }
 
-CandidateRow candidate(const Statement& row) {
-  return {.id = candidate_at(row, 0),
-          .iteration = row.integer(1),
-          .parent = candidate_at(row, 2),
-          .parameters = row.text(3),
-          .machine = row.text(4),
-          .modules = row.text(5),
-          .states = row.integer(6),
-          .transitions = row.integer(7)};
+std::optional<std::string> optional_text(const Statement& row, int column) {
+  return row.is_null(column) ? std::nullopt : std::optional(row.text(column));
+}
+
+std::string codes_in(const sqlite::Connection& connection) {
+  return schema_of(connection) < 4 ? "NULL, NULL" : "code, module_code";
+}
+
+/// Calls `take(candidate, whole)` with every candidate by id; `whole` is false when the store lacks
+/// phrases of its texts. Stores before schema 4 know no phrases: their texts are as they are.
+template <class Take>
+void each_candidate(const sqlite::Connection& connection, const Part& part, Take take) {
+  PhraseBook phrases;
+  if (schema_of(connection) >= 4) phrases.load(connection);
+  Statement row(
+      connection,
+      "SELECT id, iteration, parent, states, transitions, machine, parameters, modules, " +
+          codes_in(connection) + " FROM candidate WHERE " + candidates_of(part, "id") +
+          " ORDER BY id");
+  const Shift shift = shift_of(part);
+  while (row.step()) {
+    CandidateRow candidate{.id = candidate_at(row, 0),
+                           .iteration = row.integer(1),
+                           .parent = candidate_at(row, 2),
+                           .parameters = {},
+                           .machine = {},
+                           .modules = {},
+                           .states = row.integer(3),
+                           .transitions = row.integer(4)};
+    const StoredTexts texts{.machine = row.text(5),
+                            .parameters = row.text(6),
+                            .modules = row.text(7),
+                            .code = optional_text(row, 8),
+                            .module_code = optional_text(row, 9)};
+    const bool whole = phrases.decode(texts, candidate);
+    take(std::get<CandidateRow>(shifted(std::move(candidate), shift)), whole);
+  }
 }
 
 PairRow pair(const Statement& row) {
@@ -276,12 +305,21 @@ bool is_finished(const sqlite::Connection& connection) {
                             " ('finished', 'imported')") == 0;
 }
 
+std::vector<CandidateId> candidates_without_phrases(const sqlite::Connection& connection) {
+  std::vector<CandidateId> lost;
+  each_candidate(connection, {}, [&](const CandidateRow& candidate, bool whole) {
+    if (!whole) lost.push_back(candidate.id);
+  });
+  return lost;
+}
+
 void read_candidates(const sqlite::Connection& connection, const Part& part, const OnRow& on_row) {
-  each(connection, part,
-       "SELECT id, iteration, parent, parameters, machine, modules, states, transitions"
-       " FROM candidate WHERE " +
-           candidates_of(part, "id") + " ORDER BY id",
-       on_row, candidate);
+  each_candidate(connection, part, [&](const CandidateRow& candidate, bool whole) {
+    if (!whole) {
+      connection.fail(SQLITE_CORRUPT, to_string(candidate.id) + " names phrases that do not exist");
+    }
+    on_row(candidate);
+  });
 }
 
 void read_answer(const sqlite::Connection& connection, const Part& part, const OnRow& on_row) {

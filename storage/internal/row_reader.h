@@ -32,6 +32,9 @@ bool is_finished(const sqlite::Connection& connection);
 /// Version of tables and views.
 std::int64_t schema_of(const sqlite::Connection& connection);
 
+/// Candidates with texts that cannot be made, for want of a phrase of the table.
+std::vector<CandidateId> candidates_without_phrases(const sqlite::Connection& connection);
+
 /// Every row of the answer in canonical order: states of the designs, iterations, candidates,
 /// pairs, evaluations, steps, eliminations, elites, totals, commands that acted; each kind by
 /// its key.

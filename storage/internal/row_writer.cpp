@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "base/assert.h"
 #include "base/overloaded.h"
@@ -10,7 +11,7 @@
 namespace swarmsmith {
 namespace {
 
-constexpr char kCandidate[] = "INSERT OR IGNORE INTO candidate VALUES (?,?,?,?,?,?,?,?)";
+constexpr char kCandidate[] = "INSERT INTO candidate VALUES (?,?,?,?,?,?,?,?,?,?)";
 constexpr char kPair[] = "INSERT OR IGNORE INTO pair VALUES (?,?,?,?,?)";
 // The first result stays, whatever comes later. Only a race that asks for what was computed ahead
 // may still write its iteration, if the bits agree.
@@ -79,7 +80,10 @@ void require(bool finite, const Row& row) {
 }  // namespace
 
 RowWriter::RowWriter(sqlite::Connection& connection)
-    : candidate_(connection, kCandidate),
+    : connection_(connection),
+      candidate_(connection, kCandidate),
+      known_candidate_(connection, "SELECT 1 FROM candidate WHERE id = ?"),
+      phrase_(connection, "INSERT INTO phrase VALUES (?,?,?,?)"),
       pair_(connection, kPair),
       evaluation_(connection, kEvaluation),
       unused_(connection, kUnused),
@@ -103,9 +107,24 @@ void RowWriter::write(const Row& row) {
   std::visit([this](const auto& alternative) { put(alternative); }, row);
 }
 
+void RowWriter::forget() {
+  sources_.clear();
+  phrases_.clear();
+  phrases_are_loaded_ = false;
+}
+
 void RowWriter::put(const CandidateRow& row) {
+  known_candidate_.bind(row.id.value);
+  const bool known = known_candidate_.step();
+  known_candidate_.reset();
+  if (known) return;  // and makes no new phrases
+  if (!std::exchange(phrases_are_loaded_, true)) phrases_.load(connection_);
+  const StoredTexts texts = phrases_.encode(row, [this](std::int64_t number, const Phrase& phrase) {
+    phrase_.run(number, phrase.machine, phrase.parameters, phrase.modules);
+  });
   candidate_.run(row.id.value, row.iteration, unless_zero(row.parent.value), row.states,
-                 row.transitions, row.modules, row.machine, row.parameters);
+                 row.transitions, texts.modules, texts.machine, texts.parameters, texts.code,
+                 texts.module_code);
 }
 
 void RowWriter::put(const PairRow& row) {

@@ -4,6 +4,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "storage/internal/candidate_code.h"
 #include "storage/internal/sqlite.h"
 #include "storage/rows.h"
 
@@ -20,7 +21,7 @@ class RowWriter {
   void write(const Row& row);
 
   /// Drops what was remembered of rows that a rollback has taken away.
-  void forget() { sources_.clear(); }
+  void forget();
 
  private:
   void put(const CandidateRow& row);
@@ -44,10 +45,13 @@ class RowWriter {
   /// The number of a source, made when it is new.
   std::int64_t source_id(const std::string& name);
 
-  sqlite::Statement candidate_, pair_, evaluation_, unused_, iteration_, race_step_, elimination_,
-      elite_, totals_, design_state_, campaign_state_, worker_, conflict_, failure_, event_,
-      attempt_, command_, new_source_, find_source_;
+  sqlite::Connection& connection_;
+  sqlite::Statement candidate_, known_candidate_, phrase_, pair_, evaluation_, unused_, iteration_,
+      race_step_, elimination_, elite_, totals_, design_state_, campaign_state_, worker_, conflict_,
+      failure_, event_, attempt_, command_, new_source_, find_source_;
   std::unordered_map<std::string, std::int64_t> sources_;
+  PhraseBook phrases_;
+  bool phrases_are_loaded_ = false;
 };
 
 /// Throws std::invalid_argument when a number of the row is NaN or infinite: SQLite would store a

@@ -21,3 +21,16 @@ ALTER TABLE campaign_of_several RENAME TO campaign;
 
 ALTER TABLE design ADD COLUMN campaign INTEGER NOT NULL DEFAULT 1;
 ALTER TABLE design ADD COLUMN flavour TEXT NOT NULL DEFAULT '';
+
+-- What the texts of candidates have in common (internal/candidate_code.h). A text that is empty
+-- where there is a code is made of the code's phrases; candidates of earlier schemas stay as told.
+CREATE TABLE phrase (
+  id         INTEGER PRIMARY KEY,
+  machine    TEXT,
+  parameters TEXT,
+  modules    TEXT
+) STRICT;
+ALTER TABLE candidate ADD COLUMN code TEXT;
+ALTER TABLE candidate ADD COLUMN module_code TEXT;
+
+CREATE INDEX race_step_of_iteration ON race_step (design, iteration, step);

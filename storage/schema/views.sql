@@ -30,14 +30,37 @@ SELECT id AS design, mission, method, repetition, seed,
        CASE WHEN best IS NOT NULL THEN best_mean END AS best_mean, reason, flavour, campaign
 FROM design;
 
+-- Not public: the rows of the table with their texts, made of phrases where they have a code
+-- (internal/candidate_code.h). A text costs its time only where it is asked for. json_each gives
+-- the pieces in order, and CROSS JOIN keeps them so.
+-- The second condition on the design says the same as the first: a query for some designs then
+-- reads their candidates alone, and one for some candidates reads these. So in the other views.
+CREATE VIEW candidate_text AS
+SELECT c.id, d.id AS design, c.iteration, c.parent, c.states, c.transitions,
+       CASE WHEN c.code IS NULL OR c.machine <> '' THEN c.machine ELSE
+         (SELECT coalesce(group_concat(p.machine || j.value, ' '), '')
+          FROM json_each(c.code) AS j
+          CROSS JOIN phrase AS p ON p.id = j.key) END AS machine,
+       CASE WHEN c.code IS NULL THEN c.parameters ELSE
+         (SELECT '{' || group_concat(p.parameters || j.value, ',') || '}'
+          FROM json_each(c.code) AS j
+          CROSS JOIN phrase AS p ON p.id = j.key) END AS parameters,
+       CASE WHEN c.module_code IS NULL THEN c.modules ELSE
+         (SELECT '{' || group_concat(p.modules, ',') || '}'
+          FROM json_each(c.module_code) AS j
+          CROSS JOIN phrase AS p ON p.id = j.value) END AS modules
+FROM candidate AS c
+JOIN design AS d ON d.id = (c.id - 1) / 1000000 + 1
+  AND c.id BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000;
+
 CREATE VIEW v_candidates AS
-SELECT c.id AS candidate, (c.id - 1) / 1000000 + 1 AS design, (c.id - 1) % 1000000 + 1 AS number,
+SELECT c.id AS candidate, c.design, (c.id - 1) % 1000000 + 1 AS number,
        c.iteration, c.parent, c.states AS n_states, c.transitions AS n_transitions,
        c.machine AS fsm_config, c.parameters, c.modules,
        coalesce(t.runs, 0) AS runs,
        CASE WHEN t.runs > 0 THEN t.score_sum / t.runs END AS mean,
        x.iteration AS eliminated_in, x.step AS eliminated_at, x.reason AS eliminated_by
-FROM candidate AS c
+FROM candidate_text AS c
 LEFT JOIN candidate_totals AS t ON t.candidate = c.id
 LEFT JOIN elimination AS x ON x.candidate = c.id
   AND x.iteration = (SELECT max(iteration) FROM elimination AS l WHERE l.candidate = c.id);
@@ -56,7 +79,7 @@ CREATE VIEW v_evaluations AS
 SELECT 'e' || (e.candidate * 100000 + e.pair)
            || CASE e.purpose WHEN 0 THEN '' WHEN 1 THEN 'l' WHEN 2 THEN 't' WHEN 3 THEN 'a'
                              WHEN 4 THEN 's' ELSE 'v' END AS id,
-       (e.candidate - 1) / 1000000 + 1 AS design, e.candidate,
+       d.id AS design, e.candidate,
        CASE e.purpose WHEN 0 THEN 'race' WHEN 1 THEN 'look-ahead' WHEN 2 THEN 'test'
                       WHEN 3 THEN 'audit' WHEN 4 THEN 'score' ELSE 'evaluator' END AS purpose,
        e.pair, p.instance, p.seed, e.iteration,
@@ -65,9 +88,10 @@ SELECT 'e' || (e.candidate * 100000 + e.pair)
        s.name AS source, e.purpose <> 1 AND (e.purpose <> 0 OR e.iteration IS NOT NULL) AS used,
        e.state_digest
 FROM evaluation AS e
+JOIN design AS d ON d.id = (e.candidate - 1) / 1000000 + 1
+  AND e.candidate BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000
 JOIN source AS s ON s.id = e.source
-LEFT JOIN pair AS p
-  ON p.design = (e.candidate - 1) / 1000000 + 1 AND p.purpose = e.purpose AND p.number = e.pair;
+LEFT JOIN pair AS p ON p.design = d.id AND p.purpose = e.purpose AND p.number = e.pair;
 
 -- Where a targetEvaluator says the costs, its calls for test instances have negative instances.
 CREATE VIEW v_design_scores AS
@@ -103,47 +127,57 @@ LEFT JOIN (SELECT design, iteration, max(used) AS used FROM race_step GROUP BY d
 
 -- Who raced in an iteration: its new candidates, the elites of the one before, and, once it has
 -- ended, all whom it dropped or kept (postselection takes candidates from anywhere). A candidate is
--- in every step up to the one that dropped it.
+-- in every step up to the one that dropped it. The parts of `racer` have no row in common, since
+-- SQLite hands a predicate on the design down to UNION ALL alone, and a predicate on iteration or
+-- step past a window only when it is part of the PARTITION.
 CREATE VIEW v_race_matrix AS
 WITH racer (design, iteration, candidate) AS (
-  SELECT (id - 1) / 1000000 + 1, iteration, id FROM candidate
-  UNION
+  SELECT d.id, c.iteration, c.id
+  FROM design AS d JOIN candidate AS c ON c.id BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000
+  UNION ALL
   SELECT design, iteration + 1, candidate FROM elite
-  UNION
-  SELECT design, iteration, candidate FROM elite
-  UNION
-  SELECT (candidate - 1) / 1000000 + 1, iteration, candidate FROM elimination
+  UNION ALL
+  SELECT k.design, k.iteration, k.candidate
+  FROM elite AS k JOIN candidate AS c ON c.id = k.candidate AND c.iteration <> k.iteration
+  WHERE NOT EXISTS (SELECT 1 FROM elite AS b WHERE b.design = k.design
+                    AND b.iteration = k.iteration - 1 AND b.candidate = k.candidate)
+  UNION ALL
+  SELECT d.id, x.iteration, x.candidate
+  FROM design AS d
+  JOIN elimination AS x ON x.candidate BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000
+  JOIN candidate AS c ON c.id = x.candidate AND c.iteration <> x.iteration
+  WHERE NOT EXISTS (SELECT 1 FROM elite AS b WHERE b.design = d.id
+                    AND b.iteration IN (x.iteration - 1, x.iteration) AND b.candidate = x.candidate)
 ), tried AS (
-  SELECT s.design, s.iteration, s.step, s.pair, r.candidate, e.score
+  SELECT r.design, r.iteration, s.step, s.pair, r.candidate, e.score
   FROM racer AS r
+  LEFT JOIN elimination AS x ON x.candidate = r.candidate AND x.iteration = r.iteration
   CROSS JOIN race_step AS s ON s.design = r.design AND s.iteration = r.iteration
+    AND s.step <= coalesce(x.step, 9223372036854775807)
   CROSS JOIN evaluation AS e
     ON e.candidate = r.candidate AND e.purpose = 0 AND e.pair = s.pair AND e.iteration IS NOT NULL
-  LEFT JOIN elimination AS x ON x.candidate = r.candidate AND x.iteration = r.iteration
-  WHERE x.step IS NULL OR x.step >= s.step
 )
 SELECT t.design, t.iteration, t.step, t.pair, p.instance, p.seed, t.candidate, t.score,
        CASE WHEN t.score IS NOT NULL THEN rank() OVER peers + (count(*) OVER peers - 1) / 2.0 END
          AS rank
 FROM tried AS t
 LEFT JOIN pair AS p ON p.design = t.design AND p.purpose = 0 AND p.number = t.pair
-WINDOW peers AS (PARTITION BY t.design, t.step ORDER BY t.score DESC
+WINDOW peers AS (PARTITION BY t.design, t.iteration, t.step ORDER BY t.score DESC
                  RANGE BETWEEN CURRENT ROW AND CURRENT ROW);
 
 CREATE VIEW v_parameters AS
-SELECT c.id AS candidate, (c.id - 1) / 1000000 + 1 AS design, c.iteration,
-       j.key AS parameter, j.value
-FROM candidate AS c, json_each(iif(c.parameters = '', '{}', c.parameters)) AS j;
+SELECT c.id AS candidate, c.design, c.iteration, j.key AS parameter, j.value
+FROM candidate_text AS c, json_each(nullif(c.parameters, '')) AS j;
 
 -- Over the winners of finished designs; a module that another winner of the store has counts as 0.
 CREATE VIEW v_module_frequency AS
 WITH winner AS (
-  SELECT d.id AS design, d.mission, d.method, iif(c.modules = '', '{}', c.modules) AS modules
-  FROM design AS d JOIN candidate AS c ON c.id = d.best
+  SELECT d.id AS design, d.mission, d.method, c.modules
+  FROM design AS d JOIN candidate_text AS c ON c.id = d.best
   WHERE d.state = 3
 ), held AS (
   SELECT w.design, j.key AS module, j.value AS occurrences
-  FROM winner AS w, json_each(w.modules) AS j
+  FROM winner AS w, json_each(nullif(w.modules, '')) AS j
 )
 SELECT w.mission, w.method, m.module,
        avg(coalesce(h.occurrences, 0)) AS avg_occurrences,
@@ -154,10 +188,11 @@ LEFT JOIN held AS h ON h.design = w.design AND h.module = m.module
 GROUP BY w.mission, w.method, m.module;
 
 CREATE VIEW v_eliminations AS
-SELECT (x.candidate - 1) / 1000000 + 1 AS design, x.candidate, x.iteration, x.step, s.pair,
-       x.rank_sum, x.reason
+SELECT d.id AS design, x.candidate, x.iteration, x.step, s.pair, x.rank_sum, x.reason
 FROM elimination AS x
-LEFT JOIN race_step AS s ON s.design = (x.candidate - 1) / 1000000 + 1 AND s.step = x.step;
+JOIN design AS d ON d.id = (x.candidate - 1) / 1000000 + 1
+  AND x.candidate BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000
+LEFT JOIN race_step AS s ON s.design = d.id AND s.step = x.step;
 
 CREATE VIEW v_workers AS
 SELECT id AS worker, identity, host, pid, slots, build, state, done, failed, first_seen, last_seen,

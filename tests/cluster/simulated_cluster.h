@@ -52,6 +52,9 @@ struct Schedule {
 /// A schedule out of a seed: some kinds of faults, rare or dense.
 Schedule schedule_of(std::uint64_t seed);
 
+/// What the simulated workers are sent, and know again.
+inline constexpr const char* kScenario = "scenario";
+
 /// Coordinator and three workers, the real races and protocol code, in one thread on a simulated
 /// clock, network and disk. The same schedule gives the same events.
 class SimulatedCluster {

@@ -1,6 +1,5 @@
 #include "tests/cluster/simulated_disk.h"
 
-#include <algorithm>
 #include <set>
 #include <utility>
 

@@ -1,6 +1,6 @@
 #include "coordinator/service.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 #include <atomic>
 #include <mutex>
 #include <thread>
@@ -221,10 +221,18 @@ TEST_F(SecureServices, LetAKeyDoWhatItsRoleAllowsAndNothingElse) {
     worker_key->send(encode(command));
     worker_key->send(encode(question));
     ASSERT_TRUE(eventually([&] { return malformed.load() == 4; })) << malformed.load();
-    reader->send(encode(question));
+    // Each is told why.
     std::string frame;
-    ASSERT_TRUE(eventually([&] { return reader->receive(frame); }));
     google::protobuf::Arena arena;
+    for (ClientSocket* peer : {reader.get(), worker_key.get()}) {
+      for (int i = 0; i < 2; ++i) {
+        ASSERT_TRUE(eventually([&] { return peer->receive(frame); }));
+        EXPECT_THAT((*decode_to_worker(frame, arena))->reject().sentence(),
+                    testing::HasSubstr(peer == reader.get() ? "\"desk\"" : "\"node\""));
+      }
+    }
+    reader->send(encode(question));
+    ASSERT_TRUE(eventually([&] { return reader->receive(frame); }));
     EXPECT_TRUE((*decode_to_worker(frame, arena))->has_status_reply());
     worker_keys = keys_of(node);
     const std::jthread one = worker();

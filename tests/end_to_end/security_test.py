@@ -109,6 +109,24 @@ class Security(ProgramTest):
         rows = self.query(self.store, "select distinct client from worker")
         self.assertEqual(rows, [{"client": "worker"}])
 
+    def test_commands_want_an_operators_key(self):
+        server, log = self.serve("--keys", self.keys)
+        for role, code in (("reader", 1), ("worker", 1), ("operator", 0)):
+            done = call("pause", self.store, "--key", self.keys / f"{role}.key")
+            self.assertEqual(done.returncode, code, role + ": " + done.stdout + done.stderr)
+        done = call("status", self.store, "--key", self.keys / "reader.key", "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        worker, workers_log = self.worker("worker", "--key", self.keys / "worker.key")
+        wait_for(lambda: self.query(self.store, "select * from worker"), "the worker")
+        self.assertEqual(self.stored(), 0, "what is paused is not leased")
+        done = call("resume", self.store, "--key", self.keys / "operator.key")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(worker.wait(timeout=DEADLINE_S), 0, workers_log.read_text())
+        self.assertEqual(server.wait(timeout=DEADLINE_S), 0, log.read_text())
+        self.assertEqual(self.digest(self.store), self.expected())
+        asked = self.query(self.store, "select kind from v_commands order by number")
+        self.assertEqual([row["kind"] for row in asked], ["pause", "resume"])
+
     def test_a_list_that_changes_while_it_runs(self):
         clients = self.keys / "clients.toml"
         full = clients.read_text()

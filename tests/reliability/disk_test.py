@@ -1,8 +1,10 @@
 """Disks that fill up, are slow, lose their power, or hold damaged files."""
 import contextlib
+import http.client
 import os
 import pathlib
 import random
+import re
 import shutil
 import signal
 import sqlite3
@@ -37,10 +39,22 @@ class Full(FaultTest):
     def resize(self, disk, size):
         subprocess.run(["mount", "-o", f"remount,size={size}", str(disk)], check=True)
 
+    @staticmethod
+    def readiness(serve):
+        """Status and text of /readyz, as Kubernetes asks for it."""
+        [address] = set(re.findall(r"http://([^\s/\"]+)", serve.log()))
+        connection = http.client.HTTPConnection(address, timeout=10)
+        try:
+            connection.request("GET", "/readyz")
+            answer = connection.getresponse()
+            return answer.status, answer.read().decode()
+        finally:
+            connection.close()
+
     def test_it_waits_for_room_and_goes_on(self):
         disk = self.mount()
         self.store = disk / "campaign.db"
-        serve = self.serve()
+        serve = self.serve("--http", "127.0.0.1:0")
         workers = [self.worker(serve.address()) for _ in range(2)]
         wait_for(lambda: "store cannot be written" in serve.log() or not serve.alive(),
                  "the word that the disk is full", 90)
@@ -48,6 +62,8 @@ class Full(FaultTest):
         self.assertIn("full", serve.log())
         wait_for(lambda: serve.progress().get("trouble"), "trouble in the numbers", 10)
         done = serve.progress()["done"]
+        self.assertEqual(self.readiness(serve)[0], 503, "it says that it is ready")
+        self.assertIn("full", self.readiness(serve)[1])
         # Without room nothing new is handed out: what was held comes in, and that is all.
         time.sleep(2)
         later = serve.progress()["done"]

@@ -129,7 +129,8 @@ struct ViewsTest : testing::Test {
 
 TEST_F(ViewsTest, HaveTheColumnsThatScriptsRelyOn) {
   std::map<std::string, std::string> found;
-  for (const Cells& name : all("SELECT name FROM sqlite_schema WHERE type = 'view'")) {
+  for (const Cells& name : all("SELECT name FROM sqlite_schema WHERE type = 'view' AND name LIKE "
+                               "'v\\_%' ESCAPE '\\'")) {
     std::string& columns = found[name[0]];
     for (const Cells& row : all("SELECT name FROM pragma_table_info('" + name[0] + "')")) {
       columns += (columns.empty() ? "" : " ") + row[0];

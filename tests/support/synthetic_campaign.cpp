@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <string>
 #include <utility>
@@ -49,29 +51,78 @@ class SyntheticDesign {
   std::map<std::int64_t, CandidateTotalsRow> totals_;
 };
 
+/// Adds a parameter to a candidate's texts: `token` is what a choice is in the machine's text.
+void add_parameter(CandidateRow& row, const std::string& name, const std::string& control,
+                   const std::string& value, const std::string& token) {
+  row.parameters += fmt::format("{}\"{}\":{}", row.parameters.size() > 1 ? "," : "", name, value);
+  row.machine += fmt::format("{}--{} {}", row.machine.empty() ? "" : " ", control, token);
+}
+
+/// A machine of up to four states with as many transitions, told as the watermelon flavour tells
+/// its own (coordinator/campaign/machine_space.cpp).
 CandidateRow SyntheticDesign::candidate() {
+  constexpr std::array kBehaviours{"exploration", "stop", "attraction", "repulsion"};
+  constexpr std::array kConditions{"black_floor",
+                                   "gray_floor",
+                                   "white_floor",
+                                   "neighbour_count",
+                                   "inverted_neighbour_count",
+                                   "fixed_probability"};
   CandidateRow row;
   row.id = candidate_id(id_, ++made_);
   row.iteration = iteration_;
   if (iteration_ > 1) row.parent = alive_.front();
   row.states = rng_.uniform_int(1, 4);
-  row.machine = fmt::format("--nstates {}", row.states);
-  row.parameters = fmt::format("{{\"states\":{}", row.states);
-  const auto amount = [&] { return static_cast<double>(rng_.uniform_int(1, 99)) / 100.0; };
-  for (std::int64_t state = 0; state < row.states; ++state) {
-    row.machine += fmt::format(" --s{0} 0 --rwm{0} {1} --n{0} 2", state, rng_.uniform_int(1, 100));
-    row.parameters += fmt::format(",\"s{}.behaviour\":\"exploration\"", state);
-    row.parameters += fmt::format(",\"s{}.tau\":{}", state, rng_.uniform_int(1, 100));
-    for (int way = 0; way < 2; ++way) {
-      const double beta = amount();
-      row.machine += fmt::format(" --n{0}x{1} 0 --c{0}x{1} 5 --p{0}x{1} {2}", state, way, beta);
-      row.parameters += fmt::format(",\"s{}.t{}.beta\":{}", state, way, beta);
-      ++row.transitions;
+  row.parameters = "{";
+  std::array<int, kBehaviours.size()> behaving{};
+  std::array<int, kConditions.size()> conditional{};
+  const auto number = [&](const std::string& name, const std::string& control, auto value) {
+    add_parameter(row, name, control, fmt::format("{}", value), fmt::format("{}", value));
+  };
+  const auto choice = [&](const std::string& name, const std::string& control, const char* what,
+                          std::size_t token) {
+    add_parameter(row, name, control, fmt::format("\"{}\"", what), std::to_string(token));
+  };
+  const auto hundredths = [&](std::int64_t most) {
+    return static_cast<double>(rng_.uniform_int(0, most)) / 100.0;
+  };
+  number("NumStates", "nstates", row.states);
+  for (std::int64_t i = 0; i < row.states; ++i) {
+    const std::size_t behaviour = rng_.below(kBehaviours.size());
+    const std::string at = std::to_string(i);
+    ++behaving[behaviour];
+    choice("S" + at, "s" + at, kBehaviours[behaviour], behaviour);
+    if (behaviour == 0) number("RWM" + at, "rwm" + at, rng_.uniform_int(1, 100));
+    if (behaviour == 2) number("ATT" + at, "att" + at, hundredths(500));
+    if (behaviour == 3) number("REP" + at, "rep" + at, hundredths(500));
+    if (row.states == 1) break;
+    const std::int64_t ways = rng_.uniform_int(1, 4);
+    number("NumConnections" + at, "n" + at, ways);
+    for (std::int64_t j = 0; j < ways; ++j) {
+      const std::size_t condition = rng_.below(kConditions.size());
+      const std::string way = fmt::format("{}x{}", i, j);
+      ++conditional[condition], ++row.transitions;
+      number("N" + way, "n" + way, rng_.uniform_int(0, row.states - 2));
+      choice("C" + way, "c" + way, kConditions[condition], condition);
+      if (condition == 3 || condition == 4) {
+        const std::string inverted = condition == 4 ? "I" : "";
+        number("B" + inverted + way, "p" + way, rng_.uniform_int(0, 10));
+        number("W" + inverted + way, "w" + way, hundredths(2000));
+      } else {
+        number("P" + way, "p" + way, hundredths(100));
+      }
     }
   }
   row.parameters += "}";
-  row.modules =
-      fmt::format("{{\"exploration\":{},\"fixed_probability\":{}}}", row.states, row.transitions);
+  const auto count = [&](const char* module, int times) {
+    if (times > 0)
+      row.modules += fmt::format("{}\"{}\":{}", row.modules.empty() ? "{" : ",", module, times);
+  };
+  for (std::size_t i = 0; i < kBehaviours.size(); ++i)
+    count(kBehaviours[i], behaving[i]);
+  for (std::size_t i = 0; i < kConditions.size(); ++i)
+    count(kConditions[i], conditional[i]);
+  row.modules += "}";
   return row;
 }
 
@@ -212,26 +263,37 @@ void SyntheticDesign::test_winner() {
 
 }  // namespace
 
-SyntheticCampaign synthetic_campaign(const SyntheticSize& size, std::uint64_t seed) {
+SyntheticCampaign synthetic_header(const SyntheticSize& size, std::uint64_t seed) {
   SyntheticCampaign made;
   made.campaign = {.name = "synthetic",
                    .digest = fmt::format("{:032x}", seed),
                    .deciding = fmt::format(R"({{"seed":{},"race":{{"budget":100000}}}})", seed),
                    .file = "name = \"synthetic\"\n",
                    .seed = static_cast<std::int64_t>(seed)};
-  const Rng rng(seed);
   for (std::int64_t number = 1; number <= size.designs; ++number) {
-    const DesignId id{number};
-    made.designs.push_back({.id = id,
+    made.designs.push_back({.id = {number},
                             .mission = number % 2 == 1 ? "aggregation" : "color_selection",
                             .method = "watermelon",
                             .flavour = "watermelon",
                             .repetition = (number + 1) / 2,
                             .seed = number * 17,
                             .budget = 100000});
-    SyntheticDesign(size, id, rng.split("design", static_cast<std::uint64_t>(number)), made.batches)
-        .make();
   }
+  return made;
+}
+
+std::vector<std::vector<Row>> synthetic_design(const SyntheticSize& size, DesignId id,
+                                               std::uint64_t seed) {
+  std::vector<std::vector<Row>> batches;
+  const Rng rng = Rng(seed).split("design", static_cast<std::uint64_t>(id.value));
+  SyntheticDesign(size, id, rng, batches).make();
+  return batches;
+}
+
+SyntheticCampaign synthetic_campaign(const SyntheticSize& size, std::uint64_t seed) {
+  SyntheticCampaign made = synthetic_header(size, seed);
+  for (const DesignRow& design : made.designs)
+    std::ranges::move(synthetic_design(size, design.id, seed), std::back_inserter(made.batches));
   made.batches.push_back({CampaignStateRow{.state = "finished"}});
   return made;
 }

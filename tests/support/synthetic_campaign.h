@@ -26,15 +26,21 @@ struct SyntheticSize {
   double survive = 0.7;         ///< part that survives a step with a test
 };
 
-/// One design, some 95,000 experiments, 8,000 candidates with 460 bytes of text on average.
+/// One design, some 100,000 experiments on 16,000 candidates, as many as real races sample.
 inline constexpr SyntheticSize kHundredThousand{.designs = 1,
                                                 .iterations = 10,
-                                                .candidates = 800,
+                                                .candidates = 1580,
                                                 .steps = 60,
                                                 .tests = 100,
                                                 .first_drop = 5,
-                                                .survive = 0.868};
+                                                .survive = 0.55};
 
 SyntheticCampaign synthetic_campaign(const SyntheticSize& size = {}, std::uint64_t seed = 1);
+
+/// The same without batches, for stores whose rows do not fit into memory at once; and the batches
+/// of one of its designs. The campaign's end is none of them.
+SyntheticCampaign synthetic_header(const SyntheticSize& size, std::uint64_t seed = 1);
+std::vector<std::vector<Row>> synthetic_design(const SyntheticSize& size, DesignId id,
+                                               std::uint64_t seed = 1);
 
 }  // namespace swarmsmith

@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <unordered_set>
+#include <vector>
+
+#include "storage/internal/sqlite.h"
+#include "storage/rows.h"
+
+namespace swarmsmith {
+
+/// How the texts of candidates are stored. The candidates of a campaign say nearly the same, and
+/// a text is cut into phrases, each told once in the table `phrase`:
+///
+///   parameters  {"S0":"exploration","RWM0":56,"NumConnections0":1,"N0x0":0,"P0x0":0.5}
+///   machine     --s0 0 --rwm0 56 --n0 1 --n0x0 0 --p0x0 0.5
+///   phrases     1: "S0":"exploration","RWM0":                  --s0 0 --rwm0
+///               2: "NumConnections0":1,"N0x0":0,"P0x0":        --n0 1 --n0x0 0 --p0x0
+///   code        {"1":"56","2":"0.5"}
+///
+/// A code is phrases in order, each with the number that ends it in both texts (nothing after
+/// choices alone). Parameters are the phrases joined by commas and set in braces, the machine is
+/// the phrases joined by blanks; the views do the same in SQL. `modules` has a code of its own, an
+/// array of phrases.
+
+/// The part of a text that candidates share; what belongs to another text is none.
+struct Phrase {
+  std::optional<std::string> machine;
+  std::optional<std::string> parameters;
+  std::optional<std::string> modules;
+
+  friend bool operator==(const Phrase&, const Phrase&) = default;
+};
+
+/// The texts of a candidate as they stand in its row. Without a code, a text is what it says; with
+/// one, an empty text is to be made from the code.
+struct StoredTexts {
+  std::string machine;
+  std::string parameters;
+  std::string modules;
+  std::optional<std::string> code;         ///< of parameters, and of the machine if that is empty
+  std::optional<std::string> module_code;  ///< of modules
+};
+
+/// The phrases of a store. A dictionary that grows with the rows; no text is ever refused, since
+/// what cannot be told in phrases is stored as it is. One thread at a time.
+class PhraseBook {
+ public:
+  using OnNew = std::function<void(std::int64_t number, const Phrase& phrase)>;
+
+  /// Every phrase of the table. Throws SqliteError.
+  void load(const sqlite::Connection& connection);
+  void clear();
+
+  /// How the row is to be stored; calls `on_new` for each phrase that the table does not have yet.
+  StoredTexts encode(const CandidateRow& row, const OnNew& on_new);
+
+  /// Fills in the three texts of `row`. False when a code does not fit the phrases: the store is
+  /// damaged.
+  bool decode(const StoredTexts& stored, CandidateRow& row) const;
+
+ private:
+  struct Piece {
+    Phrase phrase;
+    std::string number;
+  };
+  void add(std::int64_t number, Phrase phrase);
+  std::optional<std::vector<Piece>> cut_parameters(const std::string& parameters,
+                                                   const std::string& machine);
+  std::optional<std::vector<std::int64_t>> numbers_of(const std::vector<Piece>& pieces,
+                                                      const OnNew& on_new);
+  void encode_parameters(const OnNew& on_new, StoredTexts& stored);
+  void encode_modules(const OnNew& on_new, StoredTexts& stored);
+
+  std::unordered_map<std::int64_t, Phrase> phrases_;
+  std::unordered_map<std::string, std::int64_t> numbers_;  ///< by all texts of the phrase
+  std::int64_t last_ = 0;
+  /// Parameters whose numbers end a phrase, since they have too many values to be part of one.
+  std::unordered_set<std::string> open_;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,55 @@
+#include "tests/cluster/simulated_cluster.h"
+
+#include <initializer_list>
+
+namespace swarmsmith::cluster {
+namespace {
+
+using std::chrono::milliseconds;
+
+}  // namespace
+
+Schedule schedule_of(std::uint64_t seed) {
+  Rng rng = Rng(seed).split("schedule");
+  const auto one_of = [&](std::initializer_list<double> values) {
+    return values.begin()[rng.below(values.size())];
+  };
+  const auto up_to = [&](std::int64_t n) { return static_cast<int>(rng.uniform_int(0, n)); };
+  Schedule schedule;
+  schedule.seed = seed;
+  schedule.faults = {.loss = one_of({0, 0, 0.01, 0.1, 0.3}),
+                     .doubled = one_of({0, 0, 0.05, 0.3}),
+                     .late = one_of({0, 0, 0.01, 0.1}),
+                     .cuts = up_to(4),
+                     .worker_crashes = up_to(3),
+                     .worker_drains = up_to(1),
+                     .coordinator_crashes = up_to(3),
+                     .pauses = up_to(3),
+                     .slow_commit = one_of({0, 0.05, 0.5}),
+                     .clock_steps = rng.bernoulli(0.3) ? up_to(3) : 0,
+                     .total_crashes = rng.bernoulli(0.2) ? up_to(2) : 0,
+                     .full_disks = rng.bernoulli(0.2) ? up_to(2) : 0,
+                     .flaps = rng.bernoulli(0.2) ? up_to(2) : 0,
+                     .until = milliseconds(rng.uniform_int(100, rng.bernoulli(0.8) ? 800 : 8000))};
+  CampaignShape& campaign = schedule.campaign;
+  campaign.seed = seed;
+  // Mostly all designs at once; sometimes more than are open at a time.
+  campaign.designs = rng.bernoulli(0.05) ? 6 : 1 + up_to(1);
+  campaign.budget = 54 + up_to(20);
+  campaign.tests = up_to(4);
+  campaign.failing = rng.bernoulli(0.4);
+  campaign.killing = rng.bernoulli(0.2);
+  campaign.hopeless = rng.bernoulli(0.1);
+  // Not beside clocks that jump: together they would make time-outs of evaluations that take 20 s.
+  schedule.slow_worker = rng.bernoulli(0.1) && schedule.faults.clock_steps == 0;
+  if (rng.bernoulli(0.15)) {
+    schedule.other = campaign;
+    schedule.other->seed = seed + 1;
+    schedule.other->designs = 1;
+    campaign.designs = 1;
+  }
+  schedule.faults.commands = up_to(4);
+  return schedule;
+}
+
+}  // namespace swarmsmith::cluster

@@ -1,0 +1,103 @@
+#include "tests/cluster/simulated_cluster.h"
+
+#include <algorithm>
+
+#include "coordinator/paused_designs.h"
+#include "proto/wire.h"
+
+namespace swarmsmith::cluster {
+namespace {
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+using std::chrono::seconds;
+
+}  // namespace
+
+void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string frame) {
+  const bool faulty = now_ < faults_end_;
+  const bool cut = now_ < process(from).cut_out_until || now_ < process(to).cut_in_until;
+  if (cut || (faulty && rng_.bernoulli(schedule_.faults.loss))) return;
+  const int copies = faulty && rng_.bernoulli(schedule_.faults.doubled) ? 2 : 1;
+  for (int i = 0; i < copies; ++i) {
+    const bool late = faulty && rng_.bernoulli(schedule_.faults.late);
+    const Duration delay =
+        late ? between(milliseconds(1), seconds(4)) : between(microseconds(30), microseconds(300));
+    on_process(to, delay, [this, from, to, connection, frame] {
+      const Connection& over = connections_.at(connection);
+      if (to == kCoordinator) {
+        if (over.coordinator_life != coordinator_process_.life) return;
+        coordinator_->on_frame({connection}, frame, clock(kCoordinator));
+        settle_coordinator();
+      } else {
+        Worker& worker = workers_[static_cast<std::size_t>(to)];
+        if (worker.connection != connection) return;
+        worker.protocol->on_frame(frame, clock(to));
+        settle_worker(to);
+      }
+      (void)from;
+    });
+  }
+}
+
+void SimulatedCluster::connect(int index) {
+  Worker& worker = workers_[static_cast<std::size_t>(index)];
+  if (worker.connection != 0) connections_[worker.connection].open = false;
+  worker.connection = ++peers_;
+  connections_[worker.connection] = {.worker = index,
+                                     .worker_life = worker.process.life,
+                                     .coordinator_life = coordinator_process_.life,
+                                     .open = coordinator_process_.alive};
+  if (coordinator_process_.alive) return;
+  on_process(index, milliseconds(1), [this, index, connection = worker.connection] {
+    Worker& it = workers_[static_cast<std::size_t>(index)];
+    if (it.connection != connection) return;
+    it.protocol->on_connection_lost(clock(index));
+    settle_worker(index);
+  });
+}
+
+void SimulatedCluster::to_coordinator(int index, std::string frame) {
+  const PeerId connection = workers_[static_cast<std::size_t>(index)].connection;
+  if (connections_.at(connection).open) transmit(index, kCoordinator, connection, std::move(frame));
+}
+
+SendStatus SimulatedCluster::to_worker(PeerId peer, const std::string& frame) {
+  const Connection& connection = connections_.at(peer);
+  if (!connection.open) return SendStatus::Gone;
+  const Process& worker = process(connection.worker);
+  if (!worker.alive || worker.life != connection.worker_life) return SendStatus::Sent;  // silence
+  transmit(kCoordinator, connection.worker, peer, frame);
+  return SendStatus::Sent;
+}
+
+/// Acknowledged means durable; failures are told without a row.
+void SimulatedCluster::check_acknowledged(const std::string& frame) {
+  google::protobuf::Arena arena;
+  const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);
+  if (!message) return fail("the coordinator sent a frame that is malformed");
+  for (const pb::Key& key : (*message)->acknowledged().keys()) {
+    const PackedKey packed = *pack(key);
+    const Running& running = campaigns_.at(campaign_of(packed));
+    const SimulatedDisk& disk = running.disk;
+    // What nobody wants any more need not be kept.
+    if (disk.finished() || running.source->is_void(packed)) continue;
+    if (!disk.holds(packed) && !failed_.contains(packed)) fail("acknowledged what is not on disk");
+  }
+}
+
+/// Whoever asked is told when it is on disk: what the disk has is what will be after a crash.
+void SimulatedCluster::check_confirmed(const std::string& frame) {
+  google::protobuf::Arena arena;
+  const Expected<const pb::ToWorker*> message = decode_to_worker(frame, arena);
+  if (!message || !(*message)->has_command_reply()) return fail("no reply to a command");
+  const auto is_command = [](const Row& row) { return std::holds_alternative<CommandRow>(row); };
+  const Running& running = campaigns_.front();
+  const bool more = std::ranges::any_of(running.uncommitted, [&](const Batch& batch) {
+    return std::ranges::any_of(batch.rows, is_command);
+  });
+  if (!more && paused_designs(running.disk.commands()) != coordinator_->paused())
+    fail("what a person was told of is not on disk");
+}
+
+}  // namespace swarmsmith::cluster

@@ -1,0 +1,218 @@
+#include "storage/internal/candidate_code.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+#include <map>
+
+#include "base/rng.h"
+#include "storage/answer.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// One of them.
+std::string any(Rng& rng, const std::vector<std::string>& texts) {
+  return texts[rng.below(texts.size())];
+}
+
+/// A configuration of a program: choices and numbers as people write them, some switches without a
+/// blank, some parameters without a switch.
+void configure_program(Rng& rng, CandidateRow& row) {
+  row.parameters = "{";
+  const std::int64_t count = rng.uniform_int(0, 9);
+  for (std::int64_t i = 0; i < count; ++i) {
+    const std::string number = any(rng, {"0", "7", "12", "-3", "-0", "0.10", "1e-05", "1.5E+9",
+                                         "0.30000000000000004", "123456789012345678901", "100.0"});
+    const std::string text = any(rng, {"as", "", "a b", "x;y", "--z", "é", "0.10"});
+    const std::string quoted = any(rng, {R"("q\"r")", R"("\\")", R"("\u00e9;,}{")", R"("")"});
+    std::string value = number, json = number;
+    if (rng.bernoulli(0.4)) value = text, json = '"' + text + '"';
+    if (rng.bernoulli(0.1)) value = json = quoted;
+    if (rng.bernoulli(0.1)) value = json = any(rng, {"true", "null"});
+    row.parameters +=
+        fmt::format("{}\"{}{}\":{}", i > 0 ? "," : "", any(rng, {"p", "P ", "ä"}), i, json);
+    if (i > 0) row.machine += any(rng, {" ", " ", " ", "  ", ""});
+    row.machine += any(rng, {"--p ", "-p", "--p=", "", "--p 1 --q "}) + value;
+  }
+  row.parameters += "}";
+}
+
+/// Any bytes where texts are expected, or a good text with a change somewhere.
+void spoil(Rng& rng, std::string& text) {
+  constexpr std::string_view kBytes("{}\",:;\\ -0a\0\xc3\n[", 16);
+  const std::size_t changes = 1 + rng.below(3);
+  for (std::size_t i = 0; i < changes; ++i) {
+    const std::size_t at = rng.below(text.size() + 1);
+    if (rng.bernoulli(0.5)) {
+      text.insert(at, 1, kBytes[rng.below(kBytes.size())]);
+    } else {
+      text.erase(at, 1 + rng.below(4));
+    }
+  }
+}
+
+/// The candidates of a campaign like real ones, with programs' and strange ones among them.
+std::vector<CandidateRow> candidates(std::uint64_t seed, double odd) {
+  Rng rng(seed);
+  std::vector<CandidateRow> rows;
+  const SyntheticCampaign campaign = synthetic_campaign({.candidates = 100, .steps = 1}, seed);
+  for (const auto& batch : campaign.batches) {
+    for (const Row& row : batch) {
+      const auto* candidate = std::get_if<CandidateRow>(&row);
+      if (candidate == nullptr) continue;
+      rows.push_back(*candidate);
+      if (!rng.bernoulli(odd)) continue;
+      CandidateRow& last = rows.back();
+      if (rng.bernoulli(0.5)) {
+        last.machine.clear();
+        configure_program(rng, last);
+      }
+      for (std::string* text : {&last.machine, &last.parameters, &last.modules}) {
+        if (rng.bernoulli(0.3)) spoil(rng, *text);
+        if (rng.bernoulli(0.1)) text->clear();
+      }
+    }
+  }
+  return rows;
+}
+
+std::vector<CandidateRow> candidates_in(StoreReader& reader) {
+  std::vector<CandidateRow> rows;
+  reader.each_answer_row([&](const Row& row) {
+    if (const auto* candidate = std::get_if<CandidateRow>(&row)) rows.push_back(*candidate);
+  });
+  return rows;
+}
+
+struct CandidateCodeTest : testing::Test {
+  TemporaryFolder folder;
+  std::filesystem::path path = folder / "s.db";
+  SyntheticCampaign campaign = synthetic_campaign({.candidates = 1, .steps = 1});
+
+  /// In several openings, so that phrases are found again.
+  void write(const std::vector<CandidateRow>& rows) {
+    const std::size_t part = rows.size() / 3 + 1;
+    for (std::size_t begin = 0; begin < rows.size(); begin += part) {
+      auto store = open_store(path, campaign);
+      for (std::size_t i = begin; i < std::min(rows.size(), begin + part); ++i)
+        store->append({Row(rows[i])});
+    }
+  }
+  std::string one(const std::string& sql) { return cells_of(*open_reader(path), sql)[0][0]; }
+  void change(const std::string& sql) {
+    sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE).execute(sql);
+  }
+};
+
+TEST_F(CandidateCodeTest, EveryRowComesBackAsItWas) {
+  for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    std::filesystem::remove(path);
+    const auto rows = candidates(seed, 0.5);
+    write(rows);
+    const auto reader = open_reader(path);
+    const auto read = candidates_in(*reader);
+    const auto cells = cells_of(*reader,
+                                "SELECT candidate, fsm_config, parameters, modules,"
+                                " iteration, coalesce(parent, 0), n_states, n_transitions"
+                                " FROM v_candidates ORDER BY candidate");
+    ASSERT_EQ(read.size(), rows.size());
+    ASSERT_EQ(cells.size(), rows.size());
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      EXPECT_TRUE(same_answer(rows[i], read[i])) << describe(rows[i]) << "\n" << describe(read[i]);
+      EXPECT_THAT(cells[i], testing::ElementsAre(std::to_string(rows[i].id.value), rows[i].machine,
+                                                 rows[i].parameters, rows[i].modules,
+                                                 std::to_string(rows[i].iteration),
+                                                 std::to_string(rows[i].parent.value),
+                                                 std::to_string(rows[i].states),
+                                                 std::to_string(rows[i].transitions)));
+    }
+  }
+}
+
+TEST_F(CandidateCodeTest, TextsOfACampaignAreAllCodedAndTakeLessThanAThird) {
+  const auto rows = candidates(1, 0);
+  write(rows);
+  std::size_t size = 0;
+  for (const CandidateRow& row : rows)
+    size += row.machine.size() + row.parameters.size() + row.modules.size();
+  EXPECT_EQ(one("SELECT count(*) FROM candidate WHERE code IS NULL OR module_code IS NULL"
+                " OR machine || parameters || modules <> ''"),
+            "0");
+  EXPECT_LT(std::stoul(one("SELECT sum(length(code) + length(module_code)) FROM candidate")),
+            size / 3);
+}
+
+TEST_F(CandidateCodeTest, ParametersInLongFormAreThoseOfTheText) {
+  write(candidates(2, 0));
+  EXPECT_EQ(one("SELECT count(*) FROM (SELECT candidate, parameter, value FROM v_parameters EXCEPT"
+                " SELECT c.candidate, j.key, j.value FROM v_candidates AS c,"
+                " json_each(c.parameters) AS j)"),
+            "0");
+  EXPECT_GT(std::stoul(one("SELECT count(*) FROM v_parameters")), 1000U);
+}
+
+TEST_F(CandidateCodeTest, AMachineThatDoesNotRunAlongItsParametersStaysAsItIs) {
+  CandidateRow row{
+      .id = {1}, .parameters = R"({"a":5,"b":"x"})", .machine = "x of 5", .modules = {}};
+  write({row});
+  EXPECT_EQ(one("SELECT machine || '|' || parameters || '|' || code FROM candidate"),
+            R"(x of 5||{"1":""})");
+  EXPECT_EQ(one("SELECT fsm_config || '|' || parameters FROM v_candidates"),
+            R"(x of 5|{"a":5,"b":"x"})");
+}
+
+TEST_F(CandidateCodeTest, ARowThatComesAgainMakesNoPhrases) {
+  const auto rows = candidates(3, 0.3);
+  write(rows);
+  const std::string before = one("SELECT count(*) FROM phrase");
+  write(rows);
+  EXPECT_EQ(one("SELECT count(*) FROM phrase"), before);
+  EXPECT_EQ(one("SELECT count(*) - count(DISTINCT quote(machine) || quote(parameters) ||"
+                " quote(modules)) FROM phrase"),
+            "0");
+}
+
+TEST_F(CandidateCodeTest, TextsThatNeverRepeatAreStoredAsTheyAreOnceTheBookIsFull) {
+  PhraseBook book;
+  std::map<std::int64_t, Phrase> made;
+  std::size_t coded = 0;
+  for (std::int64_t i = 1; i <= 60'000; ++i) {
+    const CandidateRow row{.id = {i},
+                           .parent = {},
+                           .parameters = fmt::format("{{\"file\":\"{}\"}}", i),
+                           .machine = fmt::format("--file {}", i),
+                           .modules = {}};
+    const StoredTexts texts =
+        book.encode(row, [&](std::int64_t number, const Phrase& phrase) { made[number] = phrase; });
+    coded += texts.code ? 1U : 0U;
+    CandidateRow back;
+    ASSERT_TRUE(book.decode(texts, back));
+    ASSERT_EQ(back.parameters, row.parameters);
+    ASSERT_EQ(back.machine, row.machine);
+  }
+  EXPECT_EQ(coded, 50'000U);
+  EXPECT_EQ(made.size(), 50'000U);
+}
+
+TEST_F(CandidateCodeTest, APhraseThatIsMissingIsFoundAndNothingIsMadeUp) {
+  write(candidates(4, 0));
+  change("DELETE FROM phrase WHERE id = 3");
+  const auto reader = open_reader(path);
+  EXPECT_THAT(reader->integrity(), testing::Contains(HasSubstr("phrases that do not exist")));
+  EXPECT_THROW(candidates_in(*reader), StoreFailure);
+}
+
+TEST_F(CandidateCodeTest, ACodeThatIsNoneIsFound) {
+  write(candidates(4, 0));
+  EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());
+  change("UPDATE candidate SET code = 'spoilt' WHERE id = 2");
+  EXPECT_THROW(candidates_in(*open_reader(path)), StoreFailure);
+  EXPECT_THAT(open_reader(path)->integrity(), testing::Not(IsEmpty()));
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,199 @@
+#include "worker/protocol.h"
+
+#include <algorithm>
+#include <utility>
+
+// The part of the protocol that carries work: tasks in, results out, credit for more.
+
+namespace swarmsmith {
+void WorkerProtocol::on_tasks(const pb::Tasks& tasks, TimePoint now) {
+  if (state_ != State::Active || !has_scenario_ || tasks.scenario() != scenario_) return;
+  RunItems run;
+  std::vector<PackedKey> refused;
+  for (const pb::Task& task : tasks.tasks()) {
+    const PackedKey key = *pack(task.key());
+    if (const auto finished = finished_.find(key); finished != finished_.end()) {
+      const Evaluated& known = finished->second.evaluated;
+      const bool again = !known.failure.empty() && task.attempt() > known.attempt;
+      if (!again) {
+        queue_result(key, finished->second, now);
+        continue;
+      }
+      finished_.erase(finished);
+    }
+    if (drain_until_) {
+      refused.push_back(key);
+      continue;
+    }
+    const auto [held, is_new] = held_.try_emplace(key, Held{task.attempt(), {}});
+    held->second.attempt = task.attempt();
+    if (!is_new) continue;
+    run.items.push_back({.key = key,
+                         .attempt = task.attempt(),
+                         .mission = task.mission(),
+                         .method = task.method(),
+                         .instance = task.instance(),
+                         .seed = task.seed(),
+                         .machine = task.machine(),
+                         .bound = task.bound(),
+                         .alive = {task.alive().begin(), task.alive().end()}});
+  }
+  if (!run.items.empty()) actions_.emplace_back(std::move(run));
+  if (!refused.empty()) on_taken_back(refused, now);
+}
+
+void WorkerProtocol::on_started(PackedKey key, TimePoint now) {
+  const auto held = held_.find(key);
+  if (held != held_.end()) held->second.started = now;
+}
+
+void WorkerProtocol::on_evaluated(Evaluated evaluated, TimePoint now) {
+  const PackedKey key = evaluated.key;
+  const auto held = held_.find(key);
+  if (held == held_.end()) return;  // of a campaign that is over
+  // What ends this worker ends its programs too: such a failure says nothing of the evaluation.
+  if (drain_until_ && !evaluated.failure.empty()) return on_taken_back({&key, 1}, now);
+  evaluated.attempt = held->second.attempt;
+  count_busy(held->second, evaluated.wall_us, now);
+  held_.erase(held);
+  const auto spent_us = static_cast<double>(evaluated.wall_us);
+  estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
+  Finished& finished = finished_[key];
+  finished = Finished{std::move(evaluated), false, {}};
+  queue_result(key, finished, now);
+  if (must_flush(now)) flush(now);
+  if (drain_until_) finish_draining(now);
+}
+
+void WorkerProtocol::queue_result(PackedKey key, Finished& finished, TimePoint now) {
+  if (finished.queued) return;
+  finished.queued = true;
+  if (unsent_.empty()) oldest_unsent_ = now;
+  unsent_.push_back(key);
+}
+
+/// In good time before the slots run dry, and never later than `flush_after`.
+bool WorkerProtocol::must_flush(TimePoint now) const {
+  return unsent_.size() >= options_.results_per_message ||
+         held_.size() <= static_cast<std::size_t>(identity_.slots) || drain_until_ ||
+         now - oldest_unsent_ >= options_.flush_after;
+}
+
+void WorkerProtocol::flush(TimePoint now) {
+  if (state_ != State::Active || unsent_.empty()) return;
+  const std::vector<PackedKey> keys = std::exchange(unsent_, {});
+  const std::span<const PackedKey> all(keys);
+  for (std::size_t at = 0; at < all.size(); at += options_.results_per_message) {
+    send_results(all.subspan(at, std::min(options_.results_per_message, all.size() - at)), now);
+  }
+  update_credit(now);
+}
+
+void WorkerProtocol::send_results(std::span<const PackedKey> keys, TimePoint now) {
+  auto& message = *google::protobuf::Arena::CreateMessage<pb::ToCoordinator>(&arena_);
+  pb::Results& results = *message.mutable_results();
+  results.set_scenario(scenario_);
+  for (const PackedKey key : keys) {
+    const auto at = finished_.find(key);
+    if (at == finished_.end()) continue;
+    at->second.queued = false;
+    at->second.sent = now;
+    sent_.emplace_back(now, key);
+    const Evaluated& evaluated = at->second.evaluated;
+    pb::Result& out = *results.add_results();
+    unpack(key, *out.mutable_key());
+    out.set_attempt(evaluated.attempt);
+    out.set_score(evaluated.score);
+    out.set_state_digest(evaluated.state_digest);
+    out.set_wall_us(evaluated.wall_us);
+    out.set_time(evaluated.time);
+    out.set_rejected(evaluated.rejected);
+    if (evaluated.failure.empty()) continue;
+    out.set_failure(clipped_text(evaluated.failure));
+    out.set_command(clipped_text(evaluated.details.command));
+    out.set_output(clipped_text(evaluated.details.output));
+    out.set_errors(clipped_text(evaluated.details.errors));
+  }
+  if (results.results_size() > 0) send(message, now);
+}
+
+void WorkerProtocol::resend(TimePoint now) {
+  while (!sent_.empty() && now - sent_.front().first >= resend_after_) {
+    const auto [when, key] = sent_.front();
+    sent_.pop_front();
+    const auto finished = finished_.find(key);
+    if (finished == finished_.end() || finished->second.sent != when) continue;
+    queue_result(key, finished->second, now);
+  }
+}
+
+void WorkerProtocol::on_taken_back(std::span<const PackedKey> keys, TimePoint now) {
+  for (std::size_t at = 0; at < keys.size(); at += kMaxItemsPerMessage) {
+    pb::ToCoordinator message;
+    for (const PackedKey key :
+         keys.subspan(at, std::min<std::size_t>(kMaxItemsPerMessage, keys.size() - at))) {
+      held_.erase(key);
+      unpack(key, *message.mutable_returned()->add_keys());
+    }
+    if (state_ == State::Active) send(message, now);
+  }
+  if (drain_until_) finish_draining(now);
+}
+
+/// Two tasks a slot, and what `work_ahead` amounts to.
+std::uint32_t WorkerProtocol::credit() const {
+  if (drain_until_ || !has_scenario_ || finished_.size() > options_.max_unacknowledged) return 0;
+  const double ahead_us = std::chrono::duration<double, std::micro>(options_.work_ahead).count();
+  const double a_slot = 2.0 + (estimate_us_ > 0 ? std::min(ahead_us / estimate_us_, 1e6) : 0.0);
+  return static_cast<std::uint32_t>(
+      std::min(a_slot * identity_.slots, static_cast<double>(max_credit_)));
+}
+
+/// Says so when it wants notably more or less; small changes wait for the heartbeat.
+void WorkerProtocol::update_credit(TimePoint now) {
+  if (state_ != State::Active) return;
+  const std::uint32_t wanted = credit();
+  const bool same = 4 * wanted <= 5 * credit_sent_ && 5 * wanted >= 4 * credit_sent_;
+  if (same) return;
+  credit_sent_ = wanted;
+  pb::ToCoordinator message;
+  message.mutable_credit()->set_tasks(wanted);
+  send(message, now);
+}
+
+/// What of an evaluation falls behind the welcome counts: the coordinator asks for this connection.
+void WorkerProtocol::count_busy(const Held& held, std::int64_t wall_us, TimePoint now) {
+  const Duration spent =
+      wall_us > 0 ? Duration(std::chrono::microseconds(wall_us)) : now - held.started.value_or(now);
+  busy_ += std::min(spent, now - welcomed_);
+}
+
+void WorkerProtocol::heartbeat(TimePoint now) {
+  last_beat_ = now;
+  pb::ToCoordinator message;
+  pb::Heartbeat& beat = *message.mutable_heartbeat();
+  credit_sent_ = credit();
+  beat.set_credit(credit_sent_);
+  beat.set_held(static_cast<std::uint32_t>(held_.size()));
+  Duration busy = busy_;
+  for (const auto& [key, held] : held_) {
+    if (!held.started) continue;
+    busy += now - std::max(*held.started, welcomed_);
+    if (beat.running_size() >= kMaxItemsPerMessage) continue;
+    pb::Running& running = *beat.add_running();
+    unpack(key, *running.mutable_key());
+    const auto elapsed = std::chrono::duration_cast<std::chrono::milliseconds>(now - *held.started);
+    running.set_elapsed_ms(std::max<std::int64_t>(0, elapsed.count()));
+  }
+  const auto us = [](Duration time) {
+    return static_cast<std::uint64_t>(
+        std::chrono::duration_cast<std::chrono::microseconds>(time).count());
+  };
+  const std::uint64_t slot_us = us(identity_.slots * (now - welcomed_));
+  beat.set_slot_us(slot_us);
+  // Slots tell of an end a little late: what begins meanwhile must not make more than there is.
+  beat.set_busy_us(std::min(us(busy), slot_us));
+  send(message, now);
+}
+
+}  // namespace swarmsmith
