@@ -75,7 +75,8 @@ class SqliteRecovery final : public Recovery {
               .unplaced = found.unplaced,
               .tables = {}};
     for (const TableFind& table : found.tables)
-      found_.tables.push_back({table.name, table.rows, table.lost_pages, table.broken});
+      found_.tables.push_back(
+          {table.name, table.rows, table.lost_pages, table.broken, table.tree_is_lost});
     for (const char* statement : kNonsense)
       remove(statement);
     // Before anything is written: new phrases may get the numbers of lost ones, and candidates

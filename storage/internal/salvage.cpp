@@ -61,6 +61,7 @@ class Salvager {
   void each_row(OnRow on_row) {
     for (std::size_t table = 0; table < shapes_.size(); ++table) {
       const auto root = roots_.find(shapes_[table].tree);
+      finds_[table].tree_is_lost = root == roots_.end();
       if (root != roots_.end()) walk(table, root->second, on_row);
     }
     for (std::uint32_t number = 1; number <= image_.pages(); ++number) {
