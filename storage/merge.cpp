@@ -147,7 +147,7 @@ Expected<Merged> merge_stores(const std::vector<fs::path>& stores, const fs::pat
     }
     for (std::size_t i = 0; i < stores.size(); ++i) {
       on_store(static_cast<std::int64_t>(i), static_cast<std::int64_t>(stores.size()));
-      auto copy = NewFile::beside(into.string() + fmt::format("-{}", i + 1));
+      auto copy = NewFile::beside(fmt::format("{}.store-{}", file->path().string(), i + 1));
       if (!copy) return Unexpected(copy.error());
       if (auto copied = copy_store(stores[i], copy->path(), [](auto, auto) {}); !copied) {
         return Unexpected(copied.error());

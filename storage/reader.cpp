@@ -32,8 +32,9 @@ class SqliteReader final : public StoreReader {
   std::vector<StoredScore> scores() override { return read_scores(*connection_, part()); }
   std::vector<CommandRow> commands() override { return read_commands(*connection_, part()); }
   bool finished() override {
-    return std::ranges::all_of(campaigns(),
-                               [](const auto& each) { return each.state == "finished"; });
+    return std::ranges::all_of(campaigns(), [](const StoredCampaign& each) {
+      return each.state == "finished" || each.state == "imported";
+    });
   }
 
   std::string digest() override;

@@ -75,9 +75,14 @@ class SqliteRecovery final : public Recovery {
               .unplaced = found.unplaced,
               .tables = {}};
     for (const TableFind& table : found.tables)
-      found_.tables.push_back({table.name, table.rows, table.lost_pages, table.broken});
+      found_.tables.push_back(
+          {table.name, table.rows, table.lost_pages, table.broken, table.tree_is_lost});
     for (const char* statement : kNonsense)
       remove(statement);
+    // Before anything is written: new phrases may get the numbers of lost ones, and candidates
+    // that are derived anew do not replace those that are there.
+    for (const CandidateId lost : candidates_without_phrases(connection_))
+      remove(fmt::format("DELETE FROM candidate WHERE id = {}", lost.value));
   }
 
   const Salvaged& found() const override { return found_; }
@@ -204,8 +209,6 @@ Expected<Recovery::End> SqliteRecovery::finish() {
                         "the campaign's own row is lost; name the campaign's file, so that the new "
                         "store knows whose rows these are: `--campaign campaign.toml`");
     }
-    for (const CandidateId lost : candidates_without_phrases(connection_))
-      remove(fmt::format("DELETE FROM candidate WHERE id = {}", lost.value).c_str());
     std::int64_t before = -1;
     while (before != orphans_) {
       before = orphans_;

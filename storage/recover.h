@@ -18,6 +18,7 @@ struct SalvagedTable {
   std::int64_t rows = 0;        ///< whole ones
   std::int64_t lost_pages = 0;  ///< that held more of them, and cannot be read
   std::int64_t broken = 0;      ///< rows of which a part is lost
+  bool tree_is_lost = false;    ///< where it began is not known: there may have been more
 };
 
 struct Salvaged {

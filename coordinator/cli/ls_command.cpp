@@ -46,9 +46,11 @@ struct Arguments {
 };
 
 /// The person's own words go into the statement: it may only read.
-std::string statement(const Kind& kind, const Arguments& arguments, bool all_columns) {
-  std::string sql = "SELECT " + (all_columns ? "*" : std::string(kind.columns)) + " FROM " +
-                    std::string(kind.from);
+std::string statement(const Kind& kind, const Arguments& arguments, bool all_columns,
+                      bool several_campaigns) {
+  std::string columns(all_columns ? "*" : kind.columns);
+  if (!all_columns && several_campaigns && kind.name == "designs") columns += ", campaign";
+  std::string sql = "SELECT " + columns + " FROM " + std::string(kind.from);
   if (!arguments.where.empty()) sql += " WHERE " + arguments.where;
   sql += " ORDER BY " + (arguments.sort.empty() ? std::string(kind.order) : arguments.sort);
   return sql;
@@ -63,8 +65,9 @@ ExitCode run(const Arguments& arguments, Output& output) {
   }
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const bool several = (*store)->campaigns().size() > 1;
   const std::int64_t limit = arguments.limit.value_or(output.json ? 0 : kShown);
-  auto rows = select(**store, statement(*kind, arguments, output.json),
+  auto rows = select(**store, statement(*kind, arguments, output.json, several),
                      {.rows = limit == 0 ? kAll : limit});
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
   letter_ids(*rows);

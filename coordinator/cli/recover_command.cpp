@@ -26,6 +26,7 @@ struct Report {
 /// "100 whole rows; 3 pages and 2 rows cannot be read".
 std::string table_text(const SalvagedTable& table) {
   std::string text = std::to_string(table.rows) + " rows";
+  if (table.tree_is_lost) text += " (where the table began is lost: there may have been more)";
   if (table.lost_pages == 0 && table.broken == 0) return text;
   text += "; lost: ";
   if (table.lost_pages > 0) text += std::to_string(table.lost_pages) + " pages";
@@ -54,7 +55,8 @@ std::string design_text(const Rebuilt::Design& design) {
 std::string table_json(const SalvagedTable& table) {
   return "{\"name\":" + json_text(table.name) + ",\"rows\":" + std::to_string(table.rows) +
          ",\"lost_pages\":" + std::to_string(table.lost_pages) +
-         ",\"broken\":" + std::to_string(table.broken) + "}";
+         ",\"broken\":" + std::to_string(table.broken) +
+         ",\"tree_lost\":" + (table.tree_is_lost ? "true" : "false") + "}";
 }
 
 std::string design_json(const Rebuilt::Design& design) {
@@ -89,7 +91,7 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
     output.out << "the header is damaged; the pages look like schema " << found.schema << "\n";
   }
   for (const SalvagedTable& table : found.tables) {
-    if (table.rows > 0 || table.lost_pages > 0 || table.broken > 0)
+    if (table.rows > 0 || table.lost_pages > 0 || table.broken > 0 || table.tree_is_lost)
       output.out << table.name << ": " << table_text(table) << "\n";
   }
   if (found.unplaced > 0) output.out << found.unplaced << " rows might be of several tables\n";

@@ -34,14 +34,19 @@ Expected<NewFile> NewFile::beside(const fs::path& wanted) {
   if (auto folder = check_folder(wanted); !folder) return Unexpected(folder.error());
   std::error_code trouble;
   if (fs::exists(fs::symlink_status(wanted, trouble))) return taken(wanted);
-  return NewFile(wanted, fmt::format("{}.part-{}", wanted.string(), ::getpid()));
+  NewFile file(wanted, fmt::format("{}.part-{}", wanted.string(), ::getpid()));
+  file.remove();  // of a process of that number, which was killed
+  return file;
 }
 
 NewFile::NewFile(NewFile&& other) noexcept
     : wanted_(std::move(other.wanted_)), part_(std::exchange(other.part_, {})) {}
 
 NewFile::~NewFile() {
-  if (part_.empty()) return;
+  if (!part_.empty()) remove();
+}
+
+void NewFile::remove() {
   std::error_code ignored;
   for (const char* ending : {"", "-wal", "-shm", "-journal"})
     fs::remove(part_.string() + ending, ignored);

@@ -28,6 +28,8 @@ class NewFile {
   NewFile(std::filesystem::path wanted, std::filesystem::path part)
       : wanted_(std::move(wanted)), part_(std::move(part)) {}
 
+  void remove();
+
   std::filesystem::path wanted_;
   std::filesystem::path part_;  ///< empty when there is nothing more to remove
 };

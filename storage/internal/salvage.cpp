@@ -17,9 +17,19 @@ using sqlite::Connection;
 using sqlite::Statement;
 
 std::vector<TableShape> shapes_of_schema(std::int64_t schema) {
-  Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
-  create_tables(memory, schema);
-  return table_shapes(memory);
+  std::vector<TableShape> shapes;
+  // From the earliest on: columns that a later one has added may be missing in a record.
+  std::map<std::pair<std::string, bool>, std::size_t> first_columns;
+  for (std::int64_t earlier = 1; earlier <= schema; ++earlier) {
+    Connection memory(":memory:", SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+    create_tables(memory, earlier);
+    shapes = table_shapes(memory);
+    for (const TableShape& shape : shapes)
+      first_columns.try_emplace({shape.tree, shape.has_rowids}, shape.columns.size());
+  }
+  for (TableShape& shape : shapes)
+    shape.least_columns = first_columns.at({shape.tree, shape.has_rowids});
+  return shapes;
 }
 
 /// A row of sqlite_schema that names a table or an index: its name and the page that its tree
@@ -51,6 +61,7 @@ class Salvager {
   void each_row(OnRow on_row) {
     for (std::size_t table = 0; table < shapes_.size(); ++table) {
       const auto root = roots_.find(shapes_[table].tree);
+      finds_[table].tree_is_lost = root == roots_.end();
       if (root != roots_.end()) walk(table, root->second, on_row);
     }
     for (std::uint32_t number = 1; number <= image_.pages(); ++number) {

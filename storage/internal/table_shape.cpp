@@ -48,11 +48,9 @@ bool fits_column(const TableShape::Column& column, const StoredValue& value) {
 
 bool TableShape::fits(const StoredRecord& record) const {
   if (record.rowid.has_value() != has_rowids || record.values.size() > columns.size()) return false;
-  if (record.values.empty()) return false;
-  for (std::size_t i = 0; i < columns.size(); ++i) {
-    if (i >= record.values.size()) {
-      if (!columns[i].may_lack) return false;
-    } else if (static_cast<int>(i) == alias) {
+  if (record.values.empty() || record.values.size() < least_columns) return false;
+  for (std::size_t i = 0; i < record.values.size(); ++i) {
+    if (static_cast<int>(i) == alias) {
       if (record.values[i].type != StoredValue::Type::Null) return false;
     } else if (!fits_column(columns[i], record.values[i])) {
       return false;
@@ -81,18 +79,16 @@ std::vector<TableShape> table_shapes(const sqlite::Connection& connection) {
         .name = table.text(0), .tree = table.text(0), .has_rowids = table.integer(1) == 0};
     // Records of tables without rowids begin with the key's columns.
     Statement column(connection,
-                     "SELECT name, type, \"notnull\", dflt_value IS NOT NULL, pk"
+                     "SELECT name, type, \"notnull\", pk"
                      " FROM pragma_table_info(?1) ORDER BY iif(?2 AND pk > 0, pk, 1000 + cid)");
     column.bind(shape.name, !shape.has_rowids);
     while (column.step()) {
-      const bool nullable = column.integer(2) == 0 && column.integer(4) == 0;
-      if (shape.has_rowids && column.integer(4) > 0 && column.text(1) == "INTEGER") {
+      const bool nullable = column.integer(2) == 0 && column.integer(3) == 0;
+      if (shape.has_rowids && column.integer(3) > 0 && column.text(1) == "INTEGER") {
         shape.alias = static_cast<int>(shape.columns.size());
       }
-      shape.columns.push_back({.name = column.text(0),
-                               .type = column.text(1),
-                               .may_lack = nullable || column.integer(3) != 0,
-                               .may_be_null = nullable});
+      shape.columns.push_back(
+          {.name = column.text(0), .type = column.text(1), .may_be_null = nullable});
     }
     shapes.push_back(std::move(shape));
   }

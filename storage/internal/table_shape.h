@@ -14,8 +14,7 @@ namespace swarmsmith {
 struct TableShape {
   struct Column {
     std::string name;
-    std::string type;       ///< INTEGER, REAL, TEXT, BLOB
-    bool may_lack = false;  ///< NULL, or missing in a record from before the column was added
+    std::string type;  ///< INTEGER, REAL, TEXT, BLOB
     bool may_be_null = false;
   };
   std::string name;
@@ -25,6 +24,7 @@ struct TableShape {
   int alias = -1;  ///< the column that is the rowid, and NULL in the record
   /// In the order of the record.
   std::vector<Column> columns;
+  std::size_t least_columns = 0;  ///< of a record from before the others were added
 
   /// Whether it can be a record of this table.
   bool fits(const StoredRecord& record) const;

@@ -179,7 +179,8 @@ TEST_F(MergeTest, KeepsEachCampaignsAnswerAndEveryRow) {
   // A table that is new in the schema must be merged, too.
   for (const Cells& table :
        cells_of(*reader, "SELECT name FROM sqlite_schema WHERE type = 'table'")) {
-    if (table[0] == "meta" || table[0] == "source") continue;
+    // What rows are written with, and no rows themselves.
+    if (table[0] == "meta" || table[0] == "source" || table[0] == "phrase") continue;
     EXPECT_GT(count(a, table[0]), 0) << table[0];
     EXPECT_EQ(count(out, table[0]), count(a, table[0]) + count(b, table[0])) << table[0];
   }
