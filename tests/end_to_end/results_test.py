@@ -38,7 +38,7 @@ MODULES = {
 
 
 class Results(ProgramTest):
-    budget = 1000
+    budget = 1400
     tests = 3
 
     def done(self, *arguments):
