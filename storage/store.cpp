@@ -85,15 +85,6 @@ void write_birth(Connection& connection, const CampaignRow& campaign,
   transaction.commit();
 }
 
-/// A store of a schema before 4 does not say in which flavour its machines are written.
-void name_flavours(Connection& connection, const std::vector<DesignRow>& designs) {
-  sqlite::Transaction transaction(connection);
-  Statement design(connection, "UPDATE design SET flavour = ?2 WHERE id = ?1 AND flavour = ''");
-  for (const DesignRow& row : designs)
-    if (!row.flavour.empty()) design.run(row.id.value, row.flavour);
-  transaction.commit();
-}
-
 /// Changes nothing until it is sure that the store is the campaign's.
 Expected<Connection> prepare(const fs::path& path, bool unclean, const CampaignRow& campaign,
                              const std::vector<DesignRow>& designs) {

@@ -109,14 +109,14 @@ void SqliteAtRest::remove(const EvaluationKey& key) {
 }  // namespace
 
 Expected<std::unique_ptr<StoreAtRest>> StoreAtRest::open(const fs::path& path, IfMissing if_missing,
-                                                         std::chrono::milliseconds patience) {
+                                                         const std::vector<DesignRow>& designs) {
   std::error_code trouble;
   const bool exists = fs::exists(path, trouble);
   if (!exists && if_missing == IfMissing::Refuse) {
     return unexpected(ErrorKind::NotFound, "there is no such store", path.string());
   }
   if (auto folder = check_folder(path); !folder) return Unexpected(folder.error());
-  auto lock = lock_for_writing(path, patience);
+  auto lock = lock_for_writing(path, {});
   if (!lock) return Unexpected(lock.error());
   try {
     auto connection = connect_writer(path, lock->unclean);
@@ -126,7 +126,10 @@ Expected<std::unique_ptr<StoreAtRest>> StoreAtRest::open(const fs::path& path, I
       return unexpected(ErrorKind::NotFound, "the file is empty: no campaign has begun in it",
                         path.string());
     }
-    if (!blank) migrate(*connection, path, migrations());
+    if (!blank) {
+      migrate(*connection, path, migrations());
+      name_flavours(*connection, designs);
+    }
     lock->file.set_suspect(false);
     return std::make_unique<SqliteAtRest>(std::move(lock->file), std::move(*connection), path,
                                           blank);

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -35,11 +34,12 @@ class StoreAtRest {
  public:
   enum class IfMissing { Refuse, Make };
 
-  /// Opens the store of any campaign, and migrates it. A new one is made without a campaign; it is
+  /// Opens the store of any campaign, and migrates it; `designs`, of the campaign's file, tell the
+  /// flavours, which stores before schema 4 do not. A new store is made without a campaign; it is
   /// gone again when nothing is added. Errors as of Store::open; NotFound with `Refuse`.
-  static Expected<std::unique_ptr<StoreAtRest>> open(
-      const std::filesystem::path& path, IfMissing if_missing,
-      std::chrono::milliseconds patience = std::chrono::milliseconds(0));
+  static Expected<std::unique_ptr<StoreAtRest>> open(const std::filesystem::path& path,
+                                                     IfMissing if_missing,
+                                                     const std::vector<DesignRow>& designs = {});
   virtual ~StoreAtRest() = default;
 
   /// Whether open() made the file, and nothing was added so far.

@@ -208,7 +208,7 @@ Expected<void> add_instances(EvaluationPlan& plan, const ExplicitInstances& give
   for (EvaluationJob& job : plan.jobs) {
     for (const std::int64_t seed : plan.seeds) {
       auto instance = instance_of(job.mission, seed, given);
-      if (!instance) return Unexpected(instance.error());
+      if (!instance) return bad_input(instance.error().message, instance.error().where);
       job.instances.push_back(std::move(*instance));
     }
   }

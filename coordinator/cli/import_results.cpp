@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "coordinator/cli/irace_converter.h"
+#include "coordinator/cli/store_argument.h"
 #include "coordinator/results/irace_log_rows.h"
 #include "coordinator/results/machine_import.h"
 #include "coordinator/results/score_import.h"
@@ -39,7 +40,7 @@ struct Target {
 };
 
 Expected<Target> open_target(const std::string& path, StoreAtRest::IfMissing if_missing) {
-  auto store = StoreAtRest::open(path, if_missing);
+  auto store = open_at_rest(path, if_missing);
   if (!store) {
     Error error = store.error();
     if (error.kind == ErrorKind::Conflict) error.message += "; import when the campaign has ended";

@@ -8,7 +8,7 @@
 # The last line of the errors is the reason, which swarmsmith passes on.
 options(error = function() quit(save = "no", status = 1))
 fail <- function(...) {
-  message(...)
+  message(gsub("[[:space:]]+", " ", paste0(...)))
   quit(save = "no", status = 1)
 }
 

@@ -3,10 +3,12 @@
 #include <bit>
 #include <utility>
 
+#include "coordinator/cli/store_argument.h"
+
 namespace swarmsmith::cli {
 
 Expected<ScoreKeeper> ScoreKeeper::open(const std::string& store) {
-  auto at_rest = StoreAtRest::open(store, StoreAtRest::IfMissing::Refuse);
+  auto at_rest = open_at_rest(store, StoreAtRest::IfMissing::Refuse);
   if (!at_rest) {
     Error error = at_rest.error();
     error.message += error.kind == ErrorKind::Conflict

@@ -20,21 +20,28 @@ struct Part {
   std::string sql;
 };
 
+/// What a design's winner got outside of its race, by source. Before schema 4 all of it was tests.
+std::string scores_of(const std::string& number, const std::string& purpose, bool has_purposes) {
+  const std::string of = has_purposes ? " AND purpose = '" + purpose + "'" : "";
+  return "SELECT candidate, source, count(score) AS runs, avg(score) AS mean, "
+         "min(score) AS lowest, max(score) AS highest FROM v_design_scores "
+         "WHERE design = " +
+         number + of + " GROUP BY candidate, source";
+}
+
 /// Statements that show a thing, the first of which has one row if it exists.
-std::vector<Part> parts_of_design(const std::string& number) {
-  return {{"design", "SELECT * FROM v_designs WHERE design = " + number},
-          {"elites",
-           "SELECT iteration, rank, candidate, mean, n, experiments_used "
-           "FROM v_convergence WHERE design = " +
-               number + " ORDER BY iteration, rank"},
-          {"test",
-           "SELECT candidate, source, count(score) AS runs, avg(score) AS mean, "
-           "min(score) AS lowest, max(score) AS highest FROM v_design_scores "
-           "WHERE design = " +
-               number + " GROUP BY candidate, source"},
-          {"commands",
-           "SELECT number, kind, budget, step, who, at FROM v_commands WHERE design = " + number +
-               " ORDER BY number"}};
+std::vector<Part> parts_of_design(const std::string& number, bool has_purposes) {
+  std::vector<Part> parts = {
+      {"design", "SELECT * FROM v_designs WHERE design = " + number},
+      {"elites",
+       "SELECT iteration, rank, candidate, mean, n, experiments_used "
+       "FROM v_convergence WHERE design = " +
+           number + " ORDER BY iteration, rank"},
+      {"test", scores_of(number, "test", has_purposes)},
+      {"commands", "SELECT number, kind, budget, step, who, at FROM v_commands WHERE design = " +
+                       number + " ORDER BY number"}};
+  if (has_purposes) parts.push_back({"scores", scores_of(number, "score", true)});
+  return parts;
 }
 
 std::vector<Part> parts_of_candidate(const std::string& number) {
@@ -57,13 +64,10 @@ std::vector<Part> parts_of_evaluation(const ThingId& id) {
   return {{"evaluation", "SELECT * FROM v_evaluations WHERE " + is_evaluation(id)}};
 }
 
-/// The parts, or none when the text is no id.
-std::vector<Part> parts_of(const std::string& text) {
-  const auto id = parse_thing_id(text);
-  if (!id) return {};
-  if (id->letter == 'd') return parts_of_design(id->digits);
-  if (id->letter == 'c') return parts_of_candidate(id->digits);
-  return parts_of_evaluation(*id);
+std::vector<Part> parts_of(const ThingId& id, bool has_purposes) {
+  if (id.letter == 'd') return parts_of_design(id.digits, has_purposes);
+  if (id.letter == 'c') return parts_of_candidate(id.digits);
+  return parts_of_evaluation(id);
 }
 
 /// One row as "name  value" lines.
@@ -100,14 +104,18 @@ void write_json(Output& output, const std::vector<Part>& parts, const std::vecto
 }
 
 ExitCode run(const Arguments& arguments, Output& output) {
-  const std::vector<Part> parts = parts_of(arguments.id);
-  if (parts.empty()) {
+  const auto id = parse_thing_id(arguments.id);
+  if (!id) {
     return fail(output, ExitCode::Usage,
                 "\"" + arguments.id + "\" is no id; ids look like d3 (design), c812 (candidate), " +
                     "e81200007 (evaluation)");
   }
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const auto known = select(**store, "SELECT * FROM v_design_scores LIMIT 0");
+  if (!known) return fail(output, ExitCode::Store, known.error());
+  const bool has_purposes = std::ranges::find(known->columns, "purpose") != known->columns.end();
+  const std::vector<Part> parts = parts_of(*id, has_purposes);
   std::vector<Rows> shown;
   for (const Part& part : parts) {
     auto rows = select(**store, part.sql);

@@ -2,6 +2,9 @@
 
 #include <cstdlib>
 
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/campaign/campaign_rows.h"
+
 namespace swarmsmith::cli {
 
 void StoreArgument::declare(Options& options, bool with_word) {
@@ -23,6 +26,16 @@ Expected<std::unique_ptr<StoreReader>> StoreArgument::open() const {
   const auto where = path();
   if (!where) return Unexpected(where.error());
   return StoreReader::open(*where);
+}
+
+Expected<std::unique_ptr<StoreAtRest>> open_at_rest(const std::string& path,
+                                                    StoreAtRest::IfMissing if_missing) {
+  std::vector<DesignRow> designs;
+  if (const auto reader = StoreReader::open(path)) {
+    const auto campaign = parse_campaign((*reader)->campaign().file, path);
+    if (campaign) designs = design_rows(*campaign);
+  }
+  return StoreAtRest::open(path, if_missing, designs);
 }
 
 ExitCode exit_code_of_store(const Error& error) {

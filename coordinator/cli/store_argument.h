@@ -6,6 +6,7 @@
 #include "base/expected.h"
 #include "coordinator/cli/options.h"
 #include "storage/store.h"
+#include "storage/store_at_rest.h"
 
 namespace swarmsmith::cli {
 
@@ -21,6 +22,10 @@ struct StoreArgument {
   /// Opens it; every error means exit code 3, except one of `path`.
   Expected<std::unique_ptr<StoreReader>> open() const;
 };
+
+/// Opens a store, whose first campaign's file tells what an old schema does not, to add to it.
+Expected<std::unique_ptr<StoreAtRest>> open_at_rest(const std::string& path,
+                                                    StoreAtRest::IfMissing if_missing);
 
 /// What to exit with after an error of `open`.
 ExitCode exit_code_of_store(const Error& error);

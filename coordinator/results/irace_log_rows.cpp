@@ -3,51 +3,30 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "base/hash.h"
 #include "coordinator/campaign/machine_space.h"
+#include "coordinator/results/internal/log_races.h"
 #include "sim/control/machine_text.h"
 #include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 namespace {
 
-using Configurations = std::vector<std::int64_t>;
-
-bool is_rejected(const LogRun& run) {
-  return !run.cost || !std::isfinite(*run.cost);
-}
-
-/// A pair in a race, and who has a score on it.
-struct Step {
-  std::int64_t iteration = 0;
-  std::int64_t pair = 0;
-  std::int64_t evaluated = 0;
-  Configurations alive;
-};
-
 /// Makes the rows of one log.
 class Rows {
  public:
   Rows(const IraceLog& log, const IraceImport& known, DesignId design)
-      : log_(log), known_(known), design_(design) {
-    for (const LogRun& run : log_.runs) {
-      iterations_ = std::max(iterations_, run.iteration);
-      if (!is_rejected(run)) scores_.emplace(std::pair{run.configuration, run.pair}, -*run.cost);
-    }
-    for (const LogElite& elite : log_.elites)
-      elites_[elite.iteration].push_back(elite.configuration);
-  }
+      : log_(log), known_(known), design_(design), races_(log) {}
 
   OrErrors<std::vector<Row>> all() {
     add_iterations();
     if (auto errors = add_candidates(); !errors.empty()) return tl::unexpected(std::move(errors));
     add_pairs_and_evaluations();
-    for (std::int64_t iteration = 1; iteration <= iterations_; ++iteration)
+    for (std::int64_t iteration = 1; iteration <= races_.iterations(); ++iteration)
       add_race(iteration);
     add_elites();
     add_end();
@@ -58,80 +37,37 @@ class Rows {
   CandidateId id_of(std::int64_t configuration) const {
     return configuration == 0 ? CandidateId{} : candidate_id(design_, configuration);
   }
-  std::optional<double> score(std::int64_t configuration, std::int64_t pair) const {
-    const auto found = scores_.find({configuration, pair});
-    return found == scores_.end() ? std::nullopt : std::optional(found->second);
-  }
-  Configurations elites_of(std::int64_t iteration) const {
-    const auto found = elites_.find(iteration);
-    return found == elites_.end() ? Configurations{} : found->second;
-  }
-  Configurations racers_of(std::int64_t iteration) const;
-  std::vector<Step> steps_of(std::int64_t iteration) const;
 
   void add_iterations();
   std::vector<Error> add_candidates();
   Expected<CandidateRow> candidate(const LogConfiguration& configuration) const;
   void add_pairs_and_evaluations();
   void add_race(std::int64_t iteration);
-  void add_eliminations(const std::vector<Step>& steps, std::size_t at, std::int64_t number);
-  double rank_sum(const std::vector<Step>& steps, std::size_t at, std::int64_t configuration) const;
-  std::pair<std::int64_t, double> best_of(const std::vector<Step>& steps, std::size_t at) const;
+  void add_eliminations(const std::vector<LogStep>& steps, std::size_t at, std::int64_t number);
   void add_elites();
   void add_end();
 
   const IraceLog& log_;
   const IraceImport& known_;
   DesignId design_;
-  std::int64_t iterations_ = 0;
-  std::map<std::pair<std::int64_t, std::int64_t>, double> scores_;  ///< by configuration and pair
-  std::map<std::int64_t, Configurations> elites_;                   ///< by iteration, best first
+  LogRaces races_;
   std::vector<Row> rows_;
   std::int64_t steps_ = 0;
   std::int64_t used_ = 0;
 };
 
-/// The elites of the iteration before, and whoever ran in this one.
-Configurations Rows::racers_of(std::int64_t iteration) const {
-  const Configurations kept = elites_of(iteration - 1);
-  std::set<std::int64_t> racers(kept.begin(), kept.end());
-  for (const LogRun& run : log_.runs)
-    if (run.iteration == iteration) racers.insert(run.configuration);
-  return {racers.begin(), racers.end()};
-}
-
-std::vector<Step> Rows::steps_of(std::int64_t iteration) const {
-  std::vector<Step> steps;
-  const Configurations racers = racers_of(iteration);
-  std::set<std::pair<std::int64_t, std::int64_t>> ran;
-  for (const LogRun& run : log_.runs) {
-    if (run.iteration != iteration) continue;
-    const auto known = std::ranges::find(steps, run.pair, &Step::pair);
-    Step& step =
-        known == steps.end() ? steps.emplace_back(Step{iteration, run.pair, 0, {}}) : *known;
-    ++step.evaluated;
-    ran.emplace(run.configuration, run.pair);
-  }
-  for (Step& step : steps) {
-    for (const std::int64_t racer : racers) {
-      if (ran.contains({racer, step.pair}) || score(racer, step.pair)) step.alive.push_back(racer);
-    }
-  }
-  return steps;
-}
-
 void Rows::add_iterations() {
-  for (std::int64_t iteration = 1; iteration <= iterations_; ++iteration) {
+  for (std::int64_t iteration = 1; iteration <= races_.iterations(); ++iteration) {
     const auto ran = std::ranges::count(log_.runs, iteration, &LogRun::iteration);
     const auto& restarts = log_.soft_restarts;
-    rows_.emplace_back(
-        IterationRow{.design = design_,
-                     .number = iteration,
-                     .of = std::max(log_.iterations, iterations_),
-                     .budget = ran,
-                     .configurations = static_cast<std::int64_t>(racers_of(iteration).size()),
-                     .elites = static_cast<std::int64_t>(elites_of(iteration - 1).size()),
-                     .soft_restart = std::ranges::find(restarts, iteration) != restarts.end()});
+    rows_.emplace_back(IterationRow{
+        .design = design_,
+        .number = iteration,
+        .of = std::max(log_.iterations, races_.iterations()),
+        .budget = ran,
+        .configurations = static_cast<std::int64_t>(races_.racers_of(iteration).size()),
+        .elites = static_cast<std::int64_t>(races_.elites_of(iteration - 1).size()),
+        .soft_restart = std::ranges::find(restarts, iteration) != restarts.end()});
   }
 }
 
@@ -225,55 +161,18 @@ void Rows::add_pairs_and_evaluations() {
   }
 }
 
-/// Who has the largest mean over the race's pairs so far, of those alive.
-std::pair<std::int64_t, double> Rows::best_of(const std::vector<Step>& steps,
-                                              std::size_t at) const {
-  std::pair<std::int64_t, double> best{0, 0};
-  for (const std::int64_t configuration : steps[at].alive) {
-    double sum = 0;
-    bool whole = true;
-    for (std::size_t i = 0; i <= at && whole; ++i) {
-      const auto value = score(configuration, steps[i].pair);
-      whole = value.has_value();
-      sum += value.value_or(0);
-    }
-    const double mean = sum / static_cast<double>(at + 1);
-    if (whole && (best.first == 0 || mean > best.second)) best = {configuration, mean};
-  }
-  return best;
-}
-
-/// Friedman's, over the race's pairs so far, among those alive: ties share their mean rank.
-double Rows::rank_sum(const std::vector<Step>& steps, std::size_t at,
-                      std::int64_t configuration) const {
-  double sum = 0;
-  for (std::size_t i = 0; i <= at; ++i) {
-    const auto own = score(configuration, steps[i].pair);
-    double better = 0;
-    double equal = 0;
-    for (const std::int64_t other : steps[at].alive) {
-      const auto value = score(other, steps[i].pair);
-      if (value == own) {
-        ++equal;
-      } else if (value && (!own || *value > *own)) {
-        ++better;
-      }
-    }
-    sum += better + (equal + 1) / 2;
-  }
-  return sum;
-}
-
-void Rows::add_eliminations(const std::vector<Step>& steps, std::size_t at, std::int64_t number) {
+void Rows::add_eliminations(const std::vector<LogStep>& steps, std::size_t at,
+                            std::int64_t number) {
   const bool is_last = at + 1 == steps.size();
-  const Configurations kept = is_last ? elites_of(steps[at].iteration) : steps[at + 1].alive;
+  const std::vector<std::int64_t> kept =
+      is_last ? races_.elites_of(steps[at].iteration) : steps[at + 1].alive;
   for (const std::int64_t configuration : steps[at].alive) {
     if (std::ranges::find(kept, configuration) != kept.end()) continue;
-    const bool rejected = !score(configuration, steps[at].pair);
+    const bool rejected = !races_.score(configuration, steps[at].pair);
     rows_.emplace_back(EliminationRow{.candidate = id_of(configuration),
                                       .iteration = steps[at].iteration,
                                       .step = number,
-                                      .rank_sum = rank_sum(steps, at, configuration),
+                                      .rank_sum = races_.rank_sum(steps, at, configuration),
                                       .reason = rejected  ? "rejected"
                                                 : is_last ? "not kept"
                                                           : "test"});
@@ -281,24 +180,24 @@ void Rows::add_eliminations(const std::vector<Step>& steps, std::size_t at, std:
 }
 
 void Rows::add_race(std::int64_t iteration) {
-  const std::vector<Step> steps = steps_of(iteration);
+  const std::vector<LogStep> steps = races_.steps_of(iteration);
   for (std::size_t at = 0; at < steps.size(); ++at) {
     const bool is_last = at + 1 == steps.size();
     used_ += steps[at].evaluated;
-    const auto [best, mean] = best_of(steps, at);
-    rows_.emplace_back(
-        RaceStepRow{.design = design_,
-                    .step = ++steps_,
-                    .iteration = iteration,
-                    .pair = steps[at].pair,
-                    .marker = '?',
-                    .evaluated = steps[at].evaluated,
-                    .alive_before = static_cast<std::int64_t>(steps[at].alive.size()),
-                    .alive_after = static_cast<std::int64_t>(is_last ? elites_of(iteration).size()
-                                                                     : steps[at + 1].alive.size()),
-                    .best = id_of(best),
-                    .mean_best = mean,
-                    .used = used_});
+    const auto [best, mean] = races_.best_of(steps, at);
+    rows_.emplace_back(RaceStepRow{
+        .design = design_,
+        .step = ++steps_,
+        .iteration = iteration,
+        .pair = steps[at].pair,
+        .marker = '?',
+        .evaluated = steps[at].evaluated,
+        .alive_before = static_cast<std::int64_t>(steps[at].alive.size()),
+        .alive_after = static_cast<std::int64_t>(is_last ? races_.elites_of(iteration).size()
+                                                         : steps[at + 1].alive.size()),
+        .best = id_of(best),
+        .mean_best = mean,
+        .used = used_});
     add_eliminations(steps, at, steps_);
   }
 }
@@ -327,7 +226,7 @@ void Rows::add_end() {
   DesignStateRow state{.design = design_,
                        .state = DesignState::Finished,
                        .used = static_cast<std::int64_t>(log_.runs.size()),
-                       .iteration = iterations_,
+                       .iteration = races_.iterations(),
                        .best = {},
                        .best_mean = 0,
                        .reason = log_.completed};

@@ -71,6 +71,14 @@ void write_empty_store(Connection& connection) {
   write_maker(connection);
 }
 
+void name_flavours(Connection& connection, const std::vector<DesignRow>& designs) {
+  sqlite::Transaction transaction(connection);
+  Statement design(connection, "UPDATE design SET flavour = ?2 WHERE id = ?1 AND flavour = ''");
+  for (const DesignRow& row : designs)
+    if (!row.flavour.empty()) design.run(row.id.value, row.flavour);
+  transaction.commit();
+}
+
 Unexpected not_writable(const sqlite::SqliteError& error, const fs::path& path) {
   const int code = error.primary_code();
   if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {

@@ -2,10 +2,12 @@
 
 #include <chrono>
 #include <filesystem>
+#include <vector>
 
 #include "base/expected.h"
 #include "storage/internal/lock_file.h"
 #include "storage/internal/sqlite.h"
+#include "storage/rows.h"
 
 namespace swarmsmith {
 
@@ -29,6 +31,10 @@ Expected<sqlite::Connection> connect_writer(const std::filesystem::path& path, b
 
 /// Tables, views and where the file was made, in a blank file; the caller holds a transaction.
 void write_empty_store(sqlite::Connection& connection);
+
+/// A store of a schema before 4 does not say in which flavour its machines are written: takes it
+/// from these designs.
+void name_flavours(sqlite::Connection& connection, const std::vector<DesignRow>& designs);
 
 /// The error that a failure while opening stands for: Corrupt or Unavailable.
 Unexpected not_writable(const sqlite::SqliteError& error, const std::filesystem::path& path);

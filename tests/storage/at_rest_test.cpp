@@ -115,6 +115,14 @@ TEST_F(AtRestTest, StaysOutWhileACampaignWrites) {
   EXPECT_THAT(refused.error().message, HasSubstr("pid"));
 }
 
+TEST_F(AtRestTest, TellsTheFlavoursOfAnOldStoresDesigns) {
+  std::filesystem::copy_file(std::string(SWARMSMITH_TEST_DATA) + "/stores/schema-3.sqlite", path_);
+  {
+    ASSERT_TRUE(StoreAtRest::open(path_, IfMissing::Refuse, {{.id = {1}, .flavour = "chocolate"}}));
+  }
+  EXPECT_THAT(all("SELECT design, flavour FROM v_designs"), ElementsAre(Cells{"1", "chocolate"}));
+}
+
 TEST_F(AtRestTest, LeavesTheCampaignThatRunsThereAlone) {
   const SyntheticCampaign made = synthetic_campaign({.designs = 2, .iterations = 1});
   { ASSERT_TRUE(Store::open(path_, made.campaign, made.designs)); }

@@ -203,6 +203,83 @@ TEST_F(EvaluateFromStore, TakesFlavourProfileAndMissionFromTheCandidatesCampaign
   EXPECT_EQ(lines_of(ran.out)[1]["score"], score_of("aggregation", 2));
 }
 
+TEST_F(EvaluateFromStore, StoresTheScoreAndKnowsItAgain) {
+  const std::string before = (*StoreReader::open(store_))->digest();
+  const std::vector<std::string> words = {"evaluate", "c1", "--store", store_,
+                                          "--seeds",  "2",  "--json"};
+  const json first = lines_of(run(words).out).at(0);
+  EXPECT_EQ(first, (json{{"design", "d1"},
+                         {"candidate", "c1"},
+                         {"source", "rvr"},
+                         {"seed", 2},
+                         {"score", score_of("aggregation", 2)},
+                         {"id", "e100001s"},
+                         {"stored", "new"}}));
+  EXPECT_EQ(lines_of(run(words).out).at(0)["stored"], "known");
+  // Another candidate of the design gets the same pair.
+  EXPECT_EQ(lines_of(run({"evaluate", "c2", "--store", store_, "--seeds", "2", "--json"}).out)
+                .at(0)["id"],
+            "e200001s");
+  EXPECT_EQ((*StoreReader::open(store_))->digest(), before);
+}
+
+TEST_F(EvaluateFromStore, TakesASeedThatNoRaceAndNoTestHadAlwaysTheSame) {
+  const auto seed = [&] {
+    return lines_of(run({"evaluate", "best", "--store", store_, "--json"}).out).at(0)["seed"];
+  };
+  const json first = seed();
+  EXPECT_NE(first, 77);
+  EXPECT_NE(first, 99);
+  EXPECT_EQ(seed(), first);
+}
+
+TEST_F(EvaluateFromStore, ShoutsWhenTheBitsDifferFromWhatIsStored) {
+  {
+    auto store = Store::open(store_, campaign_row(demo_campaign()), design_rows(demo_campaign()));
+    (*store)->append(
+        {PairRow{.design = {1}, .purpose = Purpose::Score, .number = 1, .instance = 1, .seed = 2},
+         EvaluationRow{
+             .key = {{1}, Purpose::Score, 1}, .score = 77, .state_digest = 5, .source = "rvr"}});
+  }
+  const Ran ran = run({"evaluate", "c1", "--store", store_, "--seeds", "2"});
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.err, HasSubstr("e100001s: seed 2 gives score"));
+  EXPECT_THAT(run({"query", store_, "SELECT conflicts FROM v_campaign_status", "--csv"}).out,
+              HasSubstr("1"));
+}
+
+TEST_F(EvaluateFromStore, StoresNothingThatIsNoScoreOfTheDesign) {
+  const Misuse misuses[] = {
+      {{"--mission", "grid_exploration"}, "the design is one for the mission aggregation"},
+      {{"--flavour", "watermelon-argos3"}, "the design's machines are of the flavour watermelon"},
+      {{"--campaign", store_}, "the candidate has a campaign of its own"},
+      {{"--starts", "x.csv"}, "a stored score follows from its seed"},
+  };
+  for (const Misuse& misuse : misuses) {
+    std::vector<std::string> words = {"evaluate", "c1", "--store", store_, "--seeds", "2"};
+    words.insert(words.end(), misuse.words.begin(), misuse.words.end());
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 2) << misuse.sentence;
+    EXPECT_THAT(ran.err, HasSubstr(misuse.sentence));
+    EXPECT_THAT(ran.err, HasSubstr("--no-store"));
+  }
+  EXPECT_EQ(run({"evaluate", "c1", "--store", store_, "--seeds", "2", "--no-store"}).code, 0);
+  EXPECT_EQ(run({"evaluate", "best", "--design", "d2", "--store", store_}).code, 4);
+  EXPECT_EQ(run({"query", store_, "SELECT count(*) AS n FROM v_evaluations WHERE purpose = 'score'",
+                 "--csv"})
+                .out,
+            "n\r\n0\r\n");
+}
+
+TEST_F(EvaluateFromStore, StaysOutWhileACampaignWrites) {
+  const auto writer =
+      Store::open(store_, campaign_row(demo_campaign()), design_rows(demo_campaign()));
+  const Ran ran = run({"evaluate", "best", "--store", store_});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("--no-store"));
+  EXPECT_EQ(run({"evaluate", "best", "--store", store_, "--no-store"}).code, 0);
+}
+
 /// Final score of kExploreText where control cycles come too early.
 double hasty_score(const Flavour& flavour, std::int64_t seed) {
   const Mission mission = *built_in_mission("grid_exploration");
@@ -223,12 +300,10 @@ TEST(EvaluateFromAStoreOfTimedTurns, TakesTheTurnClockOfTheCandidatesMethod) {
   campaign.methods[0].turn_clock = TurnClock::Seconds;
   write_store(store, campaign);
   const auto score = [&](const std::vector<std::string>& more) {
-    std::vector<std::string> words = {"evaluate",  "c1",
-                                      "--store",   store,
-                                      "--mission", "grid_exploration",
-                                      "--profile", "pseudo-reality",
-                                      "--seeds",   "3",
-                                      "--json"};
+    std::vector<std::string> words = {
+        "evaluate",         "c1",        "--store",        store,     "--mission",
+        "grid_exploration", "--profile", "pseudo-reality", "--seeds", "3",
+        "--json",           "--no-store"};
     words.insert(words.end(), more.begin(), more.end());
     return lines_of(run(words).out).at(0)["score"].get<double>();
   };

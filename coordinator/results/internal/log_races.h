@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include "coordinator/results/irace_log.h"
+
+namespace swarmsmith {
+
+bool is_rejected(const LogRun& run);
+
+/// A pair in a race, and who has a score on it.
+struct LogStep {
+  std::int64_t iteration = 0;
+  std::int64_t pair = 0;
+  std::int64_t evaluated = 0;
+  std::vector<std::int64_t> alive;  ///< configurations, by id
+};
+
+/// The races of a log, worked out from its runs and elites: the log itself has no list of steps.
+class LogRaces {
+ public:
+  using Configurations = std::vector<std::int64_t>;
+
+  explicit LogRaces(const IraceLog& log);
+
+  std::int64_t iterations() const { return iterations_; }
+  std::optional<double> score(std::int64_t configuration, std::int64_t pair) const;
+  /// Best first.
+  Configurations elites_of(std::int64_t iteration) const;
+  /// The elites of the iteration before, and whoever ran in this one, by id.
+  Configurations racers_of(std::int64_t iteration) const;
+  /// In the order in which their first runs were made.
+  std::vector<LogStep> steps_of(std::int64_t iteration) const;
+
+  /// Who has the largest mean over the race's pairs up to the step `at`, of those alive there, and
+  /// that mean; configuration 0 for nobody.
+  std::pair<std::int64_t, double> best_of(const std::vector<LogStep>& steps, std::size_t at) const;
+  /// Friedman's, over the race's pairs so far, among those alive: ties share their mean rank.
+  double rank_sum(const std::vector<LogStep>& steps, std::size_t at,
+                  std::int64_t configuration) const;
+
+ private:
+  const IraceLog& log_;
+  std::int64_t iterations_ = 0;
+  std::map<std::pair<std::int64_t, std::int64_t>, double> scores_;  ///< by configuration and pair
+  std::map<std::int64_t, Configurations> elites_;                   ///< by iteration
+};
+
+}  // namespace swarmsmith

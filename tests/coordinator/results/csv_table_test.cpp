@@ -1,0 +1,50 @@
+#include "coordinator/results/csv_table.h"
+
+#include <gmock/gmock.h>
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+TEST(CsvTable, ReadsQuotesCommasLineBreaksAndBothLineEnds) {
+  const auto table = parse_csv(
+      "\xef\xbb\xbf"
+      "a,b\r\n1,\"x, \"\"y\"\"\nz\"\r\n\n2,\n3,\"\"",
+      "t.csv");
+  ASSERT_TRUE(table) << to_string(table.error().front());
+  EXPECT_THAT(table->columns, ElementsAre("a", "b"));
+  ASSERT_EQ(table->rows.size(), 3U);
+  EXPECT_THAT(table->rows[0].cells, ElementsAre("1", "x, \"y\"\nz"));
+  EXPECT_THAT(table->rows[1].cells, ElementsAre("2", ""));
+  EXPECT_THAT(table->rows[2].cells, ElementsAre("3", ""));
+  // The row before it has two lines, and a blank one follows.
+  EXPECT_EQ(table->place(table->rows[1]), "t.csv:5");
+  EXPECT_EQ(cell_of(*table, table->rows[1], "a"), "2");
+  EXPECT_EQ(cell_of(*table, table->rows[1], "c"), "");
+}
+
+TEST(CsvTable, NamesEveryBadRowByItsLine) {
+  const auto table = parse_csv("a,b,a\n1,2,3\n1,2\n1,2,3,4\n", "t.csv");
+  ASSERT_FALSE(table);
+  ASSERT_EQ(table.error().size(), 3U);
+  EXPECT_EQ(to_string(table.error()[0]), "t.csv:1: the column a is there twice");
+  EXPECT_EQ(to_string(table.error()[1]), "t.csv:3: the row has 2 fields, the headline 3");
+  EXPECT_EQ(to_string(table.error()[2]), "t.csv:4: the row has 4 fields, the headline 3");
+  EXPECT_THAT(to_string(parse_csv("a\n\"1\n2\n", "t.csv").error().front()),
+              HasSubstr("t.csv:2: a quote is opened"));
+  EXPECT_THAT(to_string(parse_csv(" \n", "t.csv").error().front()), HasSubstr("the file is empty"));
+}
+
+TEST(CsvTable, ReadsWholeNumbersOnly) {
+  EXPECT_EQ(integer_in("-12"), -12);
+  EXPECT_EQ(integer_in("12x"), std::nullopt);
+  EXPECT_EQ(integer_in(""), std::nullopt);
+  EXPECT_EQ(number_in("2.5e1"), 25);
+  EXPECT_EQ(number_in("2,5"), std::nullopt);
+  EXPECT_EQ(number_in("nan"), std::nullopt);
+}
+
+}  // namespace
+}  // namespace swarmsmith

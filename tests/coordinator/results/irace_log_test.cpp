@@ -1,0 +1,173 @@
+#include "coordinator/results/irace_log.h"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "coordinator/results/irace_log_rows.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using Texts = std::map<std::string, std::string>;
+
+/// The example log of R's irace 3.5, as the converter writes it.
+Texts example() {
+  Texts texts;
+  for (const std::string& name : irace_log_files()) {
+    std::ostringstream text;
+    text << std::ifstream(std::string(SWARMSMITH_TEST_DATA) + "/irace/log-acotsp/" + name).rdbuf();
+    texts.emplace(name, text.str());
+  }
+  return texts;
+}
+
+template <class T>
+std::vector<T> rows_of(const Addition& addition) {
+  std::vector<T> rows;
+  for (const Row& row : addition.rows)
+    if (const auto* one = std::get_if<T>(&row)) rows.push_back(*one);
+  return rows;
+}
+
+/// Three configurations of a parameter x, two pairs; in the second iteration only 2 and 3 race.
+Texts by_hand() {
+  return {
+      {"log.csv",
+       "key,value\nirace_version,4.4\ncompleted,Budget\nseed,42\n"
+       "max_experiments,20\niterations,2\nsoft_restart,2\n"},
+      {"parameters.csv", "name,type,switch\nx,r,--x \nkind,c,--\n"},
+      {"configurations.csv", "id,parent,x,kind\n1,,0.5,a\n2,,1,a\n3,2,,\"b\"\"\"\n"},
+      {"pairs.csv", "kind,pair,instance,seed\nrace,1,1,11\nrace,2,2,12\ntest,1,1,99\n"},
+      {"runs.csv",
+       "iteration,pair,configuration,cost,time,bound\n"
+       "1,1,1,4,,\n1,1,2,3,1.5,9\n2,2,2,5,,\n2,2,3,1,,\n2,1,3,Inf,,\n"},
+      {"elites.csv", "iteration,rank,configuration\n1,1,2\n2,1,2\n"},
+      {"tests.csv", "pair,configuration,cost\n1,2,6\n"},
+  };
+}
+
+TEST(IraceLog, BecomesTheRowsOfADesign) {
+  const auto log = read_irace_log(by_hand());
+  ASSERT_TRUE(log) << to_string(log.error().front());
+  const auto addition =
+      irace_log_addition(*log, {.campaign = "theirs", .flavour = {}, .designs = {{.id = {1}}}});
+  ASSERT_TRUE(addition);
+  EXPECT_EQ(addition->designs.front().row.id, DesignId{2});
+  EXPECT_EQ(addition->designs.front().row.seed, 42);
+  const auto candidates = rows_of<CandidateRow>(*addition);
+  ASSERT_EQ(candidates.size(), 3U);
+  EXPECT_EQ(candidates[0].machine, "--x 0.5 --a");
+  EXPECT_EQ(candidates[0].parameters, R"({"x":0.5,"kind":"a"})");
+  EXPECT_EQ(candidates[2].parameters, R"({"kind":"b\""})");
+  EXPECT_EQ(candidates[2].parent, candidate_id({2}, 2));
+  EXPECT_EQ(candidates[2].iteration, 2);
+  const auto evaluations = rows_of<EvaluationRow>(*addition);
+  ASSERT_EQ(evaluations.size(), 6U);
+  EXPECT_EQ(evaluations[1].score, -3);
+  EXPECT_EQ(evaluations[1].time, 1.5);
+  EXPECT_EQ(evaluations[1].bound, 9);
+  EXPECT_EQ(evaluations[4].status, EvaluationStatus::Rejected);
+  EXPECT_EQ(evaluations[5].key.purpose, Purpose::Test);
+  EXPECT_EQ(evaluations[5].score, -6);
+  const auto iterations = rows_of<IterationRow>(*addition);
+  EXPECT_FALSE(iterations[0].soft_restart);
+  EXPECT_TRUE(iterations[1].soft_restart);
+  EXPECT_EQ(iterations[1].elites, 1);
+}
+
+TEST(IraceLog, WorksOutWhoWasAliveAndWhoLeft) {
+  const auto addition = irace_log_addition(*read_irace_log(by_hand()),
+                                           {.campaign = "theirs", .flavour = {}, .designs = {}});
+  ASSERT_TRUE(addition);
+  std::vector<std::string> steps;
+  for (const RaceStepRow& step : rows_of<RaceStepRow>(*addition)) {
+    steps.push_back(std::to_string(step.iteration) + "/" + std::to_string(step.pair) + ": " +
+                    std::to_string(step.alive_before) + " to " + std::to_string(step.alive_after) +
+                    ", best " + to_string(step.best) + ", used " + std::to_string(step.used));
+  }
+  // The elite brings its score on pair 1, on which 3 is rejected.
+  EXPECT_THAT(steps, ElementsAre("1/1: 2 to 1, best c2, used 2", "2/2: 2 to 2, best c3, used 4",
+                                 "2/1: 2 to 1, best c2, used 5"));
+  const auto gone = rows_of<EliminationRow>(*addition);
+  ASSERT_EQ(gone.size(), 2U);
+  EXPECT_EQ(gone[0].candidate, CandidateId{1});
+  EXPECT_EQ(gone[0].rank_sum, 2);
+  EXPECT_EQ(gone[0].reason, "not kept");
+  EXPECT_EQ(gone[1].candidate, CandidateId{3});
+  EXPECT_EQ(gone[1].rank_sum, 1 + 2);
+  EXPECT_EQ(gone[1].reason, "rejected");
+  const auto elites = rows_of<EliteRow>(*addition);
+  EXPECT_EQ(elites[0].mean, -3);
+  EXPECT_EQ(elites[1].mean, -4);
+  EXPECT_EQ(elites[1].runs, 2);
+  EXPECT_EQ(rows_of<DesignStateRow>(*addition).front().best, CandidateId{2});
+}
+
+TEST(IraceLog, OfAnUnfinishedRunIsADesignThatStopped) {
+  Texts texts = by_hand();
+  texts["log.csv"] = "key,value\ncompleted,Incomplete\n";
+  const auto addition = irace_log_addition(*read_irace_log(texts),
+                                           {.campaign = "theirs", .flavour = {}, .designs = {}});
+  EXPECT_EQ(rows_of<DesignStateRow>(*addition).front().state, DesignState::Stopped);
+}
+
+TEST(IraceLog, HasMachinesWhereAFlavourIsNamed) {
+  Texts texts = by_hand();
+  texts["parameters.csv"] = "name,type,switch\nn,i,--nstates \ns0,c,--s0 \n";
+  texts["configurations.csv"] = "id,parent,n,s0\n1,,1,1\n2,,1,1\n3,2,1,1\n";
+  const IraceImport known{.campaign = "theirs", .flavour = watermelon(), .designs = {}};
+  const auto addition = irace_log_addition(*read_irace_log(texts), known);
+  ASSERT_TRUE(addition) << to_string(addition.error().front());
+  EXPECT_EQ(rows_of<CandidateRow>(*addition).front().modules, R"({"stop":1})");
+  const auto none = irace_log_addition(*read_irace_log(by_hand()), known);
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().size(), 3U);
+  EXPECT_THAT(to_string(none.error().front()), HasSubstr("configuration 1, token 4"));
+}
+
+TEST(IraceLog, NamesWhatDoesNotFitByTableAndLine) {
+  Texts texts = by_hand();
+  texts.erase("elites.csv");
+  texts["runs.csv"] += "1,9,1,4,,\n1,1,7,4,,\n1,1,1,four,,\n";
+  const auto log = read_irace_log(texts);
+  ASSERT_FALSE(log);
+  std::vector<std::string> complaints;
+  for (const Error& error : log.error())
+    complaints.push_back(to_string(error));
+  EXPECT_THAT(complaints, ElementsAre("runs.csv:7: there is no pair 9",
+                                      "runs.csv:8: there is no configuration 7",
+                                      "runs.csv:9: column cost wants a number, not `four`",
+                                      "elites.csv: the log has no such table"));
+}
+
+TEST(IraceLog, OfTheExampleHasItsNineHundredAndEightyOneRuns) {
+  const auto log = read_irace_log(example());
+  ASSERT_TRUE(log) << to_string(log.error().front());
+  EXPECT_EQ(log->version, "3.5.6863679");
+  EXPECT_EQ(log->seed, 1406598565);
+  EXPECT_EQ(log->configurations.size(), 157U);
+  EXPECT_EQ(log->runs.size(), 981U);
+  const auto addition =
+      irace_log_addition(*log, {.campaign = "acotsp", .flavour = {}, .designs = {}});
+  ASSERT_TRUE(addition);
+  const auto iterations = rows_of<IterationRow>(*addition);
+  std::vector<std::int64_t> runs;
+  for (const IterationRow& iteration : iterations)
+    runs.push_back(iteration.budget);
+  // table(experimentLog[, "iteration"]) in R.
+  EXPECT_THAT(runs, ElementsAre(165, 160, 155, 195, 197, 73, 36));
+  const auto evaluations = rows_of<EvaluationRow>(*addition);
+  EXPECT_EQ(evaluations.size(), 981U + 220U);
+  EXPECT_EQ(evaluations.front().score, -29098846);  // experiments[1, 1] in R
+  const DesignStateRow state = rows_of<DesignStateRow>(*addition).front();
+  EXPECT_EQ(state.used, 981);
+  EXPECT_EQ(state.best, CandidateId{155});  // the last of iterationElites in R
+  EXPECT_EQ(state.reason, "Not enough budget to race more than the minimum configurations");
+}
+
+}  // namespace
+}  // namespace swarmsmith

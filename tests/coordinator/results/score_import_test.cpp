@@ -1,0 +1,190 @@
+#include "coordinator/results/score_import.h"
+
+#include <gmock/gmock.h>
+
+#include "storage/answer.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Two finished designs of one mission, and one that races; d1's candidate c5 won nothing.
+ScoreImport known_store() {
+  ScoreImport known;
+  known.source = "real";
+  for (std::int64_t id = 1; id <= 3; ++id) {
+    known.designs.push_back({.id = {id},
+                             .mission = id == 3 ? "grid_exploration" : "aggregation",
+                             .method = "thesis",
+                             .repetition = id == 3 ? 1 : id,
+                             .name = "tA" + std::to_string(id),
+                             .finished = id != 3,
+                             .best = id == 3 ? CandidateId{} : candidate_id({id}, 2)});
+  }
+  known.has_candidate = [](CandidateId candidate) { return candidate == CandidateId{5}; };
+  return known;
+}
+
+OrErrors<ImportedScores> import(const std::string& csv, const ScoreImport& known = known_store(),
+                                const ScoreLedger& ledger = {}) {
+  return import_scores(*parse_csv(csv, "r.csv"), known, ledger);
+}
+
+std::vector<EvaluationRow> evaluations(const ImportedScores& scores) {
+  std::vector<EvaluationRow> rows;
+  for (const Row& row : scores.addition.rows)
+    if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) rows.push_back(*evaluation);
+  return rows;
+}
+
+std::vector<std::string> complaints(const std::string& csv,
+                                    const ScoreImport& known = known_store(),
+                                    const ScoreLedger& ledger = {}) {
+  const auto scores = import(csv, known, ledger);
+  EXPECT_FALSE(scores);
+  std::vector<std::string> texts;
+  if (scores) return texts;
+  for (const Error& error : scores.error())
+    texts.push_back(to_string(error));
+  return texts;
+}
+
+TEST(ScoreImport, FindsWhoByAnyNameThatIsUnique) {
+  const auto scores = import(
+      "candidate,design,fsm_id,mission,method,repetition,score\n"
+      "c2,,,,,,1\n"   // a winner
+      "5,d1,,,,,2\n"  // another candidate, without its letter
+      ",d2,,,,,3\n"   // a design's winner
+      ",,tA2,aggregation,,,4\n"
+      ",,,aggregation,thesis,2,5\n");
+  ASSERT_TRUE(scores) << to_string(scores.error().front());
+  std::vector<std::string> who;
+  for (const EvaluationRow& row : evaluations(*scores)) {
+    EXPECT_EQ(row.source, "real");
+    EXPECT_EQ(row.state_digest, 0U);
+    who.push_back(to_string(row.key.candidate) + "=" + std::to_string(int(row.score)));
+  }
+  EXPECT_THAT(who, ElementsAre("c2=1", "c5=2", "c1000002=3", "c1000002=4", "c1000002=5"));
+  EXPECT_EQ(scores->added, 5);
+}
+
+TEST(ScoreImport, GivesRunsWithoutASeedTheNumbersOfTheirRows) {
+  const auto scores = import("design,score\n1,1\n1,1\n2,4\n");
+  ASSERT_TRUE(scores);
+  std::vector<std::int64_t> instances;
+  for (const Row& row : scores->addition.rows) {
+    const auto* pair = std::get_if<PairRow>(&row);
+    if (pair == nullptr) continue;
+    EXPECT_EQ(pair->seed, 0);
+    EXPECT_EQ(pair->purpose, Purpose::Score);
+    instances.push_back(pair->instance);
+  }
+  EXPECT_THAT(instances, ElementsAre(1, 2, 1));
+}
+
+TEST(ScoreImport, NumbersAPairForEachSourceInstanceAndSeed) {
+  const auto scores =
+      import("candidate,source,seed,score\nc2,real,7,1\nc2,rvr,7,1\nc5,real,7,1\nc2,real,8,1\n");
+  ASSERT_TRUE(scores);
+  std::vector<std::string> ids;
+  for (const EvaluationRow& row : evaluations(*scores))
+    ids.push_back(to_string(row.key));
+  // c5 meets c2 on the same pair.
+  EXPECT_THAT(ids, ElementsAre("e200001s", "e200002s", "e500001s", "e200003s"));
+}
+
+TEST(ScoreImport, TurnsCostsIntoScores) {
+  ScoreImport known = known_store();
+  known.missions.renamed["agg"] = "aggregation";
+  known.costs_of = {"aggregation"};
+  const auto scores = import("mission,repetition,score,cost\nagg,1,3,\nagg,2,,4\n", known);
+  ASSERT_TRUE(scores) << to_string(scores.error().front());
+  EXPECT_EQ(evaluations(*scores)[0].score, -3);
+  EXPECT_EQ(evaluations(*scores)[1].score, -4);
+}
+
+TEST(ScoreImport, NamesEveryBadRowByItsLine) {
+  EXPECT_THAT(
+      complaints("design,candidate,mission,seed,time,score\n"
+                 "9,,,1,,1\n"
+                 ",,aggregation,1,,1\n"
+                 "d3,,,1,,1\n"
+                 ",c6,,1,,1\n"
+                 "2,c2,,1,,1\n"
+                 "1,,,0,,1\n"
+                 "1,,,1,,inf\n"
+                 "1,,,1,-1,1\n"
+                 "1,,,1,,\n"
+                 ",,,1,,1\n"
+                 "x,,,1,,1\n"),
+      ElementsAre("r.csv:2: the store has no such design: design d9",
+                  "r.csv:3: the row could be of d1 as well as of d2; name the design",
+                  "r.csv:4: d3 is not finished and has no winner; name the candidate",
+                  "r.csv:5: the store has no candidate c6", "r.csv:6: c2 is of design d1, not d2",
+                  "r.csv:7: column seed wants an integer from 1 on, not `0`",
+                  "r.csv:8: column score wants a finite number, not `inf`",
+                  "r.csv:9: column time wants a number from 0 on, not `-1`",
+                  "r.csv:10: the row has no score", HasSubstr("r.csv:11: the row names no design"),
+                  "r.csv:12: column design wants d3 or 3, not `x`"));
+  ScoreImport nobody = known_store();
+  nobody.source.clear();
+  EXPECT_THAT(complaints("design,score\n1,1\n", nobody),
+              ElementsAre(HasSubstr("does not say who made the score")));
+  EXPECT_THAT(complaints("design\n1\n"), ElementsAre("r.csv: there is no column score (or cost)"));
+}
+
+TEST(ScoreImport, KnowsAScoreAgainAndRefusesAnother) {
+  ScoreLedger ledger;
+  std::vector<Row> ignored;
+  const EvaluationKey key =
+      ledger.add({.candidate = {2}, .source = "real", .instance = 1, .seed = 7}, 3, 0, ignored);
+  const auto same = import("design,seed,score\n1,7,3\n", known_store(), ledger);
+  ASSERT_TRUE(same);
+  EXPECT_EQ(same->known, 1);
+  EXPECT_THAT(same->addition.rows, IsEmpty());
+  EXPECT_THAT(complaints("design,seed,score\n1,7,4\n", known_store(), ledger),
+              ElementsAre("r.csv:2: the score 4 of c2 (real, seed 7) is 3 in the store, e200001s; "
+                          "--replace takes the new one"));
+  ScoreImport replacing = known_store();
+  replacing.replace = true;
+  const auto other = import("design,seed,score\n1,7,4\n", replacing, ledger);
+  ASSERT_TRUE(other);
+  EXPECT_EQ(other->replaced, 1);
+  EXPECT_THAT(other->addition.removed, ElementsAre(key));
+  EXPECT_EQ(evaluations(*other).front().key, key);
+}
+
+TEST(ScoreImport, TakesTwoRowsOfOnePlaceOnlyWhenTheyAgree) {
+  const auto scores = import("design,seed,score\n1,7,3\n1,7,3\n");
+  ASSERT_TRUE(scores);
+  EXPECT_EQ(scores->added, 1);
+  ScoreImport replacing = known_store();
+  replacing.replace = true;
+  EXPECT_THAT(complaints("design,seed,score\n1,7,3\n1,7,4\n", replacing),
+              ElementsAre("r.csv:3: the score 4 of c2 (real, seed 7) is 3 in r.csv:2"));
+}
+
+TEST(ScoreImport, KeepsNotesAndSaysWhatItDoesNotRead) {
+  const auto scores = import("design,score,note,weather\n1,3,\"robot \"\"2\"\" fell\",fine\n");
+  ASSERT_TRUE(scores);
+  EXPECT_THAT(scores->not_read, ElementsAre("weather"));
+  const auto& note = std::get<EventRow>(scores->addition.rows.back());
+  EXPECT_EQ(note.text, R"({"evaluation":"e200001s","note":"robot \"2\" fell"})");
+}
+
+TEST(MissionWords, NameOneForAllAndRenameOthers) {
+  const auto words = read_mission_words({"grid=grid_exploration", "aggregation"});
+  ASSERT_TRUE(words);
+  EXPECT_EQ(words->name_of("grid"), "grid_exploration");
+  EXPECT_EQ(words->name_of("color"), "color");
+  EXPECT_EQ(words->name_of(""), "aggregation");
+  for (const auto& wrong :
+       std::vector<std::vector<std::string>>{{"a", "b"}, {"a=b", "a=c"}, {"=b"}, {"a="}})
+    EXPECT_FALSE(read_mission_words(wrong)) << wrong.front();
+}
+
+}  // namespace
+}  // namespace swarmsmith

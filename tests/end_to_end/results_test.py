@@ -1,0 +1,247 @@
+"""Results that come after the races: later scores, robots' scores, machines and logs from elsewhere."""
+import csv
+import json
+import os
+import pathlib
+import signal
+import time
+import unittest
+
+from programs import ProgramTest, call
+
+GOLDEN = pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden"
+ARGOS = GOLDEN / "argos"
+RENAMED = ["--mission", "grid=grid_exploration", "--mission", "color=color_selection"]
+
+# rvr-automode facts, section 11: the thesis' tables 7.1 to 7.3 (mean count / winners that have the
+# module), with the rows in which the thirty machine files differ from them as counted in the files.
+MODULES = {
+    "aggregation": {
+        "exploration": (1.5, 80), "stop": (1.2, 100), "attraction": (0.2, 20),
+        "repulsion": (0.4, 40), "black_floor": (2.5, 100), "gray_floor": (1.3, 80),
+        "white_floor": (0.8, 50), "neighbour_count": (0.6, 40),
+        "inverted_neighbour_count": (0.4, 30), "fixed_probability": (0.8, 60),
+        "color_detection": (1.3, 60)},
+    "grid_exploration": {
+        "exploration": (2.4, 100), "stop": (0.0, 0), "attraction": (0.0, 0),
+        "repulsion": (0.1, 10), "black_floor": (0.6, 50), "gray_floor": (0.7, 60),
+        "white_floor": (0.4, 40), "neighbour_count": (1.2, 70),
+        "inverted_neighbour_count": (1.8, 90), "fixed_probability": (1.9, 90),
+        "color_detection": (0.7, 40)},
+    "color_selection": {
+        "exploration": (1.6, 100), "stop": (1.1, 100), "attraction": (0.2, 20),
+        "repulsion": (0.5, 40), "black_floor": (0.9, 70), "gray_floor": (1.9, 100),
+        "white_floor": (1.6, 100), "neighbour_count": (1.2, 80),
+        "inverted_neighbour_count": (1.0, 70), "fixed_probability": (0.9, 70),
+        "color_detection": (0.9, 70)},
+}
+
+
+class Results(ProgramTest):
+    budget = 1400
+    tests = 3
+
+    def done(self, *arguments):
+        """Standard output of a command that must succeed."""
+        process = call(*arguments)
+        self.assertEqual(process.returncode, 0, process.stdout + process.stderr)
+        return process.stdout
+
+    def refused(self, code, sentence, *arguments):
+        process = call(*arguments)
+        self.assertEqual(process.returncode, code, process.stdout + process.stderr)
+        self.assertIn(sentence, process.stderr)
+
+    def imported(self, *arguments):
+        return json.loads(self.done("import", *arguments, "--json"))
+
+    def thesis(self):
+        """A store with the thesis' thirty designs."""
+        store = self.folder / "thesis.db"
+        made = self.imported(ARGOS / "argos-thesis-designs.csv", "--flavour", "watermelon-argos3",
+                             "--method", "thesis", *RENAMED, "--into", store)
+        self.assertEqual(made["designs"], [f"d{number}" for number in range(1, 31)])
+        return store
+
+    def test_the_thesis_designs_have_the_modules_of_its_tables(self):
+        store = self.thesis()
+        rows = self.query(store, "SELECT * FROM v_module_frequency")
+        self.assertEqual(len(rows), 33)
+        for row in rows:
+            occurrences, rate = MODULES[row["mission"]][row["module"]]
+            self.assertEqual(row["method"], "thesis")
+            self.assertAlmostEqual(row["avg_occurrences"], occurrences, 9, row)
+            self.assertAlmostEqual(row["occurrence_rate"], rate / 100, 9, row)
+        designs = self.query(store, "SELECT name, mission, repetition, state, flavour FROM v_designs")
+        self.assertEqual(designs[13], {"name": "tG4", "mission": "grid_exploration", "repetition": 4,
+                                       "state": "finished", "flavour": "watermelon-argos3"})
+        # All machines are there, whole: what is exported is what was read.
+        with open(ARGOS / "argos-thesis-designs.csv", newline="") as stream:
+            given = [row["fsm"].split() for row in csv.DictReader(stream)]
+        stored = self.query(store, "SELECT c.fsm_config FROM v_designs AS d JOIN v_candidates AS c "
+                                   "ON c.candidate = d.best_candidate ORDER BY d.design")
+        for ours, theirs in zip(stored, given):
+            self.assertEqual(sorted(ours["fsm_config"].split()), sorted(theirs))
+
+    def test_the_thesis_scores_come_with_them_once(self):
+        store = self.thesis()
+        words = [ARGOS / "argos-thesis-scores.csv", *RENAMED, "--cost-of", "grid_exploration",
+                 "--source", "original", "--into", store]
+        self.assertEqual(self.imported(*words),
+                         {"imported": "scores", "added": 900, "replaced": 0, "known": 0})
+        self.assertEqual(self.imported(*words),
+                         {"imported": "scores", "added": 0, "replaced": 0, "known": 900})
+        with open(ARGOS / "argos-thesis-scores.csv", newline="") as stream:
+            given = [(row["fsm_id"], int(row["seed"]),
+                      -float(row["score"]) if row["mission"] == "grid" else float(row["score"]))
+                     for row in csv.DictReader(stream)]
+        rows = self.query(store, "SELECT d.name, s.seed, s.score FROM v_design_scores AS s "
+                                 "JOIN v_designs AS d ON d.design = s.design "
+                                 "WHERE s.source = 'original' AND s.purpose = 'score'")
+        self.assertEqual(sorted((row["name"], row["seed"], row["score"]) for row in rows),
+                         sorted(given))
+
+    def test_imported_machines_are_simulated_and_replayed(self):
+        store = self.thesis()
+        lines = [json.loads(line) for line in
+                 self.done("evaluate", "best", "--store", store, "--profile", "argos3",
+                           "--design", "d2", "--design", "d21", "--json").splitlines()]
+        self.assertEqual([line["design"] for line in lines], ["d2", "d21"])
+        self.assertEqual({line["seed"] for line in lines}, {lines[0]["seed"]})
+        for line in lines:
+            replayed = json.loads(self.done("replay", line["id"], store, "--json"))
+            self.assertTrue(replayed["same_bits"])
+        self.refused(2, "names no profile", "replay", "c1", "--seed", "3", store)
+
+    def test_robots_scores_stand_beside_the_simulated_ones(self):
+        store = self.folder / "campaign.db"
+        self.assertEqual(self.run_campaign(store, "--workers", "1").returncode, 0)
+        digest = self.digest(store)
+        self.done("evaluate", "best", "--store", store)
+        self.done("evaluate", "best", "--store", store, "--profile", "pseudo-reality")
+        robots = self.folder / "robots.csv"
+        robots.write_text("mission,method,repetition,score,time,note\n"
+                          "aggregation,argos3,1,2,120,one robot slow\n")
+        self.assertEqual(self.imported(robots, "--source", "real", "--into", store)["added"], 1)
+        rows = self.query(store, "SELECT source, purpose, count(*) AS n, max(seed) AS seed "
+                                 "FROM v_design_scores GROUP BY source, purpose ORDER BY 1, 2")
+        self.assertEqual([(row["source"], row["purpose"], row["n"]) for row in rows],
+                         [("argos3", "score", 1), ("argos3", "test", 3),
+                          ("pseudo-reality", "score", 1), ("real", "score", 1)])
+        self.assertIsNone(rows[3]["seed"])
+        # Another score is refused and nothing is written; --replace takes it.
+        robots.write_text(robots.read_text().replace(",2,120,", ",3,120,"))
+        self.refused(2, "robots.csv:2: the score 3", "import", robots, "--source", "real",
+                     "--into", store)
+        self.assertEqual(self.imported(robots, "--source", "real", "--replace", "--into",
+                                       store)["replaced"], 1)
+        score = "SELECT id, score FROM v_evaluations WHERE source = 'real'"
+        real = self.query(store, score)[0]
+        self.assertEqual(real["score"], 3)
+        self.refused(2, "it was filmed", "replay", real["id"], store)
+        # None of it is part of the answer, and the campaign is as whole as before.
+        self.assertEqual(self.digest(store), digest)
+        self.assert_clean(store)
+        self.done("replay", "--sample", 200, store)
+
+    def test_what_query_writes_import_reads(self):
+        first, second = self.folder / "campaign.db", self.folder / "again.db"
+        for store in (first, second):
+            self.assertEqual(self.run_campaign(store, "--workers", "1").returncode, 0)
+        self.done("evaluate", "best", "--store", first, "--seeds", "1-4", "--profile",
+                  "pseudo-reality")
+        sql = "SELECT * FROM v_design_scores"
+        table = self.folder / "scores.csv"
+        table.write_text(self.done("query", first, sql, "--csv"), newline="")
+        # The other store has the same tests already.
+        self.assertEqual(self.imported(table, "--into", second),
+                         {"imported": "scores", "added": 4, "replaced": 0, "known": 3})
+        self.assertEqual(self.done("query", second, sql, "--csv"), table.read_text())
+
+    def test_an_unfinished_campaign_goes_on_after_an_import(self):
+        whole, store = self.folder / "whole.db", self.folder / "campaign.db"
+        self.assertEqual(self.run_campaign(whole, "--workers", "1").returncode, 0)
+        process = self.start_campaign(store, "--workers", "1")
+        deadline = time.monotonic() + 60
+        while not (store.exists() and self.evaluations(store) > 50):
+            self.assertLess(time.monotonic(), deadline, "the campaign does not get on")
+            time.sleep(0.02)
+        # The one writer is the campaign.
+        if process.poll() is None:
+            self.refused(3, "import when the campaign has ended", "import",
+                         ARGOS / "argos-thesis-designs.csv", "--flavour", "watermelon-argos3",
+                         "--into", store)
+        process.send_signal(signal.SIGKILL)
+        process.wait()
+        self.imported(ARGOS / "argos-thesis-designs.csv", "--flavour", "watermelon-argos3", *RENAMED,
+                      "--into", store)
+        done = self.run_campaign(store, "--workers", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        rows = "SELECT candidate, pair, score FROM v_evaluations WHERE used AND design = 1"
+        self.assertEqual(self.query(store, rows + " ORDER BY 1, 2"),
+                         self.query(whole, rows + " ORDER BY 1, 2"))
+        self.assertEqual(self.query(store, "SELECT count(*) AS n FROM v_designs")[0]["n"], 31)
+
+    def evaluations(self, store):
+        done = call("query", store, "SELECT count(*) AS n FROM v_evaluations", "--json")
+        return json.loads(done.stdout)["rows"][0]["n"] if done.returncode == 0 else 0
+
+    def test_a_log_of_irace_becomes_a_design(self):
+        store = self.folder / "tuning.db"
+        log = GOLDEN / "irace/log-acotsp"
+        self.assertEqual(self.imported(log, "--into", store, "--mission", "acotsp"),
+                         {"imported": "irace log", "designs": ["d1"]})
+        self.assertEqual(self.imported(log, "--into", store, "--mission", "acotsp")["designs"], [])
+        design = self.query(store, "SELECT * FROM v_designs")[0]
+        self.assertEqual((design["used"], design["best_candidate"], design["mission"],
+                          design["method"], design["seed"]),
+                         (981, 155, "acotsp", "irace", 1406598565))
+        with open(log / "runs.csv", newline="") as stream:
+            costs = {(int(row["configuration"]), int(row["pair"])): float(row["cost"])
+                     for row in csv.DictReader(stream)}
+        runs = self.query(store, "SELECT candidate, pair, score FROM v_evaluations "
+                                 "WHERE purpose = 'race'")
+        self.assertEqual({(run["candidate"], run["pair"]): -run["score"] for run in runs}, costs)
+        elite = self.query(store, "SELECT mean, n, experiments_used FROM v_convergence "
+                                  "WHERE iteration = 7 AND rank = 1")[0]
+        own = [cost for (configuration, _), cost in costs.items() if configuration == 155]
+        self.assertEqual((elite["n"], elite["experiments_used"]), (len(own), 981))
+        self.assertAlmostEqual(elite["mean"], -sum(own) / len(own), 6)
+        self.assertEqual(len(self.query(store, "SELECT * FROM v_design_scores")), 10)
+        # Every run is in the race matrix, where elites' earlier scores come again.
+        matrix = self.query(store, "SELECT DISTINCT candidate, pair FROM v_race_matrix")
+        self.assertEqual(len(matrix), 981)
+
+    def test_bad_files_leave_everything_as_it_was(self):
+        store = self.folder / "new.db"
+        machines = self.folder / "machines.txt"
+        machines.write_text("--nstates 1 --s0 1\n--nstates 9\n")
+        self.refused(2, "machines.txt:2, token", "import", machines, "--flavour", "watermelon",
+                     "--mission", "aggregation", "--into", store)
+        self.refused(2, "in which flavour", "import", machines, "--into", store)
+        self.assertFalse(store.exists())
+        self.refused(2, "into which store?", "import", ARGOS / "argos-scores.csv")
+        self.refused(3, "there is no such store", "import", ARGOS / "argos-scores.csv", "--into",
+                     store)
+        store = self.thesis()
+        table = self.folder / "scores.csv"
+        table.write_text("fsm_id,source,seed,score\ntA1,real,1,3\ntA99,real,1,3\n")
+        self.refused(2, "scores.csv:3: the store has no such design: name tA99", "import", table,
+                     "--into", store)
+        self.assertEqual(self.query(store, "SELECT * FROM v_evaluations"), [])
+        table.write_text("a,b\n1,2\n")
+        self.refused(2, "neither scores nor machines", "import", table, "--into", store)
+        empty = self.folder / "bin"
+        empty.mkdir()
+        log = self.folder / "irace.Rdata"
+        log.write_bytes(b"")
+        path = os.environ["PATH"]
+        os.environ["PATH"] = str(empty)
+        try:
+            self.refused(1, "Rscript cannot be started", "import", log, "--into", store)
+        finally:
+            os.environ["PATH"] = path
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,99 @@
+"""The converter of irace's logs, run by R itself: the example of Debian's irace 3.5, and the layout of irace 4."""
+import os
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
+SCRIPT = SOURCE / "coordinator/cli/irace_log.R"
+FIXTURE = SOURCE / "tests/golden/irace/log-acotsp"
+SWARMSMITH = pathlib.Path(os.environ["SWARMSMITH_BIN"]) / "swarmsmith"
+
+# The same log in the layout of irace 4: costs beside the runs, instances and log in the state,
+# parameters in the scenario.
+TO_FOUR = """
+load(commandArgs(TRUE)[1])
+old <- iraceResults
+runs <- as.data.frame(old$experimentLog)
+runs$cost <- old$experiments[cbind(runs$instance, runs$configuration)]
+pairs <- old$state$.irace$instancesList
+names(pairs)[names(pairs) == "instance"] <- "instanceID"
+iraceResults <- list(
+  scenario = c(old$scenario, list(parameters = old$parameters)), irace_version = "4.2",
+  allElites = old$allElites, allConfigurations = old$allConfigurations,
+  experiments = old$experiments, iterationElites = old$iterationElites,
+  softRestart = old$softRestart, testing = old$testing,
+  state = list(experiment_log = runs, instances_log = pairs, completed = old$state$completed,
+               nbIterations = old$state$nbIterations))
+save(iraceResults, file = commandArgs(TRUE)[2])
+"""
+
+
+def example():
+    if shutil.which("Rscript") is None:
+        return None
+    found = subprocess.run(
+        ["Rscript", "-e", 'cat(system.file("exdata/irace-acotsp.Rdata", package = "irace"))'],
+        capture_output=True, text=True).stdout.strip()
+    return pathlib.Path(found) if found else None
+
+
+@unittest.skipUnless(example(), "needs Rscript and irace 3.5 with its example (r-base-core, r-cran-irace)")
+class IraceLog(unittest.TestCase):
+    def setUp(self):
+        folder = tempfile.TemporaryDirectory(prefix="swarmsmith-test-")
+        self.addCleanup(folder.cleanup)
+        self.folder = pathlib.Path(folder.name)
+
+    def r(self, *words):
+        done = subprocess.run(["Rscript", "--vanilla", *map(str, words)], capture_output=True,
+                              text=True)
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def tables(self, log, name):
+        folder = self.folder / name
+        folder.mkdir()
+        self.r(SCRIPT, log, folder)
+        return {file.name: file.read_text() for file in folder.iterdir()}
+
+    def wanted(self):
+        return {file.name: file.read_text() for file in FIXTURE.iterdir() if file.suffix == ".csv"}
+
+    def test_the_example_gives_the_tables_of_the_fixture(self):
+        self.assertEqual(self.tables(example(), "three"), self.wanted())
+
+    def test_the_layout_of_irace_4_gives_the_same(self):
+        script = self.folder / "to_four.R"
+        script.write_text(TO_FOUR)
+        self.r(script, example(), self.folder / "four.Rdata")
+        tables = self.tables(self.folder / "four.Rdata", "four")
+        tables["log.csv"] = tables["log.csv"].replace('"4.2"', '"3.5.6863679"')
+        self.assertEqual(tables, self.wanted())
+
+    def test_the_program_runs_the_converter_itself(self):
+        digests = []
+        for name, log in [("log.db", example()), ("folder.db", FIXTURE)]:
+            store = self.folder / name
+            subprocess.run([SWARMSMITH, "import", log, "--into", store], check=True,
+                           stdout=subprocess.DEVNULL)
+            digests.append(subprocess.run([SWARMSMITH, "digest", store], check=True,
+                                          capture_output=True, text=True).stdout)
+        self.assertEqual(digests[0], digests[1])
+
+    def test_what_is_no_log_is_refused_with_the_reason(self):
+        other = self.folder / "other.Rdata"
+        for make, sentence in [(lambda: other.write_text("no log"), "this is no file of R's"),
+                               (lambda: self.r("-e", f'x <- 1; save(x, file = "{other}")'),
+                                "it has no iraceResults")]:
+            make()
+            done = subprocess.run([SWARMSMITH, "import", other, "--into", self.folder / "x.db"],
+                                  capture_output=True, text=True)
+            self.assertEqual(done.returncode, 2)
+            self.assertIn(sentence, done.stderr)
+            self.assertFalse((self.folder / "x.db").exists())
+
+
+if __name__ == "__main__":
+    unittest.main()
