@@ -76,6 +76,18 @@ Expected<std::vector<Record>> read(StoreReader& store, const std::string& sql, c
 
 }  // namespace
 
+Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
+  return read<CampaignRecord>(
+      store, "SELECT campaign, name, seed, digest, file FROM v_campaigns ORDER BY campaign",
+      [](const Cells& row) {
+        return CampaignRecord{.campaign = integer(row[0]),
+                              .name = row[1].text,
+                              .seed = integer(row[2]),
+                              .digest = row[3].text,
+                              .file = row[4].text};
+      });
+}
+
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter) {
   return read<DesignScore>(store,
                            "SELECT design, mission, method, repetition, candidate, source, "
@@ -101,7 +113,8 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
   return read<DesignRecord>(
       store,
       "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.budget, d.used, d.iteration,"
-      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, ''), d.flavour FROM v_designs AS d"
+      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, ''), d.flavour,"
+      " d.campaign FROM v_designs AS d"
       " LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate" +
           where(filter, "d.") + " ORDER BY d.design",
       [](const Cells& row) {
@@ -116,7 +129,8 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
                             .best = maybe_candidate(row[8]),
                             .best_mean = maybe_real(row[9]),
                             .machine = row[10].text,
-                            .flavour = row[11].text};
+                            .flavour = row[11].text,
+                            .campaign = integer(row[12])};
       });
 }
 

@@ -1,0 +1,20 @@
+#pragma once
+
+#include <vector>
+
+#include "analysis/report/internal/draft.h"
+
+namespace swarmsmith {
+
+/// The report's parts, in its order; each in a file of its own.
+
+/// What was asked: campaigns, missions, methods, budget, the search space.
+void write_question(ReportDraft& draft, const std::vector<DesignRecord>& designs);
+/// Winners by mission, their scores by source, modules.
+void write_results(ReportDraft& draft);
+/// A chapter: the machine, its elites, how the race went, parameters, scores.
+void write_design(ReportDraft& draft, const DesignRecord& design);
+/// Versions, seeds, digests, hosts, times, failures.
+void write_provenance(ReportDraft& draft);
+
+}  // namespace swarmsmith
