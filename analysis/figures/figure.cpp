@@ -2,14 +2,36 @@
 
 #include <algorithm>
 #include <array>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "analysis/figures/makers.h"
 
 namespace swarmsmith {
+namespace {
+
+/// The first of words with blanks between them, taken away from them.
+std::string_view next_word(std::string_view& words) {
+  const std::size_t blank = std::min(words.find(' '), words.size());
+  const std::string_view word = words.substr(0, blank);
+  words.remove_prefix(std::min(blank + 1, words.size()));
+  return word;
+}
+
+bool has_word(std::string_view words, std::string_view word) {
+  while (!words.empty())
+    if (next_word(words) == word) return true;
+  return false;
+}
+
+}  // namespace
 
 std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
-      FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure},
+      FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
+                 "mission method design"},
   };
   return kKinds;
 }
@@ -18,6 +40,29 @@ const FigureKind* find_figure_kind(std::string_view name) {
   const auto kinds = figure_kinds();
   const auto found = std::ranges::find(kinds, name, &FigureKind::name);
   return found == kinds.end() ? nullptr : &*found;
+}
+
+std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions& options) {
+  const std::array<std::pair<std::string_view, bool>, 8> given = {{
+      {"mission", !options.filter.mission.empty()},
+      {"method", !options.filter.method.empty()},
+      {"design", options.filter.design.has_value()},
+      {"by", !options.by.empty()},
+      {"source", !options.source.empty()},
+      {"candidate", options.candidate.has_value()},
+      {"iteration", options.iteration.has_value()},
+      {"parameter", !options.parameter.empty()},
+  }};
+  for (const auto& [name, is_given] : given) {
+    if (!is_given || has_word(kind.options, name)) continue;
+    std::string takes = "--width";
+    for (std::string_view rest = kind.options; !rest.empty();)
+      takes += ", --" + std::string(next_word(rest));
+    return Error{ErrorKind::BadInput,
+                 fmt::format("means nothing to the figure `{}`, which takes {}", kind.name, takes),
+                 "--" + std::string(name)};
+  }
+  return std::nullopt;
 }
 
 }  // namespace swarmsmith

@@ -19,7 +19,11 @@ struct Figure {
   std::string tex;  ///< TikZ, of machines alone; else empty
 };
 
-/// What a figure is drawn of. What does not concern a kind is refused by it with a sentence.
+/// The narrowest and widest figures, mm.
+inline constexpr double kLeastFigureWidth_mm = 60;
+inline constexpr double kMostFigureWidth_mm = 1000;
+
+/// What a figure is drawn of. What does not concern a kind is refused: `refused_option`.
 struct FigureOptions {
   RecordFilter filter;
   double width_mm = 84;  ///< a column of a paper; the height follows
@@ -38,6 +42,8 @@ struct FigureKind {
   std::string_view name;     ///< as typed: `swarmsmith figure NAME STORE`
   std::string_view summary;  ///< a line of the help
   FigureMaker make = nullptr;
+  /// The options that it understands besides the width, words with blanks between them.
+  std::string_view options = "mission method design by source candidate iteration parameter";
 };
 
 /// All kinds, in the order of the help.
@@ -45,5 +51,9 @@ std::span<const FigureKind> figure_kinds();
 
 /// Null when there is none of this name.
 const FigureKind* find_figure_kind(std::string_view name);
+
+/// BadInput about the first option that is given and means nothing to this kind, if there is one;
+/// its place is the option as typed.
+std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions& options);
 
 }  // namespace swarmsmith

@@ -180,6 +180,16 @@ Examples:
   swarmsmith query demo.db "SELECT * FROM v_leaderboard"
   swarmsmith query demo.db "SELECT seed, score FROM v_design_scores" --csv > scores.csv)";
 
+constexpr std::string_view kFigureDetails =
+    R"(The ending of the file says what is written: the picture (.svg; .pdf with librsvg2-bin), or the
+numbers in it (.csv). docs/figures.md shows what each kind tells.
+
+Examples:
+  swarmsmith figure box thesis.db -o performance.pdf
+  swarmsmith figure modules thesis.db --method watermelon --width 175mm -o modules.svg
+  swarmsmith figure convergence thesis.db --mission aggregation > convergence.svg
+  swarmsmith figure scores thesis.db -o scores.csv)";
+
 constexpr std::string_view kExportDetails =
     R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
 With --format irace the campaign, from its file or its store, becomes a folder of irace's files in which
@@ -246,6 +256,8 @@ constexpr std::array kCommands = {
             declare_assess},
     Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
             declare_replay},
+    Command{"figure", "Draw a figure of a store, as SVG, PDF or CSV", kFigureDetails,
+            declare_figure},
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
     Command{"import", "Turn a scenario of irace into a campaign file", kImportDetails,
             declare_import},

@@ -34,6 +34,7 @@ Run declare_explain(Options& options);
 Run declare_show(Options& options);
 Run declare_query(Options& options);
 Run declare_assess(Options& options);
+Run declare_figure(Options& options);
 Run declare_export(Options& options);
 Run declare_import(Options& options);
 Run declare_digest(Options& options);

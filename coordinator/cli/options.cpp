@@ -160,6 +160,10 @@ void Options::integer(const std::string& names, std::optional<std::int64_t>& val
       ->transform(without_underscores, "", "underscores");
 }
 
+void Options::explain(const std::string& lines) {
+  app_->footer("\n" + lines + app_->get_footer());
+}
+
 ExitCode run_program(const std::vector<std::string>& arguments, Output& output) {
   if (arguments.empty()) {
     output.err << overview();

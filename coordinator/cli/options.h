@@ -44,6 +44,8 @@ class Options {
   /// As in campaign files, underscores may group the digits: 100_000.
   void integer(const std::string& names, std::optional<std::int64_t>& value, Range range,
                const std::string& help);
+  /// Lines below the options, above the command's details.
+  void explain(const std::string& lines);
 
  private:
   CLI::App* app_;

@@ -1,0 +1,82 @@
+#include "coordinator/cli/pdf.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <utility>
+
+#include "target/process.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::size_t kLargestPdf = std::size_t{256} << 20U;
+
+/// A text that another process can read as a file, without one on any disk.
+class TextInMemory {
+ public:
+  explicit TextInMemory(std::string_view text) : descriptor_(memfd_create("svg", MFD_CLOEXEC)) {
+    while (descriptor_ >= 0 && !text.empty()) {
+      const ssize_t size = write(descriptor_, text.data(), text.size());
+      if (size < 0 && errno == EINTR) continue;
+      if (size <= 0) {
+        close(std::exchange(descriptor_, -1));
+        break;
+      }
+      text.remove_prefix(static_cast<std::size_t>(size));
+    }
+  }
+  ~TextInMemory() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  TextInMemory(const TextInMemory&) = delete;
+  TextInMemory& operator=(const TextInMemory&) = delete;
+
+  bool is_there() const { return descriptor_ >= 0; }
+  std::string name() const {
+    return "/proc/" + std::to_string(getpid()) + "/fd/" + std::to_string(descriptor_);
+  }
+
+ private:
+  int descriptor_;
+};
+
+Unexpected no_pdf(const std::string& why) {
+  return unexpected(ErrorKind::Unavailable, why, "PDF");
+}
+
+/// The first line of what a program said, for a sentence.
+std::string first_line(const std::string& text) {
+  const std::string line = text.substr(0, text.find('\n'));
+  return line.empty() ? "it does not say why" : line;
+}
+
+}  // namespace
+
+Expected<std::string> pdf_of_svg(std::string_view svg) {
+  const auto program = find_program("rsvg-convert");
+  if (!program) {
+    return no_pdf(
+        "the program rsvg-convert, which makes it, is not there; install the Debian package "
+        "librsvg2-bin, or write an .svg");
+  }
+  const TextInMemory drawing(svg);
+  if (!drawing.is_there()) return no_pdf(std::string("no memory: ") + std::strerror(errno));
+  // With a date of its own, PDFs of one drawing would differ.
+  const ProcessCall call{
+      .words = {"env", "SOURCE_DATE_EPOCH=0", *program, "-f", "pdf", drawing.name()},
+      .limit = std::chrono::minutes(1),
+      .keep = kLargestPdf};
+  const Interrupt never;
+  const auto end = run_process(call, never);
+  if (!end) return no_pdf(to_string(end.error()));
+  if (end->why == ProcessEnd::Why::Limit) return no_pdf("rsvg-convert took over a minute");
+  const bool is_pdf = end->output.text.starts_with("%PDF") && end->output.complete();
+  if (end->exit_code != 0 || end->signal != 0 || !is_pdf)
+    return no_pdf("rsvg-convert failed: " + first_line(end->errors.text));
+  return end->output.text;
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,17 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "base/expected.h"
+
+namespace swarmsmith::cli {
+
+/// A drawing as PDF of the same size, with text as text, by the program rsvg-convert of the Debian
+/// package librsvg2-bin. The same drawing gives the same bytes: the date within is 1970.
+///
+/// Errors: Unavailable, with what to install when the program is not there, and with its own words
+/// when it fails or takes over a minute.
+Expected<std::string> pdf_of_svg(std::string_view svg);
+
+}  // namespace swarmsmith::cli
