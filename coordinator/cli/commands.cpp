@@ -209,6 +209,15 @@ Examples:
   swarmsmith import scenario.txt -o campaign.toml
   swarmsmith import tuning/scenario.txt > campaign.toml)";
 
+constexpr std::string_view kReportDetails =
+    R"(What was asked, results, statistics, a chapter a design with its machine and its race, and where it all
+comes from: one HTML file without scripts that opens offline and prints. docs/report.md tells what is
+in it.
+
+Examples:
+  swarmsmith report demo.db
+  swarmsmith report demo.db -o thesis.html --design d1 --design d3)";
+
 constexpr std::string_view kDigestDetails =
     R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
 number of workers and the history of crashes.
@@ -261,6 +270,8 @@ constexpr std::array kCommands = {
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
     Command{"import", "Turn a scenario of irace into a campaign file", kImportDetails,
             declare_import},
+    Command{"report", "Write all that a store tells as one HTML file", kReportDetails,
+            declare_report},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
     Command{"version", "Print the version", "", declare_version},
