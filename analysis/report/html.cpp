@@ -1,7 +1,5 @@
 #include "analysis/report/html.h"
 
-#include <array>
-#include <charconv>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -23,11 +21,20 @@ std::string_view element_of(std::string_view svg) {
   return begin == std::string_view::npos ? svg : svg.substr(begin);
 }
 
-/// A box that scrolls sideways; a keyboard can, too, since it takes the focus.
-std::string scrolling(std::string_view label, std::string_view content) {
+/// A box that scrolls sideways; a keyboard can, too, since it takes the focus. `named` is the id of
+/// the caption.
+std::string scrolling(std::string_view named, std::string_view content) {
   return fmt::format(
-      "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-label=\"{}\">{}</div>",
-      html_escaped(label), content);
+      "<div class=\"wide\" role=\"region\" tabindex=\"0\" aria-labelledby=\"{}\">{}</div>\n", named,
+      content);
+}
+
+/// A table below its caption, which does not scroll with it and so is read whole on a phone.
+std::string captioned(std::string_view id, std::string_view caption, std::string_view kind,
+                      std::string_view content) {
+  return fmt::format("<p class=\"caption\" id=\"{}\">{}</p>\n", id, html_escaped(caption)) +
+         scrolling(id,
+                   fmt::format("<table{} aria-labelledby=\"{}\">\n{}</table>", kind, id, content));
 }
 
 }  // namespace
@@ -69,7 +76,7 @@ std::string shown_number(double value) {
 }
 
 void HtmlPage::heading(int level, std::string_view text, bool listed) {
-  const std::string anchor = fmt::format("s{}", ++anchors_);
+  const std::string anchor = next_id();
   text_ += fmt::format("<h{0} id=\"{1}\">{2}</h{0}>\n", level, anchor, html_escaped(text));
   if (listed) entries_.push_back({level, anchor, std::string(text)});
 }
@@ -86,16 +93,12 @@ void HtmlPage::facts(std::string_view caption,
     rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td></tr>\n", html_escaped(name),
                         html_escaped(value));
   }
-  text_ += scrolling(caption, fmt::format("<table class=\"facts\"><caption>{}</caption>\n<tbody>\n"
-                                          "{}</tbody></table>",
-                                          html_escaped(caption), rows)) +
-           "\n";
+  text_ += captioned(next_id(), caption, " class=\"facts\"", "<tbody>\n" + rows + "</tbody>");
 }
 
 void HtmlPage::table(const HtmlTable& table) {
   if (table.rows.empty()) return;
-  std::string text =
-      fmt::format("<table><caption>{}</caption>\n<thead><tr>", html_escaped(table.caption));
+  std::string text = "<thead><tr>";
   for (const HtmlTable::Column& column : table.columns) {
     text +=
         fmt::format("<th scope=\"col\"{}>{}</th>", class_of(column), html_escaped(column.title));
@@ -110,12 +113,13 @@ void HtmlPage::table(const HtmlTable& table) {
     }
     text += "</tr>\n";
   }
-  text_ += scrolling(table.caption, text + "</tbody></table>") + "\n";
+  text_ += captioned(next_id(), table.caption, "", text + "</tbody>");
 }
 
 void HtmlPage::picture(std::string_view svg, std::string_view caption) {
-  text_ += fmt::format("<figure>{}<figcaption>{}</figcaption></figure>\n",
-                       scrolling(caption, element_of(svg)), html_escaped(caption));
+  const std::string id = next_id();
+  text_ += fmt::format("<figure>{}<figcaption id=\"{}\">{}</figcaption></figure>\n",
+                       scrolling(id, element_of(svg)), id, html_escaped(caption));
 }
 
 void HtmlPage::verbatim(std::string_view label, std::string_view text) {
@@ -128,6 +132,10 @@ void HtmlPage::begin_chapter() {
 
 void HtmlPage::end_chapter() {
   text_ += "</section>\n";
+}
+
+std::string HtmlPage::next_id() {
+  return fmt::format("p{}", ++ids_);
 }
 
 std::string HtmlPage::finish(std::string_view title, std::string_view summary) const {

@@ -59,9 +59,11 @@ class HtmlPage {
     std::string text;
   };
 
+  std::string next_id();
+
   std::string text_;
   std::vector<Entry> entries_;
-  std::size_t anchors_ = 0;
+  std::size_t ids_ = 0;
 };
 
 }  // namespace swarmsmith

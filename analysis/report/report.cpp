@@ -57,6 +57,7 @@ Expected<std::string> html_report(StoreReader& store, const ReportOptions& optio
     if (wanted) write_design(draft, design);
   }
   write_provenance(draft);
+  write_settings(draft);
   if (draft.trouble()) return Unexpected(*draft.trouble());
   return draft.page().finish(title_of(*asked), summary_of(*known));
 }

@@ -10,12 +10,13 @@ namespace swarmsmith {
 namespace {
 
 /// The keys of a campaign's file below `prefix`, which is cut off; texts without their quotes.
+/// Lists without entries say nothing.
 void write_keys(ReportDraft& draft, std::int64_t campaign, const std::string& caption,
                 const std::string& prefix) {
   draft.facts(caption,
               fmt::format("SELECT substr(j.key, {0}), trim(j.value, '\"') FROM v_campaigns AS c, "
                           "json_each(c.deciding) AS j WHERE c.campaign = {1} AND "
-                          "substr(j.key, 1, {0} - 1) = {2} ORDER BY j.id",
+                          "substr(j.key, 1, {0} - 1) = {2} AND j.value <> '[]' ORDER BY j.id",
                           prefix.size() + 1, campaign, sql_quoted(prefix)));
 }
 
@@ -39,8 +40,6 @@ void write_campaign(ReportDraft& draft, const CampaignRecord& campaign,
     write_keys(draft, id, "Mission " + mission, "mission." + mission + ".");
   for (const std::string& method : names_of(own, &DesignRecord::method))
     write_keys(draft, id, "Method " + method, "method." + method + ".");
-  write_keys(draft, id, "Race", "race.");
-  write_keys(draft, id, "Simulator", "simulator.");
 }
 
 }  // namespace
@@ -62,6 +61,21 @@ void write_question(ReportDraft& draft, const std::vector<DesignRecord>& designs
   const auto all = draft.take(campaigns(draft.store()));
   for (const CampaignRecord& campaign : all)
     write_campaign(draft, campaign, designs);
+}
+
+void write_settings(ReportDraft& draft) {
+  HtmlPage& page = draft.page();
+  page.begin_chapter();
+  page.heading(2, "All settings");
+  page.paragraph(
+      "What else decides the answer, with the names of the campaign file; defaults are written "
+      "out.");
+  for (const CampaignRecord& campaign : draft.take(campaigns(draft.store()))) {
+    write_keys(draft, campaign.campaign, "Race of " + campaign.name + ".", "race.");
+    write_keys(draft, campaign.campaign, "Simulator of " + campaign.name + ".", "simulator.");
+    write_keys(draft, campaign.campaign, "Engine of " + campaign.name + ".", "engine.");
+  }
+  page.end_chapter();
 }
 
 }  // namespace swarmsmith

@@ -13,6 +13,7 @@ namespace {
 
 /// A page of a paper, for figures of all designs.
 constexpr double kWholeWidth = 174;
+constexpr double kMiddleWidth = 120;
 
 void write_modules(ReportDraft& draft) {
   const auto all = draft.take(module_frequencies(draft.store(), {}));
@@ -66,7 +67,7 @@ void write_results(ReportDraft& draft) {
   draft.figure("scores", {.width_mm = kWholeWidth}, "How often the winners had each score.");
   draft.figure("ranks", {.width_mm = kWholeWidth},
                "Mean ranks with the interval of Friedman's test.");
-  draft.figure("convergence", {.width_mm = kWholeWidth},
+  draft.figure("convergence", {.width_mm = kMiddleWidth},
                "Mean score of each design's best machine over the experiments used.");
   write_modules(draft);
 }

@@ -8,7 +8,7 @@ namespace swarmsmith {
 
 /// The report's parts, in its order; each in a file of its own.
 
-/// What was asked: campaigns, missions, methods, budget, the search space.
+/// What was asked: campaigns, missions, methods, budget.
 void write_question(ReportDraft& draft, const std::vector<DesignRecord>& designs);
 /// Winners by mission, their scores by source, modules.
 void write_results(ReportDraft& draft);
@@ -16,5 +16,8 @@ void write_results(ReportDraft& draft);
 void write_design(ReportDraft& draft, const DesignRecord& design);
 /// Versions, seeds, digests, hosts, times, failures.
 void write_provenance(ReportDraft& draft);
+
+/// Options of the race and of the simulator.
+void write_settings(ReportDraft& draft);
 
 }  // namespace swarmsmith

@@ -26,16 +26,20 @@ a { color: var(--link); }
 nav ul { list-style: none; margin: 0; padding: 0; columns: 3 16rem; }
 nav li { margin: .15rem 0; break-inside: avoid; }
 nav li.inner { padding-left: 1rem; font-size: .9rem; }
-.wide { overflow-x: auto; margin: .8rem 0; max-width: 100%; }
+.wide { overflow-x: auto; margin: 0 0 .8rem; max-width: 100%; }
 .wide:focus-visible { outline: 2px solid var(--link); }
-table { border-collapse: collapse; font-size: .875rem; font-variant-numeric: tabular-nums; }
-caption { text-align: left; color: var(--faint); padding: .2rem 0; max-width: 45rem; }
+table { border-collapse: collapse; width: max-content; font-size: .875rem;
+  font-variant-numeric: tabular-nums; }
+table.facts { width: auto; }
+p.caption { color: var(--faint); font-size: .875rem; margin: 1rem 0 .2rem; }
 th, td { padding: .2rem .6rem; text-align: left; vertical-align: top;
-  border-bottom: 1px solid var(--line); overflow-wrap: anywhere; min-width: 2.5rem; }
-thead th { background: var(--soft); vertical-align: bottom; overflow-wrap: normal; }
+  border-bottom: 1px solid var(--line); max-width: 22rem; overflow-wrap: break-word; }
+thead th { background: var(--soft); vertical-align: bottom; max-width: 9rem;
+  overflow-wrap: normal; }
 tbody th { font-weight: 600; white-space: nowrap; }
-th.n, td.n { text-align: right; white-space: nowrap; }
-table.facts td { max-width: 45rem; }
+th.n, td.n { text-align: right; }
+td.n, tbody th.n { white-space: nowrap; }
+table.facts td { max-width: 45rem; overflow-wrap: anywhere; min-width: 8rem; }
 figure { margin: 1rem 0; break-inside: avoid; }
 figure .wide { display: inline-block; margin: 0; background: #ffffff; border: 1px solid var(--line);
   border-radius: 4px; }
@@ -50,7 +54,7 @@ pre { background: var(--soft); padding: .6rem; margin: .5rem 0; font-size: .8rem
   body { max-width: none; padding: 0; font-size: 10pt; }
   nav { display: none; }
   .chapter { break-before: page; }
-  h2, h3, caption { break-after: avoid; }
+  h2, h3, p.caption { break-after: avoid; }
   tr, pre { break-inside: avoid; }
   thead { display: table-header-group; }
   .wide { overflow: visible; }
