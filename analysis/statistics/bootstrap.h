@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+namespace swarmsmith {
+
+/// Resampling draws from the stream "bootstrap" of this seed: the same values give the same
+/// interval, whatever else is compared.
+inline constexpr std::uint64_t kBootstrapSeed = 1;
+inline constexpr std::size_t kResamples = 10'000;
+
+/// A difference of means, and its 95 % percentile interval: the 0.025 and 0.975 quantiles of the
+/// difference over resamples (Efron and Tibshirani 1993, chapter 13).
+struct MeanDifference {
+  double value = 0;
+  double low = 0;
+  double high = 0;
+};
+
+/// Of independent samples, first - second: each is resampled on its own. Neither is empty.
+MeanDifference mean_difference(std::span<const double> first, std::span<const double> second,
+                               std::size_t resamples = kResamples,
+                               std::uint64_t seed = kBootstrapSeed);
+
+/// Of paired samples of the same length, not empty: pairs are resampled.
+MeanDifference paired_mean_difference(std::span<const double> first, std::span<const double> second,
+                                      std::size_t resamples = kResamples,
+                                      std::uint64_t seed = kBootstrapSeed);
+
+}  // namespace swarmsmith

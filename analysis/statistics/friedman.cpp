@@ -1,0 +1,67 @@
+#include "analysis/statistics/friedman.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+
+#include "analysis/statistics/internal/average_ranks.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Sums over the blocks' ranks.
+struct RankSums {
+  std::vector<double> of_treatments;  ///< R(j)
+  double squares = 0;                 ///< A
+  double ties = 0;
+};
+
+RankSums rank_sums(const std::vector<std::vector<double>>& values) {
+  RankSums sums{.of_treatments = std::vector<double>(values.front().size())};
+  for (const std::vector<double>& block : values) {
+    std::vector<double> costs(block.size());  // the largest value has rank 1
+    std::ranges::transform(block, costs.begin(), [](double value) { return -value; });
+    const AverageRanks ranks = average_ranks(costs);
+    for (std::size_t j = 0; j < block.size(); ++j) {
+      sums.of_treatments[j] += ranks.ranks[j];
+      sums.squares += ranks.ranks[j] * ranks.ranks[j];
+    }
+    sums.ties += ranks.ties;
+  }
+  return sums;
+}
+
+}  // namespace
+
+FriedmanTest friedman_test(const std::vector<std::vector<double>>& values) {
+  constexpr double kBothTails = 0.975;
+  const RankSums sums = rank_sums(values);
+  FriedmanTest test{.treatments = values.front().size(), .blocks = values.size()};
+  test.degrees = test.treatments - 1;
+  const auto b = static_cast<double>(test.blocks);
+  const auto k = static_cast<double>(test.treatments);
+  double between = 0;
+  double squared_sums = 0;
+  for (const double sum : sums.of_treatments) {
+    const double off = sum - b * (k + 1) / 2;
+    between += off * off;
+    squared_sums += sum * sum;
+    test.mean_ranks.push_back(sum / b);
+  }
+  test.statistic = 12 * between / (b * k * (k + 1) - sums.ties / (k - 1));
+  if (!std::isnan(test.statistic)) {
+    const boost::math::chi_squared_distribution<double> chi(k - 1);
+    test.p_value = boost::math::cdf(boost::math::complement(chi, test.statistic));
+  }
+  if (test.blocks > 1) {
+    const double freedom = (b - 1) * (k - 1);
+    const boost::math::students_t_distribution<double> student(freedom);
+    const double spread = std::max(0.0, 2 * (b * sums.squares - squared_sums) / freedom);
+    test.half_width = boost::math::quantile(student, kBothTails) * std::sqrt(spread) / (2 * b);
+  }
+  return test;
+}
+
+}  // namespace swarmsmith

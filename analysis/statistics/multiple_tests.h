@@ -1,0 +1,14 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace swarmsmith {
+
+/// Holm's adjusted p-values, in the order given: when those below a level are taken for real, the
+/// chance that one of them is not is at most that level. Tests without a p are not counted.
+/// Source: Holm 1979, Scandinavian Journal of Statistics 6(2); R's `p.adjust`.
+std::vector<std::optional<double>> holm_adjusted(std::span<const std::optional<double>> p_values);
+
+}  // namespace swarmsmith

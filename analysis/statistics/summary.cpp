@@ -1,0 +1,62 @@
+#include "analysis/statistics/summary.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace swarmsmith {
+namespace {
+
+/// Of values in ascending order.
+double sorted_quantile(std::span<const double> sorted, double part) {
+  const double place = part * static_cast<double>(sorted.size() - 1);
+  const auto below = static_cast<std::size_t>(place);
+  const double over = place - static_cast<double>(below);
+  if (over == 0 || sorted[below] == sorted[below + 1]) return sorted[below];
+  return (1 - over) * sorted[below] + over * sorted[below + 1];
+}
+
+}  // namespace
+
+double mean_of(std::span<const double> values) {
+  const auto n = static_cast<long double>(values.size());
+  long double sum = 0;
+  for (const double value : values)
+    sum += value;
+  const long double mean = sum / n;
+  long double rest = 0;
+  for (const double value : values)
+    rest += value - mean;
+  return static_cast<double>(mean + rest / n);
+}
+
+double quantile_of(std::span<const double> values, double part) {
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  return sorted_quantile(sorted, part);
+}
+
+Summary summary_of(std::span<const double> values) {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  if (values.empty()) return {0, kNone, kNone, kNone, kNone, kNone, kNone, kNone};
+  std::vector<double> sorted(values.begin(), values.end());
+  std::ranges::sort(sorted);
+  Summary summary{.n = values.size(), .mean = mean_of(values), .sd = kNone};
+  if (summary.n > 1) {
+    long double squares = 0;
+    for (const double value : values) {
+      const long double off = static_cast<long double>(value) - summary.mean;
+      squares += off * off;
+    }
+    summary.sd = static_cast<double>(std::sqrt(squares / static_cast<long double>(summary.n - 1)));
+  }
+  summary.least = sorted.front();
+  summary.lower_quartile = sorted_quantile(sorted, 0.25);
+  summary.median = sorted_quantile(sorted, 0.5);
+  summary.upper_quartile = sorted_quantile(sorted, 0.75);
+  summary.most = sorted.back();
+  return summary;
+}
+
+}  // namespace swarmsmith

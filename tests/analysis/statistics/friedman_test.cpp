@@ -1,0 +1,34 @@
+#include "analysis/statistics/friedman.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace swarmsmith {
+namespace {
+
+TEST(Friedman, TheLargestValueHasRankOne) {
+  const FriedmanTest test = friedman_test({{9, 5, 1}, {8, 8, 2}});
+  EXPECT_EQ(test.mean_ranks, (std::vector<double>{1.25, 1.75, 3}));
+  EXPECT_EQ(test.degrees, 2U);
+}
+
+TEST(Friedman, OfUnanimousBlocksIsItsLargestValue) {
+  const FriedmanTest test = friedman_test({{3, 2, 1}, {30, 20, 10}, {6, 5, 4}, {9, 8, 7}});
+  EXPECT_DOUBLE_EQ(test.statistic, 8);  // b (k - 1)
+  EXPECT_NEAR(*test.p_value, std::exp(-4), 1e-12);
+  EXPECT_EQ(*test.half_width, 0);
+}
+
+TEST(Friedman, OfTiesAloneHasNoP) {
+  const FriedmanTest test = friedman_test({{1, 1}, {2, 2}});
+  EXPECT_FALSE(test.p_value);
+  EXPECT_EQ(test.mean_ranks, (std::vector<double>{1.5, 1.5}));
+}
+
+TEST(Friedman, OneBlockHasNoInterval) {
+  EXPECT_FALSE(friedman_test({{1, 2}}).half_width);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,48 @@
+#include "analysis/statistics/summary.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+namespace swarmsmith {
+namespace {
+
+TEST(Summary, OfFourValues) {
+  const std::vector<double> values = {4, 1, 3, 2};
+  const Summary summary = summary_of(values);
+  EXPECT_EQ(summary.n, 4U);
+  EXPECT_EQ(summary.mean, 2.5);
+  EXPECT_DOUBLE_EQ(summary.sd, std::sqrt(5.0 / 3));
+  EXPECT_EQ(summary.least, 1);
+  EXPECT_EQ(summary.lower_quartile, 1.75);
+  EXPECT_EQ(summary.median, 2.5);
+  EXPECT_EQ(summary.upper_quartile, 3.25);
+  EXPECT_EQ(summary.most, 4);
+}
+
+TEST(Summary, OfOneValueHasNoSpread) {
+  const Summary summary = summary_of(std::vector<double>{7});
+  EXPECT_EQ(summary.median, 7);
+  EXPECT_EQ(summary.upper_quartile, 7);
+  EXPECT_TRUE(std::isnan(summary.sd));
+}
+
+TEST(Summary, OfNothingIsNothing) {
+  const Summary summary = summary_of({});
+  EXPECT_EQ(summary.n, 0U);
+  EXPECT_TRUE(std::isnan(summary.mean));
+}
+
+TEST(Summary, TheMeanDoesNotDependOnTheOrder) {
+  std::vector<double> values;
+  for (int i = 0; i < 1000; ++i)
+    values.push_back(0.1 * i);
+  const double up = mean_of(values);
+  const std::vector<double> down(values.rbegin(), values.rend());
+  EXPECT_EQ(up, mean_of(down));
+  EXPECT_EQ(mean_of(std::vector<double>(7, 0.1)), 0.1);
+}
+
+}  // namespace
+}  // namespace swarmsmith
