@@ -218,6 +218,14 @@ Examples:
   swarmsmith report demo.db
   swarmsmith report demo.db -o thesis.html --design d1 --design d3)";
 
+constexpr std::string_view kSupplementDetails =
+    R"(A new folder with what goes beside a paper: all scores, controllers as text, JSON and drawings, figures
+with their numbers, the report, campaign file, a README and checksums. The same store gives the same
+bytes. docs/report.md tells what is in it.
+
+Example:
+  swarmsmith supplement thesis.db -o supplement && cd supplement && sha256sum -c SHA256SUMS)";
+
 constexpr std::string_view kDigestDetails =
     R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
 number of workers and the history of crashes.
@@ -272,6 +280,8 @@ constexpr std::array kCommands = {
             declare_import},
     Command{"report", "Write all that a store tells as one HTML file", kReportDetails,
             declare_report},
+    Command{"supplement", "Write a folder of files to publish beside a paper", kSupplementDetails,
+            declare_supplement},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
     Command{"version", "Print the version", "", declare_version},

@@ -12,7 +12,8 @@ namespace swarmsmith {
 /// by source and purpose.
 enum class ScoreGroups { OfMethods, OfDesigns };
 
-/// Number, mean, standard deviation, and the five numbers of a box plot (quantiles by R's type 7).
+/// Number, mean, standard deviation, and the five numbers of a box plot
+/// (analysis/statistics/summary.h).
 HtmlTable score_table(const std::string& caption, std::span<const DesignScore> scores,
                       ScoreGroups groups);
 
