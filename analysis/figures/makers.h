@@ -8,5 +8,6 @@ namespace swarmsmith {
 /// drawing beside it.
 
 Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options);
 
 }  // namespace swarmsmith

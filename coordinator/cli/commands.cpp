@@ -180,6 +180,7 @@ Examples:
   swarmsmith query demo.db "SELECT * FROM v_leaderboard"
   swarmsmith query demo.db "SELECT seed, score FROM v_design_scores" --csv > scores.csv)";
 
+<<<<<<< HEAD
 constexpr std::string_view kFigureDetails =
     R"(The ending of the file says what is written: the picture (.svg; .pdf with librsvg2-bin), or the
 numbers in it (.csv). docs/figures.md shows what each kind tells.
@@ -189,6 +190,19 @@ Examples:
   swarmsmith figure modules thesis.db --method watermelon --width 175mm -o modules.svg
   swarmsmith figure convergence thesis.db --mission aggregation > convergence.svg
   swarmsmith figure scores thesis.db -o scores.csv)";
+=======
+constexpr std::string_view kCompareDetails =
+    R"(Summaries and tests of what the designs' winners scored outside of the race. By source, the same designs
+are compared in simulation and reality (signed-rank); by method, designs of one mission and source
+(rank-sum); over missions, ranks (Friedman). What makes no sense is left out. docs/statistics.md has
+the formulas.
+
+Examples:
+  swarmsmith compare thesis.db
+  swarmsmith compare thesis.db --by method --mission aggregation
+  swarmsmith compare thesis.db --by mission
+  swarmsmith compare thesis.db --csv > p-values.csv)";
+>>>>>>> stats
 
 constexpr std::string_view kExportDetails =
     R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
@@ -268,6 +282,8 @@ constexpr std::array kCommands = {
     Command{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
     Command{"explain", "Tell the history of one evaluation", kExplainDetails, declare_explain},
     Command{"query", "Ask a store in SQL", kQueryDetails, declare_query},
+    Command{"compare", "Compare sources or methods by statistical tests", kCompareDetails,
+            declare_compare},
     Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate},
     Command{"assess", "Measure whether each module does what it promises", kAssessDetails,
             declare_assess},

@@ -33,6 +33,7 @@ Run declare_ls(Options& options);
 Run declare_explain(Options& options);
 Run declare_show(Options& options);
 Run declare_query(Options& options);
+Run declare_compare(Options& options);
 Run declare_assess(Options& options);
 Run declare_figure(Options& options);
 Run declare_export(Options& options);

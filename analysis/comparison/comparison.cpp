@@ -1,0 +1,136 @@
+#include "analysis/comparison/comparison.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/comparison/internal/score_table.h"
+#include "analysis/statistics/multiple_tests.h"
+
+namespace swarmsmith {
+namespace {
+
+void add_groups(const ScoreTable& table, Comparison& comparison) {
+  for (const auto& [key, designs] : table) {
+    ComparedGroup group{.mission = key.mission,
+                        .method = key.method,
+                        .source = key.source,
+                        .designs = designs.size(),
+                        .values = values_of(designs, comparison.options.unit)};
+    for (const auto& [id, design] : designs)
+      group.runs += design.scores.size();
+    group.summary = summary_of(group.values);
+    comparison.groups.push_back(std::move(group));
+  }
+}
+
+void adjust_p_values(std::vector<ComparedPair>& pairs) {
+  std::vector<std::optional<double>> p_values;
+  for (const ComparedPair& pair : pairs)
+    p_values.push_back(pair.test.p_value);
+  const auto adjusted = holm_adjusted(p_values);
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    pairs[i].p_holm = adjusted[i];
+}
+
+/// Nothing to compare is said, with what there is.
+void note_lonely(const ScoreTable& table, Comparison& comparison) {
+  const bool by_source = comparison.options.by == CompareBy::Source;
+  const auto names = names_in(table, by_source ? &GroupKey::source : &GroupKey::method);
+  if (names.size() != 1) return;
+  comparison.notes.push_back(fmt::format("all scores are of the {} {}: there is nothing to compare",
+                                         by_source ? "source" : "method", *names.begin()));
+}
+
+void note_runs(Comparison& comparison) {
+  if (comparison.options.unit != CompareUnit::Run || comparison.pairs.empty()) return;
+  const bool several = std::ranges::any_of(
+      comparison.groups, [](const ComparedGroup& group) { return group.runs > group.designs; });
+  if (several) {
+    comparison.notes.emplace_back(
+        "runs of one design are not independent of each other: these tests see more certainty than "
+        "there is");
+  }
+}
+
+template <class Part>
+std::string names_of(const std::vector<DesignScore>& scores, const Part& part) {
+  std::set<std::string> names;
+  for (const DesignScore& score : scores)
+    names.insert(std::invoke(part, score));
+  return fmt::format("{}", fmt::join(names, ", "));
+}
+
+template <class Part>
+bool has(const std::vector<DesignScore>& scores, const Part& part, const std::string& name) {
+  return name.empty() || std::ranges::any_of(scores, [&](const DesignScore& score) {
+           return std::invoke(part, score) == name;
+         });
+}
+
+/// What is asked for has to be there, each name on its own, and all together.
+std::optional<Error> missing(const std::vector<DesignScore>& scores,
+                             const ComparisonOptions& options) {
+  const auto error = [](std::string message, std::string where) {
+    return Error{ErrorKind::NotFound, std::move(message), std::move(where)};
+  };
+  if (scores.empty()) {
+    return error(
+        "no design is finished with scores of its winner; `swarmsmith ls designs` shows how far "
+        "they are, and the test instances of a mission, or `swarmsmith evaluate`, give scores",
+        "");
+  }
+  const auto lacks = [&](std::string_view what, auto part,
+                         const std::string& name) -> std::optional<Error> {
+    if (has(scores, part, name)) return std::nullopt;
+    return error(fmt::format("there are no scores of {} `{}`; there are {}", what, name,
+                             names_of(scores, part)),
+                 fmt::format("--{}", what));
+  };
+  for (const std::string& mission : options.missions) {
+    if (auto found = lacks("mission", &DesignScore::mission, mission)) return found;
+  }
+  if (auto found = lacks("method", &DesignScore::method, options.method)) return found;
+  if (auto found = lacks("source", &DesignScore::source, options.source)) return found;
+  if (auto found = lacks("purpose", &DesignScore::purpose, options.purpose)) return found;
+  if (score_table(scores, options).empty())
+    return error("no score has all of the mission, method, source and purpose asked for", "");
+  return std::nullopt;
+}
+
+}  // namespace
+
+Comparison compare(const std::vector<DesignScore>& scores, const ComparisonOptions& options) {
+  const ScoreTable table = score_table(scores, options);
+  Comparison comparison{.options = options};
+  add_groups(table, comparison);
+  switch (options.by) {
+    case CompareBy::Source:
+      add_source_pairs(table, comparison);
+      add_source_ranks(table, comparison);
+      note_lonely(table, comparison);
+      break;
+    case CompareBy::Method:
+      add_method_pairs(table, comparison);
+      add_method_ranks(table, comparison);
+      note_lonely(table, comparison);
+      break;
+    case CompareBy::Mission:
+      comparison.notes.emplace_back(
+          "scores of different missions have different units: they are not compared");
+      break;
+  }
+  adjust_p_values(comparison.pairs);
+  note_runs(comparison);
+  return comparison;
+}
+
+Expected<Comparison> compare(StoreReader& store, const ComparisonOptions& options) {
+  const auto scores = design_scores(store, {});
+  if (!scores) return Unexpected(scores.error());
+  if (auto error = missing(*scores, options)) return Unexpected(std::move(*error));
+  return compare(*scores, options);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/comparison/comparison.h"
+
+namespace swarmsmith {
+
+/// Tables of a comparison as RFC 4180: header, full precision, what is not there is empty. The
+/// columns are in docs/statistics.md.
+std::string groups_csv(const Comparison& comparison);
+std::string pairs_csv(const Comparison& comparison);
+std::string ranks_csv(const std::vector<ComparedRanks>& ranks);
+
+/// The words of the command line: "source", "method", "mission"; "design", "run".
+std::string_view name_of(CompareBy by);
+std::string_view name_of(CompareUnit unit);
+
+}  // namespace swarmsmith

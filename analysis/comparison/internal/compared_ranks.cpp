@@ -1,0 +1,102 @@
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "analysis/comparison/internal/score_table.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A row of Friedman's table before it is known to be complete: values by name.
+struct Block {
+  std::string mission;
+  std::map<std::string, double, NameOrder> values;
+};
+
+/// Blocks in order, those alone in which all of `names` have a value.
+std::optional<ComparedRanks> ranked(const Names& names, const std::vector<Block>& blocks) {
+  ComparedRanks ranks{.names = {names.begin(), names.end()}};
+  std::vector<std::vector<double>> values;
+  std::set<std::string> missions;
+  for (const Block& block : blocks) {
+    if (block.values.size() < names.size()) {
+      ++ranks.incomplete;
+      continue;
+    }
+    missions.insert(block.mission);
+    values.emplace_back();
+    for (const auto& [name, value] : block.values)
+      values.back().push_back(value);
+  }
+  if (values.size() < 2) return std::nullopt;
+  ranks.missions.assign(missions.begin(), missions.end());
+  ranks.test = friedman_test(values);
+  return ranks;
+}
+
+template <class Key>
+std::vector<Block> in_order(const std::map<Key, Block>& blocks) {
+  std::vector<Block> result;
+  for (const auto& [key, block] : blocks)
+    result.push_back(block);
+  return result;
+}
+
+/// Designs of a mission and method by their repetition. Merged campaigns may have one repetition
+/// several times: the second one has occurrence 1.
+struct Repetition {
+  std::string mission;
+  std::int64_t number = 0;
+  std::size_t occurrence = 0;
+
+  friend auto operator<=>(const Repetition&, const Repetition&) = default;
+};
+
+}  // namespace
+
+void add_method_ranks(const ScoreTable& table, Comparison& comparison) {
+  for (const std::string& source : names_in(table, &GroupKey::source)) {
+    Names methods;
+    std::map<Repetition, Block> blocks;
+    for (const auto& [key, designs] : table) {
+      if (key.source != source) continue;
+      methods.insert(key.method);
+      std::map<std::int64_t, std::size_t> seen;
+      for (const auto& [id, design] : designs) {
+        Block& block = blocks[{key.mission, design.repetition, seen[design.repetition]++}];
+        block.mission = key.mission;
+        block.values[key.method] = mean_of(design.scores);
+      }
+    }
+    if (methods.size() < 2) continue;
+    if (auto ranks = ranked(methods, in_order(blocks))) {
+      ranks->source = source;
+      comparison.ranks.push_back(std::move(*ranks));
+    } else {
+      comparison.notes.push_back(
+          fmt::format("{}: no ranks, since less than two pairs of mission and repetition have a "
+                      "design of every method",
+                      source));
+    }
+  }
+}
+
+void add_source_ranks(const ScoreTable& table, Comparison& comparison) {
+  const Names sources = names_in(table, &GroupKey::source);
+  if (sources.size() < 2) return;
+  std::map<DesignId, Block> blocks;
+  for (const auto& [key, designs] : table) {
+    for (const auto& [id, design] : designs) {
+      blocks[id].mission = key.mission;
+      blocks[id].values[key.source] = mean_of(design.scores);
+    }
+  }
+  if (auto ranks = ranked(sources, in_order(blocks))) {
+    comparison.ranks.push_back(std::move(*ranks));
+  } else {
+    comparison.notes.emplace_back(
+        "no ranks, since less than two designs have scores in every source");
+  }
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "analysis/comparison/comparison.h"
+
+namespace swarmsmith {
+
+/// Scores sorted into what can be compared.
+
+/// On what a design was run.
+struct RunKey {
+  std::int64_t instance = 0;
+  std::int64_t seed = 0;
+
+  friend auto operator<=>(const RunKey&, const RunKey&) = default;
+};
+
+/// The scores of a design in a source.
+struct ScoredDesign {
+  std::int64_t repetition = 0;
+  std::vector<double> scores;                      ///< in the order of the records
+  std::map<RunKey, std::vector<double>> by_place;  ///< the same; most often one a place
+};
+using ScoredDesigns = std::map<DesignId, ScoredDesign>;
+
+/// By the letters, the source `real` last: differences are those of simulation to reality.
+struct NameOrder {
+  bool operator()(const std::string& a, const std::string& b) const;
+};
+
+struct GroupKey {
+  std::string mission;
+  std::string method;
+  std::string source;
+
+  friend bool operator<(const GroupKey& a, const GroupKey& b);
+};
+using ScoreTable = std::map<GroupKey, ScoredDesigns>;
+
+/// Of the scores that the options ask for.
+ScoreTable score_table(const std::vector<DesignScore>& scores, const ComparisonOptions& options);
+
+/// The different texts of one part of the keys.
+using Names = std::set<std::string, NameOrder>;
+Names names_in(const ScoreTable& table, std::string GroupKey::*part);
+
+/// One value a design, or one a run.
+std::vector<double> values_of(const ScoredDesigns& designs, CompareUnit unit);
+
+/// Appends the pairs that make sense, each tested; without Holm's correction. `notes` get what was
+/// left out.
+void add_source_pairs(const ScoreTable& table, Comparison& comparison);
+void add_method_pairs(const ScoreTable& table, Comparison& comparison);
+
+/// Appends the rankings that the designs allow.
+void add_source_ranks(const ScoreTable& table, Comparison& comparison);
+void add_method_ranks(const ScoreTable& table, Comparison& comparison);
+
+}  // namespace swarmsmith

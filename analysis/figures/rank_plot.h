@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace swarmsmith {
+
+/// Mean ranks of methods or sources with intervals whose overlap says "not significant".
+struct RankPlot {
+  struct Row {
+    std::string name;
+    double mean = 1;  ///< 1 is best
+    double half_width = 0;
+  };
+  struct Panel {
+    std::string title;                 ///< empty for none
+    std::vector<std::string> details;  ///< the test, below the title
+    std::vector<Row> rows;
+  };
+
+  std::string title;
+  std::vector<Panel> panels;
+  double width_mm = 84;
+};
+
+/// As SVG, best rows on top. A band shows the best one's interval.
+std::string draw(const RankPlot& plot);
+
+}  // namespace swarmsmith

@@ -1,0 +1,77 @@
+#include <memory>
+
+#include "analysis/comparison/comparison_tables.h"
+#include "analysis/comparison/comparison_text.h"
+#include "coordinator/cli/commands.h"
+#include "coordinator/cli/comparison_json.h"
+#include "coordinator/cli/store_argument.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct Arguments {
+  StoreArgument store;
+  std::string by = "source";
+  std::string per = "design";
+  std::string table;
+  bool csv = false;
+  ComparisonOptions options;
+};
+
+CompareBy by_of(const std::string& word) {
+  if (word == "method") return CompareBy::Method;
+  return word == "mission" ? CompareBy::Mission : CompareBy::Source;
+}
+
+std::string csv_of(const Comparison& comparison, const std::string& table) {
+  if (table == "groups") return groups_csv(comparison);
+  if (table == "ranks") return ranks_csv(comparison.ranks);
+  return pairs_csv(comparison);
+}
+
+ExitCode run(Arguments& arguments, Output& output) {
+  if (!arguments.table.empty() && !arguments.csv)
+    return fail(output, ExitCode::Usage, "--table says which table --csv writes: give both");
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  arguments.options.by = by_of(arguments.by);
+  arguments.options.unit = arguments.per == "run" ? CompareUnit::Run : CompareUnit::Design;
+  const auto comparison = compare(**store, arguments.options);
+  if (!comparison) {
+    const bool not_there = comparison.error().kind == ErrorKind::NotFound;
+    return fail(output, not_there ? ExitCode::NoSuchId : ExitCode::Usage, comparison.error());
+  }
+  if (arguments.csv) {
+    // By mission there are no pairs.
+    const bool groups = arguments.table.empty() && comparison->options.by == CompareBy::Mission;
+    output.out << csv_of(*comparison, groups ? "groups" : arguments.table);
+    for (const std::string& note : comparison->notes)
+      print_note(output, note);
+  } else {
+    output.out << (output.json ? comparison_json(*comparison) + "\n"
+                               : comparison_text(*comparison));
+  }
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_compare(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->store.declare(options);
+  options.choice("--by", arguments->by, {"source", "method", "mission"},
+                 "What is compared (default source)");
+  options.texts("--mission", arguments->options.missions, "Only this mission; several times");
+  options.text("--method", arguments->options.method, "Only this method");
+  options.text("--source", arguments->options.source, "Only scores of this source");
+  options.choice("--purpose", arguments->options.purpose, {"test", "score"},
+                 "Only scores of the campaign's tests, or of later evaluations (default both)");
+  options.choice("--per", arguments->per, {"run", "design"},
+                 "What one value is (default design: the mean of its runs)");
+  options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
+  options.choice("--table", arguments->table, {"groups", "pairs", "ranks"},
+                 "Which table as CSV (default pairs; groups by mission)");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,59 @@
+#include <gmock/gmock.h>
+
+#include "analysis/comparison/comparison.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A store with finished designs whose winners were tested.
+struct ComparisonStoreTest : testing::Test {
+  TemporaryFolder folder;
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 3, .tests = 4});
+  std::unique_ptr<StoreReader> reader;
+
+  ComparisonStoreTest() {
+    auto store = open_store(folder / "s.db", campaign);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
+    store.reset();
+    reader = open_reader(folder / "s.db");
+  }
+};
+
+TEST_F(ComparisonStoreTest, SummarisesTheWinnersTests) {
+  const auto comparison = compare(*reader, {.by = CompareBy::Mission});
+  ASSERT_TRUE(comparison);
+  std::size_t runs = 0;
+  for (const ComparedGroup& group : comparison->groups)
+    runs += group.runs;
+  EXPECT_EQ(runs, 12U);
+  const auto mean = cells_of(
+      *reader, "SELECT avg(m) FROM (SELECT avg(score) AS m FROM v_design_scores WHERE mission = '" +
+                   comparison->groups.front().mission + "' AND method = '" +
+                   comparison->groups.front().method + "' GROUP BY design)");
+  EXPECT_NEAR(comparison->groups.front().summary.mean, std::stod(mean.front().front()), 1e-9);
+}
+
+TEST_F(ComparisonStoreTest, NamesWhatThereIsWhenSomethingElseIsAskedFor) {
+  const auto mission = compare(*reader, {.missions = {"nowhere"}});
+  ASSERT_FALSE(mission);
+  EXPECT_EQ(mission.error().kind, ErrorKind::NotFound);
+  EXPECT_EQ(mission.error().where, "--mission");
+  EXPECT_THAT(mission.error().message, testing::HasSubstr("`nowhere`; there are "));
+  const auto source = compare(*reader, {.source = "real"});
+  ASSERT_FALSE(source);
+  EXPECT_THAT(source.error().message, testing::HasSubstr("there are rvr"));
+}
+
+TEST_F(ComparisonStoreTest, AStoreWithoutAFinishedDesignSaysHowToGetScores) {
+  const SyntheticCampaign other = synthetic_campaign({.designs = 1});
+  open_store(folder / "empty.db", other).reset();
+  const auto comparison = compare(*open_reader(folder / "empty.db"), {});
+  ASSERT_FALSE(comparison);
+  EXPECT_EQ(comparison.error().kind, ErrorKind::NotFound);
+  EXPECT_THAT(comparison.error().message, testing::HasSubstr("swarmsmith ls designs"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

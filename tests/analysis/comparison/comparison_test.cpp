@@ -1,0 +1,200 @@
+#include "analysis/comparison/comparison.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/analysis/comparison/scores.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+/// Six designs of two missions, each in simulation and reality; real ones are worse.
+std::vector<DesignScore> in_two_sources() {
+  std::vector<Scored> designs;
+  for (int i = 1; i <= 6; ++i) {
+    designs.push_back({.design = i, .repetition = i, .source = "real", .scores = {1.0 * i}});
+    designs.push_back(
+        {.design = i, .repetition = i, .source = "rvr", .scores = {1.25 * i + 1, 1.25 * i + 2}});
+    designs.push_back({.design = i + 10,
+                       .mission = "grid",
+                       .repetition = i,
+                       .source = "rvr",
+                       .scores = {-1000.0 * i}});
+  }
+  return records_of(designs);
+}
+
+/// Five designs of each of two methods in one source.
+std::vector<Scored> of_two_methods() {
+  std::vector<Scored> designs;
+  for (int i = 1; i <= 5; ++i) {
+    designs.push_back({.design = i, .method = "better", .repetition = i, .scores = {10.0 + i}});
+    designs.push_back({.design = i + 5, .method = "worse", .repetition = i, .scores = {1.0 * i}});
+  }
+  return designs;
+}
+
+TEST(Comparison, PairsTheSameDesignsBySource) {
+  const Comparison comparison = compare(in_two_sources(), {.by = CompareBy::Source});
+  ASSERT_EQ(comparison.pairs.size(), 1U);  // nothing of the grid is real
+  const ComparedPair& pair = comparison.pairs.front();
+  EXPECT_EQ(pair.mission, "aggregation");
+  EXPECT_EQ(pair.first, "rvr");
+  EXPECT_EQ(pair.second, "real");
+  EXPECT_TRUE(pair.paired);
+  EXPECT_EQ(pair.n_first, 6U);
+  EXPECT_EQ(pair.test.statistic, 21);
+  EXPECT_DOUBLE_EQ(*pair.test.p_value, 2.0 / 64);
+  EXPECT_DOUBLE_EQ(pair.difference.value, 1.5 + 0.25 * 3.5);
+  EXPECT_THAT(pair.notes, IsEmpty());
+}
+
+TEST(Comparison, AValueIsADesignsMeanOrARun) {
+  const Comparison by_design = compare(in_two_sources(), {.by = CompareBy::Mission});
+  ASSERT_EQ(by_design.groups.size(), 3U);
+  EXPECT_EQ(by_design.groups[0].source, "rvr");
+  EXPECT_EQ(by_design.groups[0].runs, 12U);
+  EXPECT_EQ(by_design.groups[0].summary.n, 6U);
+  EXPECT_EQ(by_design.groups[0].values.front(), 2.75);
+  const Comparison by_run =
+      compare(in_two_sources(), {.by = CompareBy::Mission, .unit = CompareUnit::Run});
+  EXPECT_EQ(by_run.groups[0].summary.n, 12U);
+  EXPECT_EQ(by_run.groups[0].values.front(), 2.25);
+}
+
+TEST(Comparison, RunsArePairedBySeed) {
+  const Comparison comparison =
+      compare(in_two_sources(), {.by = CompareBy::Source, .unit = CompareUnit::Run});
+  ASSERT_EQ(comparison.pairs.size(), 1U);
+  EXPECT_EQ(comparison.pairs.front().n_first, 6U);
+  EXPECT_THAT(comparison.pairs.front().notes,
+              Contains("6 runs that only one of both sources has were left out"));
+  EXPECT_THAT(comparison.notes, Contains(HasSubstr("not independent")));
+}
+
+TEST(Comparison, DesignsInOneSourceAloneAreLeftOutAndCounted) {
+  auto scores = in_two_sources();
+  std::erase_if(scores, [](const DesignScore& score) {
+    return score.design == DesignId{3} && score.source == "real";
+  });
+  const ComparedPair pair = compare(scores, {.by = CompareBy::Source}).pairs.front();
+  EXPECT_EQ(pair.n_first, 5U);
+  EXPECT_THAT(pair.notes, Contains("1 designs that only one of both sources has were left out"));
+  EXPECT_THAT(pair.notes, Contains(HasSubstr("n is too small")));
+}
+
+TEST(Comparison, SourcesWithoutACommonDesignAreNotCompared) {
+  const Comparison comparison =
+      compare(records_of({{.design = 1, .source = "rvr", .scores = {1}},
+                          {.design = 2, .repetition = 2, .source = "real", .scores = {2}}}),
+              {.by = CompareBy::Source});
+  EXPECT_THAT(comparison.pairs, IsEmpty());
+  EXPECT_THAT(comparison.notes, Contains(HasSubstr("no design in common")));
+}
+
+TEST(Comparison, MethodsMeetWithinAMissionAndSourceAlone) {
+  auto designs = of_two_methods();
+  designs.push_back({.design = 20, .method = "worse", .source = "real", .scores = {3}});
+  designs.push_back({.design = 21, .mission = "grid", .method = "better", .scores = {-3}});
+  const Comparison comparison = compare(records_of(designs), {.by = CompareBy::Method});
+  ASSERT_EQ(comparison.pairs.size(), 1U);
+  const ComparedPair& pair = comparison.pairs.front();
+  EXPECT_EQ(pair.source, "rvr");
+  EXPECT_EQ(pair.first, "better");
+  EXPECT_FALSE(pair.paired);
+  EXPECT_EQ(pair.test.statistic, 25);
+  EXPECT_DOUBLE_EQ(*pair.test.p_value, 2.0 / 252);
+  EXPECT_EQ(pair.a12, 1);
+}
+
+TEST(Comparison, MissionsAreSummarisedAndNeverCompared) {
+  const Comparison comparison = compare(in_two_sources(), {.by = CompareBy::Mission});
+  EXPECT_THAT(comparison.pairs, IsEmpty());
+  EXPECT_THAT(comparison.ranks, IsEmpty());
+  EXPECT_THAT(comparison.notes, Contains(HasSubstr("different units")));
+}
+
+TEST(Comparison, HolmsCorrectionIsOverAllPairs) {
+  auto designs = of_two_methods();
+  for (Scored design : of_two_methods()) {
+    design.design += 100;
+    design.mission = "grid";
+    designs.push_back(design);
+  }
+  const Comparison comparison = compare(records_of(designs), {.by = CompareBy::Method});
+  ASSERT_EQ(comparison.pairs.size(), 2U);
+  for (const ComparedPair& pair : comparison.pairs)
+    EXPECT_DOUBLE_EQ(*pair.p_holm, 4.0 / 252);
+}
+
+TEST(Comparison, MethodsAreRankedOverMissionsAndRepetitions) {
+  auto designs = of_two_methods();
+  designs.push_back({.design = 20, .mission = "grid", .method = "better", .scores = {-9}});
+  designs.push_back({.design = 21, .mission = "grid", .method = "worse", .scores = {-3}});
+  designs.push_back(
+      {.design = 22, .mission = "grid", .method = "worse", .repetition = 2, .scores = {-3}});
+  const Comparison comparison = compare(records_of(designs), {.by = CompareBy::Method});
+  ASSERT_EQ(comparison.ranks.size(), 1U);
+  const ComparedRanks& ranks = comparison.ranks.front();
+  EXPECT_THAT(ranks.names, ElementsAre("better", "worse"));
+  EXPECT_THAT(ranks.missions, ElementsAre("aggregation", "grid"));
+  EXPECT_EQ(ranks.test.blocks, 6U);
+  EXPECT_EQ(ranks.incomplete, 1U);
+  EXPECT_DOUBLE_EQ(ranks.test.mean_ranks[0], 7.0 / 6);
+}
+
+TEST(Comparison, MergedCampaignsMayHaveARepetitionTwice) {
+  auto designs = of_two_methods();
+  for (Scored design : of_two_methods()) {
+    design.design += 100;
+    designs.push_back(design);
+  }
+  const Comparison comparison = compare(records_of(designs), {.by = CompareBy::Method});
+  EXPECT_EQ(comparison.pairs.front().n_first, 10U);
+  EXPECT_EQ(comparison.ranks.front().test.blocks, 10U);
+}
+
+TEST(Comparison, SourcesAreRankedOverDesigns) {
+  const Comparison comparison = compare(in_two_sources(), {.by = CompareBy::Source});
+  ASSERT_EQ(comparison.ranks.size(), 1U);
+  EXPECT_THAT(comparison.ranks.front().names, ElementsAre("rvr", "real"));
+  EXPECT_EQ(comparison.ranks.front().test.blocks, 6U);
+  EXPECT_EQ(comparison.ranks.front().incomplete, 6U);
+  EXPECT_EQ(comparison.ranks.front().test.mean_ranks[0], 1);
+}
+
+TEST(Comparison, WhatHasNothingBesideItIsSaid) {
+  const Comparison comparison = compare(records_of({{.scores = {1}}, {.design = 2, .scores = {2}}}),
+                                        {.by = CompareBy::Method});
+  EXPECT_THAT(comparison.notes,
+              ElementsAre("all scores are of the method watermelon: there is nothing to compare"));
+}
+
+TEST(Comparison, TestsThatRHasNoPForSayWhy) {
+  const Comparison comparison = compare(
+      records_of({{.method = "a", .scores = {3}}, {.design = 2, .method = "b", .scores = {3}}}),
+      {.by = CompareBy::Method});
+  const ComparedPair& pair = comparison.pairs.front();
+  EXPECT_FALSE(pair.test.p_value);
+  EXPECT_FALSE(pair.p_holm);
+  EXPECT_THAT(pair.notes, Contains("all values are the same: there is no p"));
+}
+
+TEST(Comparison, TakesWhatTheOptionsAskFor) {
+  auto designs = of_two_methods();
+  designs.push_back({.design = 1, .method = "better", .scores = {99}, .purpose = "score"});
+  const auto records = records_of(designs);
+  EXPECT_EQ(compare(records, {.purpose = "score"}).groups.front().runs, 1U);
+  EXPECT_EQ(compare(records, {.purpose = "test"}).groups.front().runs, 5U);
+  EXPECT_EQ(compare(records, {}).groups.front().runs, 6U);
+  EXPECT_EQ(compare(records, {.method = "worse"}).groups.size(), 1U);
+  EXPECT_THAT(compare(records, {.missions = {"grid"}}).groups, IsEmpty());
+  EXPECT_THAT(compare(records, {.source = "real"}).groups, IsEmpty());
+}
+
+}  // namespace
+}  // namespace swarmsmith
