@@ -30,14 +30,10 @@ bool has_word(std::string_view words, std::string_view word) {
 
 std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
-<<<<<<< HEAD
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
                  "mission method design"},
-=======
-      FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure},
       FigureKind{"ranks", "Mean ranks of methods or sources with Friedman's 95 % intervals",
-                 ranks_figure},
->>>>>>> stats
+                 ranks_figure, "mission method by source"},
   };
   return kKinds;
 }

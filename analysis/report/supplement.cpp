@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/comparison/comparison.h"
+#include "analysis/comparison/comparison_tables.h"
 #include "analysis/figures/figure.h"
 #include "analysis/records/csv.h"
 #include "analysis/records/records.h"
@@ -124,6 +126,21 @@ Expected<void> add_figures(Files& files, StoreReader& store, const std::vector<D
   return {};
 }
 
+/// Tests of sources and of methods, below one header.
+Expected<void> add_comparisons(Files& files, StoreReader& store) {
+  const auto scores = design_scores(store, {});
+  if (!scores) return Unexpected(scores.error());
+  const Comparison sources = compare(*scores, {.by = CompareBy::Source});
+  const Comparison methods = compare(*scores, {.by = CompareBy::Method});
+  const std::string of_methods = pairs_csv(methods);
+  std::vector<ComparedRanks> ranks = sources.ranks;
+  ranks.insert(ranks.end(), methods.ranks.begin(), methods.ranks.end());
+  files.push_back(
+      {"p-values.csv", pairs_csv(sources) + of_methods.substr(of_methods.find('\n') + 1)});
+  files.push_back({"ranks.csv", ranks_csv(ranks)});
+  return {};
+}
+
 /// A table of the store, whole.
 struct TableFile {
   const char* path;
@@ -155,6 +172,7 @@ Expected<std::vector<SupplementFile>> supplement(StoreReader& store,
     if (!text) return Unexpected(text.error());
     files.push_back({table.path, std::move(*text)});
   }
+  if (auto added = add_comparisons(files, store); !added) return Unexpected(added.error());
   if (auto added = add_controllers(files, store, *all); !added) return Unexpected(added.error());
   if (auto added = add_figures(files, store, *all); !added) return Unexpected(added.error());
   auto report = html_report(store, {.program = options.program});

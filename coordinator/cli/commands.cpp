@@ -180,7 +180,6 @@ Examples:
   swarmsmith query demo.db "SELECT * FROM v_leaderboard"
   swarmsmith query demo.db "SELECT seed, score FROM v_design_scores" --csv > scores.csv)";
 
-<<<<<<< HEAD
 constexpr std::string_view kFigureDetails =
     R"(The ending of the file says what is written: the picture (.svg; .pdf with librsvg2-bin), or the
 numbers in it (.csv). docs/figures.md shows what each kind tells.
@@ -190,7 +189,7 @@ Examples:
   swarmsmith figure modules thesis.db --method watermelon --width 175mm -o modules.svg
   swarmsmith figure convergence thesis.db --mission aggregation > convergence.svg
   swarmsmith figure scores thesis.db -o scores.csv)";
-=======
+
 constexpr std::string_view kCompareDetails =
     R"(Summaries and tests of what the designs' winners scored outside of the race. By source, the same designs
 are compared in simulation and reality (signed-rank); by method, designs of one mission and source
@@ -202,7 +201,6 @@ Examples:
   swarmsmith compare thesis.db --by method --mission aggregation
   swarmsmith compare thesis.db --by mission
   swarmsmith compare thesis.db --csv > p-values.csv)";
->>>>>>> stats
 
 constexpr std::string_view kExportDetails =
     R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.

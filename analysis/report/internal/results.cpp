@@ -13,6 +13,7 @@ namespace {
 
 /// A page of a paper, for figures of all designs.
 constexpr double kWholeWidth = 174;
+constexpr double kColumnWidth = 84;
 constexpr double kMiddleWidth = 120;
 
 void write_modules(ReportDraft& draft) {
@@ -65,10 +66,11 @@ void write_results(ReportDraft& draft) {
       scores, ScoreGroups::OfMethods));
   draft.figure("box", {.width_mm = kWholeWidth}, "Scores of the winners. Higher is better.");
   draft.figure("scores", {.width_mm = kWholeWidth}, "How often the winners had each score.");
-  draft.figure("ranks", {.width_mm = kWholeWidth},
-               "Mean ranks with the interval of Friedman's test.");
   draft.figure("convergence", {.width_mm = kMiddleWidth},
                "Mean score of each design's best machine over the experiments used.");
+  if (!scores.empty()) write_comparison(draft, scores);
+  draft.figure("ranks", {.width_mm = kColumnWidth},
+               "Mean ranks with the interval of Friedman's test.");
   write_modules(draft);
 }
 

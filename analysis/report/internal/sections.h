@@ -12,6 +12,8 @@ namespace swarmsmith {
 void write_question(ReportDraft& draft, const std::vector<DesignRecord>& designs);
 /// Winners by mission, their scores by source, modules.
 void write_results(ReportDraft& draft);
+/// Sources and methods by the winners' scores: tests, effect sizes, ranks.
+void write_comparison(ReportDraft& draft, const std::vector<DesignScore>& scores);
 /// A chapter: the machine, its elites, how the race went, parameters, scores.
 void write_design(ReportDraft& draft, const DesignRecord& design);
 /// Versions, seeds, digests, hosts, times, failures.

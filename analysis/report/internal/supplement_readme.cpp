@@ -25,7 +25,11 @@ constexpr Kind kKinds[] = {
      "a row a score that a winner got after its race: design, mission, method, repetition, "
      "candidate, source (the simulator's profile, `real`, ...), purpose, instance, seed, score"},
     {"p-values.csv", "p-values.csv", "",
-     "a row a comparison: the test, n, statistic, p value, the p value by Holm, effect size"},
+     "a row a pair of sources or methods of a mission: the test, n, statistic, p value, the p "
+     "value "
+     "by Holm, effect size, difference of means with its bootstrap interval"},
+    {"ranks.csv", "ranks.csv", "",
+     "mean ranks of sources and methods over missions, with Friedman's test"},
     {"designs.csv", "designs.csv", "", "a row a design: budget, seed, winner, why it ended"},
     {"leaderboard.csv", "leaderboard.csv", "", "the winners, ranked by mission"},
     {"modules.csv", "modules.csv", "",
