@@ -113,8 +113,7 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
   return read<DesignRecord>(
       store,
       "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.budget, d.used, d.iteration,"
-      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, ''), d.flavour,"
-      " d.campaign FROM v_designs AS d"
+      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, ''), d.flavour FROM v_designs AS d"
       " LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate" +
           where(filter, "d.") + " ORDER BY d.design",
       [](const Cells& row) {
@@ -129,8 +128,7 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
                             .best = maybe_candidate(row[8]),
                             .best_mean = maybe_real(row[9]),
                             .machine = row[10].text,
-                            .flavour = row[11].text,
-                            .campaign = integer(row[12])};
+                            .flavour = row[11].text};
       });
 }
 

@@ -53,7 +53,6 @@ struct DesignRecord {
   std::optional<double> best_mean;
   std::string machine;  ///< of the best; text of the grammar, empty without one
   std::string flavour;  ///< that it is written in; empty for the parameters of a program
-  std::int64_t campaign = 1;
 };
 
 /// An elite at the end of an iteration.

@@ -49,7 +49,7 @@ Expected<std::string> html_report(StoreReader& store, const ReportOptions& optio
       return unexpected(ErrorKind::NotFound, "the store has no design " + to_string(design));
   }
   ReportDraft draft(store, options);
-  write_question(draft, *known);
+  write_question(draft);
   write_results(draft);
   for (const DesignRecord& design : *known) {
     const bool wanted = options.designs.empty() ||

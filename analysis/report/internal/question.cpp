@@ -1,6 +1,5 @@
-#include <algorithm>
-#include <set>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -20,31 +19,31 @@ void write_keys(ReportDraft& draft, std::int64_t campaign, const std::string& ca
                           prefix.size() + 1, campaign, sql_quoted(prefix)));
 }
 
-/// What the designs of a campaign have in this column.
-std::set<std::string> names_of(const std::vector<DesignRecord>& designs,
-                               std::string DesignRecord::*name) {
-  std::set<std::string> names;
-  for (const DesignRecord& design : designs)
-    names.insert(design.*name);
+/// What the designs of a campaign have in this column of v_designs, each once.
+std::vector<std::string> names_of(ReportDraft& draft, std::int64_t campaign,
+                                  const std::string& column) {
+  std::vector<std::string> names;
+  const auto rows = draft.take(view_facts(
+      draft.store(), fmt::format("SELECT {0}, min(design) FROM v_designs WHERE campaign = {1} "
+                                 "GROUP BY {0} ORDER BY min(design)",
+                                 column, campaign)));
+  for (const auto& row : rows)
+    names.push_back(row.first);
   return names;
 }
 
-void write_campaign(ReportDraft& draft, const CampaignRecord& campaign,
-                    const std::vector<DesignRecord>& designs) {
+void write_campaign(ReportDraft& draft, const CampaignRecord& campaign) {
   const auto id = campaign.campaign;
-  std::vector<DesignRecord> own;
-  std::ranges::copy_if(designs, std::back_inserter(own),
-                       [&](const DesignRecord& design) { return design.campaign == id; });
   draft.page().heading(3, "Campaign " + campaign.name);
-  for (const std::string& mission : names_of(own, &DesignRecord::mission))
+  for (const std::string& mission : names_of(draft, id, "mission"))
     write_keys(draft, id, "Mission " + mission, "mission." + mission + ".");
-  for (const std::string& method : names_of(own, &DesignRecord::method))
+  for (const std::string& method : names_of(draft, id, "method"))
     write_keys(draft, id, "Method " + method, "method." + method + ".");
 }
 
 }  // namespace
 
-void write_question(ReportDraft& draft, const std::vector<DesignRecord>& designs) {
+void write_question(ReportDraft& draft) {
   draft.page().heading(2, "What was asked");
   draft.table("Designs: one iterated race each (v_designs).",
               {{"design", Show::Design},
@@ -60,7 +59,7 @@ void write_question(ReportDraft& draft, const std::vector<DesignRecord>& designs
               1000);
   const auto all = draft.take(campaigns(draft.store()));
   for (const CampaignRecord& campaign : all)
-    write_campaign(draft, campaign, designs);
+    write_campaign(draft, campaign);
 }
 
 void write_settings(ReportDraft& draft) {

@@ -9,7 +9,7 @@ namespace swarmsmith {
 /// The report's parts, in its order; each in a file of its own.
 
 /// What was asked: campaigns, missions, methods, budget.
-void write_question(ReportDraft& draft, const std::vector<DesignRecord>& designs);
+void write_question(ReportDraft& draft);
 /// Winners by mission, their scores by source, modules.
 void write_results(ReportDraft& draft);
 /// Sources and methods by the winners' scores: tests, effect sizes, ranks.
