@@ -90,6 +90,18 @@ Expected<std::vector<Record>> read(StoreReader& store, const std::string& sql, c
 
 }  // namespace
 
+Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
+  return read<CampaignRecord>(
+      store, "SELECT campaign, name, seed, digest, file FROM v_campaigns ORDER BY campaign",
+      [](const Cells& row) {
+        return CampaignRecord{.campaign = integer(row[0]),
+                              .name = row[1].text,
+                              .seed = integer(row[2]),
+                              .digest = row[3].text,
+                              .file = row[4].text};
+      });
+}
+
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter) {
   return read<DesignScore>(store,
                            "SELECT design, mission, method, repetition, candidate, source, "

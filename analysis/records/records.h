@@ -30,6 +30,15 @@ struct DesignScore {
   double score = 0;
 };
 
+/// A campaign that the store holds.
+struct CampaignRecord {
+  std::int64_t campaign = 0;  ///< its number in the store, from 1
+  std::string name;
+  std::int64_t seed = 0;
+  std::string digest;  ///< of what decides its answer
+  std::string file;    ///< normalised
+};
+
 /// A design and its best machine, the winner when it is finished.
 struct DesignRecord {
   DesignId design;
@@ -147,6 +156,7 @@ struct RecordFilter {
 
 /// Errors: BadInput with SQLite's words when a view is missing (a store of an older schema) or the
 /// time limit of a query was too short.
+Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store);
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter);
 Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter);
 /// NotFound when the store has no such candidate.

@@ -233,6 +233,23 @@ Examples:
   swarmsmith import machines.txt --flavour watermelon-argos3 --mission aggregation --into theirs.db
   swarmsmith import irace.Rdata --into tuning.db)";
 
+constexpr std::string_view kReportDetails =
+    R"(What was asked, results, statistics, a chapter a design with its machine and its race, and where it all
+comes from: one HTML file without scripts that opens offline and prints. docs/report.md tells what is
+in it.
+
+Examples:
+  swarmsmith report demo.db
+  swarmsmith report demo.db -o thesis.html --design d1 --design d3)";
+
+constexpr std::string_view kSupplementDetails =
+    R"(A new folder with what goes beside a paper: all scores, controllers as text, JSON and drawings, figures
+with their numbers, the report, campaign file, a README and checksums. The same store gives the same
+bytes. docs/report.md tells what is in it.
+
+Example:
+  swarmsmith supplement thesis.db -o supplement && cd supplement && sha256sum -c SHA256SUMS)";
+
 constexpr std::string_view kDigestDetails =
     R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
 number of workers and the history of crashes.
@@ -314,6 +331,10 @@ constexpr std::array kCommands = {
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
     Command{"import", "Take in scenarios, scores, machines and logs from elsewhere", kImportDetails,
             declare_import},
+    Command{"report", "Write all that a store tells as one HTML file", kReportDetails,
+            declare_report},
+    Command{"supplement", "Write a folder of files to publish beside a paper", kSupplementDetails,
+            declare_supplement},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
     Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
     Command{"backup", "Copy a store, also while a campaign runs", kBackupDetails, declare_backup},

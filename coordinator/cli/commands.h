@@ -38,6 +38,8 @@ Run declare_assess(Options& options);
 Run declare_figure(Options& options);
 Run declare_export(Options& options);
 Run declare_import(Options& options);
+Run declare_report(Options& options);
+Run declare_supplement(Options& options);
 Run declare_digest(Options& options);
 Run declare_verify(Options& options);
 Run declare_backup(Options& options);

@@ -4,6 +4,8 @@
 #include <charconv>
 #include <cstdio>
 
+#include "analysis/records/csv.h"
+
 namespace swarmsmith::cli {
 namespace {
 
@@ -36,17 +38,6 @@ void append_padded(std::string& line, const std::string& text, std::size_t width
   const std::size_t used = width_of(text);
   const std::string padding(width > used ? width - used : 0, ' ');
   line += right ? padding + text : text + padding;
-}
-
-/// Null is an empty field.
-std::string csv_field(const Cell& cell) {
-  if (cell.text.find_first_of(",\"\r\n") == std::string::npos) return cell.text;
-  std::string field = "\"";
-  for (const char letter : cell.text) {
-    field += letter;
-    if (letter == '"') field += '"';
-  }
-  return field + "\"";
 }
 
 /// Numbers in full precision.
@@ -125,13 +116,13 @@ std::string rows_as_csv(const Rows& rows) {
   std::string text;
   for (std::size_t column = 0; column < rows.columns.size(); ++column) {
     if (column > 0) text += ",";
-    text += csv_field({Type::Text, rows.columns[column]});
+    text += csv_field(rows.columns[column]);
   }
   text += "\r\n";
   for (const auto& cells : rows.cells) {
     for (std::size_t column = 0; column < cells.size(); ++column) {
       if (column > 0) text += ",";
-      text += csv_field(cells[column]);
+      text += csv_field(cells[column].text);
     }
     text += "\r\n";
   }

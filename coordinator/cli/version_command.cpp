@@ -1,7 +1,12 @@
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/program_name.h"
 #include "sim/engine/simulate.h"
 
 namespace swarmsmith::cli {
+
+std::string program_name() {
+  return "swarmsmith " SWARMSMITH_VERSION " (engine " + std::to_string(kEngineVersion) + ")";
+}
 
 Run declare_version(Options&) {
   return [](Output& output) {

@@ -22,6 +22,12 @@ FROM (SELECT k.id AS campaign, k.name, k.state, k.seed, k.designs_before, k.crea
       FROM campaign AS k LEFT JOIN design AS d ON d.campaign = k.id
       GROUP BY k.id) AS c;
 
+CREATE VIEW v_campaigns AS
+SELECT c.id AS campaign, c.name, c.seed, c.digest, c.state,
+       (SELECT count(*) FROM design AS d WHERE d.campaign = c.id) AS designs,
+       c.created, c.finished, c.deciding, c.file
+FROM campaign AS c;
+
 CREATE VIEW v_designs AS
 SELECT id AS design, mission, method, repetition, seed,
        CASE state WHEN 0 THEN 'waiting' WHEN 1 THEN 'racing' WHEN 2 THEN 'testing'

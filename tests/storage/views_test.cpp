@@ -18,6 +18,7 @@ const std::map<std::string, std::string> kColumns{
     {"v_campaign_status",
      "name state seed designs designs_finished designs_stopped budget used candidates evaluations "
      "workers conflicts created finished campaign"},
+    {"v_campaigns", "campaign name seed digest state designs created finished deciding file"},
     {"v_candidates",
      "candidate design number iteration parent n_states n_transitions fsm_config parameters "
      "modules runs mean eliminated_in eliminated_at eliminated_by"},

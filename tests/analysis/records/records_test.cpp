@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "analysis/records/csv.h"
 #include "tests/storage/fixture.h"
 
 namespace swarmsmith {
@@ -95,6 +96,23 @@ TEST_F(RecordsTest, ParametersAreNumbersOrTexts) {
   ASSERT_FALSE(values->empty());
   EXPECT_TRUE(std::ranges::all_of(*values, [&](const auto& p) { return p.candidate == best; }));
   EXPECT_TRUE(std::ranges::any_of(*values, &ParameterRecord::is_number));
+}
+
+TEST_F(RecordsTest, CampaignsHaveTheirFile) {
+  const auto all = campaigns(*reader);
+  ASSERT_TRUE(all);
+  ASSERT_EQ(all->size(), 1U);
+  EXPECT_EQ(all->front().campaign, 1);
+  EXPECT_EQ(all->front().name, campaign.campaign.name);
+  EXPECT_EQ(all->front().file, campaign.campaign.file);
+}
+
+TEST_F(RecordsTest, CsvQuotesWhatItMust) {
+  const auto text = csv_of_rows(
+      *reader, "SELECT 1 AS \"a,b\", 'x\"y' AS c, NULL AS d, 0.1 AS e, 'line\nfeed' AS f");
+  ASSERT_TRUE(text);
+  EXPECT_EQ(*text, "\"a,b\",c,d,e,f\r\n1,\"x\"\"y\",,0.1,\"line\nfeed\"\r\n");
+  EXPECT_FALSE(csv_of_rows(*reader, "SELECT * FROM v_nothing"));
 }
 
 }  // namespace

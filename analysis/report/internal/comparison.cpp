@@ -1,0 +1,95 @@
+#include "analysis/comparison/comparison.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/report/internal/sections.h"
+#include "analysis/statistics/effect_size.h"
+
+namespace swarmsmith {
+namespace {
+
+std::string shown_p(const std::optional<double>& p) {
+  constexpr double kLeastShown = 0.0001;
+  if (!p) return "-";
+  return *p < kLeastShown ? "< 0.0001" : fmt::format("{:.2g}", *p);
+}
+
+HtmlTable pairs_table(const Comparison& comparison) {
+  const bool by_source = comparison.options.by == CompareBy::Source;
+  HtmlTable table{
+      .caption = fmt::format(
+          "{}. A value is a design's mean. Holm's correction is over the {} rows; A12 is the "
+          "chance "
+          "that the first is larger; the difference is of means, first - second, with the 95 % "
+          "interval of {} bootstrap resamples.",
+          by_source ? "The same winners in two sources: Wilcoxon's signed-rank test, two-sided"
+                    : "Two methods in the same source: Wilcoxon's rank-sum test, two-sided",
+          comparison.pairs.size(), kResamples),
+      .columns = {{"mission"},
+                  {by_source ? "method" : "source"},
+                  {"first"},
+                  {"second"},
+                  {"n", true},
+                  {"statistic", true},
+                  {"p", true},
+                  {"p by Holm", true},
+                  {"A12", true},
+                  {"difference", true},
+                  {"p is"},
+                  {"notes"}}};
+  for (const ComparedPair& pair : comparison.pairs) {
+    const std::string n = pair.paired || pair.n_first == pair.n_second
+                              ? fmt::format("{}", pair.n_first)
+                              : fmt::format("{}, {}", pair.n_first, pair.n_second);
+    table.rows.push_back(
+        {pair.mission, by_source ? pair.method : pair.source, pair.first, pair.second, n,
+         shown_number(pair.test.statistic), shown_p(pair.test.p_value), shown_p(pair.p_holm),
+         fmt::format("{:.2f}, {}", pair.a12, magnitude_of(pair.a12)),
+         fmt::format("{} [{}, {}]", shown_number(pair.difference.value),
+                     shown_number(pair.difference.low), shown_number(pair.difference.high)),
+         std::string(method_of(pair.test)), fmt::format("{}", fmt::join(pair.notes, "; "))});
+  }
+  return table;
+}
+
+HtmlTable ranks_table(const ComparedRanks& ranks) {
+  const FriedmanTest& test = ranks.test;
+  HtmlTable table{
+      .caption = fmt::format(
+          "Mean ranks{} over {} blocks of {}, 1 is best. Friedman's chi-squared {}, degrees of "
+          "freedom {}, p {}. Intervals of two that do not overlap differ at 5 %.",
+          ranks.source.empty() ? "" : " in " + ranks.source, test.blocks,
+          fmt::join(ranks.missions, ", "), shown_number(test.statistic), test.degrees,
+          shown_p(test.p_value)),
+      .columns = {{"name"}, {"mean rank", true}, {"95 % interval", true}}};
+  for (std::size_t i = 0; i < ranks.names.size(); ++i) {
+    const double mean = test.mean_ranks[i];
+    const std::string interval =
+        test.half_width ? fmt::format("[{}, {}]", shown_number(mean - *test.half_width),
+                                      shown_number(mean + *test.half_width))
+                        : "-";
+    table.rows.push_back({ranks.names[i], shown_number(mean), interval});
+  }
+  return table;
+}
+
+}  // namespace
+
+void write_comparison(ReportDraft& draft, const std::vector<DesignScore>& scores) {
+  HtmlPage& page = draft.page();
+  page.heading(3, "Comparison");
+  for (const CompareBy by : {CompareBy::Source, CompareBy::Method}) {
+    const Comparison comparison = compare(scores, {.by = by});
+    page.table(pairs_table(comparison));
+    for (const ComparedRanks& ranks : comparison.ranks)
+      page.table(ranks_table(ranks));
+    for (const std::string& note : comparison.notes)
+      page.paragraph(note);
+  }
+}
+
+}  // namespace swarmsmith

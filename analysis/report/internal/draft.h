@@ -1,0 +1,55 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "analysis/figures/figure.h"
+#include "analysis/records/records.h"
+#include "analysis/report/html.h"
+#include "analysis/report/internal/view_table.h"
+#include "analysis/report/report.h"
+
+namespace swarmsmith {
+
+/// A report while it is written: the page, where its rows come from, and the first thing that went
+/// wrong, after which nothing more is read.
+class ReportDraft {
+ public:
+  ReportDraft(StoreReader& store, const ReportOptions& options)
+      : store_(&store), options_(&options) {}
+
+  HtmlPage& page() { return page_; }
+  StoreReader& store() { return *store_; }
+  const ReportOptions& options() const { return *options_; }
+  const std::optional<Error>& trouble() const { return trouble_; }
+
+  /// The value, or an empty one when there is trouble.
+  template <class Value>
+  Value take(Expected<Value> value) {
+    if (value) return std::move(*value);
+    if (!trouble_) trouble_ = value.error();
+    return {};
+  }
+
+  void table(const std::string& caption, const std::vector<ViewColumn>& columns,
+             const std::string& sql, std::size_t most = 200);
+  void facts(std::string_view caption, const std::string& sql);
+  /// The figure of this kind. One of a kind that this program lacks, that does not apply, or of
+  /// which the store has nothing, is left out; one that would fill the report is replaced by the
+  /// command that draws it.
+  void figure(std::string_view kind, const FigureOptions& options, std::string_view caption);
+
+ private:
+  StoreReader* store_;
+  const ReportOptions* options_;
+  HtmlPage page_;
+  std::optional<Error> trouble_;
+};
+
+/// "'it''s'": a text as SQL has it.
+std::string sql_quoted(std::string_view text);
+
+}  // namespace swarmsmith

@@ -1,0 +1,97 @@
+#include "analysis/report/internal/supplement_readme.h"
+
+#include <algorithm>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace swarmsmith {
+namespace {
+
+/// What files are that begin and end like this; `pattern` is how the reader is told of them.
+struct Kind {
+  std::string_view pattern;
+  std::string_view begin;
+  std::string_view end;
+  std::string_view meaning;
+};
+
+constexpr Kind kKinds[] = {
+    {"report.html", "report.html", "",
+     "what was asked, results, statistics, a chapter a design, provenance; opens in any browser, "
+     "offline"},
+    {"results.csv", "results.csv", "",
+     "a row a score that a winner got after its race: design, mission, method, repetition, "
+     "candidate, source (the simulator's profile, `real`, ...), purpose, instance, seed, score"},
+    {"p-values.csv", "p-values.csv", "",
+     "a row a pair of sources or methods of a mission: the test, n, statistic, p value, the p "
+     "value "
+     "by Holm, effect size, difference of means with its bootstrap interval"},
+    {"ranks.csv", "ranks.csv", "",
+     "mean ranks of sources and methods over missions, with Friedman's test"},
+    {"designs.csv", "designs.csv", "", "a row a design: budget, seed, winner, why it ended"},
+    {"leaderboard.csv", "leaderboard.csv", "", "the winners, ranked by mission"},
+    {"modules.csv", "modules.csv", "",
+     "how often the winners of a mission and method have each module"},
+    {"campaign*.toml", "campaign", ".toml", "what was asked: the campaign file, all keys written"},
+    {"controllers/*.txt", "controllers/", ".txt",
+     "each design's best machine as text of AutoMoDe's grammar, or the switches of a program"},
+    {"controllers/*.json", "controllers/", ".json", "the same with parameters, modules and scores"},
+    {"controllers/*.svg", "controllers/", ".svg", "the same as a drawing"},
+    {"controllers/*.dot", "controllers/", ".dot", "the same for Graphviz"},
+    {"controllers/*.tex", "controllers/", ".tex", "the same as TikZ, for \\input"},
+    {"figures/*.svg", "figures/", ".svg", "figures, fonts as text"},
+    {"figures/*.csv", "figures/", ".csv", "the numbers that the figure of the same name shows"},
+};
+
+bool has(const std::vector<SupplementFile>& files, const Kind& kind) {
+  return std::ranges::any_of(files, [&](const SupplementFile& file) {
+    return file.path.starts_with(kind.begin) && file.path.ends_with(kind.end);
+  });
+}
+
+std::string file_list(const std::vector<SupplementFile>& files, const SupplementOptions& options) {
+  std::string text = "| file | is |\n| --- | --- |\n";
+  for (const Kind& kind : kKinds) {
+    if (!has(files, kind)) continue;
+    text += fmt::format("| `{}` | {} |\n", kind.pattern, kind.meaning);
+    if (options.with_pdfs && kind.end == ".svg") {
+      const std::string_view stem = kind.pattern.substr(0, kind.pattern.size() - kind.end.size());
+      text += fmt::format("| `{}.pdf` | the same as PDF |\n", stem);
+    }
+  }
+  return text + "| `SHA256SUMS` | checksums of all other files |\n";
+}
+
+}  // namespace
+
+std::string supplement_readme(const std::vector<SupplementFile>& files,
+                              const std::vector<CampaignRecord>& campaigns,
+                              const std::string& digest, const SupplementOptions& options) {
+  std::vector<std::string> names;
+  std::string again;
+  for (const CampaignRecord& campaign : campaigns) {
+    names.push_back(campaign.name);
+    if (campaign.file.empty()) continue;
+    again += fmt::format("    swarmsmith run campaign{}.toml\n",
+                         campaigns.size() == 1 ? "" : fmt::format("-{}", campaign.campaign));
+  }
+  std::string text = fmt::format(
+      "# Supplement: {}\n\nWritten from a campaign's store by {} with `swarmsmith supplement STORE "
+      "-o FOLDER`; the same store gives the same bytes. In every file a higher score is better.\n\n"
+      "## Files\n\n{}\nFiles of controllers and figures have the design's number, mission, method "
+      "and repetition in their names.\n\n## Check\n\n    sha256sum -c SHA256SUMS\n\nThe digest of "
+      "the store's answer (`swarmsmith digest STORE`) is `{}`.\n\n",
+      fmt::join(names, ", "), options.program, file_list(files, options), digest);
+  if (again.empty()) return text;
+  text += fmt::format(
+      "## Again\n\n{}\nruns it again, with any number of workers, on any machine, to the same "
+      "races and scores. `swarmsmith evaluate controllers/NAME.txt --campaign CAMPAIGN.toml "
+      "--design "
+      "dN --seeds 1-10` simulates a controller on other seeds.\n",
+      again);
+  return text;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "storage/store.h"
+
+namespace swarmsmith {
+
+/// A file of a supplement: its path within the folder, and what is in it.
+struct SupplementFile {
+  std::string path;
+  std::string text;
+};
+
+struct SupplementOptions {
+  std::string program;     ///< what made it: "swarmsmith 0.1.0"
+  bool with_pdfs = false;  ///< a PDF will be put beside every SVG, as README.md then says
+};
+
+/// What goes beside a paper: scores, controllers, figures with their numbers, p values, report,
+/// campaign files, and a README.md that explains them (docs/report.md), by path. PDFs and the list
+/// of checksums are the caller's to add. The same store gives the same bytes. Errors: NotFound (no
+/// design has a best machine yet), and those of reading.
+Expected<std::vector<SupplementFile>> supplement(StoreReader& store,
+                                                 const SupplementOptions& options);
+
+}  // namespace swarmsmith

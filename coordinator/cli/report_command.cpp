@@ -1,0 +1,72 @@
+#include <memory>
+
+#include "analysis/report/report.h"
+#include "coordinator/cli/commands.h"
+#include "coordinator/cli/program_name.h"
+#include "coordinator/cli/store_argument.h"
+#include "coordinator/cli/thing_id.h"
+#include "coordinator/cli/whole_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct Arguments {
+  StoreArgument store;
+  std::vector<std::string> designs;
+  std::string file = "report.html";
+};
+
+ExitCode run(const Arguments& arguments, Output& output) {
+  ReportOptions options{.program = program_name()};
+  for (const std::string& text : arguments.designs) {
+    const auto id = parse_thing_id(text);
+    if (!id || id->letter != 'd') {
+      return fail(output, ExitCode::Usage,
+                  Error{ErrorKind::BadInput, "wants a design such as d3, not \"" + text + "\"",
+                        "--design"});
+    }
+    options.designs.push_back({std::stoll(id->digits)});
+  }
+  const bool to_output = arguments.file == "-";
+  if (to_output && output.json) {
+    return fail(
+        output, ExitCode::Usage,
+        Error{ErrorKind::BadInput,
+              "standard output has the answer of --json; name a file for the report", "-o"});
+  }
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const auto report = html_report(**store, options);
+  if (!report) {
+    const bool no_design = report.error().kind == ErrorKind::NotFound;
+    return fail(output, no_design ? ExitCode::NoSuchId : ExitCode::Store, report.error());
+  }
+  if (to_output) {
+    output.out << *report;
+    return ExitCode::Done;
+  }
+  if (const auto written = write_whole_file(arguments.file, *report); !written)
+    return fail(output, ExitCode::Failed, written.error());
+  if (output.json) {
+    output.out << "{\"file\":" << json_text(arguments.file) << ",\"bytes\":" << report->size()
+               << "}\n";
+  } else {
+    output.out << arguments.file << "\n";
+  }
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_report(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->store.declare(options);
+  options.text("-o,--output", arguments->file,
+               "Write to this file (default report.html; - for "
+               "standard output)");
+  options.texts("--design", arguments->designs,
+                "A design with a chapter of its own, such as d3 (default: all)");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

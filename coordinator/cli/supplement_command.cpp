@@ -1,0 +1,117 @@
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <system_error>
+
+#include <unistd.h>
+
+#include "analysis/report/supplement.h"
+#include "coordinator/cli/commands.h"
+#include "coordinator/cli/pdf.h"
+#include "coordinator/cli/program_name.h"
+#include "coordinator/cli/sha256.h"
+#include "coordinator/cli/store_argument.h"
+#include "coordinator/cli/whole_file.h"
+#include "target/process.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Files = std::vector<SupplementFile>;
+
+struct Arguments {
+  StoreArgument store;
+  std::string folder;
+};
+
+/// A PDF beside every SVG.
+Expected<void> add_pdfs(Files& files) {
+  Files pdfs;
+  for (const SupplementFile& file : files) {
+    if (!file.path.ends_with(".svg")) continue;
+    auto pdf = pdf_of_svg(file.text);
+    if (!pdf) return Unexpected(pdf.error());
+    pdfs.push_back({file.path.substr(0, file.path.size() - 3) + "pdf", std::move(*pdf)});
+  }
+  std::ranges::move(pdfs, std::back_inserter(files));
+  std::ranges::sort(files, {}, &SupplementFile::path);
+  return {};
+}
+
+/// As `sha256sum -c` reads it: all files but itself.
+std::string checksums_of(const Files& files) {
+  std::string text;
+  for (const SupplementFile& file : files)
+    text += sha256_of(file.text) + "  " + file.path + "\n";
+  return text;
+}
+
+/// Everything in a folder beside the wanted one first, which gets its name when it is complete.
+Expected<void> write_folder(const fs::path& folder, const Files& files) {
+  const fs::path unfinished = folder.string() + ".unfinished-" + std::to_string(getpid());
+  const auto failed = [&](const Error& error) {
+    std::error_code ignored;
+    fs::remove_all(unfinished, ignored);
+    return Unexpected(error);
+  };
+  for (const SupplementFile& file : files) {
+    const fs::path path = unfinished / file.path;
+    std::error_code trouble;
+    fs::create_directories(path.parent_path(), trouble);
+    if (trouble) return failed(cannot_write(path.string()));
+    if (const auto written = write_whole_file(path.string(), file.text); !written)
+      return failed(written.error());
+  }
+  std::error_code trouble;
+  fs::rename(unfinished, folder, trouble);
+  if (trouble) return failed(cannot_write(folder.string()));
+  return {};
+}
+
+ExitCode run(const Arguments& arguments, Output& output) {
+  // "out/" and "out" are one folder.
+  fs::path folder = fs::path(arguments.folder).lexically_normal();
+  if (folder.filename().empty()) folder = folder.parent_path();
+  if (std::error_code ignored; fs::exists(fs::symlink_status(folder, ignored))) {
+    return fail(
+        output, ExitCode::Usage,
+        Error{ErrorKind::BadInput, "is there already; name another folder", folder.string()});
+  }
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const bool with_pdfs = find_program("rsvg-convert").has_value();
+  auto files = supplement(**store, {.program = program_name(), .with_pdfs = with_pdfs});
+  if (!files) {
+    const bool nothing = files.error().kind == ErrorKind::NotFound;
+    return fail(output, nothing ? ExitCode::NoSuchId : ExitCode::Store, files.error());
+  }
+  if (with_pdfs) {
+    if (const auto added = add_pdfs(*files); !added)
+      return fail(output, ExitCode::Failed, added.error());
+  } else {
+    print_note(output,
+               "no PDFs: the program rsvg-convert (Debian package librsvg2-bin) is not there");
+  }
+  files->push_back({"SHA256SUMS", checksums_of(*files)});
+  if (const auto written = write_folder(folder, *files); !written)
+    return fail(output, ExitCode::Failed, written.error());
+  if (output.json) {
+    output.out << "{\"folder\":" << json_text(folder.string()) << ",\"files\":" << files->size()
+               << ",\"pdfs\":" << (with_pdfs ? "true" : "false") << "}\n";
+  } else {
+    output.out << folder.string() << "\n";
+  }
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_supplement(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->store.declare(options);
+  options.text("-o,--output", arguments->folder, "The new folder", Options::Need::Required);
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

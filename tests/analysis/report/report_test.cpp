@@ -1,0 +1,163 @@
+#include "analysis/report/report.h"
+
+#include <gmock/gmock.h>
+
+#include <regex>
+
+#include "analysis/report/supplement.h"
+#include "tests/storage/fixture.h"
+#include "tests/support/xml_check.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::Contains;
+using testing::ElementsAre;
+using testing::Field;
+using testing::HasSubstr;
+using testing::Not;
+
+/// Two designs whose names mean something in HTML, which only an import could bring.
+SyntheticCampaign hostile_campaign() {
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 2, .iterations = 3});
+  campaign.campaign.name = "<script>alert(1)</script> & \"co\"";
+  campaign.campaign.deciding = R"({"mission.<i>m</i>.duration":"\"120 s\"","race.mu":"5"})";
+  for (DesignRow& design : campaign.designs) {
+    design.mission = "<i>m</i>";
+    design.method = "it's \"<x>\"";
+  }
+  return campaign;
+}
+
+std::unique_ptr<StoreReader> stored(const std::filesystem::path& path,
+                                    const SyntheticCampaign& campaign) {
+  auto store = open_store(path, campaign);
+  for (const auto& batch : campaign.batches)
+    store->append(batch);
+  store.reset();
+  return open_reader(path);
+}
+
+struct ReportTest : testing::Test {
+  TemporaryFolder folder;
+  std::unique_ptr<StoreReader> reader = stored(folder / "s.db", hostile_campaign());
+
+  std::string report(const ReportOptions& options = {.program = "swarmsmith <test>"}) {
+    const auto text = html_report(*reader, options);
+    EXPECT_TRUE(text) << (text ? "" : to_string(text.error()));
+    return text.value_or("");
+  }
+};
+
+TEST_F(ReportTest, IsWellFormedWithEveryNameEscaped) {
+  const std::string text = report();
+  EXPECT_EQ(xml_trouble(text), "");
+  EXPECT_THAT(text, Not(HasSubstr("<script")));
+  EXPECT_THAT(text, Not(HasSubstr("<i>")));
+  EXPECT_THAT(text, Not(HasSubstr("<x>")));
+  EXPECT_THAT(text, HasSubstr("&lt;script&gt;alert(1)&lt;/script&gt; &amp; &quot;co&quot;"));
+  EXPECT_THAT(text, HasSubstr("&lt;i&gt;m&lt;/i&gt;"));
+  EXPECT_THAT(text, HasSubstr("swarmsmith &lt;test&gt;"));
+}
+
+TEST_F(ReportTest, AsksNobodyForAnything) {
+  const std::string text = report();
+  const std::regex attribute(R"re(\s(src|srcset|href|action|poster|data|background)="([^"]*)")re");
+  for (std::sregex_iterator it(text.begin(), text.end(), attribute), end; it != end; ++it) {
+    const std::string target = (*it)[2];
+    EXPECT_TRUE(target.starts_with("#") || target.starts_with("data:")) << target;
+  }
+  EXPECT_THAT(text, Not(HasSubstr("@import")));
+  EXPECT_THAT(text, Not(HasSubstr("url(")));
+  EXPECT_FALSE(std::regex_search(text, std::regex("<[^>]* on[a-z]+=\"")));
+}
+
+TEST_F(ReportTest, ListsWhatItsContentsPromise) {
+  const std::string text = report();
+  const std::regex link("<a href=\"#(p[0-9]+)\">");
+  std::size_t links = 0;
+  for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it, ++links)
+    EXPECT_THAT(text, HasSubstr(" id=\"" + (*it)[1].str() + "\""));
+  EXPECT_GT(links, 5U);
+  for (const char* part :
+       {"What was asked", "Results", "Design d1:", "Design d2:", "The race of d1",
+        "Parameters of d1", "Where it comes from", "All settings"}) {
+    EXPECT_THAT(text, HasSubstr(part));
+  }
+  EXPECT_THAT(text, HasSubstr(reader->digest()));
+}
+
+TEST_F(ReportTest, DrawsEachKindThatTheStoreHasSomethingOf) {
+  EXPECT_THAT(report(), HasSubstr("<title>Convergence"));
+}
+
+TEST_F(ReportTest, IsTheSameEachTime) {
+  EXPECT_EQ(report(), report());
+}
+
+TEST_F(ReportTest, GivesChaptersToTheDesignsThatAreNamed) {
+  const std::string text = report({.designs = {DesignId{2}}});
+  EXPECT_THAT(text, Not(HasSubstr("Design d1:")));
+  EXPECT_THAT(text, HasSubstr("Design d2:"));
+  const auto unknown = html_report(*reader, {.designs = {DesignId{9}}});
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().kind, ErrorKind::NotFound);
+  EXPECT_THAT(unknown.error().message, HasSubstr("d9"));
+}
+
+TEST(Report, OfACampaignThatHasJustBegunSaysSo) {
+  const TemporaryFolder folder;
+  SyntheticCampaign campaign = hostile_campaign();
+  campaign.batches.clear();
+  const auto reader = stored(folder / "s.db", campaign);
+  const auto text = html_report(*reader, {});
+  ASSERT_TRUE(text) << to_string(text.error());
+  EXPECT_EQ(xml_trouble(*text), "");
+  EXPECT_THAT(*text, HasSubstr("No winner was evaluated outside of its race."));
+  const auto files = supplement(*reader, {});
+  ASSERT_FALSE(files);
+  EXPECT_EQ(files.error().kind, ErrorKind::NotFound);
+}
+
+std::vector<std::string> paths_of(const std::vector<SupplementFile>& files) {
+  std::vector<std::string> paths;
+  for (const SupplementFile& file : files)
+    paths.push_back(file.path);
+  return paths;
+}
+
+TEST_F(ReportTest, ASupplementHasSafeNamesInOrder) {
+  const auto files = supplement(*reader, {.program = "p", .with_pdfs = true});
+  ASSERT_TRUE(files) << to_string(files.error());
+  const std::vector<std::string> paths = paths_of(*files);
+  EXPECT_TRUE(std::ranges::is_sorted(paths));
+  EXPECT_EQ(std::ranges::adjacent_find(paths), paths.end());
+  const std::regex safe("[A-Za-z0-9._-]+(/[A-Za-z0-9._-]+)?");
+  for (const std::string& path : paths)
+    EXPECT_TRUE(std::regex_match(path, safe)) << path;
+  EXPECT_THAT(paths, Contains("controllers/d1-_i_m__i_-it_s___x__-1.txt"));
+  EXPECT_THAT(paths, Contains("results.csv"));
+  EXPECT_THAT(paths, Contains("report.html"));
+  EXPECT_THAT(paths, Contains("figures/convergence.csv"));
+  const auto again = supplement(*reader, {.program = "p", .with_pdfs = true});
+  for (std::size_t i = 0; i < files->size(); ++i)
+    EXPECT_EQ((*files)[i].text, (*again)[i].text) << paths[i];
+}
+
+TEST_F(ReportTest, ASupplementSaysWhatItsFilesAre) {
+  const auto with = supplement(*reader, {.program = "p 1", .with_pdfs = true});
+  const auto without = supplement(*reader, {.program = "p 1", .with_pdfs = false});
+  ASSERT_TRUE(with && without);
+  const auto readme_of = [](const auto& files) {
+    return std::ranges::find(files, "README.md", &SupplementFile::path)->text;
+  };
+  EXPECT_THAT(readme_of(*with), HasSubstr("`figures/*.pdf`"));
+  EXPECT_THAT(readme_of(*without), Not(HasSubstr(".pdf")));
+  EXPECT_THAT(readme_of(*with), HasSubstr("`" + reader->digest() + "`"));
+  const auto results = std::ranges::find(*with, "results.csv", &SupplementFile::path)->text;
+  EXPECT_EQ(std::ranges::count(results, '\n'), 1 + 2 * 4);
+  EXPECT_THAT(results, HasSubstr("\"it's \"\"<x>\"\"\""));
+}
+
+}  // namespace
+}  // namespace swarmsmith
