@@ -58,7 +58,7 @@ Expected<CandidateId> chosen_candidate(StoreReader& store, const FigureOptions& 
 
 }  // namespace
 
-Expected<StoredMachine> machine_of(const CandidateRecord& candidate) {
+Expected<StoredMachine> machine_of(const MachineRecord& candidate) {
   const std::string id = to_string(candidate.candidate);
   if (!candidate.machine.starts_with("--nstates")) {
     return bad_input(id + " is a configuration of a program, and no machine");
@@ -105,7 +105,7 @@ std::string machine_csv(const StoredMachine& stored) {
   return csv;
 }
 
-std::string title_of(const CandidateRecord& candidate) {
+std::string title_of(const MachineRecord& candidate) {
   return fmt::format("{} {}, {}, {}", to_string(candidate.design), to_string(candidate.candidate),
                      candidate.mission, candidate.method);
 }

@@ -73,7 +73,7 @@ Drawn drawn_of(const ParameterTable& table, const std::vector<EliteRecord>& kept
 
 ParallelPlot::Line line_of(const ParameterTable& table, const std::vector<std::size_t>& chosen,
                            std::size_t row, bool is_elite) {
-  const CandidateRecord& candidate = table.candidates[row];
+  const SampledRecord& candidate = table.candidates[row];
   ParallelPlot::Line line{
       .name = to_string(candidate.candidate), .is_elite = is_elite, .mean = *candidate.mean};
   for (const std::size_t column : chosen)

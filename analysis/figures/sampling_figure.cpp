@@ -36,7 +36,7 @@ std::vector<std::size_t> most_moved(const ParameterTable& table) {
 /// Iterations that sampled candidates, to their place.
 std::map<std::int64_t, std::size_t> sampled_iterations(const ParameterTable& table) {
   std::map<std::int64_t, std::size_t> places;
-  for (const CandidateRecord& candidate : table.candidates)
+  for (const SampledRecord& candidate : table.candidates)
     places.emplace(candidate.iteration, 0);
   std::size_t next = 0;
   for (auto& [iteration, place] : places)

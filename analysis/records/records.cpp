@@ -150,10 +150,10 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
       });
 }
 
-Expected<CandidateRecord> candidate(StoreReader& store, CandidateId id) {
+Expected<MachineRecord> candidate(StoreReader& store, CandidateId id) {
   const auto flavour = flavour_column(store);
   if (!flavour) return Unexpected(flavour.error());
-  auto found = read<CandidateRecord>(
+  auto found = read<MachineRecord>(
       store,
       fmt::format(
           "SELECT c.candidate, c.design, d.mission, d.method, d.repetition, c.fsm_config, {}"
@@ -161,7 +161,7 @@ Expected<CandidateRecord> candidate(StoreReader& store, CandidateId id) {
           " WHERE c.candidate = {}",
           *flavour, id.value),
       [](const Cells& row) {
-        return CandidateRecord{.candidate = {integer(row[0])},
+        return MachineRecord{.candidate = {integer(row[0])},
                                .design = {integer(row[1])},
                                .mission = row[2].text,
                                .method = row[3].text,
@@ -242,14 +242,14 @@ Expected<std::vector<IterationRecord>> iterations(StoreReader& store, DesignId d
       });
 }
 
-Expected<std::vector<CandidateRecord>> candidates(StoreReader& store, DesignId design) {
-  return read<CandidateRecord>(
+Expected<std::vector<SampledRecord>> candidates(StoreReader& store, DesignId design) {
+  return read<SampledRecord>(
       store,
       fmt::format("SELECT candidate, iteration, runs, mean FROM v_candidates WHERE design = {}"
                   " ORDER BY candidate",
                   design.value),
       [](const Cells& row) {
-        return CandidateRecord{.candidate = {integer(row[0])},
+        return SampledRecord{.candidate = {integer(row[0])},
                                .iteration = integer(row[1]),
                                .runs = integer(row[2]),
                                .mean = maybe_real(row[3])};

@@ -58,7 +58,7 @@ struct DesignRecord {
 };
 
 /// A machine that a design tried.
-struct CandidateRecord {
+struct MachineRecord {
   CandidateId candidate;
   DesignId design;
   std::string mission;
@@ -122,7 +122,7 @@ struct IterationRecord {
 };
 
 /// A candidate and how it did in the races.
-struct CandidateRecord {
+struct SampledRecord {
   CandidateId candidate;
   std::int64_t iteration = 0;  ///< that it was sampled in
   std::int64_t runs = 0;
@@ -160,7 +160,7 @@ Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store);
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter);
 Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter);
 /// NotFound when the store has no such candidate.
-Expected<CandidateRecord> candidate(StoreReader& store, CandidateId id);
+Expected<MachineRecord> candidate(StoreReader& store, CandidateId id);
 Expected<std::vector<EliteRecord>> elites(StoreReader& store, const RecordFilter& filter);
 Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
                                                           const RecordFilter& filter);
@@ -169,7 +169,7 @@ Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
                                            std::int64_t iteration);
 Expected<std::vector<IterationRecord>> iterations(StoreReader& store, DesignId design);
 /// All that a design tried, in the order in which they were sampled.
-Expected<std::vector<CandidateRecord>> candidates(StoreReader& store, DesignId design);
+Expected<std::vector<SampledRecord>> candidates(StoreReader& store, DesignId design);
 Expected<std::vector<StepRecord>> race_steps(StoreReader& store, DesignId design);
 Expected<std::vector<EliminationRecord>> eliminations(StoreReader& store, DesignId design);
 /// Of the candidates of one design, or of some of them.

@@ -31,7 +31,7 @@ Expected<double> width_of(const MachineExport& what) {
       "--width");
 }
 
-Expected<std::string> picture_of(const CandidateRecord& candidate, const StoredMachine& stored,
+Expected<std::string> picture_of(const MachineRecord& candidate, const StoredMachine& stored,
                                  const MachineExport& what, double width) {
   const MachineLayout layout = lay_out(stored.machine, *stored.flavour, width);
   if (what.format == "tikz") return tikz_of(layout);
@@ -52,7 +52,7 @@ Expected<Mission> mission_of(StoreReader& store, const std::string& name) {
                     "the store's campaign does not say what the mission " + name + " is");
 }
 
-Expected<std::string> experiment_of(StoreReader& store, const CandidateRecord& candidate,
+Expected<std::string> experiment_of(StoreReader& store, const MachineRecord& candidate,
                                     const StoredMachine& stored, const MachineExport& what) {
   const auto mission = mission_of(store, candidate.mission);
   if (!mission) return Unexpected(mission.error());

@@ -98,15 +98,15 @@ std::vector<double> shares(const ParameterColumn& column, std::size_t first, std
 
 std::size_t ParameterTable::row_of(CandidateId candidate) const {
   const auto place =
-      std::ranges::lower_bound(candidates, candidate, std::less<>(), &CandidateRecord::candidate);
+      std::ranges::lower_bound(candidates, candidate, std::less<>(), &SampledRecord::candidate);
   if (place == candidates.end() || place->candidate != candidate) return candidates.size();
   return static_cast<std::size_t>(place - candidates.begin());
 }
 
-ParameterTable parameter_table(std::vector<CandidateRecord> candidates,
+ParameterTable parameter_table(std::vector<SampledRecord> candidates,
                                const std::vector<ParameterRecord>& records) {
   ParameterTable table{.candidates = std::move(candidates), .columns = {}};
-  std::ranges::sort(table.candidates, std::less<>(), &CandidateRecord::candidate);
+  std::ranges::sort(table.candidates, std::less<>(), &SampledRecord::candidate);
   std::map<std::string, std::vector<const ParameterRecord*>> by_name;
   for (const ParameterRecord& record : records) {
     // A candidate that came between two queries of a running campaign is left for the next time.

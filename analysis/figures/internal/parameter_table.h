@@ -26,14 +26,14 @@ struct ParameterColumn {
 };
 
 struct ParameterTable {
-  std::vector<CandidateRecord> candidates;  ///< in the order in which they were sampled
+  std::vector<SampledRecord> candidates;  ///< in the order in which they were sampled
   std::vector<ParameterColumn> columns;     ///< by name
 
   /// Place of a candidate; the number of candidates when it is not there.
   std::size_t row_of(CandidateId candidate) const;
 };
 
-ParameterTable parameter_table(std::vector<CandidateRecord> candidates,
+ParameterTable parameter_table(std::vector<SampledRecord> candidates,
                                const std::vector<ParameterRecord>& records);
 
 /// Reads it. Errors: NotFound when the design has no candidates or they no parameters.

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 /// Six candidates; `size` is 1, 1, 2, 10, 3, 3 as text would sort it wrongly, `s0` moves from stop
 /// to attraction, `tau` is a number that only some have, `same` never changes.
 ParameterTable small_table() {
-  std::vector<CandidateRecord> candidates;
+  std::vector<SampledRecord> candidates;
   std::vector<ParameterRecord> records;
   const std::vector<std::string> sizes = {"1", "1", "2", "6", "3", "3"};
   for (std::int64_t i = 1; i <= 6; ++i) {

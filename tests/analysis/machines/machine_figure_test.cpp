@@ -57,7 +57,7 @@ TEST_F(MachineFigureTest, SaysWhatIsMissingOrOutOfPlace) {
 }
 
 TEST(MachineOf, NeedsTheFlavour) {
-  CandidateRecord record{.candidate = CandidateId{7}, .machine = "--nstates 1 --s0 1"};
+  MachineRecord record{.candidate = CandidateId{7}, .machine = "--nstates 1 --s0 1"};
   EXPECT_THAT(machine_of(record).error().message, HasSubstr("`swarmsmith run`"));
   record.flavour = "melon";
   EXPECT_THAT(machine_of(record).error().message, HasSubstr("flavour melon"));
