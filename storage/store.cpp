@@ -1,5 +1,6 @@
 #include "storage/store.h"
 
+#include <algorithm>
 #include <utility>
 
 #include <fmt/format.h>
@@ -57,13 +58,15 @@ std::string differing_keys(const Connection& connection, const std::string& here
 Expected<void> check_campaign(const Connection& connection, const fs::path& path,
                               const CampaignRow& wanted) {
   const std::vector<StoredCampaign> all = read_campaigns(connection);
-  if (all.size() > 1) {
-    return unexpected(
-        ErrorKind::Conflict,
-        fmt::format("the store holds {} campaigns: it was merged or imported into, and is there to "
-                    "be read; name the campaign's own store, or a new one",
-                    all.size()),
-        path.string());
+  // Imported designs stand beside those of a campaign, and hinder nobody.
+  const auto run_here = std::ranges::count_if(
+      all, [](const StoredCampaign& each) { return each.state != "imported"; });
+  if (run_here > 1) {
+    return unexpected(ErrorKind::Conflict,
+                      fmt::format("the store holds {} campaigns: it was merged, and is there to be "
+                                  "read; name the campaign's own store, or a new one",
+                                  run_here),
+                      path.string());
   }
   const CampaignRow& here = all.front().row;
   if (here.digest == wanted.digest) return {};

@@ -71,12 +71,12 @@ void GroupWriter::flush() {
 
 std::vector<StoredScore> GroupWriter::scores() {
   const std::lock_guard guard(connection_mutex_);
-  return read_scores(connection_);
+  return read_scores(connection_, first_campaign(connection_));
 }
 
 std::vector<StoredStep> GroupWriter::steps() {
   const std::lock_guard guard(connection_mutex_);
-  return read_steps(connection_);
+  return read_steps(connection_, first_campaign(connection_));
 }
 
 std::vector<DesignStateRow> GroupWriter::design_states() {

@@ -13,8 +13,8 @@ namespace swarmsmith {
 /// store is suspect.
 class LockFile {
  public:
-  /// Conflict when another process (or another store of this one) holds it for as long as that, with
-  /// its pid and host; BadInput when the file cannot be made.
+  /// Conflict when another process (or another store of this one) holds it for as long as that,
+  /// with its pid and host; BadInput when the file cannot be made.
   static Expected<LockFile> acquire(const std::filesystem::path& store,
                                     std::chrono::milliseconds patience);
 

@@ -25,8 +25,8 @@ Expected<void> recover(Connection& connection, const fs::path& path) {
   if (auto sound = check_database_file(path); !sound) return sound;
   const std::string fault = sqlite::text_of(connection, "PRAGMA quick_check(1)");
   if (fault == "ok") return {};
-  return unexpected(ErrorKind::Corrupt,
-                    damaged_text(fault + ", and it was not closed properly"), path.string());
+  return unexpected(ErrorKind::Corrupt, damaged_text(fault + ", and it was not closed properly"),
+                    path.string());
 }
 
 }  // namespace
@@ -82,8 +82,7 @@ void name_flavours(Connection& connection, const std::vector<DesignRow>& designs
 Unexpected not_writable(const sqlite::SqliteError& error, const fs::path& path) {
   const int code = error.primary_code();
   if (code == SQLITE_CORRUPT || code == SQLITE_NOTADB) {
-    return unexpected(ErrorKind::Corrupt,
-                      damaged_text(error.what()), path.string());
+    return unexpected(ErrorKind::Corrupt, damaged_text(error.what()), path.string());
   }
   return unexpected(ErrorKind::Unavailable,
                     fmt::format("the store cannot be opened for writing: {}", error.what()),

@@ -266,9 +266,15 @@ std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const
   return scores;
 }
 
-std::vector<StoredStep> read_steps(const sqlite::Connection& connection) {
+Part first_campaign(const sqlite::Connection& connection) {
+  const StoredCampaign first = read_campaigns(connection).front();
+  return {.designs_before = first.designs_before, .designs = first.designs};
+}
+
+std::vector<StoredStep> read_steps(const sqlite::Connection& connection, const Part& part) {
   std::vector<StoredStep> steps;
-  Statement row(connection, "SELECT design, step, digest FROM race_step ORDER BY design, step");
+  Statement row(connection, "SELECT design, step, digest FROM race_step WHERE " +
+                                designs_of(part, "design") + " ORDER BY design, step");
   while (row.step()) {
     steps.push_back({.design = design_at(row, 0), .step = row.integer(1), .digest = row.bits(2)});
   }

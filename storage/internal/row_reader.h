@@ -23,7 +23,9 @@ struct Part {
 std::vector<StoredCampaign> read_campaigns(const sqlite::Connection& connection);
 std::vector<DesignRow> read_designs(const sqlite::Connection& connection, const Part& part = {});
 std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const Part& part = {});
-std::vector<StoredStep> read_steps(const sqlite::Connection& connection);
+std::vector<StoredStep> read_steps(const sqlite::Connection& connection, const Part& part = {});
+/// The designs of the first campaign, the only one that may run in the store.
+Part first_campaign(const sqlite::Connection& connection);
 /// Of the first campaign, the one that runs in the store; of schema 4.
 std::vector<DesignStateRow> read_design_states(const sqlite::Connection& connection);
 std::vector<CommandRow> read_commands(const sqlite::Connection& connection, const Part& part = {});

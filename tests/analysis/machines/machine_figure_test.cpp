@@ -36,7 +36,7 @@ TEST_F(MachineFigureTest, DrawsTheBestOfTheOneDesignThatIsNamed) {
   EXPECT_THAT(figure->svg, HasSubstr("<title>d2 " + to_string(best) + ", "));
   EXPECT_THAT(figure->tex, StartsWith("\\begin{tikzpicture}"));
   EXPECT_THAT(figure->csv, StartsWith("state,behaviour,behaviour_parameters,transition,target,"
-                                      "condition,condition_parameters\r\n0,exploration,tau="));
+                                      "condition,condition_parameters\r\n0,"));
   const auto named = make({.candidate = best});
   ASSERT_TRUE(named);
   EXPECT_EQ(named->svg, figure->svg);
