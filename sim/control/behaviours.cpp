@@ -244,8 +244,9 @@ Command act(const Behaviour& behaviour, Senses& senses, const Flavour& flavour,
 }
 
 Command command_towards(double x, double y, double speed_mps) {
-  if (x == 0 && y == 0) return {0, 0};
-  const double inner = speed_mps * (x / std::sqrt(x * x + y * y));
+  const double length = std::sqrt(x * x + y * y);
+  if (length == 0) return {0, 0};  // also a vector that is too short to square
+  const double inner = speed_mps * (x / length);
   return y > 0 ? Command{inner, speed_mps} : Command{speed_mps, inner};
 }
 

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cstdint>
 #include <deque>
+#include <stdexcept>
+#include <string>
 #include <vector>
 
 #include "base/assert.h"
@@ -72,6 +74,7 @@ class Run {
           next = std::min(next, agent.next_event());
         world_.advance(static_cast<int>(next - now));
         now = next;
+        check(now);
         for (int i = 0; i < world_.robots(); ++i)
           serve(i, now);
       }
@@ -82,6 +85,26 @@ class Run {
   }
 
  private:
+  /// Sensors, scores and digests would go on with what is no number, and say nothing of it.
+  void check(std::int64_t now) const {
+    for (int i = 0; i < world_.movers(); ++i) {
+      if (!is_sound(world_.body(i))) [[unlikely]]
+        break_down(i, now);
+    }
+  }
+
+  [[noreturn]] void break_down(int mover, std::int64_t now) const {
+    const int object = mover - world_.robots();
+    const std::string name =
+        object < 0 ? "robot " + std::to_string(mover) : "object " + std::to_string(object);
+    const std::int64_t cycle = (now + kSubStepsPerInstant - 1) / kSubStepsPerInstant;
+    throw std::runtime_error("the simulation broke down: in cycle " + std::to_string(cycle) +
+                             " of seed " + std::to_string(setup_.seed) + " " + name +
+                             " has no finite pose and velocity any more; this is a defect of the "
+                             "simulator: please report it with the machine, the mission and the "
+                             "profile");
+  }
+
   /// What is due for a robot at this sub-step: late commands, then its control cycle.
   void serve(int robot, std::int64_t now) {
     Agent& agent = agents_[static_cast<std::size_t>(robot)];

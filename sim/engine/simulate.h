@@ -62,7 +62,8 @@ struct Recorder {
 
 /// Runs the mission once. Pure: the same setup gives the same bits, on every machine, thread and
 /// build; nothing is kept between calls. Without a recorder nothing is recorded and no sensor is
-/// computed that no module asks for.
+/// computed that no module asks for. Throws std::runtime_error when a pose or velocity is not
+/// finite any more, which is a defect of the engine.
 SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder = {});
 
 /// Part of the digest of a campaign: raised with every change that changes a score's bits.

@@ -65,6 +65,12 @@ struct Dynamics {
   friend bool operator==(const Dynamics&, const Dynamics&) = default;
 };
 
+/// What no pose, velocity or spin of a world that makes sense comes near to, in SI units.
+inline constexpr double kMostSound = 1e6;
+
+/// Whether all of its numbers are finite, and within `kMostSound`.
+bool is_sound(const Body& body);
+
 /// A body that stands at the pose.
 Body body_at(const Pose& pose);
 Pose pose_of(const Body& body);

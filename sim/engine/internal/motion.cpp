@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "base/math.h"
 
@@ -55,6 +56,14 @@ Approach approach(double distance, double step, int sub_steps) {
 
 }  // namespace
 
+bool is_sound(const Body& body) {
+  // Written so that what is not a number is not sound.
+  return std::fabs(body.x) <= kMostSound && std::fabs(body.y) <= kMostSound &&
+         std::fabs(body.cos) <= kMostSound && std::fabs(body.sin) <= kMostSound &&
+         std::fabs(body.vx) <= kMostSound && std::fabs(body.vy) <= kMostSound &&
+         std::fabs(body.spin) <= kMostSound;
+}
+
 Body body_at(const Pose& pose) {
   const SinCos heading = sin_cos(pose.theta);
   return {.x = pose.x, .y = pose.y, .cos = heading.cos, .sin = heading.sin};
@@ -75,6 +84,10 @@ void turn(Body& body, double angle_rad) {
   const double size = std::fabs(angle_rad);
   if (size <= 0.0625) return turn_slightly(body, angle_rad);
   if (size <= 0.5) return turn_part(body, angle_rad);
+  if (!(size <= kMostTurn_rad)) [[unlikely]] {
+    body.cos = body.sin = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
   const int parts = static_cast<int>(size * 2) + 1;
   for (int i = 0; i < parts; ++i)
     turn_part(body, angle_rad / parts);
@@ -115,13 +128,21 @@ void advance_freely(Body& body, const SetPoint& set_point, int sub_steps,
   body.y += span_s * set_point.vy;
   if (dx != 0 || dy != 0) {
     const double distance = std::sqrt(dx * dx + dy * dy);
-    const Approach speed = approach(distance, dynamics.speed_step_mps, sub_steps);
-    const double lag = kSubStep_s * speed.sum / distance;
-    const double left = speed.left / distance;
-    body.x -= lag * dx;
-    body.y -= lag * dy;
-    body.vx = set_point.vx - left * dx;
-    body.vy = set_point.vy - left * dy;
+    if (distance == 0) {
+      // Below 1e-162 m/s the square is 0, and the quotients below are no numbers. Robots that
+      // pressed and then stand come there: in contact, what is left of their speeds shrinks by a
+      // factor in each sub-step, until Reach takes them for standing and they are free.
+      body.vx = set_point.vx;
+      body.vy = set_point.vy;
+    } else {
+      const Approach speed = approach(distance, dynamics.speed_step_mps, sub_steps);
+      const double lag = kSubStep_s * speed.sum / distance;
+      const double left = speed.left / distance;
+      body.x -= lag * dx;
+      body.y -= lag * dy;
+      body.vx = set_point.vx - left * dx;
+      body.vy = set_point.vy - left * dy;
+    }
   }
   const double dw = set_point.spin - body.spin;
   double angle = span_s * set_point.spin;

@@ -4,8 +4,12 @@
 
 namespace swarmsmith {
 
+/// No sound body turns farther between two looks at it, which are at most 0.1 s apart.
+inline constexpr double kMostTurn_rad = kMostSound / 10;
+
 /// Turns the heading by an angle, by Taylor polynomials and one step of renormalisation; the error
-/// is below 1e-13 for each half radian. Larger angles are turned in parts.
+/// is below 1e-13 for each half radian. Larger angles are turned in parts, up to `kMostTurn_rad`;
+/// beyond, and for what is not a number, the heading becomes not a number.
 void turn(Body& body, double angle_rad);
 
 /// One sub-step at the present velocity and spin.

@@ -49,6 +49,7 @@ TEST(CommandTowards, TheFarTreadRunsAtFullSpeedTheNearOneAtTheCosine) {
   expect_command(command_towards(-3, 4, kSpeed), -0.18, kSpeed);    // behind on the left
   expect_command(command_towards(-1, 0, kSpeed), kSpeed, -kSpeed);  // straight back: spins
   expect_command(command_towards(0, 0, kSpeed), 0, 0);
+  expect_command(command_towards(1e-170, -1e-170, kSpeed), 0, 0);  // its square is 0
 }
 
 // --- Stop ----------------------------------------------------------------------------------------

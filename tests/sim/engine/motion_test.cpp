@@ -78,6 +78,41 @@ TEST(Motion, StoppingFromFullSpeedTakesFourTicksAndSixCentimetres) {
   EXPECT_NEAR(body.x, 0.06, 0.002);
 }
 
+TEST(Motion, ASpeedWhoseSquareIsZeroComesToTheSetPointToo) {
+  for (const double speed : {1e-150, 1e-161, 3e-162, 1e-162, 1e-163, 1e-300, 5e-324}) {
+    for (const int sub_steps : {1, 10}) {
+      Body body = body_at({0.25, -1, 0});
+      body.vx = speed;
+      body.vy = -speed;
+      advance_freely(body, {}, sub_steps);
+      EXPECT_EQ(body, body_at({0.25, -1, 0})) << speed;
+    }
+  }
+}
+
+TEST(Motion, ATurnThatIsNoTurnEndsAndIsSeen) {
+  for (const double angle : {1e300, -1e6, HUGE_VAL, -HUGE_VAL, std::nan("")}) {
+    Body body;
+    turn(body, angle);
+    EXPECT_FALSE(is_sound(body)) << angle;
+  }
+  Body body;
+  turn(body, kMostTurn_rad);
+  EXPECT_NEAR(body.cos, std::cos(kMostTurn_rad), 1e-8);
+}
+
+TEST(Motion, ABodyIsSoundWhenAllOfItsNumbersAre) {
+  EXPECT_TRUE(is_sound(body_at({1, -2, 3})));
+  for (double Body::*const part :
+       {&Body::x, &Body::y, &Body::cos, &Body::sin, &Body::vx, &Body::vy, &Body::spin}) {
+    for (const double wrong : {std::nan(""), HUGE_VAL, -HUGE_VAL, 1e7, -1e7}) {
+      Body body;
+      body.*part = wrong;
+      EXPECT_FALSE(is_sound(body)) << wrong;
+    }
+  }
+}
+
 TEST(Motion, TurnAgreesWithTheAngleAlsoBeyondARightOne) {
   for (const double angle : {0.0, 1e-9, -0.3, 0.5, 0.51, -1.6, 3.0, -9.4}) {
     Body body = body_at({0, 0, 0.7});

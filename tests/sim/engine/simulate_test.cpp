@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <stdexcept>
 #include <thread>
 #include <vector>
 
@@ -36,8 +37,7 @@ struct Job {
 };
 
 Job job_of(const ReferenceMachine& machine, const char* mission_name, const char* profile,
-           std::int64_t seed) {
-  const Flavour& flavour = watermelon_argos3();
+           std::int64_t seed, const Flavour& flavour = watermelon_argos3()) {
   const Mission mission = built_in_mission(mission_name).value();
   return {parse_machine(machine.text, flavour).value(),
           &flavour,
@@ -200,6 +200,40 @@ TEST_P(InTheArena, RobotsStayAndOverlapLittle) {
   EXPECT_LT(deepest_wall, 0.010);
   RecordProperty("deepest_pair_um", static_cast<int>(deepest_pair * 1e6));
   RecordProperty("deepest_wall_um", static_cast<int>(deepest_wall * 1e6));
+}
+
+TEST(Simulate, RobotsThatGatherAndStandForLongStayFinite) {
+  // Their speeds in contact shrink below 1e-162 m/s after 94 s; this run once did not end.
+  Job job = job_of({"gatherer", "",
+                    "--nstates 3 --s0 2 --att0 3.06 --n0 2 --n0x0 0 --c0x0 0 --p0x0 0.83 --n0x1 1 "
+                    "--c0x1 6 --p0x1 0.21 --l0x1 3 --s1 1 --n1 1 --n1x0 0 --c1x0 5 --p1x0 0.02 "
+                    "--s2 2 --att2 1.51 --n2 2 --n2x0 1 --c2x0 0 --p2x0 0.35 --n2x1 0 --c2x1 3 "
+                    "--p2x1 5 --w2x1 8.85"},
+                   "aggregation", "rvr", 701'138'031, watermelon());
+  int cycles = 0;
+  const SimulationResult result = job.run([&](const Snapshot& now) {
+    cycles = now.cycle;
+    for (const RobotRecord& robot : now.robots)
+      ASSERT_TRUE(std::isfinite(robot.pose.x + robot.pose.y + robot.pose.theta)) << now.cycle;
+  });
+  EXPECT_EQ(cycles, 1200);
+  EXPECT_EQ(result.score, 3);
+}
+
+TEST(Simulate, AStateThatIsNoNumberFailsWithASentence) {
+  Job job = job_of(kPusher, "aggregation", "rvr", 5);
+  for (const double nowhere : {std::nan(""), HUGE_VAL, -1e9}) {
+    job.instance.starts[1].y = nowhere;
+    try {
+      job.run();
+      ADD_FAILURE() << "a score with a robot at " << nowhere;
+    } catch (const std::runtime_error& error) {
+      EXPECT_STREQ(error.what(),
+                   "the simulation broke down: in cycle 1 of seed 5 robot 1 has no finite pose and "
+                   "velocity any more; this is a defect of the simulator: please report it with "
+                   "the machine, the mission and the profile");
+    }
+  }
 }
 
 TEST(Simulate, ASwarmOfTenFitsTheSameCode) {
