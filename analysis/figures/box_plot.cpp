@@ -10,7 +10,7 @@
 #include "analysis/drawing/figure_style.h"
 #include "analysis/figures/internal/box_marks.h"
 #include "analysis/figures/internal/panel_grid.h"
-#include "analysis/figures/internal/quantile.h"
+#include "analysis/statistics/summary.h"
 #include "analysis/figures/internal/score_groups.h"
 #include "analysis/figures/makers.h"
 
@@ -128,9 +128,9 @@ BoxLayout layout_of(const BoxPlot& plot, const PanelGrid& grid, double top) {
 
 BoxNumbers box_numbers(std::vector<double> values) {
   std::ranges::sort(values);
-  BoxNumbers box{.lower_quartile = type_7_quantile(values, 0.25),
-                 .median = type_7_quantile(values, 0.5),
-                 .upper_quartile = type_7_quantile(values, 0.75)};
+  BoxNumbers box{.lower_quartile = quantile_of(values, 0.25),
+                 .median = quantile_of(values, 0.5),
+                 .upper_quartile = quantile_of(values, 0.75)};
   const double reach = 1.5 * (box.upper_quartile - box.lower_quartile);
   box.lower_whisker = *std::ranges::lower_bound(values, box.lower_quartile - reach);
   box.upper_whisker = *std::prev(std::ranges::upper_bound(values, box.upper_quartile + reach));

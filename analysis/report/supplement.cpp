@@ -10,6 +10,8 @@
 #include "analysis/comparison/comparison.h"
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/figures/figure.h"
+#include "analysis/figures/machine_figure.h"
+#include "analysis/machines/machine_drawing.h"
 #include "analysis/records/csv.h"
 #include "analysis/records/records.h"
 #include "analysis/report/internal/supplement_readme.h"
@@ -94,6 +96,13 @@ Expected<void> add_controllers(Files& files, StoreReader& store,
     if (drawn == nullptr || design.flavour.empty()) continue;
     const FigureOptions options{.width_mm = kWholeWidth, .candidate = design.best};
     if (auto added = add_figure(files, store, *drawn, options, path); !added) return added;
+    if (!design.best) continue;
+    const auto record = candidate(store, *design.best);
+    if (!record) return Unexpected(record.error());
+    const auto stored = machine_of(*record);
+    if (!stored) return Unexpected(stored.error());
+    const MachineLayout layout = lay_out(stored->machine, *stored->flavour, kWholeWidth);
+    files.push_back({path + ".dot", dot_of(layout, title_of(*record))});
   }
   return {};
 }

@@ -42,8 +42,11 @@ Expected<std::string> picture_of(const MachineRecord& candidate, const StoredMac
 }
 
 /// The mission as the store's campaign has it.
-Expected<Mission> mission_of(StoreReader& store, const std::string& name) {
-  const auto campaign = parse_campaign(store.campaign().file, "campaign.toml");
+Expected<Mission> mission_of(StoreReader& store, DesignId design, const std::string& name) {
+  const auto stored = store.campaign_of(design);
+  if (!stored) return Unexpected(stored.error());
+  if (stored->row.file.empty()) return built_in_mission(name);  // imported machines
+  const auto campaign = parse_campaign(stored->row.file, "campaign.toml");
   if (!campaign) return Unexpected(campaign.error().front());
   const auto found = std::ranges::find_if(
       campaign->missions, [&](const CampaignMission& known) { return known.mission.name == name; });
@@ -54,7 +57,7 @@ Expected<Mission> mission_of(StoreReader& store, const std::string& name) {
 
 Expected<std::string> experiment_of(StoreReader& store, const MachineRecord& candidate,
                                     const StoredMachine& stored, const MachineExport& what) {
-  const auto mission = mission_of(store, candidate.mission);
+  const auto mission = mission_of(store, candidate.design, candidate.mission);
   if (!mission) return Unexpected(mission.error());
   return argos_experiment({.machine = stored.machine,
                            .mission = *mission,
