@@ -66,8 +66,7 @@ Expected<StoredMachine> machine_of(const MachineRecord& candidate) {
   if (candidate.flavour.empty()) {
     return bad_input(
         "the store is of an older version and does not say in which flavour its machines are "
-        "written; `swarmsmith run` of its campaign file, with this store, writes it in (a finished "
-        "campaign does nothing else then)");
+        "written; `swarmsmith backup OLD NEW` makes a copy that does");
   }
   const auto flavours = all_flavours();
   const auto flavour = std::ranges::find_if(

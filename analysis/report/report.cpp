@@ -30,11 +30,9 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
     if (design.state == "finished") ++finished;
   }
   return fmt::format(
-      "{} designs, {} of them finished: missions {}; methods {}; {} experiments. In every table "
-      "and "
-      "figure a higher score is better. Captions name the views of the store that have the "
-      "numbers.",
-      designs.size(), finished, fmt::join(missions, ", "), fmt::join(methods, ", "), used);
+      "{} design{}, {} finished: missions {}; methods {}; {} experiments. In every table and figure "
+      "a higher score is better. Captions name the views of the store that have the numbers.",
+      designs.size(), designs.size() == 1 ? "" : "s", finished, fmt::join(missions, ", "), fmt::join(methods, ", "), used);
 }
 
 }  // namespace

@@ -35,6 +35,11 @@ ExitCode run(Arguments& arguments, Output& output) {
     const bool about_copy = made.error().where == copy;
     return fail(output, about_copy ? ExitCode::Failed : ExitCode::Store, made.error());
   }
+  if (made->migrated != 0) {
+    // Schemas before 4 do not say in which flavour machines are written; the campaign's file does.
+    const auto named = open_at_rest(copy, StoreAtRest::IfMissing::Refuse);
+    if (!named) return fail(output, ExitCode::Failed, named.error());
+  }
   if (output.json) {
     output.out << "{\"copy\":" << json_text(copy) << ",\"digest\":" << json_text(made->digest)
                << ",\"schema\":" << made->schema

@@ -1,5 +1,7 @@
 """Stores as files: copied while a campaign runs, merged, and recovered from damage."""
 import json
+import os
+import pathlib
 import random
 import shutil
 import sqlite3
@@ -9,6 +11,7 @@ import unittest
 from programs import ProgramTest, call
 
 PAGE = 8192
+SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 
 
 class Stores(ProgramTest):
@@ -28,8 +31,24 @@ class Stores(ProgramTest):
         return json.loads(done.stdout)
 
 
+class OldStores(Stores):
+    def test_a_copy_of_an_old_store_can_be_drawn_and_the_original_stays(self):
+        for schema in (1, 2, 3):
+            with self.subTest(schema=schema):
+                kept = SOURCE / f"tests/golden/stores/schema-{schema}.sqlite"
+                old, copy = self.folder / f"old-{schema}.db", self.folder / f"new-{schema}.db"
+                shutil.copy(kept, old)
+                refused = call("figure", "machine", old)
+                self.assertIn("swarmsmith backup", refused.stderr)
+                self.assertEqual(self.answer("backup", old, copy)["from_schema"], schema)
+                drawn = call("figure", "machine", copy)
+                self.assertEqual(drawn.returncode, 0, drawn.stderr)
+                self.assertIn("<svg", drawn.stdout)
+                self.assertEqual(old.read_bytes(), kept.read_bytes())
+
+
 class Backup(Stores):
-    budget = 6000
+    budget = 15000
 
     def test_a_copy_that_is_made_while_a_campaign_runs_goes_on_to_the_same_answer(self):
         store, copy = self.folder / "running.db", self.folder / "copy.db"

@@ -58,7 +58,7 @@ TEST_F(MachineFigureTest, SaysWhatIsMissingOrOutOfPlace) {
 
 TEST(MachineOf, NeedsTheFlavour) {
   MachineRecord record{.candidate = CandidateId{7}, .machine = "--nstates 1 --s0 1"};
-  EXPECT_THAT(machine_of(record).error().message, HasSubstr("`swarmsmith run`"));
+  EXPECT_THAT(machine_of(record).error().message, HasSubstr("`swarmsmith backup"));
   record.flavour = "melon";
   EXPECT_THAT(machine_of(record).error().message, HasSubstr("flavour melon"));
   record.flavour = "watermelon";
