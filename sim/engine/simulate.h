@@ -67,6 +67,6 @@ struct Recorder {
 SimulationResult simulate(const SimulationSetup& setup, const Recorder& recorder = {});
 
 /// Part of the digest of a campaign: raised with every change that changes a score's bits.
-inline constexpr int kEngineVersion = 2;
+inline constexpr int kEngineVersion = 3;
 
 }  // namespace swarmsmith

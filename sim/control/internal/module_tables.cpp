@@ -12,6 +12,8 @@ namespace {
 
 constexpr double kLargest = std::numeric_limits<double>::max();
 constexpr double kLargestCount = 1'000'000;
+/// Sums of such weights, and their squares, are far from overflow.
+constexpr double kLargestWeight = 1'000'000;
 
 using Type = ParameterSpec::Type;
 
@@ -38,7 +40,7 @@ ParameterSpec alpha(std::string symbol, std::string token) {
           .high = 5,
           .digits = 2,
           .least = 0,
-          .most = kLargest,
+          .most = kLargestWeight,
           .least_included = false};
 }
 

@@ -143,7 +143,8 @@ TEST(ParameterSpec, ComplainsInASentence) {
   EXPECT_EQ(complaint_about(tau, 0), "tau must be at least 1 and at most 1000000");
   EXPECT_EQ(complaint_about(tau, 1.5), "tau must be an integer");
   const ParameterSpec& alpha = watermelon().find(Module::Attraction)->parameters.at(0);
-  EXPECT_EQ(complaint_about(alpha, 0), "alpha must be more than 0");
+  EXPECT_EQ(complaint_about(alpha, 0), "alpha must be more than 0 and at most 1000000");
+  EXPECT_TRUE(complaint_about(alpha, 1e308).has_value()) << "two neighbours' sum is infinite";
   EXPECT_FALSE(complaint_about(alpha, 1e-300).has_value());
   const ParameterSpec& beta = watermelon().find(Module::BlackFloor)->parameters.at(0);
   EXPECT_THAT(complaint_about(beta, 1.01).value(),
