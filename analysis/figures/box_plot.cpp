@@ -10,9 +10,9 @@
 #include "analysis/drawing/figure_style.h"
 #include "analysis/figures/internal/box_marks.h"
 #include "analysis/figures/internal/panel_grid.h"
-#include "analysis/statistics/summary.h"
 #include "analysis/figures/internal/score_groups.h"
 #include "analysis/figures/makers.h"
+#include "analysis/statistics/summary.h"
 
 namespace swarmsmith {
 namespace {

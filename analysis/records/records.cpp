@@ -162,12 +162,12 @@ Expected<MachineRecord> candidate(StoreReader& store, CandidateId id) {
           *flavour, id.value),
       [](const Cells& row) {
         return MachineRecord{.candidate = {integer(row[0])},
-                               .design = {integer(row[1])},
-                               .mission = row[2].text,
-                               .method = row[3].text,
-                               .repetition = integer(row[4]),
-                               .machine = row[5].text,
-                               .flavour = row[6].text};
+                             .design = {integer(row[1])},
+                             .mission = row[2].text,
+                             .method = row[3].text,
+                             .repetition = integer(row[4]),
+                             .machine = row[5].text,
+                             .flavour = row[6].text};
       });
   if (!found) return Unexpected(found.error());
   if (found->empty()) {
@@ -250,9 +250,9 @@ Expected<std::vector<SampledRecord>> candidates(StoreReader& store, DesignId des
                   design.value),
       [](const Cells& row) {
         return SampledRecord{.candidate = {integer(row[0])},
-                               .iteration = integer(row[1]),
-                               .runs = integer(row[2]),
-                               .mean = maybe_real(row[3])};
+                             .iteration = integer(row[1]),
+                             .runs = integer(row[2]),
+                             .mean = maybe_real(row[3])};
       });
 }
 

@@ -30,9 +30,11 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
     if (design.state == "finished") ++finished;
   }
   return fmt::format(
-      "{} design{}, {} finished: missions {}; methods {}; {} experiments. In every table and figure "
+      "{} design{}, {} finished: missions {}; methods {}; {} experiments. In every table and "
+      "figure "
       "a higher score is better. Captions name the views of the store that have the numbers.",
-      designs.size(), designs.size() == 1 ? "" : "s", finished, fmt::join(missions, ", "), fmt::join(methods, ", "), used);
+      designs.size(), designs.size() == 1 ? "" : "s", finished, fmt::join(missions, ", "),
+      fmt::join(methods, ", "), used);
 }
 
 }  // namespace

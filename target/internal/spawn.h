@@ -32,8 +32,8 @@ struct Child {
   Descriptor ended;  ///< readable when it has ended; none on kernels before 5.3
 };
 
-/// Starts `program` with these words (`words[0]` is the name that it sees) in a folder. Its group is
-/// guarded (target/guard.h) until somebody unguards it.
+/// Starts `program` with these words (`words[0]` is the name that it sees) in a folder. Its group
+/// is guarded (target/guard.h) until somebody unguards it.
 Expected<Child> spawn(const std::string& program, const std::vector<std::string>& words,
                       const std::string& folder);
 

@@ -27,7 +27,7 @@ struct ParameterColumn {
 
 struct ParameterTable {
   std::vector<SampledRecord> candidates;  ///< in the order in which they were sampled
-  std::vector<ParameterColumn> columns;     ///< by name
+  std::vector<ParameterColumn> columns;   ///< by name
 
   /// Place of a candidate; the number of candidates when it is not there.
   std::size_t row_of(CandidateId candidate) const;

@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 
 #include "analysis/drawing/axes.h"
-#include "analysis/figures/internal/csv_text.h"
 #include "analysis/figures/figure.h"
+#include "analysis/figures/internal/csv_text.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/drawn_page.h"
 

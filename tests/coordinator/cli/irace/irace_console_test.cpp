@@ -106,7 +106,8 @@ TEST_F(Console, SaysNothingWhenQuiet) {
 TEST_F(Console, SaysWhyTheRunEnded) {
   IraceConsole irace = console();
   add(irace, ant_rows());
-  irace.add(0, DesignStateRow{.design = kOne,
+  irace.add(0,
+            DesignStateRow{.design = kOne,
                            .state = DesignState::Testing,
                            .used = 195,
                            .iteration = 2,
