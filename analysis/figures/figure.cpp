@@ -31,9 +31,9 @@ bool has_word(std::string_view words, std::string_view word) {
 std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
       FigureKind{"box", "Box plots with points of the winners' scores, a panel a mission",
-                 box_figure, "mission method design by source"},
+                 box_figure, "mission method design by source purpose"},
       FigureKind{"scores", "How often each score occurred, bars of groups side by side",
-                 scores_figure, "mission method design by source"},
+                 scores_figure, "mission method design by source purpose"},
       FigureKind{"modules", "How often the winners have each module, as bars and numbers",
                  modules_figure, "mission method"},
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
@@ -47,7 +47,7 @@ std::span<const FigureKind> figure_kinds() {
       FigureKind{"parallel", "Parameters of the elites among all candidates", parallel_figure,
                  "mission method design parameter"},
       FigureKind{"ranks", "Mean ranks of methods or sources with Friedman's 95 % intervals",
-                 ranks_figure, "mission method by source"},
+                 ranks_figure, "mission method by source purpose"},
   };
   return kKinds;
 }
@@ -59,12 +59,13 @@ const FigureKind* find_figure_kind(std::string_view name) {
 }
 
 std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions& options) {
-  const std::array<std::pair<std::string_view, bool>, 8> given = {{
+  const std::array<std::pair<std::string_view, bool>, 9> given = {{
       {"mission", !options.filter.mission.empty()},
       {"method", !options.filter.method.empty()},
       {"design", options.filter.design.has_value()},
       {"by", !options.by.empty()},
       {"source", !options.source.empty()},
+      {"purpose", !options.purpose.empty()},
       {"candidate", options.candidate.has_value()},
       {"iteration", options.iteration.has_value()},
       {"parameter", !options.parameter.empty()},

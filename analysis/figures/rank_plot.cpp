@@ -161,8 +161,10 @@ RankPlot::Panel panel_of(const ComparedRanks& ranks, CompareBy by, bool alone) {
 
 /// By method where there are several, else by source.
 Expected<Comparison> ranked(StoreReader& store, const FigureOptions& options) {
-  ComparisonOptions asked{
-      .by = CompareBy::Method, .method = options.filter.method, .source = options.source};
+  ComparisonOptions asked{.by = CompareBy::Method,
+                          .method = options.filter.method,
+                          .source = options.source,
+                          .purpose = options.purpose};
   if (!options.filter.mission.empty()) asked.missions = {options.filter.mission};
   if (options.by == "mission")
     return bad_input("missions are not ranked: their scores have different units", "--by");

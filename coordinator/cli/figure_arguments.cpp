@@ -38,8 +38,8 @@ std::optional<Error> unknown_name(const std::string& given, const char* option,
 Error of_older_store(const Error& error) {
   if (error.message.find("no such ") == std::string::npos) return error;
   return {ErrorKind::Corrupt,
-          "its schema is older than what figures are drawn of; `swarmsmith run` with its campaign "
-          "file migrates it, and runs nothing again",
+          "its schema is older than what figures are drawn of; `swarmsmith backup OLD NEW` makes a "
+          "copy that has it",
           "the store"};
 }
 
@@ -62,6 +62,8 @@ void FigureArguments::declare(Options& words) {
   words.integer("--iteration", options.iteration, {1, kLargest}, "Of this iteration of the race");
   words.choice("--by", options.by, {"source", "method", "mission"}, "What is compared");
   words.text("--source", options.source, "Only scores of this source: a profile, real, ...");
+  words.choice("--purpose", options.purpose, {"test", "score"},
+               "Only the campaign's own tests, or only what was scored later");
   words.text("--parameter", options.parameter, "Of this parameter: rwm0");
   words.texts("--seed", seeds, "Of runs of this seed; once for each");
 }

@@ -118,6 +118,16 @@ Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& 
                       "no finished design of these has a score outside of its race yet; "
                       "`swarmsmith ls designs` shows how far they are");
   }
+  if (!options.purpose.empty()) {
+    std::erase_if(*scores, [&](const DesignScore& s) { return s.purpose != options.purpose; });
+    if (scores->empty()) {
+      return unexpected(ErrorKind::NotFound,
+                        options.purpose == "test"
+                            ? "the winners were not tested by their campaign"
+                            : "nobody has scored the winners after their races; `swarmsmith "
+                              "evaluate best --store STORE` does");
+    }
+  }
   if (!options.source.empty()) {
     std::set<std::string> sources;
     for (const DesignScore& score : *scores)

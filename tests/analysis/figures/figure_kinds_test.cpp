@@ -79,6 +79,10 @@ TEST_F(FigureKinds, BoxHasAPointForEachRowOfItsTable) {
   EXPECT_EQ(rows_of(real), 4);
   EXPECT_THAT(real.csv, Not(HasSubstr(",rvr,")));
   EXPECT_EQ(rows_of(made("box", {.filter = {.design = DesignId{2}}})), 5);
+  const Figure tests = made("box", {.purpose = "test"});
+  const Figure later = made("box", {.purpose = "score"});
+  EXPECT_EQ(rows_of(tests), 4 * 4);
+  EXPECT_EQ(rows_of(later), 4);
 }
 
 TEST_F(FigureKinds, GroupsNeverMixSources) {
