@@ -93,7 +93,9 @@ Expected<StoreReader::QueryEnd> SqliteReader::query(
   if (end || schema >= kSchemaVersion || !end.error().message.starts_with("no such ")) return end;
   Error error = end.error();
   const std::string file = sqlite3_db_filename(connection_->handle(), "main");
-  error.message += "; " + older_schema_text(schema, fs::path(file).filename().string());
+  error.message = older_schema_text(schema, fs::path(file).filename().string()) + " (" +
+                  error.message + ")";
+  error.where = file;
   return Unexpected(error);
 }
 
@@ -150,6 +152,15 @@ Expected<std::unique_ptr<StoreReader>> StoreReader::open(const fs::path& path) {
   } catch (const sqlite::SqliteError& error) {
     return refused(error, path);
   }
+}
+
+std::string sql_text(std::string_view text) {
+  std::string literal = "'";
+  for (const char letter : text) {
+    if (letter == '\'') literal += letter;
+    literal += letter;
+  }
+  return literal + "'";
 }
 
 }  // namespace swarmsmith

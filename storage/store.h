@@ -7,6 +7,7 @@
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -160,5 +161,8 @@ class StoreReader {
       const std::function<void(const std::vector<std::string>&)>& on_columns,
       const std::function<void(const std::vector<Cell>&)>& on_row) = 0;
 };
+
+/// A text as a literal of SQL, in quotes.
+std::string sql_text(std::string_view text);
 
 }  // namespace swarmsmith

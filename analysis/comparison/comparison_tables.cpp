@@ -5,20 +5,11 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/records/csv.h"
 #include "analysis/statistics/effect_size.h"
 
 namespace swarmsmith {
 namespace {
-
-std::string csv_text(std::string_view text) {
-  if (text.find_first_of(",\"\r\n") == std::string_view::npos) return std::string(text);
-  std::string field = "\"";
-  for (const char letter : text) {
-    if (letter == '"') field += '"';
-    field += letter;
-  }
-  return field + "\"";
-}
 
 std::string csv_number(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : "";
@@ -40,7 +31,7 @@ std::string groups_csv(const Comparison& comparison) {
       "\r\n";
   for (const ComparedGroup& group : comparison.groups) {
     const Summary& summary = group.summary;
-    csv += csv_row({csv_text(group.mission), csv_text(group.method), csv_text(group.source),
+    csv += csv_row({csv_field(group.mission), csv_field(group.method), csv_field(group.source),
                     fmt::format("{}", summary.n), fmt::format("{}", group.designs),
                     fmt::format("{}", group.runs), csv_number(summary.mean), csv_number(summary.sd),
                     csv_number(summary.least), csv_number(summary.lower_quartile),
@@ -55,18 +46,18 @@ std::string pairs_csv(const Comparison& comparison) {
       "mission,method,source,first,second,n_first,n_second,test,statistic,p,p_holm,p_method,zeros,"
       "least_p,a12,magnitude,mean_difference,difference_low,difference_high,notes\r\n";
   for (const ComparedPair& pair : comparison.pairs) {
-    csv += csv_row({csv_text(pair.mission),
-                    csv_text(pair.method),
-                    csv_text(pair.source),
-                    csv_text(pair.first),
-                    csv_text(pair.second),
+    csv += csv_row({csv_field(pair.mission),
+                    csv_field(pair.method),
+                    csv_field(pair.source),
+                    csv_field(pair.first),
+                    csv_field(pair.second),
                     fmt::format("{}", pair.n_first),
                     fmt::format("{}", pair.n_second),
                     pair.paired ? "signed-rank" : "rank-sum",
                     csv_number(pair.test.statistic),
                     csv_number(pair.test.p_value),
                     csv_number(pair.p_holm),
-                    csv_text(method_of(pair.test)),
+                    csv_field(method_of(pair.test)),
                     fmt::format("{}", pair.test.zeros),
                     csv_number(pair.test.least_p),
                     csv_number(pair.a12),
@@ -74,7 +65,7 @@ std::string pairs_csv(const Comparison& comparison) {
                     csv_number(pair.difference.value),
                     csv_number(pair.difference.low),
                     csv_number(pair.difference.high),
-                    csv_text(fmt::format("{}", fmt::join(pair.notes, "; ")))});
+                    csv_field(fmt::format("{}", fmt::join(pair.notes, "; ")))});
   }
   return csv;
 }
@@ -88,11 +79,11 @@ std::string ranks_csv(const std::vector<ComparedRanks>& ranks) {
     for (std::size_t i = 0; i < ranking.names.size(); ++i) {
       const double mean = test.mean_ranks[i];
       csv +=
-          csv_row({csv_text(ranking.source), csv_text(ranking.names[i]), csv_number(mean),
+          csv_row({csv_field(ranking.source), csv_field(ranking.names[i]), csv_number(mean),
                    csv_number(mean - half), csv_number(mean + half), fmt::format("{}", test.blocks),
                    fmt::format("{}", ranking.incomplete), csv_number(test.statistic),
                    fmt::format("{}", test.degrees), csv_number(test.p_value),
-                   csv_text(fmt::format("{}", fmt::join(ranking.missions, " ")))});
+                   csv_field(fmt::format("{}", fmt::join(ranking.missions, " ")))});
     }
   }
   return csv;

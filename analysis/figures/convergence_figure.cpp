@@ -6,8 +6,8 @@
 
 #include "analysis/figures/convergence_plot.h"
 #include "analysis/figures/design_choice.h"
-#include "analysis/figures/internal/csv_text.h"
 #include "analysis/figures/makers.h"
+#include "analysis/records/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -89,7 +89,7 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
     if (design == by_id.end()) continue;
     made.add(elite);
     figure.csv += fmt::format("{},{},{},{},{},{},{},{},{}\r\n", elite.design.value,
-                              csv_text(design->second->mission), csv_text(design->second->method),
+                              csv_field(design->second->mission), csv_field(design->second->method),
                               elite.iteration, elite.experiments_used, elite.rank,
                               elite.candidate.value, elite.mean, elite.runs);
   }

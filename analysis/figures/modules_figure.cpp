@@ -5,10 +5,10 @@
 
 #include <fmt/format.h>
 
-#include "analysis/figures/internal/csv_text.h"
 #include "analysis/figures/internal/panel_grid.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/module_chart.h"
+#include "analysis/records/csv.h"
 #include "sim/control/module.h"
 
 namespace swarmsmith {
@@ -87,8 +87,8 @@ Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options
   for (const ModuleFrequency& frequency : *frequencies) {
     const std::size_t designs = counts->at({frequency.method, frequency.mission});
     add(chart, frequency, designs, ids);
-    figure.csv += fmt::format("{},{},{},{},{},{}\r\n", csv_text(frequency.mission),
-                              csv_text(frequency.method), csv_text(frequency.module), designs,
+    figure.csv += fmt::format("{},{},{},{},{},{}\r\n", csv_field(frequency.mission),
+                              csv_field(frequency.method), csv_field(frequency.module), designs,
                               frequency.average_occurrences, frequency.occurrence_rate);
   }
   std::ranges::transform(ids, std::back_inserter(chart.modules), as_words);

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/design_choice.h"
-#include "analysis/figures/internal/csv_text.h"
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/parallel_plot.h"
+#include "analysis/records/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -90,10 +90,10 @@ std::string csv_of(const ParallelPlot& plot, DesignId design) {
       if (!std::isnan(line.values[p])) {
         value = parameter.categories.empty()
                     ? fmt::format("{}", line.values[p])
-                    : csv_text(parameter.categories[static_cast<std::size_t>(line.values[p])]);
+                    : csv_field(parameter.categories[static_cast<std::size_t>(line.values[p])]);
       }
       csv += fmt::format("{},{},{},{},{},{}\r\n", design.value, line.name.substr(1),
-                         line.is_elite ? 1 : 0, line.mean, csv_text(parameter.name), value);
+                         line.is_elite ? 1 : 0, line.mean, csv_field(parameter.name), value);
     }
   }
   return csv;

@@ -8,9 +8,9 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/design_choice.h"
-#include "analysis/figures/internal/csv_text.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/race_plot.h"
+#include "analysis/records/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -178,11 +178,11 @@ std::string csv_of(const Race& race) {
     const auto dropped = race.dropped.find(cell.candidate);
     const bool here = dropped != race.dropped.end() && dropped->second.step == cell.step;
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", race.design.design.value,
-                       step.iteration, step.step, csv_text(step.marker), step.alive_before,
+                       step.iteration, step.step, csv_field(step.marker), step.alive_before,
                        step.alive_after, cell.pair, cell.instance, cell.seed, cell.candidate.value,
                        race.elites_before.contains(cell.candidate) ? 1 : 0,
                        race.elites_after.contains(cell.candidate) ? 1 : 0, maybe(cell.score),
-                       maybe(cell.rank), here ? csv_text(dropped->second.reason) : "");
+                       maybe(cell.rank), here ? csv_field(dropped->second.reason) : "");
   }
   return csv;
 }

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/design_choice.h"
-#include "analysis/figures/internal/csv_text.h"
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/sampling_plot.h"
+#include "analysis/records/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -87,7 +87,7 @@ std::string csv_of(const SamplingPlot& plot, DesignId design) {
   for (const auto& panel : plot.panels) {
     for (std::size_t at = 0; at < panel.columns.size(); ++at) {
       const auto& column = panel.columns[at];
-      const std::string key = fmt::format("{},{},{},{}", design.value, csv_text(panel.name),
+      const std::string key = fmt::format("{},{},{},{}", design.value, csv_field(panel.name),
                                           plot.iterations[at], column.candidates);
       const double part = (panel.high - panel.low) /
                           static_cast<double>(std::max<std::size_t>(1, column.counts.size()));
@@ -95,7 +95,7 @@ std::string csv_of(const SamplingPlot& plot, DesignId design) {
       for (std::size_t i = 0; i < column.counts.size(); ++i) {
         active += column.counts[i];
         if (!panel.categories.empty()) {
-          csv += fmt::format("{},value,{},,,{}\r\n", key, csv_text(panel.categories[i]),
+          csv += fmt::format("{},value,{},,,{}\r\n", key, csv_field(panel.categories[i]),
                              column.counts[i]);
         } else {
           const double low = panel.low + part * static_cast<double>(i);
@@ -109,7 +109,7 @@ std::string csv_of(const SamplingPlot& plot, DesignId design) {
       for (const auto& [value, count] : elites) {
         const std::string text = panel.categories.empty()
                                      ? fmt::format("{}", value)
-                                     : csv_text(panel.categories[static_cast<std::size_t>(value)]);
+                                     : csv_field(panel.categories[static_cast<std::size_t>(value)]);
         csv += fmt::format("{},elite,{},,,{}\r\n", key, text, count);
       }
     }

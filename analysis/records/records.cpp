@@ -41,15 +41,6 @@ std::optional<CandidateId> maybe_candidate(const Cell& cell) {
   return is_null(cell) ? std::nullopt : std::optional(CandidateId{integer(cell)});
 }
 
-std::string sql_text(std::string_view text) {
-  std::string result = "'";
-  for (const char letter : text) {
-    if (letter == '\'') result += '\'';
-    result += letter;
-  }
-  return result + "'";
-}
-
 /// " WHERE ..." over the columns mission, method and design of `table`.
 std::string where(const RecordFilter& filter, std::string_view table = "") {
   std::vector<std::string> terms;

@@ -34,15 +34,6 @@ std::optional<Error> unknown_name(const std::string& given, const char* option,
                option};
 }
 
-/// What SQLite says of a view that a store of an older schema does not have, as a sentence.
-Error of_older_store(const Error& error) {
-  if (error.message.find("no such ") == std::string::npos) return error;
-  return {ErrorKind::Corrupt,
-          "its schema is older than what figures are drawn of; `swarmsmith backup OLD NEW` makes a "
-          "copy that has it",
-          "the store"};
-}
-
 }  // namespace
 
 void FigureArguments::declare(Options& words) {
@@ -117,7 +108,7 @@ Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments)
 
 std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options) {
   const auto all = designs(store, {});
-  if (!all) return of_older_store(all.error());
+  if (!all) return all.error();
   std::vector<std::string> missions;
   std::vector<std::string> methods;
   bool has_design = !options.filter.design;

@@ -20,16 +20,6 @@ std::int64_t integer_of(const Cell& cell) {
   return std::strtoll(cell.text.c_str(), nullptr, 10);
 }
 
-/// A literal.
-std::string sql_text(const std::string& text) {
-  std::string quoted = "'";
-  for (const char letter : text) {
-    quoted += letter;
-    if (letter == '\'') quoted += letter;
-  }
-  return quoted + "'";
-}
-
 /// With a run's columns in the order of `read_outcome`.
 std::string select_evaluations(const std::string& condition) {
   return "SELECT e.id, 'c' || e.candidate, e.seed, e.status, e.score, e.state_digest, e.source, "

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "analysis/figures/internal/csv_text.h"
 #include "analysis/figures/internal/panel_grid.h"
+#include "analysis/records/csv.h"
 #include "base/suggestion.h"
 
 namespace swarmsmith {
@@ -79,8 +79,8 @@ std::string csv_of(const std::vector<DesignScore>& scores) {
       "design,mission,method,repetition,candidate,source,purpose,pair,instance,seed,score\r\n";
   for (const DesignScore& score : scores) {
     csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\r\n", score.design.value,
-                       csv_text(score.mission), csv_text(score.method), score.repetition,
-                       score.candidate.value, csv_text(score.source), score.purpose, score.pair,
+                       csv_field(score.mission), csv_field(score.method), score.repetition,
+                       score.candidate.value, csv_field(score.source), score.purpose, score.pair,
                        score.instance, score.seed, score.score);
   }
   return csv;

@@ -48,13 +48,4 @@ void ReportDraft::figure(std::string_view kind, const FigureOptions& options,
   page_.picture(figure->svg, caption);
 }
 
-std::string sql_quoted(std::string_view text) {
-  std::string result = "'";
-  for (const char letter : text) {
-    if (letter == '\'') result += '\'';
-    result += letter;
-  }
-  return result + "'";
-}
-
 }  // namespace swarmsmith

@@ -49,7 +49,4 @@ class ReportDraft {
   std::optional<Error> trouble_;
 };
 
-/// "'it''s'": a text as SQL has it.
-std::string sql_quoted(std::string_view text);
-
 }  // namespace swarmsmith

@@ -16,7 +16,7 @@ void write_keys(ReportDraft& draft, std::int64_t campaign, const std::string& ca
               fmt::format("SELECT substr(j.key, {0}), trim(j.value, '\"') FROM v_campaigns AS c, "
                           "json_each(c.deciding) AS j WHERE c.campaign = {1} AND "
                           "substr(j.key, 1, {0} - 1) = {2} AND j.value <> '[]' ORDER BY j.id",
-                          prefix.size() + 1, campaign, sql_quoted(prefix)));
+                          prefix.size() + 1, campaign, sql_text(prefix)));
 }
 
 /// What the designs of a campaign have in this column of v_designs, each once.

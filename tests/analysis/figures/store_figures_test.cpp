@@ -6,7 +6,7 @@
 
 #include "analysis/drawing/axes.h"
 #include "analysis/figures/figure.h"
-#include "analysis/figures/internal/csv_text.h"
+#include "analysis/records/csv.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/drawn_page.h"
 
@@ -189,8 +189,8 @@ TEST_F(StoreFigures, ConvergenceHasAPanelAMission) {
 }
 
 TEST(CsvCell, QuotesWhatHasToBe) {
-  EXPECT_EQ(csv_text("plain text"), "plain text");
-  EXPECT_EQ(csv_text("a,\"b\""), "\"a,\"\"b\"\"\"");
+  EXPECT_EQ(csv_field("plain text"), "plain text");
+  EXPECT_EQ(csv_field("a,\"b\""), "\"a,\"\"b\"\"\"");
 }
 
 }  // namespace
