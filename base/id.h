@@ -28,11 +28,16 @@ struct DesignTag {
 struct CandidateTag {
   static constexpr char kLetter = 'c';
 };
+struct RealRunTag {
+  static constexpr char kLetter = 'r';
+};
 
 /// One (mission, method, repetition) of a campaign: one iterated race.
 using DesignId = Id<DesignTag>;
 /// A configuration that a design tried.
 using CandidateId = Id<CandidateTag>;
+/// A filmed trial of real robots.
+using RealRunId = Id<RealRunTag>;
 
 }  // namespace swarmsmith
 

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 #include <algorithm>
+#include <cstdlib>
 #include <system_error>
 
 namespace swarmsmith {
@@ -23,6 +24,13 @@ std::optional<fs::path> program_in(std::string_view search_path, std::string_vie
     if (may_be_run(file)) return file;
   }
   return std::nullopt;
+}
+
+std::filesystem::path sibling_program(const char* variable, std::string_view name) {
+  const char* named = std::getenv(variable);
+  if (named != nullptr && *named != '\0') return named;
+  std::error_code failed;
+  return std::filesystem::read_symlink("/proc/self/exe", failed).parent_path() / name;
 }
 
 }  // namespace swarmsmith

@@ -15,4 +15,8 @@ bool may_be_run(const std::filesystem::path& file);
 std::optional<std::filesystem::path> program_in(std::string_view search_path,
                                                 std::string_view name);
 
+/// A program that comes with this one: the environment's `variable` names it, else it lies beside
+/// this program. It need not be there.
+std::filesystem::path sibling_program(const char* variable, std::string_view name);
+
 }  // namespace swarmsmith

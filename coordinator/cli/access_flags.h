@@ -8,7 +8,7 @@
 
 #include "access/allow_list_watch.h"
 #include "access/coordinator_file.h"
-#include "coordinator/cli/options.h"
+#include "console/options.h"
 #include "coordinator/service.h"
 
 namespace swarmsmith::cli {

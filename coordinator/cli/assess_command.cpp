@@ -1,8 +1,8 @@
 #include <memory>
 
+#include "console/counter.h"
 #include "coordinator/cli/assessment_text.h"
 #include "coordinator/cli/commands.h"
-#include "coordinator/cli/counter.h"
 #include "coordinator/cli/world_argument.h"
 
 namespace swarmsmith::cli {

@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "console/counter.h"
 #include "coordinator/cli/commands.h"
-#include "coordinator/cli/counter.h"
 #include "coordinator/cli/store_argument.h"
 
 namespace swarmsmith::cli {

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "console/output.h"
 #include "coordinator/campaign/campaign.h"
-#include "coordinator/cli/output.h"
 
 namespace swarmsmith::cli {
 

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "console/options.h"
 #include "coordinator/campaign/campaign.h"
-#include "coordinator/cli/options.h"
 
 namespace swarmsmith::cli {
 

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "console/exit_code.h"
+#include "console/output.h"
 #include "coordinator/campaign/campaign.h"
-#include "coordinator/cli/exit_code.h"
-#include "coordinator/cli/output.h"
 #include "coordinator/cli/run_listener.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/service.h"

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 #include "storage/store.h"
 
 namespace swarmsmith::cli {

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "console/options.h"
 #include "coordinator/campaign/campaign.h"
 #include "coordinator/cli/access_flags.h"
-#include "coordinator/cli/options.h"
 #include "coordinator/cli/run_listener.h"
 #include "coordinator/launchers/launch_options.h"
 

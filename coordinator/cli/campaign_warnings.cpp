@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 #include "sim/control/flavour.h"
 
 namespace swarmsmith::cli {

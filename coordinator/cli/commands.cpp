@@ -3,6 +3,7 @@
 #include <array>
 
 #include "coordinator/cli/irace/irace_command.h"
+#include "coordinator/cli/machine_words.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -321,7 +322,8 @@ constexpr std::array kCommands = {
     Command{"query", "Ask a store in SQL", kQueryDetails, declare_query},
     Command{"compare", "Compare sources or methods by statistical tests", kCompareDetails,
             declare_compare},
-    Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate},
+    Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate,
+            nullptr, with_machine_as_one_word},
     Command{"assess", "Measure whether each module does what it promises", kAssessDetails,
             declare_assess},
     Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
@@ -342,6 +344,7 @@ constexpr std::array kCommands = {
             declare_merge},
     Command{"recover", "Make a new store of what is left of a damaged one", kRecoverDetails,
             declare_recover},
+    Command{"track", "Score runs of real robots, filmed from above", "", nullptr, run_track},
     Command{"version", "Print the version", "", declare_version},
 };
 
@@ -349,6 +352,12 @@ constexpr std::array kCommands = {
 
 std::span<const Command> commands() {
   return kCommands;
+}
+
+ExitCode run_program(const std::vector<std::string>& arguments, Output& output) {
+  const Program program{"swarmsmith", "Designs control software for robot swarms.", kCommands,
+                        "Begin with `swarmsmith run` (a demo) or `swarmsmith init`."};
+  return run_program(program, arguments, output);
 }
 
 }  // namespace swarmsmith::cli

@@ -1,9 +1,10 @@
 #pragma once
 
-#include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
-#include "coordinator/cli/options.h"
+#include "console/program.h"
 
 namespace swarmsmith::cli {
 
@@ -11,8 +12,8 @@ namespace swarmsmith::cli {
 /// function, a line here, an entry in commands.cpp, a section in docs/command-line.md.
 std::span<const Command> commands();
 
-/// What remains of a command once its words are read.
-using Run = std::function<ExitCode(Output&)>;
+/// Runs `swarmsmith` with the words after its name (console/program.h).
+ExitCode run_program(const std::vector<std::string>& arguments, Output& output);
 
 /// docs/command-line.md tells what each does.
 Run declare_run(Options& options);
@@ -46,5 +47,8 @@ Run declare_backup(Options& options);
 Run declare_merge(Options& options);
 Run declare_recover(Options& options);
 Run declare_version(Options& options);
+
+/// Becomes the program swarmsmith-track, whose commands docs/tracking.md tells.
+ExitCode run_track(const std::vector<std::string>& words, Output& output);
 
 }  // namespace swarmsmith::cli

@@ -6,7 +6,7 @@
 
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/statistics/effect_size.h"
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -3,9 +3,9 @@
 #include <string>
 
 #include "base/expected.h"
+#include "console/output.h"
 #include "coordinator/campaign/campaign.h"
 #include "coordinator/cli/machine_argument.h"
-#include "coordinator/cli/output.h"
 #include "storage/rows.h"
 
 namespace swarmsmith::cli {

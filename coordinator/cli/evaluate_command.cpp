@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "console/counter.h"
 #include "coordinator/cli/commands.h"
-#include "coordinator/cli/counter.h"
 #include "coordinator/cli/evaluation_plan.h"
 #include "coordinator/cli/mean_interval.h"
 #include "coordinator/cli/progress_text.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "console/output.h"
 #include "coordinator/cli/machine_argument.h"
-#include "coordinator/cli/output.h"
 #include "coordinator/cli/store_argument.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"

@@ -2,13 +2,13 @@
 #include <memory>
 #include <optional>
 
+#include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/export_irace.h"
 #include "coordinator/cli/export_machines.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/cli/thing_id.h"
-#include "coordinator/cli/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "coordinator/cli/exit_code.h"
-#include "coordinator/cli/output.h"
+#include "console/exit_code.h"
+#include "console/output.h"
 
 namespace swarmsmith::cli {
 

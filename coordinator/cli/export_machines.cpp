@@ -6,10 +6,10 @@
 
 #include "analysis/figures/machine_figure.h"
 #include "analysis/machines/machine_drawing.h"
+#include "console/pdf.h"
+#include "console/whole_file.h"
 #include "coordinator/campaign/argos_experiment.h"
 #include "coordinator/campaign/campaign_file.h"
-#include "coordinator/cli/pdf.h"
-#include "coordinator/cli/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {

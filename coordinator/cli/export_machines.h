@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/id.h"
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 #include "storage/store.h"
 
 namespace swarmsmith::cli {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "analysis/figures/figure.h"
-#include "coordinator/cli/options.h"
+#include "console/options.h"
 #include "coordinator/cli/store_argument.h"
 
 namespace swarmsmith::cli {

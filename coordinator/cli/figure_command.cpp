@@ -3,11 +3,11 @@
 #include <utility>
 
 #include "analysis/figures/figure.h"
+#include "console/pdf.h"
+#include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/figure_arguments.h"
-#include "coordinator/cli/pdf.h"
 #include "coordinator/cli/trajectories_figure.h"
-#include "coordinator/cli/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {

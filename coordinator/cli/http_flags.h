@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "console/options.h"
 #include "coordinator/cli/campaign_run.h"
-#include "coordinator/cli/options.h"
 
 namespace swarmsmith::cli {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
-#include "coordinator/cli/exit_code.h"
-#include "coordinator/cli/output.h"
+#include "console/exit_code.h"
+#include "console/output.h"
 
 namespace swarmsmith::cli {
 

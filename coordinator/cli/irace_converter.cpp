@@ -10,7 +10,7 @@
 #include <thread>
 #include <utility>
 
-#include "coordinator/cli/counter.h"
+#include "console/counter.h"
 #include "coordinator/launchers/child_process.h"
 #include "coordinator/results/irace_log.h"
 #include "embedded/kIraceLogScript.h"

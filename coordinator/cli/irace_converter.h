@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/expected.h"
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 
 namespace swarmsmith::cli {
 

@@ -34,7 +34,7 @@ bool is_machine_switch(std::string_view word) {
 
 }  // namespace
 
-std::vector<std::string> with_machine_as_one_word(const std::vector<std::string>& words) {
+std::vector<std::string> with_machine_as_one_word(std::vector<std::string> words) {
   std::vector<std::string> changed;
   std::size_t i = 0;
   while (i < words.size() && words[i] != "--" && !begins_machine(words[i])) {

@@ -9,6 +9,6 @@ namespace swarmsmith::cli {
 /// it that starts with a blank, so that it is taken for what it is. The machine begins at a word
 /// with `--nstates` or `--fsm-config` and goes on as long as the words are of its grammar, or is
 /// everything behind a word `--`. Other words stay as they are.
-std::vector<std::string> with_machine_as_one_word(const std::vector<std::string>& words);
+std::vector<std::string> with_machine_as_one_word(std::vector<std::string> words);
 
 }  // namespace swarmsmith::cli

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "coordinator/cli/options.h"
+#include "coordinator/cli/commands.h"
 #include "storage/store.h"
 
 int main(int argc, char** argv) {

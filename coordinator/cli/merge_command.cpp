@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "console/counter.h"
 #include "coordinator/cli/commands.h"
-#include "coordinator/cli/counter.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 #include "coordinator/cli/progress_model.h"
 #include "coordinator/cli/run_listener.h"
 

@@ -2,7 +2,7 @@
 #include <optional>
 
 #include "base/overloaded.h"
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 #include "coordinator/cli/progress_text.h"
 
 namespace swarmsmith::cli {

@@ -8,7 +8,7 @@
 
 #include "analysis/arena/reading_columns.h"
 #include "base/expected.h"
-#include "coordinator/cli/options.h"
+#include "console/options.h"
 #include "sim/control/machine.h"
 #include "sim/engine/simulate.h"
 

@@ -2,8 +2,8 @@
 
 #include <memory>
 
+#include "console/counter.h"
 #include "coordinator/cli/commands.h"
-#include "coordinator/cli/counter.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/recording.h"
 #include "coordinator/cli/store_argument.h"

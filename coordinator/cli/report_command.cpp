@@ -1,11 +1,11 @@
 #include <memory>
 
 #include "analysis/report/report.h"
+#include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/program_name.h"
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/cli/thing_id.h"
-#include "coordinator/cli/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/expected.h"
-#include "coordinator/cli/options.h"
+#include "console/options.h"
 #include "storage/store.h"
 #include "storage/store_at_rest.h"
 

@@ -6,12 +6,12 @@
 #include <unistd.h>
 
 #include "analysis/report/supplement.h"
+#include "console/pdf.h"
+#include "console/sha256.h"
+#include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
-#include "coordinator/cli/pdf.h"
 #include "coordinator/cli/program_name.h"
-#include "coordinator/cli/sha256.h"
 #include "coordinator/cli/store_argument.h"
-#include "coordinator/cli/whole_file.h"
 #include "target/process.h"
 
 namespace swarmsmith::cli {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "base/expected.h"
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 #include "sim/engine/profile.h"
 #include "sim/mission/mission.h"
 

@@ -1,7 +1,8 @@
 #include "coordinator/launchers/worker_program.h"
 
 #include <unistd.h>
-#include <cstdlib>
+
+#include "base/program_path.h"
 
 namespace swarmsmith {
 
@@ -31,14 +32,7 @@ std::vector<std::string> address_arguments(const WorkerAddress& address) {
 }
 
 Expected<std::filesystem::path> find_worker_program() {
-  std::filesystem::path program;
-  if (const char* named = std::getenv("SWARMSMITH_WORKER"); named != nullptr && *named != '\0') {
-    program = named;
-  } else {
-    std::error_code failed;
-    const auto self = std::filesystem::read_symlink("/proc/self/exe", failed);
-    program = self.parent_path() / "swarmsmith-worker";
-  }
+  const std::filesystem::path program = sibling_program("SWARMSMITH_WORKER", "swarmsmith-worker");
   if (access(program.c_str(), X_OK) == 0) return program;
   return unexpected(ErrorKind::NotFound,
                     "no program to start workers with; install it beside this one, or name it in "

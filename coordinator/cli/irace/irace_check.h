@@ -1,7 +1,7 @@
 #pragma once
 
+#include "console/output.h"
 #include "coordinator/campaign/campaign.h"
-#include "coordinator/cli/output.h"
 #include "irace_core/files/irace_setup.h"
 
 namespace swarmsmith::cli {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 
 namespace swarmsmith::cli {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "console/output.h"
 #include "coordinator/cli/irace/candidate_table.h"
-#include "coordinator/cli/output.h"
 #include "coordinator/cli/run_listener.h"
 #include "irace_core/scenario.h"
 #include "storage/store.h"

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 
 namespace swarmsmith::cli {
 

@@ -2,8 +2,8 @@
 
 #include <filesystem>
 
+#include "console/output.h"
 #include "coordinator/cli/irace/irace_run.h"
-#include "coordinator/cli/output.h"
 #include "irace_core/files/irace_setup.h"
 
 namespace swarmsmith::cli {

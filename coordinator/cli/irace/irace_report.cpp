@@ -6,9 +6,9 @@
 #include <set>
 #include <variant>
 
+#include "console/output.h"
 #include "coordinator/cli/irace/aligned_table.h"
 #include "coordinator/cli/irace/irace_console.h"
-#include "coordinator/cli/output.h"
 #include "target/cost.h"
 
 namespace swarmsmith::cli {

@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <optional>
 
+#include "console/output.h"
 #include "coordinator/cli/campaign_run.h"
 #include "coordinator/cli/irace/store_place.h"
-#include "coordinator/cli/output.h"
 #include "irace_core/files/irace_setup.h"
 
 namespace swarmsmith::cli {

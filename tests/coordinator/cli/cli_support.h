@@ -10,7 +10,7 @@
 
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
-#include "coordinator/cli/options.h"
+#include "coordinator/cli/commands.h"
 #include "storage/store.h"
 #include "tests/support/temporary_folder.h"
 

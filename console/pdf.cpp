@@ -1,4 +1,4 @@
-#include "coordinator/cli/pdf.h"
+#include "console/pdf.h"
 
 #include <sys/mman.h>
 #include <unistd.h>

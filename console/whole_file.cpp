@@ -1,11 +1,11 @@
-#include "coordinator/cli/whole_file.h"
+#include "console/whole_file.h"
 
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
 
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 
 namespace swarmsmith::cli {
 

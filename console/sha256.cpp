@@ -1,4 +1,4 @@
-#include "coordinator/cli/sha256.h"
+#include "console/sha256.h"
 
 #include <sodium.h>
 

@@ -7,8 +7,8 @@
 #include <string_view>
 #include <vector>
 
-#include "coordinator/cli/exit_code.h"
-#include "coordinator/cli/output.h"
+#include "console/exit_code.h"
+#include "console/output.h"
 
 namespace CLI {
 class App;
@@ -50,20 +50,5 @@ class Options {
  private:
   CLI::App* app_;
 };
-
-/// One command of the program.
-struct Command {
-  std::string_view name;
-  std::string_view summary;  ///< one line
-  std::string_view details;  ///< examples and what else a person needs, below the options
-  /// Declares the command's options and returns what runs when they were read.
-  std::function<ExitCode(Output&)> (*declare)(Options& options);
-  /// In place of `declare`, for a command that reads its words, help and flags itself.
-  ExitCode (*run_words)(const std::vector<std::string>& words, Output& output) = nullptr;
-};
-
-/// Runs the program with the words after its name. Output goes to `output`, whose flags (`--json`,
-/// `--quiet`, `-v`, `--no-color`) are read first. Wrong usage is explained on the error stream.
-ExitCode run_program(const std::vector<std::string>& arguments, Output& output);
 
 }  // namespace swarmsmith::cli

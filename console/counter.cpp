@@ -1,4 +1,4 @@
-#include "coordinator/cli/counter.h"
+#include "console/counter.h"
 
 #include <string_view>
 #include <utility>

@@ -1,4 +1,4 @@
-#include "coordinator/cli/output.h"
+#include "console/output.h"
 
 #include <unistd.h>
 
@@ -56,7 +56,7 @@ Output standard_output() {
 
 void print_error(Output& output, const Error& error) {
   if (output.color) output.err << kRed;
-  output.err << "swarmsmith: " << to_string(error);
+  output.err << output.program << ": " << to_string(error);
   if (output.color) output.err << kPlain;
   output.err << '\n';
 }

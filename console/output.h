@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "base/expected.h"
-#include "coordinator/cli/exit_code.h"
+#include "console/exit_code.h"
 
 namespace swarmsmith::cli {
 
@@ -14,6 +14,7 @@ namespace swarmsmith::cli {
 struct Output {
   std::ostream& out;
   std::ostream& err;
+  std::string_view program = "swarmsmith";  ///< before errors
   bool json = false;
   bool quiet = false;
   bool verbose = false;
@@ -25,7 +26,7 @@ struct Output {
 /// Streams of this process; asks the environment about terminals and colour.
 Output standard_output();
 
-/// "swarmsmith: where: what was found and what to do", one line an error.
+/// "PROGRAM: where: what was found and what to do", one line an error.
 void print_error(Output& output, const Error& error);
 /// What a person may like to know; not when quiet.
 void print_note(Output& output, std::string_view text);

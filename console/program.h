@@ -1,0 +1,42 @@
+#pragma once
+
+#include <functional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "console/options.h"
+
+namespace swarmsmith::cli {
+
+/// What remains of a command once its words are read.
+using Run = std::function<ExitCode(Output&)>;
+
+/// One command of a program.
+struct Command {
+  std::string_view name;     ///< one word, or two: "calibrate camera"
+  std::string_view summary;  ///< one line
+  std::string_view details;  ///< examples and what else a person needs, below the options
+  /// Declares the command's options and returns what runs when they were read.
+  Run (*declare)(Options& options) = nullptr;
+  /// In place of `declare`, for a command that reads its words, help and flags itself.
+  ExitCode (*run_words)(const std::vector<std::string>& words, Output& output) = nullptr;
+  /// Changes the words before they are read.
+  std::vector<std::string> (*prepare)(std::vector<std::string> words) = nullptr;
+};
+
+/// A program that a person types.
+struct Program {
+  std::string_view name;     ///< "swarmsmith"
+  std::string_view purpose;  ///< a sentence, the first line of its help
+  std::span<const Command> commands;
+  std::string_view begin;  ///< last lines of its help: where a newcomer begins
+};
+
+/// Runs the program with the words after its name. Output goes to `output`, whose flags (`--json`,
+/// `--quiet`, `-v`, `--no-color`) are read first. Wrong usage is explained on the error stream.
+ExitCode run_program(const Program& program, const std::vector<std::string>& arguments,
+                     Output& output);
+
+}  // namespace swarmsmith::cli

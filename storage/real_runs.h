@@ -1,0 +1,145 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/id.h"
+
+namespace swarmsmith {
+
+/// Runs of real robots as rows (docs/storage.md). They are no part of a campaign's answer.
+
+/// A calibration file, once for each text.
+struct CalibrationRow {
+  std::string sha256;   ///< of the file
+  std::string kind;     ///< "camera", "place", "offset"
+  std::string subject;  ///< the camera's or the robot's name
+  std::string made;     ///< date and time, UTC; it holds from then on
+  double rms = 0;       ///< pixels, of an offset metres
+  std::string file;     ///< the whole text
+};
+
+/// One camera's recording of a run.
+struct RealVideoRow {
+  std::int64_t number = 0;  ///< from 0
+  std::string camera;
+  std::string file;
+  std::string sha256;
+  std::string time_source;
+  std::int64_t width = 0;
+  std::int64_t height = 0;
+  std::int64_t frames = 0;
+  std::int64_t damaged_frames = 0;
+  std::string camera_calibration;   ///< sha256
+  std::string place_calibration;    ///< sha256
+  std::vector<double> frame_times;  ///< one a frame, the camera's clock
+};
+
+/// A robot of a run and how well it was tracked.
+struct RealRobotRow {
+  std::int64_t robot = 0;  ///< from 0, as in the score
+  std::string name;
+  std::int64_t tag = 0;
+  std::string offset_calibration;  ///< sha256; empty when its tag was taken for its centre
+  std::int64_t measured = 0;       ///< control cycles
+  std::int64_t interpolated = 0;
+  std::int64_t degraded = 0;
+  std::int64_t missing = 0;
+  double longest_gap_s = 0;
+  std::int64_t outliers = 0;
+  double scale = 1;
+  double residual_m = 0;
+  double sigma_m = 0;
+  double sigma_rad = 0;
+  std::optional<double> border_m;  ///< signed, at the end
+  bool too_close = false;
+};
+
+/// A tag in a frame, as measured, and what it was taken for.
+struct RealSampleRow {
+  std::int64_t video = 0;
+  std::int64_t frame = 0;
+  double time_s = 0;  ///< the camera's clock
+  std::int64_t tag = 0;
+  std::array<double, 8> corners{};  ///< pixels: u, v of each corner; kept to 1/1000
+  std::int64_t hamming = 0;
+  double margin = 0;
+  std::int64_t robot = -1;  ///< -1: none
+  double x = 0;             ///< of the robot's centre; 0 when there is none
+  double y = 0;
+  double theta = 0;
+  std::int64_t use = 0;  ///< Sample::Use
+};
+
+struct RealCycleRow {
+  std::int64_t cycle = 0;  ///< 0 is the start
+  std::int64_t robot = 0;
+  double x = 0;
+  double y = 0;
+  double theta = 0;
+  std::int64_t kind = 0;  ///< CycleKind; of cycle 0 that of cycle 1
+};
+
+struct RealIssueRow {
+  std::string code;
+  std::string text;
+  std::string robot;  ///< its name, or empty
+  std::optional<double> from_s;
+  std::optional<double> to_s;
+};
+
+/// What a run was scored with, and what came out; a later scoring replaces what follows from it and
+/// keeps the earlier score.
+struct RealScoreRow {
+  std::optional<double> score;
+  std::string verdict;  ///< "VALID", "DEGRADED", "INVALID"
+  bool biased = false;
+  std::string reasons;  ///< JSON array of sentences
+  std::string report;   ///< JSON object: the quality report
+  std::string program;  ///< "swarmsmith-track 0.1.0, OpenCV 4.6.0, ..."
+};
+
+/// A person's word on a run, which counts above the verdict.
+struct RealOverrideRow {
+  RealRunId run;
+  std::string verdict;
+  std::string who;
+  std::string reason;
+};
+
+/// A filmed trial with all that belongs to it; written as one.
+struct RealRunRows {
+  std::string key;  ///< sha256 over the videos' and the run's begin: the same run has the same key
+  std::string name;
+  std::string recorded;  ///< date
+  std::string source = "real";
+  std::string mission;
+  CandidateId candidate;   ///< that ran; none when not known
+  std::string arena_file;  ///< the rig, whole
+  std::string log;         ///< the run log, whole, mission and patches included
+  double duration_s = 0;
+  std::vector<CalibrationRow> calibrations;
+  std::vector<RealVideoRow> videos;
+  std::vector<RealRobotRow> robots;
+  std::vector<RealSampleRow> samples;
+  std::vector<RealCycleRow> cycles;
+  std::vector<RealIssueRow> issues;
+  RealScoreRow score;
+};
+
+/// What is known of a run without its samples and cycles.
+struct RealRunHead {
+  RealRunId id;
+  std::string key;
+  std::string name;
+  std::string mission;
+  CandidateId candidate;
+  std::optional<double> score;  ///< the latest
+  std::string verdict;          ///< that counts: a person's, else the latest
+  std::int64_t scorings = 0;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <span>
+
+#include "console/program.h"
+
+namespace swarmsmith::cli {
+
+/// All commands of swarmsmith-track, in the order of the help. A new one: a file of its own with
+/// its `declare_` function, a line here, an entry in commands.cpp, a section in docs/tracking.md.
+std::span<const Command> track_commands();
+
+Run declare_track_version(Options& options);
+
+/// "swarmsmith-track 0.1.0, OpenCV 4.6.0, apriltag 3.3.0, ...": what made a file or a score.
+std::string track_program_name();
+
+/// What to exit with after an error of tracking: 2 for wrong words, files of settings and a
+/// duplicate id in the map, 1 for all else.
+ExitCode exit_code_of_tracking(const Error& error);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,30 @@
+#include <exception>
+#include <string>
+#include <vector>
+
+#include "storage/store.h"
+#include "tracking/app/commands.h"
+
+int main(int argc, char** argv) {
+  using namespace swarmsmith::cli;
+  Output output = standard_output();
+  const Program program{"swarmsmith track", "Scores runs of real robots, filmed from above.",
+                        track_commands(),
+                        "docs/tracking.md leads from an empty arena to a first scored run."};
+  try {
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    const ExitCode code = run_program(program, arguments, output);
+    if (output.out.flush() || code != ExitCode::Done) return static_cast<int>(code);
+    return static_cast<int>(fail(output, ExitCode::Failed,
+                                 "standard output: the answer could not be written; is the disk "
+                                 "full, or the output closed?"));
+  } catch (const swarmsmith::StoreFailure& failure) {
+    return static_cast<int>(
+        fail(output, ExitCode::Store,
+             {swarmsmith::ErrorKind::Corrupt,
+              std::string("the store cannot be used: ") + failure.what(), failure.file()}));
+  } catch (const std::exception& error) {
+    // What the environment refused: a full disk, no memory, a device that goes away.
+    return static_cast<int>(fail(output, ExitCode::Failed, std::string(error.what())));
+  }
+}

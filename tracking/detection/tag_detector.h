@@ -1,0 +1,53 @@
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "tracking/geometry/tag_pose.h"
+#include "tracking/video/frame_source.h"
+
+namespace swarmsmith {
+
+/// A tag found in an image.
+struct Detection {
+  int tag = 0;
+  TagCorners corners{};  ///< pixels as ImagePoint has them, not as the library
+  int hamming = 0;
+  double margin = 0;
+};
+
+/// A part of an image, pixels; right and bottom edges do not belong to it.
+struct PixelBox {
+  int left = 0;
+  int top = 0;
+  int right = 0;
+  int bottom = 0;
+};
+
+/// Finds AprilTags (Olson 2011, Wang and Olson 2016) with the apriltag library. Not for two threads
+/// at once; each makes its own.
+class TagDetector {
+ public:
+  /// BadInput for an unknown family, with the known ones.
+  static Expected<TagDetector> of_family(const std::string& family);
+  TagDetector(TagDetector&&) noexcept;
+  TagDetector& operator=(TagDetector&&) noexcept;
+  ~TagDetector();
+
+  /// Tags of a part of the image, searched at 1/`decimate` of its resolution; corners are refined
+  /// at full resolution. Sorted by tag, then by margin, best first.
+  std::vector<Detection> find(const GrayImage& image, const PixelBox& box, int decimate);
+  std::vector<Detection> find(const GrayImage& image, int decimate);
+
+ private:
+  struct Library;
+  explicit TagDetector(std::unique_ptr<Library> library);
+  std::unique_ptr<Library> library_;
+};
+
+/// The families that are known: tag36h11, tag25h9, ...
+std::vector<std::string> tag_families();
+
+}  // namespace swarmsmith

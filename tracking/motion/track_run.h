@@ -1,0 +1,50 @@
+#pragma once
+
+#include <vector>
+
+#include "tracking/motion/tracked_run.h"
+#include "tracking/observing/observations.h"
+#include "tracking/rig/rig.h"
+
+namespace swarmsmith {
+
+/// Which part of the observations is the run.
+struct RunSpan {
+  std::vector<double>
+      starts_s;    ///< the run's start on the clock of each camera of the observations
+  int cycles = 0;  ///< control cycles of 0.1 s
+};
+
+/// Limits of tracking facts, section 8; the defaults are theirs.
+struct TrackLimits {
+  double top_speed_m_s = 1.0;
+  double top_turn_rad_s = 10;
+  double jump_m = 0.05;          ///< against the median of five samples
+  double measured_gap_s = 0.15;  ///< at most two frames of the slowest useful rate
+  double bridged_gap_s = 0.5;
+  double degraded_gap_s = 1.0;
+  double last_instant_gap_s = 0.2;  ///< at the end of a mission that is scored there
+  double interpolated_share = 0.05;
+  double outside_m = 0.15;  ///< beyond the walls
+  double scale_tolerance = 0.05;
+  double residual_m = 0.0015;
+  double least_frame_rate = 10;
+  double dropped_share = 0.05;
+  double moved_px = 1.0;  ///< of the floor tags: the camera moved
+};
+
+struct TrackOptions {
+  RunSpan span;
+  TrackLimits limits;
+  bool scored_at_the_end = false;       ///< the mission's score sees the last instant alone
+  bool takes_tags_for_centres = false;  ///< where a robot has no offset
+  bool corrects_height = true;          ///< false only to show what the error would be
+};
+
+/// From pixels to what the simulator would have recorded. Pure. Fails with E_ROBOT_MISSING (not
+/// seen in the first 2 s), E_NO_OFFSET, E_CALIB_SIZE, or a rig without the cameras' calibrations;
+/// what makes a run invalid is an issue.
+Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig, const Arena& arena,
+                               const TrackOptions& options);
+
+}  // namespace swarmsmith

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tracking/geometry/tag_pose.h"
+#include "tracking/rig/issue.h"
+
+namespace swarmsmith {
+
+/// What the cameras saw, in pixels: all that is measured. Poses, cycles and scores follow from it
+/// and the calibrations by pure functions, so that a run can be scored again when a calibration was
+/// mended (decision 17).
+
+/// A tag in a frame.
+struct Sighting {
+  int camera = 0;  ///< number in the list of cameras
+  std::int64_t frame = 0;
+  double time_s = 0;  ///< of the camera's clock, middle of the exposure of the tag's rows
+  int tag = 0;
+  TagCorners corners{};
+  int hamming = 0;    ///< bits corrected
+  double margin = 0;  ///< decision margin of the detector
+
+  friend bool operator==(const Sighting&, const Sighting&) = default;
+};
+
+/// Where the floor tags were within one span of some seconds: medians over its frames.
+struct ReferenceLook {
+  double time_s = 0;  ///< the span's middle
+  int tag = 0;
+  TagCorners corners{};
+  int frames = 0;
+};
+
+/// Where a camera's frame times come from, best first.
+enum class TimeSource { Sidecar, Container, FrameRate };
+std::string_view name_of(TimeSource source);
+
+/// One camera's recording.
+struct CameraRecord {
+  std::string camera;
+  std::string file;
+  std::string sha256;  ///< of the file; of a folder, over its files' names and bytes
+  ImageSize size;
+  std::int64_t frames = 0;
+  std::int64_t damaged_frames = 0;  ///< that the decoder gave up
+  std::int64_t full_searches = 0;   ///< frames that were searched whole
+  TimeSource time_source = TimeSource::Container;
+  std::vector<double> frame_times;  ///< camera's clock, one a frame, increasing
+  std::vector<ReferenceLook> references;
+};
+
+struct Observations {
+  std::vector<CameraRecord> cameras;
+  std::vector<Sighting> sightings;  ///< by camera, frame, tag; robots' and unknown tags alike
+  std::vector<Issue> issues;        ///< of files and times
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <functional>
+#include <set>
+#include <string>
+
+#include "base/expected.h"
+#include "tracking/detection/tag_search.h"
+#include "tracking/observing/observations.h"
+#include "tracking/rig/rig.h"
+#include "tracking/video/frame_clock.h"
+#include "tracking/video/frame_source.h"
+
+namespace swarmsmith {
+
+/// A video to look at, opened.
+struct ObservedVideo {
+  CameraSetup camera;
+  FrameSource& source;
+  FrameClock clock;
+  std::string sha256;
+};
+
+struct ObserveOptions {
+  std::string family = "tag36h11";
+  TagSearchOptions search;
+  std::set<int> references;     ///< floor tags, kept as medians and not as sightings
+  double reference_span_s = 5;  ///< that a median is taken over
+};
+
+/// Is called after each frame: how many are done, of how many (0: not known), and what was seen.
+using OnFrame =
+    std::function<void(std::int64_t done, std::int64_t of, const std::vector<Detection>& seen)>;
+
+/// What one camera saw from the first frame to the last, with its sightings in order. Fails when
+/// the video cannot be read at all or its times cannot be trusted; a video that breaks off is a
+/// record with an issue.
+struct CameraObservations {
+  CameraRecord record;
+  std::vector<Sighting> sightings;  ///< camera number 0
+  std::vector<Issue> issues;
+};
+Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& options,
+                                     const OnFrame& on_frame = {});
+
+/// Several cameras' observations as those of one run.
+Observations joined_observations(std::vector<CameraObservations> cameras);
+
+}  // namespace swarmsmith

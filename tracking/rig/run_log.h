@@ -1,0 +1,50 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "sim/mission/mission.h"
+
+namespace swarmsmith {
+
+/// What a person knows of a trial and no camera can see: the run log (docs/tracking.md), a TOML
+/// file, or flags of `track score`.
+
+/// A video of the run, by one camera.
+struct RunVideo {
+  std::string camera;  ///< as in the rig; empty when there is only one
+  std::string file;    ///< a video, a folder of images
+  std::string times;   ///< sidecar with a time a frame; empty: FILE.times.csv if that is there
+  double clock_ahead_s = 0;  ///< its clock minus that of the first video
+};
+
+/// When the run begins, on the clock of the first camera's frame times.
+struct RunStart {
+  std::optional<double> time_s;  ///< said by the log
+  /// Else the instant at which this tag is hidden, or shown: a person does it when the robots are
+  /// let go.
+  int sync_tag = 0;
+  enum class Sync { None, Hidden, Shown } sync = Sync::None;
+};
+
+/// Where the colour patches of the run come from.
+struct RunLayout {
+  enum class Source { None, Log, Measured } source = Source::None;
+  std::vector<Patch> patches;  ///< of the log
+};
+
+struct RunLog {
+  std::string name;      ///< "run07"
+  std::string recorded;  ///< date, "2026-11-21"
+  Mission mission;
+  std::string design;     ///< "d3", or empty
+  std::string candidate;  ///< "c812", or empty: the design's winner
+  std::string source = "real";
+  RunStart start;
+  RunLayout layout;
+  std::vector<RunVideo> videos;
+};
+
+}  // namespace swarmsmith

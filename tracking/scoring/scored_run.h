@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "sim/mission/mission.h"
+#include "tracking/motion/tracked_run.h"
+#include "tracking/rig/issue.h"
+
+namespace swarmsmith {
+
+/// How near a robot's last pose is to where its score would change.
+struct BorderDistance {
+  double signed_m = 0;     ///< positive inside of what counts
+  std::string border;      ///< "spot at (0, 0.5)", "green patch at (0.3, 0)"
+  bool too_close = false;  ///< less than three times its sigma
+};
+
+struct ScoredRun {
+  std::optional<double> score;  ///< none when the run cannot be scored at all
+  Verdict verdict = Verdict::Valid;
+  bool biased = false;                                 ///< a tag was taken for its robot's centre
+  std::vector<std::string> reasons;                    ///< for the verdict, a sentence each
+  std::vector<std::optional<BorderDistance>> borders;  ///< a robot; for scores of the last instant
+  std::vector<Issue> issues;                           ///< all: of files, times, tracking, scoring
+};
+
+}  // namespace swarmsmith

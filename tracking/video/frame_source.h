@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "tracking/geometry/camera_model.h"
+
+namespace swarmsmith {
+
+/// Brightness of an image, row by row; belongs to somebody else.
+struct GrayImage {
+  const std::uint8_t* pixels = nullptr;
+  int width = 0;
+  int height = 0;
+  std::ptrdiff_t stride = 0;  ///< bytes from row to row
+};
+
+/// Blue, green, red, a byte each, row by row without gaps.
+struct ColorImage {
+  int width = 0;
+  int height = 0;
+  std::vector<std::uint8_t> bgr;
+};
+
+struct Frame {
+  std::int64_t number = 0;       ///< from 0, in the order of display
+  std::optional<double> time_s;  ///< as the container or the camera says it
+  GrayImage gray;                ///< lives until the next frame is asked for
+};
+
+struct SourceInfo {
+  std::string name;  ///< of file, folder or device
+  ImageSize size;
+  double frame_rate = 0;             ///< nominal; 0 when nobody says it
+  std::int64_t expected_frames = 0;  ///< 0 when not known
+  bool has_times = false;            ///< frames carry times worth trusting
+  bool is_live = false;
+};
+
+/// Where frames come from: a video file, a folder of images, a camera.
+class FrameSource {
+ public:
+  /// `word`: a video file, a folder of images (in the order of their names), `camera:0` or another
+  /// word that OpenCV opens (`rtsp://...`). E_VIDEO_UNREADABLE with the decoder's own words.
+  static Expected<std::unique_ptr<FrameSource>> open(const std::string& word);
+  virtual ~FrameSource() = default;
+
+  virtual const SourceInfo& info() const = 0;
+  /// Goes on to the next frame; false at the end. A frame that cannot be decoded is left out and
+  /// counted, a frame of another size is an error.
+  virtual Expected<bool> next() = 0;
+  virtual const Frame& frame() const = 0;
+  /// The present frame in colour.
+  virtual ColorImage color() = 0;
+  virtual std::int64_t damaged_frames() const = 0;
+};
+
+}  // namespace swarmsmith
