@@ -11,6 +11,7 @@ namespace swarmsmith::cli {
 std::span<const Command> track_commands();
 
 Run declare_print_tags(Options& options);
+Run declare_print_board(Options& options);
 Run declare_print_survey(Options& options);
 Run declare_track_version(Options& options);
 

@@ -9,6 +9,7 @@
 #include "console/pdf.h"
 #include "console/whole_file.h"
 #include "tracking/app/commands.h"
+#include "tracking/printing/board_sheet.h"
 #include "tracking/printing/survey_sheet.h"
 #include "tracking/printing/tag_sheet.h"
 
@@ -126,6 +127,24 @@ ExitCode print_survey(const TagArguments& arguments, Output& output) {
   return write_pages({&*page, 1}, arguments.file, words->form, output);
 }
 
+struct BoardArguments {
+  std::string board;
+  std::string paper = "A4";
+  std::string file;
+};
+
+ExitCode print_board(const BoardArguments& arguments, Output& output) {
+  const auto board = parse_board(arguments.board);
+  if (!board) return fail(output, ExitCode::Usage, board.error());
+  const auto paper = paper_from_name(arguments.paper);
+  if (!paper) return fail(output, ExitCode::Usage, paper.error());
+  const auto form = form_of(arguments.file);
+  if (!form) return fail(output, ExitCode::Usage, form.error());
+  const auto page = board_sheet(*board, *paper);
+  if (!page) return fail(output, ExitCode::Usage, page.error());
+  return write_pages({&*page, 1}, arguments.file, *form, output);
+}
+
 void declare_tag_words(Options& options, TagArguments& arguments) {
   options.text("--ids", arguments.ids, "Ids and ranges of ids, such as 1-3,100-105",
                Options::Need::Required);
@@ -143,6 +162,16 @@ Run declare_print_tags(Options& options) {
   options.text("--family", arguments->family, "Family of the tags, tag36h11 unless said");
   declare_tag_words(options, *arguments);
   return [arguments](Output& output) { return print_tags(*arguments, output); };
+}
+
+Run declare_print_board(Options& options) {
+  auto arguments = std::make_shared<BoardArguments>();
+  options.text("BOARD", arguments->board, "Such as charuco:11x8:0.023:0.017:5x5_100",
+               Options::Need::Required);
+  options.choice("--paper", arguments->paper, paper_names(), "Paper");
+  options.text("-o,--output", arguments->file, "File to write, .pdf or .svg",
+               Options::Need::Required);
+  return [arguments](Output& output) { return print_board(*arguments, output); };
 }
 
 Run declare_print_survey(Options& options) {
