@@ -18,6 +18,9 @@ struct Detection {
   double margin = 0;
 };
 
+/// The mean of its corners.
+ImagePoint middle_of(const TagCorners& corners);
+
 /// A part of an image, pixels; right and bottom edges do not belong to it.
 struct PixelBox {
   int left = 0;
@@ -26,8 +29,8 @@ struct PixelBox {
   int bottom = 0;
 };
 
-/// Finds AprilTags (Olson 2011, Wang and Olson 2016) with the apriltag library. Not for two threads
-/// at once; each makes its own.
+/// Finds AprilTags (Olson 2011, Wang and Olson 2016) with the apriltag library; codes with more
+/// than one wrong bit are no tags. Not for two threads at once; each makes its own.
 class TagDetector {
  public:
   /// BadInput for an unknown family, with the known ones.
@@ -36,8 +39,8 @@ class TagDetector {
   TagDetector& operator=(TagDetector&&) noexcept;
   ~TagDetector();
 
-  /// Tags of a part of the image, searched at 1/`decimate` of its resolution; corners are refined
-  /// at full resolution. Sorted by tag, then by margin, best first.
+  /// Tags of a part of the image, cut off at its edges; searched at 1/`decimate` of its resolution;
+  /// corners are refined at full resolution. Sorted by tag, then by margin, best first.
   std::vector<Detection> find(const GrayImage& image, const PixelBox& box, int decimate);
   std::vector<Detection> find(const GrayImage& image, int decimate);
 
