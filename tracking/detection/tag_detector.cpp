@@ -17,12 +17,14 @@
 #include <string_view>
 #include <tuple>
 
+#include "tracking/geometry/tag_family.h"
+
 namespace swarmsmith {
 namespace {
 
 struct Family {
   std::string_view name;
-  apriltag_family_t* (*create)();
+  apriltag_family_t* (*make)();
   void (*destroy)(apriltag_family_t*);
 };
 
@@ -77,7 +79,7 @@ struct TagDetector::Library {
   apriltag_detector_t* detector;
 
   explicit Library(const Family& of)
-      : kind(&of), family(of.create()), detector(apriltag_detector_create()) {
+      : kind(&of), family(of.make()), detector(apriltag_detector_create()) {
     apriltag_detector_add_family_bits(detector, family, kBitsCorrected);
     detector->nthreads = 1;
     detector->refine_edges = true;
@@ -100,7 +102,7 @@ Expected<TagDetector> TagDetector::of_family(const std::string& family) {
                                          [&](const Family& each) { return each.name == family; });
   if (found != kFamilies.end()) return TagDetector(std::make_unique<Library>(*found));
   std::string known;
-  for (const Family& each : kFamilies)
+  for (const TagFamily& each : known_tag_families())
     known += (known.empty() ? "" : ", ") + std::string(each.name);
   return bad_input("there is no tag family '" + family + "'; known are " + known);
 }
@@ -136,13 +138,6 @@ std::vector<Detection> TagDetector::find(const GrayImage& image, const PixelBox&
 
 std::vector<Detection> TagDetector::find(const GrayImage& image, int decimate) {
   return find(image, {0, 0, image.width, image.height}, decimate);
-}
-
-std::vector<std::string> tag_families() {
-  std::vector<std::string> names;
-  for (const Family& each : kFamilies)
-    names.emplace_back(each.name);
-  return names;
 }
 
 }  // namespace swarmsmith

@@ -33,7 +33,7 @@ struct PixelBox {
 /// than one wrong bit are no tags. Not for two threads at once; each makes its own.
 class TagDetector {
  public:
-  /// BadInput for an unknown family, with the known ones.
+  /// BadInput for a family that is not among known_tag_families().
   static Expected<TagDetector> of_family(const std::string& family);
   TagDetector(TagDetector&&) noexcept;
   TagDetector& operator=(TagDetector&&) noexcept;
@@ -49,8 +49,5 @@ class TagDetector {
   explicit TagDetector(std::unique_ptr<Library> library);
   std::unique_ptr<Library> library_;
 };
-
-/// The families that are known: tag36h11, tag25h9, ...
-std::vector<std::string> tag_families();
 
 }  // namespace swarmsmith
