@@ -74,6 +74,27 @@ struct RealSampleRow {
   std::int64_t use = 0;  ///< Sample::Use
 };
 
+/// Where a floor tag was within one span of some seconds of a video: medians over its frames.
+struct RealReferenceRow {
+  std::int64_t video = 0;
+  double time_s = 0;  ///< the span's middle, the camera's clock
+  std::int64_t tag = 0;
+  std::array<double, 8> corners{};  ///< as of a sample
+  std::int64_t frames = 0;
+};
+
+/// A colour patch that lay on the floor of this run, over those of the mission's arena.
+struct RealPatchRow {
+  double x = 0;  ///< of its middle, metres
+  double y = 0;
+  double width_m = 0;  ///< of a rectangle; 0 of a disc
+  double height_m = 0;
+  double radius_m = 0;  ///< of a disc; 0 of a rectangle
+  std::string color;    ///< "green", "#rrggbb"
+
+  friend bool operator==(const RealPatchRow&, const RealPatchRow&) = default;
+};
+
 struct RealCycleRow {
   std::int64_t cycle = 0;  ///< 0 is the start
   std::int64_t robot = 0;
@@ -89,6 +110,7 @@ struct RealIssueRow {
   std::string robot;  ///< its name, or empty
   std::optional<double> from_s;
   std::optional<double> to_s;
+  bool of_observing = false;  ///< of files, frames and times: a later scoring keeps it
 };
 
 /// What a run was scored with, and what came out; a later scoring replaces what follows from it and
@@ -120,14 +142,25 @@ struct RealRunRows {
   CandidateId candidate;   ///< that ran; none when not known
   std::string arena_file;  ///< the rig, whole
   std::string log;         ///< the run log, whole, mission and patches included
+  /// The mission as a file of its own (sim/files, mission_text); with `patches` and the cycles it
+  /// is all that the score follows from, so that `verify` can score again without a camera.
+  std::string mission_file;
   double duration_s = 0;
   std::vector<CalibrationRow> calibrations;
   std::vector<RealVideoRow> videos;
   std::vector<RealRobotRow> robots;
-  std::vector<RealSampleRow> samples;
-  std::vector<RealCycleRow> cycles;
+  std::vector<RealSampleRow> samples;        ///< by video, frame, tag
+  std::vector<RealReferenceRow> references;  ///< by video, time, tag
+  std::vector<RealPatchRow> patches;         ///< of the log, or measured; none where there are none
+  std::vector<RealCycleRow> cycles;          ///< by cycle, robot
   std::vector<RealIssueRow> issues;
   RealScoreRow score;
+};
+
+/// Where a run that was to be stored is.
+struct RealRunWritten {
+  RealRunId id;
+  bool is_new = true;  ///< false: it was there already, from the same inputs
 };
 
 /// What is known of a run without its samples and cycles.
@@ -139,6 +172,7 @@ struct RealRunHead {
   CandidateId candidate;
   std::optional<double> score;  ///< the latest
   std::string verdict;          ///< that counts: a person's, else the latest
+  bool counts = false;          ///< among the scores of its candidate
   std::int64_t scorings = 0;
 };
 

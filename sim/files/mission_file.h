@@ -45,6 +45,9 @@ std::vector<MissionEntry> read_missions(TableReader& root, const std::filesystem
 /// not. Reads back to the same bits.
 std::vector<Section> mission_sections(const MissionEntry& entry);
 
+/// The mission as a file of its own that says everything: parse_mission reads the same bits back.
+std::string mission_text(const MissionEntry& entry);
+
 /// Whether a name is good for stores, command lines and files: letters, digits, `_`, `-`, `.`.
 bool is_name(std::string_view name);
 

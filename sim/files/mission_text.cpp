@@ -1,3 +1,4 @@
+#include <string_view>
 #include <variant>
 
 #include "base/overloaded.h"
@@ -50,6 +51,19 @@ std::vector<Section> mission_sections(const MissionEntry& entry) {
       {"[mission.instances]",
        prefix + "instances.",
        {{"training", placement_text(mission.placement)}, {"test", "{ count = " + count + " }"}}}};
+}
+
+std::string mission_text(const MissionEntry& entry) {
+  std::vector<Section> sections = mission_sections(entry);
+  Section& top = sections.front();
+  top.header.clear();
+  top.lines.insert(top.lines.begin(), {"format", "1"});
+  constexpr std::string_view kPart = "[mission.";
+  for (Section& section : sections) {
+    if (section.header.starts_with(kPart))
+      section.header = "[" + section.header.substr(kPart.size());
+  }
+  return text_of(sections);
 }
 
 }  // namespace swarmsmith

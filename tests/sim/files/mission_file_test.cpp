@@ -58,6 +58,9 @@ TEST(MissionText, ReadsBackToTheSameMissionBitForBit) {
     ASSERT_EQ(again.size(), 1U);
     ASSERT_EQ(again[0], entry) << text;
     EXPECT_EQ(text_of(mission_sections(again[0])), text);
+    const auto file = parse_mission(mission_text(entry), "m.toml");
+    ASSERT_TRUE(file) << (file ? "" : to_string(file.error().front()));
+    EXPECT_EQ(*file, entry);
   }
 }
 
