@@ -52,10 +52,20 @@ struct CameraRecord {
   std::vector<ReferenceLook> references;
 };
 
+/// What one camera saw, from its first frame to its last.
+struct CameraObservations {
+  CameraRecord record;
+  std::vector<Sighting> sightings;  ///< by frame, tag; camera number 0
+  std::vector<Issue> issues;
+};
+
 struct Observations {
   std::vector<CameraRecord> cameras;
   std::vector<Sighting> sightings;  ///< by camera, frame, tag; robots' and unknown tags alike
   std::vector<Issue> issues;        ///< of files and times
 };
+
+/// Several cameras' observations as those of one run.
+Observations joined_observations(std::vector<CameraObservations> cameras);
 
 }  // namespace swarmsmith
