@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
+#include "base/expected.h"
+#include "sim/mission/arena.h"
 #include "tracking/motion/tracked_run.h"
 #include "tracking/observing/observations.h"
 #include "tracking/rig/rig.h"
@@ -35,6 +38,10 @@ struct TrackLimits {
 
 struct TrackOptions {
   RunSpan span;
+  /// From the first frame to the end of the last one, as a person noted it: the only check of files
+  /// that count frames instead of timing them.
+  std::optional<double> recorded_s;
+  std::vector<int> other_tags;  ///< that are expected in the picture: the tag of a sync event
   TrackLimits limits;
   bool scored_at_the_end = false;       ///< the mission's score sees the last instant alone
   bool takes_tags_for_centres = false;  ///< where a robot has no offset
@@ -42,8 +49,9 @@ struct TrackOptions {
 };
 
 /// From pixels to what the simulator would have recorded. Pure. Fails with E_ROBOT_MISSING (not
-/// seen in the first 2 s), E_NO_OFFSET, E_CALIB_SIZE, or a rig without the cameras' calibrations;
-/// what makes a run invalid is an issue.
+/// seen in the first 2 s; E_DUPLICATE_ID or E_VIDEO_TRUNCATED when that is why), E_NO_OFFSET,
+/// E_CALIB_SIZE, or a rig without the cameras' calibrations; what makes a run invalid is an issue.
+/// Does not depend on the order of the sightings.
 Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig, const Arena& arena,
                                const TrackOptions& options);
 

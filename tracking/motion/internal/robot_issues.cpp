@@ -1,0 +1,226 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tracking/motion/internal/robot_track.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A stretch of the run in which a robot was not seen.
+struct Gap {
+  double from_s = 0;
+  double to_s = 0;
+  bool is_reachable = true;  ///< its end from its begin
+  double speed_m_s = 0;      ///< that its ends imply
+
+  double length_s() const { return to_s - from_s; }
+};
+
+/// Between samples, and from what the video covers to the first and last of them.
+std::vector<Gap> gaps_of(const std::vector<TimedPose>& track, const FrameReport& frames,
+                         const TrackLimits& limits) {
+  std::vector<Gap> gaps;
+  if (track.front().time_s > frames.from_s) gaps.push_back({frames.from_s, track.front().time_s});
+  for (std::size_t i = 1; i < track.size(); ++i) {
+    const TimedPose& from = track[i - 1];
+    const TimedPose& to = track[i];
+    if (to.time_s <= frames.from_s || from.time_s >= frames.to_s) continue;
+    Gap gap{from.time_s, to.time_s};
+    gap.is_reachable = is_reachable(from, to, limits);
+    const double way = std::hypot(to.pose.x - from.pose.x, to.pose.y - from.pose.y);
+    if (gap.length_s() > 0) gap.speed_m_s = way / gap.length_s();
+    gaps.push_back(gap);
+  }
+  if (track.back().time_s < frames.to_s) gaps.push_back({track.back().time_s, frames.to_s});
+  return gaps;
+}
+
+/// Adds issues of one robot.
+class Complaints {
+ public:
+  Complaints(const TaggedRobot& robot, std::vector<Issue>& issues)
+      : robot_(robot.setup), issues_(issues) {}
+
+  void add(IssueCode code, const std::string& text, std::optional<double> from = {},
+           std::optional<double> to = {}) {
+    issues_.push_back({code, fmt::format("{} (tag {}) {}", robot_.name, robot_.tag, text),
+                       robot_.name, from, to});
+  }
+
+ private:
+  const RobotSetup& robot_;
+  std::vector<Issue>& issues_;
+};
+
+void check_gaps(const std::vector<Gap>& gaps, const TrackLimits& limits, Complaints& complaints) {
+  for (const Gap& gap : gaps) {
+    if (gap.length_s() > limits.degraded_gap_s + kSameInstant_s) {
+      complaints.add(IssueCode::Gap,
+                     fmt::format("was not seen from {:.2f} s to {:.2f} s (limit {:.1f} s); look "
+                                 "what hid its tag",
+                                 gap.from_s, gap.to_s, limits.degraded_gap_s),
+                     gap.from_s, gap.to_s);
+    } else if (!gap.is_reachable) {
+      complaints.add(IssueCode::Gap,
+                     fmt::format("cannot have come from where it was at {:.2f} s to where it was "
+                                 "at {:.2f} s: {:.1f} m/s, the limit is {:.1f} m/s and {:.0f} "
+                                 "rad/s; was it carried, or is there another tag of its number?",
+                                 gap.from_s, gap.to_s, gap.speed_m_s, limits.top_speed_m_s,
+                                 limits.top_turn_rad_s),
+                     gap.from_s, gap.to_s);
+    }
+  }
+}
+
+/// A score of the last instant needs it measured: interpolated across little, never extrapolated.
+void check_end(const RobotTrack& track, const FrameReport& frames, const TrackOptions& options,
+               Complaints& complaints) {
+  if (!options.scored_at_the_end || !frames.covers_the_end) return;
+  const double end = instant_s(options.span.cycles);
+  const auto next =
+      std::ranges::lower_bound(track.merged, end - kSameInstant_s, {}, &TimedPose::time_s);
+  if (next == track.merged.end()) {
+    complaints.add(IssueCode::Gap,
+                   fmt::format("was not seen at the end nor after it, last at {:.2f} s: the score "
+                               "looks at {:.2f} s and nothing is extrapolated",
+                               track.merged.back().time_s, end),
+                   track.merged.back().time_s, end);
+    return;
+  }
+  if (next->time_s <= end + kSameInstant_s || next == track.merged.begin()) return;
+  const double from = std::prev(next)->time_s;
+  if (next->time_s - from <= options.limits.last_instant_gap_s + kSameInstant_s) return;
+  complaints.add(IssueCode::Gap,
+                 fmt::format("was not seen from {:.2f} s to {:.2f} s, around the instant that the "
+                             "score looks at (limit {:.1f} s)",
+                             from, next->time_s, options.limits.last_instant_gap_s),
+                 from, next->time_s);
+}
+
+void check_bridged(const std::vector<CycleKind>& cycles, const std::vector<Gap>& gaps,
+                   const TrackLimits& limits, Complaints& complaints) {
+  const auto of = [&](CycleKind kind) { return std::ranges::count(cycles, kind); };
+  const auto degraded = of(CycleKind::Degraded);
+  const auto bridged = of(CycleKind::Interpolated) + degraded;
+  const double share = static_cast<double>(bridged) / static_cast<double>(cycles.size());
+  if (share > limits.interpolated_share) {
+    complaints.add(
+        IssueCode::Gap,
+        fmt::format("was interpolated in {} of {} cycles ({:.1f} %, limit {:.0f} %); "
+                    "more light, larger tags or another place of the camera help",
+                    bridged, cycles.size(), 100 * share, 100 * limits.interpolated_share));
+  }
+  const auto guessed = degraded + of(CycleKind::Missing);
+  if (guessed == 0) return;
+  const auto longest = std::ranges::max_element(gaps, {}, &Gap::length_s);
+  complaints.add(IssueCode::Interpolated,
+                 fmt::format("has {} cycles across gaps of more than {:.1f} s or at the ends of "
+                             "the video",
+                             guessed, limits.bridged_gap_s),
+                 longest->from_s, longest->to_s);
+}
+
+void check_tag(const TaggedRobot& robot, const RobotSamples& samples, const TrackLimits& limits,
+               Complaints& complaints) {
+  if (std::fabs(samples.scale - 1) > limits.scale_tolerance) {
+    complaints.add(IssueCode::TagSize,
+                   fmt::format("measures {:.4f} m along its edge, declared are {:.4f} m ({:+.1f} "
+                               "%, limit {:.0f} %): check the tag's size and its height",
+                               samples.scale * robot.setup.edge_m, robot.setup.edge_m,
+                               100 * (samples.scale - 1), 100 * limits.scale_tolerance));
+  }
+  const std::vector<std::int64_t>& frames = samples.twice;
+  if (frames.empty()) return;
+  // A misread tag comes and goes; a second tag of the same number stays.
+  constexpr std::size_t kPersistent = 10;
+  if (frames.size() < kPersistent || 100 * frames.size() < samples.samples.size()) return;
+  complaints.add(IssueCode::DuplicateId,
+                 fmt::format("was seen twice in {} frames, from frame {} to frame {}; in {} of "
+                             "them it could not be told which is the robot: take one tag away",
+                             frames.size(), std::ranges::min(frames), std::ranges::max(frames),
+                             samples.twice_unresolved));
+}
+
+/// A robot beyond the walls, and not a misread tag: several times in a row.
+void check_outside(const std::vector<Sample>& samples, const TrackOptions& options,
+                   Complaints& complaints) {
+  constexpr int kInARow = 3;
+  const double end = instant_s(options.span.cycles);
+  int in_a_row = 0;
+  std::optional<double> first;
+  double from = 0;
+  double to = 0;
+  for (const Sample& sample : samples) {
+    if (sample.time_s < 0 || sample.time_s > end) continue;
+    if (sample.use == Sample::Use::Used) in_a_row = 0;
+    if (sample.use != Sample::Use::Outside) continue;
+    if (++in_a_row == 1) from = sample.time_s;
+    if (in_a_row < kInARow) continue;
+    if (!first) first = from;
+    to = sample.time_s;
+  }
+  if (!first) return;
+  complaints.add(IssueCode::OutsideArena,
+                 fmt::format("was more than {:.2f} m outside of the walls, first at {:.2f} s, last "
+                             "at {:.2f} s",
+                             options.limits.outside_m, *first, to),
+                 *first, to);
+}
+
+void check_outliers(const TrackedRobot& robot, Complaints& complaints) {
+  const auto bad_fits = std::ranges::count(robot.samples, Sample::Use::BadFit, &Sample::use);
+  if (robot.outliers + bad_fits == 0) return;
+  complaints.add(IssueCode::Outliers,
+                 fmt::format("lost {} samples of {} as outliers and {} as bad fits", robot.outliers,
+                             robot.samples.size(), bad_fits));
+}
+
+void check_cameras(const RobotTrack& track, Complaints& complaints) {
+  if (track.disagreeing == 0) return;
+  complaints.add(
+      IssueCode::CamerasDisagree,
+      fmt::format("is seen by cameras more than {:.0f} mm apart in {} cycles, most {:.1f} mm at "
+                  "{:.1f} s; check their clocks and calibrate their places again",
+                  1000 * kDisagree_m, track.disagreeing, 1000 * track.worst_disagreement_m,
+                  track.worst_disagreement_at_s));
+}
+
+}  // namespace
+
+TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const RobotTrack& track,
+                           const FrameReport& frames, const TrackOptions& options,
+                           std::vector<Issue>& issues) {
+  TrackedRobot made{.name = robot.setup.name, .tag = robot.setup.tag};
+  made.cycles.assign(track.kinds.begin() + 1, track.kinds.end());
+  made.mean_scale = samples.scale;
+  made.sigma_m = track.sigma.sigma_m;
+  made.sigma_rad = track.sigma.sigma_rad;
+  Complaints complaints(robot, issues);
+  check_tag(robot, samples, options.limits, complaints);
+  made.samples = std::move(samples.samples);
+  double used = 0;
+  for (const Sample& sample : made.samples) {
+    if (sample.use == Sample::Use::Outlier) ++made.outliers;
+    if (sample.use != Sample::Use::Used) continue;
+    ++used;
+    made.mean_residual_m += sample.residual_m;
+  }
+  made.mean_residual_m /= used;
+  const std::vector<Gap> gaps = gaps_of(track.merged, frames, options.limits);
+  if (!gaps.empty()) {
+    const auto longest = std::ranges::max_element(gaps, {}, &Gap::length_s);
+    made.longest_gap_s = longest->length_s();
+    made.longest_gap_from_s = longest->from_s;
+  }
+  check_gaps(gaps, options.limits, complaints);
+  check_end(track, frames, options, complaints);
+  check_bridged(made.cycles, gaps, options.limits, complaints);
+  check_outside(made.samples, options, complaints);
+  check_outliers(made, complaints);
+  check_cameras(track, complaints);
+  return made;
+}
+
+}  // namespace swarmsmith

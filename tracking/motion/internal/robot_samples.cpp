@@ -1,0 +1,212 @@
+#include "tracking/motion/internal/robot_samples.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "base/math.h"
+#include "tracking/motion/internal/outliers.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Corners as stores keep them, so that a stored run scores again to the same bits.
+TagCorners as_stored(TagCorners corners) {
+  for (ImagePoint& corner : corners) {
+    corner.u = std::round(corner.u * 1000) / 1000;
+    corner.v = std::round(corner.v * 1000) / 1000;
+  }
+  return corners;
+}
+
+bool is_finite(const TagPose& tag) {
+  return std::isfinite(tag.pose.x) && std::isfinite(tag.pose.y) && std::isfinite(tag.pose.theta) &&
+         std::isfinite(tag.scale) && std::isfinite(tag.residual_m);
+}
+
+Sample sample_of(const Sighting& seen, const TaggedRobot& robot, const TrackedCamera& camera,
+                 const TrackOptions& options) {
+  Sample sample{.time_s = seen.time_s - camera.start_s, .camera = seen.camera, .frame = seen.frame};
+  const double height = options.corrects_height ? robot.setup.height_m : 0;
+  const TagPose tag = tag_pose(camera.view, as_stored(seen.corners), robot.setup.edge_m, height);
+  if (!is_finite(tag)) {
+    sample.scale = 0;
+    sample.use = Sample::Use::BadFit;
+    return sample;
+  }
+  sample.pose = robot_pose(tag.pose, robot.offset);
+  sample.scale = tag.scale;
+  sample.residual_m = tag.residual_m;
+  return sample;
+}
+
+/// Like the tag's residual, but about the best similarity: a wrong edge or height is another matter
+/// than a bad fit, and must not drop all samples. Squares of a rigid fit are those of the
+/// similarity plus those of its scale.
+double residual_of_shape(const Sample& sample, double edge_m) {
+  const double of_scale = 0.5 * edge_m * edge_m * (1 - sample.scale) * (1 - sample.scale);
+  return std::sqrt(std::max(0.0, sample.residual_m * sample.residual_m - of_scale));
+}
+
+double median_scale(const std::vector<Sample>& samples) {
+  std::vector<double> scales;
+  for (const Sample& sample : samples) {
+    if (sample.use == Sample::Use::Used) scales.push_back(sample.scale);
+  }
+  if (scales.empty()) return 1;
+  const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
+  std::ranges::nth_element(scales, middle);
+  return *middle;
+}
+
+/// Drops single bad fits; returns the mean scale of the others.
+double drop_bad_fits(std::vector<Sample>& samples, double edge_m, const TrackLimits& limits) {
+  const double usual = median_scale(samples);
+  double sum = 0;
+  int count = 0;
+  for (Sample& sample : samples) {
+    if (sample.use != Sample::Use::Used) continue;
+    if (std::fabs(sample.scale - usual) > limits.scale_tolerance ||
+        residual_of_shape(sample, edge_m) > limits.residual_m) {
+      sample.use = Sample::Use::BadFit;
+      continue;
+    }
+    sum += sample.scale;
+    ++count;
+  }
+  return count == 0 ? usual : sum / count;
+}
+
+double distance_to(const Wall& wall, Point point) {
+  const double dx = wall.to.x - wall.from.x;
+  const double dy = wall.to.y - wall.from.y;
+  const double along = (point.x - wall.from.x) * dx + (point.y - wall.from.y) * dy;
+  const double share = std::clamp(along / (dx * dx + dy * dy), 0.0, 1.0);
+  return hypot(point.x - wall.from.x - share * dx, point.y - wall.from.y - share * dy);
+}
+
+TimedPose timed(const Sample& sample) {
+  return {sample.time_s, sample.pose};
+}
+
+/// Samples of one frame that are still in question.
+struct FrameGroup {
+  std::vector<Sample*> samples;
+};
+
+std::vector<FrameGroup> frames_of(std::vector<Sample>& samples, int camera) {
+  std::vector<FrameGroup> frames;
+  for (Sample& sample : samples) {
+    if (sample.camera != camera || sample.use != Sample::Use::Used) continue;
+    if (frames.empty() || frames.back().samples.front()->frame != sample.frame) {
+      frames.emplace_back();
+    }
+    frames.back().samples.push_back(&sample);
+  }
+  return frames;
+}
+
+/// The one of a frame's samples that fits to the track, or none.
+Sample* consistent_one(const FrameGroup& frame, const Sample* before, const Sample* after,
+                       const TrackLimits& limits) {
+  if (before == nullptr && after == nullptr) return nullptr;
+  Sample* found = nullptr;
+  for (Sample* sample : frame.samples) {
+    if (before != nullptr && !is_reachable(timed(*before), timed(*sample), limits)) continue;
+    if (after != nullptr && !is_reachable(timed(*sample), timed(*after), limits)) continue;
+    if (found != nullptr) return nullptr;
+    found = sample;
+  }
+  return found;
+}
+
+void resolve_duplicates(RobotSamples& robot, int camera, const TrackLimits& limits) {
+  const std::vector<FrameGroup> frames = frames_of(robot.samples, camera);
+  std::vector<const Sample*> next_alone(frames.size() + 1, nullptr);
+  for (std::size_t i = frames.size(); i > 0; --i) {
+    const auto& samples = frames[i - 1].samples;
+    next_alone[i - 1] = samples.size() == 1 ? samples.front() : next_alone[i];
+  }
+  const Sample* before = nullptr;
+  const auto is_near = [&](const Sample* a, const Sample* b) {
+    return a != nullptr && std::fabs(a->time_s - b->time_s) <= limits.degraded_gap_s;
+  };
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const auto& samples = frames[i].samples;
+    Sample* used = samples.front();
+    if (samples.size() > 1) {
+      const Sample* after = next_alone[i];
+      used = consistent_one(frames[i], is_near(before, used) ? before : nullptr,
+                            is_near(after, used) ? after : nullptr, limits);
+      robot.twice.push_back(samples.front()->frame);
+      if (used == nullptr) ++robot.twice_unresolved;
+      for (Sample* sample : samples) {
+        if (sample != used) sample->use = Sample::Use::Duplicate;
+      }
+    }
+    if (used != nullptr) before = used;
+  }
+}
+
+void drop_outliers(std::vector<Sample>& samples, int camera, const TrackLimits& limits) {
+  std::vector<Sample*> used;
+  std::vector<TimedPose> track;
+  for (Sample& sample : samples) {
+    if (sample.camera != camera || sample.use != Sample::Use::Used) continue;
+    used.push_back(&sample);
+    track.push_back(timed(sample));
+  }
+  const std::vector<bool> believed = believable(track, limits);
+  for (std::size_t i = 0; i < used.size(); ++i) {
+    if (!believed[i]) used[i]->use = Sample::Use::Outlier;
+  }
+}
+
+/// An order of sightings that does not depend on how they came.
+bool comes_first(const Sighting* a, const Sighting* b) {
+  const auto key = [](const Sighting* s) {
+    return std::tuple(s->camera, s->frame, s->time_s, s->corners[0].u, s->corners[0].v,
+                      s->corners[2].u, s->corners[2].v, s->corners[1].u, s->corners[1].v,
+                      s->corners[3].u, s->corners[3].v);
+  };
+  return key(a) < key(b);
+}
+
+}  // namespace
+
+double metres_outside(const Arena& arena, Point point) {
+  if (is_inside(arena, point)) return 0;
+  double least = std::numeric_limits<double>::infinity();
+  for (const Wall& wall : arena.walls)
+    least = std::min(least, distance_to(wall, point));
+  return least;
+}
+
+RobotSamples samples_of(const TaggedRobot& robot, std::vector<const Sighting*> sightings,
+                        std::span<const TrackedCamera> cameras, const Arena& arena,
+                        const TrackOptions& options) {
+  const TrackLimits& limits = options.limits;
+  RobotSamples made;
+  std::ranges::sort(sightings, comes_first);
+  for (const Sighting* seen : sightings) {
+    made.samples.push_back(
+        sample_of(*seen, robot, cameras[static_cast<std::size_t>(seen->camera)], options));
+  }
+  made.scale = drop_bad_fits(made.samples, robot.setup.edge_m, limits);
+  for (Sample& sample : made.samples) {
+    if (sample.use != Sample::Use::Used) continue;
+    if (metres_outside(arena, sample.pose.position()) > limits.outside_m) {
+      sample.use = Sample::Use::Outside;
+    }
+  }
+  for (int camera = 0; camera < static_cast<int>(cameras.size()); ++camera) {
+    resolve_duplicates(made, camera, limits);
+    drop_outliers(made.samples, camera, limits);
+  }
+  // Within a camera they are in order already, so that this keeps frames whole.
+  std::ranges::stable_sort(made.samples, {}, &Sample::time_s);
+  return made;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,44 @@
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "tracking/geometry/view.h"
+#include "tracking/motion/track_run.h"
+
+namespace swarmsmith {
+
+/// A camera of the observations with all that turns its pixels into metres.
+struct TrackedCamera {
+  std::string name;
+  View view;
+  double start_s = 0;        ///< of the run, on the camera's clock
+  double place_error_m = 0;  ///< on the floor, one sigma, from its calibration
+};
+
+/// A robot with what is known of its tag.
+struct TaggedRobot {
+  RobotSetup setup;
+  TagOffset offset;
+  double offset_sigma_m = 0;  ///< of one axis, from its calibration; 0 without one
+};
+
+/// What was made of a robot's sightings.
+struct RobotSamples {
+  std::vector<Sample> samples;      ///< by time, camera, frame
+  std::vector<std::int64_t> twice;  ///< frames with its tag seen twice or more
+  int twice_unresolved = 0;         ///< of those, frames from which none was used
+  double scale = 1;                 ///< mean over what fits
+};
+
+/// Poses of a robot from the sightings of its tag, each with its use: fits, inside of the arena,
+/// only one a frame, reachable from the one before. `sightings` are the robot's alone, in any
+/// order; those outside of the run by more than `margin_s` must have been left out.
+RobotSamples samples_of(const TaggedRobot& robot, std::vector<const Sighting*> sightings,
+                        std::span<const TrackedCamera> cameras, const Arena& arena,
+                        const TrackOptions& options);
+
+/// How far beyond the walls a point lies; 0 within them.
+double metres_outside(const Arena& arena, Point point);
+
+}  // namespace swarmsmith

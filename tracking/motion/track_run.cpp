@@ -1,0 +1,212 @@
+#include "tracking/motion/track_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "tracking/motion/internal/robot_track.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A robot must have been seen by then (tracking facts, section 8).
+constexpr double kFirstLook_s = 2;
+
+std::string size_text(const ImageSize& size) {
+  return fmt::format("{}x{}", size.width, size.height);
+}
+
+const CameraSetup* setup_of(const Rig& rig, const CameraRecord& record) {
+  if (record.camera.empty() && rig.cameras.size() == 1) return &rig.cameras.front();
+  const auto found = std::ranges::find(rig.cameras, record.camera, &CameraSetup::name);
+  return found == rig.cameras.end() ? nullptr : &*found;
+}
+
+/// One sigma on the floor from the calibration: half of what the worst tag is off by when it is
+/// left out, which is about the two sigma bound of a point between the tags.
+double place_error(const Rig& rig, const CameraSetup& setup) {
+  const auto place = rig.places.find(setup.place_file);
+  return place == rig.places.end() ? 0 : 0.5 * place->second.worst_left_out_m;
+}
+
+Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations, const Rig& rig,
+                                                const RunSpan& span) {
+  if (span.starts_s.size() != observations.cameras.size()) {
+    return Unexpected(error_of(IssueCode::Config,
+                               fmt::format("the run's start is known for {} cameras of {}",
+                                           span.starts_s.size(), observations.cameras.size()),
+                               rig.file));
+  }
+  std::vector<TrackedCamera> cameras;
+  for (std::size_t i = 0; i < observations.cameras.size(); ++i) {
+    const CameraRecord& record = observations.cameras[i];
+    const CameraSetup* setup = setup_of(rig, record);
+    if (setup == nullptr) {
+      return Unexpected(error_of(IssueCode::Config,
+                                 "there is no camera `" + record.camera + "` in the arena file",
+                                 rig.file));
+    }
+    const std::optional<View> view = rig.view_of(*setup);
+    if (!view) {
+      return Unexpected(error_of(
+          IssueCode::Config,
+          fmt::format("camera {} needs its calibrations `{}` and `{}`; make them with `calibrate "
+                      "camera` and `calibrate arena`",
+                      setup->name, setup->model_file, setup->place_file),
+          rig.file));
+    }
+    if (view->camera.size != record.size) {
+      return Unexpected(error_of(IssueCode::CalibrationSize,
+                                 fmt::format("calibration {}, video {}",
+                                             size_text(view->camera.size), size_text(record.size)),
+                                 record.file.empty() ? setup->model_file : record.file));
+    }
+    cameras.push_back({setup->name, *view, span.starts_s[i], place_error(rig, *setup)});
+  }
+  return cameras;
+}
+
+Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
+                                   const TrackOptions& options, std::vector<Issue>& issues) {
+  const auto found = rig.offsets.find(setup.offset_file);
+  std::string reason = fmt::format("{} has no offset calibration", setup.name);
+  if (found != rig.offsets.end()) {
+    const OffsetCalibration& offset = found->second;
+    if (offset.tag == setup.tag) {
+      return TaggedRobot{setup, offset.offset, std::max(offset.sigma_x_m, offset.sigma_y_m)};
+    }
+    reason = fmt::format("the offset calibration `{}` of {} is of tag {}, and it carries tag {}",
+                         setup.offset_file, setup.name, offset.tag, setup.tag);
+  }
+  if (!options.takes_tags_for_centres) {
+    return Unexpected(error_of(
+        IssueCode::NoOffset,
+        reason + "; make one with `calibrate robot`, or take the tag for its centre explicitly, "
+                 "which marks the score as biased",
+        rig.file));
+  }
+  issues.push_back({IssueCode::TagAsCentre,
+                    reason + "; its tag was taken for its centre and the score is biased",
+                    setup.name,
+                    {},
+                    {}});
+  return TaggedRobot{setup, {}, 0};
+}
+
+/// Sightings of the run by their tag.
+using SightingsByTag = std::map<int, std::vector<const Sighting*>>;
+
+SightingsByTag sightings_of(const Observations& observations,
+                            std::span<const TrackedCamera> cameras, const TrackOptions& options) {
+  const double margin = options.limits.degraded_gap_s;
+  const double end = instant_s(options.span.cycles) + margin;
+  SightingsByTag found;
+  for (const Sighting& seen : observations.sightings) {
+    const double time = seen.time_s - cameras[static_cast<std::size_t>(seen.camera)].start_s;
+    if (time >= -margin && time <= end) found[seen.tag].push_back(&seen);
+  }
+  return found;
+}
+
+void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOptions& options,
+                  std::vector<Issue>& issues) {
+  std::set<int> known(options.other_tags.begin(), options.other_tags.end());
+  for (const RobotSetup& robot : rig.robots)
+    known.insert(robot.tag);
+  for (const ReferenceTag& reference : rig.references)
+    known.insert(reference.tag);
+  std::string list;
+  for (const auto& [tag, seen] : sightings) {
+    if (known.contains(tag)) continue;
+    list += fmt::format("{}{} ({} times)", list.empty() ? "" : ", ", tag, seen.size());
+  }
+  if (list.empty()) return;
+  issues.push_back(
+      {IssueCode::UnknownTags, "tags that nobody declared were seen: " + list, {}, {}, {}});
+}
+
+/// Why a robot has no sample within the first seconds.
+Error missing(const TaggedRobot& robot, const RobotSamples& samples, const FrameReport& frames) {
+  const auto of = [&](Sample::Use use) {
+    return std::ranges::count(samples.samples, use, &Sample::use);
+  };
+  const std::string who = fmt::format("{} (tag {})", robot.setup.name, robot.setup.tag);
+  if (frames.frames == 0 || frames.from_s > kFirstLook_s) {
+    return error_of(IssueCode::VideoTruncated,
+                    fmt::format("covered {:.2f} s of the run, and nothing of its first {:.0f} s; "
+                                "check its start",
+                                frames.covered_s, kFirstLook_s),
+                    robot.setup.name);
+  }
+  if (samples.twice_unresolved > 0 && of(Sample::Use::Used) == 0) {
+    return error_of(IssueCode::DuplicateId,
+                    fmt::format("{} was seen twice in {} frames, from frame {} to frame {}; take "
+                                "one of the tags away",
+                                who, samples.twice.size(), std::ranges::min(samples.twice),
+                                std::ranges::max(samples.twice)),
+                    robot.setup.name);
+  }
+  return error_of(
+      IssueCode::RobotMissing,
+      fmt::format("{} was not seen in the first {:.0f} s: {} sightings in all, {} bad fits, {} "
+                  "outside of the arena, {} outliers; check its number, light and start",
+                  who, kFirstLook_s, samples.samples.size(), of(Sample::Use::BadFit),
+                  of(Sample::Use::Outside), of(Sample::Use::Outlier)),
+      robot.setup.name);
+}
+
+bool is_seen_early(const RobotSamples& samples) {
+  return std::ranges::any_of(samples.samples, [](const Sample& sample) {
+    return sample.use == Sample::Use::Used && sample.time_s <= kFirstLook_s;
+  });
+}
+
+/// The robots' poses, instant by instant.
+void join(const std::vector<RobotTrack>& tracks, int cycles, TrackedRun& run) {
+  run.trajectory.robots = static_cast<int>(tracks.size());
+  for (int cycle = 0; cycle <= cycles; ++cycle) {
+    for (const RobotTrack& track : tracks) {
+      const Pose& pose = track.poses[static_cast<std::size_t>(cycle)];
+      (cycle == 0 ? run.starts : run.trajectory.poses).push_back(pose);
+    }
+  }
+}
+
+}  // namespace
+
+Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig, const Arena& arena,
+                               const TrackOptions& options) {
+  const Expected<std::vector<TrackedCamera>> cameras = cameras_of(observations, rig, options.span);
+  if (!cameras) return Unexpected(cameras.error());
+  FrameReport frames = frame_report(observations, *cameras, rig, options);
+  TrackedRun run{.covered_s = frames.covered_s,
+                 .frame_rate_least = frames.frame_rate_least,
+                 .frame_rate_median = frames.frame_rate_median,
+                 .frame_rate_most = frames.frame_rate_most,
+                 .frames = frames.frames,
+                 .frames_dropped = frames.dropped,
+                 .frames_twice = frames.twice,
+                 .issues = frames.issues};
+  const SightingsByTag sightings = sightings_of(observations, *cameras, options);
+  list_unknown(sightings, rig, options, run.issues);
+  std::vector<RobotTrack> tracks;
+  for (const RobotSetup& setup : rig.robots) {
+    const Expected<TaggedRobot> robot = tagged_robot(setup, rig, options, run.issues);
+    if (!robot) return Unexpected(robot.error());
+    const auto seen = sightings.find(setup.tag);
+    RobotSamples samples =
+        samples_of(*robot, seen == sightings.end() ? std::vector<const Sighting*>{} : seen->second,
+                   *cameras, arena, options);
+    if (!is_seen_early(samples)) return Unexpected(missing(*robot, samples, frames));
+    tracks.push_back(track_of(*robot, samples, *cameras, options));
+    run.robots.push_back(
+        tracked_robot(*robot, std::move(samples), tracks.back(), frames, options, run.issues));
+  }
+  join(tracks, options.span.cycles, run);
+  return run;
+}
+
+}  // namespace swarmsmith
