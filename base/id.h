@@ -1,9 +1,12 @@
 #pragma once
 
+#include <charconv>
 #include <compare>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
+#include <string_view>
 
 namespace swarmsmith {
 
@@ -20,6 +23,17 @@ struct Id {
 template <class Tag>
 std::string to_string(Id<Tag> id) {
   return Tag::kLetter + std::to_string(id.value);
+}
+
+/// The id that people write as "d3"; nothing when the text is none.
+template <class Tag>
+std::optional<Id<Tag>> id_from_text(std::string_view text) {
+  if (text.empty() || text.front() != Tag::kLetter) return std::nullopt;
+  Id<Tag> id;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data() + 1, end, id.value);
+  if (error != std::errc() || stop != end || id.value < 1) return std::nullopt;
+  return id;
 }
 
 struct DesignTag {

@@ -18,6 +18,9 @@ struct Detection {
   double margin = 0;
 };
 
+/// The mean of its corners.
+ImagePoint middle_of(const TagCorners& corners);
+
 /// A part of an image, pixels; right and bottom edges do not belong to it.
 struct PixelBox {
   int left = 0;
@@ -26,18 +29,18 @@ struct PixelBox {
   int bottom = 0;
 };
 
-/// Finds AprilTags (Olson 2011, Wang and Olson 2016) with the apriltag library. Not for two threads
-/// at once; each makes its own.
+/// Finds AprilTags (Olson 2011, Wang and Olson 2016) with the apriltag library; codes with more
+/// than one wrong bit are no tags. Not for two threads at once; each makes its own.
 class TagDetector {
  public:
-  /// BadInput for an unknown family, with the known ones.
+  /// BadInput for a family that is not among known_tag_families().
   static Expected<TagDetector> of_family(const std::string& family);
   TagDetector(TagDetector&&) noexcept;
   TagDetector& operator=(TagDetector&&) noexcept;
   ~TagDetector();
 
-  /// Tags of a part of the image, searched at 1/`decimate` of its resolution; corners are refined
-  /// at full resolution. Sorted by tag, then by margin, best first.
+  /// Tags of a part of the image, cut off at its edges; searched at 1/`decimate` of its resolution;
+  /// corners are refined at full resolution. Sorted by tag, then by margin, best first.
   std::vector<Detection> find(const GrayImage& image, const PixelBox& box, int decimate);
   std::vector<Detection> find(const GrayImage& image, int decimate);
 
@@ -46,8 +49,5 @@ class TagDetector {
   explicit TagDetector(std::unique_ptr<Library> library);
   std::unique_ptr<Library> library_;
 };
-
-/// The families that are known: tag36h11, tag25h9, ...
-std::vector<std::string> tag_families();
 
 }  // namespace swarmsmith

@@ -15,9 +15,9 @@ namespace swarmsmith {
 
 /// A tag in a frame.
 struct Sighting {
-  int camera = 0;  ///< number in the list of cameras
-  std::int64_t frame = 0;
-  double time_s = 0;  ///< of the camera's clock, middle of the exposure of the tag's rows
+  int camera = 0;          ///< number in the list of cameras
+  std::int64_t frame = 0;  ///< its place in the camera's frame_times
+  double time_s = 0;       ///< of the camera's clock, middle of the exposure of the tag's rows
   int tag = 0;
   TagCorners corners{};
   int hamming = 0;    ///< bits corrected
@@ -52,10 +52,20 @@ struct CameraRecord {
   std::vector<ReferenceLook> references;
 };
 
+/// What one camera saw, from its first frame to its last.
+struct CameraObservations {
+  CameraRecord record;
+  std::vector<Sighting> sightings;  ///< by frame, tag; camera number 0
+  std::vector<Issue> issues;
+};
+
 struct Observations {
   std::vector<CameraRecord> cameras;
   std::vector<Sighting> sightings;  ///< by camera, frame, tag; robots' and unknown tags alike
   std::vector<Issue> issues;        ///< of files and times
 };
+
+/// Several cameras' observations as those of one run.
+Observations joined_observations(std::vector<CameraObservations> cameras);
 
 }  // namespace swarmsmith

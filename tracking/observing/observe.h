@@ -24,7 +24,7 @@ struct ObservedVideo {
 struct ObserveOptions {
   std::string family = "tag36h11";
   TagSearchOptions search;
-  std::set<int> references;     ///< floor tags, kept as medians and not as sightings
+  std::set<int> references;     ///< floor tags, kept as medians and not as sightings; lie still
   double reference_span_s = 5;  ///< that a median is taken over
 };
 
@@ -32,18 +32,15 @@ struct ObserveOptions {
 using OnFrame =
     std::function<void(std::int64_t done, std::int64_t of, const std::vector<Detection>& seen)>;
 
+/// When a camera saw a row of a frame: the middle of its exposure. A stamp speaks of the first row;
+/// `v` / `rows` of the readout later is the one at `v` (tracking facts, section 4).
+double exposed_at(const CameraSetup& camera, double stamp_s, double v, int rows);
+
 /// What one camera saw from the first frame to the last, with its sightings in order. Fails when
 /// the video cannot be read at all or its times cannot be trusted; a video that breaks off is a
-/// record with an issue.
-struct CameraObservations {
-  CameraRecord record;
-  std::vector<Sighting> sightings;  ///< camera number 0
-  std::vector<Issue> issues;
-};
+/// record with E_VIDEO_TRUNCATED. Frames that were dropped are told by their times, not here. A
+/// picture that is bit for bit that of the frame before has that frame's corners again.
 Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& options,
                                      const OnFrame& on_frame = {});
-
-/// Several cameras' observations as those of one run.
-Observations joined_observations(std::vector<CameraObservations> cameras);
 
 }  // namespace swarmsmith

@@ -62,10 +62,11 @@ struct CameraCalibration {
   CameraModel model;
   double rms_px = 0;
   double worst_view_px = 0;
-  int views = 0;          ///< used
-  int views_dropped = 0;  ///< as outliers
-  double coverage = 0;    ///< of the frame by the hull of the corners, 0 to 1
-  std::string board;      ///< as it was described
+  int views = 0;              ///< used
+  int views_dropped = 0;      ///< as outliers
+  double coverage = 0;        ///< of the frame by the hull of the corners, 0 to 1
+  double focal_sigma_px = 0;  ///< standard deviation of fx or fy, the larger one, by the fit
+  std::string board;          ///< as it was described
   std::string made;
 };
 
@@ -98,7 +99,7 @@ struct OffsetCalibration {
   double rms_m = 0;
   double sigma_x_m = 0;
   double sigma_y_m = 0;
-  double drift_m_s = 0;
+  double drift_m_s = 0;  ///< of the centre, while it span
   double turned_rad = 0;
   int samples = 0;
   std::string made;

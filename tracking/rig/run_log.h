@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "sim/mission/instance_csv.h"
 #include "sim/mission/mission.h"
 
 namespace swarmsmith {
@@ -18,6 +19,10 @@ struct RunVideo {
   std::string file;    ///< a video, a folder of images
   std::string times;   ///< sidecar with a time a frame; empty: FILE.times.csv if that is there
   double clock_ahead_s = 0;  ///< its clock minus that of the first video
+  /// How long the camera ran, by another clock: shows a video that plays too fast.
+  std::optional<double> length_s;
+
+  friend bool operator==(const RunVideo&, const RunVideo&) = default;
 };
 
 /// When the run begins, on the clock of the first camera's frame times.
@@ -27,24 +32,31 @@ struct RunStart {
   /// let go.
   int sync_tag = 0;
   enum class Sync { None, Hidden, Shown } sync = Sync::None;
+
+  friend bool operator==(const RunStart&, const RunStart&) = default;
 };
 
 /// Where the colour patches of the run come from.
 struct RunLayout {
   enum class Source { None, Log, Measured } source = Source::None;
-  std::vector<Patch> patches;  ///< of the log
+  std::vector<PatchPlacement> patches;  ///< of the log; of `Measured` those once measured
+
+  friend bool operator==(const RunLayout&, const RunLayout&) = default;
 };
 
 struct RunLog {
-  std::string name;      ///< "run07"
-  std::string recorded;  ///< date, "2026-11-21"
-  Mission mission;
+  std::string name;       ///< "run07"
+  std::string recorded;   ///< date, "2026-11-21"
+  Mission mission;        ///< without a name when the log does not say it
   std::string design;     ///< "d3", or empty
   std::string candidate;  ///< "c812", or empty: the design's winner
   std::string source = "real";
+  std::vector<std::string> robots;  ///< that took part; empty: all of the rig
   RunStart start;
   RunLayout layout;
   std::vector<RunVideo> videos;
+
+  friend bool operator==(const RunLog&, const RunLog&) = default;
 };
 
 }  // namespace swarmsmith

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/expected.h"
@@ -28,11 +29,13 @@ class FrameClock {
   /// E_TIMESTAMPS for a time that is missing or not later than the one before, with the frame;
   /// E_SIDECAR_MISMATCH for a frame beyond the sidecar's end.
   Expected<double> time_of(const Frame& frame);
-  /// E_SIDECAR_MISMATCH when the sidecar has more rows than frames came.
+  /// E_SIDECAR_MISMATCH when the sidecar has more rows than `frames`, those that came and those
+  /// that were damaged.
   Expected<void> finish(std::int64_t frames) const;
 
  private:
   TimeSource source_ = TimeSource::Container;
+  std::string name_;
   std::vector<double> sidecar_;
   double frame_rate_ = 0;
   std::optional<double> last_;

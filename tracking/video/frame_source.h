@@ -28,7 +28,9 @@ struct ColorImage {
 };
 
 struct Frame {
-  std::int64_t number = 0;       ///< from 0, in the order of display
+  /// From 0, in the order of display; one that was left out leaves a hole, so that rows of a
+  /// sidecar and counted times stay right.
+  std::int64_t number = 0;
   std::optional<double> time_s;  ///< as the container or the camera says it
   GrayImage gray;                ///< lives until the next frame is asked for
 };
@@ -37,8 +39,10 @@ struct SourceInfo {
   std::string name;  ///< of file, folder or device
   ImageSize size;
   double frame_rate = 0;             ///< nominal; 0 when nobody says it
-  std::int64_t expected_frames = 0;  ///< 0 when not known
+  std::int64_t expected_frames = 0;  ///< with the damaged ones; 0 when not known
   bool has_times = false;            ///< frames carry times worth trusting
+  bool has_count = false;     ///< constant rate, and as many frames as the file says it should have
+  bool is_truncated = false;  ///< a file that ends before its own header says
   bool is_live = false;
 };
 

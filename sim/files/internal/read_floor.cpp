@@ -6,7 +6,7 @@
 #include "base/base64.h"
 #include "sim/files/file_text.h"
 #include "sim/files/internal/read_color.h"
-#include "sim/files/internal/read_place.h"
+#include "sim/files/read_place.h"
 
 namespace swarmsmith {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "sim/files/internal/read_floor.h"
-#include "sim/files/internal/read_place.h"
+#include "sim/files/read_place.h"
 
 namespace swarmsmith {
 namespace {

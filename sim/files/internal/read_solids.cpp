@@ -5,7 +5,7 @@
 #include <string>
 
 #include "base/math.h"
-#include "sim/files/internal/read_place.h"
+#include "sim/files/read_place.h"
 #include "sim/mission/polygon.h"
 
 namespace swarmsmith {

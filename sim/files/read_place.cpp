@@ -1,4 +1,4 @@
-#include "sim/files/internal/read_place.h"
+#include "sim/files/read_place.h"
 
 #include <string>
 

@@ -1,0 +1,193 @@
+#include "tests/support/film/lab.h"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "base/math.h"
+
+namespace swarmsmith::film {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+
+CameraModel lens_of(ImageSize size, double focal_share, Rng rng) {
+  const double f = focal_share * size.width * (1 + rng.uniform(-0.01, 0.01));
+  return {size,
+          Lens::Pinhole,
+          f,
+          f * (1 + rng.uniform(-0.002, 0.002)),
+          (size.width - 1) / 2.0 + rng.uniform(-0.006, 0.006) * size.width,
+          (size.height - 1) / 2.0 + rng.uniform(-0.006, 0.006) * size.width,
+          {-0.285 + rng.uniform(-0.01, 0.01), 0.095 + rng.uniform(-0.005, 0.005),
+           rng.uniform(-0.0006, 0.0006), rng.uniform(-0.0006, 0.0006), 0}};
+}
+
+/// One camera above the middle; of two, each sees a good half.
+std::vector<LabCamera> cameras_of(const LabOptions& options, Rng rng) {
+  constexpr double kHeight_m = 2.7;
+  std::vector<LabCamera> cameras;
+  for (int i = 0; i < options.cameras; ++i) {
+    Rng own = rng.split("camera", static_cast<std::uint64_t>(i));
+    const double side = options.cameras == 1 ? 0 : 0.65 * (2 * i - 1);
+    // Tilts of 2 to 4 degrees, as they come about when a bracket is screwed on by hand.
+    const double tilt = own.uniform(2, 4) * kDegree;
+    const double towards = own.uniform(0, 2 * std::numbers::pi);
+    const Point target{side + own.uniform(-0.02, 0.02), own.uniform(-0.02, 0.02)};
+    const Point3 centre{target.x + kHeight_m * std::tan(tilt) * std::cos(towards),
+                        target.y + kHeight_m * std::tan(tilt) * std::sin(towards), kHeight_m};
+    const CameraModel lens =
+        lens_of(options.size, options.cameras == 1 ? 0.583 : 0.60, own.split("lens"));
+    cameras.push_back({options.cameras == 1 ? "ceiling"
+                       : i == 0             ? "west"
+                                            : "east",
+                       {lens, looking_at(centre, target, own.uniform(-3, 3) * kDegree)}});
+  }
+  return cameras;
+}
+
+nlohmann::json json_of(const Pose& pose) {
+  return {{"x", pose.x}, {"y", pose.y}, {"theta", pose.theta}};
+}
+
+}  // namespace
+
+Lab lab_of(const LabOptions& options) {
+  const Rng rng = Rng(options.seed).split("lab");
+  Lab lab;
+  lab.size = options.size;
+  lab.cameras = cameras_of(options, rng);
+  Rng survey = rng.split("survey");
+  for (int i = 0; i < 6; ++i) {
+    const double angle = (15 + 60 * i) * kDegree;
+    const Pose declared{std::round(1.08 * std::cos(angle) * 1000) / 1000,
+                        std::round(1.08 * std::sin(angle) * 1000) / 1000,
+                        wrap_angle((i % 4) * 90 * kDegree)};
+    const double sigma = options.survey_sigma_m;
+    FilmedTag tag{100 + i, declared};
+    tag.pose.x += survey.normal(0, sigma);
+    tag.pose.y += survey.normal(0, sigma);
+    // A tag of 0.1 m that is laid along a line to a millimetre at both ends.
+    tag.pose.theta += survey.normal(0, sigma / tag.edge_m);
+    lab.references.push_back(tag);
+    lab.declared.push_back(declared);
+  }
+  // The first two are those of the task's robots, whose turrets took the middle.
+  const std::vector<TagOffset> offsets{
+      {0.072, 0, 0}, {0.03, -0.05, 8 * kDegree}, {-0.045, 0.04, -90 * kDegree}};
+  Rng mounting = rng.split("mounting");
+  for (int i = 0; i < options.robots; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    const TagOffset offset =
+        k < offsets.size() ? offsets[k]
+                           : TagOffset{mounting.uniform(-0.07, 0.07), mounting.uniform(-0.07, 0.07),
+                                       mounting.uniform(-3, 3)};
+    lab.robots.push_back({fmt::format("rvr{}", i + 1), i + 1, 0.10, 0.20, offset});
+  }
+  return lab;
+}
+
+std::string arena_toml(const Lab& lab, const Shooting& shooting) {
+  std::string text = "format = 1\nfamily = \"tag36h11\"\n";
+  for (const LabCamera& camera : lab.cameras) {
+    text += fmt::format(
+        "\n[[camera]]\nname = \"{0}\"\nmodel = \"{0}.camera.toml\"\nplace = \"{0}.place.toml\"\n"
+        "stamp = \"middle\"\nexposure = \"{1:g} ms\"\nreadout = \"{2:g} ms\"\n"
+        "height = [2.0, 3.5]\n",
+        camera.name, shooting.exposure_s * 1000, shooting.readout_s * 1000);
+  }
+  for (std::size_t i = 0; i < lab.references.size(); ++i) {
+    const Pose& pose = lab.declared[i];
+    text += fmt::format(
+        "\n[[reference]]\ntag = {}\nx = {:.4f}\ny = {:.4f}\nangle = {:.2f}\nedge = {:g}\n",
+        lab.references[i].tag, pose.x, pose.y, pose.theta / kDegree, lab.references[i].edge_m);
+  }
+  for (const LabRobot& robot : lab.robots) {
+    text += fmt::format(
+        "\n[[robot]]\nname = \"{0}\"\ntag = {1}\nedge = {2:g}\nheight = {3:g}\n"
+        "offset = \"{0}.offset.toml\"\n",
+        robot.name, robot.tag, robot.edge_m, robot.height_m);
+  }
+  return text;
+}
+
+std::string truth_json(const Lab& lab) {
+  nlohmann::json truth;
+  truth["size"] = {lab.size.width, lab.size.height};
+  for (const LabCamera& camera : lab.cameras) {
+    const CameraModel& model = camera.view.camera;
+    const Point3 centre = camera.view.place.centre();
+    const Point3& moved = camera.view.place.translation;
+    truth["cameras"].push_back({{"name", camera.name},
+                                {"fx", model.fx},
+                                {"fy", model.fy},
+                                {"cx", model.cx},
+                                {"cy", model.cy},
+                                {"distortion", model.distortion},
+                                {"rotation", camera.view.place.rotation},
+                                {"translation", {moved.x, moved.y, moved.z}},
+                                {"centre", {centre.x, centre.y, centre.z}}});
+  }
+  for (std::size_t i = 0; i < lab.references.size(); ++i) {
+    truth["references"].push_back({{"tag", lab.references[i].tag},
+                                   {"true", json_of(lab.references[i].pose)},
+                                   {"declared", json_of(lab.declared[i])}});
+  }
+  for (const LabRobot& robot : lab.robots) {
+    truth["robots"].push_back({{"name", robot.name},
+                               {"tag", robot.tag},
+                               {"edge", robot.edge_m},
+                               {"height", robot.height_m},
+                               {"x", robot.offset.x_m},
+                               {"y", robot.offset.y_m},
+                               {"yaw", robot.offset.yaw_rad}});
+  }
+  truth["board"] = {{"columns", lab.board.columns},
+                    {"rows", lab.board.rows},
+                    {"square", lab.board.square_m},
+                    {"marker", lab.board.marker_m},
+                    {"dictionary", "DICT_4X4_50"}};
+  return truth.dump(1) + "\n";
+}
+
+Scene empty_scene(const Lab& lab) {
+  Scene scene;
+  scene.arena = dodecagon_of_the_thesis();
+  scene.tags = lab.references;
+  return scene;
+}
+
+FilmedRobot filmed(const LabRobot& robot, Path path) {
+  FilmedRobot made;
+  made.tag = robot.tag;
+  made.edge_m = robot.edge_m;
+  made.height_m = robot.height_m;
+  made.offset = robot.offset;
+  made.path = std::move(path);
+  return made;
+}
+
+Path spin_path(Point centre, double turns, double seconds, Point creep_m_s) {
+  std::vector<Pose> poses;
+  const int steps = static_cast<int>(std::lround(seconds * 10));
+  for (int i = 0; i <= steps; ++i) {
+    const double t = i * 0.1;
+    poses.push_back({centre.x + creep_m_s.x * t, centre.y + creep_m_s.y * t,
+                     wrap_angle(0.4 + 2 * std::numbers::pi * turns * i / steps)});
+  }
+  return Path(std::move(poses));
+}
+
+Path straight_path(const Pose& from, double length_m, double seconds) {
+  std::vector<Pose> poses;
+  const int steps = static_cast<int>(std::lround(seconds * 10));
+  for (int i = 0; i <= steps; ++i) {
+    const double way = length_m * i / steps;
+    poses.push_back(
+        {from.x + way * std::cos(from.theta), from.y + way * std::sin(from.theta), from.theta});
+  }
+  return Path(std::move(poses));
+}
+
+}  // namespace swarmsmith::film

@@ -1,0 +1,260 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "base/math.h"
+#include "console/sha256.h"
+#include "tracking/rig/rig_file.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr char kArena[] = R"(format = 1
+family = "tag36h11"
+[[camera]]
+name  = "ceiling"
+model = "ceiling.camera.toml"
+place = "ceiling.place.toml"
+stamp = "start"
+exposure = "8 ms"
+readout  = "16 ms"
+height   = [1.5, 4]
+[[reference]]
+tag = 100
+x = 1.0
+y = 0.2
+angle = 90
+edge = 0.10
+[[robot]]
+name = "rvr1"
+tag = 1
+edge = 0.10
+height = 0.20
+offset = "rvr1.offset.toml"
+[[robot]]
+name = "rvr2"
+tag = 2
+edge = 0.10
+height = 0.20
+)";
+
+/// Calibrations by file name, as if they lay beside the arena file.
+FindCalibration files(std::map<std::string, std::string> texts) {
+  return [texts](CalibrationKind, const std::string&,
+                 const std::string& file) -> Expected<std::optional<std::string>> {
+    const auto found = texts.find(file);
+    if (found == texts.end()) return std::nullopt;
+    return found->second;
+  };
+}
+
+CameraCalibration camera_calibration() {
+  CameraCalibration camera;
+  camera.model.size = {1920, 1080};
+  camera.model.fx = camera.model.fy = 1015;
+  camera.model.cx = 959.5;
+  camera.model.cy = 539.5;
+  camera.rms_px = 0.06;
+  camera.worst_view_px = 0.1;
+  camera.views = 17;
+  camera.coverage = 0.9;
+  camera.board = "charuco 11 x 8";
+  camera.made = "2026-11-20T10:00:00Z";
+  return camera;
+}
+
+PlaceCalibration place_calibration(const std::string& camera_text) {
+  PlaceCalibration place;
+  place.place.rotation = {1, 0, 0, 0, -1, 0, 0, 0, -1};  // straight down
+  place.place.translation = {0, 0, 2.7};
+  place.rms_px = 0.05;
+  place.coverage = 0.8;
+  place.worst_tag = 100;
+  for (int tag = 100; tag < 104; ++tag) {
+    PlaceCalibration::Seen seen;
+    seen.tag = {tag, {tag % 2 == 0 ? 1.0 : -1.0, tag < 102 ? 1.0 : -1.0, 0}, 0.1};
+    place.tags.push_back(seen);
+  }
+  place.camera_sha256 = cli::sha256_of(camera_text);
+  place.made = "2026-11-20T11:00:00Z";
+  return place;
+}
+
+OffsetCalibration offset_calibration() {
+  OffsetCalibration offset;
+  offset.robot = "rvr1";
+  offset.tag = 1;
+  offset.edge_m = 0.10;
+  offset.height_m = 0.20;
+  offset.offset = {0.05, -0.05, 0};
+  offset.rms_m = 0.0005;
+  offset.sigma_x_m = offset.sigma_y_m = 0.0001;
+  offset.turned_rad = 13;
+  offset.samples = 120;
+  offset.made = "2026-11-20T12:00:00Z";
+  return offset;
+}
+
+std::map<std::string, std::string> calibrations() {
+  const std::string camera = calibration_text(camera_calibration());
+  return {{"ceiling.camera.toml", camera},
+          {"ceiling.place.toml", calibration_text(place_calibration(camera))},
+          {"rvr1.offset.toml", calibration_text(offset_calibration())}};
+}
+
+std::vector<std::string> sentences_of(const std::vector<Error>& errors) {
+  std::vector<std::string> sentences;
+  for (const Error& error : errors)
+    sentences.push_back(to_string(error));
+  return sentences;
+}
+
+std::vector<std::string> complaints_about(const std::string& text) {
+  const auto rig = parse_rig(text, "arena.toml", files({}));
+  return rig ? std::vector<std::string>{} : sentences_of(rig.error());
+}
+
+/// The arena of the tests with `before` replaced.
+std::string arena_with(const std::string& before, const std::string& after) {
+  std::string text = kArena;
+  const auto at = text.find(before);
+  EXPECT_NE(at, std::string::npos) << before;
+  return text.replace(at, before.size(), after);
+}
+
+TEST(RigFile, SaysWhatHangsLiesAndDrives) {
+  const auto rig = parse_rig(kArena, "lab/arena.toml", files({}));
+  ASSERT_TRUE(rig) << to_string(rig.error().front());
+  EXPECT_EQ(rig->file, "arena.toml");
+  EXPECT_THAT(rig->cameras,
+              ElementsAre(CameraSetup{"ceiling", "ceiling.camera.toml", "ceiling.place.toml",
+                                      StampedAt::Start, 0.008, 0.016}));
+  EXPECT_EQ(rig->least_height_m, 1.5);
+  EXPECT_EQ(rig->most_height_m, 4);
+  EXPECT_THAT(rig->references, ElementsAre(ReferenceTag{100, {1.0, 0.2, kPi / 2}, 0.10}));
+  EXPECT_THAT(rig->robots, ElementsAre(RobotSetup{"rvr1", 1, 0.10, 0.20, "rvr1.offset.toml"},
+                                       RobotSetup{"rvr2", 2, 0.10, 0.20, ""}));
+  EXPECT_THAT(rig->models, IsEmpty());
+  EXPECT_FALSE(rig->view_of(rig->cameras[0]));
+}
+
+TEST(RigFile, TakesTheCalibrationsThatAreThere) {
+  const auto texts = calibrations();
+  const auto rig = parse_rig(kArena, "arena.toml", files(texts));
+  ASSERT_TRUE(rig) << to_string(rig.error().front());
+  EXPECT_TRUE(rig->view_of(rig->cameras[0]));
+  EXPECT_EQ(rig->offset_of(rig->robots[0]), (TagOffset{0.05, -0.05, 0}));
+  EXPECT_FALSE(rig->offset_of(rig->robots[1]));
+  const CalibrationFile& file = rig->files.at("rvr1.offset.toml");
+  EXPECT_EQ(file.text, texts.at("rvr1.offset.toml"));
+  EXPECT_EQ(file.sha256, cli::sha256_of(file.text));
+  EXPECT_EQ(file.made, "2026-11-20T12:00:00Z");
+  EXPECT_THAT(misfits(*rig), IsEmpty());
+}
+
+TEST(RigFile, NamesEachMistakeByPlaceKeyAndWhatIsAllowed) {
+  EXPECT_THAT(
+      complaints_about(R"(format = 1
+family = "tag36h12"
+[[camera]]
+name = "ceiling"
+modell = "x.toml"
+stamp = "begin"
+exposure = "8"
+readout = "2 s"
+height = [4, 1]
+[[reference]]
+tag = 600
+x = nan
+y = 0
+edge = -0.1
+[[robot]]
+name = "rvr1"
+tag = 1
+edge = 0.1
+height = 0.7
+[[robot]]
+name = "rvr1"
+tag = 2
+edge = 0.1
+)"),
+      ElementsAre(
+          AllOf(HasSubstr("arena.toml:2:10: E_CONFIG: "), HasSubstr("did you mean \"tag36h11\"?")),
+          HasSubstr("arena.toml:3:1: E_CONFIG: [[camera]] needs a `model`"),
+          HasSubstr("arena.toml:3:1: E_CONFIG: [[camera]] needs a `place`"),
+          AllOf(HasSubstr("arena.toml:5:1: E_CONFIG: "), HasSubstr("did you mean \"model\"?")),
+          AllOf(HasSubstr("arena.toml:6:9: E_CONFIG: `stamp`"), HasSubstr("start, middle, end")),
+          HasSubstr("arena.toml:7:12: E_CONFIG: `exposure` must be a time with its unit"),
+          HasSubstr("arena.toml:8:11: E_CONFIG: `readout` must be from 0 to 1 seconds"),
+          HasSubstr("arena.toml:9:10: E_CONFIG: `height` must be [least, most]"),
+          HasSubstr("arena.toml:11:7: E_CONFIG: `tag` must be from 0 to 586, this is 600"),
+          HasSubstr("arena.toml:12:5: E_CONFIG: `x` must be from -100 to 100, this is nan"),
+          HasSubstr("arena.toml:14:8: E_CONFIG: `edge` must be from 0.005 to 2, this is -0.1"),
+          AllOf(HasSubstr("arena.toml:19:10: E_CONFIG: `height` must be below the camera"),
+                HasSubstr("this is 0.7")),
+          HasSubstr("arena.toml:20:1: E_CONFIG: [[robot]] needs `height`"),
+          HasSubstr("arena.toml:21:8: E_CONFIG: two [[robot]] have the name \"rvr1\"")));
+}
+
+TEST(RigFile, RefusesATagThatIsThereTwice) {
+  const auto rig = parse_rig(arena_with("tag = 2", "tag = 1"), "arena.toml", files({}));
+  ASSERT_FALSE(rig);
+  EXPECT_THAT(sentences_of(rig.error()),
+              ElementsAre(AllOf(HasSubstr("arena.toml:25:7: E_DUPLICATE_ID: tag 1 is on robot "),
+                                HasSubstr("\"rvr1\" and on robot \"rvr2\""))));
+  EXPECT_EQ(rig.error().front().kind, ErrorKind::BadInput);
+  EXPECT_THAT(complaints_about(arena_with("tag = 2", "tag = 100")),
+              ElementsAre(HasSubstr("E_DUPLICATE_ID: tag 100 is on the floor at (1, 0.2)")));
+}
+
+TEST(RigFile, NeedsACamera) {
+  EXPECT_THAT(complaints_about("format = 1\n"),
+              ElementsAre(AllOf(HasSubstr("E_CONFIG: "), HasSubstr("no [[camera]]"))));
+  EXPECT_THAT(complaints_about("format = 2\n[[camera]]\nname=\"a\"\nmodel=\"b\"\nplace=\"c\"\n"),
+              ElementsAre(HasSubstr("E_CONFIG: format 2 is newer")));
+}
+
+TEST(RigFile, ShowsWhatIsWrongInACalibration) {
+  auto texts = calibrations();
+  texts["rvr1.offset.toml"] = "format = 1\nrobbot = \"rvr1\"\n";
+  const auto rig = parse_rig(kArena, "arena.toml", files(texts));
+  ASSERT_FALSE(rig);
+  EXPECT_THAT(to_string(rig.error().front()), HasSubstr("rvr1.offset.toml:"));
+}
+
+TEST(RigFile, SaysWhichCalibrationsDoNotBelongTogether) {
+  auto texts = calibrations();
+  CameraCalibration later = camera_calibration();
+  later.model.fx = 1016;
+  texts["ceiling.camera.toml"] = calibration_text(later);
+  const auto rig = parse_rig(arena_with("tag = 1\nedge = 0.10", "tag = 3\nedge = 0.12"),
+                             "arena.toml", files(texts));
+  ASSERT_TRUE(rig) << to_string(rig.error().front());
+  EXPECT_THAT(sentences_of(misfits(*rig)),
+              ElementsAre(AllOf(HasSubstr("ceiling.place.toml: E_CALIB_QUALITY: "),
+                                HasSubstr("another calibration"), HasSubstr("calibrate arena")),
+                          AllOf(HasSubstr("rvr1.offset.toml: E_CALIB_QUALITY: "),
+                                HasSubstr("tag 1 and not 3, edge 0.1 and not 0.12"),
+                                HasSubstr("calibrate robot"))));
+}
+
+TEST(RigFile, RefusesATagAboveWhereTheCameraReallyHangs) {
+  auto texts = calibrations();
+  PlaceCalibration low = place_calibration(texts.at("ceiling.camera.toml"));
+  low.place.translation = {0, 0, 0.15};
+  texts["ceiling.place.toml"] = calibration_text(low);
+  const auto rig = parse_rig(kArena, "arena.toml", files(texts));
+  ASSERT_TRUE(rig) << to_string(rig.error().front());
+  EXPECT_THAT(sentences_of(misfits(*rig)),
+              ElementsAre(AllOf(HasSubstr("E_CONFIG: `height` of robot \"rvr1\""),
+                                HasSubstr("hangs at 0.15 m; this is 0.2")),
+                          HasSubstr("robot \"rvr2\"")));
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,165 @@
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "tracking/rig/rig_file.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+
+constexpr char kLog[] = R"(format = 1
+name = "run07"
+recorded = 2026-11-21
+mission = "color_selection"
+design = "d3"
+source = "real"
+start = "12.4 s"
+[[video]]
+camera = "ceiling"
+file = "run07.mp4"
+times = "run07.times.csv"
+[[video]]
+camera = "corner"
+file = "corner.mp4"
+ahead = "-20 ms"
+[[patch]]
+x = 0.3
+y = 0
+color = "green"
+)";
+
+std::vector<std::string> complaints_about(const std::string& text) {
+  const auto log = parse_run_log(text, "run.toml");
+  std::vector<std::string> sentences;
+  if (log) return sentences;
+  for (const Error& error : log.error())
+    sentences.push_back(to_string(error));
+  return sentences;
+}
+
+TEST(RunLogFile, SaysWhatAPersonKnowsOfARun) {
+  const auto log = parse_run_log(kLog, "run.toml");
+  ASSERT_TRUE(log) << to_string(log.error().front());
+  EXPECT_EQ(log->name, "run07");
+  EXPECT_EQ(log->recorded, "2026-11-21");
+  EXPECT_EQ(log->mission, *built_in_mission("color_selection"));
+  EXPECT_EQ(log->design, "d3");
+  EXPECT_EQ(log->start.time_s, 12.4);
+  ASSERT_EQ(log->videos.size(), 2U);
+  EXPECT_EQ(log->videos[0].times, "run07.times.csv");
+  EXPECT_EQ(log->videos[1].clock_ahead_s, -0.02);
+  EXPECT_EQ(log->layout.source, RunLayout::Source::Log);
+  ASSERT_EQ(log->layout.patches.size(), 1U);
+  EXPECT_EQ(log->layout.patches[0], (PatchPlacement{{0.3, 0}, {0, 255, 0}}));
+}
+
+TEST(RunLogFile, ReadsBackToTheSameBits) {
+  RunLog log = *parse_run_log(kLog, "run.toml");
+  log.start.time_s = 0.1 + 0.2;
+  log.videos[1].clock_ahead_s = 1.0 / 3;
+  RunLog synced = log;
+  synced.start = {std::nullopt, 99, RunStart::Sync::Shown};
+  synced.robots = {"rvr1", "rvr \"3\""};
+  synced.videos[0].length_s = 150.2;
+  synced.design.clear();
+  synced.candidate = "c812";
+  synced.layout.source = RunLayout::Source::Measured;
+  RunLog plain;
+  plain.name = "plain";
+  plain.recorded = "";
+  for (const RunLog& one : {log, synced, plain}) {
+    const std::string text = run_log_text(one);
+    const auto again = parse_run_log(text, "run.toml");
+    ASSERT_TRUE(again) << to_string(again.error().front()) << text;
+    EXPECT_EQ(*again, one) << text;
+    EXPECT_EQ(run_log_text(*again), text);
+  }
+}
+
+TEST(RunLogFile, HasTheNameOfItsFileWhenItSaysNone) {
+  const auto log = parse_run_log("format = 1\n", "some/run08.toml");
+  ASSERT_TRUE(log);
+  EXPECT_EQ(log->name, "run08");
+  EXPECT_EQ(log->mission.name, "");
+}
+
+TEST(RunLogFile, NamesEachMistakeByPlaceKeyAndWhatIsAllowed) {
+  EXPECT_THAT(
+      complaints_about(R"(format = 1
+recorded = "yesterday"
+mision = "aggregation"
+design = "best"
+source = "a b"
+start = "nan s"
+sync = { tag = -1, when = "gone" }
+layout = "guessed"
+[[video]]
+file = ""
+ahead = 3
+[[video]]
+file = "b.mp4"
+[[patch]]
+x = nan
+y = 0
+color = "gren"
+)"),
+      ElementsAre(
+          AllOf(HasSubstr("run.toml:2:12: E_CONFIG: `recorded` must be a date")),
+          AllOf(HasSubstr("run.toml:3:1: E_CONFIG: "), HasSubstr("did you mean \"mission\"?")),
+          AllOf(HasSubstr("run.toml:4:10: E_CONFIG: `design`"), HasSubstr("\"best\"")),
+          HasSubstr("run.toml:5:10: E_CONFIG: `source`"),
+          AllOf(HasSubstr("run.toml:6:9: E_CONFIG: `start` must be from")),
+          HasSubstr("run.toml:7:8: E_CONFIG: `start` and `sync`"),
+          AllOf(HasSubstr("run.toml:7:16: E_CONFIG: `tag` must be from 0"), HasSubstr("-1")),
+          AllOf(HasSubstr("E_CONFIG: `when` cannot be \"gone\""), HasSubstr("hidden, shown")),
+          AllOf(HasSubstr("E_CONFIG: `layout` cannot be \"guessed\""), HasSubstr("measured")),
+          HasSubstr("run.toml:9:1: E_CONFIG: several [[video]]: each needs a `camera`"),
+          HasSubstr("E_CONFIG: [[video]] needs a `file`"),
+          HasSubstr("E_CONFIG: `ahead` must be a text"),
+          AllOf(HasSubstr("E_CONFIG: `x` must be from -100 to 100, this is nan")),
+          AllOf(HasSubstr("E_CONFIG: there is no colour \"gren\""), HasSubstr("green"))));
+}
+
+TEST(RunLogFile, SaysWhichMissionsThereAre) {
+  EXPECT_THAT(complaints_about("format = 1\nmission = \"agregation\"\n"),
+              ElementsAre(AllOf(HasSubstr("run.toml:2:11: E_CONFIG: "),
+                                HasSubstr("did you mean \"aggregation\"?"))));
+  EXPECT_THAT(complaints_about("format = 1\nmission = \"gone.toml\"\n"),
+              ElementsAre(AllOf(HasSubstr("run.toml:2:11: E_CONFIG: gone.toml: "))));
+  EXPECT_THAT(complaints_about("format = 1\ndesign = \"d1\"\ncandidate = \"c7\"\n"),
+              ElementsAre(HasSubstr("run.toml:3:13: E_CONFIG: a candidate has its design")));
+  EXPECT_THAT(complaints_about("format = [\n"),
+              ElementsAre(HasSubstr("E_CONFIG: this is no TOML")));
+}
+
+RunLog log_of_colors(const std::vector<PatchPlacement>& patches) {
+  RunLog log;
+  log.mission = *built_in_mission("color_selection");
+  log.layout = {RunLayout::Source::Log, patches};
+  return log;
+}
+
+TEST(RunLogFile, GivesPatchesTheSizesOfTheMissionsPlaces) {
+  const Mission mission = *built_in_mission("color_selection");
+  const Instance instance = *instance_of(mission, 5);
+  std::vector<PatchPlacement> placements;
+  for (const Patch& patch : instance.patches)
+    placements.push_back({std::get<Rectangle>(patch.shape).centre, patch.color});
+  const auto patches = patches_of_log(log_of_colors(placements));
+  ASSERT_TRUE(patches) << to_string(patches.error());
+  EXPECT_EQ(*patches, instance.patches);
+
+  placements.pop_back();
+  const auto short_of_one = patches_of_log(log_of_colors(placements));
+  ASSERT_FALSE(short_of_one);
+  EXPECT_THAT(to_string(short_of_one.error()), HasSubstr("E_CONFIG: the log has 3 "));
+  placements.push_back({{0.01, 0.02}, {0, 255, 0}});
+  const auto astray = patches_of_log(log_of_colors(placements));
+  ASSERT_FALSE(astray);
+  EXPECT_THAT(to_string(astray.error()), HasSubstr("no free place for a patch at (0.01"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

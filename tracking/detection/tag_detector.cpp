@@ -1,0 +1,143 @@
+#include "tracking/detection/tag_detector.h"
+
+#include <apriltag/apriltag.h>
+#include <apriltag/tag16h5.h>
+#include <apriltag/tag25h9.h>
+#include <apriltag/tag36h10.h>
+#include <apriltag/tag36h11.h>
+#include <apriltag/tagCircle21h7.h>
+#include <apriltag/tagCircle49h12.h>
+#include <apriltag/tagCustom48h12.h>
+#include <apriltag/tagStandard41h12.h>
+#include <apriltag/tagStandard52h13.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <string_view>
+#include <tuple>
+
+#include "tracking/geometry/tag_family.h"
+
+namespace swarmsmith {
+namespace {
+
+struct Family {
+  std::string_view name;
+  apriltag_family_t* (*make)();
+  void (*destroy)(apriltag_family_t*);
+};
+
+constexpr std::array<Family, 9> kFamilies = {{
+    {"tag36h11", tag36h11_create, tag36h11_destroy},
+    {"tag36h10", tag36h10_create, tag36h10_destroy},
+    {"tag25h9", tag25h9_create, tag25h9_destroy},
+    {"tag16h5", tag16h5_create, tag16h5_destroy},
+    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
+    {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy},
+    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy},
+    {"tagCircle49h12", tagCircle49h12_create, tagCircle49h12_destroy},
+    {"tagCustom48h12", tagCustom48h12_create, tagCustom48h12_destroy},
+}};
+
+/// The library's table grows with codes x bits^n: 2 would take 3 GB for tagStandard52h13, and no
+/// search accepts more than 1.
+constexpr int kBitsCorrected = 1;
+
+/// Below this the library has no tiles to take thresholds from, and no tag can be read.
+constexpr int kLeastSide = 16;
+
+/// The library counts 0.5 at the middle of a pixel, we count 0.
+constexpr double kPixelMiddle = 0.5;
+
+Detection detection_of(const apriltag_detection_t& found, const PixelBox& box) {
+  Detection detection;
+  detection.tag = found.id;
+  for (std::size_t i = 0; i < detection.corners.size(); ++i)
+    detection.corners[i] = {found.p[i][0] + box.left - kPixelMiddle,
+                            found.p[i][1] + box.top - kPixelMiddle};
+  detection.hamming = found.hamming;
+  detection.margin = static_cast<double>(found.decision_margin);
+  return detection;
+}
+
+}  // namespace
+
+ImagePoint middle_of(const TagCorners& corners) {
+  ImagePoint sum;
+  for (const ImagePoint& corner : corners) {
+    sum.u += corner.u;
+    sum.v += corner.v;
+  }
+  return {sum.u / 4, sum.v / 4};
+}
+
+/// Families are state that detectors write to, so each detector has its own.
+struct TagDetector::Library {
+  const Family* kind;
+  apriltag_family_t* family;
+  apriltag_detector_t* detector;
+
+  explicit Library(const Family& of)
+      : kind(&of), family(of.make()), detector(apriltag_detector_create()) {
+    apriltag_detector_add_family_bits(detector, family, kBitsCorrected);
+    detector->nthreads = 1;
+    detector->refine_edges = true;
+  }
+  ~Library() {
+    apriltag_detector_destroy(detector);
+    kind->destroy(family);
+  }
+  Library(const Library&) = delete;
+  Library& operator=(const Library&) = delete;
+};
+
+TagDetector::TagDetector(std::unique_ptr<Library> library) : library_(std::move(library)) {}
+TagDetector::TagDetector(TagDetector&&) noexcept = default;
+TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
+TagDetector::~TagDetector() = default;
+
+Expected<TagDetector> TagDetector::of_family(const std::string& family) {
+  const auto* const found = std::find_if(kFamilies.begin(), kFamilies.end(),
+                                         [&](const Family& each) { return each.name == family; });
+  if (found != kFamilies.end()) return TagDetector(std::make_unique<Library>(*found));
+  std::string known;
+  for (const TagFamily& each : known_tag_families())
+    known += (known.empty() ? "" : ", ") + std::string(each.name);
+  return bad_input("there is no tag family '" + family + "'; known are " + known);
+}
+
+std::vector<Detection> TagDetector::find(const GrayImage& image, const PixelBox& box,
+                                         int decimate) {
+  assert(decimate >= 1);
+  const PixelBox inside{std::max(box.left, 0), std::max(box.top, 0),
+                        std::min(box.right, image.width), std::min(box.bottom, image.height)};
+  const int width = inside.right - inside.left;
+  const int height = inside.bottom - inside.top;
+  if (std::min(width, height) < kLeastSide * decimate) return {};
+  const std::uint8_t* const corner =
+      image.pixels + static_cast<std::ptrdiff_t>(inside.top) * image.stride + inside.left;
+  // The library only reads, though its type has no word for that.
+  image_u8_t crop{width, height, static_cast<std::int32_t>(image.stride),
+                  const_cast<std::uint8_t*>(corner)};
+  library_->detector->quad_decimate = static_cast<float>(decimate);
+  zarray_t* const found = apriltag_detector_detect(library_->detector, &crop);
+  std::vector<Detection> detections;
+  for (int i = 0; i < zarray_size(found); ++i) {
+    apriltag_detection_t* each = nullptr;
+    zarray_get(found, i, static_cast<void*>(&each));
+    detections.push_back(detection_of(*each, inside));
+  }
+  apriltag_detections_destroy(found);
+  std::sort(detections.begin(), detections.end(), [](const Detection& a, const Detection& b) {
+    return std::tuple(a.tag, -a.margin, a.corners[0].u, a.corners[0].v) <
+           std::tuple(b.tag, -b.margin, b.corners[0].u, b.corners[0].v);
+  });
+  return detections;
+}
+
+std::vector<Detection> TagDetector::find(const GrayImage& image, int decimate) {
+  return find(image, {0, 0, image.width, image.height}, decimate);
+}
+
+}  // namespace swarmsmith

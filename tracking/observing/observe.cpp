@@ -1,0 +1,165 @@
+#include "tracking/observing/observe.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstring>
+#include <utility>
+
+#include "tracking/observing/reference_medians.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Containers' counts of frames may be a little off without anything being lost.
+constexpr double kCountsMayDiffer = 0.01;
+
+/// Keeps the picture before, to see when it comes again: what a camera's program writes in place of
+/// a frame that it lost.
+class LastPicture {
+ public:
+  /// Whether the picture is the last one, bit for bit; it is the last one from now on.
+  bool is_repeated_by(const GrayImage& image) {
+    const auto width = static_cast<std::size_t>(image.width);
+    const auto height = static_cast<std::size_t>(image.height);
+    bool same = pixels_.size() == width * height;
+    pixels_.resize(width * height);
+    for (std::size_t row = 0; row < height; ++row) {
+      const std::uint8_t* const now =
+          image.pixels + static_cast<std::ptrdiff_t>(row) * image.stride;
+      std::uint8_t* const before = &pixels_[row * width];
+      if (same && std::memcmp(before, now, width) == 0) continue;
+      same = false;
+      std::memcpy(before, now, width);
+    }
+    return same;
+  }
+
+ private:
+  std::vector<std::uint8_t> pixels_;
+};
+
+/// Sightings and medians of one camera, as frames come.
+class Recorder {
+ public:
+  Recorder(const CameraSetup& camera, const ObserveOptions& options, int rows)
+      : camera_(camera),
+        references_(options.references),
+        rows_(rows),
+        medians_(options.reference_span_s) {}
+
+  void add(std::int64_t frame, double time_s, const std::vector<Detection>& seen) {
+    for (const Detection& each : seen) {
+      if (references_.contains(each.tag)) {
+        if (is_there_once(each.tag, seen)) medians_.add(time_s, each.tag, each.corners);
+        continue;
+      }
+      const double v = middle_of(each.corners).v;
+      sightings_.push_back({0, frame, exposed_at(camera_, time_s, v, rows_), each.tag, each.corners,
+                            each.hamming, each.margin});
+    }
+  }
+
+  std::vector<Sighting> take_sightings() { return std::move(sightings_); }
+  std::vector<ReferenceLook> take_references() { return medians_.take(); }
+
+ private:
+  static bool is_there_once(int tag, const std::vector<Detection>& seen) {
+    return std::count_if(seen.begin(), seen.end(),
+                         [&](const Detection& other) { return other.tag == tag; }) == 1;
+  }
+
+  const CameraSetup& camera_;
+  const std::set<int>& references_;
+  int rows_;
+  ReferenceMedians medians_;
+  std::vector<Sighting> sightings_;
+};
+
+Issue truncated(const std::string& name, const std::string& what) {
+  return {IssueCode::VideoTruncated, name + ": " + what, {}, std::nullopt, std::nullopt};
+}
+
+/// What the end of a video says of it: an issue, or an error when it was no video at all.
+Expected<void> note_end(const ObservedVideo& video, const std::optional<Error>& broken,
+                        CameraObservations& seen) {
+  const SourceInfo& info = video.source.info();
+  const std::int64_t frames = seen.record.frames;
+  if (frames == 0)
+    return broken.has_value()
+               ? Expected<void>(Unexpected(*broken))
+               : Expected<void>(Unexpected(error_of(IssueCode::VideoUnreadable,
+                                                    "no frame could be read; is it a video, and "
+                                                    "was its recording ended properly?",
+                                                    info.name)));
+  if (broken.has_value()) {
+    seen.issues.push_back(truncated(
+        info.name, fmt::format("it broke off after {} frames, at {:.3f} s of its clock: {}", frames,
+                               seen.record.frame_times.back(), to_string(*broken))));
+    return {};
+  }
+  const auto wanted = static_cast<double>(info.expected_frames);
+  const auto got = static_cast<double>(frames + seen.record.damaged_frames);
+  if (info.is_truncated || wanted - got > std::max(2.0, kCountsMayDiffer * wanted))
+    seen.issues.push_back(truncated(
+        info.name,
+        fmt::format(
+            "it ends before its own header says, after {} frames, at {:.3f} s of its clock; "
+            "copy it again, or check how its recording ended",
+            frames, seen.record.frame_times.back())));
+  return video.clock.finish(frames + seen.record.damaged_frames);
+}
+
+}  // namespace
+
+double exposed_at(const CameraSetup& camera, double stamp_s, double v, int rows) {
+  double middle_s = stamp_s;
+  if (camera.stamped_at == StampedAt::Start) middle_s += camera.exposure_s / 2;
+  if (camera.stamped_at == StampedAt::End) middle_s -= camera.exposure_s / 2;
+  return middle_s + v / rows * camera.readout_s;
+}
+
+Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& options,
+                                     const OnFrame& on_frame) {
+  auto detector = TagDetector::of_family(options.family);
+  if (!detector.has_value()) return Unexpected(detector.error());
+  TagSearchOptions search_options = options.search;
+  search_options.expected.insert(options.references.begin(), options.references.end());
+  search_options.still.insert(options.references.begin(), options.references.end());
+  TagSearch search(std::move(*detector), search_options);
+
+  const SourceInfo info = video.source.info();
+  CameraObservations result;
+  CameraRecord& record = result.record;
+  record.camera = video.camera.name;
+  record.file = info.name;
+  record.sha256 = video.sha256;
+  record.size = info.size;
+  record.time_source = video.clock.source();
+  Recorder recorder(video.camera, options, info.size.height);
+  LastPicture last;
+  std::vector<Detection> seen;
+  std::optional<Error> broken;
+  while (true) {
+    const auto more = video.source.next();
+    if (!more.has_value()) broken = more.error();
+    if (!more.has_value() || !*more) break;
+    const Frame& frame = video.source.frame();
+    const auto time_s = video.clock.time_of(frame);
+    if (!time_s.has_value()) return Unexpected(time_s.error());
+    if (!last.is_repeated_by(frame.gray)) seen = search.find(frame.gray, *time_s);
+    recorder.add(record.frames, *time_s, seen);
+    record.frame_times.push_back(*time_s);
+    ++record.frames;
+    if (on_frame) on_frame(record.frames, info.expected_frames, seen);
+  }
+  record.damaged_frames = video.source.damaged_frames();
+  record.full_searches = search.full_searches();
+  record.references = recorder.take_references();
+  result.sightings = recorder.take_sightings();
+  if (const auto ended = note_end(video, broken, result); !ended.has_value())
+    return Unexpected(ended.error());
+  return result;
+}
+
+}  // namespace swarmsmith

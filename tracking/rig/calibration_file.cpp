@@ -1,0 +1,259 @@
+#include <cmath>
+
+#include "sim/files/file_text.h"
+#include "sim/files/table_reader.h"
+#include "tracking/rig/calibration_limits.h"
+#include "tracking/rig/rig_file.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr Limits<double> kAny{-1e9, 1e9};
+constexpr Limits<double> kPositive{1e-9, 1e9};
+constexpr Limits<double> kNotNegative{0, 1e9};
+constexpr Limits<std::int64_t> kCount{0, 1'000'000'000};
+constexpr Limits<double> kShare{0, 1.0 + 1e-9};
+
+/// A calibration file being read: complaints become errors of the configuration.
+class File {
+ public:
+  File(std::string_view text, const std::string& file) : complaints_(file), file_(file) {
+    auto document = parse_document(text, file);
+    if (!document) {
+      Error error = document.error();
+      error.message = "E_CONFIG: " + error.message;
+      broken_ = error;
+    } else {
+      document_ = std::move(*document);
+    }
+  }
+
+  bool is_broken() const { return broken_.has_value(); }
+  TableReader root() { return {document_, "", complaints_}; }
+
+  /// What was read, if nothing was wrong with it and it is fit.
+  template <class Calibration, class... Limits>
+  OrComplaints<Calibration> finish(Calibration calibration, Limits... limits) {
+    std::vector<Error> errors = this->errors();
+    if (errors.empty()) {
+      errors = faults_of(calibration, limits...);
+      for (Error& error : errors)
+        error.where = file_;
+    }
+    if (!errors.empty()) return tl::unexpected(std::move(errors));
+    return calibration;
+  }
+
+  std::vector<Error> errors() {
+    if (broken_) return {*broken_};
+    std::vector<Error> errors = complaints_.take();
+    for (Error& error : errors) {
+      if (error.message.starts_with("E_")) {
+        error.kind = ErrorKind::Corrupt;
+      } else {
+        error.message = "E_CONFIG: " + error.message;
+      }
+    }
+    return errors;
+  }
+
+ private:
+  Node document_;
+  Complaints complaints_;
+  std::string file_;
+  std::optional<Error> broken_;
+};
+
+/// Complains about a key that is missing.
+void need(TableReader& table, const char* key) {
+  if (!table.has(key)) table.complain(key, table.name() + " needs `" + key + "`");
+}
+
+double number_of(TableReader& table, const char* key, Limits<double> limits) {
+  need(table, key);
+  return table.number(key, limits).value_or(0);
+}
+
+int count_of(TableReader& table, const char* key) {
+  need(table, key);
+  return static_cast<int>(table.integer(key, kCount).value_or(0));
+}
+
+std::string text_of(TableReader& table, const char* key) {
+  need(table, key);
+  return table.text(key).value_or("");
+}
+
+/// Format and kind: a calibration of another kind is named before its keys confuse anybody.
+bool read_head(TableReader& root, const std::string& kind) {
+  read_format(root);
+  const std::string found = text_of(root, "kind");
+  if (found.empty() || found == kind) return true;
+  root.complain("kind", "this is a calibration of kind \"" + found +
+                            "\", wanted is one of kind \"" + kind + "\"");
+  return false;
+}
+
+/// A row of numbers, exactly as many as wanted.
+std::vector<double> row_of(TableReader& table, const char* key, std::size_t count) {
+  std::vector<double> values(count);
+  need(table, key);
+  const Node* node = table.take(key);
+  if (node == nullptr) return values;
+  const auto* array = std::get_if<Array>(&node->value);
+  bool good = array != nullptr && array->items.size() == count;
+  for (std::size_t i = 0; good && i < count; ++i) {
+    const Node& item = array->items[i];
+    if (const auto* real = std::get_if<double>(&item.value)) {
+      values[i] = *real;
+    } else if (const auto* whole = std::get_if<std::int64_t>(&item.value)) {
+      values[i] = static_cast<double>(*whole);
+    } else {
+      good = false;
+    }
+    good = good && std::abs(values[i]) <= 1e9;
+  }
+  if (!good) {
+    table.complain(key, "`" + std::string(key) + "` must be a list of " + std::to_string(count) +
+                            " numbers between -1e9 and 1e9");
+  }
+  return values;
+}
+
+CameraModel read_model(TableReader& table) {
+  static const std::vector<std::string> kLenses{"pinhole", "fisheye"};
+  CameraModel model;
+  need(table, "width");
+  need(table, "height");
+  need(table, "lens");
+  model.size.width = static_cast<int>(table.integer("width", {16, 65'536}).value_or(16));
+  model.size.height = static_cast<int>(table.integer("height", {16, 65'536}).value_or(16));
+  model.lens =
+      table.choice("lens", kLenses).value_or("") == "fisheye" ? Lens::Fisheye : Lens::Pinhole;
+  model.fx = number_of(table, "fx", kPositive);
+  model.fy = number_of(table, "fy", kPositive);
+  model.cx = number_of(table, "cx", kAny);
+  model.cy = number_of(table, "cy", kAny);
+  const std::size_t count = model.lens == Lens::Fisheye ? 4 : 5;
+  const std::vector<double> distortion = row_of(table, "distortion", count);
+  std::copy(distortion.begin(), distortion.end(), model.distortion.begin());
+  table.finish();
+  return model;
+}
+
+/// A rotation has rows of length 1 that stand on each other, and does not mirror.
+bool is_rotation(const std::array<double, 9>& r) {
+  constexpr double kTolerance = 1e-6;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t j = 0; j < 3; ++j) {
+      double product = 0;
+      for (std::size_t k = 0; k < 3; ++k)
+        product += r[3 * i + k] * r[3 * j + k];
+      if (!(std::abs(product - (i == j ? 1 : 0)) <= kTolerance)) return false;
+    }
+  }
+  const double determinant = r[0] * (r[4] * r[8] - r[5] * r[7]) -
+                             r[1] * (r[3] * r[8] - r[5] * r[6]) +
+                             r[2] * (r[3] * r[7] - r[4] * r[6]);
+  return determinant > 0;
+}
+
+PlaceCalibration::Seen read_seen(TableReader& table) {
+  PlaceCalibration::Seen seen;
+  seen.tag.tag = count_of(table, "tag");
+  seen.tag.pose = {number_of(table, "x", kAny), number_of(table, "y", kAny),
+                   number_of(table, "heading_rad", {-7, 7})};
+  seen.tag.edge_m = number_of(table, "edge", kPositive);
+  const std::vector<double> corners = row_of(table, "corners", 8);
+  for (std::size_t i = 0; i < seen.corners.size(); ++i)
+    seen.corners[i] = {corners[2 * i], corners[2 * i + 1]};
+  seen.rms_px = number_of(table, "rms_px", kNotNegative);
+  seen.left_out_m = number_of(table, "left_out_m", kNotNegative);
+  table.finish();
+  return seen;
+}
+
+}  // namespace
+
+OrComplaints<CameraCalibration> parse_camera_calibration(std::string_view text,
+                                                         const std::string& file) {
+  File read(text, file);
+  CameraCalibration calibration;
+  if (read.is_broken()) return tl::unexpected(read.errors());
+  TableReader root = read.root();
+  if (!read_head(root, "camera")) return tl::unexpected(read.errors());
+  calibration.made = text_of(root, "made");
+  calibration.board = text_of(root, "board");
+  calibration.views = count_of(root, "views");
+  calibration.views_dropped = count_of(root, "views_dropped");
+  calibration.rms_px = number_of(root, "rms_px", kNotNegative);
+  calibration.worst_view_px = number_of(root, "worst_view_px", kNotNegative);
+  calibration.coverage = number_of(root, "coverage", kShare);
+  calibration.focal_sigma_px = number_of(root, "focal_sigma_px", kNotNegative);
+  need(root, "model");
+  if (auto model = root.table("model")) calibration.model = read_model(*model);
+  root.finish();
+  return read.finish(std::move(calibration));
+}
+
+OrComplaints<PlaceCalibration> parse_place_calibration(std::string_view text,
+                                                       const std::string& file) {
+  File read(text, file);
+  PlaceCalibration calibration;
+  if (read.is_broken()) return tl::unexpected(read.errors());
+  TableReader root = read.root();
+  if (!read_head(root, "place")) return tl::unexpected(read.errors());
+  calibration.made = text_of(root, "made");
+  calibration.camera_sha256 = text_of(root, "camera_sha256");
+  const std::vector<double> rotation = row_of(root, "rotation", 9);
+  std::copy(rotation.begin(), rotation.end(), calibration.place.rotation.begin());
+  const std::vector<double> t = row_of(root, "translation", 3);
+  calibration.place.translation = {t[0], t[1], t[2]};
+  if (root.complaints() == 0 && !is_rotation(calibration.place.rotation)) {
+    root.complain("rotation",
+                  "E_CALIB_QUALITY: `rotation` is none: its rows must have length 1, "
+                  "stand on each other and not mirror; make the file again with "
+                  "`swarmsmith track calibrate arena`");
+  }
+  calibration.rms_px = number_of(root, "rms_px", kNotNegative);
+  calibration.worst_left_out_m = number_of(root, "worst_left_out_m", kNotNegative);
+  calibration.worst_tag = count_of(root, "worst_tag");
+  calibration.coverage = number_of(root, "coverage", kShare);
+  for (TableReader& seen : root.tables("seen"))
+    calibration.tags.push_back(read_seen(seen));
+  root.finish();
+  // The range of heights is the arena file's, and checked with it; below the floor hangs nothing.
+  PlaceLimits limits;
+  limits.least_height_m = 0;
+  limits.most_height_m = kAny.most;
+  return read.finish(std::move(calibration), limits);
+}
+
+OrComplaints<OffsetCalibration> parse_offset_calibration(std::string_view text,
+                                                         const std::string& file) {
+  File read(text, file);
+  OffsetCalibration calibration;
+  if (read.is_broken()) return tl::unexpected(read.errors());
+  TableReader root = read.root();
+  if (!read_head(root, "offset")) return tl::unexpected(read.errors());
+  calibration.made = text_of(root, "made");
+  calibration.robot = text_of(root, "robot");
+  calibration.tag = count_of(root, "tag");
+  calibration.edge_m = number_of(root, "edge", kPositive);
+  calibration.height_m = number_of(root, "height", kNotNegative);
+  calibration.offset.x_m = number_of(root, "x", kAny);
+  calibration.offset.y_m = number_of(root, "y", kAny);
+  need(root, "has_yaw");
+  calibration.has_yaw = root.boolean("has_yaw").value_or(false);
+  calibration.offset.yaw_rad = number_of(root, "yaw_rad", {-7, 7});
+  calibration.rms_m = number_of(root, "rms_m", kNotNegative);
+  calibration.sigma_x_m = number_of(root, "sigma_x_m", kNotNegative);
+  calibration.sigma_y_m = number_of(root, "sigma_y_m", kNotNegative);
+  calibration.drift_m_s = number_of(root, "drift_m_s", kNotNegative);
+  calibration.turned_rad = number_of(root, "turned_rad", kNotNegative);
+  calibration.samples = count_of(root, "samples");
+  root.finish();
+  return read.finish(std::move(calibration));
+}
+
+}  // namespace swarmsmith

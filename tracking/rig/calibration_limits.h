@@ -1,0 +1,58 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tracking/rig/rig.h"
+
+namespace swarmsmith {
+
+/// What a calibration must fulfil before a score may rest on it (tracking facts, sections 2, 3 and
+/// 5; the defaults are theirs). Who makes a calibration and who reads its file ask here alike.
+
+struct CameraLimits {
+  int least_views = 10;
+  double rms_px = 0.3;
+  double good_rms_px = 0.2;     ///< above it a person is told
+  double least_coverage = 0.7;  ///< of the frame by the corners' hull
+  double aspect = 0.02;         ///< of fx / fy about 1
+  double principal = 0.10;      ///< of the principal point from the middle, over width and height
+  double focal_sigma = 0.005;   ///< standard deviation of f over f, above it a person is told
+};
+
+struct PlaceLimits {
+  int least_tags = 4;
+  double rms_px = 0.3;
+  double good_rms_px = 0.15;    ///< above it a person is told
+  double left_out_m = 0.005;    ///< leave-one-tag-out error on the floor
+  double least_coverage = 0.5;  ///< of the arena by the tags' hull
+  double least_height_m = 0.5;  ///< of the camera
+  double most_height_m = 20;
+};
+
+struct OffsetLimits {
+  int least_samples = 60;
+  double least_turn_rad = 5.235987755982989;  ///< 300 degrees
+  double rms_m = 0.002;
+  double sigma_m = 0.0005;       ///< of the offset, per axis
+  double most_offset_m = 0.135;  ///< the robot's radius
+  double drift_m_s = 0.005;      ///< of the centre
+};
+
+/// Everything that makes a calibration unfit, each with value, limit and what to do:
+/// E_CALIB_QUALITY; E_REF_TAGS and E_EXTRINSICS; E_SPIN_QUALITY. Empty: it is fit.
+std::vector<Error> faults_of(const CameraCalibration& calibration, const CameraLimits& limits = {});
+std::vector<Error> faults_of(const PlaceCalibration& calibration, const PlaceLimits& limits = {});
+std::vector<Error> faults_of(const OffsetCalibration& calibration, const OffsetLimits& limits = {});
+
+/// What a person should know of one that is fit, a sentence each.
+std::vector<std::string> cautions_of(const CameraCalibration& calibration,
+                                     const CameraLimits& limits = {});
+std::vector<std::string> cautions_of(const PlaceCalibration& calibration,
+                                     const PlaceLimits& limits = {});
+std::vector<std::string> cautions_of(const OffsetCalibration& calibration);
+
+/// A length as people read it: "3.2 mm".
+std::string millimetres(double metres);
+
+}  // namespace swarmsmith

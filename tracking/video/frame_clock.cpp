@@ -1,0 +1,185 @@
+#include "tracking/video/frame_clock.h"
+
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <string_view>
+
+#include "tracking/rig/issue.h"
+
+namespace swarmsmith {
+namespace {
+
+Unexpected bad_times(const std::string& text, const std::string& where) {
+  return Unexpected(error_of(IssueCode::Timestamps, text, where));
+}
+
+/// The next line without its end; false when there is none.
+bool take_line(std::string_view& text, std::string_view& line) {
+  if (text.empty()) return false;
+  const std::size_t end = text.find('\n');
+  line = text.substr(0, end);
+  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+  if (line.ends_with('\r')) line.remove_suffix(1);
+  return true;
+}
+
+std::string_view trimmed(std::string_view text) {
+  while (text.starts_with(' ') || text.starts_with('\t'))
+    text.remove_prefix(1);
+  while (text.ends_with(' ') || text.ends_with('\t'))
+    text.remove_suffix(1);
+  if (text.size() >= 2 && text.front() == '"' && text.back() == '"') {
+    text = text.substr(1, text.size() - 2);
+  }
+  return text;
+}
+
+std::vector<std::string_view> cells_of(std::string_view line) {
+  std::vector<std::string_view> cells;
+  while (true) {
+    const std::size_t end = line.find(',');
+    cells.push_back(trimmed(line.substr(0, end)));
+    if (end == std::string_view::npos) return cells;
+    line.remove_prefix(end + 1);
+  }
+}
+
+template <class Number>
+std::optional<Number> number_of(std::string_view text) {
+  Number value{};
+  const auto read = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (read.ec != std::errc{} || read.ptr != text.data() + text.size()) return std::nullopt;
+  return value;
+}
+
+/// Of a text that may be anything, as it stands in a sentence.
+std::string quoted(std::string_view text) {
+  constexpr std::size_t kMost = 30;
+  std::string shown;
+  for (const char c : text.substr(0, kMost))
+    shown += c >= ' ' && c <= '~' ? c : '?';
+  return "`" + shown + "`";
+}
+
+struct Columns {
+  std::size_t frame = 0;
+  std::size_t time = 0;
+  std::size_t count = 0;
+};
+
+Expected<Columns> columns_of(std::string_view header) {
+  const std::vector<std::string_view> names = cells_of(header);
+  std::optional<std::size_t> frame;
+  std::optional<std::size_t> time;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto& column = names[i] == "frame" ? frame : time;
+    if (names[i] != "frame" && names[i] != "time_s") continue;
+    if (column) return bad_times("column " + quoted(names[i]) + " is there twice", "line 1");
+    column = i;
+  }
+  if (frame && time) return Columns{*frame, *time, names.size()};
+  return bad_times("a file of frame times begins with the columns `frame,time_s`, this one with " +
+                       quoted(header),
+                   "line 1");
+}
+
+}  // namespace
+
+Expected<std::vector<double>> parse_frame_times(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  std::string_view line;
+  if (!take_line(text, line)) return bad_times("the file of frame times is empty", "line 1");
+  const auto columns = columns_of(line);
+  if (!columns) return Unexpected(columns.error());
+  std::vector<double> times;
+  for (int number = 2; take_line(text, line); ++number) {
+    if (trimmed(line).empty()) continue;
+    const std::string where = fmt::format("line {}", number);
+    const std::vector<std::string_view> cells = cells_of(line);
+    if (cells.size() != columns->count) {
+      return bad_times(
+          fmt::format("{} cells where the first line has {}", cells.size(), columns->count), where);
+    }
+    const auto frame = number_of<std::int64_t>(cells[columns->frame]);
+    if (frame != static_cast<std::int64_t>(times.size())) {
+      return bad_times(
+          fmt::format("frame {} is expected here, not {}: frames count from 0, without "
+                      "gaps",
+                      times.size(), quoted(cells[columns->frame])),
+          where);
+    }
+    const auto time = number_of<double>(cells[columns->time]);
+    if (!time || !std::isfinite(*time)) {
+      return bad_times(quoted(cells[columns->time]) + " is no time in seconds", where);
+    }
+    if (!times.empty() && *time <= times.back()) {
+      return bad_times(fmt::format("frame {} at {} s is not later than the frame before, at {} s",
+                                   times.size(), *time, times.back()),
+                       where);
+    }
+    times.push_back(*time);
+  }
+  if (times.empty()) return bad_times("there is no frame in it", "line 2");
+  return times;
+}
+
+Expected<FrameClock> FrameClock::of(const SourceInfo& source,
+                                    std::optional<std::vector<double>> sidecar) {
+  FrameClock clock;
+  clock.name_ = source.name;
+  if (sidecar) {
+    clock.source_ = TimeSource::Sidecar;
+    clock.sidecar_ = std::move(*sidecar);
+    return clock;
+  }
+  if (source.has_times) return clock;
+  if (source.has_count && source.frame_rate > 0) {
+    clock.source_ = TimeSource::FrameRate;
+    clock.frame_rate_ = source.frame_rate;
+    return clock;
+  }
+  return bad_times(
+      "its frames have no times that can be trusted, and there is no constant rate with a number "
+      "of frames that agrees; give the camera's frame times as a file with the columns "
+      "`frame,time_s`",
+      source.name);
+}
+
+Expected<double> FrameClock::time_of(const Frame& frame) {
+  std::optional<double> time = frame.time_s;
+  if (source_ == TimeSource::Sidecar) {
+    if (frame.number >= static_cast<std::int64_t>(sidecar_.size())) {
+      return Unexpected(
+          error_of(IssueCode::SidecarMismatch,
+                   fmt::format("frame {} is there, but the file of frame times ends with frame {}",
+                               frame.number, static_cast<std::int64_t>(sidecar_.size()) - 1),
+                   name_));
+    }
+    time = sidecar_[static_cast<std::size_t>(frame.number)];
+  } else if (source_ == TimeSource::FrameRate) {
+    time = static_cast<double>(frame.number) / frame_rate_;
+  }
+  if (!time || !std::isfinite(*time)) {
+    return bad_times(fmt::format("frame {} has no time", frame.number), name_);
+  }
+  if (last_ && *time <= *last_) {
+    return bad_times(fmt::format("frame {} at {} s is not later than the frame before, at {} s",
+                                 frame.number, *time, *last_),
+                     name_);
+  }
+  last_ = time;
+  return *time;
+}
+
+Expected<void> FrameClock::finish(std::int64_t frames) const {
+  const auto rows = static_cast<std::int64_t>(sidecar_.size());
+  if (source_ != TimeSource::Sidecar || rows <= frames) return {};
+  return Unexpected(error_of(
+      IssueCode::SidecarMismatch,
+      fmt::format("{} frames in the video, {} in the file of frame times", frames, rows), name_));
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,20 @@
+#include "tracking/video/frame_source.h"
+
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+
+#include "tracking/video/internal/image_folder.h"
+#include "tracking/video/internal/live_camera.h"
+#include "tracking/video/internal/video_file.h"
+
+namespace swarmsmith {
+
+Expected<std::unique_ptr<FrameSource>> FrameSource::open(const std::string& word) {
+  std::error_code ignored;
+  if (std::filesystem::is_directory(word, ignored)) return open_image_folder(word);
+  if (is_camera_word(word) && !std::filesystem::exists(word, ignored)) return open_camera(word);
+  return open_video_file(word);
+}
+
+}  // namespace swarmsmith

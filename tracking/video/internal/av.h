@@ -1,0 +1,46 @@
+#pragma once
+
+extern "C" {
+#include <libavcodec/avcodec.h>
+#include <libavformat/avformat.h>
+#include <libavutil/frame.h>
+#include <libswscale/swscale.h>
+}
+
+#include <memory>
+#include <string>
+
+namespace swarmsmith::av {
+
+/// Pictures beyond these are refused: no camera makes them, damaged files ask for them.
+inline constexpr int kMostSide = 16384;
+inline constexpr std::int64_t kMostPixels = 100'000'000;
+
+struct FreeCodec {
+  void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+};
+struct FreeFrame {
+  void operator()(AVFrame* frame) const { av_frame_free(&frame); }
+};
+struct FreePacket {
+  void operator()(AVPacket* packet) const { av_packet_free(&packet); }
+};
+struct FreeScaler {
+  void operator()(SwsContext* scaler) const { sws_freeContext(scaler); }
+};
+using Codec = std::unique_ptr<AVCodecContext, FreeCodec>;
+using FramePtr = std::unique_ptr<AVFrame, FreeFrame>;
+using PacketPtr = std::unique_ptr<AVPacket, FreePacket>;
+using Scaler = std::unique_ptr<SwsContext, FreeScaler>;
+
+/// Keeps the library's messages from the error stream, and bounds what it may allocate at a time.
+/// To be called before anything else of it; more than once does no harm.
+void set_up();
+
+/// The last complaint of the library in this thread, on one line, and forgets it; empty: none.
+std::string take_message();
+
+/// What a return code means, with the last complaint: "Invalid data found (moov atom not found)".
+std::string reason(int code);
+
+}  // namespace swarmsmith::av

@@ -1,0 +1,61 @@
+#include "tracking/video/internal/decoder.h"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "tracking/rig/issue.h"
+
+namespace swarmsmith::av {
+
+const char* const kTakenDecoders =
+    "h264,hevc,mjpeg,mpeg4,mpeg2video,mpeg1video,vp8,vp9,libdav1d,ffv1,rawvideo,prores,huffyuv,"
+    "ffvhuff,png,dvvideo,bmp,tiff,pgm,ppm";
+
+namespace {
+
+bool is_taken(std::string_view decoder) {
+  std::string_view rest = kTakenDecoders;
+  while (true) {
+    const std::size_t end = rest.find(',');
+    if (rest.substr(0, end) == decoder) return true;
+    if (end == std::string_view::npos) return false;
+    rest.remove_prefix(end + 1);
+  }
+}
+
+}  // namespace
+
+Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_base,
+                             const std::string& name) {
+  const AVCodec* const found = avcodec_find_decoder(about.codec_id);
+  if (found == nullptr || !is_taken(found->name)) {
+    return Unexpected(error_of(IssueCode::VideoUnreadable,
+                               fmt::format("its codec `{}` is not read; h264, hevc, mjpeg, vp9, "
+                                           "av1, ffv1 and some others are",
+                                           avcodec_get_name(about.codec_id)),
+                               name));
+  }
+  Codec codec(avcodec_alloc_context3(found));
+  int code = avcodec_parameters_to_context(codec.get(), &about);
+  codec->thread_count = 1;
+  codec->pkt_timebase = time_base;
+  codec->max_pixels = kMostPixels;
+  codec->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
+  if (code >= 0) code = avcodec_open2(codec.get(), found, nullptr);
+  if (code < 0) {
+    return Unexpected(
+        error_of(IssueCode::VideoUnreadable,
+                 fmt::format("the decoder of {} refuses it: {}", found->name, reason(code)), name));
+  }
+  return codec;
+}
+
+bool is_intra_only(AVCodecID codec) {
+  const AVCodecDescriptor* const about = avcodec_descriptor_get(codec);
+  // FFV1 may carry its model from picture to picture; the library counts it as intra-only.
+  return about != nullptr && (about->props & AV_CODEC_PROP_INTRA_ONLY) != 0 &&
+         codec != AV_CODEC_ID_FFV1;
+}
+
+}  // namespace swarmsmith::av

@@ -1,0 +1,182 @@
+#include "tracking/video/internal/image_folder.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "tracking/rig/issue.h"
+#include "tracking/video/internal/byte_stream.h"
+#include "tracking/video/internal/decoder.h"
+#include "tracking/video/internal/natural_order.h"
+#include "tracking/video/internal/picture.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array<std::string_view, 8> kEndings = {".png", ".jpg",  ".jpeg", ".bmp",
+                                                      ".tif", ".tiff", ".pgm",  ".ppm"};
+
+Unexpected unreadable(const std::string& text, const std::string& name) {
+  return Unexpected(error_of(IssueCode::VideoUnreadable, text, name));
+}
+
+bool is_image_name(const fs::path& path) {
+  std::string ending = path.extension().string();
+  for (char& c : ending)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  return !path.filename().string().starts_with('.') &&
+         std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
+}
+
+/// By the first bytes: names lie.
+AVCodecID codec_of(std::string_view bytes) {
+  struct Mark {
+    std::string_view begin;
+    AVCodecID codec;
+  };
+  using namespace std::string_view_literals;
+  constexpr std::array<Mark, 7> kMarks = {{{"\x89PNG", AV_CODEC_ID_PNG},
+                                           {"\xff\xd8", AV_CODEC_ID_MJPEG},
+                                           {"BM", AV_CODEC_ID_BMP},
+                                           {"II*\0"sv, AV_CODEC_ID_TIFF},
+                                           {"MM\0*"sv, AV_CODEC_ID_TIFF},
+                                           {"P5", AV_CODEC_ID_PGM},
+                                           {"P6", AV_CODEC_ID_PPM}}};
+  for (const Mark& mark : kMarks) {
+    if (bytes.starts_with(mark.begin)) return mark.codec;
+  }
+  return AV_CODEC_ID_NONE;
+}
+
+/// A whole file as a packet.
+Expected<av::PacketPtr> packet_of(const std::string& path) {
+  constexpr std::int64_t kMostBytes = std::int64_t{400} << 20;
+  auto bytes = av::ByteStream::reading(path);
+  if (!bytes) return Unexpected(bytes.error());
+  if (bytes->size() == 0) return unreadable("the file is empty", path);
+  if (bytes->size() > kMostBytes) return unreadable("an image of more than 400 MB", path);
+  av::PacketPtr packet(av_packet_alloc());
+  const int size = static_cast<int>(bytes->size());
+  if (av_new_packet(packet.get(), size) < 0) return unreadable("no memory for it", path);
+  if (avio_read(bytes->io(), packet->data, size) != size) {
+    return unreadable("cannot be read to its end", path);
+  }
+  return packet;
+}
+
+Expected<av::FramePtr> picture_of(const std::string& path) {
+  av::take_message();
+  auto packet = packet_of(path);
+  if (!packet) return Unexpected(packet.error());
+  const AVCodecID codec = codec_of(
+      {reinterpret_cast<const char*>((*packet)->data), static_cast<std::size_t>((*packet)->size)});
+  if (codec == AV_CODEC_ID_NONE) return unreadable("is no PNG, JPEG, BMP, TIFF, PGM or PPM", path);
+  std::unique_ptr<AVCodecParameters, void (*)(AVCodecParameters*)> about(
+      avcodec_parameters_alloc(), [](AVCodecParameters* p) { avcodec_parameters_free(&p); });
+  about->codec_type = AVMEDIA_TYPE_VIDEO;
+  about->codec_id = codec;
+  auto decoder = av::open_decoder(*about, {1, 1}, path);
+  if (!decoder) return Unexpected(decoder.error());
+  av::FramePtr picture(av_frame_alloc());
+  int code = avcodec_send_packet(decoder->get(), packet->get());
+  if (code >= 0) avcodec_send_packet(decoder->get(), nullptr);
+  if (code >= 0) code = avcodec_receive_frame(decoder->get(), picture.get());
+  if (code < 0) return unreadable("cannot be decoded: " + av::reason(code), path);
+  if (picture->decode_error_flags != 0 || (picture->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
+    return unreadable("is damaged: " + av::take_message(), path);
+  }
+  if (auto fits = av::check_size(picture->width, picture->height, path); !fits) {
+    return Unexpected(fits.error());
+  }
+  return picture;
+}
+
+class ImageFolder final : public FrameSource {
+ public:
+  ImageFolder(SourceInfo info, std::vector<std::string> files)
+      : info_(std::move(info)), files_(std::move(files)) {}
+
+  const SourceInfo& info() const override { return info_; }
+  const Frame& frame() const override { return frame_; }
+  ColorImage color() override { return pictures_.color(*picture_); }
+  std::int64_t damaged_frames() const override { return damaged_; }
+
+  Expected<bool> next() override {
+    while (next_ < files_.size()) {
+      const std::string& file = files_[next_];
+      const auto number = static_cast<std::int64_t>(next_++);
+      auto picture = picture_of(file);
+      if (!picture) {
+        ++damaged_;
+        continue;
+      }
+      picture_ = std::move(*picture);
+      if (picture_->width != info_.size.width || picture_->height != info_.size.height) {
+        return unreadable(
+            fmt::format("is {} x {} pixels, the images before it {} x {}; a folder "
+                        "holds pictures of one camera, all of one size",
+                        picture_->width, picture_->height, info_.size.width, info_.size.height),
+            file);
+      }
+      const auto gray = pictures_.gray(*picture_);
+      if (!gray) return unreadable("its pixel format cannot be read", file);
+      frame_ = {.number = number, .time_s = std::nullopt, .gray = *gray};
+      return true;
+    }
+    return false;
+  }
+
+ private:
+  SourceInfo info_;
+  std::vector<std::string> files_;
+  std::size_t next_ = 0;
+  av::FramePtr picture_;
+  av::Pictures pictures_;
+  Frame frame_;
+  std::int64_t damaged_ = 0;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<FrameSource>> open_image_folder(const std::string& path) {
+  av::set_up();
+  std::vector<std::string> files;
+  std::error_code error;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+       entry.increment(error)) {
+    std::error_code ignored;
+    if (entry->is_regular_file(ignored) && is_image_name(entry->path())) {
+      files.push_back(entry->path().string());
+    }
+  }
+  if (error) return unreadable("cannot be listed: " + error.message(), path);
+  if (files.empty()) {
+    return unreadable("there is no image in this folder (.png, .jpg, .bmp, .tif, .pgm, .ppm)",
+                      path);
+  }
+  std::sort(files.begin(), files.end(), comes_before);
+  SourceInfo info;
+  info.name = path;
+  info.expected_frames = static_cast<std::int64_t>(files.size());
+  // The first one that can be read says how large they are.
+  std::optional<Error> first_error;
+  for (const std::string& file : files) {
+    const auto picture = picture_of(file);
+    if (picture) {
+      info.size = {(*picture)->width, (*picture)->height};
+      return std::make_unique<ImageFolder>(std::move(info), std::move(files));
+    }
+    if (!first_error) first_error = picture.error();
+  }
+  return Unexpected(*first_error);
+}
+
+}  // namespace swarmsmith

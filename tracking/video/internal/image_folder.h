@@ -1,0 +1,14 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "tracking/video/frame_source.h"
+
+namespace swarmsmith {
+
+/// A folder of pictures (PNG, JPEG, BMP, TIFF, PGM, PPM), in the natural order of their names.
+/// Turning marks of photographs are left alone: pixels are as the sensor gave them, as in videos.
+Expected<std::unique_ptr<FrameSource>> open_image_folder(const std::string& path);
+
+}  // namespace swarmsmith

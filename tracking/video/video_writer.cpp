@@ -1,0 +1,363 @@
+#include "tracking/video/video_writer.h"
+
+extern "C" {
+#include <libavutil/dict.h>
+#include <libavutil/opt.h>
+}
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <system_error>
+
+#include "tracking/rig/issue.h"
+#include "tracking/video/internal/byte_stream.h"
+#include "tracking/video/internal/picture.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A kind of file, by its ending.
+struct Container {
+  std::string_view ending;
+  const char* muxer;
+  AVRational grain;  ///< of its times; 0: the rate's
+};
+constexpr Container kContainers[] = {
+    {".mkv", "matroska", {1, 1000}}, {".mp4", "mp4", {1, 1'000'000}}, {".avi", "avi", {0, 1}}};
+
+struct CodecChoice {
+  std::string_view name;
+  const char* encoder;
+  AVPixelFormat format;
+};
+constexpr CodecChoice kCodecs[] = {{"h264", "libx264", AV_PIX_FMT_YUV420P},
+                                   {"mjpeg", "mjpeg", AV_PIX_FMT_YUVJ420P},
+                                   {"ffv1", "ffv1", AV_PIX_FMT_YUV420P}};
+
+Unexpected config_error(const std::string& text, const std::string& path) {
+  return Unexpected(error_of(IssueCode::Config, text, path));
+}
+
+struct FreeMuxer {
+  void operator()(AVFormatContext* muxer) const { avformat_free_context(muxer); }
+};
+
+struct Choice {
+  const Container* container = nullptr;
+  const CodecChoice* codec = nullptr;
+};
+
+Expected<Choice> choice_of(const std::string& path, ImageSize size, const VideoOptions& options) {
+  Choice choice;
+  for (const Container& container : kContainers) {
+    if (path.ends_with(container.ending)) choice.container = &container;
+  }
+  if (choice.container == nullptr) {
+    return config_error("a video's name ends in .mkv, .mp4 or .avi", path);
+  }
+  for (const CodecChoice& codec : kCodecs) {
+    if (options.codec == codec.name) choice.codec = &codec;
+  }
+  if (choice.codec == nullptr) {
+    return config_error("codec `" + options.codec + "` is not h264, mjpeg or ffv1", path);
+  }
+  if (!av::is_taken(size.width, size.height)) {
+    return config_error(fmt::format("a video of {} x {} pixels cannot be made (at most {} a side, "
+                                    "100 megapixels)",
+                                    size.width, size.height, av::kMostSide),
+                        path);
+  }
+  if (options.codec == "h264" && (size.width % 2 != 0 || size.height % 2 != 0)) {
+    return config_error(fmt::format("h264 wants an even width and height, not {} x {}; take mjpeg "
+                                    "or ffv1, or cut a row or column",
+                                    size.width, size.height),
+                        path);
+  }
+  constexpr double kMostRate = 10'000;
+  if (!(options.frame_rate >= 0.01 && options.frame_rate <= kMostRate)) {
+    return config_error("a frame rate is between 0.01 and 10000 a second", path);
+  }
+  if (options.quality < 1 || options.quality > 100) {
+    return config_error("quality is between 1 and 100", path);
+  }
+  if (options.live && choice.container->ending != ".mkv") {
+    return config_error("a recording that survives being cut off must be a .mkv", path);
+  }
+  if (options.codec == "ffv1" && choice.container->ending == ".mp4") {
+    return config_error("ffv1 goes into .mkv or .avi, not .mp4", path);
+  }
+  return choice;
+}
+
+}  // namespace
+
+struct VideoWriter::State {
+  std::string path;
+  std::string open_path;  ///< where it stands until it is finished
+  VideoOptions options;
+  ImageSize size;
+  AVRational grain{1, 1000};
+  bool counts = false;  ///< the container has no times, only a rate
+  av::Codec encoder;
+  std::unique_ptr<AVFormatContext, FreeMuxer> muxer;
+  std::optional<av::ByteStream> file;
+  av::FramePtr frame{av_frame_alloc()};
+  av::PacketPtr packet{av_packet_alloc()};
+  av::Scaler scaler;
+  std::int64_t frames = 0;
+  std::int64_t last_pts = -1;
+  std::int64_t flushed_pts = 0;
+
+  State() = default;
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+  ~State() {
+    if (file && !options.live) {
+      file.reset();
+      std::remove(open_path.c_str());
+    }
+  }
+
+  Expected<void> open(const Choice& choice);
+  Expected<void> open_encoder(const CodecChoice& codec);
+  Expected<void> open_muxer(const Container& container);
+  Expected<std::int64_t> pts_of(double time_s) const;
+  /// Empties the encoder's queue into the file.
+  Expected<void> store();
+  Expected<void> encode(std::int64_t pts);
+  Expected<void> failed(int code, std::string_view what) const;
+  Expected<void> check_disk() const;
+};
+
+Expected<void> VideoWriter::State::failed(int code, std::string_view what) const {
+  if (auto disk = check_disk(); !disk) return disk;
+  return unexpected(ErrorKind::Unavailable, std::string(what) + ": " + av::reason(code), path);
+}
+
+Expected<void> VideoWriter::State::check_disk() const {
+  const int error = file->failed_with();
+  if (error == 0) return {};
+  return unexpected(ErrorKind::Unavailable,
+                    "cannot be written: " + std::generic_category().message(error), path);
+}
+
+Expected<void> VideoWriter::State::open_encoder(const CodecChoice& codec) {
+  const AVCodec* const found = avcodec_find_encoder_by_name(codec.encoder);
+  if (found == nullptr) {
+    return unexpected(ErrorKind::Unavailable,
+                      fmt::format("libavcodec was built without {}", codec.encoder), path);
+  }
+  encoder.reset(avcodec_alloc_context3(found));
+  AVCodecContext& e = *encoder;
+  e.width = size.width;
+  e.height = size.height;
+  e.pix_fmt = codec.format;
+  e.time_base = grain;
+  e.framerate = av_d2q(options.frame_rate, 1'000'000);
+  // The whole range of 8 bits, and the matrix that OpenCV's grey comes from.
+  e.color_range = AVCOL_RANGE_JPEG;
+  e.colorspace = AVCOL_SPC_SMPTE170M;
+  // The same bytes whenever and wherever.
+  e.thread_count = 1;
+  e.flags |= AV_CODEC_FLAG_BITEXACT;
+  if ((muxer->oformat->flags & AVFMT_GLOBALHEADER) != 0) e.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
+  const double worse = (100 - options.quality) / 100.0;
+  if (codec.name == "h264") {
+    constexpr double kWorstFactor = 51;
+    // A key frame a second, so that a damaged place costs a second at most.
+    e.gop_size = std::max(1, static_cast<int>(std::lround(options.frame_rate)));
+    e.max_b_frames = options.live ? 0 : options.b_frames;
+    av_opt_set_double(e.priv_data, "crf", std::max(1.0, kWorstFactor * worse), 0);
+    av_opt_set(e.priv_data, "preset", options.live ? "superfast" : "veryfast", 0);
+    if (options.live) av_opt_set(e.priv_data, "tune", "zerolatency", 0);
+  } else if (codec.name == "mjpeg") {
+    constexpr double kWorstScale = 30;
+    e.flags |= AV_CODEC_FLAG_QSCALE;
+    e.global_quality = static_cast<int>(FF_QP2LAMBDA * (1 + kWorstScale * worse * worse));
+  } else {
+    e.gop_size = 1;
+    av_opt_set_int(&e, "level", 3, 0);
+    av_opt_set_int(e.priv_data, "slicecrc", 1, 0);
+  }
+  const int code = avcodec_open2(&e, found, nullptr);
+  if (code < 0) return failed(code, "the encoder cannot be opened");
+  return {};
+}
+
+Expected<void> VideoWriter::State::open_muxer(const Container& container) {
+  AVFormatContext* made = nullptr;
+  const int code = avformat_alloc_output_context2(&made, nullptr, container.muxer, nullptr);
+  if (code < 0) return failed(code, "the container cannot be made");
+  muxer.reset(made);
+  made->pb = file->io();
+  made->flags |= AVFMT_FLAG_BITEXACT | AVFMT_FLAG_CUSTOM_IO;
+  // Times stay as they are: the encoder's delay must not shift them.
+  made->avoid_negative_ts = AVFMT_AVOID_NEG_TS_DISABLED;
+  return {};
+}
+
+Expected<void> VideoWriter::State::open(const Choice& choice) {
+  counts = choice.container->grain.num == 0;
+  grain = counts ? av_inv_q(av_d2q(options.frame_rate, 1'000'000)) : choice.container->grain;
+  open_path = options.live ? path : path + ".part";
+  auto stream_file = av::ByteStream::writing(open_path);
+  if (!stream_file) return Unexpected(stream_file.error());
+  file = std::move(*stream_file);
+  if (auto opened = open_muxer(*choice.container); !opened) return opened;
+  if (auto opened = open_encoder(*choice.codec); !opened) return opened;
+  AVStream* const stream = avformat_new_stream(muxer.get(), nullptr);
+  avcodec_parameters_from_context(stream->codecpar, encoder.get());
+  stream->time_base = grain;
+  stream->avg_frame_rate = encoder->framerate;
+  AVDictionary* words = nullptr;
+  if (choice.container->ending == ".mp4") {
+    av_dict_set_int(&words, "video_track_timescale", grain.den, 0);
+    // Edit lists count in this; the default of 1 ms would round the start.
+    av_dict_set_int(&words, "movie_timescale", grain.den, 0);
+  }
+  const int code = avformat_write_header(muxer.get(), &words);
+  av_dict_free(&words);
+  if (code < 0) return failed(code, "the header cannot be written");
+  frame->format = encoder->pix_fmt;
+  frame->width = size.width;
+  frame->height = size.height;
+  frame->color_range = AVCOL_RANGE_JPEG;
+  frame->colorspace = AVCOL_SPC_SMPTE170M;
+  const int buffers = av_frame_get_buffer(frame.get(), 0);
+  if (buffers < 0) return failed(buffers, "no memory for a picture");
+  return {};
+}
+
+Expected<std::int64_t> VideoWriter::State::pts_of(double time_s) const {
+  constexpr double kMostSeconds = 1e7;  // four months; also keeps the counts in range
+  if (!(time_s >= 0 && time_s <= kMostSeconds)) {
+    return bad_input(fmt::format("frame {}: time {} s is not between 0 and 1e7 s", frames, time_s),
+                     path);
+  }
+  const double exact = time_s / av_q2d(grain);
+  const std::int64_t pts = std::llround(exact);
+  if (counts) {
+    constexpr double kMostUneven = 0.05;  // of a frame
+    if (std::abs(exact - static_cast<double>(frames)) > kMostUneven) {
+      return bad_input(
+          fmt::format("frame {}: an .avi has no times, only {} frames a second from 0 s on, so {} "
+                      "s cannot be kept; write a .mkv or .mp4",
+                      frames, options.frame_rate, time_s),
+          path);
+    }
+  } else if (pts <= last_pts) {
+    return bad_input(fmt::format("frame {}: time {} s is not later than the frame before, in steps "
+                                 "of {} s",
+                                 frames, time_s, av_q2d(grain)),
+                     path);
+  }
+  return counts ? frames : pts;
+}
+
+Expected<void> VideoWriter::State::store() {
+  while (true) {
+    const int code = avcodec_receive_packet(encoder.get(), packet.get());
+    if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return check_disk();
+    if (code < 0) return failed(code, "a frame cannot be encoded");
+    AVStream* const stream = muxer->streams[0];
+    av_packet_rescale_ts(packet.get(), grain, stream->time_base);
+    packet->stream_index = 0;
+    const std::int64_t pts = packet->pts;
+    // Of the last frame nobody knows how long it lasts, and players drop one that lasts no time.
+    packet->duration = std::max<std::int64_t>(
+        1, std::llround(1 / (options.frame_rate * av_q2d(stream->time_base))));
+    const int written = av_write_frame(muxer.get(), packet.get());
+    av_packet_unref(packet.get());
+    if (written < 0) return failed(written, "a frame cannot be written");
+    // Matroska gathers frames to a cluster in memory; half a second of them is what a cut may cost.
+    const std::int64_t half_second = stream->time_base.den / (2 * stream->time_base.num);
+    if (options.live && pts - flushed_pts >= half_second) {
+      flushed_pts = pts;
+      av_write_frame(muxer.get(), nullptr);
+      avio_flush(file->io());
+    }
+  }
+}
+
+Expected<void> VideoWriter::State::encode(std::int64_t pts) {
+  frame->pts = pts;
+  const int code = avcodec_send_frame(encoder.get(), frame.get());
+  if (code < 0) return failed(code, "a frame cannot be encoded");
+  last_pts = pts;
+  ++frames;
+  return store();
+}
+
+VideoWriter::VideoWriter(std::unique_ptr<State> state) : state_(std::move(state)) {}
+VideoWriter::VideoWriter(VideoWriter&&) noexcept = default;
+VideoWriter& VideoWriter::operator=(VideoWriter&&) noexcept = default;
+VideoWriter::~VideoWriter() = default;
+
+Expected<VideoWriter> VideoWriter::open(const std::string& path, ImageSize size,
+                                        const VideoOptions& options) {
+  av::set_up();
+  const auto choice = choice_of(path, size, options);
+  if (!choice) return Unexpected(choice.error());
+  auto state = std::make_unique<State>();
+  state->path = path;
+  state->options = options;
+  state->size = size;
+  if (auto opened = state->open(*choice); !opened) return Unexpected(opened.error());
+  return VideoWriter(std::move(state));
+}
+
+namespace {
+
+Expected<void> same_size(int width, int height, ImageSize size, const std::string& path) {
+  if (width == size.width && height == size.height) return {};
+  return bad_input(fmt::format("a picture of {} x {} in a video of {} x {}", width, height,
+                               size.width, size.height),
+                   path);
+}
+
+}  // namespace
+
+Expected<void> VideoWriter::write(const GrayImage& image, double time_s) {
+  State& s = *state_;
+  if (auto fits = same_size(image.width, image.height, s.size, s.path); !fits) return fits;
+  const auto pts = s.pts_of(time_s);
+  if (!pts) return Unexpected(pts.error());
+  if (av_frame_make_writable(s.frame.get()) < 0) return s.failed(AVERROR(ENOMEM), "no memory");
+  av::fill(*s.frame, image);
+  return s.encode(*pts);
+}
+
+Expected<void> VideoWriter::write(const ColorImage& image, double time_s) {
+  State& s = *state_;
+  if (auto fits = same_size(image.width, image.height, s.size, s.path); !fits) return fits;
+  const auto pts = s.pts_of(time_s);
+  if (!pts) return Unexpected(pts.error());
+  if (av_frame_make_writable(s.frame.get()) < 0) return s.failed(AVERROR(ENOMEM), "no memory");
+  av::fill(*s.frame, image, s.scaler);
+  return s.encode(*pts);
+}
+
+Expected<void> VideoWriter::finish() {
+  State& s = *state_;
+  avcodec_send_frame(s.encoder.get(), nullptr);
+  if (auto stored = s.store(); !stored) return stored;
+  const int code = av_write_trailer(s.muxer.get());
+  if (code < 0) return s.failed(code, "the end cannot be written");
+  const int closed = s.file->close_after_writing();
+  if (closed != 0) {
+    return unexpected(ErrorKind::Unavailable,
+                      "cannot be written: " + std::generic_category().message(closed), s.path);
+  }
+  if (s.options.live) return {};
+  std::error_code renamed;
+  std::filesystem::rename(s.open_path, s.path, renamed);
+  if (renamed) return unexpected(ErrorKind::Unavailable, renamed.message(), s.path);
+  s.file.reset();
+  return {};
+}
+
+}  // namespace swarmsmith
