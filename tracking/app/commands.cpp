@@ -27,10 +27,23 @@ constexpr std::string_view kPrintSurveyDetails =
     "A form to write down where the floor tags lie, with places to put them and distances of the\n"
     "arena's corners to check.";
 
+constexpr std::string_view kScoreDetails =
+    "Examples:\n"
+    "  swarmsmith track score run07.mp4 --arena arena.toml --run run07.toml --into demo.db\n"
+    "  swarmsmith track score run07.mp4 --arena arena.toml --design d3 --sync-hidden 99 \\\n"
+    "      --into demo.db\n"
+    "\n"
+    "Without a store the run is scored and not kept. The same video with the same begin is the "
+    "same\n"
+    "run: it is stored once. `score` may be left out when the first word is a file. Exit code 6:\n"
+    "the run is INVALID, and is kept as that.";
+
 constexpr std::array kCommands = {
     Command{"init", "Write an arena.toml and a run.toml to begin with", "", declare_track_init},
     Command{"check", "Say what an arena has, what is missing and what comes next", "",
             declare_track_check},
+    Command{"score", "Score a filmed run and keep it in a store", kScoreDetails,
+            declare_track_score},
     Command{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
             declare_print_tags},
     Command{"print board", "A board to calibrate a camera with, in true scale", kPrintBoardDetails,
