@@ -13,7 +13,9 @@
 
 #include "sim/mission/mission.h"
 #include "tests/support/film/virtual_camera.h"
+#include "tests/support/temporary_folder.h"
 #include "tracking/detection/tag_search.h"
+#include "tracking/video/video_writer.h"
 
 namespace swarmsmith {
 namespace {
@@ -205,6 +207,42 @@ film::Shooting smeared() {
   shooting.exposure_s = 0.016;
   return shooting;
 }
+
+/// Half a second of 20 robots, read again and again; the codec's own threads count.
+void decode(benchmark::State& state, const char* codec) {
+  const TemporaryFolder folder;
+  const std::string file = folder / "run.mkv";
+  const film::VirtualCamera camera(scene_of(20), typical(), 7);
+  VideoOptions options;
+  options.codec = codec;
+  options.frame_rate = 1 / kFrame_s;
+  VideoWriter writer = VideoWriter::open(file, {1920, 1080}, options).value();
+  bool written = true;
+  for (int i = 0; i < kPictures; ++i)
+    written = writer.write(camera.picture(i * kFrame_s, i), i * kFrame_s).has_value() && written;
+  if (!writer.finish().has_value() || !written) return state.SkipWithError("cannot write a video");
+  double frames = 0;
+  double spent_s = 0;
+  for (auto _ : state) {
+    const double begin = cpu_s();
+    const auto source = FrameSource::open(file).value();
+    while (source->next().value())
+      benchmark::DoNotOptimize(source->frame().gray.pixels[0]);
+    const double took_s = cpu_s() - begin;
+    state.SetIterationTime(took_s);
+    spent_s += took_s;
+    frames += kPictures;
+  }
+  state.counters["ms"] = 1000 * spent_s / frames;
+}
+BENCHMARK_CAPTURE(decode, h264, "h264")
+    ->Iterations(4)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(decode, mjpeg, "mjpeg")
+    ->Iterations(4)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
 
 constexpr int kFrames = 360;
 BENCHMARK_CAPTURE(search, typical, typical())

@@ -28,6 +28,9 @@ constexpr std::string_view kPrintSurveyDetails =
     "arena's corners to check.";
 
 constexpr std::array kCommands = {
+    Command{"init", "Write an arena.toml and a run.toml to begin with", "", declare_track_init},
+    Command{"check", "Say what an arena has, what is missing and what comes next", "",
+            declare_track_check},
     Command{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
             declare_print_tags},
     Command{"print board", "A board to calibrate a camera with, in true scale", kPrintBoardDetails,
@@ -44,7 +47,8 @@ std::span<const Command> track_commands() {
 }
 
 ExitCode exit_code_of_tracking(const Error& error) {
-  return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
+  return error.kind == ErrorKind::BadInput || error.kind == ErrorKind::NotFound ? ExitCode::Usage
+                                                                                : ExitCode::Failed;
 }
 
 }  // namespace swarmsmith::cli

@@ -15,9 +15,9 @@ namespace swarmsmith {
 
 /// A tag in a frame.
 struct Sighting {
-  int camera = 0;  ///< number in the list of cameras
-  std::int64_t frame = 0;
-  double time_s = 0;  ///< of the camera's clock, middle of the exposure of the tag's rows
+  int camera = 0;          ///< number in the list of cameras
+  std::int64_t frame = 0;  ///< its place in the camera's frame_times
+  double time_s = 0;       ///< of the camera's clock, middle of the exposure of the tag's rows
   int tag = 0;
   TagCorners corners{};
   int hamming = 0;    ///< bits corrected

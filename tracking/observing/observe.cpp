@@ -100,11 +100,13 @@ Expected<void> note_end(const ObservedVideo& video, const std::optional<Error>& 
   }
   const auto wanted = static_cast<double>(info.expected_frames);
   const auto got = static_cast<double>(frames + seen.record.damaged_frames);
-  if (wanted - got > std::max(2.0, kCountsMayDiffer * wanted))
-    seen.issues.push_back(
-        truncated(info.name, fmt::format("{} of the {} frames that it announces are there; copy it "
-                                         "again, or check how its recording ended",
-                                         frames, info.expected_frames)));
+  if (info.is_truncated || wanted - got > std::max(2.0, kCountsMayDiffer * wanted))
+    seen.issues.push_back(truncated(
+        info.name,
+        fmt::format(
+            "it ends before its own header says, after {} frames, at {:.3f} s of its clock; "
+            "copy it again, or check how its recording ended",
+            frames, seen.record.frame_times.back())));
   return video.clock.finish(frames + seen.record.damaged_frames);
 }
 

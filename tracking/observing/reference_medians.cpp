@@ -33,23 +33,23 @@ TagCorners median_of(const std::vector<TagCorners>& looks) {
 void ReferenceMedians::add(double time_s, int tag, const TagCorners& corners) {
   if (!first_s_.has_value()) first_s_ = time_s;
   const auto span = static_cast<std::int64_t>(std::floor((time_s - *first_s_) / span_s_));
-  if (span != span_) close_span();
+  if (span != span_) close_span(*first_s_ + static_cast<double>(span_ + 1) * span_s_);
   span_ = span;
   last_s_ = time_s;
   seen_[tag].push_back(corners);
 }
 
-void ReferenceMedians::close_span() {
+void ReferenceMedians::close_span(double until_s) {
   const double from_s = *first_s_ + static_cast<double>(span_) * span_s_;
-  // The last span of a video is shorter.
-  const double middle_s = (from_s + std::min(from_s + span_s_, last_s_)) / 2;
+  const double middle_s = (from_s + until_s) / 2;
   for (const auto& [tag, looks] : seen_)
     looks_.push_back({middle_s, tag, median_of(looks), static_cast<int>(looks.size())});
   seen_.clear();
 }
 
 std::vector<ReferenceLook> ReferenceMedians::take() {
-  if (first_s_.has_value()) close_span();
+  // The last span of a video is shorter.
+  if (first_s_.has_value()) close_span(last_s_);
   return std::exchange(looks_, {});
 }
 

@@ -21,7 +21,7 @@ class ReferenceMedians {
   std::vector<ReferenceLook> take();
 
  private:
-  void close_span();
+  void close_span(double until_s);
 
   double span_s_;
   std::optional<double> first_s_;

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "base/suggestion.h"
+#include "tracking/geometry/tag_family.h"
 
 extern "C" {
 #include <apriltag/apriltag.h>
@@ -68,16 +69,11 @@ Expected<TagPattern> tag_pattern(const std::string& family, int id) {
                          "; it has the ids 0 to " + std::to_string(made->ncodes - 1),
                      "--ids");
   }
-  const std::vector<std::string> names = printed_families();
+  std::vector<std::string> names;
+  for (const TagFamily& known : known_tag_families())
+    names.emplace_back(known.name);
   return bad_input("\"" + family + "\" is none of: " + joined(names) + did_you_mean(family, names),
                    "--family");
-}
-
-std::vector<std::string> printed_families() {
-  std::vector<std::string> names;
-  for (const KnownFamily& known : kFamilies)
-    names.emplace_back(known.name);
-  return names;
 }
 
 }  // namespace swarmsmith

@@ -55,8 +55,9 @@ TEST(ReferenceMediansTest, AreTakenOverSpans) {
 
 TEST(ReferenceMediansTest, OfAnEvenNumberIsBetweenTheMiddleTwo) {
   ReferenceMedians medians(5);
+  double time_s = 0;
   for (const double u : {4.0, 1.0, 3.0, 100.0})
-    medians.add(u / 100, 1, corners_at(u, 0));
+    medians.add(time_s += 0.1, 1, corners_at(u, 0));
   EXPECT_EQ(medians.take()[0].corners[0].u, 3.5);
 }
 

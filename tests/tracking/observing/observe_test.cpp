@@ -173,7 +173,16 @@ TEST(ObserveTest, AVideoThatHasFewerFramesThanItAnnouncesIsTruncated) {
   ASSERT_TRUE(seen.has_value());
   ASSERT_EQ(seen->issues.size(), 1U);
   EXPECT_EQ(seen->issues[0].code, IssueCode::VideoTruncated);
-  EXPECT_THAT(seen->issues[0].text, testing::HasSubstr("6 of the 60 frames"));
+  EXPECT_THAT(seen->issues[0].text, testing::HasSubstr("after 6 frames, at 12.500 s"));
+}
+
+TEST(ObserveTest, AVideoThatEndsBeforeItsHeaderSaysIsTruncated) {
+  MemorySource source(moving(3));
+  source.info_.is_truncated = true;
+  const auto seen = observed(source);
+  ASSERT_TRUE(seen.has_value());
+  ASSERT_EQ(seen->issues.size(), 1U);
+  EXPECT_EQ(seen->issues[0].code, IssueCode::VideoTruncated);
 }
 
 TEST(ObserveTest, AVideoWithoutFramesIsNone) {

@@ -11,6 +11,7 @@
 #include "tests/support/drawn_page.h"
 #include "tests/support/printed_page.h"
 #include "tests/support/xml_check.h"
+#include "tracking/geometry/tag_family.h"
 #include "tracking/printing/tag_pattern.h"
 
 extern "C" {
@@ -92,6 +93,14 @@ TEST(TagSheetTest, DrawsTheOfficialPatternToAHundredthOfAMillimetre) {
   }
   const auto black = std::count(pattern.black.begin(), pattern.black.end(), true);
   EXPECT_NEAR(area, static_cast<double>(black), 0.05);
+}
+
+TEST(TagSheetTest, PrintsEveryKnownFamily) {
+  for (const TagFamily& family : known_tag_families()) {
+    const std::string name(family.name);
+    EXPECT_TRUE(tag_pattern(name, family.tags - 1)) << name;
+    EXPECT_FALSE(tag_pattern(name, family.tags)) << name;
+  }
 }
 
 TEST(TagSheetTest, NoTextStandsOnAnother) {

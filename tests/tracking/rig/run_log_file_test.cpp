@@ -61,6 +61,8 @@ TEST(RunLogFile, ReadsBackToTheSameBits) {
   log.videos[1].clock_ahead_s = 1.0 / 3;
   RunLog synced = log;
   synced.start = {std::nullopt, 99, RunStart::Sync::Shown};
+  synced.robots = {"rvr1", "rvr \"3\""};
+  synced.videos[0].length_s = 150.2;
   synced.design.clear();
   synced.candidate = "c812";
   synced.layout.source = RunLayout::Source::Measured;

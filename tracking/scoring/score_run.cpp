@@ -1,0 +1,102 @@
+#include "tracking/scoring/score_run.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tracking/scoring/border.h"
+#include "tracking/scoring/run_patches.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A robot nearer to a border than this many sigmas may stand on its other side.
+constexpr double kSigmas = 3;
+
+/// What keeps a run from being scored, whatever was seen in it.
+std::optional<Error> misfit(const TrackedRun& run, const Mission& mission) {
+  const auto wrong = [&](const std::string& text) {
+    return error_of(IssueCode::Config, text, mission.name);
+  };
+  if (!mission.arena.objects.empty() || std::holds_alternative<ObjectsOn>(mission.rule)) {
+    return wrong(
+        "the mission has movable objects, which no camera of this program can track; "
+        "score it by hand");
+  }
+  if (run.trajectory.robots != mission.robots) {
+    return wrong(fmt::format("the mission has {} robots, and {} were tracked", mission.robots,
+                             run.trajectory.robots));
+  }
+  if (run.trajectory.instants() != mission.cycles) {
+    return wrong(fmt::format("the mission has {} cycles, and {} were tracked", mission.cycles,
+                             run.trajectory.instants()));
+  }
+  return std::nullopt;
+}
+
+/// Distances to the borders at the end, and issues for those too near to tell the sides.
+void measure_borders(const TrackedRun& run, const Mission& mission, const Arena& arena,
+                     ScoredRun& scored) {
+  const std::span<const Pose> last = run.trajectory.at(run.trajectory.instants() - 1);
+  for (std::size_t i = 0; i < run.robots.size(); ++i) {
+    const TrackedRobot& robot = run.robots[i];
+    const auto nearest = nearest_border(mission.rule, arena, last[i].position());
+    if (!nearest) {
+      scored.borders.emplace_back(std::nullopt);
+      continue;
+    }
+    const bool is_inside = nearest->here != 0;
+    const bool is_close = nearest->distance_m < kSigmas * robot.sigma_m;
+    scored.borders.push_back(BorderDistance{is_inside ? nearest->distance_m : -nearest->distance_m,
+                                            nearest->name, is_close});
+    if (!is_close) continue;
+    scored.issues.push_back(
+        {IssueCode::TooCloseToCall,
+         fmt::format("{} ends {:.1f} mm from the border of the {}, and is known to {:.1f} mm (3 "
+                     "sigma): it counts {:g} and may count {:g}; look at the last frame",
+                     robot.name, 1000 * nearest->distance_m, nearest->name,
+                     1000 * kSigmas * robot.sigma_m, nearest->here, nearest->beyond),
+         robot.name,
+         {},
+         {}});
+  }
+}
+
+/// Warnings that are only to be known; the others make a score less certain.
+bool degrades(IssueCode code) {
+  return code != IssueCode::Outliers && code != IssueCode::UnknownTags;
+}
+
+void judge(ScoredRun& scored) {
+  for (const Issue& issue : scored.issues) {
+    const bool is_invalid = is_error(issue.code);
+    if (!is_invalid && !degrades(issue.code)) continue;
+    scored.verdict = std::max(scored.verdict, is_invalid ? Verdict::Invalid : Verdict::Degraded);
+    scored.reasons.push_back(std::string(name_of(issue.code)) + ": " + issue.text);
+    if (issue.code == IssueCode::TagAsCentre) scored.biased = true;
+  }
+}
+
+}  // namespace
+
+bool is_scored_at_the_end(const Mission& mission) {
+  return is_scored_at_the_end(mission.rule);
+}
+
+Expected<ScoredRun> score_run(const TrackedRun& run, const Mission& mission,
+                              const std::optional<std::vector<Patch>>& patches,
+                              const std::vector<Issue>& before) {
+  if (std::optional<Error> error = misfit(run, mission)) return Unexpected(std::move(*error));
+  Expected<std::vector<Patch>> laid = run_patches(mission, patches);
+  if (!laid) return Unexpected(std::move(laid.error()));
+  const Instance instance{.starts = run.starts, .patches = std::move(*laid)};
+  ScoredRun scored{.score = score_of(mission, instance, run.trajectory), .issues = before};
+  scored.issues.insert(scored.issues.end(), run.issues.begin(), run.issues.end());
+  measure_borders(run, mission, arena_of(mission, instance), scored);
+  judge(scored);
+  return scored;
+}
+
+}  // namespace swarmsmith
