@@ -12,6 +12,9 @@ std::span<const Command> track_commands();
 
 Run declare_track_init(Options& options);
 Run declare_track_check(Options& options);
+Run declare_calibrate_camera(Options& options);
+Run declare_calibrate_arena(Options& options);
+Run declare_calibrate_robot(Options& options);
 Run declare_print_tags(Options& options);
 Run declare_print_board(Options& options);
 Run declare_print_survey(Options& options);
