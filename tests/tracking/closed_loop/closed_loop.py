@@ -95,6 +95,17 @@ def failures_of(name, seen, surveyed_to_1_mm):
     return [f"{name}: {text}" for good, text in checks if not good]
 
 
+def check_calibrations(lab, name):
+    # With a survey of 1 mm the camera's place and the heading of all follow the survey.
+    loose = 3 if "1 mm" in name else 1
+    failures = []
+    for what, number, limit in lab.calibration_errors():
+        print(f"  {name}: {what}: {number:.3f}", flush=True)
+        if number > limit * loose:
+            failures.append(f"{name}: {what}: {number:.3f}, at most {limit * loose}")
+    return failures
+
+
 def show_error_of_thesis(run, right, table):
     """Without the corrections the published error must come back: grid scores too good."""
     failures = []
@@ -130,6 +141,7 @@ def run_all(options, folder):
             labs[lab_name] = Lab(programs, place, "--size", options.size, "--form",
                                  "h264" if options.long else "mjpg", *LABS[lab_name])
             labs[lab_name].calibrate()
+            failures += check_calibrations(labs[lab_name], lab_name)
         name = f"run{number + 1:02}"
         try:
             run = Run(labs[lab_name], name, *wishes)

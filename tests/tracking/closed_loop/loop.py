@@ -6,6 +6,7 @@ import pathlib
 import sqlite3
 import subprocess
 import time
+import tomllib
 
 BOARD = "charuco:9x6:0.04:0.03:4x4_50"
 INVALID_RUN = 6  # exit code of a run that was stored as INVALID
@@ -63,18 +64,38 @@ class Lab:
         for camera in self.truth["cameras"]:
             name = camera["name"]
             self.programs.call("calibrate", track, "calibrate", "camera",
-                               self.folder / f"{name}.board", "--arena", self.arena, "--camera",
-                               name, "--board", BOARD)
+                               self.folder / f"{name}.board", "--board", BOARD, "--camera", name,
+                               "-o", self.folder / f"{name}.camera.toml")
             self.programs.call("calibrate", track, "calibrate", "arena",
                                clip_of(self.folder, f"{name}.arena"), "--arena", self.arena,
                                "--camera", name)
         first = self.truth["cameras"][0]["name"]
         for robot in self.truth["robots"]:
             name = robot["name"]
-            self.programs.call("calibrate", track, "calibrate", "robot",
-                               "--arena", self.arena, "--robot", name, "--camera", first,
+            self.programs.call("calibrate", track, "calibrate", "robot", name,
+                               "--arena", self.arena, "--camera", first,
                                "--spin", clip_of(self.folder, f"{name}.spin"),
                                "--straight", clip_of(self.folder, f"{name}.straight"))
+
+    def calibration_errors(self):
+        """Differences from the truth, each as (what, number, limit)."""
+        for camera in self.truth["cameras"]:
+            name = camera["name"]
+            model = tomllib.loads((self.folder / f"{name}.camera.toml").read_text())["model"]
+            yield (f"{name}: focal length, per mille",
+                   1000 * abs(model["fx"] / camera["fx"] - 1), 2)
+            place = tomllib.loads((self.folder / f"{name}.place.toml").read_text())
+            rotation, moved = place["rotation"], place["translation"]
+            centre = [-sum(rotation[3 * row + i] * moved[row] for row in range(3))
+                      for i in range(3)]
+            yield f"{name}: place, mm", 1000 * math.dist(centre, camera["centre"]), 15
+        for robot in self.truth["robots"]:
+            name = robot["name"]
+            found = tomllib.loads((self.folder / f"{name}.offset.toml").read_text())
+            yield f"{name}: offset x, mm", 1000 * abs(found["x"] - robot["x"]), 0.5
+            yield f"{name}: offset y, mm", 1000 * abs(found["y"] - robot["y"]), 0.5
+            yield (f"{name}: yaw, deg",
+                   abs(math.degrees(angle_between(found["yaw_rad"], robot["yaw"]))), 0.3)
 
     def arena_without_corrections(self, height):
         """As the thesis did it: tags are taken for centres; with `height`, on the floor, too."""
