@@ -56,7 +56,7 @@ Expected<std::string> board_sheet(const Board& board, const Paper& paper) {
   if (room < 1 - kRounding) {
     return bad_input(fmt::format("the board is {} x {} mm, too large for {}; the largest like it "
                                  "that fits is {}",
-                                 millimetres(board.width_m()), millimetres(board.height_m()),
+                                 printed_mm(board.width_m()), printed_mm(board.height_m()),
                                  paper.name, board_text(largest_like(board, room))),
                      "--board");
   }
@@ -66,7 +66,7 @@ Expected<std::string> board_sheet(const Board& board, const Paper& paper) {
              {area.left + (area.width - 1000 * board.width_m()) / 2,
               area.top + (area.height - 1000 * board.height_m()) / 2});
   draw_foot(svg, sheet,
-            fmt::format("{}, squares of {} mm", board_text(board), millimetres(board.square_m)));
+            fmt::format("{}, squares of {} mm", board_text(board), printed_mm(board.square_m)));
   return svg.finish();
 }
 

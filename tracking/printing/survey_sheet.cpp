@@ -107,7 +107,7 @@ void draw_explanation(Svg& svg, const SurveySheetOptions& options, double width)
   svg.circle(centre, 0.7, filled(kInk));
   draw_arrow(svg, centre, {x0 + kSide + 6, centre.y}, kThin * 2);
   svg.text({x0 + kSide + 7.5, centre.y + 1}, "x", {.size = kTextSize, .fill = ink_text()});
-  const std::string edge = millimetres(options.edge_m);
+  const std::string edge = printed_mm(options.edge_m);
   const std::vector<std::string> lines = {"A tag as it is printed, its",
                                           "\"up\" at the top. Corners of the",
                                           "black border: 1 bottom left,",

@@ -94,7 +94,7 @@ void draw_name(Svg& svg, const TagSheetOptions& options, int id, const TagPatter
   const int border = (pattern.cells - pattern.border_cells) / 2;
   const std::string_view color = pattern.is_black(border, border) ? ", black " : ", white ";
   const std::string first = fmt::format("{} id {}", options.family, id);
-  const std::string second = fmt::format("edge {} mm", millimetres(options.edge_m));
+  const std::string second = fmt::format("edge {} mm", printed_mm(options.edge_m));
   const std::string all = first + std::string(color) + second;
   const std::string ink(kInk);
   constexpr double kSize = 2.8;
@@ -188,7 +188,7 @@ Expected<std::vector<std::string>> tag_sheets(const TagSheetOptions& options) {
     return bad_input(
         fmt::format("a tag of {} mm with its quiet zone is {} mm wide, too large for {}; the "
                     "largest that fits has {} mm",
-                    millimetres(options.edge_m), millimetres(side / 1000), paper.name,
+                    printed_mm(options.edge_m), printed_mm(side / 1000), paper.name,
                     largest_edge_mm(options.paper, one)),
         "--edge");
   }

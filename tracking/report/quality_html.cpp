@@ -15,7 +15,7 @@ namespace {
 
 using Facts = std::vector<std::pair<std::string, std::string>>;
 
-constexpr double kPictureWidth_mm = 120;
+constexpr double kPictureWidth_mm = 96;
 constexpr double kTimelineWidth_mm = 170;
 constexpr std::size_t kShownHash = 16;
 
@@ -105,7 +105,7 @@ void write_pictures(HtmlPage& page, const ReportedRun& run) {
 std::string border_text(const ReportedRun& run, std::size_t robot) {
   if (robot >= run.scored.borders.size() || !run.scored.borders[robot]) return "";
   const BorderDistance& border = *run.scored.borders[robot];
-  return fmt::format("{:+.0f}, {}{}", 1000 * border.signed_m, border.border,
+  return fmt::format("{:+.1f}, {}{}", 1000 * border.signed_m, border.border,
                      border.too_close ? ": TOO CLOSE TO CALL" : "");
 }
 
@@ -185,7 +185,6 @@ void write_frames(HtmlPage& page, const ReportedRun& run) {
 
 void write_camera(HtmlPage& page, const ReportedRun& run, const CameraRecord& record) {
   const CameraFinding finding = camera_finding(run, record);
-  page.heading(3, "Camera " + record.camera, false);
   Facts facts = {{"Video", record.file},
                  {"Size", fmt::format("{} x {}", record.size.width, record.size.height)},
                  {"Frames", fmt::format("{}, damaged {}", record.frames, record.damaged_frames)},

@@ -65,11 +65,6 @@ std::optional<BoardSight> found_in(const Shot& shot, const Board& board) {
   return find_board(film::as_gray_image(shot.gray, half_camera().size), board);
 }
 
-/// Where a corner of the board truly is; the film's boards have y down.
-ImagePoint truth_of(const Shot& shot, const Board& board, const Point& corner) {
-  return film::image_of_board(shot.board, half_camera(), {corner.x, board.height_m() - corner.y});
-}
-
 TEST(FindBoardTest, CornersOfMarkerBoardsAreWhereTheyAre) {
   for (const char* word : {"charuco:11x8:0.03:0.022:5x5_100", "charuco:7x5:0.045:0.034:4x4_50",
                            "charuco:9x6:0.04:0.03:apriltag_36h11"}) {
@@ -80,7 +75,8 @@ TEST(FindBoardTest, CornersOfMarkerBoardsAreWhereTheyAre) {
     EXPECT_EQ(sight->view.seen.size(), corners_of(board).size()) << word;
     double squares = 0;
     for (std::size_t i = 0; i < sight->view.seen.size(); ++i) {
-      const ImagePoint truth = truth_of(shot, board, sight->view.board[i]);
+      const ImagePoint truth =
+          film::image_of_board(shot.board, half_camera(), sight->view.board[i]);
       EXPECT_NEAR(sight->view.seen[i].u, truth.u, 0.3) << word << " " << i;
       EXPECT_NEAR(sight->view.seen[i].v, truth.v, 0.3) << word << " " << i;
       squares += std::pow(sight->view.seen[i].u - truth.u, 2) +
@@ -99,7 +95,7 @@ TEST(FindBoardTest, APartOfAMarkerBoardIsEnough) {
   ASSERT_TRUE(sight);
   EXPECT_LT(sight->view.seen.size(), 60U);
   for (std::size_t i = 0; i < sight->view.seen.size(); ++i) {
-    const ImagePoint truth = truth_of(shot, board, sight->view.board[i]);
+    const ImagePoint truth = film::image_of_board(shot.board, half_camera(), sight->view.board[i]);
     EXPECT_NEAR(sight->view.seen[i].u, truth.u, 0.4);
     EXPECT_NEAR(sight->view.seen[i].v, truth.v, 0.4);
   }
@@ -117,7 +113,7 @@ TEST(FindBoardTest, AChessboardIsFoundWholeWithoutAShiftOfHalfAPixel) {
     double nearest = 1e9;
     ImagePoint off;
     for (const Point& corner : corners_of(board)) {
-      const ImagePoint truth = truth_of(shot, board, corner);
+      const ImagePoint truth = film::image_of_board(shot.board, half_camera(), corner);
       const double away = std::hypot(seen.u - truth.u, seen.v - truth.v);
       if (away >= nearest) continue;
       nearest = away;

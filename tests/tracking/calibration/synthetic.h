@@ -56,14 +56,14 @@ inline BoardView held_board(const CameraModel& camera, const Board& board, Rng r
                        rng.uniform(0.12, 0.88) * camera.size.height};
   const Ray ray = rays_of(camera, std::vector<ImagePoint>{aim}).front();
   CameraPlace place;
-  // Half a turn about x: the board's y axis points up in the picture.
+  // Half a turn about x, since the board's y is turned as well below.
   place.rotation = rotation_of(std::numbers::pi + rng.uniform(-tilt, tilt),
                                rng.uniform(-tilt, tilt), rng.uniform(-0.5, 0.5));
   const Point3 middle = place.seen_from_camera({board.width_m() / 2, board.height_m() / 2, 0});
   place.translation = {ray.x * depth - middle.x, ray.y * depth - middle.y, depth - middle.z};
   BoardView view;
   for (const Point& corner : corners_of(board)) {
-    const Point3 seen = place.seen_from_camera({corner.x, corner.y, 0});
+    const Point3 seen = place.seen_from_camera({corner.x, board.height_m() - corner.y, 0});
     if (seen.z < 0.05 || std::hypot(seen.x, seen.y) > 1.25 * seen.z) continue;
     ImagePoint pixel = image_of(camera, seen);
     pixel.u += rng.normal(0, holding.noise_px);

@@ -67,7 +67,7 @@ void draw_arrow(Svg& svg, PagePoint from, PagePoint to, double width) {
   svg.polygon(tip, filled(kInk));
 }
 
-std::string millimetres(double metres) {
+std::string printed_mm(double metres) {
   return fmt::format("{:.6g}", 1000 * metres);
 }
 

@@ -31,6 +31,6 @@ Svg empty_page(const Paper& paper, std::string_view title, std::string_view desc
 void draw_arrow(Svg& svg, PagePoint from, PagePoint to, double width);
 
 /// 0.1 as "100", 0.0225 as "22.5": metres as millimetres without needless decimals.
-std::string millimetres(double metres);
+std::string printed_mm(double metres);
 
 }  // namespace swarmsmith

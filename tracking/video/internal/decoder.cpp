@@ -24,6 +24,13 @@ bool is_taken(std::string_view decoder) {
   }
 }
 
+/// Whether any error is to cost the whole picture. Not where cameras write odd but harmless side
+/// data that the library calls an error (H.264 and H.265, whose decoders flag damaged pictures),
+/// nor for TIFF, where a tag that it does not know is one.
+bool refuses_whole_pictures(AVCodecID codec) {
+  return codec != AV_CODEC_ID_H264 && codec != AV_CODEC_ID_HEVC && codec != AV_CODEC_ID_TIFF;
+}
+
 }  // namespace
 
 Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_base,
@@ -41,7 +48,8 @@ Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_bas
   codec->thread_count = 1;
   codec->pkt_timebase = time_base;
   codec->max_pixels = kMostPixels;
-  codec->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
+  codec->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER;
+  if (refuses_whole_pictures(about.codec_id)) codec->err_recognition |= AV_EF_EXPLODE;
   if (code >= 0) code = avcodec_open2(codec.get(), found, nullptr);
   if (code < 0) {
     return Unexpected(
