@@ -32,6 +32,7 @@ class Sink {
     VideoOptions options;
     options.codec = form == ClipForm::Mjpg ? "mjpeg" : "h264";
     options.frame_rate = rate_hz;
+    options.quality = 60;  // what cameras do: noise costs most of the bits
     Expected<VideoWriter> opened = VideoWriter::open(file_.string(), size, options);
     if (!opened) throw std::runtime_error(to_string(opened.error()));
     video_ = std::move(*opened);
