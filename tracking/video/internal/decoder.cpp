@@ -47,7 +47,7 @@ Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_bas
   int code = avcodec_parameters_to_context(codec.get(), &about);
   codec->thread_count = 1;
   codec->pkt_timebase = time_base;
-  codec->max_pixels = kMostPixels;
+  codec->max_pixels = most_pixels(about.codec_id);
   codec->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER;
   if (refuses_whole_pictures(about.codec_id)) codec->err_recognition |= AV_EF_EXPLODE;
   if (code >= 0) code = avcodec_open2(codec.get(), found, nullptr);
@@ -57,6 +57,10 @@ Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_bas
                  fmt::format("the decoder of {} refuses it: {}", found->name, reason(code)), name));
   }
   return codec;
+}
+
+std::int64_t most_pixels(AVCodecID codec) {
+  return is_intra_only(codec) || codec == AV_CODEC_ID_FFV1 ? kMostPixels : kMostBuiltOnPixels;
 }
 
 bool is_intra_only(AVCodecID codec) {
