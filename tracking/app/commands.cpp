@@ -64,6 +64,16 @@ constexpr std::string_view kCalibrateRobotDetails =
     "\n"
     "Refused with E_SPIN_QUALITY, and no file written: under 60 samples or 300 degrees, RMS over\n"
     "2 mm, offset not known to 0.5 mm or over 135 mm, centre creeping over 5 mm/s.";
+constexpr std::string_view kScoreDetails =
+    "Examples:\n"
+    "  swarmsmith track score run07.mp4 --arena arena.toml --run run07.toml --into demo.db\n"
+    "  swarmsmith track score run07.mp4 --arena arena.toml --design d3 --sync-hidden 99 \\\n"
+    "      --into demo.db\n"
+    "\n"
+    "Without a store the run is scored and not kept. The same video with the same begin is the "
+    "same\n"
+    "run: it is stored once. `score` may be left out when the first word is a file. Exit code 6:\n"
+    "the run is INVALID, and is kept as that.";
 
 constexpr std::array kCommands = {
     Command{"init", "Write an arena.toml and a run.toml to begin with", "", declare_track_init},
@@ -75,6 +85,8 @@ constexpr std::array kCommands = {
             kCalibrateArenaDetails, declare_calibrate_arena},
     Command{"calibrate robot", "Find where a robot's tag sits on it from a spin",
             kCalibrateRobotDetails, declare_calibrate_robot},
+    Command{"score", "Score a filmed run and keep it in a store", kScoreDetails,
+            declare_track_score},
     Command{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
             declare_print_tags},
     Command{"print board", "A board to calibrate a camera with, in true scale", kPrintBoardDetails,

@@ -10,6 +10,7 @@ namespace swarmsmith::cli {
 /// its `declare_` function, a line here, an entry in commands.cpp, a section in docs/tracking.md.
 std::span<const Command> track_commands();
 
+Run declare_track_score(Options& options);
 Run declare_track_init(Options& options);
 Run declare_track_check(Options& options);
 Run declare_calibrate_camera(Options& options);

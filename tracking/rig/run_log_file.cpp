@@ -239,28 +239,4 @@ std::string run_log_text(const RunLog& log) {
   return text_of(sections);
 }
 
-Expected<std::vector<Patch>> patches_of_log(const RunLog& log) {
-  // Robots do not matter here, and need no room.
-  Mission mission = log.mission;
-  mission.robots = 0;
-  mission.placement = PlaceAnywhere{};
-  ExplicitInstances given;
-  given.patches = PatchesBySeed{{1, log.layout.patches}};
-  auto instance = instance_of(mission, 1, given);
-  if (!instance) {
-    return Unexpected(
-        error_of(IssueCode::Config, std::move(instance.error().message), "[[patch]]"));
-  }
-  for (const ShuffledPatches::Share& share : mission.shuffled.shares) {
-    const auto count = std::ranges::count(log.layout.patches, share.color, &PatchPlacement::color);
-    if (count == share.count) continue;
-    return Unexpected(error_of(IssueCode::Config,
-                               "the log has " + std::to_string(count) + " " +
-                                   color_text(share.color) + " patches, the mission " +
-                                   std::to_string(share.count),
-                               "[[patch]]"));
-  }
-  return std::move(instance->patches);
-}
-
 }  // namespace swarmsmith

@@ -83,7 +83,7 @@ TEST(LengthTest, AFileWithoutTimesIsCheckedAgainstTheLog) {
   const auto complains = [&](TimeSource source, const char* file, double said_s) {
     record.time_source = source;
     record.file = file;
-    seen.options.recorded_s = said_s;
+    seen.options.span.lengths_s = {said_s};
     return find_issue(seen.track().value(), IssueCode::Duration) != nullptr;
   };
   EXPECT_FALSE(complains(TimeSource::FrameRate, "a.avi", length + 0.19));

@@ -134,32 +134,5 @@ TEST(RunLogFile, SaysWhichMissionsThereAre) {
               ElementsAre(HasSubstr("E_CONFIG: this is no TOML")));
 }
 
-RunLog log_of_colors(const std::vector<PatchPlacement>& patches) {
-  RunLog log;
-  log.mission = *built_in_mission("color_selection");
-  log.layout = {RunLayout::Source::Log, patches};
-  return log;
-}
-
-TEST(RunLogFile, GivesPatchesTheSizesOfTheMissionsPlaces) {
-  const Mission mission = *built_in_mission("color_selection");
-  const Instance instance = *instance_of(mission, 5);
-  std::vector<PatchPlacement> placements;
-  for (const Patch& patch : instance.patches)
-    placements.push_back({std::get<Rectangle>(patch.shape).centre, patch.color});
-  const auto patches = patches_of_log(log_of_colors(placements));
-  ASSERT_TRUE(patches) << to_string(patches.error());
-  EXPECT_EQ(*patches, instance.patches);
-
-  placements.pop_back();
-  const auto short_of_one = patches_of_log(log_of_colors(placements));
-  ASSERT_FALSE(short_of_one);
-  EXPECT_THAT(to_string(short_of_one.error()), HasSubstr("E_CONFIG: the log has 3 "));
-  placements.push_back({{0.01, 0.02}, {0, 255, 0}});
-  const auto astray = patches_of_log(log_of_colors(placements));
-  ASSERT_FALSE(astray);
-  EXPECT_THAT(to_string(astray.error()), HasSubstr("no free place for a patch at (0.01"));
-}
-
 }  // namespace
 }  // namespace swarmsmith
