@@ -5,6 +5,7 @@
 
 #include <cerrno>
 #include <cstring>
+#include <deque>
 #include <utility>
 
 #include "target/process.h"
@@ -56,19 +57,28 @@ std::string first_line(const std::string& text) {
 }  // namespace
 
 Expected<std::string> pdf_of_svg(std::string_view svg) {
+  const std::string page(svg);
+  return pdf_of_svgs({&page, 1});
+}
+
+Expected<std::string> pdf_of_svgs(std::span<const std::string> pages) {
   const auto program = find_program("rsvg-convert");
   if (!program) {
     return no_pdf(
         "the program rsvg-convert, which makes it, is not there; install the Debian package "
         "librsvg2-bin, or write an .svg");
   }
-  const TextInMemory drawing(svg);
-  if (!drawing.is_there()) return no_pdf(std::string("no memory: ") + std::strerror(errno));
   // With a date of its own, PDFs of one drawing would differ.
-  const ProcessCall call{
-      .words = {"env", "SOURCE_DATE_EPOCH=0", *program, "-f", "pdf", drawing.name()},
-      .limit = std::chrono::minutes(1),
-      .keep = kLargestPdf};
+  ProcessCall call{.words = {"env", "SOURCE_DATE_EPOCH=0", *program, "-f", "pdf"},
+                   .limit = std::chrono::minutes(1),
+                   .keep = kLargestPdf};
+  std::deque<TextInMemory> drawings;
+  for (const std::string& page : pages) {
+    drawings.emplace_back(page);
+    if (!drawings.back().is_there())
+      return no_pdf(std::string("no memory: ") + std::strerror(errno));
+    call.words.push_back(drawings.back().name());
+  }
   const Interrupt never;
   const auto end = run_process(call, never);
   if (!end) return no_pdf(to_string(end.error()));

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -13,5 +14,8 @@ namespace swarmsmith::cli {
 /// Errors: Unavailable, with what to install when the program is not there, and with its own words
 /// when it fails or takes over a minute.
 Expected<std::string> pdf_of_svg(std::string_view svg);
+
+/// Several drawings, a page each.
+Expected<std::string> pdf_of_svgs(std::span<const std::string> pages);
 
 }  // namespace swarmsmith::cli

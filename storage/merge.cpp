@@ -25,13 +25,17 @@ using sqlite::Statement;
 /// How far ids move, and with them the numbers of campaigns.
 struct Move : Shift {
   std::int64_t campaigns = 0;
+  std::int64_t real_runs = 0;
 };
 
 /// Tables whose rows are copied column by column. Candidates go through their rows, `source` by its
-/// names, and `meta` is each file's own.
-constexpr std::array<const char*, 14> kCopied{
-    "campaign",    "design", "pair",   "iteration", "candidate_totals", "evaluation", "race_step",
-    "elimination", "elite",  "worker", "conflict",  "failure",          "attempt",    "event"};
+/// names, calibrations once for all stores, and `meta` is each file's own.
+constexpr std::array kCopied{
+    "campaign",   "design",     "pair",        "iteration",   "candidate_totals",
+    "evaluation", "race_step",  "elimination", "elite",       "worker",
+    "conflict",   "failure",    "attempt",     "event",       "command",
+    "real_run",   "real_video", "real_robot",  "real_sample", "real_reference",
+    "real_patch", "real_cycle", "real_issue",  "real_score",  "real_override"};
 
 /// What becomes of a column: an expression over the source's row.
 std::string moved(std::string_view table, const std::string& column, const Move& move) {
@@ -42,6 +46,7 @@ std::string moved(std::string_view table, const std::string& column, const Move&
   if (column == "id") {
     if (table == "campaign") return plus(move.campaigns);
     if (table == "design") return plus(move.designs);
+    if (table == "real_run") return plus(move.real_runs);
     return plus(move.workers);  // of the table worker
   }
   if (column == "design" || column == "designs_before") return plus(move.designs);
@@ -49,8 +54,9 @@ std::string moved(std::string_view table, const std::string& column, const Move&
   if (column == "campaign") return plus(move.campaigns);
   if (column == "worker" || column == "other_worker") return worker();
   if (column == "number" && table == "command") return plus(move.commands);
+  if (column == "run") return plus(move.real_runs);
   if (column == "seq") return "NULL";
-  if (column == "source") {
+  if (column == "source" && table == "evaluation") {
     return "(SELECT m.id FROM main.source AS m JOIN other.source AS s ON s.name = m.name"
            " WHERE s.id = t.source)";
   }
@@ -77,15 +83,30 @@ std::int64_t largest(const Connection& connection, const char* column, const cha
                             fmt::format("SELECT coalesce(max({}), 0) FROM {}", column, table));
 }
 
+/// A real run that was there before cannot come again: its score would count twice.
+Expected<void> check_new_runs(const Connection& connection, const fs::path& store) {
+  Statement twice(connection,
+                  "SELECT o.id, m.id FROM other.real_run AS o JOIN main.real_run AS m USING (key)");
+  if (!twice.step()) return {};
+  return unexpected(
+      ErrorKind::Conflict,
+      fmt::format("its real run {} is {} of the stores before it; a real run is merged once: leave "
+                  "one of the stores out",
+                  to_string(RealRunId{twice.integer(0)}), to_string(RealRunId{twice.integer(1)})),
+      store.string());
+}
+
 /// One store into the new one; `copy` is its copy, of the newest schema.
-void take(Connection& connection, const fs::path& copy) {
+Expected<void> take(Connection& connection, const fs::path& store, const fs::path& copy) {
   const Move move{{.designs = largest(connection, "id", "design"),
                    .workers = largest(connection, "id", "worker"),
                    .commands = largest(connection, "number", "command")},
-                  largest(connection, "id", "campaign")};
+                  largest(connection, "id", "campaign"),
+                  largest(connection, "id", "real_run")};
   Connection other(copy.string(), SQLITE_OPEN_READONLY);
   configure_reader(other);
   Statement(connection, "ATTACH ? AS other").run(copy.string());
+  if (auto fresh = check_new_runs(connection, store); !fresh) return fresh;
   {
     sqlite::Transaction transaction(connection);
     connection.execute("PRAGMA defer_foreign_keys = ON");
@@ -94,12 +115,13 @@ void take(Connection& connection, const fs::path& copy) {
     connection.execute(
         "INSERT OR IGNORE INTO main.source (name) SELECT name FROM other.source"
         " ORDER BY id");
+    connection.execute("INSERT OR IGNORE INTO main.calibration SELECT * FROM other.calibration");
     for (const char* table : kCopied)
       copy_table(connection, table, move);
-    copy_table(connection, "command", move);
     transaction.commit();
   }
   connection.execute("DETACH other");
+  return {};
 }
 
 /// A campaign that was there before cannot come again: its designs would be two.
@@ -158,7 +180,9 @@ Expected<Merged> merge_stores(const std::vector<fs::path>& stores, const fs::pat
         return Unexpected(fresh.error());
       }
       warn_of_unfinished(campaigns, stores[i], merged.warnings);
-      take(connection, copy->path());
+      if (auto taken = take(connection, stores[i], copy->path()); !taken) {
+        return Unexpected(taken.error());
+      }
     }
     if (const auto faults = faults_of(connection); !faults.empty()) {
       return unexpected(ErrorKind::Corrupt, "what was merged is damaged: " + faults.front(),

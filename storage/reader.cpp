@@ -7,6 +7,7 @@
 #include "storage/internal/file_checks.h"
 #include "storage/internal/query.h"
 #include "storage/internal/reading.h"
+#include "storage/internal/real_run_reader.h"
 #include "storage/internal/row_reader.h"
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
@@ -18,6 +19,14 @@ namespace {
 namespace fs = std::filesystem;
 using sqlite::Connection;
 using sqlite::Statement;
+
+Unexpected no_such_run(RealRunId id, const std::vector<RealRunHead>& known) {
+  if (known.empty()) return unexpected(ErrorKind::NotFound, "the store has no real runs");
+  return unexpected(
+      ErrorKind::NotFound,
+      fmt::format("the store has no real run {}; it has {} from {} to {}", to_string(id),
+                  known.size(), to_string(known.front().id), to_string(known.back().id)));
+}
 
 class SqliteReader final : public StoreReader {
  public:
@@ -31,6 +40,8 @@ class SqliteReader final : public StoreReader {
   std::vector<DesignRow> designs() override { return read_designs(*connection_, part()); }
   std::vector<StoredScore> scores() override { return read_scores(*connection_, part()); }
   std::vector<CommandRow> commands() override { return read_commands(*connection_, part()); }
+  std::vector<RealRunHead> real_runs() override { return read_real_runs(*connection_, part()); }
+  Expected<RealRunRows> real_run(RealRunId id) override;
   bool finished() override {
     return std::ranges::all_of(campaigns(), [](const StoredCampaign& each) {
       return each.state == "finished" || each.state == "imported";
@@ -77,6 +88,16 @@ void SqliteReader::each_answer_row(const std::function<void(const Row&)>& on_row
   read_answer(*connection_, part(), on_row);
 }
 
+Expected<RealRunRows> SqliteReader::real_run(RealRunId id) {
+  const Snapshot snapshot(*connection_);
+  const std::vector<RealRunHead> known = read_real_runs(*connection_, part());
+  const auto head = std::ranges::find(known, id, &RealRunHead::id);
+  auto rows = head == known.end() ? std::nullopt : read_real_run(*connection_, id);
+  if (!rows) return no_such_run(id, known);
+  rows->candidate = head->candidate;
+  return std::move(*rows);
+}
+
 std::string SqliteReader::digest() {
   const Snapshot snapshot(*connection_);
   const std::vector<StoredCampaign> all = campaigns();
@@ -93,8 +114,8 @@ Expected<StoreReader::QueryEnd> SqliteReader::query(
   if (end || schema >= kSchemaVersion || !end.error().message.starts_with("no such ")) return end;
   Error error = end.error();
   const std::string file = sqlite3_db_filename(connection_->handle(), "main");
-  error.message = older_schema_text(schema, fs::path(file).filename().string()) + " (" +
-                  error.message + ")";
+  error.message =
+      older_schema_text(schema, fs::path(file).filename().string()) + " (" + error.message + ")";
   error.where = file;
   return Unexpected(error);
 }

@@ -20,6 +20,8 @@ struct CalibrationRow {
   std::string made;     ///< date and time, UTC; it holds from then on
   double rms = 0;       ///< pixels, of an offset metres
   std::string file;     ///< the whole text
+
+  friend bool operator==(const CalibrationRow&, const CalibrationRow&) = default;
 };
 
 /// One camera's recording of a run.
@@ -36,6 +38,8 @@ struct RealVideoRow {
   std::string camera_calibration;   ///< sha256
   std::string place_calibration;    ///< sha256
   std::vector<double> frame_times;  ///< one a frame, the camera's clock
+
+  friend bool operator==(const RealVideoRow&, const RealVideoRow&) = default;
 };
 
 /// A robot of a run and how well it was tracked.
@@ -56,6 +60,8 @@ struct RealRobotRow {
   double sigma_rad = 0;
   std::optional<double> border_m;  ///< signed, at the end
   bool too_close = false;
+
+  friend bool operator==(const RealRobotRow&, const RealRobotRow&) = default;
 };
 
 /// A tag in a frame, as measured, and what it was taken for.
@@ -72,6 +78,8 @@ struct RealSampleRow {
   double y = 0;
   double theta = 0;
   std::int64_t use = 0;  ///< Sample::Use
+
+  friend bool operator==(const RealSampleRow&, const RealSampleRow&) = default;
 };
 
 /// Where a floor tag was within one span of some seconds of a video: medians over its frames.
@@ -81,6 +89,8 @@ struct RealReferenceRow {
   std::int64_t tag = 0;
   std::array<double, 8> corners{};  ///< as of a sample
   std::int64_t frames = 0;
+
+  friend bool operator==(const RealReferenceRow&, const RealReferenceRow&) = default;
 };
 
 /// A colour patch that lay on the floor of this run, over those of the mission's arena.
@@ -102,6 +112,8 @@ struct RealCycleRow {
   double y = 0;
   double theta = 0;
   std::int64_t kind = 0;  ///< CycleKind; of cycle 0 that of cycle 1
+
+  friend bool operator==(const RealCycleRow&, const RealCycleRow&) = default;
 };
 
 struct RealIssueRow {
@@ -111,6 +123,8 @@ struct RealIssueRow {
   std::optional<double> from_s;
   std::optional<double> to_s;
   bool of_observing = false;  ///< of files, frames and times: a later scoring keeps it
+
+  friend bool operator==(const RealIssueRow&, const RealIssueRow&) = default;
 };
 
 /// What a run was scored with, and what came out; a later scoring replaces what follows from it and
@@ -122,6 +136,8 @@ struct RealScoreRow {
   std::string reasons;  ///< JSON array of sentences
   std::string report;   ///< JSON object: the quality report
   std::string program;  ///< "swarmsmith-track 0.1.0, OpenCV 4.6.0, ..."
+
+  friend bool operator==(const RealScoreRow&, const RealScoreRow&) = default;
 };
 
 /// A person's word on a run, which counts above the verdict.
@@ -155,6 +171,8 @@ struct RealRunRows {
   std::vector<RealCycleRow> cycles;          ///< by cycle, robot
   std::vector<RealIssueRow> issues;
   RealScoreRow score;
+
+  friend bool operator==(const RealRunRows&, const RealRunRows&) = default;
 };
 
 /// Where a run that was to be stored is.

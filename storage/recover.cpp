@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "storage/internal/copying.h"
+#include "storage/internal/mend_real_runs.h"
 #include "storage/internal/new_file.h"
 #include "storage/internal/reading.h"
 #include "storage/internal/row_reader.h"
@@ -30,6 +31,9 @@ constexpr std::array kNonsense{
     "DELETE FROM evaluation WHERE pair < 1 OR purpose NOT BETWEEN 0 AND 5"
     " OR status NOT BETWEEN 0 AND 1 OR (status = 0) <> (score IS NOT NULL)",
     "DELETE FROM race_step WHERE step < 1",
+    "DELETE FROM real_run WHERE id < 1",
+    "DELETE FROM real_score WHERE verdict NOT IN ('VALID', 'DEGRADED', 'INVALID')",
+    "DELETE FROM real_override WHERE verdict NOT IN ('VALID', 'DEGRADED', 'INVALID')",
 };
 
 /// What names something that is lost. Each may make others so: they are repeated until nothing
@@ -217,6 +221,7 @@ Expected<Recovery::End> SqliteRecovery::finish() {
     }
     connection_.execute(
         "UPDATE design SET best = NULL WHERE best NOT IN (SELECT id FROM candidate)");
+    orphans_ += mend_real_runs(connection_);
     write_maker(connection_);
     if (const auto faults = faults_of(connection_); !faults.empty()) {
       return unexpected(ErrorKind::Corrupt,

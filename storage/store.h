@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "storage/real_runs.h"
 #include "storage/rows.h"
 
 namespace swarmsmith {
@@ -127,6 +128,11 @@ class StoreReader {
   virtual std::vector<DesignRow> designs() = 0;
   virtual std::vector<StoredScore> scores() = 0;
   virtual std::vector<CommandRow> commands() = 0;
+  /// The real runs by id; of a campaign that is looked at alone those of its candidates, which
+  /// have the ids that they have there. None before schema 5.
+  virtual std::vector<RealRunHead> real_runs() = 0;
+  /// A real run as it was written, with its latest scoring; NotFound with the runs that there are.
+  virtual Expected<RealRunRows> real_run(RealRunId id) = 0;
   /// One hash over every table that is part of the answer (answer.h), row by row in key order:
   /// equal for two stores of one campaign, however they came about. Of several campaigns a hash
   /// over the digests that they have alone, in whatever order they came together.

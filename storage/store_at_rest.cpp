@@ -1,12 +1,16 @@
 #include "storage/store_at_rest.h"
 
+#include <functional>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "base/hash.h"
 #include "storage/internal/file_checks.h"
 #include "storage/internal/open_writer.h"
+#include "storage/internal/real_run_reader.h"
+#include "storage/internal/real_run_writer.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/schema.h"
 
@@ -24,6 +28,20 @@ constexpr char kCampaign[] =
 constexpr char kDesign[] =
     "INSERT INTO design (id, mission, method, flavour, repetition, seed, budget, name, campaign)"
     " SELECT ?, ?, ?, ?, ?, ?, ?, ?, max(id) FROM campaign";
+
+/// Of a store that holds real runs and no races.
+constexpr char kRealRuns[] =
+    "INSERT INTO campaign (id, name, digest, deciding, file, seed, state, designs_before, finished)"
+    " VALUES (1, 'real runs', ?, '{}', '', 0, 'imported', 0,"
+    " strftime('%Y-%m-%dT%H:%M:%fZ', 'now'))";
+
+/// Two stores of real runs are two campaigns when they began with different runs.
+std::string campaign_digest(const RealRunRows& first) {
+  Digest digest;
+  digest.add(std::string("real runs"));
+  digest.add(first.key);
+  return digest.hex();
+}
 
 class SqliteAtRest final : public StoreAtRest {
  public:
@@ -44,8 +62,15 @@ class SqliteAtRest final : public StoreAtRest {
 
   bool is_new() const override { return is_new_; }
   Expected<void> add(const Addition& addition) override;
+  Expected<RealRunWritten> add_real_run(const RealRunRows& rows) override;
+  Expected<void> rescore_real_run(RealRunId id, const RealRunRows& rows) override;
+  Expected<void> add_override(const RealOverrideRow& row) override;
 
  private:
+  /// All that `change` does, or nothing.
+  Expected<void> in_one_go(const std::function<Expected<void>()>& change);
+  Expected<void> check_candidate(CandidateId candidate) const;
+  Expected<RealRunRows> stored_run(RealRunId id) const;
   Expected<void> add_campaign(const Addition& addition);
   void remove(const EvaluationKey& key);
 
@@ -58,17 +83,22 @@ class SqliteAtRest final : public StoreAtRest {
 Expected<void> SqliteAtRest::add(const Addition& addition) {
   for (const Row& row : addition.rows)
     require_finite(row);
-  try {
-    sqlite::Transaction transaction(*connection_);
-    if (is_new_) write_empty_store(*connection_);
+  return in_one_go([&]() -> Expected<void> {
     if (auto added = add_campaign(addition); !added) return added;
     for (const EvaluationKey& key : addition.removed)
       remove(key);
-    {
-      RowWriter writer(*connection_);
-      for (const Row& row : addition.rows)
-        writer.write(row);
-    }
+    RowWriter writer(*connection_);
+    for (const Row& row : addition.rows)
+      writer.write(row);
+    return {};
+  });
+}
+
+Expected<void> SqliteAtRest::in_one_go(const std::function<Expected<void>()>& change) {
+  try {
+    sqlite::Transaction transaction(*connection_);
+    if (is_new_) write_empty_store(*connection_);
+    if (auto changed = change(); !changed) return changed;
     transaction.commit();
   } catch (const sqlite::SqliteError& error) {
     return unexpected(
@@ -78,6 +108,79 @@ Expected<void> SqliteAtRest::add(const Addition& addition) {
   }
   is_new_ = false;
   return {};
+}
+
+Expected<void> SqliteAtRest::check_candidate(CandidateId candidate) const {
+  if (!candidate) return {};
+  Statement known(*connection_, "SELECT 1 FROM candidate WHERE id = ?");
+  known.bind(candidate.value);
+  if (known.step()) return {};
+  return unexpected(ErrorKind::NotFound, "the store has no candidate " + to_string(candidate),
+                    path_.string());
+}
+
+Expected<RealRunRows> SqliteAtRest::stored_run(RealRunId id) const {
+  if (auto rows = read_real_run(*connection_, id)) return std::move(*rows);
+  return unexpected(ErrorKind::NotFound, "the store has no real run " + to_string(id),
+                    path_.string());
+}
+
+Expected<RealRunWritten> SqliteAtRest::add_real_run(const RealRunRows& rows) {
+  require_whole(rows);
+  RealRunWritten written;
+  const auto added = in_one_go([&]() -> Expected<void> {
+    if (const auto known = real_run_of_key(*connection_, rows.key)) {
+      written = {.id = *known, .is_new = false};
+      const auto differ = differing_inputs(*read_real_run(*connection_, *known), rows);
+      if (differ.empty()) return {};
+      return unexpected(
+          ErrorKind::Conflict,
+          fmt::format("the run is stored as {}, with other inputs ({} differ); `swarmsmith track "
+                      "rescore {}` scores it again from its stored sightings",
+                      to_string(*known), fmt::join(differ, ", "), to_string(*known)),
+          path_.string());
+    }
+    if (auto known = check_candidate(rows.candidate); !known) return known;
+    if (is_new_) Statement(*connection_, kRealRuns).run(campaign_digest(rows));
+    written.id = write_real_run(*connection_, rows);
+    return {};
+  });
+  if (!added) return Unexpected(added.error());
+  return written;
+}
+
+Expected<void> SqliteAtRest::rescore_real_run(RealRunId id, const RealRunRows& rows) {
+  require_whole(rows);
+  return in_one_go([&]() -> Expected<void> {
+    const auto stored = stored_run(id);
+    if (!stored) return Unexpected(stored.error());
+    if (stored->key != rows.key || !same_sightings(*stored, rows)) {
+      return bad_input(
+          fmt::format("what is to be scored again has other sightings than {}: its videos are "
+                      "others, and make a run of their own",
+                      to_string(id)),
+          path_.string());
+    }
+    if (auto known = check_candidate(rows.candidate); !known) return known;
+    rewrite_real_run(*connection_, id, rows);
+    return {};
+  });
+}
+
+Expected<void> SqliteAtRest::add_override(const RealOverrideRow& row) {
+  if (row.verdict != "VALID" && row.verdict != "DEGRADED" && row.verdict != "INVALID") {
+    return bad_input(
+        fmt::format("'{}' is no verdict; say VALID, DEGRADED or INVALID", row.verdict));
+  }
+  if (row.who.empty() || row.reason.empty()) {
+    return bad_input(row.who.empty() ? "nobody is named who overrides the verdict"
+                                     : "no reason is given to override the verdict");
+  }
+  return in_one_go([&]() -> Expected<void> {
+    if (const auto stored = stored_run(row.run); !stored) return Unexpected(stored.error());
+    write_override(*connection_, row);
+    return {};
+  });
 }
 
 Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {

@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "storage/answer.h"
 #include "storage/internal/file_checks.h"
+#include "storage/internal/real_run_reader.h"
 #include "storage/internal/row_reader.h"
 #include "storage/internal/schema.h"
 
@@ -91,6 +92,8 @@ std::vector<std::string> faults_of(const sqlite::Connection& connection) {
     }
     if (const auto lost = candidates_without_phrases(connection); !lost.empty())
       faults.push_back(fmt::format("candidates name phrases that do not exist: {}", lost.size()));
+    for (std::string& fault : faults_of_real_runs(connection))
+      faults.push_back(std::move(fault));
   } catch (const sqlite::SqliteError& error) {
     faults.emplace_back(error.what());
   }

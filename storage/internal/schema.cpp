@@ -11,6 +11,7 @@
 #include "embedded/kInitialSchema.h"
 #include "embedded/kResultsSchema.h"
 #include "embedded/kTargetsSchema.h"
+#include "embedded/kTrackingSchema.h"
 #include "embedded/kViews.h"
 
 namespace swarmsmith {
@@ -32,10 +33,11 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 3> kMigrations = {
+  static const std::array<Migration, 4> kMigrations = {
       Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
       Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
       Migration{4, [](sqlite::Connection& connection) { connection.execute(kResultsSchema); }},
+      Migration{5, [](sqlite::Connection& connection) { connection.execute(kTrackingSchema); }},
   };
   return kMigrations;
 }

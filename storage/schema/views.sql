@@ -82,6 +82,23 @@ SELECT design, step, iteration, pair, marker, bound, alive_before, alive_after, 
        evaluated, used, statistic, p_value, kendall_w, spearman_rho, qvar
 FROM race_step;
 
+-- Not public: a real run with the scoring and the person's word on it that count, and whether its
+-- score does: a VALID or DEGRADED one whose robots' centres are known, or what a person said is.
+CREATE VIEW real_run_now AS
+SELECT r.id AS run, r.candidate, r.source, r.mission, r.name, r.recorded, r.duration, r.stored,
+       r.key, r.robots, r.videos, s.number AS scoring, s.score, s.verdict AS measured_verdict,
+       coalesce(o.verdict, s.verdict) AS verdict, o.who, o.reason, s.biased, s.time AS scored,
+       s.program,
+       s.score IS NOT NULL AND coalesce(o.verdict, s.verdict) IN ('VALID', 'DEGRADED')
+         AND (s.biased = 0 OR o.verdict IS NOT NULL) AS counts
+FROM real_run AS r
+JOIN real_score AS s
+  ON s.run = r.id AND s.number = (SELECT max(l.number) FROM real_score AS l WHERE l.run = r.id)
+LEFT JOIN real_override AS o
+  ON o.run = r.id AND o.number = (SELECT max(l.number) FROM real_override AS l WHERE l.run = r.id);
+
+-- The parts of a UNION ALL have the same affinities, hence the casts: else SQLite would make all of
+-- the view where a query joins it.
 CREATE VIEW v_evaluations AS
 SELECT 'e' || (e.candidate * 100000 + e.pair)
            || CASE e.purpose WHEN 0 THEN '' WHEN 1 THEN 'l' WHEN 2 THEN 't' WHEN 3 THEN 'a'
@@ -98,10 +115,19 @@ FROM evaluation AS e
 JOIN design AS d ON d.id = (e.candidate - 1) / 1000000 + 1
   AND e.candidate BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000
 JOIN source AS s ON s.id = e.source
-LEFT JOIN pair AS p ON p.design = d.id AND p.purpose = e.purpose AND p.number = e.pair;
+LEFT JOIN pair AS p ON p.design = d.id AND p.purpose = e.purpose AND p.number = e.pair
+UNION ALL
+SELECT 'r' || r.run, d.id, r.candidate, 'score', CAST(NULL AS INTEGER), CAST(NULL AS INTEGER), NULL,
+       CAST(NULL AS INTEGER), 'ok', r.score, CAST(NULL AS REAL), CAST(NULL AS REAL), NULL, NULL,
+       CAST(NULL AS INTEGER), r.source, 1, CAST(0 AS INTEGER)
+FROM real_run_now AS r
+JOIN design AS d ON d.id = (r.candidate - 1) / 1000000 + 1
+  AND r.candidate BETWEEN (d.id - 1) * 1000000 + 1 AND d.id * 1000000
+WHERE r.counts;
 
+-- Not public: v_design_scores without real runs.
 -- Where a targetEvaluator says the costs, its calls for test instances have negative instances.
-CREATE VIEW v_design_scores AS
+CREATE VIEW design_score AS
 SELECT d.id AS design, d.mission, d.method, d.repetition, d.best AS candidate,
        s.name AS source, CASE e.purpose WHEN 2 THEN 'test' ELSE 'score' END AS purpose, e.pair, p.instance, nullif(p.seed, 0) AS seed,
        iif(v.pair IS NULL, e.score, v.score) AS score
@@ -115,6 +141,16 @@ LEFT JOIN evaluation AS v
   ON v.candidate = e.candidate AND v.purpose = 5 AND v.pair = q.number
 WHERE d.state = 3;
 
+CREATE VIEW v_design_scores AS
+SELECT design, mission, method, repetition, candidate, source, purpose, pair, instance, seed, score
+FROM design_score
+UNION ALL
+SELECT d.id, d.mission, d.method, d.repetition, r.candidate, r.source, 'score', NULL, NULL, NULL,
+       r.score
+FROM design AS d
+JOIN real_run_now AS r ON r.candidate = d.best
+WHERE d.state = 3 AND r.counts;
+
 CREATE VIEW v_leaderboard AS
 SELECT mission,
        rank() OVER (PARTITION BY mission ORDER BY coalesce(test_mean, best_mean) DESC) AS rank,
@@ -123,7 +159,7 @@ FROM (SELECT d.mission, d.id AS design, d.method, d.repetition, d.best AS candid
              CASE WHEN d.used > 0 THEN d.best_mean END AS best_mean,
              avg(t.score) AS test_mean, count(t.score) AS test_runs
       FROM design AS d
-      LEFT JOIN v_design_scores AS t ON t.design = d.id AND t.purpose = 'test'
+      LEFT JOIN design_score AS t ON t.design = d.id AND t.purpose = 'test'
       WHERE d.state = 3 AND d.best IS NOT NULL
       GROUP BY d.id);
 
@@ -248,3 +284,73 @@ LEFT JOIN evaluation AS e
 LEFT JOIN pair AS p
   ON p.design = (f.candidate - 1) / 1000000 + 1 AND p.purpose = f.purpose AND p.number = f.pair
 LEFT JOIN worker AS w ON w.id = f.worker;
+
+CREATE VIEW v_real_runs AS
+SELECT 'r' || r.run AS id, r.run, r.name, r.candidate, (r.candidate - 1) / 1000000 + 1 AS design,
+       r.mission, r.source, r.score, r.verdict, r.counts, r.measured_verdict,
+       r.who AS overridden_by, r.reason, r.biased, r.recorded, r.duration AS duration_s,
+       r.robots, r.videos AS cameras, r.scoring AS scorings, r.scored, r.stored, r.program, r.key
+FROM real_run_now AS r;
+
+CREATE VIEW v_real_scores AS
+SELECT 'r' || s.run AS id, s.run, s.number AS scoring, s.score, s.verdict, s.biased, s.reasons,
+       s.time AS at, s.program, s.report
+FROM real_score AS s;
+
+CREATE VIEW v_real_overrides AS
+SELECT 'r' || o.run AS id, o.run, o.number, o.scoring, o.verdict, o.who, o.reason, o.time AS at
+FROM real_override AS o;
+
+CREATE VIEW v_real_videos AS
+SELECT 'r' || v.run AS id, v.run, v.number AS video, v.camera, v.file, v.width, v.height, v.frames,
+       v.damaged_frames, v.time_source, v.sha256,
+       nullif(v.camera_calibration, '') AS camera_calibration,
+       nullif(v.place_calibration, '') AS place_calibration
+FROM real_video AS v;
+
+CREATE VIEW v_real_robots AS
+SELECT 'r' || b.run AS id, b.run, b.robot, b.name, b.tag, b.measured, b.interpolated, b.degraded,
+       b.missing, b.longest_gap AS longest_gap_s, b.outliers, b.scale, b.residual AS residual_m,
+       b.sigma AS sigma_m, b.sigma_theta AS sigma_rad, b.border AS border_m, b.too_close,
+       nullif(b.offset_calibration, '') AS offset_calibration
+FROM real_robot AS b;
+
+CREATE VIEW v_real_cycles AS
+SELECT 'r' || c.run AS id, c.run, c.cycle, c.cycle / 10.0 AS time_s, c.robot, c.x, c.y, c.theta,
+       CASE c.kind WHEN 0 THEN 'measured' WHEN 1 THEN 'interpolated' WHEN 2 THEN 'degraded'
+                   WHEN 3 THEN 'missing' END AS kind
+FROM real_cycle AS c;
+
+CREATE VIEW v_real_samples AS
+SELECT 'r' || s.run AS id, s.run, s.number, s.video, s.frame, s.time AS time_s, s.tag,
+       s.u0 / 1000.0 AS u0, s.v0 / 1000.0 AS v0, s.u1 / 1000.0 AS u1, s.v1 / 1000.0 AS v1,
+       s.u2 / 1000.0 AS u2, s.v2 / 1000.0 AS v2, s.u3 / 1000.0 AS u3, s.v3 / 1000.0 AS v3,
+       s.hamming, s.margin, s.robot, s.x, s.y, s.theta,
+       CASE WHEN s.robot IS NOT NULL THEN
+         CASE s.use WHEN 0 THEN 'used' WHEN 1 THEN 'outlier' WHEN 2 THEN 'duplicate'
+                    WHEN 3 THEN 'bad fit' WHEN 4 THEN 'outside' END END AS use
+FROM real_sample AS s;
+
+CREATE VIEW v_real_patches AS
+SELECT 'r' || p.run AS id, p.run, p.number AS patch, p.x, p.y, nullif(p.width, 0) AS width_m,
+       nullif(p.height, 0) AS height_m, nullif(p.radius, 0) AS radius_m, p.color
+FROM real_patch AS p;
+
+CREATE VIEW v_real_issues AS
+SELECT 'r' || i.run AS id, i.run, i.number, i.code, i.text, nullif(i.robot, '') AS robot,
+       i.start AS from_s, i.stop AS to_s
+FROM real_issue AS i;
+
+-- A calibration holds until the next of its kind and subject was made; no end: it still does.
+CREATE VIEW v_calibrations AS
+SELECT c.kind, c.subject, c.made AS valid_from,
+       lead(c.made) OVER (PARTITION BY c.kind, c.subject ORDER BY c.made, c.sha256) AS valid_until,
+       c.rms,
+       CASE c.kind WHEN 'offset'
+         THEN (SELECT count(*) FROM real_robot AS b
+               WHERE b.offset_calibration = c.sha256 AND b.name = c.subject)
+         ELSE (SELECT count(*) FROM real_video AS v
+               WHERE v.camera = c.subject
+                 AND c.sha256 IN (v.camera_calibration, v.place_calibration)) END AS uses,
+       c.sha256, c.file
+FROM calibration AS c;

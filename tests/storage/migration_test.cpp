@@ -2,7 +2,9 @@
 
 #include "storage/internal/schema.h"
 #include "storage/internal/sqlite.h"
+#include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/synthetic_real_run.h"
 
 namespace swarmsmith {
 namespace {
@@ -20,7 +22,8 @@ struct OldStore {
 
 constexpr OldStore kOldStores[] = {{1, "c1ab46cfade6d60d3caa2324616eca67", 251},
                                    {2, "5edcb3cb406469e4e5ce487520d2afe4", 253},
-                                   {3, "8541a7690103a070b99e928c2d645e00", 315}};
+                                   {3, "8541a7690103a070b99e928c2d645e00", 315},
+                                   {4, "2dadc34b67eb86042a33ff0d797d04c4", 259}};
 
 struct MigrationTest : testing::TestWithParam<OldStore> {
   const OldStore& old = GetParam();
@@ -108,6 +111,18 @@ TEST_P(MigrationTest, AMigratedStoreTakesCommandsAndAttempts) {
   EXPECT_EQ(cells_of(*reader, "SELECT outcome, held_ms FROM v_attempts"),
             (std::vector<Cells>{{"lost", "12"}}));
   EXPECT_NE(reader->digest(), old.digest) << "an extension that acted is part of the answer";
+}
+
+TEST_P(MigrationTest, AMigratedStoreTakesRealRuns) {
+  opened_for_writing().reset();
+  EXPECT_TRUE(open_reader(path)->real_runs().empty());
+  const RealRunRows rows = synthetic_real_run(1, candidate_id({1}, 1));
+  ASSERT_TRUE((*StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse))->add_real_run(rows));
+  const auto reader = open_reader(path);
+  EXPECT_EQ(reader->digest(), old.digest);
+  EXPECT_EQ(reader->real_run({1})->cycles, rows.cycles);
+  EXPECT_EQ(cells_of(*reader, "SELECT score FROM v_evaluations WHERE id = 'r1'"),
+            (std::vector<Cells>{{"1.25"}}));
 }
 
 INSTANTIATE_TEST_SUITE_P(Schema, MigrationTest, testing::ValuesIn(kOldStores),

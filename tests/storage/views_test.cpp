@@ -50,6 +50,25 @@ const std::map<std::string, std::string> kColumns{
      "connections"},
     {"v_attempts", "id design candidate pair attempt worker host held_ms outcome at"},
     {"v_commands", "number at who kind design step budget"},
+    {"v_calibrations", "kind subject valid_from valid_until rms uses sha256 file"},
+    {"v_real_cycles", "id run cycle time_s robot x y theta kind"},
+    {"v_real_issues", "id run number code text robot from_s to_s"},
+    {"v_real_overrides", "id run number scoring verdict who reason at"},
+    {"v_real_patches", "id run patch x y width_m height_m radius_m color"},
+    {"v_real_robots",
+     "id run robot name tag measured interpolated degraded missing longest_gap_s outliers scale "
+     "residual_m sigma_m sigma_rad border_m too_close offset_calibration"},
+    {"v_real_runs",
+     "id run name candidate design mission source score verdict counts measured_verdict "
+     "overridden_by reason biased recorded duration_s robots cameras scorings scored stored program "
+     "key"},
+    {"v_real_samples",
+     "id run number video frame time_s tag u0 v0 u1 v1 u2 v2 u3 v3 hamming margin robot x y theta "
+     "use"},
+    {"v_real_scores", "id run scoring score verdict biased reasons at program report"},
+    {"v_real_videos",
+     "id run video camera file width height frames damaged_frames time_source sha256 "
+     "camera_calibration place_calibration"},
 };
 
 /// Two designs of one mission, worked out by hand: three candidates on two pairs.
@@ -220,6 +239,21 @@ TEST_F(ViewsTest, OfOneDesignReadTheRowsOfThatDesignAlone) {
     EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM " + view + " WHERE candidate = 2"), IsEmpty())
         << view;
   }
+}
+
+TEST_F(ViewsTest, OfOneRealRunReadTheRowsOfThatRunAlone) {
+  for (const std::string view :
+       {"v_real_runs", "v_real_scores", "v_real_overrides", "v_real_videos", "v_real_robots",
+        "v_real_cycles", "v_real_samples", "v_real_patches", "v_real_issues"}) {
+    EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM " + view + " WHERE run = 2"), IsEmpty())
+        << view;
+  }
+  EXPECT_THAT(scans(folder / "s.db", "SELECT * FROM v_real_runs WHERE candidate = 2"), IsEmpty());
+  // Joins, too, go by keys: the view is never made as a whole.
+  EXPECT_THAT(scans(folder / "s.db",
+                    "SELECT e.score FROM v_candidates AS c JOIN v_evaluations AS e"
+                    " ON e.candidate = c.candidate WHERE c.design = 2"),
+              IsEmpty());
 }
 
 TEST_F(ViewsTest, TheRaceMatrixOfADesignIterationOrStepReadsNothingElse) {

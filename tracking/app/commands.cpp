@@ -5,7 +5,101 @@
 namespace swarmsmith::cli {
 namespace {
 
+constexpr std::string_view kPrintTagsDetails =
+    "Example:\n"
+    "  swarmsmith track print tags --ids 1-3,100-105 --edge 0.10 -o tags.pdf\n"
+    "\n"
+    "Print at 100 % (not \"fit to page\"), measure the ruler on each page, and the black edge of "
+    "a\n"
+    "tag: what you measure goes into the arena file. Of several pages an .svg is a file a page.";
+constexpr std::string_view kPrintBoardDetails =
+    "Examples:\n"
+    "  swarmsmith track print board charuco:11x8:0.023:0.017:5x5_100 -o board.pdf\n"
+    "  swarmsmith track print board chessboard:10x7:0.025 --paper A3 -o board.pdf\n"
+    "\n"
+    "A ChArUco board counts its squares, a chessboard its inner corners; edges are in metres.\n"
+    "Glue it on something flat, measure the squares, and give the measured board to\n"
+    "`swarmsmith track calibrate camera`.";
+constexpr std::string_view kPrintSurveyDetails =
+    "Example:\n"
+    "  swarmsmith track print survey --ids 100-105 --edge 0.10 -o survey.pdf\n"
+    "\n"
+    "A form to write down where the floor tags lie, with places to put them and distances of the\n"
+    "arena's corners to check.";
+
+constexpr std::string_view kScoreDetails =
+    "Examples:\n"
+    "  swarmsmith track score run07.mp4 --arena arena.toml --run run07.toml --into demo.db\n"
+    "  swarmsmith track score run07.mp4 --arena arena.toml --design d3 --sync-hidden 99 \\\n"
+    "      --into demo.db\n"
+    "\n"
+    "Without a store the run is scored and not kept. The same video with the same begin is the "
+    "same\n"
+    "run: it is stored once. `score` may be left out when the first word is a file. Exit code 6:\n"
+    "the run is INVALID, and is kept as that.";
+constexpr std::string_view kCalibrateCameraDetails =
+    "Examples:\n"
+    "  swarmsmith track calibrate camera board/ --board charuco:11x8:0.03:0.022:5x5_100\n"
+    "  swarmsmith track calibrate camera board.mp4 --board chessboard:10x7:0.025\n"
+    "\n"
+    "A ChArUco board counts its squares, a chessboard its inner corners; measure the squares on\n"
+    "paper. Show the flat board in 15 views or more: in all nine thirds of the picture and into\n"
+    "its corners, tilted by up to 40 degrees, filling a sixth to a half of the picture. Lock "
+    "focus\n"
+    "and zoom before, and never touch them again. Of a video, sharp views that differ are picked.\n"
+    "\n"
+    "Refused with E_CALIB_QUALITY, and no file written: under 10 views, RMS over 0.3 px, corners'\n"
+    "hull under 70 % of the frame, fx and fy over 2 % apart, principal point over 10 % off the\n"
+    "middle, a lens model that folds.";
+constexpr std::string_view kCalibrateArenaDetails =
+    "Examples:\n"
+    "  swarmsmith track calibrate arena empty.mp4 --arena arena.toml\n"
+    "  swarmsmith track calibrate arena --again --arena arena.toml\n"
+    "\n"
+    "Film the empty arena for some seconds with the floor tags of the arena file on the floor.\n"
+    "--again takes the corners that the last calibration has kept: after a mistake of the survey\n"
+    "was mended in the arena file, or the camera was calibrated anew with the same focus.\n"
+    "\n"
+    "Refused, and no file written: E_REF_TAGS (fewer than 4 tags seen, in one line, or over less\n"
+    "than half of the arena that the camera sees); E_EXTRINSICS (RMS over 0.3 px, a tag over 5 mm\n"
+    "off where the others put it, the camera not within `height`).";
+constexpr std::string_view kCalibrateRobotDetails =
+    "Example:\n"
+    "  swarmsmith track calibrate robot rvr1 --spin spin.mp4 --straight straight.mp4 \\\n"
+    "    --arena arena.toml\n"
+    "\n"
+    "Film the robot turning on the spot for two turns or more, in about 8 s, and driving straight\n"
+    "on for half a metre or more (only for headings; scores need the spin alone). The spin shows\n"
+    "the centre of rotation, which is taken for the robot's origin: the centre of its tread base.\n"
+    "\n"
+    "Refused with E_SPIN_QUALITY, and no file written: under 60 samples or 300 degrees, RMS over\n"
+    "2 mm, offset not known to 0.5 mm or over 135 mm, centre creeping over 5 mm/s.";
+
 constexpr std::array kCommands = {
+    Command{"init", "Write an arena.toml and a run.toml to begin with", "", declare_track_init},
+    Command{"check", "Say what an arena has, what is missing and what comes next", "",
+            declare_track_check},
+    Command{"score", "Score a filmed run and keep it in a store", kScoreDetails,
+            declare_track_score},
+    Command{"calibrate camera", "Find a camera's lens from pictures of a board",
+            kCalibrateCameraDetails, declare_calibrate_camera},
+    Command{"calibrate arena", "Find where a camera hangs from the floor tags",
+            kCalibrateArenaDetails, declare_calibrate_arena},
+    Command{"calibrate robot", "Find where a robot's tag sits on it from a spin",
+            kCalibrateRobotDetails, declare_calibrate_robot},
+    Command{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
+            declare_print_tags},
+    Command{"print board", "A board to calibrate a camera with, in true scale", kPrintBoardDetails,
+            declare_print_board},
+    Command{"print survey", "A form to fill in with the places of the floor tags",
+            kPrintSurveyDetails, declare_print_survey},
+    Command{"record", "Record a camera with the time of each frame",
+            "A camera is `camera:0`, `camera:0:1920x1080@30`, an address (`rtsp://...`) or any\n"
+            "other word that OpenCV opens (`opencv:WORD`). Beside FILE.mkv stands FILE.times.csv\n"
+            "with the time of each frame in seconds from the first one. Ctrl-C ends a recording.\n"
+            "What was recorded stays readable whatever happens, all but the last half second.\n\n"
+            "  swarmsmith track record camera:0:1920x1080@30 run07.mkv --seconds 130",
+            declare_record},
     Command{"version", "Print the versions of program and libraries", "", declare_track_version},
 };
 
@@ -16,7 +110,8 @@ std::span<const Command> track_commands() {
 }
 
 ExitCode exit_code_of_tracking(const Error& error) {
-  return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
+  return error.kind == ErrorKind::BadInput || error.kind == ErrorKind::NotFound ? ExitCode::Usage
+                                                                                : ExitCode::Failed;
 }
 
 }  // namespace swarmsmith::cli

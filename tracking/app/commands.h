@@ -10,6 +10,16 @@ namespace swarmsmith::cli {
 /// its `declare_` function, a line here, an entry in commands.cpp, a section in docs/tracking.md.
 std::span<const Command> track_commands();
 
+Run declare_track_score(Options& options);
+Run declare_track_init(Options& options);
+Run declare_track_check(Options& options);
+Run declare_calibrate_camera(Options& options);
+Run declare_calibrate_arena(Options& options);
+Run declare_calibrate_robot(Options& options);
+Run declare_print_tags(Options& options);
+Run declare_print_board(Options& options);
+Run declare_print_survey(Options& options);
+Run declare_record(Options& options);
 Run declare_track_version(Options& options);
 
 /// "swarmsmith-track 0.1.0, OpenCV 4.6.0, apriltag 3.3.0, ...": what made a file or a score.

@@ -157,11 +157,11 @@ std::vector<BlackBox> black_boxes_of(const Board& board) {
   const int columns = charuco ? board.columns : board.columns + 1;
   const int rows = charuco ? board.rows : board.rows + 1;
   std::vector<BlackBox> boxes;
-  // OpenCV 4.6 counts rows from below, where the first square is black.
+  // OpenCV 4.6 counts rows from above, where the first square is black.
   for (int row = 0; row < rows; ++row) {
     for (int column = row % 2; column < columns; column += 2) {
-      boxes.push_back({column * board.square_m, (rows - 1 - row) * board.square_m, board.square_m,
-                       board.square_m});
+      boxes.push_back(
+          {column * board.square_m, row * board.square_m, board.square_m, board.square_m});
     }
   }
   if (!charuco) return boxes;
@@ -171,10 +171,10 @@ std::vector<BlackBox> black_boxes_of(const Board& board) {
   for (std::size_t i = 0; i < printed->ids.size(); ++i) {
     cv::Mat picture;
     cv::aruco::drawMarker(printed->dictionary, printed->ids[i], cells, picture);
-    // The marker's first corner is its upper left one.
+    // The marker's first corner is its upper left one; y goes down.
     const cv::Point3f corner = printed->objPoints[i].front();
     const double left = static_cast<double>(corner.x);
-    const double top = board.height_m() - static_cast<double>(corner.y);
+    const double top = static_cast<double>(corner.y);
     for (int row = 0; row < cells; ++row) {
       for (int column = 0; column < cells; ++column) {
         if (picture.at<std::uint8_t>(row, column) != 0) continue;

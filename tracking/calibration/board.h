@@ -38,8 +38,8 @@ std::string board_text(const Board& board);
 /// "apriltag_16h5" to "apriltag_36h11".
 std::vector<std::string> board_dictionaries();
 
-/// The inner corners, metres, from the chequered part's lower left corner, y up, row by row from
-/// below: corner i of OpenCV's ChArUco board is item i.
+/// The inner corners, metres from the chequered part's upper left corner, y down, row by row from
+/// above: corner i of OpenCV's ChArUco board is item i.
 std::vector<Point> corners_of(const Board& board);
 
 /// A black rectangle of the printed board; metres from the upper left corner, y down.

@@ -34,10 +34,12 @@ double place_error(const Rig& rig, const CameraSetup& setup) {
 
 Expected<std::vector<TrackedCamera>> cameras_of(const Observations& observations, const Rig& rig,
                                                 const RunSpan& span) {
-  if (span.starts_s.size() != observations.cameras.size()) {
+  const std::size_t lengths = span.lengths_s.size();
+  if (span.starts_s.size() != observations.cameras.size() ||
+      (lengths != 0 && lengths != observations.cameras.size())) {
     return Unexpected(error_of(IssueCode::Config,
-                               fmt::format("the run's start is known for {} cameras of {}",
-                                           span.starts_s.size(), observations.cameras.size()),
+                               fmt::format("start and length of {} cameras are wanted, of {} given",
+                                           observations.cameras.size(), span.starts_s.size()),
                                rig.file));
   }
   std::vector<TrackedCamera> cameras;
@@ -96,17 +98,18 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
   return TaggedRobot{setup, {}, 0};
 }
 
-/// Sightings of the run by their tag.
-using SightingsByTag = std::map<int, std::vector<const Sighting*>>;
+/// Numbers of the run's sightings by their tag.
+using SightingsByTag = std::map<int, std::vector<std::size_t>>;
 
 SightingsByTag sightings_of(const Observations& observations,
                             std::span<const TrackedCamera> cameras, const TrackOptions& options) {
   const double margin = options.limits.degraded_gap_s;
   const double end = instant_s(options.span.cycles) + margin;
   SightingsByTag found;
-  for (const Sighting& seen : observations.sightings) {
+  for (std::size_t i = 0; i < observations.sightings.size(); ++i) {
+    const Sighting& seen = observations.sightings[i];
     const double time = seen.time_s - cameras[static_cast<std::size_t>(seen.camera)].start_s;
-    if (time >= -margin && time <= end) found[seen.tag].push_back(&seen);
+    if (time >= -margin && time <= end) found[seen.tag].push_back(i);
   }
   return found;
 }
@@ -198,8 +201,9 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
     if (!robot) return Unexpected(robot.error());
     const auto seen = sightings.find(setup.tag);
     RobotSamples samples =
-        samples_of(*robot, seen == sightings.end() ? std::vector<const Sighting*>{} : seen->second,
-                   *cameras, arena, options);
+        samples_of(*robot, observations.sightings,
+                   seen == sightings.end() ? std::vector<std::size_t>{} : seen->second, *cameras,
+                   arena, options);
     if (!is_seen_early(samples)) return Unexpected(missing(*robot, samples, frames));
     tracks.push_back(track_of(*robot, samples, *cameras, options));
     run.robots.push_back(

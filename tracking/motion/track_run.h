@@ -16,6 +16,9 @@ struct RunSpan {
   std::vector<double>
       starts_s;    ///< the run's start on the clock of each camera of the observations
   int cycles = 0;  ///< control cycles of 0.1 s
+  /// How long each camera ran, by another clock (RunVideo::length_s): the only check of files that
+  /// count frames instead of timing them. Empty, or one a camera.
+  std::vector<std::optional<double>> lengths_s;
 };
 
 /// Limits of tracking facts, section 8; the defaults are theirs.
@@ -38,9 +41,6 @@ struct TrackLimits {
 
 struct TrackOptions {
   RunSpan span;
-  /// From the first frame to the end of the last one, as a person noted it: the only check of files
-  /// that count frames instead of timing them.
-  std::optional<double> recorded_s;
   std::vector<int> other_tags;  ///< that are expected in the picture: the tag of a sync event
   TrackLimits limits;
   bool scored_at_the_end = false;       ///< the mission's score sees the last instant alone

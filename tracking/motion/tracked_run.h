@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct Sample {
   double scale = 1;       ///< of the tag, TagPose
   double residual_m = 0;  ///< of the tag, TagPose
   enum class Use { Used, Outlier, Duplicate, BadFit, Outside } use = Use::Used;
+  std::size_t sighting = 0;  ///< that it was made of, by its number in the observations
 };
 
 /// How a robot's pose at a control cycle was come by.

@@ -1,6 +1,7 @@
 #include "tracking/rig/calibration_limits.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 
 #include "base/math.h"
@@ -97,9 +98,11 @@ std::vector<Error> faults_of(const PlaceCalibration& calibration, const PlaceLim
                             "is needed, else positions are extrapolated; spread the tags to the "
                             "walls",
                             calibration.coverage * 100, limits.least_coverage * 100));
-  const std::string worst =
-      fmt::format("worst is tag {}, {} off where the others put it", calibration.worst_tag,
-                  millimetres(calibration.worst_left_out_m));
+  const auto tag = std::ranges::find(calibration.tags, calibration.worst_tag,
+                                     [](const auto& seen) { return seen.tag.tag; });
+  const double off = tag == calibration.tags.end() ? calibration.worst_left_out_m : tag->left_out_m;
+  const std::string worst = fmt::format("worst is tag {}, {} off where the others put it",
+                                        calibration.worst_tag, millimetres(off));
   if (!(calibration.rms_px <= limits.rms_px)) {
     faults.add_if(true, IssueCode::Extrinsics,
                   fmt::format("floor tags fit with RMS {:.3f} px, limit {} px; {}: survey it again "

@@ -45,9 +45,6 @@ OrComplaints<RunLog> read_run_log(const std::filesystem::path& file);
 OrComplaints<RunLog> parse_run_log(std::string_view text, const std::filesystem::path& file);
 /// The log, whole, with the mission in it: what a store keeps. Reads back to the same bits.
 std::string run_log_text(const RunLog& log);
-/// Where and which the log's patches are, with the sizes of the mission's places. An error when
-/// there is no such place, or a place has two.
-Expected<std::vector<Patch>> patches_of_log(const RunLog& log);
 
 /// Calibrations as TOML files with comments; they read back to the same bits. Errors name line and
 /// column, and E_CALIB_QUALITY what cannot be (a folding lens, a rotation that is none).

@@ -19,6 +19,8 @@ struct RunVideo {
   std::string file;    ///< a video, a folder of images
   std::string times;   ///< sidecar with a time a frame; empty: FILE.times.csv if that is there
   double clock_ahead_s = 0;  ///< its clock minus that of the first video
+  /// How long the camera ran, by another clock: shows a video that plays too fast.
+  std::optional<double> length_s;
 
   friend bool operator==(const RunVideo&, const RunVideo&) = default;
 };
@@ -49,6 +51,7 @@ struct RunLog {
   std::string design;     ///< "d3", or empty
   std::string candidate;  ///< "c812", or empty: the design's winner
   std::string source = "real";
+  std::vector<std::string> robots;  ///< that took part; empty: all of the rig
   RunStart start;
   RunLayout layout;
   std::vector<RunVideo> videos;

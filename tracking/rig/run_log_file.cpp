@@ -18,6 +18,7 @@ namespace {
 /// Cameras' clocks may count from 1970.
 constexpr Limits<double> kClock{-1e12, 1e12};
 constexpr Limits<double> kAhead{-86'400, 86'400};
+constexpr Limits<double> kLength{0.1, 86'400};
 constexpr Limits<std::int64_t> kTag{0, 65'535};
 
 const std::vector<std::string> kSyncs = {"hidden", "shown"};
@@ -95,6 +96,7 @@ RunVideo read_video(TableReader& table) {
   video.file = need_text(table, "file", "run07.mp4");
   video.times = table.text("times").value_or("");
   video.clock_ahead_s = table.seconds("ahead", kAhead).value_or(0);
+  video.length_s = table.seconds("length", kLength);
   table.finish();
   return video;
 }
@@ -144,14 +146,21 @@ void check_videos(TableReader& root, const std::vector<RunVideo>& videos) {
   }
 }
 
+std::string time_text(double seconds) {
+  return quoted_text(number_text(seconds) + " s");
+}
+
 std::vector<SectionLine> head_lines(const RunLog& log) {
   std::vector<SectionLine> lines = {{"format", "1"}, {"name", quoted_text(log.name)}};
   if (!log.recorded.empty()) lines.push_back({"recorded", log.recorded});
   if (!log.design.empty()) lines.push_back({"design", quoted_text(log.design)});
   if (!log.candidate.empty()) lines.push_back({"candidate", quoted_text(log.candidate)});
   lines.push_back({"source", quoted_text(log.source)});
+  if (!log.robots.empty()) {
+    lines.push_back({"robots", "[" + list_of(log.robots, quoted_text) + "]"});
+  }
   if (log.start.time_s) {
-    lines.push_back({"start", quoted_text(number_text(*log.start.time_s) + " s")});
+    lines.push_back({"start", time_text(*log.start.time_s)});
   }
   if (log.start.sync != RunStart::Sync::None) {
     const bool hidden = log.start.sync == RunStart::Sync::Hidden;
@@ -169,7 +178,8 @@ Section video_section(const RunVideo& video) {
   if (!video.camera.empty()) section.lines.push_back({"camera", quoted_text(video.camera)});
   section.lines.push_back({"file", quoted_text(video.file)});
   if (!video.times.empty()) section.lines.push_back({"times", quoted_text(video.times)});
-  section.lines.push_back({"ahead", quoted_text(number_text(video.clock_ahead_s) + " s")});
+  section.lines.push_back({"ahead", time_text(video.clock_ahead_s)});
+  if (video.length_s) section.lines.push_back({"length", time_text(*video.length_s)});
   return section;
 }
 
@@ -194,6 +204,7 @@ OrComplaints<RunLog> parse_run_log(std::string_view text, const std::filesystem:
                     "`source` must be a name, such as \"real\"; this is \"" + log.source + "\"");
     }
   }
+  if (auto robots = root.texts("robots")) log.robots = std::move(*robots);
   log.start = read_start(root);
   log.layout = read_layout(root);
   for (TableReader& table : root.tables("video"))
@@ -226,30 +237,6 @@ std::string run_log_text(const RunLog& log) {
       sections.push_back(std::move(section));
   }
   return text_of(sections);
-}
-
-Expected<std::vector<Patch>> patches_of_log(const RunLog& log) {
-  // Robots do not matter here, and need no room.
-  Mission mission = log.mission;
-  mission.robots = 0;
-  mission.placement = PlaceAnywhere{};
-  ExplicitInstances given;
-  given.patches = PatchesBySeed{{1, log.layout.patches}};
-  auto instance = instance_of(mission, 1, given);
-  if (!instance) {
-    return Unexpected(
-        error_of(IssueCode::Config, std::move(instance.error().message), "[[patch]]"));
-  }
-  for (const ShuffledPatches::Share& share : mission.shuffled.shares) {
-    const auto count = std::ranges::count(log.layout.patches, share.color, &PatchPlacement::color);
-    if (count == share.count) continue;
-    return Unexpected(error_of(IssueCode::Config,
-                               "the log has " + std::to_string(count) + " " +
-                                   color_text(share.color) + " patches, the mission " +
-                                   std::to_string(share.count),
-                               "[[patch]]"));
-  }
-  return std::move(instance->patches);
 }
 
 }  // namespace swarmsmith

@@ -1,7 +1,5 @@
 #include "tracking/scoring/border.h"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -9,7 +7,7 @@
 
 #include "base/math.h"
 #include "base/overloaded.h"
-#include "sim/mission/colors.h"
+#include "sim/files/color_text.h"
 #include "sim/mission/polygon.h"
 
 namespace swarmsmith {
@@ -77,10 +75,16 @@ class Ray {
   void cross_grid(const Rectangle& area, int columns, int rows, const Patch& patch,
                   std::vector<Crossing>& crossings) const {
     const Point low{area.centre.x - 0.5 * area.width_m, area.centre.y - 0.5 * area.height_m};
+    const auto add_within = [&](double distance_m) {
+      const Point at_line = at(distance_m);
+      const bool is_within = std::fabs(at_line.x - area.centre.x) <= 0.5 * area.width_m + 1e-9 &&
+                             std::fabs(at_line.y - area.centre.y) <= 0.5 * area.height_m + 1e-9;
+      if (is_within) add(distance_m, patch, crossings);
+    };
     for (int i = 0; i <= columns && direction_.x != 0; ++i)
-      add((low.x + area.width_m * i / columns - origin_.x) / direction_.x, patch, crossings);
+      add_within((low.x + area.width_m * i / columns - origin_.x) / direction_.x);
     for (int i = 0; i <= rows && direction_.y != 0; ++i)
-      add((low.y + area.height_m * i / rows - origin_.y) / direction_.y, patch, crossings);
+      add_within((low.y + area.height_m * i / rows - origin_.y) / direction_.y);
   }
 
   Point origin_;
@@ -149,13 +153,6 @@ std::optional<NearestBorder> nearest_border(const ScoreRule& rule, const Arena& 
   for (const Point direction : directions_from(point, arena))
     look_along(Ray(point, direction), rule, arena, here, best);
   return best;
-}
-
-std::string color_text(Rgb color) {
-  for (const NamedColor& named : kNamedColors) {
-    if (named.color == color) return std::string(named.name);
-  }
-  return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
 }
 
 std::string patch_text(const Patch& patch) {

@@ -27,7 +27,5 @@ std::optional<NearestBorder> nearest_border(const ScoreRule& rule, const Arena& 
 
 /// "black spot at (0, 0)".
 std::string patch_text(const Patch& patch);
-/// "green", or "#12a0ff".
-std::string color_text(Rgb color);
 
 }  // namespace swarmsmith

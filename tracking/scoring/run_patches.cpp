@@ -6,9 +6,9 @@
 
 #include "base/math.h"
 #include "base/overloaded.h"
+#include "sim/files/color_text.h"
 #include "sim/mission/polygon.h"
 #include "tracking/rig/issue.h"
-#include "tracking/scoring/border.h"
 
 namespace swarmsmith {
 namespace {

@@ -3,8 +3,10 @@
 #include <cstdio>
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
+#include <optional>
 #include <stdexcept>
+
+#include "tracking/video/video_writer.h"
 
 namespace swarmsmith::film {
 namespace {
@@ -13,26 +15,32 @@ cv::Mat as_mat(const ColorImage& image) {
   return cv::Mat(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.bgr.data()));
 }
 
+void check(const Expected<void>& done) {
+  if (!done) throw std::runtime_error(to_string(done.error()));
+}
+
 /// Where pictures go, one after the other.
 class Sink {
  public:
   Sink(std::filesystem::path file, ClipForm form, ImageSize size, double rate_hz)
-      : file_(std::move(file)), form_(form) {
-    std::filesystem::remove_all(file_);
-    if (form_ == ClipForm::Folder) {
+      : file_(std::move(file)) {
+    if (form == ClipForm::Folder) {
+      std::filesystem::remove_all(file_);
       std::filesystem::create_directories(file_);
       return;
     }
-    const int code = cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-    if (!video_.open(file_.string(), cv::CAP_OPENCV_MJPEG, code, rate_hz,
-                     {size.width, size.height}))
-      throw std::runtime_error("cannot write " + file_.string());
-    video_.set(cv::VIDEOWRITER_PROP_QUALITY, 95);
+    VideoOptions options;
+    options.codec = form == ClipForm::Mjpg ? "mjpeg" : "h264";
+    options.frame_rate = rate_hz;
+    options.quality = 60;  // what cameras do: noise costs most of the bits
+    Expected<VideoWriter> opened = VideoWriter::open(file_.string(), size, options);
+    if (!opened) throw std::runtime_error(to_string(opened.error()));
+    video_ = std::move(*opened);
   }
 
-  void add(const ColorImage& image) {
-    if (form_ != ClipForm::Folder) {
-      video_.write(as_mat(image));
+  void add(const ColorImage& image, double time_s) {
+    if (video_) {
+      check(video_->write(image, time_s));
       return;
     }
     char name[32];
@@ -40,10 +48,13 @@ class Sink {
     write_png(image, file_ / name);
   }
 
+  void finish() {
+    if (video_) check(video_->finish());
+  }
+
  private:
   std::filesystem::path file_;
-  ClipForm form_;
-  cv::VideoWriter video_;
+  std::optional<VideoWriter> video_;
   int count_ = 0;
 };
 
@@ -67,9 +78,12 @@ std::filesystem::path sidecar_of(const std::filesystem::path& clip) {
 
 std::string ending_of(ClipForm form) {
   switch (form) {
-    case ClipForm::Folder: return "";
-    case ClipForm::Mjpg: return ".avi";
-    case ClipForm::H264: return ".mkv";
+    case ClipForm::Folder:
+      return "";
+    case ClipForm::Mjpg:
+      return ".avi";
+    case ClipForm::H264:
+      return ".mkv";
   }
   return "";
 }
@@ -82,8 +96,9 @@ void write_clip(const VirtualCamera& camera, const std::vector<ShotFrame>& frame
     // A picture that is shown twice is the same to the bit.
     if (i == 0 || frames[i].picture != frames[i - 1].picture)
       image = camera.picture(frames[i].true_s, frames[i].picture);
-    sink.add(image);
+    sink.add(image, frames[i].stamp_s);
   }
+  sink.finish();
   if (sidecar) write_text(sidecar_of(file), frame_times_csv(frames));
 }
 

@@ -9,8 +9,8 @@
 
 namespace swarmsmith::film {
 
-/// How a clip is kept. A folder holds PNG images, one a frame; a video carries the stamps as its
-/// frames' times.
+/// How a clip is kept: a folder of PNG images, MJPEG in .avi (frames at a constant rate, whatever
+/// their stamps), H.264 in .mkv, whose frames lie at their stamps.
 enum class ClipForm { Folder, Mjpg, H264 };
 
 /// Takes the pictures of a schedule and writes them to `file` (a folder: made anew), with the

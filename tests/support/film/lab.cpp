@@ -1,7 +1,7 @@
 #include "tests/support/film/lab.h"
 
-#include <cmath>
 #include <fmt/format.h>
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
@@ -39,7 +39,9 @@ std::vector<LabCamera> cameras_of(const LabOptions& options, Rng rng) {
                         target.y + kHeight_m * std::tan(tilt) * std::sin(towards), kHeight_m};
     const CameraModel lens =
         lens_of(options.size, options.cameras == 1 ? 0.583 : 0.60, own.split("lens"));
-    cameras.push_back({options.cameras == 1 ? "ceiling" : i == 0 ? "west" : "east",
+    cameras.push_back({options.cameras == 1 ? "ceiling"
+                       : i == 0             ? "west"
+                                            : "east",
                        {lens, looking_at(centre, target, own.uniform(-3, 3) * kDegree)}});
   }
   return cameras;
@@ -72,8 +74,8 @@ Lab lab_of(const LabOptions& options) {
     lab.declared.push_back(declared);
   }
   // The first two are those of the task's robots, whose turrets took the middle.
-  const std::vector<TagOffset> offsets{{0.072, 0, 0}, {0.03, -0.05, 8 * kDegree},
-                                       {-0.045, 0.04, -90 * kDegree}};
+  const std::vector<TagOffset> offsets{
+      {0.072, 0, 0}, {0.03, -0.05, 8 * kDegree}, {-0.045, 0.04, -90 * kDegree}};
   Rng mounting = rng.split("mounting");
   for (int i = 0; i < options.robots; ++i) {
     const auto k = static_cast<std::size_t>(i);

@@ -1,6 +1,7 @@
 #include "tests/support/film/lens_map.h"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 namespace swarmsmith::film {

@@ -10,8 +10,8 @@ std::vector<ShotFrame> frames_of(const Schedule& schedule, Rng rng) {
   Rng drops = rng.split("drops");
   Rng twice = rng.split("twice");
   Rng jitter = rng.split("jitter");
-  const auto count = static_cast<std::int64_t>(
-                         std::ceil((schedule.until_s - schedule.from_s) * schedule.rate_hz - 1e-9)) +
+  const auto count = static_cast<std::int64_t>(std::ceil(
+                         (schedule.until_s - schedule.from_s) * schedule.rate_hz - 1e-9)) +
                      1;
   std::vector<ShotFrame> frames;
   for (std::int64_t turn = 0; turn < count; ++turn) {
@@ -20,11 +20,10 @@ std::vector<ShotFrame> frames_of(const Schedule& schedule, Rng rng) {
     const double most_s = 0.4 / schedule.rate_hz;
     const double late_s = std::clamp(jitter.normal(0, schedule.jitter_s), -most_s, most_s);
     const double true_s = nominal_s + late_s;
-    const bool dropped = drops.bernoulli(schedule.drop_share) ||
-                         std::any_of(schedule.drops.begin(), schedule.drops.end(),
-                                     [&](const Stretch& s) {
-                                       return s.from_s <= true_s && true_s < s.until_s;
-                                     });
+    const bool dropped =
+        drops.bernoulli(schedule.drop_share) ||
+        std::any_of(schedule.drops.begin(), schedule.drops.end(),
+                    [&](const Stretch& s) { return s.from_s <= true_s && true_s < s.until_s; });
     const bool repeated = twice.bernoulli(schedule.twice_share);
     if (dropped && turn != 0 && turn != count - 1) continue;
     ShotFrame frame{true_s, true_s + schedule.clock_ahead_s, turn};

@@ -18,17 +18,17 @@ struct Schedule {
   double from_s = 0;   ///< true time of the first frame
   double until_s = 0;  ///< of the last one, about
   double rate_hz = 15;
-  double jitter_s = 0;               ///< sigma of when a frame is taken about its turn
-  double drop_share = 0;             ///< of frames that never arrive, at random
-  std::vector<Stretch> drops;        ///< no frame arrives in these
-  double twice_share = 0;            ///< of frames that show the picture before once more
-  bool counts_frames = false;        ///< stamps are frame / rate, whatever was dropped
-  double clock_ahead_s = 0;          ///< the camera's clock minus the true one
+  double jitter_s = 0;         ///< sigma of when a frame is taken about its turn
+  double drop_share = 0;       ///< of frames that never arrive, at random
+  std::vector<Stretch> drops;  ///< no frame arrives in these
+  double twice_share = 0;      ///< of frames that show the picture before once more
+  bool counts_frames = false;  ///< stamps are frame / rate, whatever was dropped
+  double clock_ahead_s = 0;    ///< the camera's clock minus the true one
 };
 
 struct ShotFrame {
-  double true_s = 0;        ///< when the picture was taken
-  double stamp_s = 0;       ///< on the camera's clock
+  double true_s = 0;         ///< when the picture was taken
+  double stamp_s = 0;        ///< on the camera's clock
   std::int64_t picture = 0;  ///< its number; that of the frame before when it is shown twice
 };
 

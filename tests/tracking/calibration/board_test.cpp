@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cmath>
+#include <opencv2/aruco/charuco.hpp>
+
 namespace swarmsmith {
 namespace {
 
@@ -35,6 +38,24 @@ TEST(BoardTest, WrongWordsAreExplained) {
 TEST(BoardTest, CountsInnerCorners) {
   EXPECT_EQ(corners_of(*parse_board("charuco:11x8:0.03:0.022:5x5_100")).size(), 70U);
   EXPECT_EQ(corners_of(*parse_board("chessboard:10x7:0.03")).size(), 70U);
+}
+
+/// Cells of whole millimetres, so that OpenCV's own picture at a pixel a millimetre is exact.
+TEST(BoardTest, IsBlackWhereOpencvDrawsBlack) {
+  for (const int rows : {3, 4}) {
+    const auto board = parse_board("charuco:5x" + std::to_string(rows) + ":0.035:0.021:5x5_100");
+    const auto theirs = cv::aruco::CharucoBoard::create(
+        5, rows, 35, 21, cv::aruco::getPredefinedDictionary(cv::aruco::DICT_5X5_100));
+    cv::Mat expected;
+    theirs->draw({175, 35 * rows}, expected, 0, 1);
+    cv::Mat drawn(35 * rows, 175, CV_8U, cv::Scalar(255));
+    for (const BlackBox& box : black_boxes_of(*board)) {
+      const auto pixel = [](double metres) { return static_cast<int>(std::lround(1000 * metres)); };
+      drawn(cv::Rect(pixel(box.left_m), pixel(box.top_m), pixel(box.width_m),
+                     pixel(box.height_m))) = 0;
+    }
+    EXPECT_EQ(cv::countNonZero(drawn != expected), 0) << rows << " rows";
+  }
 }
 
 }  // namespace

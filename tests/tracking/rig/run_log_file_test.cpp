@@ -61,6 +61,8 @@ TEST(RunLogFile, ReadsBackToTheSameBits) {
   log.videos[1].clock_ahead_s = 1.0 / 3;
   RunLog synced = log;
   synced.start = {std::nullopt, 99, RunStart::Sync::Shown};
+  synced.robots = {"rvr1", "rvr \"3\""};
+  synced.videos[0].length_s = 150.2;
   synced.design.clear();
   synced.candidate = "c812";
   synced.layout.source = RunLayout::Source::Measured;
@@ -130,33 +132,6 @@ TEST(RunLogFile, SaysWhichMissionsThereAre) {
               ElementsAre(HasSubstr("run.toml:3:13: E_CONFIG: a candidate has its design")));
   EXPECT_THAT(complaints_about("format = [\n"),
               ElementsAre(HasSubstr("E_CONFIG: this is no TOML")));
-}
-
-RunLog log_of_colors(const std::vector<PatchPlacement>& patches) {
-  RunLog log;
-  log.mission = *built_in_mission("color_selection");
-  log.layout = {RunLayout::Source::Log, patches};
-  return log;
-}
-
-TEST(RunLogFile, GivesPatchesTheSizesOfTheMissionsPlaces) {
-  const Mission mission = *built_in_mission("color_selection");
-  const Instance instance = *instance_of(mission, 5);
-  std::vector<PatchPlacement> placements;
-  for (const Patch& patch : instance.patches)
-    placements.push_back({std::get<Rectangle>(patch.shape).centre, patch.color});
-  const auto patches = patches_of_log(log_of_colors(placements));
-  ASSERT_TRUE(patches) << to_string(patches.error());
-  EXPECT_EQ(*patches, instance.patches);
-
-  placements.pop_back();
-  const auto short_of_one = patches_of_log(log_of_colors(placements));
-  ASSERT_FALSE(short_of_one);
-  EXPECT_THAT(to_string(short_of_one.error()), HasSubstr("E_CONFIG: the log has 3 "));
-  placements.push_back({{0.01, 0.02}, {0, 255, 0}});
-  const auto astray = patches_of_log(log_of_colors(placements));
-  ASSERT_FALSE(astray);
-  EXPECT_THAT(to_string(astray.error()), HasSubstr("no free place for a patch at (0.01"));
 }
 
 }  // namespace

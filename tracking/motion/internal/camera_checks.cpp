@@ -92,18 +92,18 @@ void check_rate(const FramesOfRun& frames, std::int64_t dropped, const std::stri
 /// Files that count frames instead of timing them play too fast when frames were dropped; only
 /// their length shows it (tracking facts, section 7).
 void check_length(const CameraRecord& record, const FramesOfRun& frames,
-                  const TrackOptions& options, std::vector<Issue>& issues) {
+                  const std::optional<double>& said_s, std::vector<Issue>& issues) {
   const bool is_avi = record.file.ends_with(".avi") || record.file.ends_with(".AVI");
   const bool counts = record.time_source == TimeSource::FrameRate ||
                       (is_avi && record.time_source != TimeSource::Sidecar);
-  if (!options.recorded_s || !counts || frames.times.empty()) return;
+  if (!said_s || !counts || frames.times.empty()) return;
   constexpr double kTolerance_s = 0.2;
   const double length = frames.times.back() - frames.times.front() + frames.usual_s;
-  if (std::fabs(length - *options.recorded_s) <= kTolerance_s) return;
+  if (std::fabs(length - *said_s) <= kTolerance_s) return;
   issues.push_back({IssueCode::Duration,
                     fmt::format("{} lasts {:.2f} s and the run log says {:.2f} s (limit {:.1f} s): "
                                 "frames were dropped and the file has no times; record a sidecar",
-                                record.file, length, *options.recorded_s, kTolerance_s),
+                                record.file, length, *said_s, kTolerance_s),
                     {},
                     {},
                     {}});
@@ -242,7 +242,9 @@ FrameReport frame_report(const Observations& observations, std::span<const Track
     report.twice += frames_twice(observations, static_cast<int>(c));
     slack = std::max(slack, 1.5 * frames.usual_s);
     check_rate(frames, dropped, cameras[c].name, options.limits, report.issues);
-    check_length(record, frames, options, report.issues);
+    if (!options.span.lengths_s.empty()) {
+      check_length(record, frames, options.span.lengths_s[c], report.issues);
+    }
     check_moved(record, cameras[c], rig, options, report.issues);
   }
   measure_coverage(report, std::move(spans), duration);

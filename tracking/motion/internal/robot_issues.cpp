@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
+#include "base/math.h"
 #include "tracking/motion/internal/robot_track.h"
 
 namespace swarmsmith {
@@ -12,26 +14,17 @@ namespace {
 struct Gap {
   double from_s = 0;
   double to_s = 0;
-  bool is_reachable = true;  ///< its end from its begin
-  double speed_m_s = 0;      ///< that its ends imply
 
   double length_s() const { return to_s - from_s; }
 };
 
 /// Between samples, and from what the video covers to the first and last of them.
-std::vector<Gap> gaps_of(const std::vector<TimedPose>& track, const FrameReport& frames,
-                         const TrackLimits& limits) {
+std::vector<Gap> gaps_of(const std::vector<TimedPose>& track, const FrameReport& frames) {
   std::vector<Gap> gaps;
   if (track.front().time_s > frames.from_s) gaps.push_back({frames.from_s, track.front().time_s});
   for (std::size_t i = 1; i < track.size(); ++i) {
-    const TimedPose& from = track[i - 1];
-    const TimedPose& to = track[i];
-    if (to.time_s <= frames.from_s || from.time_s >= frames.to_s) continue;
-    Gap gap{from.time_s, to.time_s};
-    gap.is_reachable = is_reachable(from, to, limits);
-    const double way = std::hypot(to.pose.x - from.pose.x, to.pose.y - from.pose.y);
-    if (gap.length_s() > 0) gap.speed_m_s = way / gap.length_s();
-    gaps.push_back(gap);
+    if (track[i].time_s <= frames.from_s || track[i - 1].time_s >= frames.to_s) continue;
+    gaps.push_back({track[i - 1].time_s, track[i].time_s});
   }
   if (track.back().time_s < frames.to_s) gaps.push_back({track.back().time_s, frames.to_s});
   return gaps;
@@ -56,21 +49,30 @@ class Complaints {
 
 void check_gaps(const std::vector<Gap>& gaps, const TrackLimits& limits, Complaints& complaints) {
   for (const Gap& gap : gaps) {
-    if (gap.length_s() > limits.degraded_gap_s + kSameInstant_s) {
-      complaints.add(IssueCode::Gap,
-                     fmt::format("was not seen from {:.2f} s to {:.2f} s (limit {:.1f} s); look "
-                                 "what hid its tag",
-                                 gap.from_s, gap.to_s, limits.degraded_gap_s),
-                     gap.from_s, gap.to_s);
-    } else if (!gap.is_reachable) {
-      complaints.add(IssueCode::Gap,
-                     fmt::format("cannot have come from where it was at {:.2f} s to where it was "
-                                 "at {:.2f} s: {:.1f} m/s, the limit is {:.1f} m/s and {:.0f} "
-                                 "rad/s; was it carried, or is there another tag of its number?",
-                                 gap.from_s, gap.to_s, gap.speed_m_s, limits.top_speed_m_s,
-                                 limits.top_turn_rad_s),
-                     gap.from_s, gap.to_s);
-    }
+    if (gap.length_s() <= limits.degraded_gap_s + kSameInstant_s) continue;
+    complaints.add(IssueCode::Gap,
+                   fmt::format("was not seen from {:.2f} s to {:.2f} s (limit {:.1f} s); look what "
+                               "hid its tag",
+                               gap.from_s, gap.to_s, limits.degraded_gap_s),
+                   gap.from_s, gap.to_s);
+  }
+}
+
+void check_breaks(const RobotTrack& track, const TrackOptions& options, Complaints& complaints) {
+  const TrackLimits& limits = options.limits;
+  for (const auto& [from, to] : track.breaks) {
+    if (to.time_s < 0 || from.time_s > instant_s(options.span.cycles)) continue;
+    const double way = hypot(to.pose.x - from.pose.x, to.pose.y - from.pose.y);
+    const double turn = std::fabs(wrap_angle(to.pose.theta - from.pose.theta));
+    const double duration = std::max(to.time_s - from.time_s, kSameInstant_s);
+    complaints.add(IssueCode::Gap,
+                   fmt::format("cannot have come from where it was at {:.2f} s to where it was at "
+                               "{:.2f} s: {:.1f} m/s and {:.0f} rad/s, the limits are {:.1f} m/s "
+                               "and {:.0f} rad/s; was it carried, or is there another tag of its "
+                               "number?",
+                               from.time_s, to.time_s, way / duration, turn / duration,
+                               limits.top_speed_m_s, limits.top_turn_rad_s),
+                   from.time_s, to.time_s);
   }
 }
 
@@ -99,11 +101,31 @@ void check_end(const RobotTrack& track, const FrameReport& frames, const TrackOp
                  from, next->time_s);
 }
 
-void check_bridged(const std::vector<CycleKind>& cycles, const std::vector<Gap>& gaps,
+/// Cycles of which the pose is a guess: across a long gap, or held where no sample is near. That a
+/// video ends a frame before the run's last instant is no guess worth a word, and that it covers
+/// less than the run is said elsewhere.
+std::int64_t guessed_cycles(const RobotTrack& track, const FrameReport& frames,
+                            const TrackLimits& limits) {
+  std::int64_t guessed = 0;
+  for (std::size_t cycle = 1; cycle < track.kinds.size(); ++cycle) {
+    if (track.kinds[cycle] == CycleKind::Degraded) ++guessed;
+    if (track.kinds[cycle] != CycleKind::Missing) continue;
+    const double time = instant_s(static_cast<int>(cycle));
+    if (time < frames.from_s || time > frames.to_s) continue;
+    const auto next = std::ranges::lower_bound(track.merged, time, {}, &TimedPose::time_s);
+    const bool is_near =
+        (next != track.merged.end() && next->time_s - time <= limits.measured_gap_s) ||
+        (next != track.merged.begin() && time - std::prev(next)->time_s <= limits.measured_gap_s);
+    if (!is_near) ++guessed;
+  }
+  return guessed;
+}
+
+void check_bridged(const RobotTrack& track, const std::vector<Gap>& gaps, const FrameReport& frames,
                    const TrackLimits& limits, Complaints& complaints) {
-  const auto of = [&](CycleKind kind) { return std::ranges::count(cycles, kind); };
-  const auto degraded = of(CycleKind::Degraded);
-  const auto bridged = of(CycleKind::Interpolated) + degraded;
+  const auto cycles = std::span(track.kinds).subspan(1);
+  const auto bridged = std::ranges::count(cycles, CycleKind::Interpolated) +
+                       std::ranges::count(cycles, CycleKind::Degraded);
   const double share = static_cast<double>(bridged) / static_cast<double>(cycles.size());
   if (share > limits.interpolated_share) {
     complaints.add(
@@ -112,8 +134,8 @@ void check_bridged(const std::vector<CycleKind>& cycles, const std::vector<Gap>&
                     "more light, larger tags or another place of the camera help",
                     bridged, cycles.size(), 100 * share, 100 * limits.interpolated_share));
   }
-  const auto guessed = degraded + of(CycleKind::Missing);
-  if (guessed == 0) return;
+  const std::int64_t guessed = guessed_cycles(track, frames, limits);
+  if (guessed == 0 || gaps.empty()) return;
   const auto longest = std::ranges::max_element(gaps, {}, &Gap::length_s);
   complaints.add(IssueCode::Interpolated,
                  fmt::format("has {} cycles across gaps of more than {:.1f} s or at the ends of "
@@ -208,15 +230,16 @@ TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const
     made.mean_residual_m += sample.residual_m;
   }
   made.mean_residual_m /= used;
-  const std::vector<Gap> gaps = gaps_of(track.merged, frames, options.limits);
+  const std::vector<Gap> gaps = gaps_of(track.merged, frames);
   if (!gaps.empty()) {
     const auto longest = std::ranges::max_element(gaps, {}, &Gap::length_s);
     made.longest_gap_s = longest->length_s();
     made.longest_gap_from_s = longest->from_s;
   }
   check_gaps(gaps, options.limits, complaints);
+  check_breaks(track, options, complaints);
   check_end(track, frames, options, complaints);
-  check_bridged(made.cycles, gaps, options.limits, complaints);
+  check_bridged(track, gaps, frames, options.limits, complaints);
   check_outside(made.samples, options, complaints);
   check_outliers(made, complaints);
   check_cameras(track, complaints);

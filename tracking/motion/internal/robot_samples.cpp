@@ -164,11 +164,11 @@ void drop_outliers(std::vector<Sample>& samples, int camera, const TrackLimits& 
 }
 
 /// An order of sightings that does not depend on how they came.
-bool comes_first(const Sighting* a, const Sighting* b) {
-  const auto key = [](const Sighting* s) {
-    return std::tuple(s->camera, s->frame, s->time_s, s->corners[0].u, s->corners[0].v,
-                      s->corners[2].u, s->corners[2].v, s->corners[1].u, s->corners[1].v,
-                      s->corners[3].u, s->corners[3].v);
+bool comes_first(const Sighting& a, const Sighting& b) {
+  const auto key = [](const Sighting& s) {
+    return std::tuple(s.camera, s.frame, s.time_s, s.corners[0].u, s.corners[0].v, s.corners[2].u,
+                      s.corners[2].v, s.corners[1].u, s.corners[1].v, s.corners[3].u,
+                      s.corners[3].v);
   };
   return key(a) < key(b);
 }
@@ -183,15 +183,18 @@ double metres_outside(const Arena& arena, Point point) {
   return least;
 }
 
-RobotSamples samples_of(const TaggedRobot& robot, std::vector<const Sighting*> sightings,
-                        std::span<const TrackedCamera> cameras, const Arena& arena,
-                        const TrackOptions& options) {
+RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& sightings,
+                        std::vector<std::size_t> own, std::span<const TrackedCamera> cameras,
+                        const Arena& arena, const TrackOptions& options) {
   const TrackLimits& limits = options.limits;
   RobotSamples made;
-  std::ranges::sort(sightings, comes_first);
-  for (const Sighting* seen : sightings) {
+  std::ranges::sort(
+      own, [&](std::size_t a, std::size_t b) { return comes_first(sightings[a], sightings[b]); });
+  for (const std::size_t number : own) {
+    const Sighting& seen = sightings[number];
     made.samples.push_back(
-        sample_of(*seen, robot, cameras[static_cast<std::size_t>(seen->camera)], options));
+        sample_of(seen, robot, cameras[static_cast<std::size_t>(seen.camera)], options));
+    made.samples.back().sighting = number;
   }
   made.scale = drop_bad_fits(made.samples, robot.setup.edge_m, limits);
   for (Sample& sample : made.samples) {

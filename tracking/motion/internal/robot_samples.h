@@ -32,11 +32,11 @@ struct RobotSamples {
 };
 
 /// Poses of a robot from the sightings of its tag, each with its use: fits, inside of the arena,
-/// only one a frame, reachable from the one before. `sightings` are the robot's alone, in any
-/// order; those outside of the run by more than `margin_s` must have been left out.
-RobotSamples samples_of(const TaggedRobot& robot, std::vector<const Sighting*> sightings,
-                        std::span<const TrackedCamera> cameras, const Arena& arena,
-                        const TrackOptions& options);
+/// only one a frame, reachable from the one before. `own` are the numbers of the robot's
+/// sightings within the run and a little before and after it, in any order.
+RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& sightings,
+                        std::vector<std::size_t> own, std::span<const TrackedCamera> cameras,
+                        const Arena& arena, const TrackOptions& options);
 
 /// How far beyond the walls a point lies; 0 within them.
 double metres_outside(const Arena& arena, Point point);

@@ -80,6 +80,10 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
   RobotTrack made;
   for (const CameraTrack& track : tracks) {
     made.merged.insert(made.merged.end(), track.poses.begin(), track.poses.end());
+    for (std::size_t i = 1; i < track.poses.size(); ++i) {
+      if (is_reachable(track.poses[i - 1], track.poses[i], options.limits)) continue;
+      made.breaks.emplace_back(track.poses[i - 1], track.poses[i]);
+    }
     if (track.poses.empty()) continue;
     made.sigma.sigma_m = std::max(made.sigma.sigma_m, track.sigma.sigma_m);
     made.sigma.sigma_rad = std::max(made.sigma.sigma_rad, track.sigma.sigma_rad);

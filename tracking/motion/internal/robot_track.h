@@ -1,6 +1,7 @@
 #pragma once
 
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "tracking/motion/internal/camera_checks.h"
@@ -13,7 +14,9 @@ struct RobotTrack {
   std::vector<Pose> poses;        ///< cycle 0, which is the start, and all cycles
   std::vector<CycleKind> kinds;   ///< the same
   std::vector<TimedPose> merged;  ///< samples of all cameras that were used, by time
-  Scatter sigma;                  ///< of one camera's sample, systematic parts included
+  /// Neighbours in one camera's track of which the second cannot be reached from the first.
+  std::vector<std::pair<TimedPose, TimedPose>> breaks;
+  Scatter sigma;  ///< of one camera's sample, systematic parts included
   /// Cycles at which two cameras measured it more than `kDisagree_m` apart.
   int disagreeing = 0;
   double worst_disagreement_m = 0;

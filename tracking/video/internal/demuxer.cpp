@@ -41,9 +41,10 @@ bool is_cut_avi(const ByteStream& bytes) {
 /// Asks the library what the streams are; it may decode a little for that.
 int find_streams(AVFormatContext* format) {
   std::vector<AVDictionary*> options(format->nb_streams, nullptr);
-  for (AVDictionary*& words : options) {
-    av_dict_set_int(&words, "max_pixels", kMostPixels, 0);
-    av_dict_set_int(&words, "threads", 1, 0);
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const std::int64_t most = most_pixels(format->streams[i]->codecpar->codec_id);
+    av_dict_set_int(&options[i], "max_pixels", most, 0);
+    av_dict_set_int(&options[i], "threads", 1, 0);
   }
   const int code = avformat_find_stream_info(format, options.data());
   for (AVDictionary*& words : options)
@@ -59,7 +60,7 @@ bool is_shown(const AVStream& stream, const AVPacket& packet) {
          (packet.data[0] & kShowFrame) != 0;
 }
 
-/// Whether the header's duration goes on after the last frame, by more than a frame or two.
+/// Whether the header's duration goes on after the last frame, by more than a frame.
 bool ends_early(const Demuxer& demuxer, const PacketTable& table) {
   const AVFormatContext& format = demuxer.format();
   if (format.duration <= 0 || format.duration_estimation_method != AVFMT_DURATION_FROM_STREAM ||
@@ -67,15 +68,12 @@ bool ends_early(const Demuxer& demuxer, const PacketTable& table) {
     return false;
   }
   const double unit = av_q2d(demuxer.stream().time_base);
-  std::int64_t longest = 0;
-  for (std::size_t i = 1; i < table.times.size(); ++i)
-    longest = std::max(longest, table.times[i] - table.times[i - 1]);
   const double start = format.start_time == AV_NOPTS_VALUE
                            ? 0
                            : static_cast<double>(format.start_time) / AV_TIME_BASE;
   const double end = static_cast<double>(format.duration) / AV_TIME_BASE + std::min(start, 0.0);
   constexpr double kSlack_s = 1;
-  return static_cast<double>(table.times.back() + longest) * unit + kSlack_s < end;
+  return static_cast<double>(table.times.back()) * unit + kSlack_s < end;
 }
 
 }  // namespace

@@ -24,7 +24,9 @@ class VideoFile final : public FrameSource {
         demuxer_(std::move(demuxer)),
         decoder_(std::move(decoder)),
         table_(std::move(table)),
-        is_intra_(av::is_intra_only(decoder_->codec_id)) {}
+        is_intra_(av::is_intra_only(decoder_->codec_id)),
+        is_placed_(table_.has_times || is_intra_ ||
+                   (demuxer_.is_avi() && demuxer_.stream().codecpar->video_delay == 0)) {}
 
   const SourceInfo& info() const override { return info_; }
   const Frame& frame() const override { return frame_; }
@@ -54,30 +56,40 @@ class VideoFile final : public FrameSource {
     return false;
   }
 
+  /// Nobody knows any more which frame this is: the rest is as good as missing.
+  bool lose_count() {
+    avcodec_flush_buffers(decoder_.get());
+    while (demuxer_.next() != nullptr) {
+    }
+    return false;
+  }
+
   /// Gives the decoder the next packet, or tells it that there is none.
   void feed() {
     const AVPacket* const packet = demuxer_.next();
+    ++fed_;
     if (packet != nullptr && packet->size == 0) return;
     const bool cut = packet != nullptr && (packet->flags & AV_PKT_FLAG_CORRUPT) != 0;
+    av::take_message();
     if (cut || avcodec_send_packet(decoder_.get(), packet) < 0) is_damaged_ = true;
+    // This decoder alone tells of a wrong checksum by a message and nothing else.
+    is_marked_ = decoder_->codec_id == AV_CODEC_ID_FFV1 && !av::take_message().empty();
+  }
+
+  bool is_flagged() const {
+    return is_marked_ || picture_->decode_error_flags != 0 ||
+           (picture_->flags & AV_FRAME_FLAG_CORRUPT) != 0;
   }
 
   /// The decoded picture as the frame; false when it is left out.
   Expected<bool> take() {
-    if (picture_->decode_error_flags != 0 || (picture_->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
-      is_damaged_ = true;
-    }
-    if (is_damaged_ && is_intra_) {
-      // Only this picture, or the one that never came, is concerned.
-      is_damaged_ = false;
-      if (picture_->decode_error_flags != 0 || (picture_->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
-        return false;
-      }
-    }
-    // Pictures that are built on a damaged one may show a tag where it was before.
-    if (is_damaged_ && (picture_->key_frame == 0 || picture_->decode_error_flags != 0)) {
-      return false;
-    }
+    if (is_flagged()) is_damaged_ = true;
+    // A decoder that names what it damaged goes on with the next picture as if nothing had been.
+    // Pictures built on a damaged one may show a tag where it was before: up to the
+    // next key frame all are left out.
+    const bool stands_alone = is_intra_ || picture_->key_frame != 0;
+    if (is_flagged() || (is_damaged_ && !stands_alone)) return false;
+    if (is_damaged_ && !is_placed_) return lose_count();
     is_damaged_ = false;
     if (picture_->width != info_.size.width || picture_->height != info_.size.height) {
       return unreadable(
@@ -96,7 +108,9 @@ class VideoFile final : public FrameSource {
   /// Finds the picture's number and time; false when it comes too late or is not in the table.
   bool place() {
     std::int64_t number = frame_.number + 1;
-    if (table_.has_times || (demuxer_.is_avi() && is_intra_)) {
+    if (is_intra_ && !table_.has_times && !demuxer_.is_avi()) {
+      number = fed_ - 1;  // a bare stream: one picture a packet, at once
+    } else if (is_placed_) {
       const std::int64_t time =
           table_.has_times ? picture_->best_effort_timestamp : picture_->pkt_dts;
       const auto found = std::lower_bound(table_.times.begin(), table_.times.end(), time);
@@ -124,7 +138,10 @@ class VideoFile final : public FrameSource {
   av::Codec decoder_;
   av::PacketTable table_;
   bool is_intra_;
+  bool is_placed_;  ///< pictures know their place: by their time, or in an .avi by their packet
   bool is_damaged_ = false;  ///< the decoder gave something up since the last whole picture
+  bool is_marked_ = false;   ///< the next picture is damaged, though the decoder does not flag it
+  std::int64_t fed_ = 0;     ///< packets
   av::FramePtr picture_{av_frame_alloc()};
   av::Pictures pictures_;
   Frame frame_{.number = -1, .time_s = {}, .gray = {}};
@@ -161,9 +178,9 @@ Expected<std::unique_ptr<FrameSource>> open_stream(av::ByteStream first, av::Byt
   auto demuxer = av::Demuxer::open(std::move(second), name);
   if (!demuxer) return Unexpected(demuxer.error());
   const AVCodecParameters& about = *demuxer->stream().codecpar;
-  if (auto fits = av::check_size(about.width, about.height, name); !fits) {
-    return Unexpected(fits.error());
-  }
+  const auto fits =
+      av::check_size(about.width, about.height, name, av::most_pixels(about.codec_id));
+  if (!fits) return Unexpected(fits.error());
   auto decoder = av::open_decoder(about, demuxer->stream().time_base, name);
   if (!decoder) return Unexpected(decoder.error());
   SourceInfo info = info_of(*demuxer, table, name);

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <array>
+
+namespace swarmsmith {
+
+/// A table with parts of real runs, and the column of real_run that says how many of its rows a run
+/// has: what a damaged store has lost can so be told.
+struct RealRunPart {
+  const char* column;
+  const char* table;
+  bool is_scored;  ///< the score follows from it without anything else
+};
+
+inline constexpr std::array kRealRunParts{
+    RealRunPart{"videos", "real_video", false},    RealRunPart{"samples", "real_sample", false},
+    RealRunPart{"looks", "real_reference", false}, RealRunPart{"robots", "real_robot", true},
+    RealRunPart{"patches", "real_patch", true},    RealRunPart{"cycles", "real_cycle", true}};
+
+/// The other tables that name a run.
+inline constexpr std::array kRealRunNotes{"real_issue", "real_score", "real_override"};
+
+}  // namespace swarmsmith

@@ -1,0 +1,352 @@
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "storage/store_at_rest.h"
+#include "tests/storage/fixture.h"
+#include "tests/support/faulty_disk.h"
+#include "tests/support/synthetic_real_run.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using Cells = std::vector<std::string>;
+using IfMissing = StoreAtRest::IfMissing;
+
+const CandidateId kWinner = candidate_id({1}, 1);
+
+/// A store with a finished campaign whose first design's winner is c1 or another.
+struct RealRunsTest : testing::Test {
+  TemporaryFolder folder;
+  fs::path path = folder / "s.db";
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 2, .iterations = 1});
+  std::string digest;
+
+  void SetUp() override {
+    {
+      const auto store = open_store(path, campaign);
+      for (const auto& batch : campaign.batches)
+        store->append(batch);
+    }
+    digest = digest_of(path);
+  }
+  std::unique_ptr<StoreAtRest> opened() {
+    auto store = StoreAtRest::open(path, IfMissing::Make);
+    EXPECT_TRUE(store) << (store ? "" : to_string(store.error()));
+    return store ? std::move(*store) : nullptr;
+  }
+  RealRunId added(const RealRunRows& rows) {
+    const auto written = opened()->add_real_run(rows);
+    EXPECT_TRUE(written) << (written ? "" : to_string(written.error()));
+    return written ? written->id : RealRunId{};
+  }
+  RealRunRows stored(RealRunId id) {
+    auto rows = open_reader(path)->real_run(id);
+    EXPECT_TRUE(rows) << (rows ? "" : to_string(rows.error()));
+    return rows ? std::move(*rows) : RealRunRows{};
+  }
+  std::vector<Cells> all(const std::string& sql) { return cells_of(*open_reader(path), sql); }
+};
+
+/// The calibrations come back by kind and subject.
+RealRunRows in_order(RealRunRows rows) {
+  std::ranges::sort(rows.calibrations, {}, [](const CalibrationRow& row) {
+    return std::tuple(row.kind, row.subject, row.sha256);
+  });
+  return rows;
+}
+
+TEST_F(RealRunsTest, ComeBackAsTheyWereWrittenAndAreNoPartOfTheAnswer) {
+  const RealRunRows rows = synthetic_real_run(3, kWinner);
+  const RealRunId id = added(rows);
+  EXPECT_EQ(id, RealRunId{1});
+  EXPECT_EQ(stored(id), in_order(rows));
+  EXPECT_EQ(digest_of(path), digest);
+  EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());
+  const auto heads = open_reader(path)->real_runs();
+  ASSERT_EQ(heads.size(), 1U);
+  EXPECT_EQ(heads[0].key, rows.key);
+  EXPECT_EQ(heads[0].score, 3.25);
+  EXPECT_EQ(heads[0].candidate, kWinner);
+  EXPECT_TRUE(heads[0].counts);
+}
+
+TEST_F(RealRunsTest, TimesKeepTheirBitsAndCornersTheirThousandths) {
+  RealRunRows rows = synthetic_real_run(1, kWinner);
+  rows.videos[0].frame_times = {1.0 / 3, std::nextafter(0.5, 1), 1e-7, 1e6 + 1.0 / 7};
+  rows.samples[0].corners[0] = 12.34567;
+  const RealRunRows back = stored(added(rows));
+  EXPECT_EQ(back.videos[0].frame_times, rows.videos[0].frame_times);
+  EXPECT_EQ(back.samples[0].corners[0], 12.346);
+}
+
+TEST_F(RealRunsTest, TheSameRunIsStoredOnce) {
+  const RealRunRows rows = synthetic_real_run(1, kWinner);
+  const RealRunId id = added(rows);
+  const auto again = opened()->add_real_run(rows);
+  ASSERT_TRUE(again);
+  EXPECT_EQ(again->id, id);
+  EXPECT_FALSE(again->is_new);
+  EXPECT_NE(added(synthetic_real_run(2, kWinner)), id);
+  EXPECT_EQ(all("SELECT count(*) FROM v_real_scores")[0], Cells{"2"});
+}
+
+TEST_F(RealRunsTest, OtherInputsOfAStoredRunAreRefusedWithTheWayOut) {
+  const RealRunRows rows = synthetic_real_run(1, kWinner);
+  added(rows);
+  RealRunRows mended = rows;
+  mended.calibrations[1].sha256 = "another place";
+  mended.videos[0].place_calibration = "another place";
+  mended.log += "# changed\n";
+  const auto refused = opened()->add_real_run(mended);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::Conflict);
+  EXPECT_THAT(refused.error().message, HasSubstr("the run log, calibrations differ"));
+  EXPECT_THAT(refused.error().message, HasSubstr("swarmsmith track rescore r1"));
+  EXPECT_EQ(stored({1}), in_order(rows));
+}
+
+TEST_F(RealRunsTest, WhatIsWrongIsRefusedAndNothingIsWritten) {
+  RealRunRows rows = synthetic_real_run(1, {999'999});
+  const auto refused = opened()->add_real_run(rows);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::NotFound);
+  EXPECT_THAT(refused.error().message, HasSubstr("no candidate c999999"));
+  rows = synthetic_real_run(1, kWinner);
+  rows.cycles.back().x = std::nan("");
+  EXPECT_THROW(static_cast<void>(opened()->add_real_run(rows)), std::invalid_argument);
+  rows = synthetic_real_run(1, kWinner);
+  rows.robots[1].offset_calibration = "unheard of";
+  EXPECT_THROW(static_cast<void>(opened()->add_real_run(rows)), std::invalid_argument);
+  rows = synthetic_real_run(1, kWinner);
+  rows.cycles.push_back(rows.cycles.back());  // twice: no store takes that
+  EXPECT_FALSE(opened()->add_real_run(rows));
+  for (const Cells& table : all("SELECT name FROM sqlite_schema WHERE type = 'table' AND"
+                                " name LIKE 'real%' OR name = 'calibration'"))
+    EXPECT_EQ(all("SELECT count(*) FROM " + table[0])[0], Cells{"0"}) << table[0];
+}
+
+TEST_F(RealRunsTest, AreScoredAgainFromTheSameSightings) {
+  const RealRunRows rows = synthetic_real_run(1, kWinner);
+  const RealRunId id = added(rows);
+  RealRunRows again = rows;
+  again.calibrations[1].sha256 = again.videos[0].place_calibration = "mended";
+  again.calibrations[1].made = "2026-11-20T10:00:00Z";
+  again.cycles.pop_back();
+  again.cycles.pop_back();
+  again.robots[0].outliers = 9;
+  again.samples[0].x += 0.01;
+  again.samples[1].robot = -1;
+  again.samples[1].x = again.samples[1].y = again.samples[1].theta = 0;
+  again.issues.clear();
+  again.patches.pop_back();
+  again.score.score = 4;
+  again.score.verdict = "DEGRADED";
+  const auto done = opened()->rescore_real_run(id, again);
+  ASSERT_TRUE(done) << to_string(done.error());
+  EXPECT_EQ(stored(id), in_order(again));
+  EXPECT_THAT(open_reader(path)->integrity(), IsEmpty());
+  EXPECT_THAT(all("SELECT scoring, score, verdict FROM v_real_scores"),
+              ElementsAre(Cells{"1", "1.25", "VALID"}, Cells{"2", "4", "DEGRADED"}));
+  EXPECT_THAT(all("SELECT score, verdict, scorings FROM v_real_runs"),
+              ElementsAre(Cells{"4", "DEGRADED", "2"}));
+  // The old calibration stays, and ends where the new one begins.
+  EXPECT_THAT(all("SELECT valid_from, valid_until, uses FROM v_calibrations"
+                  " WHERE kind = 'place' AND subject = 'ceiling' ORDER BY valid_from"),
+              ElementsAre(Cells{"2026-11-01T11:00:00Z", "2026-11-20T10:00:00Z", "0"},
+                          Cells{"2026-11-20T10:00:00Z", "NULL", "1"}));
+  again.samples[2].corners[3] += 1;
+  const auto refused = opened()->rescore_real_run(id, again);
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().kind, ErrorKind::BadInput);
+  EXPECT_EQ(opened()->rescore_real_run({7}, rows).error().kind, ErrorKind::NotFound);
+}
+
+TEST_F(RealRunsTest, CountAmongTheScoresOfTheirDesignWhenTheyCanBeTrusted) {
+  const CandidateId best{std::stoll(all("SELECT best_candidate FROM v_designs")[0][0])};
+  RealRunRows invalid = synthetic_real_run(2, best);
+  invalid.score.verdict = "INVALID";
+  RealRunRows biased = synthetic_real_run(3, best);
+  biased.score.biased = true;
+  RealRunRows degraded = synthetic_real_run(4, best);
+  degraded.score.verdict = "DEGRADED";
+  added(synthetic_real_run(1, best));
+  added(invalid);
+  added(biased);
+  added(degraded);
+  added(synthetic_real_run(5, {}));
+  const std::string scores =
+      "SELECT design, candidate, source, purpose, pair, instance, seed, score FROM v_design_scores"
+      " WHERE source = 'real' ORDER BY score";
+  const std::string winner = std::to_string(best.value);
+  EXPECT_THAT(all(scores),
+              ElementsAre(Cells{"1", winner, "real", "score", "NULL", "NULL", "NULL", "1.25"},
+                          Cells{"1", winner, "real", "score", "NULL", "NULL", "NULL", "4.25"}));
+  EXPECT_THAT(all("SELECT id, design, status, used, pair, attempt FROM v_evaluations"
+                  " WHERE source = 'real' ORDER BY score"),
+              ElementsAre(Cells{"r1", "1", "ok", "1", "NULL", "NULL"},
+                          Cells{"r4", "1", "ok", "1", "NULL", "NULL"}));
+  const auto store = opened();
+  ASSERT_TRUE(store->add_override({{2}, "VALID", "ada", "the gap was nowhere near a border"}));
+  ASSERT_TRUE(store->add_override({{3}, "VALID", "ada", "offset is 1 mm"}));
+  ASSERT_TRUE(store->add_override({{1}, "INVALID", "bob", "a robot was pushed"}));
+  EXPECT_EQ(all(scores).size(), 3U);
+  EXPECT_THAT(all("SELECT id, verdict, measured_verdict, overridden_by, counts FROM v_real_runs"),
+              ElementsAre(Cells{"r1", "INVALID", "VALID", "bob", "0"},
+                          Cells{"r2", "VALID", "INVALID", "ada", "1"},
+                          Cells{"r3", "VALID", "VALID", "ada", "1"},
+                          Cells{"r4", "DEGRADED", "DEGRADED", "NULL", "1"},
+                          Cells{"r5", "VALID", "VALID", "NULL", "1"}));
+  // The last word counts.
+  ASSERT_TRUE(store->add_override({{2}, "INVALID", "bob", "it was"}));
+  EXPECT_EQ(all(scores).size(), 2U);
+  EXPECT_EQ(digest_of(path), digest);
+}
+
+TEST_F(RealRunsTest, OverridesWantAVerdictANameAndAReason) {
+  added(synthetic_real_run(1, kWinner));
+  const auto store = opened();
+  EXPECT_THAT(store->add_override({{1}, "FINE", "ada", "x"}).error().message,
+              HasSubstr("say VALID, DEGRADED or INVALID"));
+  EXPECT_EQ(store->add_override({{1}, "VALID", "", "x"}).error().kind, ErrorKind::BadInput);
+  EXPECT_EQ(store->add_override({{1}, "VALID", "ada", ""}).error().kind, ErrorKind::BadInput);
+  EXPECT_EQ(store->add_override({{2}, "VALID", "ada", "x"}).error().kind, ErrorKind::NotFound);
+}
+
+TEST_F(RealRunsTest, MayBeTheFirstThingInAStore) {
+  path = folder / "new.db";
+  EXPECT_FALSE(opened()->add_real_run(synthetic_real_run(1, kWinner)));
+  EXPECT_FALSE(fs::exists(path)) << "nothing was added";
+  added(synthetic_real_run(1, {}));
+  added(synthetic_real_run(2, {}));
+  EXPECT_THAT(all("SELECT name, state, designs FROM v_campaign_status"),
+              ElementsAre(Cells{"real runs", "imported", "0"}));
+  EXPECT_THAT(
+      all("SELECT id, candidate, design, score FROM v_real_runs"),
+      ElementsAre(Cells{"r1", "NULL", "NULL", "1.25"}, Cells{"r2", "NULL", "NULL", "2.25"}));
+  EXPECT_THAT(all("SELECT * FROM v_evaluations"), IsEmpty());
+}
+
+/// What a store holds of a run that was written, or of none.
+void expect_all_or_nothing(const fs::path& path, const RealRunRows& rows, const std::string& when) {
+  const auto reader = open_reader(path);
+  EXPECT_THAT(reader->integrity(), IsEmpty()) << when;
+  const auto heads = reader->real_runs();
+  if (!heads.empty()) {
+    EXPECT_EQ(*reader->real_run(heads[0].id), in_order(rows)) << when;
+    return;
+  }
+  EXPECT_EQ(cells_of(*reader,
+                     "SELECT (SELECT count(*) FROM real_sample) +"
+                     " (SELECT count(*) FROM real_cycle) +"
+                     " (SELECT count(*) FROM calibration)")[0],
+            Cells{"0"})
+      << when;
+}
+
+TEST_F(RealRunsTest, AFullDiskAtAnyChangeLeavesAllOrNothing) {
+  const RealRunRows rows = synthetic_real_run(1, kWinner);
+  std::int64_t refusals = 0;
+  for (const int code : {SQLITE_FULL, SQLITE_IOERR_WRITE, SQLITE_IOERR_FSYNC}) {
+    bool failed = true;
+    for (std::int64_t n = 1; failed && n < 500; ++n) {
+      const fs::path copy = folder / "copy.db";
+      fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
+      FaultyDisk disk;
+      {
+        auto store = StoreAtRest::open(copy, IfMissing::Refuse);
+        ASSERT_TRUE(store);
+        const std::int64_t before = disk.changes();
+        disk.fail_at(n, code, 1'000'000);
+        const auto written = (*store)->add_real_run(rows);
+        failed = !written || disk.changes() >= before + n;
+        if (!written) {
+          ++refusals;
+          EXPECT_EQ(written.error().kind, ErrorKind::Unavailable);
+          EXPECT_THAT(written.error().message, HasSubstr("nothing was added"));
+        }
+        disk.fail_at(1, SQLITE_OK);
+      }
+      expect_all_or_nothing(copy, rows, "change " + std::to_string(n));
+      // And there is room again.
+      auto store = StoreAtRest::open(copy, IfMissing::Refuse);
+      ASSERT_TRUE(store) << to_string(store.error());
+      EXPECT_TRUE((*store)->add_real_run(rows));
+    }
+  }
+  EXPECT_GT(refusals, 10);
+}
+
+TEST_F(RealRunsTest, APowerCutAtAnyChangeLeavesAllOrNothing) {
+  const RealRunRows rows = synthetic_real_run(1, kWinner);
+  bool was_cut = true;
+  for (std::int64_t n = 1; was_cut && n < 500; ++n) {
+    const fs::path copy = folder / "copy.db";
+    fs::copy_file(path, copy, fs::copy_options::overwrite_existing);
+    FaultyDisk disk;
+    disk.cut_power_at(n);
+    bool written = false;
+    if (auto store = StoreAtRest::open(copy, IfMissing::Refuse); store)
+      written = (*store)->add_real_run(rows).has_value();
+    was_cut = disk.power_is_off();
+    Rng rng(static_cast<std::uint64_t>(n));
+    disk.restart(rng);
+    auto store = StoreAtRest::open(copy, IfMissing::Refuse);
+    ASSERT_TRUE(store) << "cut at change " << n << ": " << to_string(store.error());
+    expect_all_or_nothing(copy, rows, "cut at change " + std::to_string(n));
+    EXPECT_GE(open_reader(copy)->real_runs().size(), written ? 1U : 0U) << "acknowledged";
+  }
+}
+
+/// Writes runs until it is killed, and tells the number of each that was acknowledged.
+[[noreturn]] void write_until_killed(const fs::path& path, std::int64_t first, int to) {
+  auto store = StoreAtRest::open(path, IfMissing::Refuse);
+  if (!store) ::_exit(1);
+  for (std::int64_t number = first;; ++number) {
+    const auto written =
+        (*store)->add_real_run(synthetic_real_run(static_cast<std::uint64_t>(number), kWinner));
+    if (!written) ::_exit(2);
+    (void)!::write(to, &number, sizeof number);
+  }
+}
+
+TEST_F(RealRunsTest, AKilledWriterLeavesWholeRunsAndAllThatItAcknowledged) {
+  Rng rng(11);
+  std::int64_t known = 0;
+  for (int round = 1; round <= 20; ++round) {
+    int ends[2];
+    ASSERT_EQ(::pipe(ends), 0);
+    const pid_t child = ::fork();
+    if (child == 0) write_until_killed(path, known + 1, ends[1]);
+    ::close(ends[1]);
+    std::int64_t acknowledged = known;
+    const std::uint64_t last_words = 1 + rng.below(3);
+    for (std::uint64_t i = 0; i < last_words; ++i)
+      ASSERT_EQ(::read(ends[0], &acknowledged, sizeof acknowledged), 8);
+    // At some point of the next run, which takes some milliseconds.
+    ::usleep(static_cast<useconds_t>(rng.below(8000)));
+    ::kill(child, SIGKILL);
+    ::waitpid(child, nullptr, 0);
+    while (::read(ends[0], &acknowledged, sizeof acknowledged) == 8)
+      continue;
+    ::close(ends[0]);
+    const auto reader = open_reader(path);
+    EXPECT_THAT(reader->integrity(), IsEmpty());
+    const auto heads = reader->real_runs();
+    known = static_cast<std::int64_t>(heads.size());
+    EXPECT_GE(known, acknowledged);
+    const auto last = static_cast<std::uint64_t>(known);
+    EXPECT_EQ(*reader->real_run(heads.back().id), in_order(synthetic_real_run(last, kWinner)));
+  }
+}
+
+}  // namespace
+}  // namespace swarmsmith

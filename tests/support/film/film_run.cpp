@@ -1,0 +1,154 @@
+#include <fmt/format.h>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "sim/files/color_text.h"
+#include "sim/files/mission_file.h"
+#include "sim/files/toml_text.h"
+#include "sim/mission/trajectory_csv.h"
+#include "tests/support/film/commands.h"
+
+namespace swarmsmith::film {
+namespace {
+
+constexpr int kSyncTag = 99;
+constexpr Pose kSyncPlace{1.42, 0.62, 0.3};  // beside the arena
+
+Scene scene_of(const Lab& lab, const RecordedRun& run, const FilmWish& wish) {
+  Scene scene = empty_scene(lab);
+  scene.arena = arena_of(run.mission, run.instance);
+  for (std::size_t i = 0; i < run.poses.size(); ++i)
+    scene.robots.push_back(filmed(lab.robots.at(i), Path(run.poses[i])));
+  if (wish.swap_s != kForever_s) {
+    for (std::size_t i = 0; i < 2; ++i) {
+      scene.robots.at(i).swap_s = wish.swap_s;
+      scene.robots[i].other_tag = scene.robots.at(1 - i).tag;
+    }
+  }
+  if (wish.duplicate) scene.tags.push_back({scene.robots.front().tag, {-0.55, 0.62, 1}});
+  if (wish.sync) scene.tags.push_back({kSyncTag, kSyncPlace, 0.1, 0, -kForever_s, 0});
+  for (const ArmWish& arm : wish.arms) {
+    Point hand{0, 0};
+    if (arm.robot > 0) {
+      const FilmedRobot& robot = scene.robots.at(static_cast<std::size_t>(arm.robot - 1));
+      hand =
+          tag_pose_of_robot(robot.path.at((arm.from_s + arm.until_s) / 2), robot.offset).position();
+    }
+    scene.arms.push_back({{1.9, -0.9}, hand, 0.07, 0.35, arm.from_s, arm.until_s});
+  }
+  return scene;
+}
+
+/// The log that a person would keep.
+std::string log_toml(const Lab& lab, const RecordedRun& run, const FilmWish& wish,
+                     const std::string& name, const std::string& mission,
+                     const std::vector<std::string>& clips) {
+  std::string text =
+      fmt::format("format = 1\nname = {}\nrecorded = 2026-11-21\nmission = {}\nsource = \"real\"\n",
+                  quoted_text(name), quoted_text(mission));
+  text += wish.sync ? fmt::format("sync = {{ tag = {}, when = \"hidden\" }}\n", kSyncTag)
+                    : fmt::format("start = \"{} s\"\n", number_text(wish.before_s));
+  if (wish.measured_layout) text += "layout = \"measured\"\n";
+  for (std::size_t i = 0; i < clips.size(); ++i) {
+    text += fmt::format("\n[[video]]\ncamera = {}\nfile = {}\n", quoted_text(lab.cameras[i].name),
+                        quoted_text(clips[i]));
+    if (wish.sidecar)
+      text += fmt::format("times = {}\n", quoted_text(sidecar_of(clips[i]).string()));
+    if (i > 0) text += fmt::format("ahead = \"{} s\"\n", number_text(wish.second_ahead_s));
+  }
+  if (wish.measured_layout) return text;
+  for (const Patch& patch : run.instance.patches) {
+    const Point centre = std::get<Rectangle>(patch.shape).centre;
+    text += fmt::format("\n[[patch]]\nx = {}\ny = {}\ncolor = {}\n", number_text(centre.x),
+                        number_text(centre.y), quoted_text(color_text(patch.color)));
+  }
+  return text;
+}
+
+std::string trajectory_csv(const RecordedRun& run) {
+  std::string text(kTrajectoryColumns);
+  text += kCsvLineEnd;
+  for (int cycle = 0; cycle <= run.mission.cycles; ++cycle) {
+    for (std::size_t robot = 0; robot < run.poses.size(); ++robot) {
+      append_pose_cells(text, cycle, static_cast<int>(robot),
+                        run.poses[robot][static_cast<std::size_t>(cycle)]);
+      text += kCsvLineEnd;
+    }
+  }
+  return text;
+}
+
+std::string truth_csv(const Scene& scene, const std::vector<ShotFrame>& frames) {
+  std::string text = "frame,time_s,robot,x,y,theta\n";
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    for (std::size_t robot = 0; robot < scene.robots.size(); ++robot) {
+      const Pose pose = scene.robots[robot].path.at(frames[i].true_s);
+      text += fmt::format("{},{:.6f},{},{:.7f},{:.7f},{:.7f}\n", i, frames[i].true_s, robot, pose.x,
+                          pose.y, pose.theta);
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string film_run(const LabWish& lab_wish, const FilmWish& wish, const std::string& name,
+                     const std::string& designs) {
+  Expected<RecordedRun> recorded = record_run(wish.run, designs);
+  if (!recorded) throw std::runtime_error(to_string(recorded.error()));
+  const RecordedRun& run = *recorded;
+  LabOptions options = lab_wish.lab;
+  options.robots = std::max(options.robots, run.mission.robots);
+  const Lab lab = lab_of(options);
+  const std::filesystem::path stem(name);
+  std::filesystem::create_directories(stem.parent_path());
+  const auto beside = [&](const std::string& ending) {
+    return std::filesystem::path(stem).concat(ending);
+  };
+
+  const double end_s = run.mission.cycles * 0.1;
+  const auto seed = static_cast<std::uint64_t>(wish.run.seed);
+  std::vector<std::string> clips;
+  for (std::size_t i = 0; i < lab.cameras.size(); ++i) {
+    const LabCamera& seen_by = lab.cameras[i];
+    const std::string middle = lab.cameras.size() == 1 ? "" : "." + seen_by.name;
+    const std::filesystem::path file = beside(middle + ending_of(lab_wish.form));
+    clips.push_back(file.filename().string());
+    Shooting shooting = shooting_of(lab_wish, seen_by.view);
+    if (wish.bump_s != kForever_s) {
+      // Half a degree about the vertical and some millimetres, as a ladder would do it.
+      shooting.bump_s = wish.bump_s;
+      const Point3 centre = seen_by.view.place.centre();
+      shooting.bumped =
+          looking_at({centre.x + 0.004, centre.y - 0.003, centre.z}, {0.012, 0.009}, 0.03);
+    }
+    Schedule schedule = wish.faults;
+    schedule.from_s = -wish.before_s;
+    schedule.until_s = end_s + wish.after_s;
+    schedule.rate_hz = wish.rate_hz;
+    // No container knows negative times.
+    schedule.clock_ahead_s = wish.before_s + (i == 0 ? 0 : wish.second_ahead_s);
+    const Scene scene = scene_of(lab, run, wish);
+    const Rng rng = Rng(seed).split("frames of " + seen_by.name);
+    const std::vector<ShotFrame> frames = frames_of(schedule, rng);
+    const VirtualCamera camera(scene, shooting, seed + i);
+    write_clip(camera, frames, file, lab_wish.form, wish.rate_hz, wish.sidecar);
+    if (i == 0) write_text(beside(".truth.csv"), truth_csv(scene, frames));
+  }
+
+  std::string mission = run.mission.name;
+  if (wish.run.seconds) {
+    mission = stem.filename().string() + ".mission.toml";
+    write_text(beside(".mission.toml"), mission_text({run.mission, 100}));
+  }
+  write_text(beside(".toml"), log_toml(lab, run, wish, stem.filename().string(), mission, clips));
+  write_text(beside(".trajectory.csv"), trajectory_csv(run));
+  nlohmann::json truth = {{"mission", run.mission.name}, {"score", run.score}};
+  for (std::size_t i = 0; i < run.poses.size(); ++i)
+    truth["borders"].push_back(distance_to_change(run, i));
+  write_text(beside(".truth.json"), truth.dump() + "\n");
+  return truth.dump();
+}
+
+}  // namespace swarmsmith::film

@@ -1,0 +1,107 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+
+#include "tests/tracking/motion/seen_run.h"
+#include "tracking/motion/resampling.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+
+/// A run of 60 s in which one tag was hidden.
+TrackedRun with_gap(double from_s, double to_s, bool scored_at_the_end = false) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 600});
+  seen.hide(2, from_s, to_s);
+  seen.options.scored_at_the_end = scored_at_the_end;
+  return seen.track().value();
+}
+
+auto count_of(const TrackedRun& run, CycleKind kind) {
+  return std::ranges::count(run.robots[1].cycles, kind);
+}
+
+TEST(GapsTest, UpToHalfASecondAreBridgedWithoutAWord) {
+  const TrackedRun run = with_gap(20.02, 20.44);
+  EXPECT_EQ(count_of(run, CycleKind::Interpolated), 4);
+  EXPECT_EQ(count_of(run, CycleKind::Measured), 596);
+  EXPECT_TRUE(run.issues.empty()) << run.issues.front().text;
+  EXPECT_NEAR(run.robots[1].longest_gap_s, 20.4667 - 20, 1e-3);
+  EXPECT_NEAR(run.robots[1].longest_gap_from_s, 20, 0.04);
+}
+
+TEST(GapsTest, UpToASecondAreMarked) {
+  const TrackedRun run = with_gap(20.02, 20.82);
+  EXPECT_EQ(count_of(run, CycleKind::Degraded), 8);
+  ASSERT_EQ(run.issues.size(), 1U);
+  EXPECT_EQ(run.issues[0].code, IssueCode::Interpolated);
+  EXPECT_EQ(run.issues[0].robot, "rvr2");
+}
+
+TEST(GapsTest, LongerOnesAreErrorsAndHoldTheLastPose) {
+  const TrackedRun run = with_gap(20.02, 22.02);
+  const Issue* issue = find_issue(run, IssueCode::Gap);
+  ASSERT_NE(issue, nullptr);
+  EXPECT_EQ(issue->robot, "rvr2");
+  EXPECT_NEAR(issue->from.value(), 20, 0.04);
+  EXPECT_NEAR(issue->to.value(), 22.03, 0.04);
+  EXPECT_THAT(issue->text, HasSubstr("rvr2 (tag 2) was not seen from 20.00 s to 22.03 s"));
+  EXPECT_EQ(count_of(run, CycleKind::Missing), 20);
+  // Instants 20.1 s and 22.0 s.
+  EXPECT_EQ(run.trajectory.at(200)[1], run.trajectory.at(219)[1]);
+  EXPECT_EQ(run.trajectory.at(199)[1], run.trajectory.at(200)[1]);
+}
+
+TEST(GapsTest, AroundTheLastInstantTheLimitIsShorter) {
+  for (const bool at_the_end : {false, true}) {
+    EXPECT_EQ(find_issue(with_gap(59.92, 60.12, at_the_end), IssueCode::Gap) != nullptr,
+              at_the_end);
+    EXPECT_EQ(find_issue(with_gap(59.92, 60.08, at_the_end), IssueCode::Gap), nullptr);
+    // Nothing comes after: not extrapolated.
+    EXPECT_EQ(find_issue(with_gap(59.98, 70, at_the_end), IssueCode::Gap) != nullptr, at_the_end);
+  }
+}
+
+TEST(GapsTest, AtTheEndThePoseIsTheLastKnownOne) {
+  const TrackedRun run = with_gap(59.88, 70, true);
+  EXPECT_EQ(run.robots[1].cycles.back(), CycleKind::Missing);
+  EXPECT_EQ(run.robots[1].cycles[598], CycleKind::Missing);
+  const Pose last_seen = on_circle(1, 59.0 + 26.0 / 30);
+  EXPECT_NEAR(run.trajectory.at(599)[1].x, last_seen.x, 1e-4);
+  EXPECT_NEAR(run.trajectory.at(599)[1].y, last_seen.y, 1e-4);
+}
+
+TEST(GapsTest, MoreThanOneInTwentyCyclesBridgedIsAnError) {
+  for (const int gaps : {7, 8}) {
+    SeenRun seen = seen_run(on_circle, {.cycles = 600});
+    for (int i = 0; i < gaps; ++i)  // 4 cycles each
+      seen.hide(2, 4 * (i + 1) + 0.02, 4 * (i + 1) + 0.44);
+    const TrackedRun run = seen.track().value();
+    const Issue* issue = find_issue(run, IssueCode::Gap);
+    ASSERT_EQ(issue != nullptr, gaps == 8);
+    if (issue == nullptr) continue;
+    EXPECT_THAT(issue->text, HasSubstr("32 of 600 cycles (5.3 %, limit 5 %)"));
+  }
+}
+
+/// A robot that somebody carried: both parts of its track are its own, and nothing lies between.
+TEST(GapsTest, NothingIsInterpolatedAcrossAWayThatNoRobotGoes) {
+  const Truth carried = [](int robot, double time_s) {
+    return on_circle(robot, time_s < 30 ? time_s : time_s + 5);
+  };
+  SeenRun seen = seen_run(carried, {.cycles = 600});
+  seen.hide(2, 29.82, 30.18);
+  const TrackedRun run = seen.track().value();
+  const Issue* issue = nullptr;
+  for (const Issue& found : run.issues) {
+    if (found.robot == "rvr2" && found.code == IssueCode::Gap) issue = &found;
+  }
+  ASSERT_NE(issue, nullptr);
+  EXPECT_THAT(issue->text, HasSubstr("cannot have come"));
+  EXPECT_EQ(count_of(run, CycleKind::Missing), 3);
+  EXPECT_NEAR(run.trajectory.at(305)[1].x, carried(1, 30.6).x, 1e-4);
+}
+
+}  // namespace
+}  // namespace swarmsmith

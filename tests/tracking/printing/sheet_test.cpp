@@ -1,0 +1,54 @@
+#include <gmock/gmock.h>
+
+#include <cmath>
+
+#include "tests/support/drawn_page.h"
+#include "tests/support/xml_check.h"
+#include "tracking/printing/survey_sheet.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(PaperTest, KnowsItsNames) {
+  EXPECT_DOUBLE_EQ(paper_from_name("A4")->height_mm, 297);
+  EXPECT_EQ(turned(*paper_from_name("A3")), (Paper{"A3", 420, 297}));
+  EXPECT_THAT(to_string(paper_from_name("B5").error()), HasSubstr("A4, A3, letter"));
+}
+
+TEST(SurveySheetTest, HasALineATagAndNothingOverAnother) {
+  for (const char* paper : {"A4", "A3", "letter"}) {
+    const auto sheet = survey_sheet(
+        {regular_dodecagon(4.91), {100, 101, 102, 103, 104, 105}, 0.1, *paper_from_name(paper)});
+    ASSERT_TRUE(sheet) << to_string(sheet.error());
+    EXPECT_EQ(xml_trouble(*sheet), "");
+    const DrawnPage page = drawn_page(*sheet);
+    EXPECT_THAT(page.collisions(), IsEmpty()) << paper;
+    EXPECT_TRUE(page.has_text("1.127, 0.000"));
+    // Side, and the other distances from corner to corner, of tracking facts, section 1.
+    EXPECT_THAT(*sheet, HasSubstr("0.662, 1.279, 1.809, 2.216, 2.471, 2.559"));
+  }
+}
+
+TEST(SurveySheetTest, SaysWhenItIsFull) {
+  std::vector<int> ids(60);
+  const auto sheet = survey_sheet({regular_dodecagon(4.91), ids, 0.1, *paper_from_name("A4")});
+  ASSERT_FALSE(sheet);
+  EXPECT_THAT(to_string(sheet.error()), HasSubstr("60 tags, but the form has"));
+}
+
+TEST(SurveySheetTest, ProposedTagsLieWithinTheWalls) {
+  const Arena arena = regular_dodecagon(4.91);
+  for (const std::size_t tags : {4U, 5U, 6U, 8U}) {
+    for (const Pose& place : suggested_places(arena, tags, 0.1)) {
+      for (const double x : {-0.0625, 0.0625})
+        for (const double y : {-0.0625, 0.0625})
+          EXPECT_TRUE(is_inside(arena, {place.x + x, place.y + y}));
+    }
+  }
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,104 @@
+#include "tracking/report/quality.h"
+
+#include <gmock/gmock.h>
+
+#include <nlohmann/json.hpp>
+
+#include "tests/support/xml_check.h"
+#include "tests/tracking/report/reported_run.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+using Json = nlohmann::json;
+
+TEST(QualityTest, JsonSaysWhatWasMeasured) {
+  const MadeUpRun run;
+  const Json report = Json::parse(quality_json(run.reported()));
+  EXPECT_EQ(report["verdict"], "DEGRADED");
+  EXPECT_EQ(report["score"], 2.0);
+  EXPECT_EQ(report["run"]["duration_s"], 60.0);
+  EXPECT_EQ(report["frames"]["dropped"], 9);
+  const Json& second = report["robots"][1];
+  EXPECT_EQ(second["cycles"],
+            (Json{{"measured", 588}, {"interpolated", 4}, {"degraded", 8}, {"missing", 0}}));
+  EXPECT_EQ(second["longest_gap_s"], 0.83);
+  EXPECT_EQ(second["border"]["too_close"], true);
+  EXPECT_TRUE(second["offset"].is_null());
+  EXPECT_EQ(report["robots"][0]["offset"]["x_m"], 0.072);
+  EXPECT_EQ(report["robots"][2]["samples"]["outliers"], 3);
+  EXPECT_TRUE(report["robots"][2]["border"].is_null());
+  EXPECT_EQ(report["issues"][0]["code"], "W_TOO_CLOSE_TO_CALL");
+  EXPECT_TRUE(report["issues"][2]["from_s"].is_null());
+}
+
+TEST(QualityTest, JsonSaysHowCameraAndFloorTagsFared) {
+  const MadeUpRun run;
+  const Json camera = Json::parse(quality_json(run.reported()))["cameras"][0];
+  EXPECT_EQ(camera["times"], name_of(TimeSource::Sidecar));
+  EXPECT_EQ(camera["calibration"]["rms_px"], 0.0625);
+  EXPECT_EQ(camera["calibration"]["sha256"], std::string(64, 'a'));
+  EXPECT_EQ(camera["place"]["camera_height_m"], 2.75);
+  const Json& tags = camera["reference_tags"];
+  ASSERT_EQ(tags.size(), 4U);
+  EXPECT_EQ(tags[0]["seen"], 5);
+  EXPECT_EQ(tags[3]["seen"], 3);
+  EXPECT_EQ(tags[3]["of"], 5);
+  EXPECT_EQ(tags[2]["shift_px"], 2.0);
+  // One kicked tag does not move the camera: medians of 0.25, 0.25, 2 and 0.25, 0.25, 0.25, 2.
+  EXPECT_EQ(camera["shift_px"], 0.25);
+}
+
+TEST(QualityTest, AnOverrideCountsAboveTheVerdict) {
+  MadeUpRun run;
+  run.overrides = {{Verdict::Valid, "A. Person", "seen on the film"}};
+  const Json report = Json::parse(quality_json(run.reported()));
+  EXPECT_EQ(report["verdict"], "VALID");
+  EXPECT_EQ(report["measured_verdict"], "DEGRADED");
+  const std::string page = quality_html(run.reported());
+  EXPECT_THAT(page, HasSubstr("A. Person has set the verdict to VALID: seen on the film"));
+}
+
+TEST(QualityTest, PageSaysTheVerdictFirst) {
+  const MadeUpRun run;
+  const std::string page = quality_html(run.reported());
+  EXPECT_EQ(xml_trouble(page), "");
+  EXPECT_THAT(page, HasSubstr("<h1>run07: DEGRADED</h1>"));
+  const std::size_t reason = page.find("rvr2 was bridged for 0.83 s from 30.0 s on &lt;its tag");
+  const std::size_t picture = page.find("<svg");
+  ASSERT_NE(reason, std::string::npos);
+  EXPECT_LT(reason, picture);
+  for (const char* said : {"98.0 %", "0.7 %", "1.3 %", "TOO CLOSE TO CALL", "+210.0, black spot",
+                           "72.0, -4.0 (2026-11-20 10:30)", "tag taken for centre", "3 of 5",
+                           "9 (0.5 %)", "14.50 / 30.00 / 31.00", "aaaaaaaaaaaaaaaa"})
+    EXPECT_THAT(page, HasSubstr(said));
+  EXPECT_THAT(page, Not(HasSubstr("BIASED")));
+}
+
+TEST(QualityTest, ABiasedScoreIsCalledThat) {
+  MadeUpRun run;
+  run.scored.biased = true;
+  EXPECT_THAT(quality_html(run.reported()), HasSubstr("BIASED"));
+}
+
+TEST(QualityTest, WhatIsMissingIsSaidToBeMissing) {
+  MadeUpRun run;
+  run.rig = {};
+  run.tracked = {};
+  run.scored = {};
+  run.observations.cameras[0].references.clear();
+  const Json report = Json::parse(quality_json(run.reported()));
+  EXPECT_TRUE(report["score"].is_null());
+  EXPECT_TRUE(report["cameras"][0]["calibration"].is_null());
+  EXPECT_EQ(xml_trouble(quality_html(run.reported())), "");
+}
+
+TEST(QualityTest, SameRunSameBytes) {
+  EXPECT_EQ(quality_html(MadeUpRun().reported()), quality_html(MadeUpRun().reported()));
+  EXPECT_EQ(quality_json(MadeUpRun().reported()), quality_json(MadeUpRun().reported()));
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,212 @@
+#include "tracking/scoring/real_run_rows.h"
+
+#include <fmt/format.h>
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <set>
+
+#include "tests/tracking/motion/seen_run.h"
+#include "tracking/scoring/score_run.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A colour run with everything that rows keep, scored once.
+class RealRunRowsTest : public testing::Test {
+ protected:
+  RealRunRowsTest() : seen(seen_run(on_circle, {.cycles = 200, .noise_px = 0.2})) {
+    log.name = "run07";
+    log.recorded = "2026-11-21";
+    log.mission = built_in_mission("color_selection").value();
+    log.mission.cycles = 200;
+    log.start.time_s = 12.4;
+    log.videos.push_back({.camera = "camera0", .file = "camera0.mp4"});
+    patches = instance_of(log.mission, 4)->patches;
+    log.layout.source = RunLayout::Source::Log;
+    for (const Patch& patch : patches)
+      log.layout.patches.push_back({std::get<Rectangle>(patch.shape).centre, patch.color});
+    complete_calibrations();
+    seen.hide(2, 5.02, 5.4);
+    spoil();
+    score();
+  }
+
+  /// What files must say and the sightings do not need.
+  void complete_calibrations() {
+    CameraCalibration camera = seen.rig.models.begin()->second;
+    camera.rms_px = 0.07;
+    camera.views = 17;
+    camera.coverage = 0.8;
+    camera.board = "charuco";
+    camera.made = "2026-11-20T10:00:00Z";
+    PlaceCalibration place = seen.rig.places.begin()->second;
+    place.rms_px = 0.05;
+    place.worst_left_out_m = 0.0011;
+    place.coverage = 0.7;
+    place.made = "2026-11-20T11:00:00Z";
+    for (int tag = 100; tag < 104; ++tag)
+      place.tags.push_back({.tag = {tag, {0.1 * tag - 10, 0.5, 0}, 0.1}, .corners = {}});
+    texts["camera0.camera.toml"] = calibration_text(camera);
+    texts["camera0.place.toml"] = calibration_text(place);
+    arena_text =
+        "format = 1\nfamily = \"tag36h11\"\n[[camera]]\nname = \"camera0\"\n"
+        "model = \"camera0.camera.toml\"\nplace = \"camera0.place.toml\"\n";
+    for (int tag = 100; tag < 104; ++tag) {
+      arena_text += fmt::format("[[reference]]\ntag = {}\nx = {}\ny = 0.5\nangle = 0\nedge = 0.1\n",
+                                tag, 0.1 * tag - 10);
+    }
+    for (const RobotSetup& robot : seen.rig.robots) {
+      OffsetCalibration offset = seen.rig.offsets.at(robot.offset_file);
+      offset.edge_m = robot.edge_m;
+      offset.height_m = robot.height_m;
+      offset.rms_m = 0.0004;
+      offset.sigma_x_m = 1e-4;
+      offset.sigma_y_m = 1e-4;
+      offset.samples = 120;
+      offset.turned_rad = 13;
+      offset.made = "2026-11-20T12:00:00Z";
+      texts[robot.offset_file] = calibration_text(offset);
+      arena_text += fmt::format(
+          "[[robot]]\nname = \"{}\"\ntag = {}\nedge = {}\nheight = {}\n"
+          "offset = \"{}\"\n",
+          robot.name, robot.tag, robot.edge_m, robot.height_m, robot.offset_file);
+    }
+    const auto find = [&](CalibrationKind, const std::string&,
+                          const std::string& file) -> Expected<std::optional<std::string>> {
+      return texts.at(file);
+    };
+    const auto rig = parse_rig(arena_text, "arena.toml", find);
+    if (!rig) throw std::runtime_error(to_string(rig.error().front()));
+    seen.rig = *rig;
+  }
+
+  /// A twin, an unknown tag, floor tags, an issue of the file.
+  void spoil() {
+    Observations& observations = seen.observations;
+    Sighting twin = observations.sightings[300];
+    for (ImagePoint& corner : twin.corners)
+      corner.u += 150;
+    observations.sightings.push_back(twin);
+    twin.tag = 44;
+    twin.hamming = 1;
+    observations.sightings.push_back(twin);
+    std::ranges::stable_sort(observations.sightings, {}, &Sighting::frame);
+    observations.cameras[0].references.push_back({14.9, 101, twin.corners, 70});
+    observations.cameras[0].damaged_frames = 2;
+    observations.issues.push_back({IssueCode::FramesDropped, "2 frames are damaged", "", 3.0, {}});
+  }
+
+  void score() {
+    tracked = seen.track().value();
+    scored = score_run(tracked, log.mission, patches, seen.observations.issues).value();
+  }
+
+  RealRunRows rows() const {
+    return real_run_rows({seen.rig, arena_text, log, seen.observations, seen.options.span.starts_s,
+                          tracked, patches, scored});
+  }
+
+  SeenRun seen;
+  RunLog log;
+  std::vector<Patch> patches;
+  std::string arena_text;
+  std::map<std::string, std::string> texts;
+  TrackedRun tracked;
+  ScoredRun scored;
+};
+
+TEST_F(RealRunRowsTest, HoldWhatTheRunIs) {
+  const RealRunRows run = rows();
+  EXPECT_EQ(run.name, "run07");
+  EXPECT_EQ(run.mission, "color_selection");
+  EXPECT_DOUBLE_EQ(run.duration_s, 20);
+  EXPECT_EQ(run.calibrations.size(), 5U);
+  EXPECT_EQ(run.calibrations[2].subject, "rvr1");
+  ASSERT_EQ(run.videos.size(), 1U);
+  EXPECT_EQ(run.videos[0].camera_calibration, run.calibrations[0].sha256);
+  EXPECT_EQ(run.videos[0].damaged_frames, 2);
+  ASSERT_EQ(run.robots.size(), 3U);
+  EXPECT_EQ(run.robots[1].measured + run.robots[1].interpolated, 200);
+  EXPECT_GT(run.robots[1].interpolated, 0);
+  EXPECT_TRUE(run.robots[0].border_m.has_value());
+  EXPECT_EQ(run.robots[0].offset_calibration, run.calibrations[2].sha256);
+  EXPECT_EQ(run.samples.size(), seen.observations.sightings.size());
+  EXPECT_EQ(std::ranges::count(run.samples, std::int64_t{2}, &RealSampleRow::use), 1);
+  EXPECT_EQ(std::ranges::count(run.samples, std::int64_t{-1}, &RealSampleRow::robot), 1);
+  EXPECT_EQ(run.cycles.size(), 3U * 201U);
+  EXPECT_EQ(run.cycles.back().x, tracked.trajectory.at(199)[2].x);
+  EXPECT_EQ(run.patches.size(), 12U);
+  EXPECT_EQ(run.score.score, scored.score);
+  EXPECT_EQ(run.score.verdict, "DEGRADED");
+  EXPECT_EQ(run.score.reasons, R"(["W_FRAMES_DROPPED: 2 frames are damaged"])");
+  EXPECT_EQ(std::ranges::count(run.issues, true, &RealIssueRow::of_observing), 1);
+  EXPECT_GT(run.issues.size(), 1U);
+}
+
+TEST_F(RealRunRowsTest, ScoreAgainToTheSameBits) {
+  const RealRunRows run = rows();
+  const auto stored = stored_run(run);
+  ASSERT_TRUE(stored) << to_string(stored.error().front());
+  const TrackedRun again =
+      track_run(stored->observations, stored->rig, seen.arena, seen.options).value();
+  EXPECT_EQ(again.trajectory, tracked.trajectory);
+  EXPECT_EQ(again.starts, tracked.starts);
+  EXPECT_EQ(again.issues, tracked.issues);
+  const ScoredRun rescored =
+      score_run(again, stored->log.mission, patches, stored->observations.issues).value();
+  EXPECT_EQ(rescored.score, scored.score);
+  EXPECT_EQ(rescored.issues, scored.issues);
+  EXPECT_EQ(stored->log, log);
+}
+
+TEST_F(RealRunRowsTest, AreTheSameRowsAfterARoundTrip) {
+  const RealRunRows run = rows();
+  const auto stored = stored_run(run).value();
+  const RealRunRows again =
+      real_run_rows({stored.rig, run.arena_file, stored.log, stored.observations,
+                     seen.options.span.starts_s, tracked, patches, scored});
+  EXPECT_EQ(again.key, run.key);
+  EXPECT_EQ(again.log, run.log);
+  EXPECT_EQ(again.mission_file, run.mission_file);
+  EXPECT_EQ(again.patches, run.patches);
+  ASSERT_EQ(again.samples.size(), run.samples.size());
+  for (std::size_t i = 0; i < run.samples.size(); ++i) {
+    EXPECT_EQ(again.samples[i].corners, run.samples[i].corners);
+    EXPECT_EQ(again.samples[i].robot, run.samples[i].robot);
+  }
+  ASSERT_EQ(again.references.size(), 1U);
+  EXPECT_EQ(again.references[0].corners, run.references[0].corners);
+  EXPECT_EQ(again.references[0].frames, 70);
+  ASSERT_EQ(again.calibrations.size(), run.calibrations.size());
+  for (std::size_t i = 0; i < run.calibrations.size(); ++i)
+    EXPECT_EQ(again.calibrations[i].file, run.calibrations[i].file);
+}
+
+/// The key is of what was filmed, not of what it was scored with.
+TEST_F(RealRunRowsTest, HaveTheKeyOfTheirVideosAndTheirStart) {
+  std::set<std::string> keys{rows().key};
+  tracked.issues.clear();
+  log.name = "another";
+  keys.insert(rows().key);
+  EXPECT_EQ(keys.size(), 1U);
+  seen.options.span.starts_s[0] += 1;
+  keys.insert(rows().key);
+  seen.observations.cameras[0].sha256 = "other";
+  keys.insert(rows().key);
+  EXPECT_EQ(keys.size(), 3U);
+}
+
+TEST_F(RealRunRowsTest, SayWhenATagWasTakenForTheCentre) {
+  seen.rig.offsets.erase("rvr2.offset.toml");
+  seen.rig.files.erase("rvr2.offset.toml");
+  seen.options.takes_tags_for_centres = true;
+  score();
+  const RealRunRows run = rows();
+  EXPECT_EQ(run.robots[1].offset_calibration, "");
+  EXPECT_TRUE(run.score.biased);
+  EXPECT_FALSE(stored_run(run)->rig.offsets.contains("rvr2.offset.toml"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

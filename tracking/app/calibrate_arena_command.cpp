@@ -1,0 +1,165 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <memory>
+
+#include "console/whole_file.h"
+#include "sim/files/mission_file.h"
+#include "tracking/app/calibrate_sources.h"
+#include "tracking/app/commands.h"
+#include "tracking/app/complaints.h"
+#include "tracking/calibration/calibration_report.h"
+#include "tracking/calibration/solve_place.h"
+#include "tracking/detection/tag_detector.h"
+#include "tracking/rig/rig_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// Pictures that medians are taken over; more bring nothing.
+constexpr int kLooks = 20;
+/// A video is looked at over at least this many frames, so that a passing hand is outvoted.
+constexpr std::int64_t kFrames = 200;
+
+struct Arguments {
+  std::vector<std::string> words;
+  std::string arena;
+  std::string camera;
+  std::string mission;
+  std::string file;
+  bool again = false;
+};
+
+/// The floor tags in some twenty pictures.
+Expected<std::vector<std::vector<TagLook>>> looks_of(const Arguments& arguments, const Rig& rig,
+                                                     const CameraModel& model, Output& output) {
+  auto detector = TagDetector::of_family(rig.family);
+  if (!detector) return Unexpected(detector.error());
+  std::vector<std::vector<TagLook>> looks;
+  const auto look = [&](const PictureSource& source, const FrameSource& frames) -> Expected<bool> {
+    const ImageSize size = frames.info().size;
+    if (size != model.size) {
+      return Unexpected(
+          error_of(IssueCode::CalibrationSize,
+                   fmt::format("calibration {}x{}, video {}x{}; film at the size that "
+                               "was calibrated",
+                               model.size.width, model.size.height, size.width, size.height),
+                   source.word));
+    }
+    const std::int64_t known = std::min(frames.info().expected_frames, kFrames);
+    const std::int64_t every = source.is_video ? std::max<std::int64_t>(1, known / kLooks) : 1;
+    if (frames.frame().number % every != 0) return true;
+    auto& seen = looks.emplace_back();
+    for (const Detection& tag : detector->find(frames.frame().gray, 1)) {
+      if (tag.hamming == 0) seen.push_back({tag.tag, tag.corners});
+    }
+    return looks.size() < kLooks || !source.is_video;
+  };
+  if (const auto looked = for_each_picture(arguments.words, look, output); !looked)
+    return Unexpected(looked.error());
+  return looks;
+}
+
+std::string json_of(const PlaceCalibration& calibration, const std::string& file) {
+  std::string tags;
+  for (const PlaceCalibration::Seen& seen : calibration.tags) {
+    tags += (tags.empty() ? "" : ",") + fmt::format("{{\"tag\":{},\"rms_px\":", seen.tag.tag) +
+            json_number(seen.rms_px) + ",\"left_out_m\":" + json_number(seen.left_out_m) + "}";
+  }
+  const Point3 centre = calibration.place.centre();
+  return "{\"file\":" + json_text(file) + ",\"camera\":[" + json_number(centre.x) + "," +
+         json_number(centre.y) + "," + json_number(centre.z) +
+         "],\"rms_px\":" + json_number(calibration.rms_px) +
+         ",\"worst_left_out_m\":" + json_number(calibration.worst_left_out_m) +
+         ",\"worst_tag\":" + std::to_string(calibration.worst_tag) +
+         ",\"coverage\":" + json_number(calibration.coverage) + ",\"tags\":[" + tags + "]}\n";
+}
+
+/// What is asked, from pictures or from the last calibration's medians.
+Expected<PlaceQuestion> question_of(const Arguments& arguments, const Rig& rig,
+                                    const CameraSetup& camera, const Arena& arena, Output& output) {
+  PlaceQuestion question;
+  question.survey = rig.references;
+  question.camera = rig.models.at(camera.model_file).model;
+  question.arena = corners_of(arena);
+  question.limits.least_height_m = rig.least_height_m;
+  question.limits.most_height_m = rig.most_height_m;
+  if (arguments.again) {
+    const auto old = rig.places.find(camera.place_file);
+    if (old == rig.places.end()) {
+      return Unexpected(error_of(IssueCode::Config,
+                                 "--again needs the place that was found before, and there is "
+                                 "none; give a video of the empty arena instead",
+                                 beside(arguments.arena, camera.place_file)));
+    }
+    return question_again(old->second, std::move(question));
+  }
+  const auto looks = looks_of(arguments, rig, question.camera, output);
+  if (!looks) return Unexpected(looks.error());
+  question.seen = median_of_looks(*looks, rig.references);
+  return question;
+}
+
+ExitCode solve(const Arguments& arguments, const Rig& rig, const CameraSetup& camera,
+               const Arena& arena, Output& output) {
+  const auto model = rig.files.find(camera.model_file);
+  if (model == rig.files.end()) {
+    return fail_all(output, {error_of(IssueCode::Config,
+                                      "camera \"" + camera.name +
+                                          "\" is not calibrated yet; first `swarmsmith track "
+                                          "calibrate camera`",
+                                      beside(arguments.arena, camera.model_file))});
+  }
+  const auto question = question_of(arguments, rig, camera, arena, output);
+  if (!question) return fail_all(output, {question.error()});
+  auto calibration = solve_place(*question);
+  if (!calibration) return fail_all(output, {calibration.error()});
+  calibration->camera_sha256 = model->second.sha256;
+  calibration->made = utc_now();
+  const std::string file =
+      arguments.file.empty() ? beside(arguments.arena, camera.place_file) : arguments.file;
+  if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
+    return fail(output, ExitCode::Failed, written.error());
+  output.out << (output.json ? json_of(*calibration, file) : report_text(*calibration));
+  print_cautions(output, cautions_of(*calibration, question->limits));
+  print_note(output, "wrote " + file);
+  return ExitCode::Done;
+}
+
+ExitCode run(const Arguments& arguments, Output& output) {
+  if (arguments.again == !arguments.words.empty()) {
+    return fail(output, ExitCode::Usage,
+                "give a video or pictures of the empty arena, or --again to solve from the last "
+                "ones");
+  }
+  const auto rig = read_rig(arguments.arena);
+  if (!rig) return fail_all(output, rig.error());
+  const auto camera = camera_of(*rig, arguments.camera);
+  if (!camera) return fail_all(output, {camera.error()});
+  Arena arena = dodecagon_of_the_thesis();
+  if (!arguments.mission.empty()) {
+    auto mission = find_mission(arguments.mission, {});
+    if (!mission) return fail_all(output, mission.error());
+    arena = mission->mission.arena;
+  }
+  return solve(arguments, *rig, *camera, arena, output);
+}
+
+}  // namespace
+
+Run declare_calibrate_arena(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  options.words("PICTURES", arguments->words,
+                "A video of the arena with its floor tags, or pictures or folders of them");
+  options.text("--arena", arguments->arena, "Arena file", Options::Need::Required);
+  options.text("--camera", arguments->camera, "Which camera, when the arena has several");
+  options.flag("--again", arguments->again,
+               "Solve again from the last pictures' corners, after the survey or the camera's "
+               "calibration was mended");
+  options.text("--mission", arguments->mission,
+               "Mission whose arena the tags must cover (default: the thesis' dodecagon)");
+  options.text("-o,--output", arguments->file,
+               "File to write (default: the camera's `place` of the arena file)");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

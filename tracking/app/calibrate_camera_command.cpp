@@ -1,0 +1,160 @@
+#include <fmt/format.h>
+#include <algorithm>
+#include <memory>
+
+#include "console/whole_file.h"
+#include "tracking/app/calibrate_sources.h"
+#include "tracking/app/commands.h"
+#include "tracking/app/complaints.h"
+#include "tracking/calibration/calibration_report.h"
+#include "tracking/calibration/find_board.h"
+#include "tracking/rig/calibration_limits.h"
+#include "tracking/rig/rig_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// Of a video, about so many pictures are searched for the board, and so many used at most.
+constexpr std::int64_t kLooks = 300;
+constexpr std::size_t kMostViews = 40;
+
+struct Arguments {
+  std::vector<std::string> words;
+  std::string board;
+  std::string file;
+  std::string lens = "pinhole";
+  std::string camera = "ceiling";
+  std::string map;
+};
+
+/// Boards that were found, with those of videos apart, of which the differing ones are taken.
+struct Finds {
+  ImageSize size;
+  std::vector<BoardView> views;
+  std::vector<BoardSight> of_video;
+  std::int64_t looked_at = 0;
+};
+
+std::string name_of_frame(const PictureSource& source, const FrameSource& frames) {
+  const Frame& frame = frames.frame();
+  return frame.file.empty() ? fmt::format("{} frame {}", source.word, frame.number) : frame.file;
+}
+
+Expected<bool> look(const PictureSource& source, const FrameSource& frames, const Board& board,
+                    Finds& finds) {
+  finds.size = frames.info().size;
+  const std::int64_t every =
+      source.is_video ? std::max<std::int64_t>(1, frames.info().expected_frames / kLooks) : 1;
+  if (frames.frame().number % every != 0) return true;
+  ++finds.looked_at;
+  auto sight = find_board(frames.frame().gray, board);
+  if (!sight) return true;
+  sight->view.name = name_of_frame(source, frames);
+  if (source.is_video) {
+    finds.of_video.push_back(std::move(*sight));
+  } else {
+    finds.views.push_back(std::move(sight->view));
+  }
+  return true;
+}
+
+std::string json_of(const CameraSolution& solution, const std::vector<BoardView>& views,
+                    const std::string& file) {
+  const CameraCalibration& calibration = solution.calibration;
+  const CameraModel& model = calibration.model;
+  std::string list;
+  for (std::size_t i = 0; i < views.size(); ++i) {
+    list += (i > 0 ? "," : "") + std::string("{\"name\":") + json_text(views[i].name) +
+            ",\"corners\":" + std::to_string(views[i].seen.size()) +
+            ",\"rms_px\":" + json_number(solution.views[i].rms_px) +
+            ",\"dropped\":" + (solution.views[i].dropped ? "true" : "false") + "}";
+  }
+  std::string distortion;
+  for (const double value : model.distortion)
+    distortion += (distortion.empty() ? "" : ",") + json_number(value);
+  return "{\"file\":" + json_text(file) + ",\"width\":" + std::to_string(model.size.width) +
+         ",\"height\":" + std::to_string(model.size.height) +
+         ",\"lens\":" + json_text(model.lens == Lens::Fisheye ? "fisheye" : "pinhole") +
+         ",\"fx\":" + json_number(model.fx) + ",\"fy\":" + json_number(model.fy) +
+         ",\"cx\":" + json_number(model.cx) + ",\"cy\":" + json_number(model.cy) +
+         ",\"distortion\":[" + distortion + "],\"rms_px\":" + json_number(calibration.rms_px) +
+         ",\"worst_view_px\":" + json_number(calibration.worst_view_px) +
+         ",\"focal_sigma_px\":" + json_number(calibration.focal_sigma_px) +
+         ",\"coverage\":" + json_number(calibration.coverage) +
+         ",\"ninths\":" + fmt::format("[{}]", fmt::join(solution.ninths, ",")) +
+         ",\"views_used\":" + std::to_string(calibration.views) +
+         ",\"views_dropped\":" + std::to_string(calibration.views_dropped) + ",\"views\":[" + list +
+         "]}\n";
+}
+
+/// Report and map are there also for what is refused: they show why.
+Expected<void> write_map(const CameraSolution& solution, const std::vector<BoardView>& views,
+                         const std::string& file) {
+  if (file.empty()) return {};
+  return write_whole_file(file, residual_map_svg(solution, views));
+}
+
+ExitCode solve(const Arguments& arguments, const Board& board, const Finds& finds, Output& output) {
+  const Lens lens = arguments.lens == "fisheye" ? Lens::Fisheye : Lens::Pinhole;
+  print_note(output, fmt::format("the board is in {} of {} pictures; solving",
+                                 finds.views.size() + finds.of_video.size(), finds.looked_at));
+  std::vector<BoardView> views = finds.views;
+  for (const std::size_t i : pick_views(finds.of_video, board, finds.size, kMostViews))
+    views.push_back(finds.of_video[i].view);
+  auto solution = solve_camera(views, finds.size, lens);
+  if (!solution) return fail_all(output, {solution.error()});
+  CameraCalibration& calibration = solution->calibration;
+  calibration.board = board_text(board);
+  calibration.made = utc_now();
+  if (const auto drawn = write_map(*solution, views, arguments.map); !drawn)
+    return fail(output, ExitCode::Failed, drawn.error());
+  const std::vector<Error> faults = faults_of(calibration);
+  if (!output.json) output.out << report_text(*solution, views);
+  if (!faults.empty()) return fail_all(output, faults);
+  const std::string file =
+      arguments.file.empty() ? arguments.camera + ".camera.toml" : arguments.file;
+  if (const auto written = write_whole_file(file, calibration_text(calibration)); !written)
+    return fail(output, ExitCode::Failed, written.error());
+  if (output.json) output.out << json_of(*solution, views, file);
+  print_cautions(output, cautions_of(calibration));
+  print_note(output, "wrote " + file +
+                         "; places of cameras that were found with another one are to be found "
+                         "again: `swarmsmith track calibrate arena --again`");
+  return ExitCode::Done;
+}
+
+ExitCode run(const Arguments& arguments, Output& output) {
+  const auto board = parse_board(arguments.board);
+  if (!board) return fail(output, ExitCode::Usage, board.error());
+  Finds finds;
+  const auto looked = for_each_picture(
+      arguments.words,
+      [&](const PictureSource& source, const FrameSource& frames) {
+        return look(source, frames, *board, finds);
+      },
+      output);
+  if (!looked) return fail(output, exit_code_of_tracking(looked.error()), looked.error());
+  return solve(arguments, *board, finds, output);
+}
+
+}  // namespace
+
+Run declare_calibrate_camera(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  options.words("PICTURES", arguments->words,
+                "Pictures of the board, folders of them, or a video of it",
+                Options::Need::Required);
+  options.text("--board", arguments->board,
+               "The board: charuco:COLUMNSxROWS:SQUARE:MARKER:DICTIONARY or "
+               "chessboard:COLUMNSxROWS:SQUARE, edges in metres as measured on paper",
+               Options::Need::Required);
+  options.text("-o,--output", arguments->file,
+               "File to write (default: the camera's name and .camera.toml)");
+  options.choice("--lens", arguments->lens, {"pinhole", "fisheye"},
+                 "Model of the lens; fisheye for over about 100 degrees");
+  options.text("--camera", arguments->camera, "The camera's name (default: ceiling)");
+  options.text("--map", arguments->map, "Draw the corners' residuals over the frame to this .svg");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

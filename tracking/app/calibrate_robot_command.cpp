@@ -1,0 +1,133 @@
+#include <fmt/format.h>
+#include <memory>
+
+#include "base/suggestion.h"
+#include "console/whole_file.h"
+#include "tracking/app/calibrate_sources.h"
+#include "tracking/app/commands.h"
+#include "tracking/app/complaints.h"
+#include "tracking/calibration/calibration_report.h"
+#include "tracking/rig/calibration_limits.h"
+#include "tracking/rig/rig_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct Arguments {
+  std::string robot;
+  std::string spin;
+  std::string straight;
+  std::string arena;
+  std::string camera;
+  std::string file;
+  bool reverse = false;
+};
+
+Expected<RobotSetup> robot_of(const Rig& rig, const std::string& name) {
+  std::vector<std::string> names;
+  for (const RobotSetup& robot : rig.robots) {
+    if (robot.name == name) return robot;
+    names.push_back(robot.name);
+  }
+  return Unexpected(error_of(IssueCode::Config,
+                             "the arena has no robot \"" + name + "\"" + did_you_mean(name, names) +
+                                 "; it has: " + joined(names),
+                             rig.file));
+}
+
+std::string json_of(const OffsetCalibration& calibration, const std::string& file) {
+  return "{\"file\":" + json_text(file) + ",\"robot\":" + json_text(calibration.robot) +
+         ",\"tag\":" + std::to_string(calibration.tag) +
+         ",\"x_m\":" + json_number(calibration.offset.x_m) +
+         ",\"y_m\":" + json_number(calibration.offset.y_m) +
+         ",\"has_yaw\":" + (calibration.has_yaw ? "true" : "false") +
+         ",\"yaw_rad\":" + json_number(calibration.offset.yaw_rad) +
+         ",\"rms_m\":" + json_number(calibration.rms_m) +
+         ",\"sigma_x_m\":" + json_number(calibration.sigma_x_m) +
+         ",\"sigma_y_m\":" + json_number(calibration.sigma_y_m) +
+         ",\"drift_m_s\":" + json_number(calibration.drift_m_s) +
+         ",\"turned_rad\":" + json_number(calibration.turned_rad) +
+         ",\"samples\":" + std::to_string(calibration.samples) + "}\n";
+}
+
+/// Offset of the spin, yaw of the straight run.
+Expected<OffsetCalibration> solve(const Arguments& arguments, const Rig& rig,
+                                  const CameraSetup& camera, const RobotSetup& robot,
+                                  Output& output) {
+  const auto named = [](Error error, const std::string& video) {
+    if (error.where.empty()) error.where = video;
+    return Unexpected(std::move(error));
+  };
+  const auto spin = tag_path(arguments.spin, rig, camera, robot, output);
+  if (!spin) return named(spin.error(), arguments.spin);
+  auto calibration = solve_offset(*spin);
+  if (!calibration) return named(calibration.error(), arguments.spin);
+  calibration->robot = robot.name;
+  calibration->tag = robot.tag;
+  calibration->edge_m = robot.edge_m;
+  calibration->height_m = robot.height_m;
+  if (arguments.straight.empty()) return calibration;
+  const auto straight = tag_path(arguments.straight, rig, camera, robot, output);
+  if (!straight) return named(straight.error(), arguments.straight);
+  const auto travel = solve_yaw(*straight, calibration->offset, arguments.reverse);
+  if (!travel) return named(travel.error(), arguments.straight);
+  calibration->offset.yaw_rad = travel->yaw_rad;
+  calibration->has_yaw = true;
+  return calibration;
+}
+
+ExitCode run(const Arguments& arguments, Output& output) {
+  if (arguments.reverse && arguments.straight.empty()) {
+    return fail(output, ExitCode::Usage, "--reverse speaks of a straight run: --straight VIDEO");
+  }
+  const auto rig = read_rig(arguments.arena);
+  if (!rig) return fail_all(output, rig.error());
+  const auto camera = camera_of(*rig, arguments.camera);
+  if (!camera) return fail_all(output, {camera.error()});
+  const auto robot = robot_of(*rig, arguments.robot);
+  if (!robot) return fail_all(output, {robot.error()});
+  if (robot->offset_file.empty() && arguments.file.empty()) {
+    return fail_all(output,
+                    {error_of(IssueCode::Config,
+                              "robot \"" + robot->name +
+                                  "\" names no `offset` file; add one, such as offset = \"" +
+                                  robot->name + ".offset.toml\", or say -o FILE",
+                              rig->file)});
+  }
+  auto calibration = solve(arguments, *rig, *camera, *robot, output);
+  if (!calibration) return fail_all(output, {calibration.error()});
+  calibration->made = utc_now();
+  if (!output.json) output.out << report_text(*calibration);
+  std::vector<Error> faults = faults_of(*calibration);
+  for (Error& fault : faults)
+    fault.where = arguments.spin;
+  if (!faults.empty()) return fail_all(output, faults);
+  const std::string file =
+      arguments.file.empty() ? beside(arguments.arena, robot->offset_file) : arguments.file;
+  if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
+    return fail(output, ExitCode::Failed, written.error());
+  if (output.json) output.out << json_of(*calibration, file);
+  print_cautions(output, cautions_of(*calibration));
+  print_note(output, "wrote " + file);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_calibrate_robot(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  options.text("NAME", arguments->robot, "The robot, as the arena file names it",
+               Options::Need::Required);
+  options.text("--spin", arguments->spin, "Video of the robot turning on the spot, two turns",
+               Options::Need::Required);
+  options.text("--straight", arguments->straight,
+               "Video of it driving straight on for half a metre or more: gives its heading");
+  options.flag("--reverse", arguments->reverse, "It drove backwards in --straight");
+  options.text("--arena", arguments->arena, "Arena file", Options::Need::Required);
+  options.text("--camera", arguments->camera, "Which camera, when the arena has several");
+  options.text("-o,--output", arguments->file,
+               "File to write (default: the robot's `offset` of the arena file)");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

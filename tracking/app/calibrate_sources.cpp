@@ -1,0 +1,174 @@
+#include "tracking/app/calibrate_sources.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <ctime>
+#include <filesystem>
+#include <optional>
+
+#include "base/suggestion.h"
+#include "console/counter.h"
+#include "sim/files/file_text.h"
+#include "tracking/geometry/tag_pose.h"
+#include "tracking/observing/observe.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+std::string text_of(ImageSize size) {
+  return fmt::format("{}x{}", size.width, size.height);
+}
+
+/// The sidecar beside a video or a folder, if there is one.
+Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& video) {
+  // "run.times.csv" for run.mp4 and for the folder run; a dot in a folder's name is no ending.
+  std::filesystem::path sidecar(video);
+  if (sidecar.filename().empty()) sidecar = sidecar.parent_path();
+  std::error_code ignored;
+  if (!std::filesystem::is_directory(sidecar, ignored)) sidecar.replace_extension();
+  sidecar += ".times.csv";
+  if (!std::filesystem::exists(sidecar, ignored)) return std::nullopt;
+  auto text = read_file(sidecar, "times");
+  if (!text) return Unexpected(text.error());
+  auto times = parse_frame_times(*text);
+  if (!times) {
+    Error error = times.error();
+    if (error.where.empty()) error.where = sidecar.string();
+    return Unexpected(error);
+  }
+  return std::optional(std::move(*times));
+}
+
+/// A tag that is not as large as declared, or not as high.
+std::optional<Error> wrong_size(const RobotSetup& robot, std::vector<double> scales) {
+  constexpr double kTolerance = 0.05;
+  const auto middle = scales.begin() + static_cast<std::ptrdiff_t>(scales.size() / 2);
+  std::nth_element(scales.begin(), middle, scales.end());
+  if (std::abs(*middle - 1) <= kTolerance) return std::nullopt;
+  return error_of(
+      IssueCode::TagSize,
+      fmt::format("tag {} of \"{}\": its edge measures {:.1f} mm, declared are {:.1f} "
+                  "mm; check `edge` (the black border) and `height` in the arena file",
+                  robot.tag, robot.name, *middle * robot.edge_m * 1000, robot.edge_m * 1000),
+      "");
+}
+
+}  // namespace
+
+Expected<void> for_each_picture(const std::vector<std::string>& words, const OnPicture& look,
+                                Output& output) {
+  std::optional<ImageSize> size;
+  Counter counter(output, "looked at", "pictures");
+  const bool one = words.size() == 1;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    auto frames = FrameSource::open(words[i]);
+    if (!frames) return Unexpected(frames.error());
+    const SourceInfo info = (*frames)->info();
+    if (!size) size = info.size;
+    if (*size != info.size) {
+      return Unexpected(error_of(IssueCode::CalibrationSize,
+                                 "this is " + text_of(info.size) + ", the pictures before are " +
+                                     text_of(*size) + "; one calibration is of one size of picture",
+                                 words[i]));
+    }
+    for (std::int64_t done = 1;; ++done) {
+      const auto more = (*frames)->next();
+      if (!more) return Unexpected(more.error());
+      if (!*more) break;
+      // Pictures were chosen by a person; frames of a video resemble each other.
+      const PictureSource source{words[i], (*frames)->frame().file.empty()};
+      const auto wanted = look(source, **frames);
+      if (!wanted) return Unexpected(wanted.error());
+      if (one) counter.tell(done, std::max(done, info.expected_frames));
+      if (!*wanted) break;
+    }
+    if (!one)
+      counter.tell(static_cast<std::int64_t>(i) + 1, static_cast<std::int64_t>(words.size()));
+  }
+  return {};
+}
+
+Expected<std::vector<TagSample>> tag_path(const std::string& video, const Rig& rig,
+                                          const CameraSetup& camera, const RobotSetup& robot,
+                                          Output& output) {
+  const auto view = rig.view_of(camera);
+  if (!view) {
+    return Unexpected(error_of(IssueCode::Config,
+                               "camera \"" + camera.name +
+                                   "\" is not calibrated yet; first `swarmsmith track calibrate "
+                                   "camera`, then `swarmsmith track calibrate arena`",
+                               rig.file));
+  }
+  auto frames = FrameSource::open(video);
+  if (!frames) return Unexpected(frames.error());
+  const ImageSize size = (*frames)->info().size;
+  if (size != view->camera.size) {
+    return Unexpected(error_of(IssueCode::CalibrationSize,
+                               "calibration " + text_of(view->camera.size) + ", video " +
+                                   text_of(size) + "; film at the size that was calibrated",
+                               video));
+  }
+  auto sidecar = sidecar_of(video);
+  if (!sidecar) return Unexpected(sidecar.error());
+  auto clock = FrameClock::of((*frames)->info(), std::move(*sidecar));
+  if (!clock) return Unexpected(clock.error());
+  ObserveOptions options;
+  options.family = rig.family;
+  options.search.expected = {robot.tag};
+  Counter counter(output, "looked at", "pictures of " + video);
+  const auto seen = observe({camera, **frames, std::move(*clock), ""}, options,
+                            [&](std::int64_t done, std::int64_t of, const auto&) {
+                              counter.tell(done, std::max(done, of));
+                            });
+  if (!seen) return Unexpected(seen.error());
+  std::vector<TagSample> path;
+  std::vector<double> scales;
+  for (const Sighting& sighting : seen->sightings) {
+    if (sighting.tag != robot.tag) continue;
+    const TagPose pose = tag_pose(*view, sighting.corners, robot.edge_m, robot.height_m);
+    path.push_back({sighting.time_s, pose.pose});
+    scales.push_back(pose.scale);
+  }
+  if (path.empty()) {
+    return Unexpected(error_of(IssueCode::RobotMissing,
+                               fmt::format("tag {} of \"{}\" is never seen; check its number and "
+                                           "the family in the arena file, and the light",
+                                           robot.tag, robot.name),
+                               video));
+  }
+  if (const auto wrong = wrong_size(robot, std::move(scales))) return Unexpected(*wrong);
+  return path;
+}
+
+Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name) {
+  std::vector<std::string> names;
+  for (const CameraSetup& camera : rig.cameras) {
+    if (camera.name == name || (name.empty() && rig.cameras.size() == 1)) return camera;
+    names.push_back(camera.name);
+  }
+  const std::string what =
+      name.empty() ? "the arena has several cameras; say which one with --camera"
+                   : "the arena has no camera \"" + name + "\"" + did_you_mean(name, names);
+  return Unexpected(error_of(IssueCode::Config, what + "; it has: " + joined(names), rig.file));
+}
+
+std::string beside(const std::string& arena_file, const std::string& file) {
+  return (std::filesystem::path(arena_file).parent_path() / file).string();
+}
+
+std::string utc_now() {
+  const std::time_t now = std::chrono::system_clock::to_time_t(std::chrono::system_clock::now());
+  std::tm parts{};
+  gmtime_r(&now, &parts);
+  return fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", parts.tm_year + 1900, parts.tm_mon + 1,
+                     parts.tm_mday, parts.tm_hour, parts.tm_min, parts.tm_sec);
+}
+
+void print_cautions(Output& output, const std::vector<std::string>& cautions) {
+  for (const std::string& caution : cautions)
+    print_note(output, "note: " + caution);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,169 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "tracking/app/commands.h"
+#include "tracking/app/complaints.h"
+#include "tracking/rig/calibration_limits.h"
+#include "tracking/rig/rig_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// What a rig has of one calibration, for people and for scripts.
+struct Part {
+  std::string file;
+  bool is_there = false;
+  std::string made;
+  std::string sha256;
+  std::string text;  ///< how good it is
+};
+
+Part part_of(const Rig& rig, const std::string& file) {
+  Part part{.file = file};
+  const auto found = rig.files.find(file);
+  if (found == rig.files.end()) return part;
+  part.is_there = true;
+  part.made = found->second.made;
+  part.sha256 = found->second.sha256;
+  return part;
+}
+
+Part lens_of(const Rig& rig, const CameraSetup& camera) {
+  Part part = part_of(rig, camera.model_file);
+  if (!part.is_there) return part;
+  const CameraCalibration& lens = rig.models.at(camera.model_file);
+  part.text =
+      fmt::format("{} x {}, {} views, RMS {:.3f} px, {:.0f} % of the frame", lens.model.size.width,
+                  lens.model.size.height, lens.views, lens.rms_px, 100 * lens.coverage);
+  return part;
+}
+
+Part place_of(const Rig& rig, const CameraSetup& camera) {
+  Part part = part_of(rig, camera.place_file);
+  if (!part.is_there) return part;
+  const PlaceCalibration& place = rig.places.at(camera.place_file);
+  part.text = fmt::format("{} floor tags, RMS {:.3f} px, {:.3f} m up, worst tag {} {} off",
+                          place.tags.size(), place.rms_px, place.place.centre().z, place.worst_tag,
+                          millimetres(place.worst_left_out_m));
+  return part;
+}
+
+Part offset_part_of(const Rig& rig, const RobotSetup& robot) {
+  Part part = part_of(rig, robot.offset_file);
+  if (!part.is_there) return part;
+  const OffsetCalibration& offset = rig.offsets.at(robot.offset_file);
+  part.text = fmt::format("({}, {}), RMS {}{}", millimetres(offset.offset.x_m),
+                          millimetres(offset.offset.y_m), millimetres(offset.rms_m),
+                          offset.has_yaw ? "" : ", heading not calibrated");
+  return part;
+}
+
+/// Names of what lacks a calibration.
+struct Missing {
+  std::vector<std::string> lenses, places, offsets;
+};
+
+/// The one thing to do now.
+std::string next_step(const Missing& missing, const Rig& rig, const std::string& file) {
+  const std::string arena = " --arena " + file;
+  if (!missing.lenses.empty()) {
+    return "film a printed board from 15 or more sides with camera " + missing.lenses.front() +
+           ", then `swarmsmith track calibrate camera`; `swarmsmith track print board` prints one";
+  }
+  if (!missing.places.empty()) {
+    return "film the empty arena with camera " + missing.places.front() +
+           ", then `swarmsmith track calibrate arena" + arena + "`";
+  }
+  if (rig.robots.empty()) return "add a [[robot]] for each robot to " + file;
+  if (!missing.offsets.empty()) {
+    return "film robot " + missing.offsets.front() +
+           " turning on the spot twice or more, then `swarmsmith track calibrate robot" + arena +
+           "`";
+  }
+  return "score a run: `swarmsmith track score RUN.mp4" + arena + " --run run.toml`";
+}
+
+std::string line_of(const std::string& what, const Part& part) {
+  const std::string head = "  " + what + std::string(8 - what.size(), ' ');
+  if (part.file.empty()) return head + "missing: name a file for it\n";
+  if (!part.is_there) return head + part.file + ": missing\n";
+  return head + part.file + ", made " + part.made + ": " + part.text + "\n";
+}
+
+std::string json_of(const Part& part) {
+  if (!part.is_there) return "{\"file\":" + json_text(part.file) + ",\"there\":false}";
+  return "{\"file\":" + json_text(part.file) + ",\"there\":true,\"made\":" + json_text(part.made) +
+         ",\"sha256\":" + json_text(part.sha256) + ",\"quality\":" + json_text(part.text) + "}";
+}
+
+/// What is there, as both answers, and what is not.
+struct Inventory {
+  std::string text, cameras, robots;  ///< the latter as items of JSON arrays
+  Missing missing;
+};
+
+Inventory inventory_of(const Rig& rig) {
+  Inventory all;
+  for (const CameraSetup& camera : rig.cameras) {
+    const Part lens = lens_of(rig, camera);
+    const Part place = place_of(rig, camera);
+    if (!lens.is_there) all.missing.lenses.push_back(camera.name);
+    if (!place.is_there) all.missing.places.push_back(camera.name);
+    all.text += "camera " + camera.name + "\n" + line_of("lens", lens) + line_of("place", place);
+    all.cameras += std::string(all.cameras.empty() ? "" : ",") +
+                   "{\"name\":" + json_text(camera.name) + ",\"model\":" + json_of(lens) +
+                   ",\"place\":" + json_of(place) + "}";
+  }
+  for (const RobotSetup& robot : rig.robots) {
+    const Part offset = offset_part_of(rig, robot);
+    if (!offset.is_there) all.missing.offsets.push_back(robot.name);
+    all.text += fmt::format("robot {}: tag {}, edge {}, height {}\n", robot.name, robot.tag,
+                            millimetres(robot.edge_m), millimetres(robot.height_m)) +
+                line_of("offset", offset);
+    all.robots += std::string(all.robots.empty() ? "" : ",") +
+                  "{\"name\":" + json_text(robot.name) + ",\"tag\":" + std::to_string(robot.tag) +
+                  ",\"offset\":" + json_of(offset) + "}";
+  }
+  return all;
+}
+
+ExitCode run(const std::string& file, Output& output) {
+  const auto rig = read_rig(file);
+  if (!rig) return fail_all(output, rig.error());
+  const Inventory all = inventory_of(*rig);
+  const std::vector<Error> wrong = misfits(*rig);
+  const std::string next =
+      wrong.empty() ? next_step(all.missing, *rig, file) : "mend what is wrong, as said above";
+  if (output.json) {
+    std::string errors;
+    for (const Error& error : wrong)
+      errors += (errors.empty() ? "" : ",") + json_text(to_string(error));
+    const bool is_ready = wrong.empty() && all.missing.lenses.empty() &&
+                          all.missing.places.empty() && all.missing.offsets.empty() &&
+                          !rig->robots.empty();
+    output.out << "{\"file\":" << json_text(file) << ",\"family\":" << json_text(rig->family)
+               << ",\"references\":" << rig->references.size() << ",\"cameras\":[" << all.cameras
+               << "],\"robots\":[" << all.robots << "],\"misfits\":[" << errors
+               << "],\"ready\":" << (is_ready ? "true" : "false") << ",\"next\":" << json_text(next)
+               << "}\n";
+  } else {
+    output.out << file << ": family " << rig->family << ", " << rig->references.size()
+               << " floor tags\n"
+               << all.text;
+  }
+  for (const Error& error : wrong)
+    print_error(output, error);
+  if (!output.json) output.out << "Next: " << next << "\n";
+  return wrong.empty() ? ExitCode::Done : exit_code_of_all(wrong);
+}
+
+}  // namespace
+
+Run declare_track_check(Options& options) {
+  auto file = std::make_shared<std::string>();
+  options.text("ARENA", *file, "Arena file", Options::Need::Required);
+  return [file](Output& output) { return run(*file, output); };
+}
+
+}  // namespace swarmsmith::cli

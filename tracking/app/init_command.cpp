@@ -1,0 +1,60 @@
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+#include "console/whole_file.h"
+#include "embedded/kArenaTemplate.h"
+#include "embedded/kRunTemplate.h"
+#include "tracking/app/commands.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// A file to begin with.
+struct Template {
+  std::string_view name;
+  std::string_view text;
+};
+constexpr std::array kTemplates = {Template{"arena.toml", kArenaTemplate},
+                                   Template{"run.toml", kRunTemplate}};
+
+ExitCode run(const std::string& folder, Output& output) {
+  std::error_code trouble;
+  std::filesystem::create_directories(folder, trouble);
+  for (const Template& each : kTemplates) {
+    const std::string file = (std::filesystem::path(folder) / each.name).string();
+    if (!std::filesystem::exists(file, trouble)) continue;
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput, "is there already; name another folder", file});
+  }
+  std::string files;
+  for (const Template& each : kTemplates) {
+    const std::string file = (std::filesystem::path(folder) / each.name).string();
+    if (const auto written = write_whole_file(file, each.text); !written) {
+      return fail(output, ExitCode::Failed, written.error());
+    }
+    files += output.json ? (files.empty() ? "" : ",") + json_text(file) : file + "\n";
+  }
+  if (output.json) {
+    output.out << "{\"files\":[" << files << "]}\n";
+    return ExitCode::Done;
+  }
+  output.out << files;
+  const std::string arena = (std::filesystem::path(folder) / "arena.toml").string();
+  print_note(output,
+             "Write down what hangs, lies and drives in your arena; `swarmsmith track "
+             "check " +
+                 arena + "` then says what comes next.");
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_track_init(Options& options) {
+  auto folder = std::make_shared<std::string>(".");
+  options.text("DIR", *folder, "Folder of the new arena.toml and run.toml (default: this one)");
+  return [folder](Output& output) { return run(*folder, output); };
+}
+
+}  // namespace swarmsmith::cli

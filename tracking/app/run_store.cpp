@@ -1,0 +1,130 @@
+#include "tracking/app/run_store.h"
+
+#include <chrono>
+#include <thread>
+
+#include "base/id.h"
+#include "sim/files/mission_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// Other commands hold a store for less than that.
+constexpr int kTries = 20;
+constexpr std::chrono::milliseconds kPause{100};
+
+/// The first row's cells; nothing when there is no row.
+Expected<std::optional<std::vector<StoreReader::Cell>>> first_row(StoreReader& store,
+                                                                  const std::string& sql) {
+  std::optional<std::vector<StoreReader::Cell>> found;
+  const auto end = store.query(
+      sql, {.rows = 1}, [](const std::vector<std::string>&) {},
+      [&](const std::vector<StoreReader::Cell>& cells) { found = cells; });
+  if (!end) return Unexpected(end.error());
+  return found;
+}
+
+/// The mission of a design as its campaign has it.
+OrRefusal<Mission> mission_of_design(StoreReader& store, DesignId design, const std::string& name) {
+  const auto campaign = store.campaign_of(design);
+  if (!campaign) return refused(ExitCode::NoSuchId, campaign.error());
+  const auto document = parse_document(campaign->row.file, campaign->row.name);
+  if (document) {
+    Complaints complaints(campaign->row.name);
+    TableReader root(*document, "", complaints);
+    for (MissionEntry& entry : read_missions(root, "")) {
+      if (entry.mission.name == name) return std::move(entry.mission);
+    }
+  }
+  // A design that was imported may have come without its campaign's file.
+  auto built_in = built_in_mission(name);
+  if (built_in) return std::move(*built_in);
+  return refused(ExitCode::NoSuchId,
+                 {ErrorKind::NotFound,
+                  "the campaign of " + to_string(design) + " does not say what its mission \"" +
+                      name + "\" is; name a mission file: --mission FILE",
+                  {}});
+}
+
+Error no_such(const std::string& what, const std::string& store) {
+  return {ErrorKind::NotFound, what + "; `swarmsmith ls " + store + "` lists what there is", store};
+}
+
+/// The design's winner.
+OrRefusal<CandidateId> winner_of(StoreReader& reader, const std::string& store, DesignId design) {
+  const auto row = first_row(reader, "SELECT best_candidate, state FROM v_designs WHERE design = " +
+                                         std::to_string(design.value));
+  if (!row) return refused(ExitCode::Store, row.error());
+  if (!*row) {
+    return refused(ExitCode::NoSuchId,
+                   no_such("the store has no design " + to_string(design), store));
+  }
+  const StoreReader::Cell& best = (**row)[0];
+  if (best.type != StoreReader::Cell::Type::Integer) {
+    return refused(ExitCode::NoSuchId, {ErrorKind::NotFound,
+                                        "design " + to_string(design) +
+                                            " has no winner yet; name what ran: "
+                                            "--candidate",
+                                        store});
+  }
+  return CandidateId{std::stoll(best.text)};
+}
+
+}  // namespace
+
+OrRefusal<std::unique_ptr<StoreReader>> read_store(const std::string& store) {
+  auto reader = StoreReader::open(store);
+  if (!reader) return refused(ExitCode::Store, reader.error());
+  return std::move(*reader);
+}
+
+OrRefusal<RanControl> control_of(const std::string& store, const RunLog& log) {
+  auto reader = read_store(store);
+  if (!reader) return tl::unexpected(std::move(reader.error()));
+  RanControl control;
+  if (const auto named = id_from_text<CandidateTag>(log.candidate)) {
+    control.candidate = *named;
+  } else {
+    auto winner = winner_of(**reader, store, *id_from_text<DesignTag>(log.design));
+    if (!winner) return tl::unexpected(std::move(winner.error()));
+    control.candidate = *winner;
+  }
+  const auto row = first_row(**reader,
+                             "SELECT d.mission FROM v_candidates AS c JOIN v_designs AS d "
+                             "ON d.design = c.design WHERE c.candidate = " +
+                                 std::to_string(control.candidate.value));
+  if (!row) return refused(ExitCode::Store, row.error());
+  if (!*row) {
+    return refused(ExitCode::NoSuchId,
+                   no_such("the store has no candidate " + to_string(control.candidate), store));
+  }
+  auto mission = mission_of_design(**reader, design_of(control.candidate), (**row)[0].text);
+  if (!mission) return tl::unexpected(std::move(mission.error()));
+  control.mission = std::move(*mission);
+  return control;
+}
+
+OrRefusal<std::unique_ptr<StoreAtRest>> open_store(const std::string& store,
+                                                   StoreAtRest::IfMissing if_missing) {
+  for (int i = 1;; ++i) {
+    auto opened = StoreAtRest::open(store, if_missing);
+    if (opened) return std::move(*opened);
+    if (opened.error().kind != ErrorKind::Conflict || i == kTries) {
+      return refused(ExitCode::Store, opened.error());
+    }
+    std::this_thread::sleep_for(kPause);
+  }
+}
+
+OrRefusal<RealRunRows> find_run(StoreReader& store, const std::string& word) {
+  const auto id = id_from_text<RealRunTag>(word);
+  if (!id) {
+    return refused(ExitCode::Usage,
+                   {ErrorKind::BadInput, "\"" + word + "\" is no run; runs are called r7", {}});
+  }
+  auto run = store.real_run(*id);
+  if (!run) return refused(ExitCode::NoSuchId, run.error());
+  return std::move(*run);
+}
+
+}  // namespace swarmsmith::cli

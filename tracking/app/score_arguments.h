@@ -1,0 +1,39 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "console/options.h"
+
+namespace swarmsmith::cli {
+
+/// Which store: `--store`, else SWARMSMITH_STORE, else none (empty).
+std::string store_word(const std::string& option);
+
+/// The words of `track score`.
+struct ScoreArguments {
+  std::vector<std::string> videos;
+  std::vector<std::string> times;
+  std::string arena;
+  std::string run;
+  std::string mission;
+  std::string design;
+  std::string candidate;
+  std::string start;
+  std::optional<std::int64_t> sync_hidden;
+  std::optional<std::int64_t> sync_shown;
+  std::string patches;
+  std::string name;
+  std::string recorded;
+  bool takes_tags_for_centres = false;
+  std::string into;
+  std::string store;
+  std::string csv;
+  std::string report;
+
+  void declare(Options& options);
+};
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,225 @@
+#include "tracking/calibration/solve_place.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <opencv2/imgproc.hpp>
+
+#include "sim/mission/polygon.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Tags are in one line when they spread across it by less than this part of how they spread along.
+constexpr double kThin = 0.1;
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*middle + *std::max_element(values.begin(), middle)) / 2;
+}
+
+std::string list_of_ids(const std::vector<int>& ids) {
+  return ids.empty() ? std::string("none") : fmt::format("{}", fmt::join(ids, ", "));
+}
+
+/// "; seen: 100, 101; missing: 102".
+std::string seen_and_missing(const PlaceQuestion& question) {
+  std::vector<int> seen;
+  for (const SeenTag& tag : question.seen)
+    seen.push_back(tag.tag.tag);
+  std::vector<int> missing;
+  for (const ReferenceTag& tag : question.survey) {
+    if (std::ranges::find(seen, tag.tag) == seen.end()) missing.push_back(tag.tag);
+  }
+  return "; seen: " + list_of_ids(seen) + "; missing: " + list_of_ids(missing);
+}
+
+bool are_in_line(const std::vector<SeenTag>& seen) {
+  const auto count = static_cast<double>(seen.size());
+  Point mean;
+  for (const SeenTag& tag : seen) {
+    mean.x += tag.tag.pose.x / count;
+    mean.y += tag.tag.pose.y / count;
+  }
+  double xx = 0;
+  double xy = 0;
+  double yy = 0;
+  for (const SeenTag& tag : seen) {
+    const double x = tag.tag.pose.x - mean.x;
+    const double y = tag.tag.pose.y - mean.y;
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+  }
+  // Spreads along the two principal axes, squared.
+  const double half = std::hypot((xx - yy) / 2, xy);
+  const double along = (xx + yy) / 2 + half;
+  const double across = std::max(0.0, (xx + yy) / 2 - half);
+  return !(across > kThin * kThin * along);
+}
+
+/// How much of what the camera sees of the arena lies within the hull of the tags' corners, 0 to 1;
+/// counted on a grid of 2 cm.
+double coverage_of(const PlaceQuestion& question, const View& view) {
+  std::vector<cv::Point2f> corners;
+  for (const SeenTag& tag : question.seen) {
+    for (const Point& corner : corners_of(tag.tag))
+      corners.emplace_back(static_cast<float>(corner.x), static_cast<float>(corner.y));
+  }
+  std::vector<cv::Point2f> hull;
+  cv::convexHull(corners, hull);
+  std::vector<cv::Point2f> arena;
+  for (const Point& corner : question.arena)
+    arena.emplace_back(static_cast<float>(corner.x), static_cast<float>(corner.y));
+  const cv::Rect2f box = cv::boundingRect(arena);
+  constexpr int kCells_1_m = 50;
+  int seen = 0;
+  int covered = 0;
+  const auto cell = [](float at) { return static_cast<int>(std::floor(at * kCells_1_m)); };
+  for (int row = cell(box.y); row <= cell(box.br().y); ++row) {
+    for (int column = cell(box.x); column <= cell(box.br().x); ++column) {
+      const Point point{(column + 0.5) / kCells_1_m, (row + 0.5) / kCells_1_m};
+      if (!is_within(question.arena, point)) continue;
+      const Point3 from_camera = view.place.seen_from_camera({point.x, point.y, 0});
+      if (!(from_camera.z > 0)) continue;
+      const ImagePoint pixel = image_of(view.camera, from_camera);
+      if (!(pixel.u >= 0 && pixel.v >= 0 && pixel.u <= view.camera.size.width - 1 &&
+            pixel.v <= view.camera.size.height - 1)) {
+        continue;
+      }
+      ++seen;
+      const cv::Point2f floor(static_cast<float>(point.x), static_cast<float>(point.y));
+      if (cv::pointPolygonTest(hull, floor, false) >= 0) ++covered;
+    }
+  }
+  return seen == 0 ? 0 : static_cast<double>(covered) / seen;
+}
+
+/// Root mean square of the corners' distances on the floor, seen from a place.
+double floor_error(const SeenTag& seen, const View& view) {
+  const std::vector<Point> found = on_plane(view, seen.corners, 0);
+  const std::array<Point, 4> wanted = corners_of(seen.tag);
+  double squares = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i)
+    squares += std::pow(found[i].x - wanted[i].x, 2) + std::pow(found[i].y - wanted[i].y, 2);
+  return std::sqrt(squares / 4);
+}
+
+double tag_rms(const SeenTag& seen, const View& view) {
+  const std::array<Point, 4> wanted = corners_of(seen.tag);
+  double squares = 0;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const ImagePoint expected = image_of(view, Point3{wanted[i].x, wanted[i].y, 0});
+    squares +=
+        std::pow(seen.corners[i].u - expected.u, 2) + std::pow(seen.corners[i].v - expected.v, 2);
+  }
+  return std::sqrt(squares / 4);
+}
+
+/// Leaves each tag out in turn.
+void leave_out(const PlaceQuestion& question, PlaceCalibration& calibration) {
+  std::size_t farthest = 0;
+  std::size_t suspect = 0;
+  double least_rms = 0;
+  for (std::size_t i = 0; i < question.seen.size(); ++i) {
+    std::vector<SeenTag> others = question.seen;
+    others.erase(others.begin() + static_cast<std::ptrdiff_t>(i));
+    const auto fit = fit_place(others, question.camera);
+    // Others that fit no place at all are not better for this tag's absence.
+    const double rms = fit ? fit->rms_px : 1e9;
+    PlaceCalibration::Seen& seen = calibration.tags[i];
+    seen.left_out_m = fit ? floor_error(question.seen[i], {question.camera, fit->place}) : 1e9;
+    if (i == 0 || rms < least_rms) {
+      suspect = i;
+      least_rms = rms;
+    }
+    if (seen.left_out_m > calibration.tags[farthest].left_out_m) farthest = i;
+  }
+  calibration.worst_left_out_m = calibration.tags[farthest].left_out_m;
+  // One wrong tag pulls the others' fits along, so that theirs may be the larger error.
+  const bool is_wrong = calibration.worst_left_out_m > question.limits.left_out_m ||
+                        calibration.rms_px > question.limits.rms_px;
+  calibration.worst_tag = question.seen[is_wrong ? suspect : farthest].tag.tag;
+}
+
+}  // namespace
+
+std::vector<SeenTag> median_of_looks(const std::vector<std::vector<TagLook>>& looks,
+                                     std::span<const ReferenceTag> survey) {
+  std::vector<SeenTag> medians;
+  for (const ReferenceTag& tag : survey) {
+    std::array<std::vector<double>, 8> values;
+    for (const auto& look : looks) {
+      const auto same = [&](const TagLook& seen) { return seen.tag == tag.tag; };
+      // A tag that is there twice in one look tells nothing.
+      if (std::ranges::count_if(look, same) != 1) continue;
+      const TagCorners& corners = std::ranges::find_if(look, same)->corners;
+      for (std::size_t k = 0; k < 4; ++k) {
+        values[2 * k].push_back(corners[k].u);
+        values[2 * k + 1].push_back(corners[k].v);
+      }
+    }
+    if (values[0].empty() || 4 * values[0].size() < looks.size()) continue;
+    SeenTag seen{tag, {}};
+    for (std::size_t k = 0; k < 4; ++k)
+      seen.corners[k] = {median(values[2 * k]), median(values[2 * k + 1])};
+    medians.push_back(seen);
+  }
+  std::ranges::sort(medians, {}, [](const SeenTag& seen) { return seen.tag.tag; });
+  return medians;
+}
+
+Expected<PlaceCalibration> solve_place(const PlaceQuestion& question) {
+  const auto refuse = [&](IssueCode code, const std::string& text) {
+    return Unexpected(error_of(code, text + seen_and_missing(question), ""));
+  };
+  const auto count = static_cast<int>(question.seen.size());
+  if (count < question.limits.least_tags) {
+    return refuse(IssueCode::ReferenceTags,
+                  fmt::format("the camera sees {} of the surveyed floor tags, at least {} are "
+                              "needed; check their ids and the family in the arena file, the "
+                              "light, and that nothing lies on them",
+                              count, question.limits.least_tags));
+  }
+  if (are_in_line(question.seen)) {
+    return refuse(IssueCode::ReferenceTags,
+                  "the floor tags that are seen lie in one line; lay some beside it, at the walls");
+  }
+  const auto fit = fit_place(question.seen, question.camera);
+  if (!fit) {
+    return refuse(IssueCode::Extrinsics,
+                  "no place above the floor explains the floor tags; check x, y, angle and edge "
+                  "of each in the arena file");
+  }
+  const View view{question.camera, fit->place};
+  PlaceCalibration calibration;
+  calibration.place = fit->place;
+  calibration.rms_px = fit->rms_px;
+  for (const SeenTag& seen : question.seen)
+    calibration.tags.push_back({seen.tag, seen.corners, tag_rms(seen, view), 0});
+  calibration.coverage = coverage_of(question, view);
+  leave_out(question, calibration);
+  // What does not fit must be told first: the coverage of a wrong place means nothing.
+  std::vector<Error> faults = faults_of(calibration, question.limits);
+  const auto is_fit = [](const Error& e) { return e.message.starts_with("E_EXTRINSICS"); };
+  std::ranges::stable_partition(faults, is_fit);
+  if (!faults.empty()) {
+    faults.front().message += seen_and_missing(question);
+    return Unexpected(faults.front());
+  }
+  return calibration;
+}
+
+PlaceQuestion question_again(const PlaceCalibration& old, PlaceQuestion now) {
+  now.seen.clear();
+  for (const PlaceCalibration::Seen& seen : old.tags) {
+    const auto surveyed = std::ranges::find(now.survey, seen.tag.tag, &ReferenceTag::tag);
+    if (surveyed != now.survey.end()) now.seen.push_back({*surveyed, seen.corners});
+  }
+  return now;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,302 @@
+#include "tracking/scoring/real_run_rows.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "base/overloaded.h"
+#include "console/sha256.h"
+#include "sim/files/color_text.h"
+#include "sim/files/mission_file.h"
+#include "tracking/motion/resampling.h"
+
+namespace swarmsmith {
+namespace {
+
+std::array<double, 8> flat(const TagCorners& corners) {
+  std::array<double, 8> numbers{};
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    numbers.at(2 * i) = std::round(corners.at(i).u * 1000) / 1000;
+    numbers.at(2 * i + 1) = std::round(corners.at(i).v * 1000) / 1000;
+  }
+  return numbers;
+}
+
+/// The same run has the same key, whatever it is scored with.
+std::string key_of(const RunToStore& run) {
+  std::string text;
+  for (std::size_t i = 0; i < run.observations.cameras.size(); ++i) {
+    // To the millisecond: what is nearer is the same begin.
+    text += fmt::format("{} {:.3f}\n", run.observations.cameras[i].sha256, run.starts_s[i]);
+  }
+  return cli::sha256_of(text);
+}
+
+std::string sha256_of(const Rig& rig, const std::string& file) {
+  const auto found = rig.files.find(file);
+  return found == rig.files.end() ? std::string() : found->second.sha256;
+}
+
+void add_calibration(const Rig& rig, const std::string& file, CalibrationKind kind,
+                     const std::string& subject, double rms, RealRunRows& rows) {
+  const auto found = rig.files.find(file);
+  if (found == rig.files.end()) return;
+  const CalibrationFile& calibration = found->second;
+  const bool is_there = std::ranges::any_of(rows.calibrations, [&](const CalibrationRow& row) {
+    return row.sha256 == calibration.sha256;
+  });
+  if (is_there) return;
+  rows.calibrations.push_back({calibration.sha256, std::string(name_of(kind)), subject,
+                               calibration.made, rms, calibration.text});
+}
+
+void add_calibrations(const Rig& rig, RealRunRows& rows) {
+  for (const CameraSetup& camera : rig.cameras) {
+    const auto model = rig.models.find(camera.model_file);
+    if (model != rig.models.end()) {
+      add_calibration(rig, camera.model_file, CalibrationKind::Camera, camera.name,
+                      model->second.rms_px, rows);
+    }
+    const auto place = rig.places.find(camera.place_file);
+    if (place != rig.places.end()) {
+      add_calibration(rig, camera.place_file, CalibrationKind::Place, camera.name,
+                      place->second.rms_px, rows);
+    }
+  }
+  for (const RobotSetup& robot : rig.robots) {
+    const auto offset = rig.offsets.find(robot.offset_file);
+    if (offset != rig.offsets.end()) {
+      add_calibration(rig, robot.offset_file, CalibrationKind::Offset, robot.name,
+                      offset->second.rms_m, rows);
+    }
+  }
+}
+
+void add_videos(const RunToStore& run, RealRunRows& rows) {
+  for (std::size_t i = 0; i < run.observations.cameras.size(); ++i) {
+    const CameraRecord& record = run.observations.cameras[i];
+    RealVideoRow row{.number = static_cast<std::int64_t>(i),
+                     .camera = record.camera,
+                     .file = record.file,
+                     .sha256 = record.sha256,
+                     .time_source = std::string(name_of(record.time_source)),
+                     .width = record.size.width,
+                     .height = record.size.height,
+                     .frames = record.frames,
+                     .damaged_frames = record.damaged_frames};
+    for (const CameraSetup& camera : run.rig.cameras) {
+      if (camera.name != record.camera && run.rig.cameras.size() > 1) continue;
+      row.camera_calibration = sha256_of(run.rig, camera.model_file);
+      row.place_calibration = sha256_of(run.rig, camera.place_file);
+    }
+    row.frame_times = record.frame_times;
+    rows.videos.push_back(std::move(row));
+    for (const ReferenceLook& look : record.references) {
+      rows.references.push_back(
+          {static_cast<std::int64_t>(i), look.time_s, look.tag, flat(look.corners), look.frames});
+    }
+  }
+}
+
+void add_robots(const RunToStore& run, RealRunRows& rows) {
+  for (std::size_t i = 0; i < run.tracked.robots.size(); ++i) {
+    const TrackedRobot& robot = run.tracked.robots[i];
+    const auto of = [&](CycleKind kind) {
+      return static_cast<std::int64_t>(std::ranges::count(robot.cycles, kind));
+    };
+    RealRobotRow row{.robot = static_cast<std::int64_t>(i),
+                     .name = robot.name,
+                     .tag = robot.tag,
+                     .measured = of(CycleKind::Measured),
+                     .interpolated = of(CycleKind::Interpolated),
+                     .degraded = of(CycleKind::Degraded),
+                     .missing = of(CycleKind::Missing),
+                     .longest_gap_s = robot.longest_gap_s,
+                     .outliers = robot.outliers,
+                     .scale = robot.mean_scale,
+                     .residual_m = robot.mean_residual_m,
+                     .sigma_m = robot.sigma_m,
+                     .sigma_rad = robot.sigma_rad};
+    const auto setup = std::ranges::find(run.rig.robots, robot.name, &RobotSetup::name);
+    const bool is_centre = std::ranges::any_of(run.tracked.issues, [&](const Issue& issue) {
+      return issue.code == IssueCode::TagAsCentre && issue.robot == robot.name;
+    });
+    if (setup != run.rig.robots.end() && !is_centre) {
+      row.offset_calibration = sha256_of(run.rig, setup->offset_file);
+    }
+    if (i < run.scored.borders.size() && run.scored.borders[i]) {
+      row.border_m = run.scored.borders[i]->signed_m;
+      row.too_close = run.scored.borders[i]->too_close;
+    }
+    rows.robots.push_back(std::move(row));
+  }
+}
+
+void add_samples(const RunToStore& run, RealRunRows& rows) {
+  for (const Sighting& seen : run.observations.sightings) {
+    rows.samples.push_back({.video = seen.camera,
+                            .frame = seen.frame,
+                            .time_s = seen.time_s,
+                            .tag = seen.tag,
+                            .corners = flat(seen.corners),
+                            .hamming = seen.hamming,
+                            .margin = seen.margin});
+  }
+  for (std::size_t i = 0; i < run.tracked.robots.size(); ++i) {
+    for (const Sample& sample : run.tracked.robots[i].samples) {
+      RealSampleRow& row = rows.samples.at(sample.sighting);
+      row.robot = static_cast<std::int64_t>(i);
+      row.x = sample.pose.x;
+      row.y = sample.pose.y;
+      row.theta = sample.pose.theta;
+      row.use = static_cast<std::int64_t>(sample.use);
+    }
+  }
+}
+
+void add_cycles(const TrackedRun& run, RealRunRows& rows) {
+  for (int cycle = 0; cycle <= run.trajectory.instants(); ++cycle) {
+    for (std::size_t i = 0; i < run.robots.size(); ++i) {
+      const Pose& pose = cycle == 0 ? run.starts[i] : run.trajectory.at(cycle - 1)[i];
+      const CycleKind kind =
+          run.robots[i].cycles.at(static_cast<std::size_t>(std::max(cycle, 1) - 1));
+      rows.cycles.push_back({cycle, static_cast<std::int64_t>(i), pose.x, pose.y, pose.theta,
+                             static_cast<std::int64_t>(kind)});
+    }
+  }
+}
+
+RealPatchRow patch_row(const Patch& patch) {
+  RealPatchRow row{.color = color_text(patch.color)};
+  std::visit(Overloaded{[&](const Disc& disc) {
+                          row.x = disc.centre.x;
+                          row.y = disc.centre.y;
+                          row.radius_m = disc.radius_m;
+                        },
+                        [&](const Rectangle& box) {
+                          row.x = box.centre.x;
+                          row.y = box.centre.y;
+                          row.width_m = box.width_m;
+                          row.height_m = box.height_m;
+                        },
+                        // Patches of a run lie on places, which are rectangles.
+                        [](const FloorImage&) {}},
+             patch.shape);
+  return row;
+}
+
+void add_issues(const RunToStore& run, RealRunRows& rows) {
+  const std::vector<Issue>& observed = run.observations.issues;
+  for (const Issue& issue : run.scored.issues) {
+    const bool of_observing = std::ranges::find(observed, issue) != observed.end();
+    rows.issues.push_back({std::string(name_of(issue.code)), issue.text, issue.robot, issue.from,
+                           issue.to, of_observing});
+  }
+}
+
+TagCorners corners_of(const std::array<double, 8>& numbers) {
+  TagCorners corners;
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    corners.at(i) = {numbers.at(2 * i), numbers.at(2 * i + 1)};
+  return corners;
+}
+
+TimeSource time_source_of(const std::string& name) {
+  for (const TimeSource source : {TimeSource::Sidecar, TimeSource::Container}) {
+    if (name == name_of(source)) return source;
+  }
+  return TimeSource::FrameRate;
+}
+
+/// The sha256 of the calibration that a camera or robot had; empty when it took no part.
+std::string calibration_of(const RealRunRows& rows, CalibrationKind kind,
+                           const std::string& subject) {
+  for (const RealVideoRow& row : rows.videos) {
+    if (kind == CalibrationKind::Offset || row.camera != subject) continue;
+    return kind == CalibrationKind::Camera ? row.camera_calibration : row.place_calibration;
+  }
+  for (const RealRobotRow& row : rows.robots) {
+    if (kind == CalibrationKind::Offset && row.name == subject) return row.offset_calibration;
+  }
+  return {};
+}
+
+Observations observations_of(const RealRunRows& rows) {
+  Observations observations;
+  for (const RealVideoRow& row : rows.videos) {
+    CameraRecord record{.camera = row.camera, .file = row.file, .sha256 = row.sha256};
+    record.size = {static_cast<int>(row.width), static_cast<int>(row.height)};
+    record.frames = row.frames;
+    record.damaged_frames = row.damaged_frames;
+    record.time_source = time_source_of(row.time_source);
+    record.frame_times = row.frame_times;
+    for (const RealReferenceRow& look : rows.references) {
+      if (look.video != row.number) continue;
+      record.references.push_back({look.time_s, static_cast<int>(look.tag),
+                                   corners_of(look.corners), static_cast<int>(look.frames)});
+    }
+    observations.cameras.push_back(std::move(record));
+  }
+  for (const RealSampleRow& row : rows.samples) {
+    observations.sightings.push_back({static_cast<int>(row.video), row.frame, row.time_s,
+                                      static_cast<int>(row.tag), corners_of(row.corners),
+                                      static_cast<int>(row.hamming), row.margin});
+  }
+  for (const RealIssueRow& row : rows.issues) {
+    const auto code = issue_code_from_name(row.code);
+    if (!row.of_observing || !code) continue;
+    observations.issues.push_back({*code, row.text, row.robot, row.from_s, row.to_s});
+  }
+  return observations;
+}
+
+}  // namespace
+
+RealRunRows real_run_rows(const RunToStore& run) {
+  RealRunRows rows{.key = key_of(run),
+                   .name = run.log.name,
+                   .recorded = run.log.recorded,
+                   .source = run.log.source,
+                   .mission = run.log.mission.name,
+                   .arena_file = run.arena_text,
+                   .log = run_log_text(run.log),
+                   .mission_file = mission_text({.mission = run.log.mission}),
+                   .duration_s = instant_s(run.log.mission.cycles)};
+  add_calibrations(run.rig, rows);
+  add_videos(run, rows);
+  add_robots(run, rows);
+  add_samples(run, rows);
+  for (const Patch& patch : run.patches)
+    rows.patches.push_back(patch_row(patch));
+  add_cycles(run.tracked, rows);
+  add_issues(run, rows);
+  rows.score = {.score = run.scored.score,
+                .verdict = std::string(name_of(run.scored.verdict)),
+                .biased = run.scored.biased,
+                .reasons = nlohmann::json(run.scored.reasons)
+                               .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+  return rows;
+}
+
+OrComplaints<StoredRun> stored_run(const RealRunRows& rows) {
+  const FindCalibration find =
+      [&](CalibrationKind kind, const std::string& subject,
+          const std::string& /*file*/) -> Expected<std::optional<std::string>> {
+    const std::string used = calibration_of(rows, kind, subject);
+    for (const CalibrationRow& row : rows.calibrations) {
+      if (row.kind != name_of(kind)) continue;
+      if (used.empty() ? row.subject == subject : row.sha256 == used) return row.file;
+    }
+    return std::nullopt;
+  };
+  OrComplaints<Rig> rig = parse_rig(rows.arena_file, "arena.toml", find);
+  if (!rig) return tl::unexpected(std::move(rig.error()));
+  OrComplaints<RunLog> log = parse_run_log(rows.log, rows.name + ".toml");
+  if (!log) return tl::unexpected(std::move(log.error()));
+  return StoredRun{std::move(*rig), std::move(*log), observations_of(rows)};
+}
+
+}  // namespace swarmsmith
