@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <filesystem>
 #include <memory>
@@ -85,7 +86,8 @@ ExitCode record(const Words& words, Output& output) {
   const SourceInfo& info = (*source)->info();
   const std::optional<double> counted = counting_rate(info, *rate);
   VideoOptions options{.codec = words.codec, .live = true};
-  if (info.frame_rate > 0) options.frame_rate = info.frame_rate;
+  // What the header of a video with uneven times says may be anything.
+  if (info.frame_rate > 0) options.frame_rate = std::clamp(info.frame_rate, 1.0, 240.0);
   if (counted) options.frame_rate = *counted;
   if (words.quality) options.quality = static_cast<int>(*words.quality);
   catch_stop_signals();

@@ -91,7 +91,13 @@ Codec make_encoder(const AVCodec& encoder, const VideoChoice& choice, ImageSize 
     // A key frame a second, so that a damaged place costs a second at most.
     e.gop_size = std::max(1, static_cast<int>(std::lround(options.frame_rate)));
     e.max_b_frames = options.live ? 0 : options.b_frames;
-    av_opt_set_double(e.priv_data, "crf", std::max(1.0, kWorstFactor * worse), 0);
+    // A fixed quantiser, fixed places of key frames and of B frames: what x264 would weigh for
+    // better ones reads a little beyond its own buffers, so that its choice may differ each time.
+    const double factor = std::max(1.0, kWorstFactor * worse);
+    av_opt_set_int(e.priv_data, "qp", std::lround(factor), 0);
+    av_opt_set_int(e.priv_data, "sc_threshold", 0, 0);
+    av_opt_set_int(e.priv_data, "b_strategy", 0, 0);
+    av_opt_set_int(e.priv_data, "weightp", 0, 0);
     av_opt_set(e.priv_data, "preset", options.live ? "superfast" : "veryfast", 0);
     if (options.live) av_opt_set(e.priv_data, "tune", "zerolatency", 0);
   } else if (choice.codec->name == "mjpeg") {
