@@ -15,6 +15,7 @@ class Counter {
   /// Says "VERB 3 of 11 NOUN". `output` must outlive the object.
   Counter(Output& output, std::string verb, std::string noun);
 
+  /// `of` is 0 while nobody knows how many there are; the line goes away when all are done.
   void tell(std::int64_t done, std::int64_t of);
 
  private:

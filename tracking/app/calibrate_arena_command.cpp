@@ -6,7 +6,7 @@
 #include "sim/files/mission_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/complaints.h"
+#include "tracking/app/refusal.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/calibration/solve_place.h"
 #include "tracking/detection/tag_detector.h"
@@ -89,7 +89,7 @@ Expected<PlaceQuestion> question_of(const Arguments& arguments, const Rig& rig,
       return Unexpected(error_of(IssueCode::Config,
                                  "--again needs the place that was found before, and there is "
                                  "none; give a video of the empty arena instead",
-                                 beside(rig.file, camera.place_file)));
+                                 beside(arguments.arena, camera.place_file)));
     }
     return question_again(old->second, std::move(question));
   }
@@ -107,7 +107,7 @@ ExitCode solve(const Arguments& arguments, const Rig& rig, const CameraSetup& ca
                                       "camera \"" + camera.name +
                                           "\" is not calibrated yet; first `swarmsmith track "
                                           "calibrate camera`",
-                                      beside(rig.file, camera.model_file))});
+                                      beside(arguments.arena, camera.model_file))});
   }
   const auto question = question_of(arguments, rig, camera, arena, output);
   if (!question) return fail_all(output, {question.error()});
@@ -116,7 +116,7 @@ ExitCode solve(const Arguments& arguments, const Rig& rig, const CameraSetup& ca
   calibration->camera_sha256 = model->second.sha256;
   calibration->made = utc_now();
   const std::string file =
-      arguments.file.empty() ? beside(rig.file, camera.place_file) : arguments.file;
+      arguments.file.empty() ? beside(arguments.arena, camera.place_file) : arguments.file;
   if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
   output.out << (output.json ? json_of(*calibration, file) : report_text(*calibration));

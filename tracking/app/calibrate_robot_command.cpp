@@ -5,7 +5,7 @@
 #include "console/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/complaints.h"
+#include "tracking/app/refusal.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
@@ -103,7 +103,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
     fault.where = arguments.spin;
   if (!faults.empty()) return fail_all(output, faults);
   const std::string file =
-      arguments.file.empty() ? beside(rig->file, robot->offset_file) : arguments.file;
+      arguments.file.empty() ? beside(arguments.arena, robot->offset_file) : arguments.file;
   if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
   if (output.json) output.out << json_of(*calibration, file);

@@ -10,6 +10,9 @@ namespace swarmsmith::cli {
 /// its `declare_` function, a line here, an entry in commands.cpp, a section in docs/tracking.md.
 std::span<const Command> track_commands();
 
+Run declare_track_score(Options& options);
+Run declare_track_rescore(Options& options);
+Run declare_track_override(Options& options);
 Run declare_track_init(Options& options);
 Run declare_track_check(Options& options);
 Run declare_calibrate_camera(Options& options);
@@ -18,6 +21,7 @@ Run declare_calibrate_robot(Options& options);
 Run declare_print_tags(Options& options);
 Run declare_print_board(Options& options);
 Run declare_print_survey(Options& options);
+Run declare_track_report(Options& options);
 Run declare_record(Options& options);
 Run declare_track_version(Options& options);
 

@@ -195,7 +195,8 @@ TEST(VideoFile, RefusesAbsurdSizesBeforeItMakesRoomForThem) {
   EXPECT_TRUE(large.error || large.damaged == 5);
   // 20 x 16400: few pixels, but no camera.
   write_bytes(folder / "c.avi", with_size(bytes, std::string_view("\x00\x14\x40\x10", 4)));
-  EXPECT_THAT(error_of(read_video(folder / "c.avi")), HasSubstr("pixels are not taken (at most 16384 a side"));
+  EXPECT_THAT(error_of(read_video(folder / "c.avi")),
+              HasSubstr("pixels are not taken (at most 16384 a side"));
 }
 
 }  // namespace

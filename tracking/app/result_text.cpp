@@ -1,0 +1,177 @@
+#include "tracking/app/result_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "console/output.h"
+#include "sim/files/toml_text.h"
+#include "sim/mission/trajectory_csv.h"
+#include "tracking/rig/calibration_limits.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// A robot as both kinds of answers speak of it.
+struct RobotLine {
+  std::string name;
+  std::int64_t tag = 0;
+  double measured = 0;  ///< share of its cycles
+  std::int64_t cycles = 0;
+  std::int64_t missing = 0;
+  double longest_gap_s = 0;
+  double sigma_m = 0;
+  std::optional<double> border_m;
+  bool too_close = false;
+};
+
+struct Result {
+  std::string name, mission, verdict;
+  std::optional<double> score;
+  bool biased = false;
+  std::vector<std::string> reasons;
+  std::vector<RobotLine> robots;
+  std::vector<std::pair<std::string, std::string>> issues;  ///< code and sentence
+};
+
+Result result_of(const RunLog& log, const RunAnalysis& analysis) {
+  const ScoredRun& scored = analysis.scored;
+  Result result{.name = log.name,
+                .mission = log.mission.name,
+                .verdict = std::string(name_of(scored.verdict)),
+                .score = scored.score,
+                .biased = scored.biased,
+                .reasons = scored.reasons,
+                .robots = {},
+                .issues = {}};
+  for (std::size_t i = 0; i < analysis.tracked.robots.size(); ++i) {
+    const TrackedRobot& robot = analysis.tracked.robots[i];
+    RobotLine line{.name = robot.name, .tag = robot.tag};
+    line.cycles = static_cast<std::int64_t>(robot.cycles.size());
+    line.measured = static_cast<double>(std::ranges::count(robot.cycles, CycleKind::Measured)) /
+                    static_cast<double>(std::max<std::int64_t>(line.cycles, 1));
+    line.missing = std::ranges::count(robot.cycles, CycleKind::Missing);
+    line.longest_gap_s = robot.longest_gap_s;
+    line.sigma_m = robot.sigma_m;
+    if (i < scored.borders.size() && scored.borders[i]) {
+      line.border_m = scored.borders[i]->signed_m;
+      line.too_close = scored.borders[i]->too_close;
+    }
+    result.robots.push_back(line);
+  }
+  for (const Issue& issue : scored.issues)
+    result.issues.emplace_back(name_of(issue.code), issue.text);
+  return result;
+}
+
+Result result_of(const RealRunRows& rows) {
+  Result result{.name = rows.name,
+                .mission = rows.mission,
+                .verdict = rows.score.verdict,
+                .score = rows.score.score,
+                .biased = rows.score.biased,
+                .reasons = {},
+                .robots = {},
+                .issues = {}};
+  for (const RealRobotRow& row : rows.robots) {
+    RobotLine line{.name = row.name, .tag = row.tag};
+    line.cycles = row.measured + row.interpolated + row.degraded + row.missing;
+    line.measured = static_cast<double>(row.measured) /
+                    static_cast<double>(std::max<std::int64_t>(line.cycles, 1));
+    line.missing = row.missing;
+    line.longest_gap_s = row.longest_gap_s;
+    line.sigma_m = row.sigma_m;
+    line.border_m = row.border_m;
+    line.too_close = row.too_close;
+    result.robots.push_back(line);
+  }
+  for (const RealIssueRow& row : rows.issues)
+    result.issues.emplace_back(row.code, row.text);
+  return result;
+}
+
+std::string robot_text(const RobotLine& robot, std::size_t width) {
+  std::string text = fmt::format(
+      "  {:<{}}  tag {:>3}  seen {:>5.1f} %  longest gap {:.2f} s  sigma {}", robot.name, width,
+      robot.tag, 100 * robot.measured, robot.longest_gap_s, millimetres(robot.sigma_m));
+  if (robot.missing > 0) text += fmt::format("  {} cycles missing", robot.missing);
+  if (robot.border_m) {
+    text += fmt::format("  {} {} its border{}", millimetres(std::abs(*robot.border_m)),
+                        *robot.border_m >= 0 ? "inside" : "outside",
+                        robot.too_close ? ": too close to call" : "");
+  }
+  return text + "\n";
+}
+
+std::string text_of(const Result& result) {
+  std::string text =
+      fmt::format("{}: {}, score {}, {}{}\n", result.name, result.mission, score_text(result.score),
+                  result.verdict, result.biased ? ", BIASED (tags taken for centres)" : "");
+  std::size_t width = 4;
+  for (const RobotLine& robot : result.robots)
+    width = std::max(width, robot.name.size());
+  for (const RobotLine& robot : result.robots)
+    text += robot_text(robot, width);
+  for (const std::string& reason : result.reasons)
+    text += "  because " + reason + "\n";
+  for (const auto& [code, sentence] : result.issues)
+    text += "  " + code + ": " + sentence + "\n";
+  return text;
+}
+
+std::string json_of(const Result& result) {
+  const auto robot_json = [](const RobotLine& robot) {
+    return fmt::format(
+        R"({{"name":{},"tag":{},"measured":{},"missing_cycles":{},"longest_gap_s":{},"sigma_m":{},)"
+        R"("border_m":{},"too_close":{}}})",
+        json_text(robot.name), robot.tag, json_number(robot.measured), robot.missing,
+        json_number(robot.longest_gap_s), json_number(robot.sigma_m),
+        robot.border_m ? json_number(*robot.border_m) : "null", robot.too_close);
+  };
+  const auto issue_json = [](const std::pair<std::string, std::string>& issue) {
+    return "{\"code\":" + json_text(issue.first) + ",\"text\":" + json_text(issue.second) + "}";
+  };
+  return fmt::format(
+      R"("name":{},"mission":{},"score":{},"verdict":{},"biased":{},"reasons":[{}],"robots":[{}],)"
+      R"("issues":[{}])",
+      json_text(result.name), json_text(result.mission),
+      result.score ? json_number(*result.score) : "null", json_text(result.verdict), result.biased,
+      list_of(result.reasons, json_text), list_of(result.robots, robot_json),
+      list_of(result.issues, issue_json));
+}
+
+}  // namespace
+
+std::string score_text(const std::optional<double>& score) {
+  return score ? number_text(*score) : "no score";
+}
+
+std::string result_text(const RunLog& log, const RunAnalysis& analysis) {
+  return text_of(result_of(log, analysis));
+}
+std::string result_json(const RunLog& log, const RunAnalysis& analysis) {
+  return json_of(result_of(log, analysis));
+}
+std::string result_text(const RealRunRows& rows) {
+  return text_of(result_of(rows));
+}
+std::string result_json(const RealRunRows& rows) {
+  return json_of(result_of(rows));
+}
+
+std::string trajectory_csv(const TrackedRun& tracked) {
+  std::string text(kTrajectoryColumns);
+  text += kCsvLineEnd;
+  const auto add = [&](int cycle, std::span<const Pose> poses) {
+    for (std::size_t robot = 0; robot < poses.size(); ++robot) {
+      append_pose_cells(text, cycle, static_cast<int>(robot), poses[robot]);
+      text += kCsvLineEnd;
+    }
+  };
+  add(0, tracked.starts);
+  for (int instant = 0; instant < tracked.trajectory.instants(); ++instant)
+    add(instant + 1, tracked.trajectory.at(instant));
+  return text;
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,365 @@
+#include "tracking/app/run_plan.h"
+
+#include <algorithm>
+
+#include "base/id.h"
+#include "sim/files/file_text.h"
+#include "sim/files/mission_file.h"
+#include "sim/mission/instance_csv.h"
+#include "tracking/app/run_checks.h"
+#include "tracking/app/run_store.h"
+#include "tracking/rig/rig_file.h"
+#include "tracking/scoring/run_patches.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+Error wrong_option(const std::string& text, const std::string& option) {
+  return error_of(IssueCode::Config, text, option);
+}
+
+/// A run log for a video that has none.
+RunLog log_of_words(const std::vector<std::string>& videos) {
+  RunLog log;
+  if (!videos.empty()) log.name = fs::path(videos.front()).stem().string();
+  for (const std::string& video : videos)
+    log.videos.push_back({.camera = {}, .file = video, .times = {}});
+  return log;
+}
+
+/// The files of the log's videos and sidecars, found from where each was named: words from here,
+/// the log's from its folder.
+struct VideoFiles {
+  std::vector<fs::path> videos;
+  std::vector<fs::path> times;  ///< empty: none
+};
+
+/// "run07.times.csv" beside "run07.mp4", if it is there.
+fs::path sidecar_beside(const fs::path& video) {
+  for (fs::path file :
+       {fs::path(video).replace_extension(".times.csv"), fs::path(video).concat(".times.csv")}) {
+    std::error_code trouble;
+    if (fs::exists(file, trouble)) return file;
+  }
+  return {};
+}
+
+OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
+  const auto count = log.videos.size();
+  if (count == 0) {
+    return refused(ExitCode::Usage, wrong_option("which video? Name its file, or a run log with "
+                                                 "[[video]]",
+                                                 "VIDEO"));
+  }
+  if (!arguments.videos.empty() && arguments.videos.size() != count) {
+    return refused(ExitCode::Usage, wrong_option("the run log has " + std::to_string(count) +
+                                                     " videos; name as many, or none",
+                                                 "VIDEO"));
+  }
+  if (!arguments.times.empty() && arguments.times.size() != count) {
+    return refused(ExitCode::Usage, wrong_option("there are " + std::to_string(count) +
+                                                     " videos; give --times for each",
+                                                 "--times"));
+  }
+  const fs::path folder = fs::path(arguments.run).parent_path();
+  VideoFiles files;
+  for (std::size_t i = 0; i < count; ++i) {
+    RunVideo& video = log.videos[i];
+    if (!arguments.videos.empty()) video.file = arguments.videos[i];
+    // `camera:0` and addresses are no files.
+    const bool from_here = !arguments.videos.empty() || video.file.find("://") != std::string::npos;
+    files.videos.push_back(from_here ? fs::path(video.file) : folder / video.file);
+    if (!arguments.times.empty()) {
+      video.times = arguments.times[i];
+      files.times.emplace_back(video.times);
+    } else if (!video.times.empty()) {
+      files.times.push_back(folder / video.times);
+    } else {
+      files.times.push_back(sidecar_beside(files.videos.back()));
+      video.times = files.times.back().filename().string();
+    }
+  }
+  return files;
+}
+
+/// `--start 12.4`, `--start "12.4 s"`, `--sync-hidden 99`.
+void take_start(const ScoreArguments& arguments, RunLog& log, std::vector<Error>& errors) {
+  const int given = (arguments.start.empty() ? 0 : 1) + (arguments.sync_hidden ? 1 : 0) +
+                    (arguments.sync_shown ? 1 : 0);
+  if (given > 1) {
+    errors.push_back(
+        wrong_option("only one of --start, --sync-hidden and --sync-shown says when "
+                     "the run begins",
+                     "--start"));
+  }
+  if (given > 0) log.start = {};
+  if (!arguments.start.empty()) {
+    log.start.time_s = parse_seconds(arguments.start);
+    if (!log.start.time_s) log.start.time_s = parse_seconds(arguments.start + " s");
+    if (!log.start.time_s || !(*log.start.time_s > -1e12 && *log.start.time_s < 1e12)) {
+      errors.push_back(
+          wrong_option("`--start` must be a time, such as 12.4 or \"12.4 s\"; this is "
+                       "\"" +
+                           arguments.start + "\"",
+                       "--start"));
+    }
+  }
+  if (arguments.sync_hidden) {
+    log.start.sync_tag = static_cast<int>(*arguments.sync_hidden);
+    log.start.sync = RunStart::Sync::Hidden;
+  }
+  if (arguments.sync_shown) {
+    log.start.sync_tag = static_cast<int>(*arguments.sync_shown);
+    log.start.sync = RunStart::Sync::Shown;
+  }
+  if (!log.start.time_s && log.start.sync == RunStart::Sync::None && errors.empty()) {
+    errors.push_back(
+        wrong_option("when does the run begin? Say it in the run log (`start` or "
+                     "`sync`) or by --start, --sync-hidden or --sync-shown; the first "
+                     "frame is not the begin",
+                     "--start"));
+  }
+}
+
+/// `--design d3` or 3, `--candidate c812` or 812.
+void take_control(const ScoreArguments& arguments, RunLog& log, std::vector<Error>& errors) {
+  const auto lettered = [](const std::string& word, char letter) {
+    const bool is_number = word.find_first_not_of("0123456789") == std::string::npos;
+    return is_number ? letter + word : word;
+  };
+  if (!arguments.design.empty() && !arguments.candidate.empty()) {
+    errors.push_back(
+        wrong_option("a candidate has its design with it; give --design or "
+                     "--candidate",
+                     "--candidate"));
+  }
+  if (!arguments.design.empty()) {
+    log.design = lettered(arguments.design, 'd');
+    log.candidate.clear();
+    if (!id_from_text<DesignTag>(log.design)) {
+      errors.push_back(wrong_option("\"" + arguments.design +
+                                        "\" is no design; designs are called "
+                                        "d3",
+                                    "--design"));
+    }
+  }
+  if (!arguments.candidate.empty()) {
+    log.candidate = lettered(arguments.candidate, 'c');
+    log.design.clear();
+    if (!id_from_text<CandidateTag>(log.candidate)) {
+      errors.push_back(wrong_option("\"" + arguments.candidate +
+                                        "\" is no candidate; candidates "
+                                        "are called c812",
+                                    "--candidate"));
+    }
+  }
+}
+
+void take_patches(const ScoreArguments& arguments, RunLog& log, std::vector<Error>& errors) {
+  if (arguments.patches.empty()) return;
+  log.layout = {};
+  if (arguments.patches == "measured") {
+    log.layout.source = RunLayout::Source::Measured;
+    return;
+  }
+  const auto text = read_file(arguments.patches, "patch");
+  if (!text) return errors.push_back(text.error());
+  const auto by_seed = parse_patches_csv(*text);
+  if (!by_seed) {
+    Error error = by_seed.error();
+    error.where = arguments.patches + ":" + error.where;
+    return errors.push_back(std::move(error));
+  }
+  if (by_seed->size() != 1) {
+    return errors.push_back(
+        wrong_option("the patches of one run are wanted, the file has those "
+                     "of " +
+                         std::to_string(by_seed->size()) + " seeds",
+                     arguments.patches));
+  }
+  log.layout.source = RunLayout::Source::Log;
+  log.layout.patches = by_seed->begin()->second;
+}
+
+/// What the words of the command line change about the log.
+std::vector<Error> take_options(const ScoreArguments& arguments, RunLog& log) {
+  std::vector<Error> errors;
+  take_start(arguments, log, errors);
+  take_control(arguments, log, errors);
+  take_patches(arguments, log, errors);
+  if (!arguments.mission.empty()) {
+    auto mission = find_mission(arguments.mission, "");
+    if (mission) {
+      log.mission = std::move(mission->mission);
+    } else {
+      for (Error& error : mission.error())
+        errors.push_back(error_of(IssueCode::Config, std::move(error.message),
+                                  error.where.empty() ? "--mission" : std::move(error.where)));
+    }
+  }
+  if (!arguments.name.empty()) {
+    log.name = arguments.name;
+    if (!is_name(log.name)) {
+      errors.push_back(
+          wrong_option("a name consists of letters, digits, `_`, `-` and `.`", "--name"));
+    }
+  }
+  if (!arguments.recorded.empty()) {
+    const auto dated = parse_run_log("format = 1\nrecorded = " + arguments.recorded + "\n", "");
+    if (dated && dated->recorded == arguments.recorded) {
+      log.recorded = dated->recorded;
+    } else {
+      errors.push_back(wrong_option(
+          "`--recorded` must be a date, such as 2026-11-21; this is \"" + arguments.recorded + "\"",
+          "--recorded"));
+    }
+  }
+  return errors;
+}
+
+/// The store, and what ran: with its mission when the log does not say one.
+OrRefusal<void> settle_control(const ScoreArguments& arguments, RunPlan& plan) {
+  plan.store = !arguments.into.empty() ? arguments.into : store_word(arguments.store);
+  RunLog& log = plan.log;
+  const bool says_control = !log.design.empty() || !log.candidate.empty();
+  if (!arguments.into.empty() && !says_control) plan.if_missing = StoreAtRest::IfMissing::Make;
+  if (!plan.store.empty()) {
+    // Only to be refused before the video is looked at; it is opened again when there is something
+    // to write, so that a campaign can go on meanwhile.
+    auto store = open_store(plan.store, plan.if_missing);
+    if (!store) return tl::unexpected(std::move(store.error()));
+  }
+  if (says_control && plan.store.empty()) {
+    return refused(
+        ExitCode::Usage,
+        wrong_option("a design or candidate is one of a store: name it by --into", "--into"));
+  }
+  if (says_control) {
+    auto control = control_of(plan.store, log);
+    if (!control) return tl::unexpected(std::move(control.error()));
+    plan.candidate = control->candidate;
+    if (log.mission.name.empty()) log.mission = control->mission;
+    if (log.mission.name != control->mission.name) {
+      return refused(
+          ExitCode::NoSuchId,
+          {ErrorKind::NotFound,
+           to_string(plan.candidate) + " was designed for mission \"" + control->mission.name +
+               "\", the run is of mission \"" + log.mission.name + "\"",
+           plan.store});
+    }
+  }
+  if (log.mission.name.empty()) {
+    return refused(
+        wrong_option("which mission? Say it in the run log, by --mission, or by the "
+                     "design that ran: --design",
+                     "--mission"));
+  }
+  return {};
+}
+
+/// Patches that are said must be the mission's; those to be measured are looked for later.
+OrRefusal<void> settle_layout(RunLog& log) {
+  if (log.layout.source == RunLayout::Source::Measured) {
+    log.layout.patches.clear();
+    if (log.mission.shuffled.places.empty()) log.layout = {};
+    return {};
+  }
+  auto patches = run_patches(log.mission, said_patches(log));
+  if (!patches) return refused(patches.error());
+  return {};
+}
+
+/// Opens what is looked at; the first of several videos that cannot be opened is told.
+OrRefusal<void> open_videos(const VideoFiles& files, RunPlan& plan) {
+  for (std::size_t i = 0; i < files.videos.size(); ++i) {
+    auto source = FrameSource::open(files.videos[i].string());
+    if (!source) return refused(source.error());
+    const SourceInfo& info = (*source)->info();
+    const CameraSetup& camera = plan.rig.cameras[i];
+    const ImageSize size = plan.rig.models.at(camera.model_file).model.size;
+    if (!(info.size == size)) {
+      const auto text = [](ImageSize of) {
+        return std::to_string(of.width) + "x" + std::to_string(of.height);
+      };
+      return refused(error_of(IssueCode::CalibrationSize,
+                              "calibration " + camera.model_file + " is for " + text(size) +
+                                  ", the video has " + text(info.size) +
+                                  "; film with the size of picture that the camera was calibrated "
+                                  "with, or calibrate it again",
+                              files.videos[i].string()));
+    }
+    std::optional<std::vector<double>> times;
+    if (!files.times[i].empty()) {
+      const auto text = read_file(files.times[i], "frame times");
+      if (!text)
+        return refused(
+            error_of(IssueCode::SidecarMismatch, text.error().message, text.error().where));
+      auto parsed = parse_frame_times(*text);
+      if (!parsed) {
+        Error error = parsed.error();
+        error.where = files.times[i].string() + (error.where.empty() ? "" : ":" + error.where);
+        return refused(std::move(error));
+      }
+      times = std::move(*parsed);
+    }
+    auto clock = FrameClock::of(info, std::move(times));
+    if (!clock) return refused(clock.error());
+    plan.videos.push_back({files.videos[i], std::move(*source), std::move(*clock)});
+  }
+  return {};
+}
+
+}  // namespace
+
+OrRefusal<ArenaFile> read_arena_file(const std::string& file) {
+  auto text = read_file(file, "arena");
+  if (!text) return refused(error_of(IssueCode::Config, text.error().message, text.error().where));
+  auto rig = parse_rig(*text, file);
+  if (!rig) return refused(std::move(rig.error()));
+  return ArenaFile{std::move(*text), std::move(*rig)};
+}
+
+OrRefusal<RunPlan> plan_run(const ScoreArguments& arguments) {
+  RunPlan plan;
+  plan.takes_tags_for_centres = arguments.takes_tags_for_centres;
+  std::vector<Error> errors;
+  if (arguments.run.empty()) {
+    plan.log = log_of_words(arguments.videos);
+  } else if (auto log = read_run_log(arguments.run)) {
+    plan.log = std::move(*log);
+    if (plan.log.videos.empty()) plan.log.videos = log_of_words(arguments.videos).videos;
+  } else {
+    errors = std::move(log.error());
+  }
+  auto arena = read_arena_file(arguments.arena);
+  if (!arena) {
+    errors.insert(errors.end(), arena.error().errors.begin(), arena.error().errors.end());
+  }
+  if (!errors.empty()) return refused(std::move(errors));
+  plan.arena_text = std::move(arena->text);
+  plan.whole_rig = std::move(arena->rig);
+
+  auto files = files_of(arguments, plan.log);
+  if (!files) return tl::unexpected(std::move(files.error()));
+  errors = take_options(arguments, plan.log);
+  for (Error& error : settle_names(plan.log, plan.whole_rig))
+    errors.push_back(std::move(error));
+  if (!errors.empty()) return refused(std::move(errors));
+  if (auto settled = settle_control(arguments, plan); !settled) {
+    return tl::unexpected(std::move(settled.error()));
+  }
+  plan.rig = rig_of_run(plan.whole_rig, plan.log);
+  errors = faults_of_rig(plan.rig, plan.log.mission, plan.takes_tags_for_centres);
+  if (!errors.empty()) return refused(std::move(errors));
+  if (auto settled = settle_layout(plan.log); !settled) {
+    return tl::unexpected(std::move(settled.error()));
+  }
+  if (auto opened = open_videos(*files, plan); !opened) {
+    return tl::unexpected(std::move(opened.error()));
+  }
+  return plan;
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,104 @@
+#include <memory>
+
+#include "base/id.h"
+#include "console/whole_file.h"
+#include "tracking/app/commands.h"
+#include "tracking/app/result_text.h"
+#include "tracking/app/run_plan.h"
+#include "tracking/app/run_report.h"
+#include "tracking/app/run_store.h"
+#include "tracking/app/watch_run.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// Opened again only now: a campaign may have run while the video was looked at.
+OrRefusal<RealRunWritten> keep(const RunPlan& plan, const RealRunRows& rows) {
+  auto store = open_store(plan.store, plan.if_missing);
+  if (!store) return tl::unexpected(std::move(store.error()));
+  auto written = (*store)->add_real_run(rows);
+  if (written) return *written;
+  return refused(written.error().kind == ErrorKind::NotFound ? ExitCode::NoSuchId : ExitCode::Store,
+                 written.error());
+}
+
+Expected<void> write_files(const ScoreArguments& arguments, const RunAnalysis& analysis,
+                           const ReportedRun& reported) {
+  if (!arguments.csv.empty()) {
+    auto written = write_whole_file(arguments.csv, trajectory_csv(analysis.tracked));
+    if (!written) return written;
+  }
+  if (arguments.report.empty()) return {};
+  return write_whole_file(arguments.report, quality_html(reported));
+}
+
+void print_result(const RunPlan& plan, const RunAnalysis& analysis,
+                  const std::optional<RealRunWritten>& written, Output& output) {
+  const std::string id = written ? to_string(written->id) : "";
+  if (output.json) {
+    output.out << "{" << result_json(plan.log, analysis);
+    if (written) {
+      output.out << ",\"store\":" << json_text(plan.store) << ",\"run\":" << json_text(id)
+                 << ",\"new\":" << (written->is_new ? "true" : "false");
+    }
+    output.out << "}\n";
+    return;
+  }
+  output.out << result_text(plan.log, analysis);
+  if (!written) {
+    print_note(output, "It is not stored; --into STORE keeps it.");
+    return;
+  }
+  if (!written->is_new) {
+    output.out << "It was there already, as " << id << " in " << plan.store
+               << "; nothing was added.\n";
+    return;
+  }
+  output.out << "Stored as " << id << " in " << plan.store << ".\n";
+  if (analysis.scored.verdict == Verdict::Invalid) {
+    print_note(output,
+               "An INVALID score is kept out of statistics. Mend what it says and `swarmsmith "
+               "track rescore " +
+                   id +
+                   "`, film again, or take it upon you: `swarmsmith "
+                   "track override " +
+                   id + " --verdict valid --who NAME --reason TEXT`.");
+  } else {
+    print_note(output,
+               "Look at it: `swarmsmith track report " + id + "`, `swarmsmith track overlay`.");
+  }
+}
+
+ExitCode run(const ScoreArguments& arguments, Output& output) {
+  auto plan = plan_run(arguments);
+  if (!plan) return fail(output, plan.error());
+  const auto observations = watch_run(*plan, output);
+  if (!observations) return fail(output, observations.error());
+  const auto analysis =
+      analyse(*observations, plan->rig, plan->whole_rig, plan->log, plan->takes_tags_for_centres);
+  if (!analysis) return fail(output, analysis.error());
+  const ReportedRun reported = reported_run(plan->rig, plan->log, *observations, *analysis);
+  std::optional<RealRunWritten> written;
+  if (!plan->store.empty()) {
+    const auto kept = keep(*plan, rows_of(reported, *analysis, plan->arena_text, plan->candidate));
+    if (!kept) return fail(output, kept.error());
+    written = *kept;
+  }
+  print_result(*plan, *analysis, written, output);
+  if (const auto files = write_files(arguments, *analysis, reported); !files) {
+    return fail(output, ExitCode::Failed, files.error());
+  }
+  const bool is_known = written && !written->is_new;
+  const bool is_invalid = analysis->scored.verdict == Verdict::Invalid;
+  return is_invalid && !is_known ? ExitCode::InvalidRun : ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_track_score(Options& options) {
+  auto arguments = std::make_shared<ScoreArguments>();
+  arguments->declare(options);
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli
