@@ -20,6 +20,13 @@ constexpr std::string_view kPrintBoardDetails =
     "A ChArUco board counts its squares, a chessboard its inner corners; edges are in metres.\n"
     "Glue it on something flat, measure the squares, and give the measured board to\n"
     "`swarmsmith track calibrate camera`.";
+constexpr std::string_view kTrackReportDetails =
+    "Examples:\n"
+    "  swarmsmith track report r7 --store lab.db -o r7.html\n"
+    "  swarmsmith track report r7 --store lab.db --json\n"
+    "\n"
+    "Verdict and reasons, the run from above, how each robot was measured, cameras, floor tags,\n"
+    "files. --json prints the same numbers as one object (docs/tracking.md lists its keys).";
 constexpr std::string_view kPrintSurveyDetails =
     "Example:\n"
     "  swarmsmith track print survey --ids 100-105 --edge 0.10 -o survey.pdf\n"
@@ -95,6 +102,8 @@ constexpr std::array kCommands = {
             declare_print_board},
     Command{"print survey", "A form to fill in with the places of the floor tags",
             kPrintSurveyDetails, declare_print_survey},
+    Command{"report", "Write the quality report of a stored run, a page of HTML",
+            kTrackReportDetails, declare_track_report},
     Command{"record", "Record a camera with the time of each frame",
             "A camera is `camera:0`, `camera:0:1920x1080@30`, an address (`rtsp://...`) or any\n"
             "other word that OpenCV opens (`opencv:WORD`). Beside FILE.mkv stands FILE.times.csv\n"

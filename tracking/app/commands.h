@@ -21,6 +21,7 @@ Run declare_calibrate_robot(Options& options);
 Run declare_print_tags(Options& options);
 Run declare_print_board(Options& options);
 Run declare_print_survey(Options& options);
+Run declare_track_report(Options& options);
 Run declare_record(Options& options);
 Run declare_track_version(Options& options);
 
