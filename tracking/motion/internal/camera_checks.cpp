@@ -252,7 +252,7 @@ FrameReport frame_report(const Observations& observations, std::span<const Track
   if (!intervals.empty()) {
     const auto [least, most] = std::ranges::minmax(intervals);
     report.frame_rate_least = 1 / most;
-    report.frame_rate_most = 1 / least;
+    if (least > 0) report.frame_rate_most = 1 / least;
     report.frame_rate_median = 1 / median(intervals);
   }
   return report;
