@@ -32,6 +32,18 @@ Expected<void> write_files(const ScoreArguments& arguments, const RunAnalysis& a
   return write_whole_file(arguments.report, quality_html(reported));
 }
 
+/// What a person may want to do now.
+std::string next_step(const std::string& id, const std::string& store, Verdict verdict) {
+  const std::string at = id + " --store " + store;
+  if (verdict != Verdict::Invalid) return "Next: `swarmsmith track report " + at + "`.";
+  return "An INVALID score is kept out of statistics. Next: mend what is wrong and `swarmsmith "
+         "track rescore " +
+         at +
+         "`; or film again; or take it upon you: `swarmsmith track "
+         "override " +
+         at + " --verdict valid --who NAME --reason TEXT`.";
+}
+
 void print_result(const RunPlan& plan, const RunAnalysis& analysis,
                   const std::optional<RealRunWritten>& written, Output& output) {
   const std::string id = written ? to_string(written->id) : "";
@@ -55,18 +67,7 @@ void print_result(const RunPlan& plan, const RunAnalysis& analysis,
     return;
   }
   output.out << "Stored as " << id << " in " << plan.store << ".\n";
-  if (analysis.scored.verdict == Verdict::Invalid) {
-    print_note(output,
-               "An INVALID score is kept out of statistics. Mend what it says and `swarmsmith "
-               "track rescore " +
-                   id +
-                   "`, film again, or take it upon you: `swarmsmith "
-                   "track override " +
-                   id + " --verdict valid --who NAME --reason TEXT`.");
-  } else {
-    print_note(output,
-               "Look at it: `swarmsmith track report " + id + "`, `swarmsmith track overlay`.");
-  }
+  print_note(output, next_step(id, plan.store, analysis.scored.verdict));
 }
 
 ExitCode run(const ScoreArguments& arguments, Output& output) {

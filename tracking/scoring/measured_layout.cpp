@@ -43,6 +43,14 @@ std::array<double, 3> median_of(const std::vector<std::array<double, 3>>& ratios
   return medians;
 }
 
+/// Whether some of the places stay bare.
+bool has_bare_places(const Mission& mission) {
+  std::size_t patches = 0;
+  for (const ShuffledPatches::Share& share : mission.shuffled.shares)
+    patches += static_cast<std::size_t>(share.count);
+  return patches < mission.shuffled.places.size();
+}
+
 /// The mission's colours, and its floor.
 std::vector<Rgb> candidates_of(const Mission& mission) {
   std::vector<Rgb> colors;
@@ -65,7 +73,8 @@ Expected<MeasuredPatch> measured_patch(const Rectangle& place,
   const ColorMatch match = nearest_color(patch.ratio, candidates_of(mission), mission.arena.floor);
   patch.color = match.best;
   patch.confidence = match.confidence;
-  if (match.distance > kMostDistance || match.confidence < kLeastConfidence) {
+  const bool is_bare = match.best == mission.arena.floor && !has_bare_places(mission);
+  if (is_bare || match.distance > kMostDistance || match.confidence < kLeastConfidence) {
     return missing(
         fmt::format("{} cannot be told: it has {}, between {} and {}", where,
                     ratio_text(patch.ratio), color_text(match.best), color_text(match.second)),
