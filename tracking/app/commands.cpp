@@ -88,6 +88,8 @@ constexpr std::array kCommands = {
             declare_track_check},
     Command{"score", "Score a filmed run and keep it in a store", kScoreDetails,
             declare_track_score},
+    Command{"rescore", "Score stored runs again, with what was mended", "", declare_track_rescore},
+    Command{"override", "Put a person's word above a run's verdict", "", declare_track_override},
     Command{"calibrate camera", "Find a camera's lens from pictures of a board",
             kCalibrateCameraDetails, declare_calibrate_camera},
     Command{"calibrate arena", "Find where a camera hangs from the floor tags",

@@ -11,6 +11,8 @@ namespace swarmsmith::cli {
 std::span<const Command> track_commands();
 
 Run declare_track_score(Options& options);
+Run declare_track_rescore(Options& options);
+Run declare_track_override(Options& options);
 Run declare_track_init(Options& options);
 Run declare_track_check(Options& options);
 Run declare_calibrate_camera(Options& options);

@@ -33,6 +33,11 @@ class Pages final : public LivePages {
   explicit Pages(LiveScenery scenery) : scenery_(std::move(scenery)) {
     http_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
     http_.set_payload_max_length(0);
+    // Without the library's SO_REUSEPORT, by which two programs would share a port unawares.
+    http_.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
     http_.set_pre_routing_handler(
         [this](const httplib::Request& request, httplib::Response& response) {
           return gate(request, response);
@@ -66,6 +71,9 @@ class Pages final : public LivePages {
                                                          : -1;
     if (port_ <= 0) return false;
     thread_ = std::thread([this] { http_.listen_after_bind(); });
+    // The library forgets a `stop` that comes before it listens.
+    while (!http_.is_running())
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return true;
   }
 
