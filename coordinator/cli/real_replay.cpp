@@ -81,7 +81,9 @@ Expected<RealReplay> replay_real_run(std::unique_ptr<StoreReader> store, RealRun
   if (!rows) return Unexpected(rows.error());
   auto filmed = filmed_run(*rows);
   if (!filmed) return Unexpected(filmed.error());
-  RealReplay replay{.rows = std::move(*rows), .filmed = std::move(*filmed)};
+  RealReplay replay{.rows = std::move(*rows), .verdict = {}, .filmed = std::move(*filmed)};
+  for (const RealRunHead& head : store->real_runs())
+    if (head.id == id) replay.verdict = head.verdict;
   replay.score = score_again(replay.filmed);
   replay.runs.push_back(shown(replay.rows, replay.filmed, replay.score));
   if (seeds.empty()) return replay;
@@ -127,7 +129,7 @@ std::string picture_of(const RealReplay& replay, RealRunId id, double width_mm) 
         .body = replay.filmed.mission.body,
         .robots = {},
         .objects = run.objects};
-    if (is_real) picture.details.front() += ", " + rows.score.verdict;
+    if (is_real) picture.details.front() += ", " + replay.verdict;
     for (std::size_t robot = 0; robot < run.robots.size(); ++robot)
       picture.robots.push_back({run.robots[robot], run.labels[robot]});
     panels.pictures.push_back(std::move(picture));

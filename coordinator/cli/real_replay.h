@@ -27,6 +27,7 @@ struct ShownRun {
 
 struct RealReplay {
   RealRunRows rows;
+  std::string verdict;  ///< that counts: a person's, else the scoring's
   FilmedRun filmed;
   double score = 0;            ///< of the stored cycles, anew
   bool starts_as_real = true;  ///< of the simulations

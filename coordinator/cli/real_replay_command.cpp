@@ -59,7 +59,7 @@ std::string as_json(const RealReplay& replay, RealRunId id, bool same) {
          ",\"score\":" + json_number(replay.score) +
          ",\"stored_score\":" + (stored.score ? json_number(*stored.score) : "null") +
          ",\"same_bits\":" + (stored.score ? (same ? "true" : "false") : "null") +
-         ",\"verdict\":" + json_text(stored.verdict) +
+         ",\"verdict\":" + json_text(replay.verdict) +
          ",\"starts_as_real\":" + (replay.starts_as_real ? "true" : "false") + ",\"beside\":[" +
          beside + "]}\n";
 }
@@ -68,7 +68,7 @@ std::string as_text(const RealReplay& replay, RealRunId id) {
   std::string text = to_string(id) + ": ";
   text +=
       replay.rows.score.score ? "same score as stored: " : "no score is stored; its cycles give ";
-  text += json_number(replay.score) + ", " + replay.rows.score.verdict + "\n";
+  text += json_number(replay.score) + ", " + replay.verdict + "\n";
   for (const ShownRun& run : replay.runs) {
     if (&run == &replay.runs.front()) continue;
     text += run.source + ", seed " + std::to_string(run.seed) + ": score " +

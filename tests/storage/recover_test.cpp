@@ -8,7 +8,10 @@
 
 #include "base/rng.h"
 #include "storage/internal/page_image.h"
+#include "storage/internal/sqlite.h"
+#include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/synthetic_real_run.h"
 
 namespace swarmsmith {
 namespace {
@@ -92,6 +95,86 @@ TEST_F(RecoverTest, WithoutHeaderOrFirstPageNothingIsLost) {
     EXPECT_EQ(recovered(), digest) << lost << " bytes";
     EXPECT_TRUE(found.header_is_damaged);
   }
+}
+
+/// The same store with three real runs, one of a candidate, one with a person's word on it.
+struct RecoverRealRuns : RecoverTest {
+  std::vector<RealRunRows> runs;
+
+  void SetUp() override {
+    RecoverTest::SetUp();
+    {
+      const auto store = StoreAtRest::open(damaged, StoreAtRest::IfMissing::Refuse);
+      for (std::uint64_t number = 1; number <= 3; ++number) {
+        const CandidateId candidate = number == 2 ? candidate_id({1}, 1) : CandidateId{};
+        ASSERT_TRUE((*store)->add_real_run(synthetic_real_run(number, candidate, 400)));
+      }
+      ASSERT_TRUE((*store)->add_override({{3}, "DEGRADED", "ada", "x"}));
+    }
+    for (std::int64_t id = 1; id <= 3; ++id)
+      runs.push_back(*open_reader(damaged)->real_run({id}));
+    bytes = read_bytes(damaged);
+  }
+};
+
+TEST_F(RecoverRealRuns, AWholeStoreComesOutWhole) {
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_EQ(found.unplaced, 0);
+  const auto reader = open_reader(out);
+  for (std::int64_t id = 1; id <= 3; ++id)
+    EXPECT_EQ(*reader->real_run({id}), runs[static_cast<std::size_t>(id - 1)]);
+  EXPECT_EQ(reader->real_runs()[2].verdict, "DEGRADED");
+}
+
+TEST_F(RecoverRealRuns, WithoutTheFirstPageNothingIsLost) {
+  write_bytes(damaged, std::string(kPage, '\xff') + bytes.substr(kPage));
+  EXPECT_EQ(recovered(), digest);
+  EXPECT_EQ(*open_reader(out)->real_run({2}), runs[1]);
+}
+
+TEST_F(RecoverRealRuns, AStoreOfRealRunsAloneNeedsNoCampaignFile) {
+  const fs::path path = folder / "real.db";
+  {
+    const auto store = StoreAtRest::open(path, StoreAtRest::IfMissing::Make);
+    for (std::uint64_t number = 1; number <= 2; ++number)
+      ASSERT_TRUE((*store)->add_real_run(synthetic_real_run(number, {}, 400)));
+  }
+  const std::string whole = digest_of(path);
+  sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE).execute("DELETE FROM campaign");
+  fs::remove(out);
+  auto recovery = Recovery::begin(path, out);
+  ASSERT_TRUE(recovery);
+  const auto end = (*recovery)->finish();
+  ASSERT_TRUE(end) << to_string(end.error());
+  EXPECT_EQ(end->digest, whole);
+  EXPECT_EQ(open_reader(out)->real_runs().size(), 2U);
+}
+
+TEST_F(RecoverRealRuns, ARunOfWhichPartsAreLostIsInvalidAndSaysWhich) {
+  const auto pages = bytes.size() / kPage;
+  int told = 0;
+  for (std::size_t page = 2; page < pages; page += 3) {
+    std::string broken = bytes;
+    broken.replace(page * kPage, kPage, kPage, '\x5a');
+    write_bytes(damaged, broken);
+    recovered();
+    const auto reader = open_reader(out);
+    EXPECT_TRUE(reader->integrity().empty()) << "page " << page;
+    for (const RealRunHead& head : reader->real_runs()) {
+      const RealRunRows rows = *reader->real_run(head.id);
+      if (rows.score.program == "swarmsmith recover") {
+        ++told;
+        EXPECT_EQ(rows.score.verdict, "INVALID");
+        EXPECT_THAT(rows.score.reasons, HasSubstr("were lost with the damaged store"));
+        continue;
+      }
+      // Nothing that counts was changed; notes may be lost without a trace.
+      const RealRunRows& whole = runs[static_cast<std::size_t>(head.id.value - 1)];
+      EXPECT_EQ(rows.samples, whole.samples) << "page " << page;
+      EXPECT_EQ(rows.cycles, whole.cycles) << "page " << page;
+    }
+  }
+  EXPECT_GT(told, 3);
 }
 
 TEST_F(RecoverTest, WhatWasOnlyInTheLogIsFoundThere) {

@@ -38,6 +38,29 @@ void write_modules(ReportDraft& draft) {
     draft.page().table(entry.second);
 }
 
+/// Filmed runs, those that do not count included; stores before schema 5 have no view of them.
+void write_real_runs(ReportDraft& draft) {
+  if (draft.store().schema() < 5) return;
+  draft.table(
+      "Real runs (v_real_runs). Those that count are among the scores above; the others are "
+      "INVALID, "
+      "or biased since a tag was taken for its robot's centre.",
+      {{"run"},
+       {"name"},
+       {"mission"},
+       {"machine", Show::Candidate},
+       {"recorded"},
+       {"score", Show::Number},
+       {"verdict"},
+       {"overridden by"},
+       {"reason"},
+       {"counts", Show::YesNo}},
+      "SELECT id, name, mission, candidate, recorded, score, verdict, overridden_by, reason, "
+      "counts "
+      "FROM v_real_runs ORDER BY run",
+      1000);
+}
+
 }  // namespace
 
 void write_results(ReportDraft& draft) {
@@ -66,6 +89,7 @@ void write_results(ReportDraft& draft) {
       scores, ScoreGroups::OfMethods));
   draft.figure("box", {.width_mm = kWholeWidth}, "Scores of the winners. Higher is better.");
   draft.figure("scores", {.width_mm = kWholeWidth}, "How often the winners had each score.");
+  write_real_runs(draft);
   draft.figure("convergence", {.width_mm = kMiddleWidth},
                "Mean score of each design's best machine over the experiments used.");
   if (!scores.empty()) write_comparison(draft, scores);
