@@ -1,0 +1,219 @@
+"""Calibrations by the program, from pictures and videos of a rendered laboratory whose truth is
+known (the program film)."""
+import json
+import math
+import pathlib
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+from programs import BIN
+
+BOARD = "charuco:9x6:0.04:0.03:4x4_50"
+
+
+def track(*words, cwd=None):
+    return subprocess.run([BIN / "swarmsmith-track", *map(str, words)], capture_output=True,
+                          text=True, timeout=120, cwd=cwd)
+
+
+class Rendered:
+    """The laboratory, rendered and calibrated once for all tests."""
+    folder = root = truth = camera = place = offset = None
+
+
+def answer(*words):
+    run = track(*words, "--json", cwd=Rendered.root)
+    if run.returncode != 0:
+        raise AssertionError(run.stderr)
+    return json.loads(run.stdout)
+
+
+def setUpModule():
+    Rendered.folder = tempfile.TemporaryDirectory()
+    Rendered.root = pathlib.Path(Rendered.folder.name) / "lab"
+    subprocess.run([BIN / "film", "lab", Rendered.root, "--robots", "1", "--size", "960x540",
+                    "--form", "mjpg"], check=True, timeout=300)
+    Rendered.truth = json.loads((Rendered.root / "truth.json").read_text())
+    Rendered.camera = answer("calibrate", "camera", "ceiling.board", "--board", BOARD, "--map",
+                             "map.svg")
+    Rendered.place = answer("calibrate", "arena", "ceiling.arena.avi", "--arena", "arena.toml")
+    Rendered.offset = answer("calibrate", "robot", "rvr1", "--spin", "rvr1.spin.avi",
+                             "--straight", "rvr1.straight.avi", "--arena", "arena.toml")
+
+
+def tearDownModule():
+    Rendered.folder.cleanup()
+
+
+class Laboratory(unittest.TestCase):
+    """Each test has its own copy of the files, without what is big."""
+
+    @property
+    def root(self):
+        return Rendered.root
+
+    def setUp(self):
+        temporary = tempfile.TemporaryDirectory()
+        self.addCleanup(temporary.cleanup)
+        self.copy = pathlib.Path(temporary.name)
+        for file in self.root.glob("*.toml"):
+            shutil.copy(file, self.copy)
+        self.arena = self.copy / "arena.toml"
+
+    def replace(self, file, old, new):
+        path = self.copy / file
+        text = path.read_text()
+        self.assertIn(old, text)
+        path.write_text(text.replace(old, new))
+
+    def refused(self, code, words, *texts):
+        """The command fails, says so in these words, and every file stays as it was."""
+        before = {file: file.read_bytes() for file in self.copy.iterdir()}
+        run = track(*words, cwd=self.copy)
+        self.assertEqual(run.returncode, code, run.stderr)
+        for text in texts:
+            self.assertIn(text, run.stderr)
+        self.assertEqual(before, {file: file.read_bytes() for file in self.copy.iterdir()})
+
+
+class Truth(Laboratory):
+    def test_the_lens_is_that_of_the_camera(self):
+        true = Rendered.truth["cameras"][0]
+        self.assertLess(Rendered.camera["rms_px"], 0.12)
+        for key in ("fx", "fy"):
+            self.assertLess(abs(Rendered.camera[key] / true[key] - 1), 0.002, key)
+        for key in ("cx", "cy"):
+            self.assertLess(abs(Rendered.camera[key] - true[key]), 0.8, key)
+        self.assertGreaterEqual(Rendered.camera["views_used"], 18)
+        self.assertGreater(min(Rendered.camera["ninths"]), 0)
+        self.assertTrue(Rendered.camera["views"][0]["name"].endswith("view00.png"))
+        self.assertIn("</svg>", (self.root / "map.svg").read_text())
+
+    def test_the_camera_hangs_where_it_hangs(self):
+        for found, true in zip(Rendered.place["camera"], Rendered.truth["cameras"][0]["centre"]):
+            self.assertLess(abs(found - true), 0.006)
+        self.assertLess(Rendered.place["rms_px"], 0.25)
+        self.assertEqual(len(Rendered.place["tags"]), 6)
+
+    def test_the_tag_sits_where_it_sits(self):
+        true = Rendered.truth["robots"][0]
+        self.assertLess(abs(Rendered.offset["x_m"] - true["x"]), 0.0005)
+        self.assertLess(abs(Rendered.offset["y_m"] - true["y"]), 0.0005)
+        self.assertLess(abs(Rendered.offset["yaw_rad"] - true["yaw"]), math.radians(0.5))
+
+    def test_the_arena_is_ready_then(self):
+        run = track("check", "arena.toml", "--json", cwd=self.root)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertTrue(json.loads(run.stdout)["ready"])
+
+
+class Cameras(Laboratory):
+    def calibrate(self, *pictures, board=BOARD):
+        return ["calibrate", "camera", *pictures, "--board", board, "-o", "new.toml"]
+
+    def test_eight_pictures_are_too_few(self):
+        pictures = sorted((self.root / "ceiling.board").iterdir())[:8]
+        self.refused(1, self.calibrate(*pictures), "E_CALIB_QUALITY: 8 usable views",
+                     "at least 10")
+
+    def test_another_board_is_not_there(self):
+        self.refused(1, self.calibrate(self.root / "ceiling.board",
+                                       board="charuco:9x6:0.04:0.03:6x6_250"),
+                     "the board is in 0 of 22 pictures", "E_CALIB_QUALITY: 0 views")
+
+    def test_a_wrong_square_shows_nowhere_but_a_wrong_shape_does(self):
+        # Squares of another size only scale the world before the camera: f stays the same.
+        pictures = self.root / "ceiling.board"
+        run = track(*self.calibrate(pictures, board="charuco:9x6:0.08:0.06:4x4_50"), "--json",
+                    cwd=self.copy)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertLess(abs(json.loads(run.stdout)["fx"] / Rendered.camera["fx"] - 1), 0.001)
+        self.refused(1, self.calibrate(pictures, board="charuco:6x9:0.04:0.03:4x4_50"),
+                     "E_CALIB_QUALITY")
+
+    def test_a_video_without_a_board(self):
+        self.refused(1, self.calibrate(self.root / "ceiling.arena.avi"), "E_CALIB_QUALITY")
+
+    def test_wrong_words(self):
+        self.refused(2, self.calibrate("x.png", board="charuco:9x6"), "E_CONFIG", "charuco:11x8")
+        self.refused(1, self.calibrate("nowhere.avi"), "E_VIDEO_UNREADABLE", "nowhere.avi")
+
+
+class Arenas(Laboratory):
+    def calibrate(self):
+        return ["calibrate", "arena", self.root / "ceiling.arena.avi", "--arena", "arena.toml"]
+
+    AGAIN = ["calibrate", "arena", "--again", "--arena", "arena.toml"]
+
+    def test_tags_that_are_not_there_are_named(self):
+        for tag in (100, 102, 104):
+            self.replace("arena.toml", f"tag = {tag}", f"tag = {tag + 100}")
+        self.refused(1, self.calibrate(), "E_REF_TAGS", "seen: 101, 103, 105",
+                     "missing: 200, 202, 204")
+
+    def test_a_wrong_survey_is_named_and_mended_without_the_video(self):
+        good = self.arena.read_text()
+        head, tail = good.split("tag = 103\nx = ")
+        x = float(tail.split("\n")[0])
+        self.arena.write_text(f"{head}tag = 103\nx = {x + 0.03:.4f}\n" + tail.split("\n", 1)[1])
+        for words in (self.calibrate(), self.AGAIN):
+            self.refused(1, words, "E_EXTRINSICS", "worst is tag 103")
+        self.arena.write_text(good)
+        before = (self.copy / "ceiling.place.toml").read_text()
+        run = track(*self.AGAIN, cwd=self.copy)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        after = (self.copy / "ceiling.place.toml").read_text()
+        without_date = lambda text: [line for line in text.splitlines() if "made" not in line]
+        self.assertEqual(without_date(before), without_date(after))
+
+    def test_another_size(self):
+        for old, new in (("width = 960", "width = 1280"), ("height = 540", "height = 720"),
+                         ("cx = ", "cx = 640 #"), ("cy = ", "cy = 360 #")):
+            self.replace("ceiling.camera.toml", old, new)
+        self.refused(1, self.calibrate(), "E_CALIB_SIZE", "calibration 1280x720, video 960x540")
+
+    def test_a_camera_out_of_its_range(self):
+        self.replace("arena.toml", "height = [2.0, 3.5]", "height = [3.0, 3.5]")
+        self.refused(1, self.calibrate(), "E_EXTRINSICS", "allowed is 3 to 3.5 m")
+
+    def test_without_a_lens_or_a_place(self):
+        (self.copy / "ceiling.place.toml").unlink()
+        self.refused(2, self.AGAIN, "E_CONFIG", "--again needs the place")
+        (self.copy / "ceiling.camera.toml").unlink()
+        self.refused(2, self.calibrate(), "E_CONFIG", "not calibrated yet")
+        self.refused(2, ["calibrate", "arena", "--arena", "arena.toml"], "--again")
+        self.refused(2, [*self.calibrate(), "--camera", "sealing"], "no camera \"sealing\"",
+                     "did you mean \"ceiling\"")
+
+
+class Robots(Laboratory):
+    def calibrate(self, name="rvr1", spin="rvr1.spin.avi"):
+        return ["calibrate", "robot", name, "--spin", self.root / spin, "--arena", "arena.toml"]
+
+    def test_a_straight_run_is_no_spin(self):
+        self.refused(1, self.calibrate(spin="rvr1.straight.avi"), "E_SPIN_QUALITY",
+                     "at least 300")
+
+    def test_a_spin_is_no_straight_run(self):
+        self.refused(1, [*self.calibrate(), "--straight", self.root / "rvr1.spin.avi"],
+                     "E_SPIN_QUALITY", "straight run is 0.0")
+
+    def test_a_tag_of_another_size(self):
+        self.replace("arena.toml", "edge = 0.1\nheight", "edge = 0.12\nheight")
+        self.refused(1, self.calibrate(), "E_TAG_SIZE", "declared are 120.0 mm")
+
+    def test_a_tag_that_is_never_seen(self):
+        self.replace("arena.toml", "tag = 1\n", "tag = 7\n")
+        self.refused(1, self.calibrate(), "E_ROBOT_MISSING", "tag 7")
+
+    def test_wrong_words(self):
+        self.refused(2, self.calibrate(name="rvr9"), "no robot \"rvr9\"", "it has: rvr1")
+        self.refused(2, [*self.calibrate(), "--reverse"], "--straight")
+        (self.copy / "ceiling.place.toml").unlink()
+        self.refused(2, self.calibrate(), "E_CONFIG", "calibrate arena")
+
+
+if __name__ == "__main__":
+    unittest.main()
