@@ -1,9 +1,9 @@
 #include "tracking/video/frame_source.h"
 
 #include <filesystem>
-#include <string_view>
 #include <system_error>
 
+#include "tracking/video/internal/camera_word.h"
 #include "tracking/video/internal/image_folder.h"
 #include "tracking/video/internal/live_camera.h"
 #include "tracking/video/internal/video_file.h"

@@ -2,7 +2,6 @@
 
 extern "C" {
 #include <libavutil/dict.h>
-#include <libavutil/opt.h>
 }
 
 #include <fmt/format.h>
@@ -13,85 +12,16 @@ extern "C" {
 #include <filesystem>
 #include <system_error>
 
-#include "tracking/rig/issue.h"
 #include "tracking/video/internal/byte_stream.h"
 #include "tracking/video/internal/picture.h"
+#include "tracking/video/internal/video_choice.h"
 
 namespace swarmsmith {
 namespace {
 
-/// A kind of file, by its ending.
-struct Container {
-  std::string_view ending;
-  const char* muxer;
-  AVRational grain;  ///< of its times; 0: the rate's
-};
-constexpr Container kContainers[] = {
-    {".mkv", "matroska", {1, 1000}}, {".mp4", "mp4", {1, 1'000'000}}, {".avi", "avi", {0, 1}}};
-
-struct CodecChoice {
-  std::string_view name;
-  const char* encoder;
-  AVPixelFormat format;
-};
-constexpr CodecChoice kCodecs[] = {{"h264", "libx264", AV_PIX_FMT_YUV420P},
-                                   {"mjpeg", "mjpeg", AV_PIX_FMT_YUVJ420P},
-                                   {"ffv1", "ffv1", AV_PIX_FMT_YUV420P}};
-
-Unexpected config_error(const std::string& text, const std::string& path) {
-  return Unexpected(error_of(IssueCode::Config, text, path));
-}
-
 struct FreeMuxer {
   void operator()(AVFormatContext* muxer) const { avformat_free_context(muxer); }
 };
-
-struct Choice {
-  const Container* container = nullptr;
-  const CodecChoice* codec = nullptr;
-};
-
-Expected<Choice> choice_of(const std::string& path, ImageSize size, const VideoOptions& options) {
-  Choice choice;
-  for (const Container& container : kContainers) {
-    if (path.ends_with(container.ending)) choice.container = &container;
-  }
-  if (choice.container == nullptr) {
-    return config_error("a video's name ends in .mkv, .mp4 or .avi", path);
-  }
-  for (const CodecChoice& codec : kCodecs) {
-    if (options.codec == codec.name) choice.codec = &codec;
-  }
-  if (choice.codec == nullptr) {
-    return config_error("codec `" + options.codec + "` is not h264, mjpeg or ffv1", path);
-  }
-  if (!av::is_taken(size.width, size.height)) {
-    return config_error(fmt::format("a video of {} x {} pixels cannot be made (at most {} a side, "
-                                    "100 megapixels)",
-                                    size.width, size.height, av::kMostSide),
-                        path);
-  }
-  if (options.codec == "h264" && (size.width % 2 != 0 || size.height % 2 != 0)) {
-    return config_error(fmt::format("h264 wants an even width and height, not {} x {}; take mjpeg "
-                                    "or ffv1, or cut a row or column",
-                                    size.width, size.height),
-                        path);
-  }
-  constexpr double kMostRate = 10'000;
-  if (!(options.frame_rate >= 0.01 && options.frame_rate <= kMostRate)) {
-    return config_error("a frame rate is between 0.01 and 10000 a second", path);
-  }
-  if (options.quality < 1 || options.quality > 100) {
-    return config_error("quality is between 1 and 100", path);
-  }
-  if (options.live && choice.container->ending != ".mkv") {
-    return config_error("a recording that survives being cut off must be a .mkv", path);
-  }
-  if (options.codec == "ffv1" && choice.container->ending == ".mp4") {
-    return config_error("ffv1 goes into .mkv or .avi, not .mp4", path);
-  }
-  return choice;
-}
 
 }  // namespace
 
@@ -122,9 +52,9 @@ struct VideoWriter::State {
     }
   }
 
-  Expected<void> open(const Choice& choice);
-  Expected<void> open_encoder(const CodecChoice& codec);
-  Expected<void> open_muxer(const Container& container);
+  Expected<void> open(const av::VideoChoice& choice);
+  Expected<void> open_encoder(const av::VideoChoice& choice);
+  Expected<void> open_muxer(const av::Container& container);
   Expected<std::int64_t> pts_of(double time_s) const;
   /// Empties the encoder's queue into the file.
   Expected<void> store();
@@ -145,50 +75,23 @@ Expected<void> VideoWriter::State::check_disk() const {
                     "cannot be written: " + std::generic_category().message(error), path);
 }
 
-Expected<void> VideoWriter::State::open_encoder(const CodecChoice& codec) {
-  const AVCodec* const found = avcodec_find_encoder_by_name(codec.encoder);
+Expected<void> VideoWriter::State::open_encoder(const av::VideoChoice& choice) {
+  const AVCodec* const found = avcodec_find_encoder_by_name(choice.codec->encoder);
   if (found == nullptr) {
     return unexpected(ErrorKind::Unavailable,
-                      fmt::format("libavcodec was built without {}", codec.encoder), path);
+                      fmt::format("libavcodec was built without {}", choice.codec->encoder), path);
   }
-  encoder.reset(avcodec_alloc_context3(found));
-  AVCodecContext& e = *encoder;
-  e.width = size.width;
-  e.height = size.height;
-  e.pix_fmt = codec.format;
-  e.time_base = grain;
-  e.framerate = av_d2q(options.frame_rate, 1'000'000);
-  // The whole range of 8 bits, and the matrix that OpenCV's grey comes from.
-  e.color_range = AVCOL_RANGE_JPEG;
-  e.colorspace = AVCOL_SPC_SMPTE170M;
-  // The same bytes whenever and wherever.
-  e.thread_count = 1;
-  e.flags |= AV_CODEC_FLAG_BITEXACT;
-  if ((muxer->oformat->flags & AVFMT_GLOBALHEADER) != 0) e.flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
-  const double worse = (100 - options.quality) / 100.0;
-  if (codec.name == "h264") {
-    constexpr double kWorstFactor = 51;
-    // A key frame a second, so that a damaged place costs a second at most.
-    e.gop_size = std::max(1, static_cast<int>(std::lround(options.frame_rate)));
-    e.max_b_frames = options.live ? 0 : options.b_frames;
-    av_opt_set_double(e.priv_data, "crf", std::max(1.0, kWorstFactor * worse), 0);
-    av_opt_set(e.priv_data, "preset", options.live ? "superfast" : "veryfast", 0);
-    if (options.live) av_opt_set(e.priv_data, "tune", "zerolatency", 0);
-  } else if (codec.name == "mjpeg") {
-    constexpr double kWorstScale = 30;
-    e.flags |= AV_CODEC_FLAG_QSCALE;
-    e.global_quality = static_cast<int>(FF_QP2LAMBDA * (1 + kWorstScale * worse * worse));
-  } else {
-    e.gop_size = 1;
-    av_opt_set_int(&e, "level", 3, 0);
-    av_opt_set_int(e.priv_data, "slicecrc", 1, 0);
+  encoder = av::make_encoder(*found, choice, size, options);
+  encoder->time_base = grain;
+  if ((muxer->oformat->flags & AVFMT_GLOBALHEADER) != 0) {
+    encoder->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
   }
-  const int code = avcodec_open2(&e, found, nullptr);
+  const int code = avcodec_open2(encoder.get(), found, nullptr);
   if (code < 0) return failed(code, "the encoder cannot be opened");
   return {};
 }
 
-Expected<void> VideoWriter::State::open_muxer(const Container& container) {
+Expected<void> VideoWriter::State::open_muxer(const av::Container& container) {
   AVFormatContext* made = nullptr;
   const int code = avformat_alloc_output_context2(&made, nullptr, container.muxer, nullptr);
   if (code < 0) return failed(code, "the container cannot be made");
@@ -200,7 +103,7 @@ Expected<void> VideoWriter::State::open_muxer(const Container& container) {
   return {};
 }
 
-Expected<void> VideoWriter::State::open(const Choice& choice) {
+Expected<void> VideoWriter::State::open(const av::VideoChoice& choice) {
   counts = choice.container->grain.num == 0;
   grain = counts ? av_inv_q(av_d2q(options.frame_rate, 1'000'000)) : choice.container->grain;
   open_path = options.live ? path : path + ".part";
@@ -208,7 +111,7 @@ Expected<void> VideoWriter::State::open(const Choice& choice) {
   if (!stream_file) return Unexpected(stream_file.error());
   file = std::move(*stream_file);
   if (auto opened = open_muxer(*choice.container); !opened) return opened;
-  if (auto opened = open_encoder(*choice.codec); !opened) return opened;
+  if (auto opened = open_encoder(choice); !opened) return opened;
   AVStream* const stream = avformat_new_stream(muxer.get(), nullptr);
   avcodec_parameters_from_context(stream->codecpar, encoder.get());
   stream->time_base = grain;
@@ -300,7 +203,7 @@ VideoWriter::~VideoWriter() = default;
 Expected<VideoWriter> VideoWriter::open(const std::string& path, ImageSize size,
                                         const VideoOptions& options) {
   av::set_up();
-  const auto choice = choice_of(path, size, options);
+  const auto choice = av::video_choice(path, size, options);
   if (!choice) return Unexpected(choice.error());
   auto state = std::make_unique<State>();
   state->path = path;

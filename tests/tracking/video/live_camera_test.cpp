@@ -8,6 +8,7 @@
 
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"
+#include "tracking/video/internal/camera_word.h"
 
 namespace swarmsmith {
 namespace {

@@ -92,6 +92,29 @@ TEST(VideoFile, DoesNotTrustTheRateOfAnAviWithAWrongDuration) {
   }
 }
 
+/// With an empty chunk before a frame, as recorders write it for one that they dropped.
+std::string with_dropped_frame(std::string avi, int before) {
+  std::size_t at = avi.find("movi");
+  for (int i = 0; i <= before; ++i)
+    at = avi.find("00dc", at + 4);
+  avi.insert(at, std::string("00dc\0\0\0\0", 8));
+  return avi.replace(avi.find("idx1"), 4, "JUNK");
+}
+
+TEST(VideoFile, KeepsThePlaceOfAFrameThatTheRecorderDropped) {
+  const TemporaryFolder folder;
+  make_video(folder / "a.avi", even_times(30, 20), {.codec = "mjpeg", .frame_rate = 20});
+  std::string bytes = with_dropped_frame(bytes_of(folder / "a.avi"), 10);
+  declare_frames(bytes, 31);
+  write_bytes(folder / "b.avi", bytes);
+  const ReadVideo video = read_video(folder / "b.avi");
+  ASSERT_EQ(video.frames.size(), 30U);
+  EXPECT_EQ(video.damaged, 1);
+  EXPECT_TRUE(video.info.has_count);
+  for (const ReadFrame& frame : video.frames)
+    EXPECT_EQ(frame.number, *frame.code + (*frame.code >= 10 ? 1 : 0));
+}
+
 TEST(VideoFile, SaysWhenTheEndIsMissing) {
   const TemporaryFolder folder;
   make_video(folder / "a.mkv", even_times(100, 20), {.frame_rate = 20});
@@ -195,7 +218,8 @@ TEST(VideoFile, RefusesAbsurdSizesBeforeItMakesRoomForThem) {
   EXPECT_TRUE(large.error || large.damaged == 5);
   // 20 x 16400: few pixels, but no camera.
   write_bytes(folder / "c.avi", with_size(bytes, std::string_view("\x00\x14\x40\x10", 4)));
-  EXPECT_THAT(error_of(read_video(folder / "c.avi")), HasSubstr("pixels are not taken (at most 16384 a side"));
+  EXPECT_THAT(error_of(read_video(folder / "c.avi")),
+              HasSubstr("pixels are not taken (at most 16384 a side"));
 }
 
 }  // namespace

@@ -10,6 +10,7 @@ extern "C" {
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <numeric>
 
 #include "tracking/rig/issue.h"
 #include "tracking/video/internal/decoder.h"
@@ -131,7 +132,6 @@ Expected<PacketTable> packets_of(Demuxer& demuxer, const std::string& name) {
   bool all_timed = true;
   while (const AVPacket* const packet = demuxer.next()) {
     if (!is_shown(demuxer.stream(), *packet)) continue;
-    // An .avi stands for a frame that the recorder dropped with an empty one.
     if (packet->size == 0 && !demuxer.is_avi()) continue;
     if (table.times.size() == kMostFrames) {
       return unreadable(fmt::format("more than {} frames", kMostFrames), name);
@@ -145,6 +145,14 @@ Expected<PacketTable> packets_of(Demuxer& demuxer, const std::string& name) {
     return unreadable("there is not one frame in it" + (words.empty() ? "" : ": " + words), name);
   }
   std::sort(table.times.begin(), table.times.end());
+  if (demuxer.is_avi() && table.times.front() >= 0 &&
+      table.times.back() < static_cast<std::int64_t>(kMostFrames)) {
+    // An .avi stands for a frame that the recorder dropped with an empty chunk, which the library
+    // leaves out, but counts.
+    const auto places = static_cast<std::size_t>(table.times.back()) + 1;
+    table.times.resize(places);
+    std::iota(table.times.begin(), table.times.end(), std::int64_t{0});
+  }
   const bool distinct =
       std::adjacent_find(table.times.begin(), table.times.end()) == table.times.end();
   // Elementary streams have no times; the library makes some up.

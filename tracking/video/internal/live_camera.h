@@ -3,7 +3,6 @@
 #include <chrono>
 #include <memory>
 #include <string>
-#include <string_view>
 
 #include "tracking/video/frame_source.h"
 
@@ -14,10 +13,6 @@ struct CameraPatience {
   std::chrono::milliseconds opening{15'000};
   std::chrono::milliseconds frame{5'000};
 };
-
-/// Whether a word means a camera: `camera:0`, `camera:0:1920x1080@60`, `opencv:WORD`, an address
-/// (`rtsp://...`), a GStreamer pipeline (`v4l2src ! ...`).
-bool is_camera_word(std::string_view word);
 
 /// A camera through OpenCV. Times are the driver's (Video4Linux: the machine's monotonic clock),
 /// else that clock when the picture came, less half a frame. Frames that are not fetched in time

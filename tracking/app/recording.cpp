@@ -1,0 +1,135 @@
+#include "tracking/app/recording.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "tracking/app/stop_signal.h"
+#include "tracking/rig/issue.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr const char* kClearLine = "\r\x1b[2K";
+
+}  // namespace
+
+Sidecar::Sidecar(const std::string& video, bool has_clock)
+    : file_(video.substr(0, video.rfind('.')) + ".times.csv"), has_clock_(has_clock) {
+  out_.open(file_ + ".part", std::ios::binary | std::ios::trunc);
+  out_ << (has_clock ? "frame,time_s,clock_s\n" : "frame,time_s\n") << std::flush;
+}
+
+Expected<void> Sidecar::add(std::int64_t frame, double time_s, double clock_s) {
+  out_ << fmt::format("{},{:.6f}", frame, time_s);
+  if (has_clock_) out_ << fmt::format(",{:.6f}", clock_s);
+  out_ << '\n' << std::flush;
+  if (out_) return {};
+  return Unexpected(cannot_write(file_ + ".part"));
+}
+
+Expected<void> Sidecar::finish() {
+  out_.close();
+  std::error_code error;
+  std::filesystem::rename(file_ + ".part", file_, error);
+  if (!out_ || error) return Unexpected(cannot_write(file_));
+  return {};
+}
+
+Recording::Recording(FrameSource& source, VideoWriter writer, Sidecar sidecar,
+                     RecordingOptions options)
+    : source_(source),
+      writer_(std::move(writer)),
+      sidecar_(std::move(sidecar)),
+      options_(options) {}
+
+Expected<void> Recording::run(Output& output) {
+  Expected<void> done = all_frames(output);
+  // What was recorded until then is good, whatever ended it; but a full disk ends nothing well.
+  if (!done && done.error().kind == ErrorKind::Unavailable) return done;
+  if (auto ended = writer_.finish(); !ended) return ended;
+  if (auto ended = sidecar_.finish(); !ended) return ended;
+  return done;
+}
+
+void Recording::clear_line(Output& output) const {
+  if (shown_) output.err << kClearLine << std::flush;
+}
+
+void Recording::remove(const std::string& file) const {
+  std::error_code ignored;
+  for (const std::string& name : {file, sidecar_.file(), sidecar_.file() + ".part"})
+    std::filesystem::remove(name, ignored);
+}
+
+std::string Recording::summary() const {
+  const double rate = frames_ > 1 && last_s_ > 0 ? static_cast<double>(frames_ - 1) / last_s_ : 0;
+  return fmt::format("{} frames in {:.1f} s, {:.1f} a second, {} dropped", frames_, last_s_, rate,
+                     dropped());
+}
+
+Expected<void> Recording::all_frames(Output& output) {
+  while (!stop_was_asked_for()) {
+    const auto more = source_.next();
+    if (!more) return Unexpected(more.error());
+    if (!*more) return {};
+    const auto clock = time_of(source_.frame());
+    if (!clock) return Unexpected(clock.error());
+    if (!first_) {
+      first_ = *clock;
+      started_ = Clock::now();
+    }
+    const double time = *clock - *first_;
+    if (options_.seconds && time >= *options_.seconds) return {};
+    if (options_.paced) wait_until(time);
+    if (auto kept = keep(time, *clock); !kept) return kept;
+    tell(output);
+  }
+  return {};
+}
+
+Expected<double> Recording::time_of(const Frame& frame) const {
+  if (frame.time_s) return *frame.time_s;
+  if (options_.rate) return static_cast<double>(frame.number) / *options_.rate;
+  return Unexpected(error_of(IssueCode::Timestamps,
+                             "its frames have no times; say with --rate how many a second",
+                             source_.info().name));
+}
+
+Expected<void> Recording::keep(double time, double clock) {
+  // Matroska counts milliseconds. Pictures that a network held back may come at once.
+  const std::int64_t ms = std::llround(time * 1000);
+  if (frames_ > 0 && ms <= last_ms_) {
+    ++too_close_;
+    return {};
+  }
+  if (auto written = writer_.write(source_.color(), time); !written) return written;
+  last_ms_ = ms;
+  last_s_ = time;
+  return sidecar_.add(frames_++, time, clock);
+}
+
+/// Until a frame is due, or somebody wants to stop.
+void Recording::wait_until(double time) const {
+  const auto due =
+      started_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time));
+  constexpr std::chrono::milliseconds kPatience{20};
+  while (!stop_was_asked_for() && Clock::now() < due)
+    std::this_thread::sleep_until(std::min(due, Clock::now() + kPatience));
+}
+
+void Recording::tell(Output& output) {
+  const auto now = Clock::now();
+  if (output.quiet || now < next_line_) return;
+  const bool terminal = output.err_is_terminal;
+  next_line_ = now + (terminal ? std::chrono::milliseconds(500) : std::chrono::seconds(10));
+  output.err << (terminal ? kClearLine : "") << summary() << (terminal ? "" : "\n") << std::flush;
+  shown_ = terminal;
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,83 @@
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <fstream>
+#include <optional>
+#include <string>
+
+#include "base/expected.h"
+#include "console/output.h"
+#include "tracking/video/frame_source.h"
+#include "tracking/video/video_writer.h"
+
+namespace swarmsmith::cli {
+
+/// The frame times beside the video: columns frame, time_s from the first frame on, and of a camera
+/// clock_s, its own clock. They get their name only when the video is whole: after a crash the rows
+/// and the frames that reached the disk need not agree, and the video has times of its own.
+class Sidecar {
+ public:
+  Sidecar(const std::string& video, bool has_clock);
+
+  const std::string& file() const { return file_; }
+  Expected<void> add(std::int64_t frame, double time_s, double clock_s);
+  Expected<void> finish();
+
+ private:
+  std::string file_;
+  bool has_clock_;
+  std::ofstream out_;
+};
+
+struct RecordingOptions {
+  std::optional<double> seconds;  ///< to stop after
+  std::optional<double> rate;     ///< where frames have no times
+  bool paced = false;             ///< frames come no sooner than they were taken
+};
+
+/// One recording, from the first frame to the last.
+class Recording {
+ public:
+  /// `source` must outlive it.
+  Recording(FrameSource& source, VideoWriter writer, Sidecar sidecar, RecordingOptions options);
+
+  /// All frames, until the source ends, the time is over, or somebody asks to stop. What is
+  /// recorded is whole when it comes back, with an error or without; unless the disk is full.
+  Expected<void> run(Output& output);
+  /// Takes the line of progress away.
+  void clear_line(Output& output) const;
+  /// Removes a recording without a frame.
+  void remove(const std::string& file) const;
+
+  std::int64_t frames() const { return frames_; }
+  std::int64_t dropped() const { return source_.damaged_frames() + too_close_; }
+  double seconds() const { return last_s_; }
+  const std::string& times_file() const { return sidecar_.file(); }
+  /// "246 frames in 12.3 s, 20.0 a second, 0 dropped"
+  std::string summary() const;
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  Expected<void> all_frames(Output& output);
+  Expected<double> time_of(const Frame& frame) const;
+  Expected<void> keep(double time, double clock);
+  void wait_until(double time) const;
+  void tell(Output& output);
+
+  FrameSource& source_;
+  VideoWriter writer_;
+  Sidecar sidecar_;
+  RecordingOptions options_;
+  std::optional<double> first_;
+  Clock::time_point started_;
+  Clock::time_point next_line_ = Clock::now() + std::chrono::seconds(1);
+  bool shown_ = false;
+  std::int64_t frames_ = 0;
+  std::int64_t too_close_ = 0;
+  std::int64_t last_ms_ = 0;
+  double last_s_ = 0;
+};
+
+}  // namespace swarmsmith::cli

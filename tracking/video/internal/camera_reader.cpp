@@ -1,0 +1,117 @@
+#include "tracking/video/internal/camera_reader.h"
+
+#include <chrono>
+#include <exception>
+#include <opencv2/core/utils/logger.hpp>
+#include <opencv2/videoio.hpp>
+#include <thread>
+#include <utility>
+
+#include "tracking/video/internal/picture.h"
+
+namespace swarmsmith {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class Reader {
+ public:
+  Reader(CameraWord word, std::shared_ptr<CameraQueue> shared)
+      : word_(std::move(word)), shared_(std::move(shared)) {}
+
+  void run() {
+    std::string complaint;
+    try {
+      complaint = read_all();
+    } catch (const std::exception& error) {
+      complaint = error.what();
+    }
+    const std::scoped_lock lock(shared_->mutex);
+    shared_->complaint = complaint;
+    shared_->has_ended = true;
+    shared_->changed.notify_all();
+  }
+
+ private:
+  /// Why it ended; empty: no more pictures.
+  std::string read_all() {
+    if (!open()) return "OpenCV cannot open it; is it there, and free?";
+    has_driver_times_ = camera_.getBackendName() == "V4L2";
+    rate_ = camera_.get(cv::CAP_PROP_FPS);
+    constexpr double kMostRate = 1000;
+    if (!(rate_ > 0 && rate_ <= kMostRate)) rate_ = 0;
+    const Clock::time_point start = Clock::now();
+    for (std::int64_t number = 0;; ++number) {
+      cv::Mat picture;
+      if (!camera_.read(picture) || picture.empty()) return {};
+      if (!av::is_taken(picture.cols, picture.rows)) return "its pictures are too large";
+      if (word_.is_file && rate_ > 0) {
+        std::this_thread::sleep_until(
+            start + std::chrono::duration_cast<Clock::duration>(
+                        std::chrono::duration<double>(static_cast<double>(number) / rate_)));
+      }
+      const double time = time_of_picture();
+      if (!hand_over({std::move(picture), time, number})) return {};
+    }
+  }
+
+  bool open() {
+    if (!word_.index) return camera_.open(word_.address);
+    if (!camera_.open(*word_.index)) return false;
+    if (word_.size.width > 0) {
+      // Raw pictures of this size seldom fit through USB.
+      camera_.set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'));
+      camera_.set(cv::CAP_PROP_FRAME_WIDTH, word_.size.width);
+      camera_.set(cv::CAP_PROP_FRAME_HEIGHT, word_.size.height);
+    }
+    if (word_.frame_rate > 0) camera_.set(cv::CAP_PROP_FPS, word_.frame_rate);
+    return true;
+  }
+
+  double time_of_picture() {
+    const double now = std::chrono::duration<double>(Clock::now().time_since_epoch()).count();
+    constexpr double kMilliseconds = 1e-3;
+    if (has_driver_times_) {
+      const double driver = camera_.get(cv::CAP_PROP_POS_MSEC) * kMilliseconds;
+      if (driver > 0) return driver;
+      has_driver_times_ = false;
+    }
+    return rate_ > 0 ? now - 0.5 / rate_ : now;
+  }
+
+  /// False when nobody wants more.
+  bool hand_over(Arrived arrived) {
+    constexpr std::size_t kMostWaiting = 16;
+    const std::scoped_lock lock(shared_->mutex);
+    if (shared_->stop) return false;
+    if (!shared_->is_open) {
+      shared_->is_open = true;
+      shared_->size = {arrived.picture.cols, arrived.picture.rows};
+      shared_->frame_rate = rate_;
+    }
+    if (shared_->queue.size() == kMostWaiting) {
+      shared_->queue.pop_front();
+      ++shared_->dropped;
+    }
+    shared_->queue.push_back(std::move(arrived));
+    shared_->changed.notify_all();
+    return true;
+  }
+
+  CameraWord word_;
+  std::shared_ptr<CameraQueue> shared_;  // shared, since this thread may outlive who started it
+  cv::VideoCapture camera_;
+  bool has_driver_times_ = false;
+  double rate_ = 0;
+};
+
+}  // namespace
+
+void start_reading(CameraWord word, std::shared_ptr<CameraQueue> queue) {
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
+  std::thread([reader = std::make_shared<Reader>(std::move(word), std::move(queue))] {
+    reader->run();
+  }).detach();
+}
+
+}  // namespace swarmsmith
