@@ -1,6 +1,8 @@
 #include "tracking/app/commands.h"
 
+#include <algorithm>
 #include <array>
+#include <filesystem>
 
 namespace swarmsmith::cli {
 namespace {
@@ -118,6 +120,14 @@ constexpr std::array kCommands = {
 
 std::span<const Command> track_commands() {
   return kCommands;
+}
+
+bool means_a_recording(const std::string& word) {
+  const bool is_command = std::ranges::any_of(kCommands, [&](const Command& command) {
+    return command.name == word || command.name.starts_with(word + " ");
+  });
+  std::error_code trouble;
+  return !is_command && !word.starts_with('-') && std::filesystem::exists(word, trouble);
 }
 
 ExitCode exit_code_of_tracking(const Error& error) {

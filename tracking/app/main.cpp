@@ -12,7 +12,10 @@ int main(int argc, char** argv) {
                         track_commands(),
                         "docs/tracking.md leads from an empty arena to a first scored run."};
   try {
-    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    std::vector<std::string> arguments(argv + 1, argv + argc);
+    if (!arguments.empty() && means_a_recording(arguments.front())) {
+      arguments.insert(arguments.begin(), "score");
+    }
     const ExitCode code = run_program(program, arguments, output);
     if (output.out.flush() || code != ExitCode::Done) return static_cast<int>(code);
     return static_cast<int>(fail(output, ExitCode::Failed,

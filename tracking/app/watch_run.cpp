@@ -1,9 +1,13 @@
 #include "tracking/app/watch_run.h"
 
+#include <algorithm>
+
 #include "console/counter.h"
 #include "console/sha256.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/observing/observe.h"
+#include "tracking/scoring/measured_layout.h"
+#include "tracking/scoring/run_patches.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -26,11 +30,58 @@ ObserveOptions observe_options(const RunPlan& plan) {
   return options;
 }
 
+/// Where the robots stand in a frame, as far as their tags are seen.
+std::vector<Point> robots_in(const std::vector<Detection>& seen, const Rig& rig, const View& view) {
+  std::vector<Point> robots;
+  for (const Detection& detection : seen) {
+    const auto robot = std::ranges::find(rig.robots, detection.tag, &RobotSetup::tag);
+    if (robot == rig.robots.end()) continue;
+    const TagPose tag = tag_pose(view, detection.corners, robot->edge_m, robot->height_m);
+    robots.push_back(robot_pose(tag.pose, rig.offset_of(*robot).value_or(TagOffset{})).position());
+  }
+  return robots;
+}
+
+/// Takes pictures of the floor from a video, spread over its length; at most twice kPictures when
+/// nobody knows how long it is.
+class FloorPictures {
+ public:
+  FloorPictures(const RunPlan& plan, std::vector<FloorPicture>& into) : plan_(plan), into_(into) {}
+
+  void look(std::size_t camera, std::int64_t frame, std::int64_t of,
+            const std::vector<Detection>& seen) {
+    if (plan_.log.layout.source != RunLayout::Source::Measured) return;
+    const std::int64_t step = of > 0 ? std::max<std::int64_t>(of / kPictures, 1) : kFramesApart;
+    if ((frame - 1) % step != 0 || (frame - 1) / step >= 2 * kPictures) return;
+    const View view = *plan_.rig.view_of(plan_.rig.cameras[camera]);
+    into_.push_back({view, plan_.videos[camera].source->color(), robots_in(seen, plan_.rig, view)});
+  }
+
+ private:
+  static constexpr std::int64_t kPictures = 12;
+  static constexpr std::int64_t kFramesApart = 150;
+
+  const RunPlan& plan_;
+  std::vector<FloorPicture>& into_;
+};
+
+/// The layout of the pictures, into the log.
+OrRefusal<void> measure(const std::vector<FloorPicture>& pictures, RunLog& log) {
+  if (log.layout.source != RunLayout::Source::Measured) return {};
+  const auto layout = measure_layout(pictures, log.mission);
+  if (!layout) return refused(layout.error());
+  for (const Patch& patch : layout->patches(log.mission.arena))
+    log.layout.patches.push_back({centre_of(patch), patch.color});
+  return {};
+}
+
 }  // namespace
 
 OrRefusal<Observations> watch_run(RunPlan& plan, Output& output) {
   const ObserveOptions options = observe_options(plan);
   std::vector<CameraObservations> cameras;
+  std::vector<FloorPicture> pictures;
+  FloorPictures floor(plan, pictures);
   for (std::size_t i = 0; i < plan.videos.size(); ++i) {
     PlannedVideo& video = plan.videos[i];
     auto sha256 = sha256_of_file(video.path.string());
@@ -38,12 +89,17 @@ OrRefusal<Observations> watch_run(RunPlan& plan, Output& output) {
       return refused(
           error_of(IssueCode::VideoUnreadable, sha256.error().message, sha256.error().where));
     Counter watching(output, "watched", "frames of " + video.path.filename().string());
-    auto seen = observe({plan.rig.cameras[i], *video.source, video.clock, *sha256}, options,
-                        [&](std::int64_t done, std::int64_t of, const std::vector<Detection>&) {
-                          watching.tell(done, of);
-                        });
+    auto seen =
+        observe({plan.rig.cameras[i], *video.source, video.clock, *sha256}, options,
+                [&](std::int64_t done, std::int64_t of, const std::vector<Detection>& detections) {
+                  watching.tell(done, of);
+                  floor.look(i, done, of, detections);
+                });
     if (!seen) return refused(seen.error());
     cameras.push_back(std::move(*seen));
+  }
+  if (auto measured = measure(pictures, plan.log); !measured) {
+    return tl::unexpected(std::move(measured.error()));
   }
   return joined_observations(std::move(cameras));
 }

@@ -1,0 +1,294 @@
+"""Each row of the table of bad input (tracking facts, section 10) with a real file: its message, its
+exit code, and that nothing, or a run marked INVALID, is in the store."""
+import re
+import shutil
+import struct
+import unittest
+import zlib
+
+from filmed_lab import TRACK, FilmedLab, call, runs_in
+
+LAB = None
+
+
+def setUpModule():
+    global LAB
+    LAB = FilmedLab()
+
+
+def tearDownModule():
+    if LAB is not None:
+        LAB.close()
+
+
+def write_gray_png(path, width, height, level):
+    """An even picture, by hand: the standard library writes none."""
+    def chunk(kind, data):
+        body = kind + data
+        return struct.pack(">I", len(data)) + body + struct.pack(">I", zlib.crc32(body))
+    rows = (b"\0" + bytes([level]) * width) * height
+    path.write_bytes(b"\x89PNG\r\n\x1a\n" +
+                     chunk(b"IHDR", struct.pack(">IIBBBBB", width, height, 8, 0, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(rows)) + chunk(b"IEND", b""))
+
+
+class BadInput(unittest.TestCase):
+    def setUp(self):
+        self.folder = LAB.folder / self.id().rsplit(".", 1)[-1]
+        self.folder.mkdir()
+        self.store = self.folder / "runs.db"
+
+    def score(self, log, *words, arena=None):
+        return call(TRACK, "score", "--run", log, "--arena", arena or LAB.lab / "arena.toml",
+                    "--into", self.store, *words)
+
+    def assert_refused(self, done, code, *wanted, exit_code=1):
+        """One line says it, with its parts; nothing is stored."""
+        self.assertEqual(done.returncode, exit_code, done.stdout + done.stderr)
+        lines = [line for line in done.stderr.splitlines() if code in line]
+        self.assertTrue(lines, f"no {code} in: {done.stderr}")
+        for part in wanted:
+            self.assertTrue(any(re.search(part, line) for line in lines),
+                            f"no {part!r} in {lines}")
+        self.assertEqual(runs_in(self.store), [])
+        self.assertFalse(self.store.exists())
+
+    def assert_stored_as(self, done, verdict, code, *wanted):
+        self.assertEqual(done.returncode, 6 if verdict == "INVALID" else 0,
+                         done.stdout + done.stderr)
+        lines = [line for line in done.stdout.splitlines() if code in line]
+        self.assertTrue(lines, f"no {code} in: {done.stdout}")
+        for part in wanted:
+            self.assertTrue(any(re.search(part, line) for line in lines),
+                            f"no {part!r} in {lines}")
+        self.assertEqual([run[1] for run in runs_in(self.store)], [verdict])
+
+    def changed_log(self, log, *pairs, times=None):
+        """A copy of a run log, and of its sidecar with `times` applied to its lines."""
+        text = log.read_text()
+        for before, after in pairs:
+            self.assertIn(before, text)
+            text = text.replace(before, after)
+        video = re.search(r'^file = "(.*)"$', text, re.M)
+        if video:
+            text = text.replace(video.group(0), f'file = "{log.parent / video.group(1)}"')
+        mission = re.search(r'^mission = "(.*\.toml)"$', text, re.M)
+        if mission:
+            text = text.replace(mission.group(0), f'mission = "{log.parent / mission.group(1)}"')
+        sidecar = re.search(r'^times = "(.*)"$', text, re.M)
+        if sidecar:
+            lines = (log.parent / sidecar.group(1)).read_text().splitlines()
+            path = self.folder / "changed.times.csv"
+            path.write_text("\n".join(times(lines) if times else lines) + "\n")
+            text = text.replace(sidecar.group(0), f'times = "{path}"')
+        copy = self.folder / "changed.toml"
+        copy.write_text(text)
+        return copy
+
+    # Videos
+
+    def test_video_that_is_not_there(self):
+        log = self.changed_log(LAB.film("good"), ("good.mkv", "gone.mkv"))
+        self.assert_refused(self.score(log), "E_VIDEO_UNREADABLE", r"gone\.mkv")
+
+    def test_video_that_is_none(self):
+        for name, content in (("text.mkv", b"this is no video\n" * 100), ("empty.mkv", b"")):
+            (self.folder / name).write_bytes(content)
+            done = self.score(LAB.film("good"), self.folder / name)
+            self.assert_refused(done, "E_VIDEO_UNREADABLE", re.escape(name))
+
+    def test_video_without_frames(self):
+        whole = (LAB.film("good").parent / "good.mkv").read_bytes()
+        (self.folder / "head.mkv").write_bytes(whole[:600])
+        done = self.score(LAB.film("good"), self.folder / "head.mkv")
+        self.assert_refused(done, "E_VIDEO_UNREADABLE", r"head\.mkv")
+
+    def test_video_that_stops_early(self):
+        log = LAB.film("untimed", "--no-sidecar")
+        whole = (log.parent / "untimed.mkv").read_bytes()
+        (self.folder / "cut.mkv").write_bytes(whole[:len(whole) * 6 // 10])
+        done = self.score(log, self.folder / "cut.mkv")
+        self.assert_stored_as(done, "INVALID", "E_VIDEO_TRUNCATED", r"\d")
+
+    def test_calibration_of_another_size(self):
+        pictures = self.folder / "pictures"
+        pictures.mkdir()
+        for number in range(20):
+            write_gray_png(pictures / f"{number:03}.png", 640, 360, 90)
+        times = self.folder / "t.csv"
+        times.write_text("frame,time_s\n" + "".join(f"{i},{i / 15}\n" for i in range(20)))
+        done = self.score(LAB.film("good"), pictures, "--times", times)
+        self.assert_refused(done, "E_CALIB_SIZE", "960x540", "640x360")
+
+    # Calibrations
+
+    def test_calibration_that_is_no_good(self):
+        for number, (before, after, wanted) in enumerate((
+                (r"rms_px = ", "rms_px = 0.9 #", r"0\.9.* 0\.3"),
+                (r"views = ", "views = 8 #", "8 usable views.* 10"),
+                (r"distortion = [", "distortion = [-2, 0, 0, 0, 0] #", "folds"))):
+            arena = LAB.copy_of_lab(f"{self.folder.name}/{number}",
+                                    ceiling_camera_toml=[(before, after)])
+            done = self.score(LAB.film("good"), arena=arena)
+            self.assert_refused(done, "E_CALIB_QUALITY", r"ceiling\.camera\.toml", wanted)
+
+    def test_place_that_is_older_than_the_camera_model(self):
+        arena = LAB.copy_of_lab(f"{self.folder.name}/later",
+                                ceiling_camera_toml=[('made = "2026', 'made = "2036')])
+        done = self.score(LAB.film("good"), arena=arena)
+        self.assert_refused(done, "E_CALIB_QUALITY", r"ceiling\.place\.toml", "calibrate arena")
+
+    def test_too_few_reference_tags(self):
+        text = (LAB.lab / "arena.toml").read_text()
+        parts = re.split(r"(?=\[\[reference\]\])", text)
+        rest = re.search(r"\[\[robot\]\].*", text, re.S).group(0)
+        arena = self.folder / "arena.toml"
+        arena.write_text("".join(parts[:4]).split("[[robot]]")[0] + rest)
+        shutil.copy(LAB.lab / "ceiling.camera.toml", self.folder)
+        done = call(TRACK, "calibrate", "arena", LAB.lab / "ceiling.arena.mkv", "--arena", arena,
+                    "--camera", "ceiling")
+        self.assert_refused(done, "E_REF_TAGS", "at least 4")
+        self.assertFalse((self.folder / "ceiling.place.toml").exists())
+
+    def test_reference_tag_that_lies_elsewhere(self):
+        arena = LAB.copy_of_lab(f"{self.folder.name}/moved",
+                                arena_toml=[("x = -0.7640", "x = -0.7340")])
+        (arena.parent / "ceiling.place.toml").unlink()
+        done = call(TRACK, "calibrate", "arena", LAB.lab / "ceiling.arena.mkv", "--arena", arena,
+                    "--camera", "ceiling")
+        self.assert_refused(done, "E_EXTRINSICS", "tag 102", "mm")
+        self.assertFalse((arena.parent / "ceiling.place.toml").exists())
+
+    def test_spin_that_is_none(self):
+        arena = LAB.copy_of_lab(f"{self.folder.name}/spin")
+        (arena.parent / "rvr1.offset.toml").unlink()
+        done = call(TRACK, "calibrate", "robot", "rvr1", "--arena", arena, "--camera", "ceiling",
+                    "--spin", LAB.lab / "rvr1.straight.mkv")
+        self.assert_refused(done, "E_SPIN_QUALITY", r"at least 300")
+        self.assertFalse((arena.parent / "rvr1.offset.toml").exists())
+
+    # Runs
+
+    def test_camera_that_moved(self):
+        done = self.score(LAB.film("bump", "--bump", "5", seconds=9))
+        self.assert_stored_as(done, "INVALID", "E_CAMERA_MOVED", "px")
+
+    def test_robot_that_is_never_seen(self):
+        arena = LAB.copy_of_lab(f"{self.folder.name}/other",
+                                arena_toml=[("tag = 1\n", "tag = 7\n")],
+                                rvr1_offset_toml=[("tag = 1\n", "tag = 7\n")])
+        self.assert_refused(self.score(LAB.film("good"), arena=arena), "E_ROBOT_MISSING", "rvr1")
+
+    def test_robots_that_are_lost(self):
+        done = self.score(LAB.film("gap", "--drop-from", "0.8:2.2"))
+        self.assert_stored_as(done, "INVALID", "E_GAP", "rvr1", r"0\.\d.* 2\.\d")
+
+    def test_tag_that_is_on_two_robots(self):
+        arena = LAB.copy_of_lab(f"{self.folder.name}/twice",
+                                arena_toml=[("tag = 2\n", "tag = 1\n")])
+        self.assert_refused(self.score(LAB.film("good"), arena=arena), "E_DUPLICATE_ID", "tag 1",
+                            "rvr1.*rvr2", exit_code=2)
+
+    def test_tag_that_is_there_twice(self):
+        done = self.score(LAB.film("twin", "--duplicate"))
+        self.assertIn("E_DUPLICATE_ID", done.stdout + done.stderr)
+
+    def test_tag_of_another_size(self):
+        arena = LAB.copy_of_lab(f"{self.folder.name}/size",
+                                arena_toml=[("tag = 1\nedge = 0.1", "tag = 1\nedge = 0.11")],
+                                rvr1_offset_toml=[("edge = 0.1\n", "edge = 0.11\n")])
+        done = self.score(LAB.film("good"), arena=arena)
+        self.assertIn("E_TAG_SIZE", done.stdout + done.stderr)
+        self.assertIn(done.returncode, (1, 6))
+
+    def test_robot_without_offset(self):
+        arena = LAB.copy_of_lab(f"{self.folder.name}/without")
+        (arena.parent / "rvr2.offset.toml").unlink()
+        self.assert_refused(self.score(LAB.film("good"), arena=arena), "E_NO_OFFSET", "rvr2",
+                            "accept-tag-as-centre")
+        done = self.score(LAB.film("good"), "--accept-tag-as-centre", arena=arena)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("BIASED", done.stdout)
+
+    def test_frames_that_were_dropped(self):
+        done = self.score(LAB.film("drops", "--drop", "0.15"))
+        self.assertIn(done.returncode, (0, 6), done.stderr)
+        self.assertIn("W_FRAMES_DROPPED", done.stdout)
+
+    def test_times_that_go_back(self):
+        def swapped(lines):
+            frame, _ = lines[11].split(",")
+            return lines[:11] + [f"{frame},0.01"] + lines[12:]
+        log = self.changed_log(LAB.film("good"), times=swapped)
+        self.assert_refused(self.score(log), "E_TIMESTAMPS", "10|12")
+
+    def test_frames_that_come_too_seldom(self):
+        done = self.score(LAB.film("slow", "--fps", "6"))
+        self.assert_stored_as(done, "INVALID", "E_FRAME_RATE", "10")
+
+    def test_sidecar_of_another_video(self):
+        for times in (lambda lines: lines[:-3], lambda lines: lines + ["99,99.0"]):
+            log = self.changed_log(LAB.film("good"), times=times)
+            done = self.score(log)
+            self.assertEqual(done.returncode, 1, done.stdout + done.stderr)
+            self.assertRegex(done.stderr, "E_SIDECAR_MISMATCH|E_TIMESTAMPS")
+            self.assertFalse(self.store.exists())
+
+    def test_patches_that_nobody_said(self):
+        log = LAB.film("colors", mission="color_selection")
+        text = re.sub(r"\n\[\[patch\]\].*", "", log.read_text(), flags=re.S)
+        silent = log.with_name("silent.toml")
+        silent.write_text(text)
+        self.assert_refused(self.score(silent), "E_LAYOUT_MISSING", r"\[\[patch\]\].*measured")
+
+    def test_patches_that_are_measured(self):
+        log = LAB.film("colors", mission="color_selection")
+        said = call(TRACK, "score", "--run", log, "--arena", LAB.lab / "arena.toml", "--json")
+        measured = self.score(log, "--patches", "measured", "--json")
+        self.assertEqual(measured.returncode, said.returncode, measured.stderr)
+        self.assertEqual(re.search(r'"score":[^,]*', measured.stdout).group(0),
+                         re.search(r'"score":[^,]*', said.stdout).group(0))
+
+    def test_settings_that_cannot_be(self):
+        for number, (before, after, wanted) in enumerate((
+                ("x = 1.0430", "x = nan", r"`x` must be from -100 to 100, this is nan"),
+                ("edge = 0.1\n", "edge = -0.1\n", r"`edge` must be from 0\.005 to 2, this is -0\.1"),
+                ("height = 0.2", "height = 2.9", r"`height` must be below.*2\.9"),
+                ("family =", "familie =", "did you mean \"family\""))):
+            arena = LAB.copy_of_lab(f"{self.folder.name}/{number}", arena_toml=[(before, after)])
+            self.assert_refused(self.score(LAB.film("good"), arena=arena), "E_CONFIG", wanted,
+                                r"arena\.toml:\d+:\d+", exit_code=2)
+
+    def test_run_without_a_begin(self):
+        log = self.changed_log(LAB.film("good"), ('start = "1.2 s"\n', ""))
+        self.assert_refused(self.score(log), "E_CONFIG", "when does the run begin", exit_code=2)
+
+    def test_same_run_twice(self):
+        first = self.score(LAB.film("good"))
+        self.assertEqual(first.returncode, 0, first.stderr)
+        self.assertIn("Stored as r1", first.stdout)
+        again = self.score(LAB.film("good"))
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertIn("there already, as r1", again.stdout)
+        self.assertEqual(len(runs_in(self.store)), 1)
+        nobody = self.score(LAB.film("good"), "--design", "d4")
+        self.assertEqual(nobody.returncode, 4, nobody.stderr)
+        self.assertIn("no design d4", nobody.stderr)
+
+    def test_score_again_and_override(self):
+        self.score(LAB.film("good"))
+        before = runs_in(self.store)
+        again = call(TRACK, "rescore", "r1", "--store", self.store)
+        self.assertEqual(again.returncode, 0, again.stderr)
+        self.assertEqual(runs_in(self.store), before)
+        blank = call(TRACK, "override", "r1", "--store", self.store, "--verdict", "invalid",
+                     "--who", " ", "--reason", "pushed")
+        self.assertEqual(blank.returncode, 2, blank.stdout)
+        word = call(TRACK, "override", "r1", "--store", self.store, "--verdict", "invalid",
+                    "--who", "M. Muster", "--reason", "robot pushed by hand")
+        self.assertEqual(word.returncode, 0, word.stderr)
+        self.assertEqual(runs_in(self.store), before)
+
+
+if __name__ == "__main__":
+    unittest.main()

@@ -1,0 +1,84 @@
+"""A filmed laboratory with calibrations, made once for the tests of a file, and runs filmed in it."""
+import os
+import pathlib
+import shutil
+import sqlite3
+import subprocess
+import tempfile
+import unittest
+
+BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
+TRACK = BIN / "swarmsmith-track"
+FILM = BIN / "film"
+BOARD = "charuco:9x6:0.04:0.03:4x4_50"
+
+
+def call(program, *words, cwd=None, timeout=300, **more):
+    """Runs a program to its end, output as text."""
+    environment = {name: value for name, value in os.environ.items() if name != "SWARMSMITH_STORE"}
+    return subprocess.run([str(program), *map(str, words)], capture_output=True, text=True,
+                          errors="replace", timeout=timeout, cwd=cwd, env=environment, check=False,
+                          **more)
+
+
+def must(program, *words):
+    done = call(program, *words)
+    if done.returncode != 0:
+        raise RuntimeError(f"{program} {words}: exit code {done.returncode}\n{done.stderr}")
+    return done
+
+
+class FilmedLab:
+    """Folder `lab` with arena.toml and its calibrations; clips are filmed when first asked for."""
+
+    def __init__(self):
+        if not (TRACK.exists() and FILM.exists()):
+            raise unittest.SkipTest("skipped: swarmsmith-track or film is not built")
+        self.temporary = tempfile.TemporaryDirectory(prefix="track-")
+        self.folder = pathlib.Path(self.temporary.name)
+        self.lab = self.folder / "lab"
+        must(FILM, "lab", self.lab, "--size", "960x540", "--robots", "3", "--fps", "15")
+        must(TRACK, "calibrate", "camera", self.lab / "ceiling.board", "--board", BOARD,
+             "--camera", "ceiling", "-o", self.lab / "ceiling.camera.toml")
+        arena = self.lab / "arena.toml"
+        must(TRACK, "calibrate", "arena", self.lab / "ceiling.arena.mkv", "--arena", arena,
+             "--camera", "ceiling")
+        for robot in ("rvr1", "rvr2", "rvr3"):
+            must(TRACK, "calibrate", "robot", robot, "--arena", arena, "--camera", "ceiling",
+                 "--spin", self.lab / f"{robot}.spin.mkv",
+                 "--straight", self.lab / f"{robot}.straight.mkv")
+
+    def close(self):
+        self.temporary.cleanup()
+
+    def film(self, name, *wishes, mission="aggregation", seconds=3):
+        """The path of the run log of a clip."""
+        log = self.folder / "runs" / f"{name}.toml"
+        if not log.exists():
+            must(FILM, "run", self.folder / "runs" / name, "--lab", self.lab, "--mission", mission,
+                 "--machine", "tA1", "--seed", "3", "--seconds", seconds, *wishes)
+        return log
+
+    def copy_of_lab(self, name, **changes):
+        """A copy of the lab's files with texts replaced: file=(before, after), _ for `.`."""
+        copy = self.folder / name
+        copy.mkdir()
+        for file in self.lab.glob("*.toml"):
+            shutil.copy(file, copy)
+        for file, pairs in changes.items():
+            path = copy / file.replace("_", ".")
+            text = path.read_text()
+            for before, after in pairs:
+                assert before in text, f"{path.name} has no {before!r}"
+                text = text.replace(before, after, 1)
+            path.write_text(text)
+        return copy / "arena.toml"
+
+
+def runs_in(store):
+    """Name, measured verdict and score of the runs that a store holds; none without a store."""
+    if not pathlib.Path(store).exists():
+        return []
+    with sqlite3.connect(f"file:{store}?mode=ro", uri=True) as base:
+        return base.execute(
+            "SELECT name, measured_verdict, score FROM v_real_runs ORDER BY run").fetchall()
