@@ -48,7 +48,8 @@ constexpr std::string_view kScoreDetails =
     "the run is INVALID, and is kept as that.";
 constexpr std::string_view kCalibrateCameraDetails =
     "Examples:\n"
-    "  swarmsmith track calibrate camera board/ --board charuco:11x8:0.03:0.022:5x5_100\n"
+    "  swarmsmith track calibrate camera board/ --board charuco:11x8:0.03:0.022:5x5_100 \\\n"
+    "    --arena arena.toml\n"
     "  swarmsmith track calibrate camera board.mp4 --board chessboard:10x7:0.025\n"
     "\n"
     "A ChArUco board counts its squares, a chessboard its inner corners; measure the squares on\n"
