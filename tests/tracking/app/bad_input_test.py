@@ -1,5 +1,7 @@
 """Each row of the table of bad input (tracking facts, section 10) with a real file: its message, its
 exit code, and that nothing, or a run marked INVALID, is in the store."""
+import fcntl
+import json
 import re
 import shutil
 import struct
@@ -190,8 +192,12 @@ class BadInput(unittest.TestCase):
                             "rvr1.*rvr2", exit_code=2)
 
     def test_tag_that_is_there_twice(self):
-        done = self.score(LAB.film("twin", "--duplicate"))
-        self.assertIn("E_DUPLICATE_ID", done.stdout + done.stderr)
+        log = LAB.film("twin", "--duplicate")
+        done = self.score(log)
+        # The one that goes on with the track is used, the other counted.
+        self.assert_stored_as(done, "VALID", "W_OUTLIERS", "rvr1", "[1-9] as bad fits")
+        truth = json.loads(log.with_suffix(".truth.json").read_text())
+        self.assertEqual(runs_in(self.store)[0][2], truth["score"])
 
     def test_tag_of_another_size(self):
         arena = LAB.copy_of_lab(f"{self.folder.name}/size",
@@ -274,6 +280,33 @@ class BadInput(unittest.TestCase):
         nobody = self.score(LAB.film("good"), "--design", "d4")
         self.assertEqual(nobody.returncode, 4, nobody.stderr)
         self.assertIn("no design d4", nobody.stderr)
+
+    def test_same_run_with_another_calibration(self):
+        self.score(LAB.film("good"))
+        before = runs_in(self.store)
+        arena = LAB.copy_of_lab(f"{self.folder.name}/mended",
+                                rvr1_offset_toml=[("x = 0.07", "x = 0.06")])
+        done = self.score(LAB.film("good"), arena=arena)
+        self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+        self.assertIn("rescore", done.stderr)
+        self.assertEqual(runs_in(self.store), before)
+        again = call(TRACK, "rescore", "r1", "--store", self.store, "--arena", arena)
+        self.assertEqual(again.returncode, 0, again.stderr)
+
+    def test_store_that_somebody_else_writes(self):
+        self.score(LAB.film("good"))
+        with open(f"{self.store}.lock", "w", encoding="utf-8") as lock:
+            fcntl.flock(lock, fcntl.LOCK_EX)
+            lock.write("pid=4711 host=elsewhere\n")
+            lock.flush()
+            for words in (["score", "--run", LAB.film("good"), "--arena", LAB.lab / "arena.toml",
+                           "--into", self.store],
+                          ["rescore", "r1", "--store", self.store],
+                          ["override", "r1", "--store", self.store, "--verdict", "valid", "--who",
+                           "M. Muster", "--reason", "seen"]):
+                done = call(TRACK, *words)
+                self.assertEqual(done.returncode, 3, done.stderr)
+                self.assertIn("pid=4711 host=elsewhere", done.stderr)
 
     def test_score_again_and_override(self):
         self.score(LAB.film("good"))
