@@ -183,10 +183,23 @@ film::Shooting typical() {
   return shooting;
 }
 
-film::Shooting dark() {
+film::Shooting dim() {
   film::Shooting shooting = typical();
   shooting.gain = 0.4;
   shooting.noise = 4;
+  return shooting;
+}
+
+film::Shooting dark() {
+  film::Shooting shooting = typical();
+  shooting.gain = 0.2;
+  shooting.noise = 4;
+  return shooting;
+}
+
+film::Shooting out_of_focus() {
+  film::Shooting shooting = typical();
+  shooting.blur_px = 2.4;
   return shooting;
 }
 
@@ -248,6 +261,16 @@ constexpr int kFrames = 360;
 BENCHMARK_CAPTURE(search, typical, typical())
     ->Arg(3)
     ->Arg(10)
+    ->Arg(20)
+    ->Iterations(kFrames)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(search, dim, dim())
+    ->Arg(20)
+    ->Iterations(kFrames)
+    ->UseManualTime()
+    ->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(search, out_of_focus, out_of_focus())
     ->Arg(20)
     ->Iterations(kFrames)
     ->UseManualTime()

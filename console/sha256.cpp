@@ -2,11 +2,13 @@
 
 #include <sodium.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
-#include <fstream>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <set>
+#include <system_error>
 #include <vector>
 
 namespace swarmsmith::cli {
@@ -14,61 +16,66 @@ namespace {
 
 namespace fs = std::filesystem;
 
-using Digest = std::array<unsigned char, crypto_hash_sha256_BYTES>;
+using Hash = std::array<unsigned char, crypto_hash_sha256_BYTES>;
 
-std::string hexadecimal(const Digest& digest) {
-  std::array<char, 2 * crypto_hash_sha256_BYTES + 1> text{};
-  sodium_bin2hex(text.data(), text.size(), digest.data(), digest.size());
+std::string hexadecimal(const Hash& hash) {
+  std::array<char, 2 * std::tuple_size_v<Hash> + 1> text{};
+  sodium_bin2hex(text.data(), text.size(), hash.data(), hash.size());
   return text.data();
 }
 
-Expected<std::string> sha256_of_file(const fs::path& file, std::int64_t& bytes,
-                                     const std::function<void(std::int64_t)>& on_bytes) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return bad_input(std::string("cannot be read: ") + std::strerror(errno), file);
-  crypto_hash_sha256_state state;
+Unexpected cannot_read(const std::string& path, int error) {
+  return unexpected(error == ENOENT ? ErrorKind::NotFound : ErrorKind::Unavailable,
+                    "cannot be read: " + std::generic_category().message(error), path);
+}
+
+Expected<std::string> sha256_of_one(const std::string& path) {
+  constexpr std::size_t kBlock = 1 << 18;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
+                                                             std::fclose);
+  if (file == nullptr) return cannot_read(path, errno);
+  crypto_hash_sha256_state state{};
   crypto_hash_sha256_init(&state);
-  std::vector<char> piece(1U << 20U);
-  while (stream) {
-    stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
-    const auto count = static_cast<std::size_t>(stream.gcount());
-    crypto_hash_sha256_update(&state, reinterpret_cast<const unsigned char*>(piece.data()), count);
-    bytes += stream.gcount();
-    if (on_bytes) on_bytes(bytes);
-  }
-  if (stream.bad()) return bad_input(std::string("cannot be read: ") + std::strerror(errno), file);
-  Digest digest{};
-  crypto_hash_sha256_final(&state, digest.data());
-  return hexadecimal(digest);
+  std::vector<unsigned char> block(kBlock);
+  std::size_t count = 0;
+  do {
+    errno = 0;
+    count = std::fread(block.data(), 1, block.size(), file.get());
+    crypto_hash_sha256_update(&state, block.data(), count);
+  } while (count == block.size());
+  if (std::ferror(file.get()) != 0) return cannot_read(path, errno);
+  Hash hash{};
+  crypto_hash_sha256_final(&state, hash.data());
+  return hexadecimal(hash);
 }
 
 }  // namespace
 
 std::string sha256_of(std::string_view bytes) {
-  Digest digest{};
-  crypto_hash_sha256(digest.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
+  Hash hash{};
+  crypto_hash_sha256(hash.data(), reinterpret_cast<const unsigned char*>(bytes.data()),
                      bytes.size());
-  return hexadecimal(digest);
+  return hexadecimal(hash);
 }
 
-Expected<std::string> sha256_of_recording(const fs::path& path,
-                                          const std::function<void(std::int64_t)>& on_bytes) {
-  std::int64_t bytes = 0;
-  std::error_code trouble;
-  if (!fs::is_directory(path, trouble)) return sha256_of_file(path, bytes, on_bytes);
-  std::vector<fs::path> files;
-  for (const fs::directory_entry& entry : fs::directory_iterator(path, trouble)) {
-    if (entry.is_regular_file(trouble)) files.push_back(entry.path());
+Expected<std::string> sha256_of_file(const std::string& path) {
+  std::error_code error;
+  if (!fs::is_directory(path, error)) return sha256_of_one(path);
+  std::set<std::string> names;
+  for (fs::directory_iterator entry(path, error), end; !error && entry != end;
+       entry.increment(error)) {
+    const std::string name = entry->path().filename().string();
+    std::error_code ignored;
+    if (!name.starts_with('.') && entry->is_regular_file(ignored)) names.insert(name);
   }
-  std::ranges::sort(files);
-  std::string list;
-  for (const fs::path& file : files) {
-    const auto digest = sha256_of_file(file, bytes, on_bytes);
-    if (!digest) return digest;
-    // As sha256sum prints it.
-    list += *digest + "  " + file.filename().string() + "\n";
+  if (error) return cannot_read(path, error.value());
+  std::string lines;
+  for (const std::string& name : names) {
+    const auto hash = sha256_of_one((fs::path(path) / name).string());
+    if (!hash) return hash;
+    lines += *hash + "  " + name + "\n";
   }
-  return sha256_of(list);
+  return sha256_of(lines);
 }
 
 }  // namespace swarmsmith::cli

@@ -1,8 +1,5 @@
 #pragma once
 
-#include <cstdint>
-#include <filesystem>
-#include <functional>
 #include <string>
 #include <string_view>
 
@@ -13,10 +10,10 @@ namespace swarmsmith::cli {
 /// SHA-256 (FIPS 180-4) as 64 hexadecimal digits, as `sha256sum` prints it.
 std::string sha256_of(std::string_view bytes);
 
-/// The same of a file of any length, piece by piece; of a folder, over the names and digests of the
-/// files in it, by name. `on_bytes` hears now and then how many were read. BadInput for what cannot
-/// be read.
-Expected<std::string> sha256_of_recording(const std::filesystem::path& path,
-                                          const std::function<void(std::int64_t)>& on_bytes = {});
+/// The same of a file, which may be larger than the memory. Of a folder: of the lines that
+/// `sha256sum *` prints in it, that is of its files' names and bytes in the order of their names,
+/// without hidden files and folders. NotFound when it does not exist, Unavailable when it cannot be
+/// read.
+Expected<std::string> sha256_of_file(const std::string& path);
 
 }  // namespace swarmsmith::cli

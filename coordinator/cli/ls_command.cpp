@@ -17,7 +17,7 @@ struct Kind {
   std::string_view order;
 };
 
-constexpr std::array<Kind, 5> kKinds = {{
+constexpr std::array<Kind, 6> kKinds = {{
     {"designs", "v_designs",
      "design, mission, method, repetition, state, iteration, used, budget, best_candidate, "
      "best_mean",
@@ -33,6 +33,10 @@ constexpr std::array<Kind, 5> kKinds = {{
      "JOIN v_candidates AS c ON c.candidate = e.candidate WHERE e.iteration = "
      "(SELECT max(iteration) FROM v_convergence AS l WHERE l.design = e.design))",
      "design, iteration, rank, candidate, mean, n, n_states, n_transitions", "design, rank"},
+    {"runs", "v_real_runs",
+     "id, name, mission, candidate, source, score, verdict, overridden_by, biased, robots, "
+     "recorded",
+     "run"},
     {"workers", "v_workers", "worker, host, pid, slots, state, done, failed, first_seen, last_seen",
      "worker"},
 }};

@@ -5,6 +5,7 @@
 #include "console/counter.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/progress_text.h"
+#include "coordinator/cli/real_replay_command.h"
 #include "coordinator/cli/recording.h"
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/cli/stored_runs.h"
@@ -17,7 +18,16 @@ struct Arguments {
   StoreArgument store;
   std::optional<std::int64_t> seed;
   std::optional<std::int64_t> sample;
+  std::optional<std::int64_t> beside;
+  std::string seeds;
   RecordingArguments recording;
+
+  /// The real run that is meant, if any.
+  std::optional<RealRunId> real_run() const {
+    const auto thing = parse_thing_id(id);
+    if (!thing || thing->letter != 'r') return std::nullopt;
+    return RealRunId{std::stoll(thing->digits)};
+  }
 };
 
 std::string hexadecimal(std::uint64_t digest) {
@@ -96,7 +106,7 @@ Expected<StoredRun> find_run(StoredRuns& runs, const Arguments& arguments) {
   if (!id || id->letter == 'd') {
     return bad_input("\"" + arguments.id +
                          "\" is no evaluation; replay wants one (e81200007, see `ls evaluations`), "
-                         "or a candidate with a seed (c812 --seed 7)",
+                         "a candidate with a seed (c812 --seed 7), or a real run (r7)",
                      "ID");
   }
   if (id->letter == 'e') {
@@ -139,6 +149,15 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
 
 /// What cannot be meant, before any store is opened.
 std::optional<Error> complaint_about(const Arguments& arguments) {
+  const bool has_company = arguments.beside || !arguments.seeds.empty();
+  if (has_company && !arguments.real_run()) {
+    return Error{ErrorKind::BadInput, "is of a real run, such as r7",
+                 arguments.beside ? "--beside" : "--seeds"};
+  }
+  if (arguments.real_run() && arguments.seed) {
+    return Error{ErrorKind::BadInput,
+                 "a real run has no seed; --seeds names those of simulations beside it", "--seed"};
+  }
   if (!arguments.sample) {
     if (!arguments.id.empty()) return std::nullopt;
     return Error{ErrorKind::BadInput, "is required: an evaluation such as e81200007", "ID"};
@@ -161,6 +180,14 @@ ExitCode run(Arguments arguments, Output& output) {
   if (complaint) return fail(output, ExitCode::Usage, *complaint);
   auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  if (const auto real = arguments.real_run(); real && !arguments.sample) {
+    return replay_real(std::move(*store),
+                       {.id = *real,
+                        .beside = arguments.beside,
+                        .seeds = arguments.seeds,
+                        .recording = arguments.recording},
+                       output);
+  }
   auto runs = StoredRuns::open(std::move(*store));
   if (!runs) return fail(output, ExitCode::Store, runs.error());
   if (arguments.sample) return replay_sample(*runs, *arguments.sample, output);
@@ -177,11 +204,15 @@ ExitCode run(Arguments arguments, Output& output) {
 Run declare_replay(Options& options) {
   constexpr std::int64_t kLargest = 2'147'483'647;
   auto arguments = std::make_shared<Arguments>();
-  options.text("ID", arguments->id, "An evaluation (e81200007), or a candidate (c812) with --seed");
+  options.text("ID", arguments->id,
+               "An evaluation (e81200007), a candidate (c812) with --seed, or a real run (r7)");
   arguments->store.declare(options);
   options.integer("--seed", arguments->seed, {1, kLargest}, "Seed of a candidate's run");
   options.integer("--sample", arguments->sample, {1, kLargest},
                   "Replay so many stored evaluations, evenly spaced, instead of one");
+  options.integer("--beside", arguments->beside, {1, 1000},
+                  "Show so many simulations of its machine beside a real run");
+  options.text("--seeds", arguments->seeds, "Seeds of the simulations beside a real run: 1-4,9");
   arguments->recording.declare(options);
   return [arguments](Output& output) { return run(*arguments, output); };
 }

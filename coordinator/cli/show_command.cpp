@@ -64,9 +64,33 @@ std::vector<Part> parts_of_evaluation(const ThingId& id) {
   return {{"evaluation", "SELECT * FROM v_evaluations WHERE " + is_evaluation(id)}};
 }
 
+std::vector<Part> parts_of_real_run(const std::string& number) {
+  const std::string of_run = " WHERE run = " + number;
+  return {{"real run", "SELECT * FROM v_real_runs" + of_run},
+          {"robots",
+           "SELECT robot, name, tag, measured, interpolated, degraded, missing, longest_gap_s, "
+           "outliers, sigma_m, border_m, too_close FROM v_real_robots" +
+               of_run + " ORDER BY robot"},
+          {"issues", "SELECT code, robot, from_s, to_s, text FROM v_real_issues" + of_run +
+                         " ORDER BY number"},
+          {"scorings", "SELECT scoring, score, verdict, biased, at, program FROM v_real_scores" +
+                           of_run + " ORDER BY scoring"},
+          {"overrides",
+           "SELECT verdict, who, reason, at FROM v_real_overrides" + of_run + " ORDER BY number"},
+          {"videos", "SELECT camera, file, frames, damaged_frames, time_source FROM v_real_videos" +
+                         of_run + " ORDER BY video"},
+          {"calibrations",
+           "SELECT kind, subject, valid_from, valid_until, rms FROM v_calibrations WHERE sha256 IN "
+           "(SELECT camera_calibration FROM v_real_videos" +
+               of_run + " UNION SELECT place_calibration FROM v_real_videos" + of_run +
+               " UNION SELECT offset_calibration FROM v_real_robots" + of_run +
+               ") ORDER BY kind, subject"}};
+}
+
 std::vector<Part> parts_of(const ThingId& id, bool has_purposes) {
   if (id.letter == 'd') return parts_of_design(id.digits, has_purposes);
   if (id.letter == 'c') return parts_of_candidate(id.digits);
+  if (id.letter == 'r') return parts_of_real_run(id.digits);
   return parts_of_evaluation(id);
 }
 
@@ -108,7 +132,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
   if (!id) {
     return fail(output, ExitCode::Usage,
                 "\"" + arguments.id + "\" is no id; ids look like d3 (design), c812 (candidate), " +
-                    "e81200007 (evaluation)");
+                    "e81200007 (evaluation), r7 (real run)");
   }
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
@@ -134,7 +158,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
 
 Run declare_show(Options& options) {
   auto arguments = std::make_shared<Arguments>();
-  options.text("ID", arguments->id, "d3, c812 or e81200007", Options::Need::Required);
+  options.text("ID", arguments->id, "d3, c812, e81200007 or r7", Options::Need::Required);
   arguments->store.declare(options);
   return [arguments](Output& output) { return run(*arguments, output); };
 }

@@ -97,6 +97,10 @@ std::string other_engine(int stored_version) {
 Expected<StoredRuns> StoredRuns::open(std::unique_ptr<StoreReader> store) {
   auto worlds = DesignWorlds::read(*store);
   if (!worlds) return Unexpected(worlds.error());
+  if (worlds->designs().empty()) {
+    return unexpected(ErrorKind::NotFound,
+                      "the store has no designs: there is nothing to simulate");
+  }
   const auto first = worlds->of(worlds->designs().front().id);
   if (first) return StoredRuns(std::move(store), std::move(*worlds));
   Error error = first.error();

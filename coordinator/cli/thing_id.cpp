@@ -6,7 +6,7 @@ std::optional<ThingId> parse_thing_id(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789";
   if (text.empty()) return std::nullopt;
   ThingId id{.letter = text.front(), .digits = {}, .purpose = {}};
-  if (std::string_view("dce").find(id.letter) == std::string_view::npos) return std::nullopt;
+  if (std::string_view("dcer").find(id.letter) == std::string_view::npos) return std::nullopt;
   text.remove_prefix(1);
   if (id.letter == 'e' && !text.empty() &&
       std::string_view("ltas").find(text.back()) != std::string_view::npos) {

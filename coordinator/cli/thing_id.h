@@ -6,9 +6,9 @@
 
 namespace swarmsmith::cli {
 
-/// What a person calls by an id: d3, c812, e81200007, or e81200007t of a test.
+/// What a person calls by an id: d3, c812, r7, e81200007, or e81200007t of a test.
 struct ThingId {
-  char letter = '\0';   ///< d, c or e
+  char letter = '\0';   ///< d, c, r or e
   std::string digits;   ///< 1 to 18
   std::string purpose;  ///< of an evaluation that was made for no race: l, t, a or s
 };

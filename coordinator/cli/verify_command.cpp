@@ -15,15 +15,17 @@ void write(Output& output, const Verification& found) {
     }
     output.out << "{\"clean\":" << (found.complaints.empty() ? "true" : "false")
                << ",\"designs\":" << found.designs << ",\"finished\":" << found.finished
-               << ",\"evaluations\":" << found.evaluations << ",\"complaints\":[" << complaints
-               << "]}\n";
+               << ",\"evaluations\":" << found.evaluations << ",\"real_runs\":" << found.real_runs
+               << ",\"complaints\":[" << complaints << "]}\n";
     return;
   }
   for (const std::string& complaint : found.complaints)
     output.out << complaint << "\n";
   if (found.complaints.empty()) {
     output.out << "clean: " << found.evaluations << " evaluations of " << found.designs
-               << " designs, " << found.finished << " finished; every race was played again\n";
+               << " designs, " << found.finished << " finished; every race was played again";
+    if (found.real_runs > 0) output.out << "; " << found.real_runs << " real runs scored again";
+    output.out << "\n";
   }
 }
 

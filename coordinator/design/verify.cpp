@@ -12,6 +12,7 @@
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/campaign_runner.h"
 #include "coordinator/design/plans.h"
+#include "coordinator/design/verify_real_runs.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {
@@ -245,6 +246,7 @@ std::string name_of(const StoredCampaign& campaign) {
 Expected<Verification> verify(StoreReader& store) {
   Verification result{.complaints = store.integrity()};
   complain_of_conflicts(store, result.complaints);
+  result.real_runs = verify_real_runs(store, result.complaints);
   const std::vector<StoredCampaign> campaigns = store.campaigns();
   for (const StoredCampaign& campaign : campaigns) {
     if (campaign.state == "imported") continue;

@@ -9,11 +9,12 @@
 namespace swarmsmith {
 namespace {
 
-// Tests first: where both know a place, the test is what counts, and the first stays.
+// Tests first: where both know a place, the test is what counts, and the first stays. Real runs
+// have no pair, and are at no place.
 constexpr char kScores[] =
     "SELECT candidate, purpose, pair, instance, seed, source, score, state_digest"
     " FROM v_evaluations WHERE purpose IN ('test', 'score')"
-    " ORDER BY purpose = 'score', candidate, pair";
+    " AND pair IS NOT NULL ORDER BY purpose = 'score', candidate, pair";
 
 std::int64_t integer(const StoreReader::Cell& cell) {
   return integer_in(cell.text).value_or(0);

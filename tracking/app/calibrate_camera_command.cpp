@@ -1,12 +1,11 @@
 #include <fmt/format.h>
 #include <algorithm>
-#include <filesystem>
 #include <memory>
 
 #include "console/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/refusal.h"
+#include "tracking/app/complaints.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/calibration/find_board.h"
 #include "tracking/rig/calibration_limits.h"
@@ -36,11 +35,9 @@ struct Finds {
   std::int64_t looked_at = 0;
 };
 
-/// "folder/view03.png" of a folder cannot be told from its frame's number; that of a word can.
 std::string name_of_frame(const PictureSource& source, const FrameSource& frames) {
-  std::error_code ignored;
-  if (!source.is_video && !std::filesystem::is_directory(source.word, ignored)) return source.word;
-  return fmt::format("{} #{}", source.word, frames.frame().number);
+  const Frame& frame = frames.frame();
+  return frame.file.empty() ? fmt::format("{} frame {}", source.word, frame.number) : frame.file;
 }
 
 Expected<bool> look(const PictureSource& source, const FrameSource& frames, const Board& board,

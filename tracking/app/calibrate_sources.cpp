@@ -41,13 +41,6 @@ Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& video
   return std::optional(std::move(*times));
 }
 
-/// A folder's pictures were chosen by a person; one picture alone is no video either.
-PictureSource source_of(const std::string& word, const FrameSource& frames) {
-  std::error_code ignored;
-  const bool folder = std::filesystem::is_directory(word, ignored);
-  return {word, !folder && (frames.info().is_live || frames.info().expected_frames != 1)};
-}
-
 /// A tag that is not as large as declared, or not as high.
 std::optional<Error> wrong_size(const RobotSetup& robot, std::vector<double> scales) {
   constexpr double kTolerance = 0.05;
@@ -73,7 +66,6 @@ Expected<void> for_each_picture(const std::vector<std::string>& words, const OnP
     auto frames = FrameSource::open(words[i]);
     if (!frames) return Unexpected(frames.error());
     const SourceInfo info = (*frames)->info();
-    const PictureSource source = source_of(words[i], **frames);
     if (!size) size = info.size;
     if (*size != info.size) {
       return Unexpected(error_of(IssueCode::CalibrationSize,
@@ -85,6 +77,8 @@ Expected<void> for_each_picture(const std::vector<std::string>& words, const OnP
       const auto more = (*frames)->next();
       if (!more) return Unexpected(more.error());
       if (!*more) break;
+      // Pictures were chosen by a person; frames of a video resemble each other.
+      const PictureSource source{words[i], (*frames)->frame().file.empty()};
       const auto wanted = look(source, **frames);
       if (!wanted) return Unexpected(wanted.error());
       if (one) counter.tell(done, std::max(done, info.expected_frames));

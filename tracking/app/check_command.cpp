@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "tracking/app/commands.h"
-#include "tracking/app/refusal.h"
+#include "tracking/app/complaints.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 
@@ -130,7 +130,7 @@ Inventory inventory_of(const Rig& rig) {
 
 ExitCode run(const std::string& file, Output& output) {
   const auto rig = read_rig(file);
-  if (!rig) return fail(output, refused(rig.error()).value());
+  if (!rig) return fail_all(output, rig.error());
   const Inventory all = inventory_of(*rig);
   const std::vector<Error> wrong = misfits(*rig);
   const std::string next =
@@ -155,7 +155,7 @@ ExitCode run(const std::string& file, Output& output) {
   for (const Error& error : wrong)
     print_error(output, error);
   if (!output.json) output.out << "Next: " << next << "\n";
-  return wrong.empty() ? ExitCode::Done : refused(wrong).value().code;
+  return wrong.empty() ? ExitCode::Done : exit_code_of_all(wrong);
 }
 
 }  // namespace

@@ -20,6 +20,13 @@ constexpr std::string_view kPrintBoardDetails =
     "A ChArUco board counts its squares, a chessboard its inner corners; edges are in metres.\n"
     "Glue it on something flat, measure the squares, and give the measured board to\n"
     "`swarmsmith track calibrate camera`.";
+constexpr std::string_view kTrackReportDetails =
+    "Examples:\n"
+    "  swarmsmith track report r7 --store lab.db -o r7.html\n"
+    "  swarmsmith track report r7 --store lab.db --json\n"
+    "\n"
+    "Verdict and reasons, the run from above, how each robot was measured, cameras, floor tags,\n"
+    "files. --json prints the same numbers as one object (docs/tracking.md lists its keys).";
 constexpr std::string_view kPrintSurveyDetails =
     "Example:\n"
     "  swarmsmith track print survey --ids 100-105 --edge 0.10 -o survey.pdf\n"
@@ -27,6 +34,16 @@ constexpr std::string_view kPrintSurveyDetails =
     "A form to write down where the floor tags lie, with places to put them and distances of the\n"
     "arena's corners to check.";
 
+constexpr std::string_view kScoreDetails =
+    "Examples:\n"
+    "  swarmsmith track score run07.mp4 --arena arena.toml --run run07.toml --into demo.db\n"
+    "  swarmsmith track score run07.mp4 --arena arena.toml --design d3 --sync-hidden 99 \\\n"
+    "      --into demo.db\n"
+    "\n"
+    "Without a store the run is scored and not kept. The same video with the same begin is the "
+    "same\n"
+    "run: it is stored once. `score` may be left out when the first word is a file. Exit code 6:\n"
+    "the run is INVALID, and is kept as that.";
 constexpr std::string_view kCalibrateCameraDetails =
     "Examples:\n"
     "  swarmsmith track calibrate camera board/ --board charuco:11x8:0.03:0.022:5x5_100\n"
@@ -64,35 +81,36 @@ constexpr std::string_view kCalibrateRobotDetails =
     "\n"
     "Refused with E_SPIN_QUALITY, and no file written: under 60 samples or 300 degrees, RMS over\n"
     "2 mm, offset not known to 0.5 mm or over 135 mm, centre creeping over 5 mm/s.";
-constexpr std::string_view kScoreDetails =
-    "Examples:\n"
-    "  swarmsmith track score run07.mp4 --arena arena.toml --run run07.toml --into demo.db\n"
-    "  swarmsmith track score run07.mp4 --arena arena.toml --design d3 --sync-hidden 99 \\\n"
-    "      --into demo.db\n"
-    "\n"
-    "Without a store the run is scored and not kept. The same video with the same begin is the "
-    "same\n"
-    "run: it is stored once. `score` may be left out when the first word is a file. Exit code 6:\n"
-    "the run is INVALID, and is kept as that.";
 
 constexpr std::array kCommands = {
     Command{"init", "Write an arena.toml and a run.toml to begin with", "", declare_track_init},
     Command{"check", "Say what an arena has, what is missing and what comes next", "",
             declare_track_check},
+    Command{"score", "Score a filmed run and keep it in a store", kScoreDetails,
+            declare_track_score},
+    Command{"rescore", "Score stored runs again, with what was mended", "", declare_track_rescore},
+    Command{"override", "Put a person's word above a run's verdict", "", declare_track_override},
     Command{"calibrate camera", "Find a camera's lens from pictures of a board",
             kCalibrateCameraDetails, declare_calibrate_camera},
     Command{"calibrate arena", "Find where a camera hangs from the floor tags",
             kCalibrateArenaDetails, declare_calibrate_arena},
     Command{"calibrate robot", "Find where a robot's tag sits on it from a spin",
             kCalibrateRobotDetails, declare_calibrate_robot},
-    Command{"score", "Score a filmed run and keep it in a store", kScoreDetails,
-            declare_track_score},
     Command{"print tags", "Tags to print and cut out, in true scale", kPrintTagsDetails,
             declare_print_tags},
     Command{"print board", "A board to calibrate a camera with, in true scale", kPrintBoardDetails,
             declare_print_board},
     Command{"print survey", "A form to fill in with the places of the floor tags",
             kPrintSurveyDetails, declare_print_survey},
+    Command{"report", "Write the quality report of a stored run, a page of HTML",
+            kTrackReportDetails, declare_track_report},
+    Command{"record", "Record a camera with the time of each frame",
+            "A camera is `camera:0`, `camera:0:1920x1080@30`, an address (`rtsp://...`) or any\n"
+            "other word that OpenCV opens (`opencv:WORD`). Beside FILE.mkv stands FILE.times.csv\n"
+            "with the time of each frame in seconds from the first one. Ctrl-C ends a recording.\n"
+            "What was recorded stays readable whatever happens, all but the last half second.\n\n"
+            "  swarmsmith track record camera:0:1920x1080@30 run07.mkv --seconds 130",
+            declare_record},
     Command{"version", "Print the versions of program and libraries", "", declare_track_version},
 };
 

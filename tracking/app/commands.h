@@ -11,6 +11,8 @@ namespace swarmsmith::cli {
 std::span<const Command> track_commands();
 
 Run declare_track_score(Options& options);
+Run declare_track_rescore(Options& options);
+Run declare_track_override(Options& options);
 Run declare_track_init(Options& options);
 Run declare_track_check(Options& options);
 Run declare_calibrate_camera(Options& options);
@@ -19,6 +21,8 @@ Run declare_calibrate_robot(Options& options);
 Run declare_print_tags(Options& options);
 Run declare_print_board(Options& options);
 Run declare_print_survey(Options& options);
+Run declare_track_report(Options& options);
+Run declare_record(Options& options);
 Run declare_track_version(Options& options);
 
 /// "swarmsmith-track 0.1.0, OpenCV 4.6.0, apriltag 3.3.0, ...": what made a file or a score.

@@ -1,15 +1,12 @@
 #include "tracking/app/refusal.h"
 
-#include <algorithm>
-
-#include "tracking/app/commands.h"
+#include "tracking/app/complaints.h"
 
 namespace swarmsmith::cli {
 
 tl::unexpected<Refusal> refused(std::vector<Error> errors) {
-  const bool is_usage = std::ranges::any_of(
-      errors, [](const Error& error) { return exit_code_of_tracking(error) == ExitCode::Usage; });
-  return tl::unexpected(Refusal{is_usage ? ExitCode::Usage : ExitCode::Failed, std::move(errors)});
+  const ExitCode code = exit_code_of_all(errors);
+  return tl::unexpected(Refusal{code, std::move(errors)});
 }
 
 tl::unexpected<Refusal> refused(Error error) {
@@ -21,8 +18,7 @@ tl::unexpected<Refusal> refused(ExitCode code, Error error) {
 }
 
 ExitCode fail(Output& output, const Refusal& refusal) {
-  for (const Error& error : refusal.errors)
-    print_error(output, error);
+  fail_all(output, refusal.errors);
   return refusal.code;
 }
 

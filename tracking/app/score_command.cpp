@@ -5,30 +5,12 @@
 #include "tracking/app/commands.h"
 #include "tracking/app/result_text.h"
 #include "tracking/app/run_plan.h"
+#include "tracking/app/run_report.h"
 #include "tracking/app/run_store.h"
 #include "tracking/app/watch_run.h"
-#include "tracking/report/quality.h"
-#include "tracking/scoring/real_run_rows.h"
 
 namespace swarmsmith::cli {
 namespace {
-
-/// The rows of a scored run, with what `real_run_rows` leaves to its caller.
-RealRunRows rows_to_keep(const RunPlan& plan, const Observations& observations,
-                         const RunAnalysis& analysis, const ReportedRun& reported) {
-  RealRunRows rows = real_run_rows({.rig = plan.rig,
-                                    .arena_text = plan.arena_text,
-                                    .log = plan.log,
-                                    .observations = observations,
-                                    .starts_s = analysis.starts_s,
-                                    .tracked = analysis.tracked,
-                                    .patches = analysis.patches,
-                                    .scored = analysis.scored});
-  rows.candidate = plan.candidate;
-  rows.score.report = quality_json(reported);
-  rows.score.program = reported.program;
-  return rows;
-}
 
 /// Opened again only now: a campaign may have run while the video was looked at.
 OrRefusal<RealRunWritten> keep(const RunPlan& plan, const RealRunRows& rows) {
@@ -95,17 +77,10 @@ ExitCode run(const ScoreArguments& arguments, Output& output) {
   const auto analysis =
       analyse(*observations, plan->rig, plan->whole_rig, plan->log, plan->takes_tags_for_centres);
   if (!analysis) return fail(output, analysis.error());
-  const ReportedRun reported{.rig = plan->rig,
-                             .log = plan->log,
-                             .observations = *observations,
-                             .tracked = analysis->tracked,
-                             .scored = analysis->scored,
-                             .patches = analysis->patches,
-                             .overrides = {},
-                             .program = track_program_name()};
+  const ReportedRun reported = reported_run(plan->rig, plan->log, *observations, *analysis);
   std::optional<RealRunWritten> written;
   if (!plan->store.empty()) {
-    const auto kept = keep(*plan, rows_to_keep(*plan, *observations, *analysis, reported));
+    const auto kept = keep(*plan, rows_of(reported, *analysis, plan->arena_text, plan->candidate));
     if (!kept) return fail(output, kept.error());
     written = *kept;
   }

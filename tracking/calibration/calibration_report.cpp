@@ -88,9 +88,9 @@ std::string report_text(const OffsetCalibration& calibration) {
 
 std::string residual_map_svg(const CameraSolution& solution, std::span<const BoardView> views) {
   const ImageSize size = solution.calibration.model.size;
-  // Half a pixel becomes a fortieth of the width.
-  const double scale = size.width / 20.0;
-  const double stroke = size.width / 960.0;
+  // Half a pixel becomes a twentieth of the width.
+  const double scale = size.width / 10.0;
+  const double stroke = size.width / 800.0;
   const double font = size.width / 50.0;
   const double foot = 3 * font;
   std::string text = fmt::format(

@@ -13,6 +13,7 @@ namespace swarmsmith {
 Expected<std::unique_ptr<FrameSource>> FrameSource::open(const std::string& word) {
   std::error_code ignored;
   if (std::filesystem::is_directory(word, ignored)) return open_image_folder(word);
+  if (is_image_file(word)) return open_image(word);
   if (is_camera_word(word) && !std::filesystem::exists(word, ignored)) return open_camera(word);
   return open_video_file(word);
 }

@@ -33,6 +33,7 @@ struct Frame {
   std::int64_t number = 0;
   std::optional<double> time_s;  ///< as the container or the camera says it
   GrayImage gray;                ///< lives until the next frame is asked for
+  std::string file;              ///< of a picture; empty in videos
 };
 
 struct SourceInfo {
@@ -49,7 +50,8 @@ struct SourceInfo {
 /// Where frames come from: a video file, a folder of images, a camera.
 class FrameSource {
  public:
-  /// `word`: a video file, a folder of images (in the order of their names), `camera:0` or another
+  /// `word`: a video file, a picture, a folder of images (in the order of their names), `camera:0`
+  /// or another
   /// word that OpenCV opens (`rtsp://...`). E_VIDEO_UNREADABLE with the decoder's own words.
   static Expected<std::unique_ptr<FrameSource>> open(const std::string& word);
   virtual ~FrameSource() = default;

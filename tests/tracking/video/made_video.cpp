@@ -58,8 +58,7 @@ std::optional<int> number_in(const GrayImage& image) {
     int bright = 0;
     for (int y = 4; y < kSquare - 4; ++y) {
       for (int x = 4; x < kSquare - 4; ++x) {
-        const std::uint8_t value =
-            image.pixels[(at.y + y) * image.stride + at.x + x];
+        const std::uint8_t value = image.pixels[(at.y + y) * image.stride + at.x + x];
         (value < 128 ? dark : bright) += 1;
       }
     }

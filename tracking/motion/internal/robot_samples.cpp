@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <tuple>
 
 #include "base/math.h"
+#include "tracking/geometry/walls.h"
 #include "tracking/motion/internal/outliers.h"
 
 namespace swarmsmith {
@@ -76,14 +76,6 @@ double drop_bad_fits(std::vector<Sample>& samples, double edge_m, const TrackLim
     ++count;
   }
   return count == 0 ? usual : sum / count;
-}
-
-double distance_to(const Wall& wall, Point point) {
-  const double dx = wall.to.x - wall.from.x;
-  const double dy = wall.to.y - wall.from.y;
-  const double along = (point.x - wall.from.x) * dx + (point.y - wall.from.y) * dy;
-  const double share = std::clamp(along / (dx * dx + dy * dy), 0.0, 1.0);
-  return hypot(point.x - wall.from.x - share * dx, point.y - wall.from.y - share * dy);
 }
 
 TimedPose timed(const Sample& sample) {
@@ -175,14 +167,6 @@ bool comes_first(const Sighting& a, const Sighting& b) {
 
 }  // namespace
 
-double metres_outside(const Arena& arena, Point point) {
-  if (is_inside(arena, point)) return 0;
-  double least = std::numeric_limits<double>::infinity();
-  for (const Wall& wall : arena.walls)
-    least = std::min(least, distance_to(wall, point));
-  return least;
-}
-
 RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& sightings,
                         std::vector<std::size_t> own, std::span<const TrackedCamera> cameras,
                         const Arena& arena, const TrackOptions& options) {
@@ -199,7 +183,8 @@ RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& s
   made.scale = drop_bad_fits(made.samples, robot.setup.edge_m, limits);
   for (Sample& sample : made.samples) {
     if (sample.use != Sample::Use::Used) continue;
-    if (metres_outside(arena, sample.pose.position()) > limits.outside_m) {
+    const Point at = sample.pose.position();
+    if (!is_inside(arena, at) && distance_to_walls(arena, at) > limits.outside_m) {
       sample.use = Sample::Use::Outside;
     }
   }

@@ -38,7 +38,4 @@ RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& s
                         std::vector<std::size_t> own, std::span<const TrackedCamera> cameras,
                         const Arena& arena, const TrackOptions& options);
 
-/// How far beyond the walls a point lies; 0 within them.
-double metres_outside(const Arena& arena, Point point);
-
 }  // namespace swarmsmith

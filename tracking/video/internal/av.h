@@ -15,6 +15,8 @@ namespace swarmsmith::av {
 /// Pictures beyond these are refused: no camera makes them, damaged files ask for them.
 inline constexpr int kMostSide = 16384;
 inline constexpr std::int64_t kMostPixels = 100'000'000;
+/// Of codecs that keep up to 16 pictures to build others on: 8192 x 4320 and some more.
+inline constexpr std::int64_t kMostBuiltOnPixels = 36'000'000;
 
 struct FreeCodec {
   void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }

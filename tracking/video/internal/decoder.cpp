@@ -24,6 +24,13 @@ bool is_taken(std::string_view decoder) {
   }
 }
 
+/// Whether any error is to cost the whole picture. Not where cameras write odd but harmless side
+/// data that the library calls an error (H.264 and H.265, whose decoders flag damaged pictures),
+/// nor for TIFF, where a tag that it does not know is one.
+bool refuses_whole_pictures(AVCodecID codec) {
+  return codec != AV_CODEC_ID_H264 && codec != AV_CODEC_ID_HEVC && codec != AV_CODEC_ID_TIFF;
+}
+
 }  // namespace
 
 Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_base,
@@ -40,8 +47,9 @@ Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_bas
   int code = avcodec_parameters_to_context(codec.get(), &about);
   codec->thread_count = 1;
   codec->pkt_timebase = time_base;
-  codec->max_pixels = kMostPixels;
-  codec->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
+  codec->max_pixels = most_pixels(about.codec_id);
+  codec->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER;
+  if (refuses_whole_pictures(about.codec_id)) codec->err_recognition |= AV_EF_EXPLODE;
   if (code >= 0) code = avcodec_open2(codec.get(), found, nullptr);
   if (code < 0) {
     return Unexpected(
@@ -49,6 +57,10 @@ Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_bas
                  fmt::format("the decoder of {} refuses it: {}", found->name, reason(code)), name));
   }
   return codec;
+}
+
+std::int64_t most_pixels(AVCodecID codec) {
+  return is_intra_only(codec) || codec == AV_CODEC_ID_FFV1 ? kMostPixels : kMostBuiltOnPixels;
 }
 
 bool is_intra_only(AVCodecID codec) {

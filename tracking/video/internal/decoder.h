@@ -15,6 +15,9 @@ Expected<Codec> open_decoder(const AVCodecParameters& about, AVRational time_bas
 /// Whether each picture stands for itself, so that damage ends with it.
 bool is_intra_only(AVCodecID codec);
 
+/// The largest picture that is taken of a codec.
+std::int64_t most_pixels(AVCodecID codec);
+
 /// Names of the decoders that are taken, with commas.
 extern const char* const kTakenDecoders;
 

@@ -41,9 +41,10 @@ bool is_cut_avi(const ByteStream& bytes) {
 /// Asks the library what the streams are; it may decode a little for that.
 int find_streams(AVFormatContext* format) {
   std::vector<AVDictionary*> options(format->nb_streams, nullptr);
-  for (AVDictionary*& words : options) {
-    av_dict_set_int(&words, "max_pixels", kMostPixels, 0);
-    av_dict_set_int(&words, "threads", 1, 0);
+  for (std::size_t i = 0; i < options.size(); ++i) {
+    const std::int64_t most = most_pixels(format->streams[i]->codecpar->codec_id);
+    av_dict_set_int(&options[i], "max_pixels", most, 0);
+    av_dict_set_int(&options[i], "threads", 1, 0);
   }
   const int code = avformat_find_stream_info(format, options.data());
   for (AVDictionary*& words : options)

@@ -128,7 +128,7 @@ class ImageFolder final : public FrameSource {
       }
       const auto gray = pictures_.gray(*picture_);
       if (!gray) return unreadable("its pixel format cannot be read", file);
-      frame_ = {.number = number, .time_s = std::nullopt, .gray = *gray};
+      frame_ = {.number = number, .time_s = std::nullopt, .gray = *gray, .file = file};
       return true;
     }
     return false;
@@ -144,7 +144,35 @@ class ImageFolder final : public FrameSource {
   std::int64_t damaged_ = 0;
 };
 
+Expected<std::unique_ptr<FrameSource>> open_files(const std::string& path,
+                                                  std::vector<std::string> files) {
+  SourceInfo info;
+  info.name = path;
+  info.expected_frames = static_cast<std::int64_t>(files.size());
+  // The first one that can be read says how large they are.
+  std::optional<Error> first_error;
+  for (const std::string& file : files) {
+    const auto picture = picture_of(file);
+    if (picture) {
+      info.size = {(*picture)->width, (*picture)->height};
+      return std::make_unique<ImageFolder>(std::move(info), std::move(files));
+    }
+    if (!first_error) first_error = picture.error();
+  }
+  return Unexpected(*first_error);
+}
+
 }  // namespace
+
+bool is_image_file(const std::string& path) {
+  std::error_code ignored;
+  return is_image_name(path) && fs::is_regular_file(path, ignored);
+}
+
+Expected<std::unique_ptr<FrameSource>> open_image(const std::string& path) {
+  av::set_up();
+  return open_files(path, {path});
+}
 
 Expected<std::unique_ptr<FrameSource>> open_image_folder(const std::string& path) {
   av::set_up();
@@ -163,20 +191,7 @@ Expected<std::unique_ptr<FrameSource>> open_image_folder(const std::string& path
                       path);
   }
   std::sort(files.begin(), files.end(), comes_before);
-  SourceInfo info;
-  info.name = path;
-  info.expected_frames = static_cast<std::int64_t>(files.size());
-  // The first one that can be read says how large they are.
-  std::optional<Error> first_error;
-  for (const std::string& file : files) {
-    const auto picture = picture_of(file);
-    if (picture) {
-      info.size = {(*picture)->width, (*picture)->height};
-      return std::make_unique<ImageFolder>(std::move(info), std::move(files));
-    }
-    if (!first_error) first_error = picture.error();
-  }
-  return Unexpected(*first_error);
+  return open_files(path, std::move(files));
 }
 
 }  // namespace swarmsmith

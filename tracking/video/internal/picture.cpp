@@ -75,17 +75,18 @@ AVPixelFormat without_range(AVPixelFormat format) {
 
 }  // namespace
 
-bool is_taken(int width, int height) {
+bool is_taken(int width, int height, std::int64_t most_pixels) {
   return width > 0 && height > 0 && width <= kMostSide && height <= kMostSide &&
-         std::int64_t{width} * height <= kMostPixels;
+         std::int64_t{width} * height <= most_pixels;
 }
 
-Expected<void> check_size(int width, int height, const std::string& where) {
-  if (is_taken(width, height)) return {};
+Expected<void> check_size(int width, int height, const std::string& where,
+                          std::int64_t most_pixels) {
+  if (is_taken(width, height, most_pixels)) return {};
   return Unexpected(error_of(
       IssueCode::VideoUnreadable,
-      fmt::format("pictures of {} x {} pixels are not taken (at most {} a side, 100 megapixels)",
-                  width, height, kMostSide),
+      fmt::format("pictures of {} x {} pixels are not taken (at most {} a side, {} megapixels)",
+                  width, height, kMostSide, most_pixels / 1'000'000),
       where));
 }
 

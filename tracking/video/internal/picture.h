@@ -8,8 +8,9 @@
 namespace swarmsmith::av {
 
 /// Whether pictures of this size are read and written; and a sentence why not.
-bool is_taken(int width, int height);
-Expected<void> check_size(int width, int height, const std::string& where);
+bool is_taken(int width, int height, std::int64_t most_pixels = kMostPixels);
+Expected<void> check_size(int width, int height, const std::string& where,
+                          std::int64_t most_pixels = kMostPixels);
 
 /// Brightness and colours of decoded pictures. Keeps its scalers from picture to picture.
 class Pictures {

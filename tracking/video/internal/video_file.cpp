@@ -178,9 +178,9 @@ Expected<std::unique_ptr<FrameSource>> open_stream(av::ByteStream first, av::Byt
   auto demuxer = av::Demuxer::open(std::move(second), name);
   if (!demuxer) return Unexpected(demuxer.error());
   const AVCodecParameters& about = *demuxer->stream().codecpar;
-  if (auto fits = av::check_size(about.width, about.height, name); !fits) {
-    return Unexpected(fits.error());
-  }
+  const auto fits =
+      av::check_size(about.width, about.height, name, av::most_pixels(about.codec_id));
+  if (!fits) return Unexpected(fits.error());
   auto decoder = av::open_decoder(about, demuxer->stream().time_base, name);
   if (!decoder) return Unexpected(decoder.error());
   SourceInfo info = info_of(*demuxer, table, name);

@@ -1,0 +1,80 @@
+"""Whoever follows docs/tracking.md gets where it leads: its commands run, in their order, in a rendered laboratory whose
+files have the names of the page. And the page speaks of every command, option and message that there is."""
+import json
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import tempfile
+import unittest
+
+SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
+BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
+PAGE = (SOURCE / "docs" / "tracking.md").read_text()
+ENVIRONMENT = {**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"}
+ENVIRONMENT.pop("SWARMSMITH_STORE", None)
+
+
+def run(words, folder=None, check=True):
+    done = subprocess.run(words, cwd=folder, text=True, capture_output=True, timeout=500, env=ENVIRONMENT)
+    if check and done.returncode != 0:
+        raise AssertionError(f"{words}\n{done.stdout}{done.stderr}")
+    return done
+
+
+class HowTo(unittest.TestCase):
+    def test_its_blocks_work_in_their_order(self):
+        if not shutil.which("rsvg-convert"):
+            self.skipTest("rsvg-convert is not there; install librsvg2-bin")
+        blocks = re.findall(r"^```sh\n(.*?)^```", PAGE, re.S | re.M)
+        self.assertGreaterEqual(len(blocks), 6)
+        with tempfile.TemporaryDirectory(prefix="swarmsmith-tracking-") as name:
+            folder = pathlib.Path(name)
+            run([BIN / "film", "lab", folder, "--size", "960x540", "--form", "h264", "--fps", "15"])
+            truth = json.loads(run([BIN / "film", "run", folder / "run01", "--lab", folder, "--machine", "tA3",
+                                    "--mission", "aggregation", "--seconds", "15"]).stdout)
+            for block in blocks:
+                run(["bash", "-c", "set -eu\n" + block], folder)
+            self.assertTrue((folder / "run01.html").read_text().startswith("<!DOCTYPE html>"))
+            self.assertTrue((folder / "tags.pdf").read_bytes().startswith(b"%PDF"))
+            report = json.loads(run([BIN / "swarmsmith", "track", "report", "r1", "--store", "lab.db", "--json"],
+                                    folder).stdout)
+            self.assertEqual(report["score"], truth["score"], report["reasons"])
+            self.assertEqual(report["measured_verdict"], "VALID", report["reasons"])
+            for robot in report["robots"]:
+                self.assertEqual(sum(robot["cycles"].values()), 150)
+            keys = set(re.findall(r"`([a-z_]+)", PAGE))
+            self.assertLessEqual(set(report), keys)
+            for part in ("run", "frames"):
+                self.assertLessEqual(set(report[part]), keys)
+            self.assertLessEqual(set(report["robots"][0]), keys)
+
+
+class Completeness(unittest.TestCase):
+    def test_every_command_and_option_is_told(self):
+        text = run([BIN / "swarmsmith-track", "--help"]).stdout
+        names = re.findall(r"^  ([a-z]+(?: (?:camera|arena|robot|tags|board|survey))?)  +[A-Z]", text, re.M)
+        self.assertGreaterEqual(len(names), 9, text)
+        for name in names:
+            self.assertIn(f"`{name}", PAGE)
+            help_text = run([BIN / "swarmsmith-track", *name.split(), "--help"]).stdout
+            options = set(re.findall(r"(?:^|[ ,])(--[a-z][a-z-]+)", help_text.split("Example")[0]))
+            for option in options - {"--help", "--json", "--quiet", "--verbose", "--no-color"}:
+                self.assertIn(option, PAGE, f"{option} of {name}")
+
+    def test_every_message_is_told(self):
+        codes = re.findall(r'"([EW]_[A-Z_]+)"', (SOURCE / "tracking" / "rig" / "issue.cpp").read_text())
+        self.assertGreaterEqual(len(codes), 27)
+        for code in codes:
+            self.assertIn(f"| `{code}` |", PAGE)
+
+    def test_its_pictures_are_there_and_small(self):
+        pictures = re.findall(r"\((figures/tracking-[^)]+)\)", PAGE)
+        self.assertGreaterEqual(len(pictures), 5)
+        for picture in pictures:
+            self.assertLess((SOURCE / "docs" / picture).stat().st_size, 150_000, picture)
+
+
+if __name__ == "__main__":
+    unittest.main()

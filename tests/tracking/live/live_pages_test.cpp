@@ -1,0 +1,118 @@
+#include "tracking/live/live_pages.h"
+
+#include <gmock/gmock.h>
+#include <httplib.h>
+
+#include <atomic>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+int port_of(const LivePages& pages) {
+  const std::string address = pages.address();
+  return std::stoi(address.substr(address.rfind(':') + 1));
+}
+
+LiveState state_of(std::int64_t frame) {
+  LiveState state;
+  state.frame = frame;
+  state.time_s = 0.1 * static_cast<double>(frame);
+  state.robots = {{"rvr1", 1, 0.2, Pose{0.5, 0.25, 1}, 0.1, true, {}}};
+  return state;
+}
+
+ColorImage picture() {
+  return {320, 240, std::vector<std::uint8_t>(320 * 240 * 3, 90)};
+}
+
+/// Publishes a picture again and again, as a camera would.
+class Publishing {
+ public:
+  explicit Publishing(LivePages& pages)
+      : thread_([this, &pages] {
+          for (std::int64_t frame = 0; !done_; ++frame) {
+            pages.publish(state_of(frame),
+                          pages.is_watched() ? std::optional(picture()) : std::nullopt);
+            std::this_thread::sleep_for(std::chrono::milliseconds(5));
+          }
+        }) {}
+  ~Publishing() {
+    done_ = true;
+    thread_.join();
+  }
+  Publishing(const Publishing&) = delete;
+  Publishing& operator=(const Publishing&) = delete;
+
+ private:
+  std::atomic<bool> done_ = false;
+  std::thread thread_;
+};
+
+TEST(LivePagesTest, ShowsAPageAndTheState) {
+  const auto pages = LivePages::start(0, {}).value();
+  EXPECT_THAT(pages->address(), StartsWith("http://127.0.0.1:"));
+  httplib::Client client("127.0.0.1", port_of(*pages));
+  const auto page = client.Get("/");
+  ASSERT_TRUE(page);
+  EXPECT_EQ(page->status, 200);
+  EXPECT_THAT(page->body, HasSubstr("/stream.mjpg"));
+  EXPECT_THAT(page->get_header_value("Content-Security-Policy"), HasSubstr("default-src 'self'"));
+  EXPECT_EQ(client.Get("/state.json")->status, 503) << "nothing was published yet";
+  pages->publish(state_of(7), std::nullopt);
+  const auto state = client.Get("/state.json");
+  ASSERT_EQ(state->status, 200);
+  EXPECT_EQ(nlohmann::json::parse(state->body)["frame"], 7);
+  EXPECT_EQ(client.Get("/other")->status, 404);
+}
+
+TEST(LivePagesTest, SendsPicturesWhileSomebodyWatches) {
+  const auto pages = LivePages::start(0, {}).value();
+  EXPECT_FALSE(pages->is_watched());
+  const Publishing publishing(*pages);
+  httplib::Client client("127.0.0.1", port_of(*pages));
+  const auto frame = client.Get("/frame.jpg");
+  ASSERT_TRUE(frame);
+  ASSERT_EQ(frame->status, 200);
+  EXPECT_THAT(frame->body, StartsWith("\xff\xd8"));
+  std::string stream;
+  int parts = 0;
+  // Leaves after the third picture, as a browser that is closed.
+  client.Get("/stream.mjpg", [&](const char* bytes, std::size_t size) {
+    stream.append(bytes, size);
+    parts = 0;
+    for (std::size_t at = 0; (at = stream.find("--frame\r\n", at)) != std::string::npos; ++at)
+      ++parts;
+    return parts < 3;
+  });
+  EXPECT_EQ(parts, 3);
+  EXPECT_THAT(stream, StartsWith("--frame\r\nContent-Type: image/jpeg\r\nContent-Length: "));
+  for (int i = 0; i < 5000 && pages->is_watched(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  EXPECT_FALSE(pages->is_watched()) << "the stream has ended";
+}
+
+TEST(LivePagesTest, OtherNamesAndMethodsAreRefused) {
+  const auto pages = LivePages::start(0, {}).value();
+  httplib::Client client("127.0.0.1", port_of(*pages));
+  const httplib::Headers evil{{"Host", "evil.example:" + std::to_string(port_of(*pages))}};
+  EXPECT_EQ(client.Get("/state.json", evil)->status, 403);
+  const httplib::Headers local{{"Host", "localhost:" + std::to_string(port_of(*pages))}};
+  EXPECT_EQ(client.Get("/", local)->status, 200);
+  EXPECT_EQ(client.Delete("/")->status, 405);
+}
+
+TEST(LivePagesTest, AnotherProgramsPortIsAnError) {
+  const auto pages = LivePages::start(0, {}).value();
+  const auto second = LivePages::start(port_of(*pages), {});
+  ASSERT_FALSE(second.has_value());
+  EXPECT_EQ(second.error().kind, ErrorKind::Conflict);
+  EXPECT_THAT(second.error().message, HasSubstr("--port"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,88 @@
+#include "tracking/video/frame_clock.h"
+
+#include <gmock/gmock.h>
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::string refusal(std::string_view text) {
+  const auto times = parse_frame_times(text);
+  return times ? "" : to_string(times.error());
+}
+
+Frame frame(std::int64_t number, std::optional<double> time = std::nullopt) {
+  return {.number = number, .time_s = time, .gray = {}};
+}
+
+TEST(FrameTimes, ReadsColumnsInAnyOrder) {
+  EXPECT_THAT(*parse_frame_times("frame,time_s\n0,0.5\n1,0.75\n"), ElementsAre(0.5, 0.75));
+  EXPECT_THAT(*parse_frame_times("clock,time_s,frame\r\nx,-1e-3,0\r\n,2,1\r\n"),
+              ElementsAre(-0.001, 2));
+  EXPECT_THAT(*parse_frame_times("\xef\xbb\xbf\"frame\" , \"time_s\"\n0 , 7"), ElementsAre(7));
+}
+
+TEST(FrameTimes, NamesTheLineThatIsWrong) {
+  EXPECT_THAT(refusal(""), HasSubstr("empty"));
+  EXPECT_THAT(refusal("frame,time\n0,1\n"), HasSubstr("line 1: E_TIMESTAMPS"));
+  EXPECT_THAT(refusal("frame,frame,time_s\n"), HasSubstr("twice"));
+  EXPECT_THAT(refusal("frame,time_s\n"), HasSubstr("no frame"));
+  EXPECT_THAT(refusal("frame,time_s\n0,1\n2,2\n"), HasSubstr("line 3: E_TIMESTAMPS: frame 1"));
+  EXPECT_THAT(refusal("frame,time_s\n0,1\n1\n"), HasSubstr("line 3: E_TIMESTAMPS: 1 cells"));
+  EXPECT_THAT(refusal("frame,time_s\n0,nan\n"), HasSubstr("`nan` is no time"));
+  EXPECT_THAT(refusal("frame,time_s\n0,1s\n"), HasSubstr("`1s` is no time"));
+  EXPECT_THAT(refusal("frame,time_s\n0,1\n\n1,1\n"),
+              HasSubstr("line 4: E_TIMESTAMPS: frame 1 at 1 s is not later"));
+}
+
+TEST(FrameClock, TrustsTheSidecarThenTheContainerThenTheCount) {
+  SourceInfo source{.name = "run.mkv", .frame_rate = 20, .has_times = true, .has_count = true};
+  auto sidecar = FrameClock::of(source, std::vector<double>{10, 11});
+  ASSERT_TRUE(sidecar);
+  EXPECT_EQ(sidecar->source(), TimeSource::Sidecar);
+  EXPECT_EQ(*sidecar->time_of(frame(0, 0.1)), 10);
+
+  auto container = FrameClock::of(source, std::nullopt);
+  EXPECT_EQ(container->source(), TimeSource::Container);
+  EXPECT_EQ(*container->time_of(frame(0, 0.1)), 0.1);
+
+  source.has_times = false;
+  auto count = FrameClock::of(source, std::nullopt);
+  EXPECT_EQ(count->source(), TimeSource::FrameRate);
+  EXPECT_DOUBLE_EQ(*count->time_of(frame(3)), 0.15);
+  EXPECT_DOUBLE_EQ(*count->time_of(frame(7)), 0.35) << "frames that were left out count";
+
+  source.has_count = false;
+  const auto none = FrameClock::of(source, std::nullopt);
+  ASSERT_FALSE(none);
+  EXPECT_THAT(to_string(none.error()), HasSubstr("run.mkv: E_TIMESTAMPS"));
+}
+
+TEST(FrameClock, RefusesTimesThatDoNotGrow) {
+  const SourceInfo source{.name = "run.mkv", .has_times = true};
+  auto clock = FrameClock::of(source, std::nullopt);
+  ASSERT_TRUE(clock->time_of(frame(0, 1)));
+  EXPECT_FALSE(clock->time_of(frame(1))) << "no time is not time 0";
+  for (const double time : {1.0, 0.0}) {
+    const auto bad = clock->time_of(frame(5, time));
+    ASSERT_FALSE(bad);
+    EXPECT_THAT(bad.error().message, HasSubstr("E_TIMESTAMPS: frame 5 "));
+  }
+}
+
+TEST(FrameClock, WantsAsManyRowsAsFrames) {
+  auto clock = FrameClock::of({.name = "run.mkv"}, std::vector<double>{1, 2, 3});
+  ASSERT_TRUE(clock->time_of(frame(2)));
+  const auto beyond = clock->time_of(frame(3));
+  ASSERT_FALSE(beyond);
+  EXPECT_THAT(beyond.error().message, HasSubstr("E_SIDECAR_MISMATCH: frame 3"));
+  EXPECT_TRUE(clock->finish(3));
+  const auto more = clock->finish(2);
+  ASSERT_FALSE(more);
+  EXPECT_THAT(more.error().message, HasSubstr("E_SIDECAR_MISMATCH: 2 frames in the video, 3"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,78 @@
+#include <algorithm>
+#include <cctype>
+#include <memory>
+
+#include "base/id.h"
+#include "tracking/app/commands.h"
+#include "tracking/app/result_text.h"
+#include "tracking/app/run_store.h"
+#include "tracking/app/score_arguments.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct Arguments {
+  std::string run;
+  std::string store;
+  std::string verdict;
+  std::string who;
+  std::string reason;
+};
+
+bool is_blank(const std::string& text) {
+  return std::ranges::all_of(text, [](unsigned char c) { return std::isspace(c) != 0; });
+}
+
+ExitCode run(const Arguments& arguments, Output& output) {
+  for (const auto& [option, text] :
+       {std::pair("--who", arguments.who), std::pair("--reason", arguments.reason)}) {
+    if (!is_blank(text)) continue;
+    return fail(
+        output, ExitCode::Usage,
+        Error{ErrorKind::BadInput,
+              "a word above the verdict needs a name and a reason that others can read", option});
+  }
+  const std::string path = store_word(arguments.store);
+  if (path.empty()) {
+    return fail(output, ExitCode::Usage,
+                "which store? Name its file by --store, or set SWARMSMITH_STORE");
+  }
+  const auto reader = read_store(path);
+  if (!reader) return fail(output, reader.error());
+  const auto before = find_run(**reader, arguments.run);
+  if (!before) return fail(output, before.error());
+  std::string verdict = arguments.verdict;
+  std::ranges::transform(verdict, verdict.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::toupper(c)); });
+  const auto store = open_store(path, StoreAtRest::IfMissing::Refuse);
+  if (!store) return fail(output, store.error());
+  const RealRunId id = *id_from_text<RealRunTag>(arguments.run);
+  const auto added = (*store)->add_override({id, verdict, arguments.who, arguments.reason});
+  if (!added) return fail(output, ExitCode::Store, added.error());
+  if (output.json) {
+    output.out << "{\"run\":" << json_text(arguments.run) << ",\"verdict\":" << json_text(verdict)
+               << ",\"measured\":" << json_text(before->score.verdict)
+               << ",\"who\":" << json_text(arguments.who)
+               << ",\"reason\":" << json_text(arguments.reason) << "}\n";
+  } else {
+    output.out << arguments.run << ": " << before->score.verdict << " by its measurement, "
+               << verdict << " by " << arguments.who << ": " << arguments.reason << "\n";
+  }
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_track_override(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  options.text("RUN", arguments->run, "Run of the store: r7", Options::Need::Required);
+  options.choice("--verdict", arguments->verdict, {"valid", "degraded", "invalid"},
+                 "What counts from now on", Options::Need::Required);
+  options.text("--who", arguments->who, "Your name", Options::Need::Required);
+  options.text("--reason", arguments->reason, "Why, for those who read the results",
+               Options::Need::Required);
+  options.text("--store", arguments->store, "The store (else SWARMSMITH_STORE)");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,153 @@
+#include <algorithm>
+#include <memory>
+
+#include "base/id.h"
+#include "tracking/app/commands.h"
+#include "tracking/app/result_text.h"
+#include "tracking/app/run_checks.h"
+#include "tracking/app/run_plan.h"
+#include "tracking/app/run_report.h"
+#include "tracking/app/run_store.h"
+#include "tracking/app/score_arguments.h"
+#include "tracking/scoring/real_run_rows.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct Arguments {
+  std::vector<std::string> runs;
+  std::string store;
+  std::string arena;
+  std::string log;
+};
+
+/// A log that was mended. What was measured in the pictures is kept, since they are not here.
+OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
+  auto read = read_run_log(file);
+  if (!read) return refused(std::move(read.error()));
+  RunLog log = std::move(*read);
+  if (log.videos.empty()) log.videos = before.videos;
+  if (log.mission.name.empty()) log.mission = before.mission;
+  if (log.videos.size() != before.videos.size()) {
+    return refused(error_of(IssueCode::Config,
+                            "the run has " + std::to_string(before.videos.size()) +
+                                " videos, the log " + std::to_string(log.videos.size()),
+                            file));
+  }
+  for (std::size_t i = 0; i < log.videos.size(); ++i) {
+    if (log.videos[i].camera.empty()) log.videos[i].camera = before.videos[i].camera;
+    if (log.videos[i].camera == before.videos[i].camera) continue;
+    return refused(error_of(IssueCode::Config,
+                            "video " + std::to_string(i + 1) + " of the run is by camera \"" +
+                                before.videos[i].camera + "\", the log says \"" +
+                                log.videos[i].camera + "\"",
+                            file));
+  }
+  if (log.layout.source != RunLayout::Source::Measured) return log;
+  if (before.layout.source != RunLayout::Source::Measured) {
+    return refused(error_of(IssueCode::LayoutMissing,
+                            "the patches of this run were not measured when its video was here; "
+                            "say them by [[patch]], or score the video again",
+                            file));
+  }
+  log.layout = before.layout;
+  return log;
+}
+
+/// One run, scored again.
+struct Again {
+  RealRunRows before;
+  RealRunRows rows;
+  RunLog log;
+  RunAnalysis analysis;
+};
+
+OrRefusal<Again> score_again(const Arguments& arguments, RealRunRows before) {
+  auto stored = stored_run(before);
+  if (!stored) return refused(std::move(stored.error()));
+  std::string arena_text = before.arena_file;
+  if (!arguments.arena.empty()) {
+    auto arena = read_arena_file(arguments.arena);
+    if (!arena) return tl::unexpected(std::move(arena.error()));
+    arena_text = std::move(arena->text);
+    stored->rig = std::move(arena->rig);
+  }
+  CandidateId candidate = before.candidate;
+  if (!arguments.log.empty()) {
+    auto log = mended_log(arguments.log, stored->log);
+    if (!log) return tl::unexpected(std::move(log.error()));
+    stored->log = std::move(*log);
+    if (!stored->log.design.empty() || !stored->log.candidate.empty()) {
+      const auto control = control_of(store_word(arguments.store), stored->log);
+      if (!control) return tl::unexpected(control.error());
+      candidate = control->candidate;
+    }
+  }
+  std::vector<Error> errors = settle_names(stored->log, stored->rig);
+  if (!errors.empty()) return refused(std::move(errors));
+  const Rig rig = rig_of_run(stored->rig, stored->log);
+  errors = faults_of_rig(rig, stored->log.mission, before.score.biased);
+  if (!errors.empty()) return refused(std::move(errors));
+  auto analysis = analyse(stored->observations, rig, stored->rig, stored->log, before.score.biased);
+  if (!analysis) return tl::unexpected(std::move(analysis.error()));
+  RealRunRows rows = rows_of(reported_run(rig, stored->log, stored->observations, *analysis),
+                             *analysis, arena_text, candidate);
+  return Again{std::move(before), std::move(rows), std::move(stored->log), std::move(*analysis)};
+}
+
+void print_again(const std::string& word, const Again& again, Output& output) {
+  const RealScoreRow& before = again.before.score;
+  if (output.json) {
+    output.out << "{\"run\":" << json_text(word)
+               << ",\"before\":{\"score\":" << (before.score ? json_number(*before.score) : "null")
+               << ",\"verdict\":" << json_text(before.verdict) << "},"
+               << result_json(again.log, again.analysis) << "}\n";
+    return;
+  }
+  output.out << word << " was: score " << score_text(before.score) << ", " << before.verdict << "\n"
+             << word << " is now: " << result_text(again.log, again.analysis);
+}
+
+ExitCode rescore_one(const Arguments& arguments, const std::string& word, Output& output) {
+  const std::string path = store_word(arguments.store);
+  const auto reader = read_store(path);
+  if (!reader) return fail(output, reader.error());
+  auto before = find_run(**reader, word);
+  if (!before) return fail(output, before.error());
+  const auto again = score_again(arguments, std::move(*before));
+  if (!again) return fail(output, again.error());
+  const auto store = open_store(path, StoreAtRest::IfMissing::Refuse);
+  if (!store) return fail(output, store.error());
+  const auto written = (*store)->rescore_real_run(*id_from_text<RealRunTag>(word), again->rows);
+  if (!written) return fail(output, ExitCode::Store, written.error());
+  print_again(word, *again, output);
+  return again->analysis.scored.verdict == Verdict::Invalid ? ExitCode::InvalidRun : ExitCode::Done;
+}
+
+/// All of them, whatever becomes of one; the first that is not well decides the exit code.
+ExitCode run(const Arguments& arguments, Output& output) {
+  if (store_word(arguments.store).empty()) {
+    return fail(output, ExitCode::Usage,
+                "which store? Name its file by --store, or set SWARMSMITH_STORE");
+  }
+  ExitCode code = ExitCode::Done;
+  for (const std::string& word : arguments.runs) {
+    const ExitCode one = rescore_one(arguments, word, output);
+    if (code == ExitCode::Done) code = one;
+  }
+  return code;
+}
+
+}  // namespace
+
+Run declare_track_rescore(Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  options.words("RUN", arguments->runs, "Runs of the store: r7", Options::Need::Required);
+  options.text("--store", arguments->store, "The store (else SWARMSMITH_STORE)");
+  options.text("--arena", arguments->arena,
+               "Arena file with the calibrations to use now (default: those of the store)");
+  options.text("--run", arguments->log, "Run log to use now (default: that of the store)");
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

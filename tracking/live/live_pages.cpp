@@ -1,0 +1,227 @@
+#include "tracking/live/live_pages.h"
+
+#include <fmt/format.h>
+#include <httplib.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <thread>
+#include <utility>
+
+#include "embedded/kLivePage.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr const char* kHost = "127.0.0.1";
+constexpr int kQuality = 80;
+/// Each stream keeps a thread; the rest is for pages and states.
+constexpr std::size_t kThreads = 8;
+constexpr int kMostStreams = 4;
+constexpr std::chrono::seconds kPatience{2};
+
+/// A state with the picture that belongs to it.
+struct Shown {
+  LiveState state;
+  ColorImage picture;
+};
+
+class Pages final : public LivePages {
+ public:
+  explicit Pages(LiveScenery scenery) : scenery_(std::move(scenery)) {
+    http_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
+    http_.set_payload_max_length(0);
+    // Without the library's SO_REUSEPORT, by which two programs would share a port unawares.
+    http_.set_socket_options([](socket_t socket) {
+      const int yes = 1;
+      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+    });
+    http_.set_pre_routing_handler(
+        [this](const httplib::Request& request, httplib::Response& response) {
+          return gate(request, response);
+        });
+    http_.Get("/", [](const httplib::Request&, httplib::Response& response) {
+      response.set_content(kLivePage, "text/html; charset=utf-8");
+    });
+    http_.Get("/state.json", [this](const httplib::Request&, httplib::Response& response) {
+      show_state(response);
+    });
+    http_.Get("/frame.jpg", [this](const httplib::Request&, httplib::Response& response) {
+      show_frame(response);
+    });
+    http_.Get("/stream.mjpg", [this](const httplib::Request&, httplib::Response& response) {
+      show_stream(response);
+    });
+  }
+  ~Pages() override {
+    {
+      const std::scoped_lock lock(mutex_);
+      stopping_ = true;
+    }
+    changed_.notify_all();
+    http_.stop();
+    if (thread_.joinable()) thread_.join();
+  }
+
+  bool listen(int port) {
+    port_ = port != 0 && http_.bind_to_port(kHost, port) ? port
+            : port == 0                                  ? http_.bind_to_any_port(kHost)
+                                                         : -1;
+    if (port_ <= 0) return false;
+    thread_ = std::thread([this] { http_.listen_after_bind(); });
+    // The library forgets a `stop` that comes before it listens.
+    while (!http_.is_running())
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return true;
+  }
+
+  std::string address() const override { return fmt::format("http://{}:{}/", kHost, port_); }
+  bool is_watched() const override { return watchers_ > 0; }
+
+  void publish(LiveState state, std::optional<ColorImage> picture) override {
+    std::shared_ptr<const Shown> shown;
+    if (picture.has_value())
+      shown = std::make_shared<const Shown>(Shown{state, std::move(*picture)});
+    {
+      const std::scoped_lock lock(mutex_);
+      state_ = std::move(state);
+      if (shown != nullptr) {
+        shown_ = std::move(shown);
+        ++pictures_;
+      }
+    }
+    changed_.notify_all();
+  }
+
+ private:
+  /// Somebody who waits for a picture.
+  class Watching {
+   public:
+    explicit Watching(std::atomic<int>& watchers) : watchers_(&watchers) { ++*watchers_; }
+    ~Watching() { --*watchers_; }
+    Watching(const Watching&) = delete;
+    Watching& operator=(const Watching&) = delete;
+
+   private:
+    std::atomic<int>* watchers_;
+  };
+
+  /// A name that somebody else pointed at this host (DNS rebinding) is not ours.
+  httplib::Server::HandlerResponse gate(const httplib::Request& request,
+                                        httplib::Response& response) const {
+    response.set_header("X-Content-Type-Options", "nosniff");
+    response.set_header("Cache-Control", "no-store");
+    response.set_header("Content-Security-Policy",
+                        "default-src 'self'; style-src 'unsafe-inline'; script-src "
+                        "'unsafe-inline'; frame-ancestors 'none'");
+    const std::string host = request.get_header_value("Host");
+    const std::string port = ":" + std::to_string(port_);
+    if (host != kHost + port && host != "localhost" + port) {
+      response.status = 403;
+      response.set_content("ask for 127.0.0.1" + port + "\n", "text/plain");
+      return httplib::Server::HandlerResponse::Handled;
+    }
+    if (request.method == "GET") return httplib::Server::HandlerResponse::Unhandled;
+    response.status = 405;
+    response.set_header("Allow", "GET");
+    return httplib::Server::HandlerResponse::Handled;
+  }
+
+  /// A picture later than the `after`th, drawn; empty when none came.
+  std::vector<std::uint8_t> next_picture(std::int64_t& after) {
+    std::shared_ptr<const Shown> shown;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait_for(lock, kPatience, [&] { return pictures_ > after || stopping_; });
+      if (stopping_ || pictures_ <= after) return {};
+      shown = shown_;
+      after = pictures_;
+    }
+    ColorImage picture = shown->picture;
+    draw_live(picture, scenery_, shown->state);
+    return jpeg_of(picture, kQuality);
+  }
+
+  std::int64_t pictures() {
+    const std::scoped_lock lock(mutex_);
+    return pictures_;
+  }
+  bool is_stopping() {
+    const std::scoped_lock lock(mutex_);
+    return stopping_;
+  }
+
+  void show_state(httplib::Response& response) {
+    std::optional<LiveState> state;
+    {
+      const std::scoped_lock lock(mutex_);
+      state = state_;
+    }
+    if (!state.has_value()) {
+      response.status = 503;
+      return response.set_content("no frame came yet\n", "text/plain");
+    }
+    response.set_content(live_state_json(*state) + "\n", "application/json");
+  }
+
+  void show_frame(httplib::Response& response) {
+    const Watching watching(watchers_);
+    std::int64_t after = pictures();
+    const std::vector<std::uint8_t> jpeg = next_picture(after);
+    if (jpeg.empty()) {
+      response.status = 503;
+      return response.set_content("no frame came in two seconds\n", "text/plain");
+    }
+    response.set_content(std::string(jpeg.begin(), jpeg.end()), "image/jpeg");
+  }
+
+  void show_stream(httplib::Response& response) {
+    if (watchers_ >= kMostStreams) {
+      response.status = 503;
+      return response.set_content("too many streams are open\n", "text/plain");
+    }
+    const auto watching = std::make_shared<Watching>(watchers_);
+    const auto after = std::make_shared<std::int64_t>(pictures());
+    response.set_content_provider(
+        "multipart/x-mixed-replace; boundary=frame",
+        [this, watching, after](std::size_t, httplib::DataSink& sink) {
+          const std::vector<std::uint8_t> jpeg = next_picture(*after);
+          if (is_stopping()) return false;
+          // Nothing came: a browser keeps the last picture, and the stream stays open.
+          if (jpeg.empty()) return sink.is_writable();
+          const std::string head = fmt::format(
+              "--frame\r\nContent-Type: image/jpeg\r\nContent-Length: {}\r\n\r\n", jpeg.size());
+          return sink.write(head.data(), head.size()) &&
+                 sink.write(reinterpret_cast<const char*>(jpeg.data()), jpeg.size()) &&
+                 sink.write("\r\n", 2);
+        });
+  }
+
+  LiveScenery scenery_;
+  std::atomic<int> watchers_ = 0;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<LiveState> state_;
+  std::shared_ptr<const Shown> shown_;
+  std::int64_t pictures_ = 0;
+  bool stopping_ = false;
+  int port_ = 0;
+  httplib::Server http_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+Expected<std::unique_ptr<LivePages>> LivePages::start(int port, LiveScenery scenery) {
+  auto pages = std::make_unique<Pages>(std::move(scenery));
+  if (!pages->listen(port))
+    return unexpected(ErrorKind::Conflict,
+                      "cannot listen there: another program may; choose another --port, or 0 for "
+                      "a free one",
+                      fmt::format("{}:{}", kHost, port));
+  return std::unique_ptr<LivePages>(std::move(pages));
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "base/expected.h"
+#include "tracking/live/live_picture.h"
+
+namespace swarmsmith {
+
+/// Shows a live camera to browsers of this host, from threads of its own: / (a page),
+/// /stream.mjpg (pictures, one after the other), /frame.jpg (one picture), /state.json.
+class LivePages {
+ public:
+  /// Listens on 127.0.0.1 alone: there is no password. `port` 0: a free one. Conflict when another
+  /// program has the port.
+  static Expected<std::unique_ptr<LivePages>> start(int port, LiveScenery scenery);
+  virtual ~LivePages() = default;
+
+  /// "http://127.0.0.1:8080/".
+  virtual std::string address() const = 0;
+  /// Whether somebody waits for pictures: only then they need to have colours.
+  virtual bool is_watched() const = 0;
+  /// What is shown from now on; drawing is done by the threads of those who ask. Without a picture
+  /// only the state is new.
+  virtual void publish(LiveState state, std::optional<ColorImage> picture) = 0;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,149 @@
+#include "tracking/live/live_tracker.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "tracking/observing/observe.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kTrail_s = 5;
+constexpr double kRateOver_s = 2;
+/// A shorter gap is interpolated without a word (tracking facts, section 8).
+constexpr double kLost_s = 0.5;
+constexpr double kScaleTolerance = 0.05;
+/// Floor tags are looked for some times a second only.
+constexpr double kReferenceSeen_s = 1;
+
+TagSearchOptions options_of(const Rig& rig) {
+  TagSearchOptions options;
+  for (const RobotSetup& robot : rig.robots)
+    options.expected.insert(robot.tag);
+  for (const ReferenceTag& reference : rig.references) {
+    options.expected.insert(reference.tag);
+    options.still.insert(reference.tag);
+  }
+  return options;
+}
+
+OverlayTag::Kind kind_of(const Rig& rig, int tag) {
+  for (const RobotSetup& robot : rig.robots)
+    if (robot.tag == tag) return OverlayTag::Kind::Robot;
+  for (const ReferenceTag& reference : rig.references)
+    if (reference.tag == tag) return OverlayTag::Kind::Reference;
+  return OverlayTag::Kind::Unknown;
+}
+
+}  // namespace
+
+Expected<LiveTracker> LiveTracker::of(Rig rig, CameraSetup camera, std::optional<Arena> arena) {
+  auto detector = TagDetector::of_family(rig.family);
+  if (!detector.has_value()) return Unexpected(detector.error());
+  TagSearch search(std::move(*detector), options_of(rig));
+  return LiveTracker(std::move(search), std::move(rig), std::move(camera), std::move(arena));
+}
+
+LiveTracker::LiveTracker(TagSearch search, Rig rig, CameraSetup camera, std::optional<Arena> arena)
+    : search_(std::move(search)),
+      rig_(std::move(rig)),
+      camera_(std::move(camera)),
+      arena_(std::move(arena)),
+      view_(rig_.view_of(camera_)),
+      known_(rig_.robots.size()) {}
+
+LiveState LiveTracker::look_at(const GrayImage& image, std::int64_t frame, double time_s) {
+  LiveState state;
+  state.frame = frame;
+  state.time_s = time_s;
+  frame_times_.push_back(time_s);
+  while (time_s - frame_times_.front() > kRateOver_s)
+    frame_times_.pop_front();
+  if (frame_times_.size() > 1)
+    state.frames_per_s =
+        static_cast<double>(frame_times_.size() - 1) / (time_s - frame_times_.front());
+  // Calibrations hold for one size of image; with another nothing would be where it is shown.
+  if (view_.has_value() && view_->camera.size != ImageSize{image.width, image.height}) {
+    state.issues.push_back(fmt::format(
+        "the camera's calibration is for {} x {} pixels, its pictures have {} x {}: "
+        "tags alone are shown",
+        view_->camera.size.width, view_->camera.size.height, image.width, image.height));
+    view_.reset();
+  }
+  const std::vector<Detection> seen = search_.find(image, time_s);
+  for (const Detection& each : seen) {
+    state.tags.push_back({each.tag, each.corners, kind_of(rig_, each.tag)});
+    if (state.tags.back().kind == OverlayTag::Kind::Reference)
+      references_seen_s_[each.tag] = time_s;
+  }
+  state.references = static_cast<int>(rig_.references.size());
+  for (const auto& [tag, seen_s] : references_seen_s_)
+    if (time_s - seen_s <= kReferenceSeen_s) ++state.references_seen;
+  for (std::size_t robot = 0; robot < rig_.robots.size(); ++robot) {
+    const double exposed_s = exposed_at(camera_, time_s, 0, image.height);
+    place(robot, seen, exposed_s, state);
+  }
+  add_issues(seen, state);
+  return state;
+}
+
+void LiveTracker::place(std::size_t robot, const std::vector<Detection>& seen, double time_s,
+                        LiveState& state) {
+  const RobotSetup& setup = rig_.robots[robot];
+  Known& known = known_[robot];
+  // The surest of two, which come first; that there are two is told as an issue.
+  const auto found = std::find_if(seen.begin(), seen.end(),
+                                  [&](const Detection& each) { return each.tag == setup.tag; });
+  if (found != seen.end()) {
+    known.seen_s = time_s;
+    if (view_.has_value()) {
+      const TagPose tag = tag_pose(*view_, found->corners, setup.edge_m, setup.height_m);
+      known.scale = tag.scale;
+      known.pose = robot_pose(tag.pose, rig_.offset_of(setup).value_or(TagOffset{}));
+      known.trail.emplace_back(time_s, Point{known.pose->x, known.pose->y});
+    }
+  }
+  while (!known.trail.empty() && time_s - known.trail.front().first > kTrail_s)
+    known.trail.pop_front();
+  LiveRobot shown{setup.name,          setup.tag, setup.height_m, known.pose, known.seen_s,
+                  found != seen.end(), {}};
+  for (const auto& [at_s, point] : known.trail)
+    shown.trail.push_back(point);
+  state.robots.push_back(std::move(shown));
+}
+
+void LiveTracker::add_issues(const std::vector<Detection>& seen, LiveState& state) const {
+  if (!view_.has_value() && state.issues.empty())
+    state.issues.push_back(
+        fmt::format("camera {} is not calibrated: tags alone are shown", camera_.name));
+  for (std::size_t i = 0; i < rig_.robots.size(); ++i) {
+    const LiveRobot& robot = state.robots[i];
+    const std::string who = fmt::format("{} (tag {})", robot.name, robot.tag);
+    if (!robot.seen_s.has_value())
+      state.issues.push_back(who + " has not been seen yet");
+    else if (state.time_s - *robot.seen_s > kLost_s)
+      state.issues.push_back(
+          fmt::format("{} is not seen for {:.1f} s", who, state.time_s - *robot.seen_s));
+    if (!robot.is_seen || !robot.pose.has_value()) continue;
+    if (!rig_.offset_of(rig_.robots[i]).has_value())
+      state.issues.push_back(who + " has no offset calibration: its tag is taken for its centre");
+    if (std::abs(known_[i].scale - 1) > kScaleTolerance)
+      state.issues.push_back(fmt::format(
+          "{}: the tag looks {:.0f} % too {}; check its edge and height", who,
+          100 * std::abs(known_[i].scale - 1), known_[i].scale > 1 ? "large" : "small"));
+    if (arena_.has_value() && !is_inside(*arena_, {robot.pose->x, robot.pose->y}))
+      state.issues.push_back(who + " is outside of the walls");
+  }
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const bool again = i > 0 && seen[i - 1].tag == seen[i].tag;
+    if (again && (i < 2 || seen[i - 2].tag != seen[i].tag))
+      state.issues.push_back(fmt::format("tag {} is there more than once", seen[i].tag));
+    if (!again && kind_of(rig_, seen[i].tag) == OverlayTag::Kind::Unknown)
+      state.issues.push_back(fmt::format("tag {} is nobody's", seen[i].tag));
+  }
+}
+
+}  // namespace swarmsmith

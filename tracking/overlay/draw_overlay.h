@@ -1,0 +1,40 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tracking/geometry/tag_pose.h"
+#include "tracking/geometry/view.h"
+#include "tracking/overlay/overlay_run.h"
+#include "tracking/video/frame_source.h"
+
+namespace swarmsmith {
+
+/// A tag that was found in the frame.
+struct OverlayTag {
+  int tag = 0;
+  TagCorners corners{};
+  enum class Kind { Robot, Reference, Unknown } kind = Kind::Robot;
+};
+
+/// Words in the upper left corner of the picture, a line each, and warnings in the lower left one.
+struct OverlayWords {
+  std::vector<std::string> lines;
+  std::vector<std::string> warnings;
+};
+
+/// Draws walls, patches and tiles as the camera sees them on the floor, lens and all; robots at the
+/// height of their tags, with a cross where their centre is on the floor, which is what scores see;
+/// trails on the floor; tags where they were found. A robot between measurements is hollow.
+void draw_floor(ColorImage& image, const View& view, const Mission& mission,
+                const std::vector<double>& tile_ages_s);
+void draw_robots(ColorImage& image, const View& view, const Outline& body,
+                 const std::vector<OverlayRobot>& robots);
+void draw_tags(ColorImage& image, const std::vector<OverlayTag>& tags);
+void draw_words(ColorImage& image, const OverlayWords& words);
+
+/// All of it.
+void draw_overlay(ColorImage& image, const View& view, const Mission& mission,
+                  const OverlayMoment& moment, const std::vector<OverlayTag>& tags);
+
+}  // namespace swarmsmith
