@@ -153,7 +153,7 @@ TEST_F(RecoverRealRuns, AStoreOfRealRunsAloneNeedsNoCampaignFile) {
 TEST_F(RecoverRealRuns, ARunOfWhichPartsAreLostIsInvalidAndSaysWhich) {
   const auto pages = bytes.size() / kPage;
   int told = 0;
-  for (std::size_t page = 2; page < pages; page += 3) {
+  for (std::size_t page = 2; page < pages; page += pages / 12) {
     std::string broken = bytes;
     broken.replace(page * kPage, kPage, kPage, '\x5a');
     write_bytes(damaged, broken);
