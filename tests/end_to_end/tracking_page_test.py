@@ -77,5 +77,29 @@ class Completeness(unittest.TestCase):
             self.assertLess((SOURCE / "docs" / picture).stat().st_size, 150_000, picture)
 
 
+class Printing(unittest.TestCase):
+    def refused(self, code, said, *words):
+        done = run([BIN / "swarmsmith-track", *words], self.folder, check=False)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(said, done.stderr)
+
+    def test_pages_and_refusals(self):
+        with tempfile.TemporaryDirectory(prefix="swarmsmith-printing-") as name:
+            self.folder = pathlib.Path(name)
+            tags = ("print", "tags", "--edge", "0.1")
+            done = run([BIN / "swarmsmith-track", *tags, "--ids", "1-3", "-o", "tags.svg", "--json"], self.folder)
+            self.assertEqual(json.loads(done.stdout), {"pages": 2, "files": ["tags-1.svg", "tags-2.svg"]})
+            self.assertIn('height="297mm"', (self.folder / "tags-2.svg").read_text())
+            self.refused(2, "largest that fits has 151 mm", "print", "tags", "--edge", "0.2", "--ids", "1", "-o", "t.pdf")
+            self.refused(2, ".pdf or .svg", *tags, "--ids", "1", "-o", "tags.png")
+            self.refused(2, '"x" is no id', *tags, "--ids", "x", "-o", "tags.pdf")
+            self.refused(2, "too large for A4", "print", "board", "chessboard:10x7:0.1", "-o", "b.pdf")
+            self.refused(2, "no positive number", "print", "survey", "--ids", "1", "--edge", "-1", "-o", "s.pdf")
+            self.refused(1, "cannot", *tags, "--ids", "1", "-o", "no/such/folder/tags.svg")
+            self.refused(2, "no store", "report", "r1")
+            self.refused(3, "no such store", "report", "r1", "--store", "none.db")
+            self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["tags-1.svg", "tags-2.svg"])
+
+
 if __name__ == "__main__":
     unittest.main()
