@@ -28,6 +28,9 @@ std::string empty_ninths(const std::array<int, 9>& ninths) {
 std::string report_text(const CameraSolution& solution, std::span<const BoardView> views) {
   const CameraCalibration& calibration = solution.calibration;
   const CameraModel& model = calibration.model;
+  // OpenCV's fisheye solver does not say how sure it is.
+  const double deviation = calibration.focal_sigma_px;
+  const std::string sigma = deviation > 0 ? fmt::format(" (+- {:.2f})", deviation) : "";
   std::string text = fmt::format(
       "{} x {} pixels; fx {:.2f}, fy {:.2f}{}, centre ({:.2f}, {:.2f})\n", model.size.width,
       model.size.height, model.fx, model.fy, sigma, model.cx, model.cy);
