@@ -72,8 +72,11 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::filesystem::path sidecar_of(const std::filesystem::path& clip) {
+  // A dot in a folder's name is no ending.
+  const std::filesystem::path ending = clip.extension();
   std::filesystem::path file = clip;
-  return file.replace_extension(".times.csv");
+  if (ending == ".mkv" || ending == ".mp4" || ending == ".avi") file.replace_extension();
+  return file.concat(".times.csv");
 }
 
 std::string ending_of(ClipForm form) {

@@ -44,12 +44,12 @@ CONDITIONS = (
 
 
 def plan_of_long(count):
-    """Mission, machine, seed and condition of each run: each mission under each condition."""
+    """Lab, condition and wishes of each run: 30 are each mission under each condition, and the
+    first few are as different as can be."""
     for number in range(count):
         mission, designs = MISSIONS[number % len(MISSIONS)]
-        turn = number // len(MISSIONS)
-        lab, name, faults = CONDITIONS[turn % len(CONDITIONS)]
-        machine = f"{designs}{turn % 10 + 1}"
+        lab, name, faults = CONDITIONS[number % len(CONDITIONS)]
+        machine = f"{designs}{number // len(MISSIONS) % 10 + 1}"
         # H.264 and MJPEG by turns.
         form = "mjpg" if number % 2 else "h264"
         yield (lab, name, ("--mission", mission, "--machine", machine, "--seed", str(100 + number),
