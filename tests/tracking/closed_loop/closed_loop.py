@@ -33,11 +33,11 @@ CONDITIONS = (
     ("good", "pseudo-reality", ("--profile", "pseudo-reality")),
     ("surveyed to 1 mm, rolling", "survey 1 mm, readout 16 ms", ("--profile", "pseudo-reality")),
     ("good", "noise 5", ("--noise", "5")),
-    ("good", "blur 1.5 px", ("--blur", "1.5")),
+    ("good", "blur 1 px", ("--blur", "1.0")),
     ("good", "dark, noise 4", ("--gain", "0.5", "--noise", "4", "--profile", "pseudo-reality")),
     ("good", "3 % dropped, jitter", ("--drop", "0.03", "--jitter-ms", "4")),
     ("surveyed to 1 mm, rolling", "survey 1 mm, readout 16 ms, blur",
-     ("--blur", "1.0", "--profile", "pseudo-reality")),
+     ("--blur", "0.9", "--profile", "pseudo-reality")),
     ("two cameras", "two cameras", ()),
     ("good", "exposure 15 ms", ("--exposure-ms", "15", "--profile", "pseudo-reality")),
 )
