@@ -5,6 +5,7 @@
 #include <unistd.h>
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <mutex>
 #include <thread>
 
@@ -152,6 +153,9 @@ class Pages final : public HttpServer {
         continue;
       }
       thread_ = std::thread([this] { http_.listen_after_bind(); });
+      // The library forgets a `stop` that comes before it listens.
+      while (!http_.is_running())
+        std::this_thread::sleep_for(std::chrono::milliseconds(1));
       return true;
     }
     return false;
