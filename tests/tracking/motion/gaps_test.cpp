@@ -48,6 +48,7 @@ TEST(GapsTest, LongerOnesAreErrorsAndHoldTheLastPose) {
   EXPECT_NEAR(issue->to.value(), 22.03, 0.04);
   EXPECT_THAT(issue->text, HasSubstr("rvr2 (tag 2) was not seen from 20.00 s to 22.03 s"));
   EXPECT_EQ(count_of(run, CycleKind::Missing), 20);
+  EXPECT_EQ(run.issues.size(), 1U);
   // Instants 20.1 s and 22.0 s.
   EXPECT_EQ(run.trajectory.at(200)[1], run.trajectory.at(219)[1]);
   EXPECT_EQ(run.trajectory.at(199)[1], run.trajectory.at(200)[1]);

@@ -113,9 +113,12 @@ std::int64_t guessed_cycles(const RobotTrack& track, const FrameReport& frames,
     const double time = instant_s(static_cast<int>(cycle));
     if (time < frames.from_s || time > frames.to_s) continue;
     const auto next = std::ranges::lower_bound(track.merged, time, {}, &TimedPose::time_s);
-    const bool is_near =
-        (next != track.merged.end() && next->time_s - time <= limits.measured_gap_s) ||
-        (next != track.merged.begin() && time - std::prev(next)->time_s <= limits.measured_gap_s);
+    const double to = next == track.merged.end() ? frames.to_s : next->time_s;
+    const double from = next == track.merged.begin() ? frames.from_s : std::prev(next)->time_s;
+    // Longer gaps are errors, and said as such.
+    if (to - from > limits.degraded_gap_s + kSameInstant_s) continue;
+    const bool is_near = (next != track.merged.end() && to - time <= limits.measured_gap_s) ||
+                         (next != track.merged.begin() && time - from <= limits.measured_gap_s);
     if (!is_near) ++guessed;
   }
   return guessed;
