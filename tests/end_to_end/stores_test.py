@@ -180,7 +180,7 @@ class Recover(Stores):
         missing = 0
         for _ in range(8):
             data = bytearray(self.bytes)
-            for _ in range(generator.randint(1, 6)):
+            for _ in range(generator.randint(3, 12)):
                 page = generator.randrange(len(data) // PAGE)
                 data[page * PAGE:(page + 1) * PAGE] = generator.randbytes(PAGE)
             told = self.recover(data, "--campaign", self.file)
