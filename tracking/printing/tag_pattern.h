@@ -20,7 +20,8 @@ struct TagPattern {
   }
 };
 
-/// For all families of `known_tag_families`. BadInput for a family that is not known, or an id that it has not; with what there is.
+/// For all families of `known_tag_families`. BadInput for a family that is not known, or an id that
+/// it has not; with what there is.
 Expected<TagPattern> tag_pattern(const std::string& family, int id);
 
 }  // namespace swarmsmith
