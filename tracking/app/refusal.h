@@ -1,6 +1,5 @@
 #pragma once
 
-#include <utility>
 #include <vector>
 
 #include "console/output.h"
@@ -23,8 +22,5 @@ tl::unexpected<Refusal> refused(ExitCode code, Error error);
 
 /// Prints all of it.
 ExitCode fail(Output& output, const Refusal& refusal);
-inline ExitCode fail_all(Output& output, std::vector<Error> errors) {
-  return fail(output, refused(std::move(errors)).value());
-}
 
 }  // namespace swarmsmith::cli
