@@ -9,6 +9,7 @@
 #include "storage/internal/mend_real_runs.h"
 #include "storage/internal/new_file.h"
 #include "storage/internal/reading.h"
+#include "storage/internal/real_run_writer.h"
 #include "storage/internal/row_reader.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/salvage.h"
@@ -208,6 +209,13 @@ void SqliteRecovery::replace_derived(const StoredCampaign& campaign, const Deriv
 Expected<Recovery::End> SqliteRecovery::finish() {
   End end;
   try {
+    if (campaigns().empty() &&
+        sqlite::integer_of(connection_, "SELECT count(*) FROM design") == 0) {
+      // A store of real runs alone: its campaign says nothing that is not known.
+      const std::string key = sqlite::text_of(
+          connection_, "SELECT coalesce((SELECT key FROM real_run ORDER BY id), '')");
+      if (!key.empty()) write_campaign_of_real_runs(connection_, key);
+    }
     if (campaigns().empty()) {
       return unexpected(ErrorKind::Corrupt,
                         "the campaign's own row is lost; name the campaign's file, so that the new "

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "base/hash.h"
 #include "storage/internal/file_checks.h"
 #include "storage/internal/open_writer.h"
 #include "storage/internal/real_run_reader.h"
@@ -28,20 +27,6 @@ constexpr char kCampaign[] =
 constexpr char kDesign[] =
     "INSERT INTO design (id, mission, method, flavour, repetition, seed, budget, name, campaign)"
     " SELECT ?, ?, ?, ?, ?, ?, ?, ?, max(id) FROM campaign";
-
-/// Of a store that holds real runs and no races.
-constexpr char kRealRuns[] =
-    "INSERT INTO campaign (id, name, digest, deciding, file, seed, state, designs_before, finished)"
-    " VALUES (1, 'real runs', ?, '{}', '', 0, 'imported', 0,"
-    " strftime('%Y-%m-%dT%H:%M:%fZ', 'now'))";
-
-/// Two stores of real runs are two campaigns when they began with different runs.
-std::string campaign_digest(const RealRunRows& first) {
-  Digest digest;
-  digest.add(std::string("real runs"));
-  digest.add(first.key);
-  return digest.hex();
-}
 
 class SqliteAtRest final : public StoreAtRest {
  public:
@@ -141,7 +126,7 @@ Expected<RealRunWritten> SqliteAtRest::add_real_run(const RealRunRows& rows) {
           path_.string());
     }
     if (auto known = check_candidate(rows.candidate); !known) return known;
-    if (is_new_) Statement(*connection_, kRealRuns).run(campaign_digest(rows));
+    if (is_new_) write_campaign_of_real_runs(*connection_, rows.key);
     written.id = write_real_run(*connection_, rows);
     return {};
   });

@@ -17,7 +17,11 @@ namespace swarmsmith::cli {
 namespace {
 
 /// By CycleKind of tracking, and of what was simulated.
-constexpr std::array<std::string_view, 4> kKinds{"measured", "interpolated", "degraded", "missing"};
+std::string_view kind_text(std::int64_t kind) {
+  constexpr std::array<std::string_view, 4> kKinds{"measured", "interpolated", "degraded",
+                                                   "missing"};
+  return kind < 0 || kind > 3 ? "" : kKinds.at(static_cast<std::size_t>(kind));
+}
 constexpr std::string_view kSimulated = "simulated";
 
 ShownRun shown(const RealRunRows& rows, const FilmedRun& filmed, double score) {
@@ -153,9 +157,7 @@ std::string table_of(const RealReplay& replay, RealRunId id) {
         append_pose_cells(csv, static_cast<int>(cycle), static_cast<int>(robot),
                           run.robots[robot][cycle]);
         csv += ',';
-        csv += is_real ? kKinds.at(static_cast<std::size_t>(
-                             replay.rows.cycles[cycle * robots + robot].kind))
-                       : kSimulated;
+        csv += is_real ? kind_text(replay.rows.cycles[cycle * robots + robot].kind) : kSimulated;
         csv += kCsvLineEnd;
       }
     }

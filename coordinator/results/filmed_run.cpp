@@ -33,6 +33,8 @@ Expected<std::vector<Patch>> patches_of(const RealRunRows& rows) {
 Expected<FilmedRun> filmed_run(const RealRunRows& rows) {
   auto entry = parse_mission(rows.mission_file, "the run's mission");
   if (!entry) return broken(rows, to_string(entry.error().front()));
+  if (!entry->mission.arena.objects.empty())
+    return broken(rows, "its mission has movable objects, which nobody follows");
   auto patches = patches_of(rows);
   if (!patches) return Unexpected(patches.error());
   FilmedRun run{.mission = std::move(entry->mission),

@@ -14,8 +14,8 @@ struct FilmedRun {
   Trajectory trajectory;  ///< at the control cycles
 };
 
-/// Reads the mission and puts the cycles together. Corrupt when the mission cannot be read, a patch
-/// has a colour that is none, or cycles are missing.
+/// Reads the mission and puts the cycles together. Corrupt when the mission cannot be read or has
+/// movable objects, a patch has a colour that is none, or cycles are missing.
 Expected<FilmedRun> filmed_run(const RealRunRows& rows);
 
 /// What the run's stored cycles score, by the scoring code that simulations are judged by. -0 is 0,

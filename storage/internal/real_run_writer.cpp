@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "base/hash.h"
 #include "storage/internal/real_run_parts.h"
 
 namespace swarmsmith {
@@ -227,6 +228,17 @@ void rewrite_real_run(Connection& connection, RealRunId id, const RealRunRows& r
   for (const char* table : {"real_robot", "real_patch", "real_cycle", "real_issue"})
     Statement(connection, fmt::format("DELETE FROM {} WHERE run = ?", table)).run(id.value);
   write_derived(connection, id, rows);
+}
+
+void write_campaign_of_real_runs(Connection& connection, const std::string& key) {
+  Digest digest;
+  digest.add(std::string("real runs"));
+  digest.add(key);
+  Statement(connection,
+            "INSERT INTO campaign (id, name, digest, deciding, file, seed, state, designs_before,"
+            " finished) VALUES (1, 'real runs', ?, '{}', '', 0, 'imported', 0,"
+            " strftime('%Y-%m-%dT%H:%M:%fZ', 'now'))")
+      .run(digest.hex());
 }
 
 void write_override(Connection& connection, const RealOverrideRow& row) {

@@ -20,6 +20,10 @@ RealRunId write_real_run(sqlite::Connection& connection, const RealRunRows& rows
 /// All of a stored run but its sightings, and one more scoring.
 void rewrite_real_run(sqlite::Connection& connection, RealRunId id, const RealRunRows& rows);
 
+/// The campaign of a store that has real runs and no races, which begins with the run of that key:
+/// an imported one without designs. Two such stores differ, so that they can be merged.
+void write_campaign_of_real_runs(sqlite::Connection& connection, const std::string& key);
+
 void write_override(sqlite::Connection& connection, const RealOverrideRow& row);
 
 /// Which inputs of two records of one run differ: "the run log", "calibrations"; none when its

@@ -37,7 +37,7 @@ def setUpModule():
                     "--form", "mjpg"], check=True, timeout=300)
     Rendered.truth = json.loads((Rendered.root / "truth.json").read_text())
     Rendered.camera = answer("calibrate", "camera", "ceiling.board", "--board", BOARD, "--map",
-                             "map.svg")
+                             "map.svg", "--arena", "arena.toml")
     Rendered.place = answer("calibrate", "arena", "ceiling.arena.avi", "--arena", "arena.toml")
     Rendered.offset = answer("calibrate", "robot", "rvr1", "--spin", "rvr1.spin.avi",
                              "--straight", "rvr1.straight.avi", "--arena", "arena.toml")
@@ -136,7 +136,16 @@ class Cameras(Laboratory):
     def test_a_video_without_a_board(self):
         self.refused(1, self.calibrate(self.root / "ceiling.arena.avi"), "E_CALIB_QUALITY")
 
+    def test_a_place_of_the_last_lens_is_to_be_found_again(self):
+        run = track("calibrate", "camera", self.root / "ceiling.board", "--board", BOARD,
+                    "--arena", "arena.toml", cwd=self.copy)
+        self.assertEqual(run.returncode, 0, run.stderr)
+        self.assertIn("Corners in each ninth", run.stdout)
+        self.assertIn("calibrate arena --again --arena arena.toml", run.stderr)
+
     def test_wrong_words(self):
+        self.refused(2, [*self.calibrate("x.png"), "--arena", "arena.toml", "--camera", "floor"],
+                     "no camera \"floor\"")
         self.refused(2, self.calibrate("x.png", board="charuco:9x6"), "E_CONFIG", "charuco:11x8")
         self.refused(1, self.calibrate("nowhere.avi"), "E_VIDEO_UNREADABLE", "nowhere.avi")
 

@@ -33,17 +33,18 @@ class HowTo(unittest.TestCase):
             folder = pathlib.Path(name)
             run([BIN / "film", "lab", folder, "--size", "960x540", "--form", "h264", "--fps", "15"])
             truth = json.loads(run([BIN / "film", "run", folder / "run01", "--lab", folder, "--machine", "tA3",
-                                    "--mission", "aggregation", "--seconds", "15"]).stdout)
+                                    "--mission", "aggregation", "--seconds", "30"]).stdout)
             for block in blocks:
                 run(["bash", "-c", "set -eu\n" + block], folder)
             self.assertTrue((folder / "run01.html").read_text().startswith("<!DOCTYPE html>"))
             self.assertTrue((folder / "tags.pdf").read_bytes().startswith(b"%PDF"))
             report = json.loads(run([BIN / "swarmsmith", "track", "report", "r1", "--store", "lab.db", "--json"],
                                     folder).stdout)
+            self.assertGreater(truth["score"], 0)
             self.assertEqual(report["score"], truth["score"], report["reasons"])
             self.assertEqual(report["measured_verdict"], "VALID", report["reasons"])
             for robot in report["robots"]:
-                self.assertEqual(sum(robot["cycles"].values()), 150)
+                self.assertEqual(sum(robot["cycles"].values()), 300)
             keys = set(re.findall(r"`([a-z_]+)", PAGE))
             self.assertLessEqual(set(report), keys)
             for part in ("run", "frames"):
@@ -74,6 +75,30 @@ class Completeness(unittest.TestCase):
         self.assertGreaterEqual(len(pictures), 5)
         for picture in pictures:
             self.assertLess((SOURCE / "docs" / picture).stat().st_size, 150_000, picture)
+
+
+class Printing(unittest.TestCase):
+    def refused(self, code, said, *words):
+        done = run([BIN / "swarmsmith-track", *words], self.folder, check=False)
+        self.assertEqual(done.returncode, code, done.stderr)
+        self.assertIn(said, done.stderr)
+
+    def test_pages_and_refusals(self):
+        with tempfile.TemporaryDirectory(prefix="swarmsmith-printing-") as name:
+            self.folder = pathlib.Path(name)
+            tags = ("print", "tags", "--edge", "0.1")
+            done = run([BIN / "swarmsmith-track", *tags, "--ids", "1-3", "-o", "tags.svg", "--json"], self.folder)
+            self.assertEqual(json.loads(done.stdout), {"pages": 2, "files": ["tags-1.svg", "tags-2.svg"]})
+            self.assertIn('height="297mm"', (self.folder / "tags-2.svg").read_text())
+            self.refused(2, "largest that fits has 151 mm", "print", "tags", "--edge", "0.2", "--ids", "1", "-o", "t.pdf")
+            self.refused(2, ".pdf or .svg", *tags, "--ids", "1", "-o", "tags.png")
+            self.refused(2, '"x" is no id', *tags, "--ids", "x", "-o", "tags.pdf")
+            self.refused(2, "too large for A4", "print", "board", "chessboard:10x7:0.1", "-o", "b.pdf")
+            self.refused(2, "no positive number", "print", "survey", "--ids", "1", "--edge", "-1", "-o", "s.pdf")
+            self.refused(1, "cannot", *tags, "--ids", "1", "-o", "no/such/folder/tags.svg")
+            self.refused(2, "no store", "report", "r1")
+            self.refused(3, "no such store", "report", "r1", "--store", "none.db")
+            self.assertEqual(sorted(path.name for path in self.folder.iterdir()), ["tags-1.svg", "tags-2.svg"])
 
 
 if __name__ == "__main__":

@@ -8,6 +8,7 @@
 
 #include "base/rng.h"
 #include "storage/internal/page_image.h"
+#include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/synthetic_real_run.h"
@@ -131,10 +132,28 @@ TEST_F(RecoverRealRuns, WithoutTheFirstPageNothingIsLost) {
   EXPECT_EQ(*open_reader(out)->real_run({2}), runs[1]);
 }
 
+TEST_F(RecoverRealRuns, AStoreOfRealRunsAloneNeedsNoCampaignFile) {
+  const fs::path path = folder / "real.db";
+  {
+    const auto store = StoreAtRest::open(path, StoreAtRest::IfMissing::Make);
+    for (std::uint64_t number = 1; number <= 2; ++number)
+      ASSERT_TRUE((*store)->add_real_run(synthetic_real_run(number, {}, 400)));
+  }
+  const std::string whole = digest_of(path);
+  sqlite::Connection(path.string(), SQLITE_OPEN_READWRITE).execute("DELETE FROM campaign");
+  fs::remove(out);
+  auto recovery = Recovery::begin(path, out);
+  ASSERT_TRUE(recovery);
+  const auto end = (*recovery)->finish();
+  ASSERT_TRUE(end) << to_string(end.error());
+  EXPECT_EQ(end->digest, whole);
+  EXPECT_EQ(open_reader(out)->real_runs().size(), 2U);
+}
+
 TEST_F(RecoverRealRuns, ARunOfWhichPartsAreLostIsInvalidAndSaysWhich) {
   const auto pages = bytes.size() / kPage;
   int told = 0;
-  for (std::size_t page = 2; page < pages; page += 3) {
+  for (std::size_t page = 2; page < pages; page += pages / 12) {
     std::string broken = bytes;
     broken.replace(page * kPage, kPage, kPage, '\x5a');
     write_bytes(damaged, broken);

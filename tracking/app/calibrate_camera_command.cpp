@@ -5,7 +5,7 @@
 #include "console/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/refusal.h"
+#include "tracking/app/complaints.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/calibration/find_board.h"
 #include "tracking/rig/calibration_limits.h"
@@ -23,9 +23,32 @@ struct Arguments {
   std::string board;
   std::string file;
   std::string lens = "pinhole";
-  std::string camera = "ceiling";
+  std::string arena;
+  std::string camera;
   std::string map;
 };
+
+/// Where the calibration goes, and whether a place was found with the one that it replaces.
+struct Target {
+  std::string file;
+  bool has_place = false;
+};
+
+/// The file of `-o`, else the `model` of the arena file's camera, else the camera's name.
+tl::expected<Target, std::vector<Error>> target_of(const Arguments& arguments) {
+  Target target;
+  if (arguments.arena.empty()) {
+    target.file = (arguments.camera.empty() ? "ceiling" : arguments.camera) + ".camera.toml";
+  } else {
+    const auto rig = read_rig(arguments.arena);
+    if (!rig) return tl::unexpected(rig.error());
+    const auto camera = camera_of(*rig, arguments.camera);
+    if (!camera) return tl::unexpected(std::vector<Error>{camera.error()});
+    target = {beside(rig->file, camera->model_file), rig->places.contains(camera->place_file)};
+  }
+  if (!arguments.file.empty()) target.file = arguments.file;
+  return target;
+}
 
 /// Boards that were found, with those of videos apart, of which the differing ones are taken.
 struct Finds {
@@ -94,7 +117,8 @@ Expected<void> write_map(const CameraSolution& solution, const std::vector<Board
   return write_whole_file(file, residual_map_svg(solution, views));
 }
 
-ExitCode solve(const Arguments& arguments, const Board& board, const Finds& finds, Output& output) {
+ExitCode solve(const Arguments& arguments, const Target& target, const Board& board,
+               const Finds& finds, Output& output) {
   const Lens lens = arguments.lens == "fisheye" ? Lens::Fisheye : Lens::Pinhole;
   print_note(output, fmt::format("the board is in {} of {} pictures; solving",
                                  finds.views.size() + finds.of_video.size(), finds.looked_at));
@@ -111,21 +135,26 @@ ExitCode solve(const Arguments& arguments, const Board& board, const Finds& find
   const std::vector<Error> faults = faults_of(calibration);
   if (!output.json) output.out << report_text(*solution, views);
   if (!faults.empty()) return fail_all(output, faults);
-  const std::string file =
-      arguments.file.empty() ? arguments.camera + ".camera.toml" : arguments.file;
-  if (const auto written = write_whole_file(file, calibration_text(calibration)); !written)
+  if (const auto written = write_whole_file(target.file, calibration_text(calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
-  if (output.json) output.out << json_of(*solution, views, file);
+  if (output.json) output.out << json_of(*solution, views, target.file);
   print_cautions(output, cautions_of(calibration));
-  print_note(output, "wrote " + file +
-                         "; places of cameras that were found with another one are to be found "
-                         "again: `swarmsmith track calibrate arena --again`");
+  print_note(output, "wrote " + target.file);
+  if (target.has_place) {
+    print_note(
+        output,
+        "note: where the camera hangs was found with its last calibration; next: `swarmsmith "
+        "track calibrate arena --again --arena " +
+            arguments.arena + "`");
+  }
   return ExitCode::Done;
 }
 
 ExitCode run(const Arguments& arguments, Output& output) {
   const auto board = parse_board(arguments.board);
   if (!board) return fail(output, ExitCode::Usage, board.error());
+  const auto target = target_of(arguments);
+  if (!target) return fail_all(output, target.error());
   Finds finds;
   const auto looked = for_each_picture(
       arguments.words,
@@ -134,7 +163,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
       },
       output);
   if (!looked) return fail(output, exit_code_of_tracking(looked.error()), looked.error());
-  return solve(arguments, *board, finds, output);
+  return solve(arguments, *target, *board, finds, output);
 }
 
 }  // namespace
@@ -148,11 +177,14 @@ Run declare_calibrate_camera(Options& options) {
                "The board: charuco:COLUMNSxROWS:SQUARE:MARKER:DICTIONARY or "
                "chessboard:COLUMNSxROWS:SQUARE, edges in metres as measured on paper",
                Options::Need::Required);
+  options.text("--arena", arguments->arena, "Arena file, which names the file to write");
+  options.text("--camera", arguments->camera,
+               "The camera's name, when the arena has several (without an arena: ceiling)");
   options.text("-o,--output", arguments->file,
-               "File to write (default: the camera's name and .camera.toml)");
+               "File to write (default: the camera's `model` of the arena file, else its name and "
+               ".camera.toml)");
   options.choice("--lens", arguments->lens, {"pinhole", "fisheye"},
                  "Model of the lens; fisheye for over about 100 degrees");
-  options.text("--camera", arguments->camera, "The camera's name (default: ceiling)");
   options.text("--map", arguments->map, "Draw the corners' residuals over the frame to this .svg");
   return [arguments](Output& output) { return run(*arguments, output); };
 }

@@ -5,7 +5,7 @@
 #include "console/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/refusal.h"
+#include "tracking/app/complaints.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"

@@ -48,7 +48,8 @@ constexpr std::string_view kScoreDetails =
     "the run is INVALID, and is kept as that.";
 constexpr std::string_view kCalibrateCameraDetails =
     "Examples:\n"
-    "  swarmsmith track calibrate camera board/ --board charuco:11x8:0.03:0.022:5x5_100\n"
+    "  swarmsmith track calibrate camera board/ --board charuco:11x8:0.03:0.022:5x5_100 \\\n"
+    "    --arena arena.toml\n"
     "  swarmsmith track calibrate camera board.mp4 --board chessboard:10x7:0.025\n"
     "\n"
     "A ChArUco board counts its squares, a chessboard its inner corners; measure the squares on\n"
@@ -84,6 +85,26 @@ constexpr std::string_view kCalibrateRobotDetails =
     "Refused with E_SPIN_QUALITY, and no file written: under 60 samples or 300 degrees, RMS over\n"
     "2 mm, offset not known to 0.5 mm or over 135 mm, centre creeping over 5 mm/s.";
 
+constexpr std::string_view kOverlayDetails =
+    "Examples:\n"
+    "  swarmsmith track overlay r7 --store demo.db -o r7.mp4\n"
+    "  swarmsmith track overlay run07.mp4 --arena arena.toml --run run07.toml -o "
+    "run07-overlay.mp4\n"
+    "  swarmsmith track overlay r7 --store demo.db --at 119.5 -o end.png\n"
+    "\n"
+    "Tags are where they were found; robots' bodies are at the height of their tags; the white\n"
+    "cross is a robot's centre on the floor, which is what the score sees. A robot that is not\n"
+    "filled was between measurements. Tiles that were visited say how long ago.";
+constexpr std::string_view kLiveDetails =
+    "Examples:\n"
+    "  swarmsmith track live --arena arena.toml --camera camera:0 --mission aggregation\n"
+    "  swarmsmith track live --arena arena.toml --camera run07.mp4 --port 8090\n"
+    "\n"
+    "Open the address that it prints in a browser of this host; from another one through\n"
+    "`ssh -L 8080:127.0.0.1:8080 HOST`. There is no window: a camera's computer often has no\n"
+    "screen. A video file plays as fast as it was taken. Frames that come faster than they can be\n"
+    "looked at are dropped, and counted; a recording has them all. Ctrl-C ends it.";
+
 constexpr std::array kCommands = {
     Command{"init", "Write an arena.toml and a run.toml to begin with", "", declare_track_init},
     Command{"check", "Say what an arena has, what is missing and what comes next", "",
@@ -113,6 +134,10 @@ constexpr std::array kCommands = {
             "What was recorded stays readable whatever happens, all but the last half second.\n\n"
             "  swarmsmith track record camera:0:1920x1080@30 run07.mkv --seconds 130",
             declare_record},
+    Command{"overlay", "Draw what tracking made of a run over its video", kOverlayDetails,
+            declare_overlay},
+    Command{"live", "Watch a camera: robots and tags found as the frames come", kLiveDetails,
+            declare_live},
     Command{"version", "Print the versions of program and libraries", "", declare_track_version},
 };
 

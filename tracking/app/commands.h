@@ -23,6 +23,8 @@ Run declare_print_board(Options& options);
 Run declare_print_survey(Options& options);
 Run declare_track_report(Options& options);
 Run declare_record(Options& options);
+Run declare_overlay(Options& options);
+Run declare_live(Options& options);
 Run declare_track_version(Options& options);
 
 /// "swarmsmith-track 0.1.0, OpenCV 4.6.0, apriltag 3.3.0, ...": what made a file or a score.

@@ -61,8 +61,10 @@ ExitCode run(const ReportArguments& arguments, Output& output) {
   if (!rows) return fail(output, rows.error());
   const auto overrides = overrides_of(**store, arguments.run);
   if (!overrides) return fail(output, overrides.error());
-  const auto stored = stored_run(*rows);
+  auto stored = stored_run(*rows);
   if (!stored) return fail(output, Refusal{ExitCode::Store, stored.error()});
+  if (auto errors = settle_names(stored->log, stored->rig); !errors.empty())
+    return fail(output, Refusal{ExitCode::Store, std::move(errors)});
   const Rig rig = rig_of_run(stored->rig, stored->log);
   const auto analysis =
       analyse(stored->observations, rig, stored->rig, stored->log, rows->score.biased);

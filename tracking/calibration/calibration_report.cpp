@@ -28,10 +28,12 @@ std::string empty_ninths(const std::array<int, 9>& ninths) {
 std::string report_text(const CameraSolution& solution, std::span<const BoardView> views) {
   const CameraCalibration& calibration = solution.calibration;
   const CameraModel& model = calibration.model;
-  std::string text =
-      fmt::format("{} x {} pixels; fx {:.2f}, fy {:.2f} (+- {:.2f}), centre ({:.2f}, {:.2f})\n",
-                  model.size.width, model.size.height, model.fx, model.fy,
-                  calibration.focal_sigma_px, model.cx, model.cy);
+  // OpenCV's fisheye solver does not say how sure it is.
+  const double deviation = calibration.focal_sigma_px;
+  const std::string sigma = deviation > 0 ? fmt::format(" (+- {:.2f})", deviation) : "";
+  std::string text = fmt::format(
+      "{} x {} pixels; fx {:.2f}, fy {:.2f}{}, centre ({:.2f}, {:.2f})\n", model.size.width,
+      model.size.height, model.fx, model.fy, sigma, model.cx, model.cy);
   text += fmt::format(
       "RMS {:.3f} px over {} views, worst {:.3f} px; hull of the corners {:.0f} % of "
       "the frame\n\n",

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "embedded/kLivePage.h"
+#include "tracking/overlay/picture_bytes.h"
 
 namespace swarmsmith {
 namespace {
@@ -130,7 +131,7 @@ class Pages final : public LivePages {
   }
 
   /// A picture later than the `after`th, drawn; empty when none came.
-  std::vector<std::uint8_t> next_picture(std::int64_t& after) {
+  std::string next_picture(std::int64_t& after) {
     std::shared_ptr<const Shown> shown;
     {
       std::unique_lock lock(mutex_);
@@ -169,12 +170,12 @@ class Pages final : public LivePages {
   void show_frame(httplib::Response& response) {
     const Watching watching(watchers_);
     std::int64_t after = pictures();
-    const std::vector<std::uint8_t> jpeg = next_picture(after);
+    const std::string jpeg = next_picture(after);
     if (jpeg.empty()) {
       response.status = 503;
       return response.set_content("no frame came in two seconds\n", "text/plain");
     }
-    response.set_content(std::string(jpeg.begin(), jpeg.end()), "image/jpeg");
+    response.set_content(jpeg, "image/jpeg");
   }
 
   void show_stream(httplib::Response& response) {
@@ -187,14 +188,13 @@ class Pages final : public LivePages {
     response.set_content_provider(
         "multipart/x-mixed-replace; boundary=frame",
         [this, watching, after](std::size_t, httplib::DataSink& sink) {
-          const std::vector<std::uint8_t> jpeg = next_picture(*after);
+          const std::string jpeg = next_picture(*after);
           if (is_stopping()) return false;
           // Nothing came: a browser keeps the last picture, and the stream stays open.
           if (jpeg.empty()) return sink.is_writable();
           const std::string head = fmt::format(
               "--frame\r\nContent-Type: image/jpeg\r\nContent-Length: {}\r\n\r\n", jpeg.size());
-          return sink.write(head.data(), head.size()) &&
-                 sink.write(reinterpret_cast<const char*>(jpeg.data()), jpeg.size()) &&
+          return sink.write(head.data(), head.size()) && sink.write(jpeg.data(), jpeg.size()) &&
                  sink.write("\r\n", 2);
         });
   }

@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <opencv2/imgcodecs.hpp>
-
 namespace swarmsmith {
 
 void draw_live(ColorImage& image, const LiveScenery& scenery, const LiveState& state) {
@@ -21,15 +19,6 @@ void draw_live(ColorImage& image, const LiveScenery& scenery, const LiveState& s
   draw_words(image, {{fmt::format("{:.1f} s  {:.0f} frames/s  delay {:.0f} ms", state.time_s,
                                   state.frames_per_s, 1000 * state.delay_s)},
                      state.issues});
-}
-
-std::vector<std::uint8_t> jpeg_of(const ColorImage& image, int quality) {
-  // OpenCV only reads it, though its type has no word for that.
-  const cv::Mat picture(image.height, image.width, CV_8UC3,
-                        const_cast<std::uint8_t*>(image.bgr.data()));
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", picture, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
-  return bytes;
 }
 
 }  // namespace swarmsmith

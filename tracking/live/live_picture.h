@@ -1,8 +1,6 @@
 #pragma once
 
-#include <cstdint>
 #include <optional>
-#include <vector>
 
 #include "sim/mission/mission.h"
 #include "tracking/live/live_state.h"
@@ -17,8 +15,5 @@ struct LiveScenery {
 
 /// Draws a state over its frame.
 void draw_live(ColorImage& image, const LiveScenery& scenery, const LiveState& state);
-
-/// The picture as JPEG, `quality` 1 to 100.
-std::vector<std::uint8_t> jpeg_of(const ColorImage& image, int quality);
 
 }  // namespace swarmsmith

@@ -108,6 +108,8 @@ SightingsByTag sightings_of(const Observations& observations,
   SightingsByTag found;
   for (std::size_t i = 0; i < observations.sightings.size(); ++i) {
     const Sighting& seen = observations.sightings[i];
+    // What is left of a damaged store may name a camera that is lost.
+    if (seen.camera < 0 || seen.camera >= static_cast<int>(cameras.size())) continue;
     const double time = seen.time_s - cameras[static_cast<std::size_t>(seen.camera)].start_s;
     if (time >= -margin && time <= end) found[seen.tag].push_back(i);
   }

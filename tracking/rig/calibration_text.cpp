@@ -40,7 +40,7 @@ std::string calibration_text(const CameraCalibration& calibration) {
          line("coverage", number_text(calibration.coverage),
               "of the frame by the corners' hull; at least 0.7") +
          line("focal_sigma_px", number_text(calibration.focal_sigma_px),
-              "standard deviation of the focal length") +
+              "standard deviation of f; 0: not known (fisheye)") +
          "\n[model]\n" + line("width", std::to_string(model.size.width), "pixels") +
          line("height", std::to_string(model.size.height)) +
          line("lens", quoted_text(fisheye ? "fisheye" : "pinhole")) +

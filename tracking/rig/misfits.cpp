@@ -50,7 +50,7 @@ void check_offset(const Rig& rig, const RobotSetup& robot, std::vector<Error>& e
                             "the offset of robot \"" + robot.name + "\" was found for " +
                                 differences +
                                 "; find it again: `swarmsmith track calibrate "
-                                "robot --robot " +
+                                "robot " +
                                 robot.name + "`",
                             robot.offset_file));
 }

@@ -65,7 +65,7 @@ struct CameraCalibration {
   int views = 0;              ///< used
   int views_dropped = 0;      ///< as outliers
   double coverage = 0;        ///< of the frame by the hull of the corners, 0 to 1
-  double focal_sigma_px = 0;  ///< standard deviation of fx or fy, the larger one, by the fit
+  double focal_sigma_px = 0;  ///< standard deviation of f by the fit; 0: not known (fisheye)
   std::string board;          ///< as it was described
   std::string made;
 };

@@ -197,62 +197,6 @@ void add_issues(const RunToStore& run, RealRunRows& rows) {
   }
 }
 
-TagCorners corners_of(const std::array<double, 8>& numbers) {
-  TagCorners corners;
-  for (std::size_t i = 0; i < corners.size(); ++i)
-    corners.at(i) = {numbers.at(2 * i), numbers.at(2 * i + 1)};
-  return corners;
-}
-
-TimeSource time_source_of(const std::string& name) {
-  for (const TimeSource source : {TimeSource::Sidecar, TimeSource::Container}) {
-    if (name == name_of(source)) return source;
-  }
-  return TimeSource::FrameRate;
-}
-
-/// The sha256 of the calibration that a camera or robot had; empty when it took no part.
-std::string calibration_of(const RealRunRows& rows, CalibrationKind kind,
-                           const std::string& subject) {
-  for (const RealVideoRow& row : rows.videos) {
-    if (kind == CalibrationKind::Offset || row.camera != subject) continue;
-    return kind == CalibrationKind::Camera ? row.camera_calibration : row.place_calibration;
-  }
-  for (const RealRobotRow& row : rows.robots) {
-    if (kind == CalibrationKind::Offset && row.name == subject) return row.offset_calibration;
-  }
-  return {};
-}
-
-Observations observations_of(const RealRunRows& rows) {
-  Observations observations;
-  for (const RealVideoRow& row : rows.videos) {
-    CameraRecord record{.camera = row.camera, .file = row.file, .sha256 = row.sha256};
-    record.size = {static_cast<int>(row.width), static_cast<int>(row.height)};
-    record.frames = row.frames;
-    record.damaged_frames = row.damaged_frames;
-    record.time_source = time_source_of(row.time_source);
-    record.frame_times = row.frame_times;
-    for (const RealReferenceRow& look : rows.references) {
-      if (look.video != row.number) continue;
-      record.references.push_back({look.time_s, static_cast<int>(look.tag),
-                                   corners_of(look.corners), static_cast<int>(look.frames)});
-    }
-    observations.cameras.push_back(std::move(record));
-  }
-  for (const RealSampleRow& row : rows.samples) {
-    observations.sightings.push_back({static_cast<int>(row.video), row.frame, row.time_s,
-                                      static_cast<int>(row.tag), corners_of(row.corners),
-                                      static_cast<int>(row.hamming), row.margin});
-  }
-  for (const RealIssueRow& row : rows.issues) {
-    const auto code = issue_code_from_name(row.code);
-    if (!row.of_observing || !code) continue;
-    observations.issues.push_back({*code, row.text, row.robot, row.from_s, row.to_s});
-  }
-  return observations;
-}
-
 }  // namespace
 
 RealRunRows real_run_rows(const RunToStore& run) {
@@ -279,24 +223,6 @@ RealRunRows real_run_rows(const RunToStore& run) {
                 .reasons = nlohmann::json(run.scored.reasons)
                                .dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
   return rows;
-}
-
-OrComplaints<StoredRun> stored_run(const RealRunRows& rows) {
-  const FindCalibration find =
-      [&](CalibrationKind kind, const std::string& subject,
-          const std::string& /*file*/) -> Expected<std::optional<std::string>> {
-    const std::string used = calibration_of(rows, kind, subject);
-    for (const CalibrationRow& row : rows.calibrations) {
-      if (row.kind != name_of(kind)) continue;
-      if (used.empty() ? row.subject == subject : row.sha256 == used) return row.file;
-    }
-    return std::nullopt;
-  };
-  OrComplaints<Rig> rig = parse_rig(rows.arena_file, "arena.toml", find);
-  if (!rig) return tl::unexpected(std::move(rig.error()));
-  OrComplaints<RunLog> log = parse_run_log(rows.log, rows.name + ".toml");
-  if (!log) return tl::unexpected(std::move(log.error()));
-  return StoredRun{std::move(*rig), std::move(*log), observations_of(rows)};
 }
 
 }  // namespace swarmsmith

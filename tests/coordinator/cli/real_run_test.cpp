@@ -89,8 +89,8 @@ TEST_F(RealRuns, AreListedAndShown) {
   EXPECT_EQ(answer["real run"]["id"], "r1");
   EXPECT_EQ(answer["real run"]["candidate"], "c1");
   EXPECT_EQ(answer["real run"]["counts"], 1);
-  EXPECT_EQ(answer["robots"]["rows"].size(), 3U);
-  EXPECT_EQ(answer["calibrations"]["rows"].size(), 6U);
+  EXPECT_EQ(answer["robots"].size(), 3U);
+  EXPECT_EQ(answer["calibrations"].size(), 6U);
   EXPECT_EQ(run({"show", "r9", store_}).code, 4);
   EXPECT_THAT(run({"show", "c1", store_}).out, HasSubstr("real"));
 }

@@ -23,7 +23,7 @@ void check(const Expected<void>& done) {
 class Sink {
  public:
   Sink(std::filesystem::path file, ClipForm form, ImageSize size, double rate_hz)
-      : file_(std::move(file)) {
+      : file_(std::move(file)), form_(form), rate_hz_(rate_hz) {
     if (form == ClipForm::Folder) {
       std::filesystem::remove_all(file_);
       std::filesystem::create_directories(file_);
@@ -40,7 +40,8 @@ class Sink {
 
   void add(const ColorImage& image, double time_s) {
     if (video_) {
-      check(video_->write(image, time_s));
+      // An .avi knows no other times.
+      check(video_->write(image, form_ == ClipForm::Mjpg ? count_++ / rate_hz_ : time_s));
       return;
     }
     char name[32];
@@ -54,6 +55,8 @@ class Sink {
 
  private:
   std::filesystem::path file_;
+  ClipForm form_;
+  double rate_hz_;
   std::optional<VideoWriter> video_;
   int count_ = 0;
 };
@@ -72,8 +75,11 @@ void write_text(const std::filesystem::path& file, const std::string& text) {
 }
 
 std::filesystem::path sidecar_of(const std::filesystem::path& clip) {
+  // A dot in a folder's name is no ending.
+  const std::filesystem::path ending = clip.extension();
   std::filesystem::path file = clip;
-  return file.replace_extension(".times.csv");
+  if (ending == ".mkv" || ending == ".mp4" || ending == ".avi") file.replace_extension();
+  return file.concat(".times.csv");
 }
 
 std::string ending_of(ClipForm form) {

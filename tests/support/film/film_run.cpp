@@ -13,7 +13,11 @@ namespace swarmsmith::film {
 namespace {
 
 constexpr int kSyncTag = 99;
-constexpr Pose kSyncPlace{1.42, 0.62, 0.3};  // beside the arena
+
+/// Beside the arena, where the first camera sees it.
+Pose sync_place(const Lab& lab) {
+  return lab.cameras.size() == 1 ? Pose{1.42, 0.62, 0.3} : Pose{-0.9, 1.15, 0.3};
+}
 
 Scene scene_of(const Lab& lab, const RecordedRun& run, const FilmWish& wish) {
   Scene scene = empty_scene(lab);
@@ -27,7 +31,7 @@ Scene scene_of(const Lab& lab, const RecordedRun& run, const FilmWish& wish) {
     }
   }
   if (wish.duplicate) scene.tags.push_back({scene.robots.front().tag, {-0.55, 0.62, 1}});
-  if (wish.sync) scene.tags.push_back({kSyncTag, kSyncPlace, 0.1, 0, -kForever_s, 0});
+  if (wish.sync) scene.tags.push_back({kSyncTag, sync_place(lab), 0.1, 0, -kForever_s, 0});
   for (const ArmWish& arm : wish.arms) {
     Point hand{0, 0};
     if (arm.robot > 0) {

@@ -30,7 +30,9 @@ std::vector<LabCamera> cameras_of(const LabOptions& options, Rng rng) {
   std::vector<LabCamera> cameras;
   for (int i = 0; i < options.cameras; ++i) {
     Rng own = rng.split("camera", static_cast<std::uint64_t>(i));
-    const double side = options.cameras == 1 ? 0 : 0.65 * (2 * i - 1);
+    // Of two, each stands on its side and sees a good half of the arena from wall to wall.
+    const double side = options.cameras == 1 ? 0 : 0.55 * (2 * i - 1);
+    const double turned = options.cameras == 1 ? 0 : 90 * kDegree;
     // Tilts of 2 to 4 degrees, as they come about when a bracket is screwed on by hand.
     const double tilt = own.uniform(2, 4) * kDegree;
     const double towards = own.uniform(0, 2 * std::numbers::pi);
@@ -38,11 +40,11 @@ std::vector<LabCamera> cameras_of(const LabOptions& options, Rng rng) {
     const Point3 centre{target.x + kHeight_m * std::tan(tilt) * std::cos(towards),
                         target.y + kHeight_m * std::tan(tilt) * std::sin(towards), kHeight_m};
     const CameraModel lens =
-        lens_of(options.size, options.cameras == 1 ? 0.583 : 0.60, own.split("lens"));
+        lens_of(options.size, options.cameras == 1 ? 0.583 : 0.85, own.split("lens"));
     cameras.push_back({options.cameras == 1 ? "ceiling"
                        : i == 0             ? "west"
                                             : "east",
-                       {lens, looking_at(centre, target, own.uniform(-3, 3) * kDegree)}});
+                       {lens, looking_at(centre, target, turned + own.uniform(-3, 3) * kDegree)}});
   }
   return cameras;
 }
@@ -59,8 +61,10 @@ Lab lab_of(const LabOptions& options) {
   lab.size = options.size;
   lab.cameras = cameras_of(options, rng);
   Rng survey = rng.split("survey");
-  for (int i = 0; i < 6; ++i) {
-    const double angle = (15 + 60 * i) * kDegree;
+  // Each camera must see four at least.
+  const int count = options.cameras == 1 ? 6 : 10;
+  for (int i = 0; i < count; ++i) {
+    const double angle = (15 + 360.0 / count * i) * kDegree;
     const Pose declared{std::round(1.08 * std::cos(angle) * 1000) / 1000,
                         std::round(1.08 * std::sin(angle) * 1000) / 1000,
                         wrap_angle((i % 4) * 90 * kDegree)};

@@ -114,7 +114,23 @@ TEST(SolvePlaceTest, TheTagThatWasSurveyedWronglyIsNamed) {
   }
 }
 
-/// Six millimetres show in no RMS of 0.3 px, but by leaving the tag out.
+/// Of four tags the wrong one pulls the others' fit so far that theirs is the larger error; and a
+/// tag may lie right, but turned.
+TEST(SolvePlaceTest, TheWrongOneOfFourIsNamedToo) {
+  for (std::size_t wrong = 0; wrong < 4; ++wrong) {
+    for (const Pose& off : {Pose{0.02, 0, 0}, Pose{-0.01, 0.02, 0}, Pose{0, 0, 0.35}}) {
+      PlaceQuestion four = question(0.03);
+      four.seen.erase(four.seen.begin() + 5);
+      four.seen.erase(four.seen.begin() + 2);
+      ReferenceTag& tag = four.seen[wrong].tag;
+      tag.pose = {tag.pose.x + off.x, tag.pose.y + off.y, tag.pose.theta + off.theta};
+      EXPECT_THAT(refusal(four), AllOf(HasSubstr("E_EXTRINSICS"),
+                                       HasSubstr("worst is tag " + std::to_string(tag.tag))));
+    }
+  }
+}
+
+/// Seven millimetres show in no RMS of 0.3 px, but by leaving the tag out.
 TEST(SolvePlaceTest, SmallErrorsOfTheSurveyShowWithoutTheTag) {
   PlaceQuestion question_ = question(0.02);
   question_.seen[2].tag.pose.y += 0.007;

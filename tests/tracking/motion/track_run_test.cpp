@@ -237,6 +237,17 @@ TEST(TrackRunTest, KeepsTheOneOfTwoThatFitsToTheTrack) {
   EXPECT_LT(worst_error(run, on_circle), 5e-5);
 }
 
+/// 15 mm apart, either may be the robot: neither is used, and the gap is bridged.
+TEST(TrackRunTest, DropsBothOfTwoThatMayBothBeTheRobot) {
+  SeenRun seen = seen_run(on_circle, short_run());
+  Pose near = tag_pose_of_robot(on_circle(0, 200.0 / 30 - 0.5), {0.06, -0.04, 0.3});
+  near.x += 0.015;
+  add_twin(seen, 1, near, 200, 200);
+  const TrackedRun run = seen.track().value();
+  EXPECT_EQ(count_of(run.robots[0], Sample::Use::Duplicate), 2);
+  EXPECT_LT(worst_error(run, on_circle), 3e-4);
+}
+
 TEST(TrackRunTest, ComplainsOfATwinThatStays) {
   SeenRun seen = seen_run(on_circle, short_run());
   add_twin(seen, 1, {-0.9, 0.1, 0}, 200, 400);

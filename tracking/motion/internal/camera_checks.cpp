@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "base/math.h"
+#include "tracking/motion/internal/camera_moved.h"
 #include "tracking/motion/resampling.h"
 
 namespace swarmsmith {
@@ -109,66 +109,6 @@ void check_length(const CameraRecord& record, const FramesOfRun& frames,
                     {}});
 }
 
-double shift_of(const TagCorners& a, const TagCorners& b) {
-  double sum = 0;
-  for (std::size_t i = 0; i < a.size(); ++i)
-    sum += hypot(a[i].u - b[i].u, a[i].v - b[i].v);
-  return sum / static_cast<double>(a.size());
-}
-
-/// Where the floor tags were when the camera's place was found.
-std::map<int, TagCorners> calibrated_corners(const Rig& rig, const std::string& camera) {
-  std::map<int, TagCorners> corners;
-  for (const CameraSetup& setup : rig.cameras) {
-    if (setup.name != camera) continue;
-    const auto place = rig.places.find(setup.place_file);
-    if (place == rig.places.end()) continue;
-    for (const PlaceCalibration::Seen& seen : place->second.tags)
-      corners.emplace(seen.tag.tag, seen.corners);
-  }
-  return corners;
-}
-
-/// The first span in which the floor tags, by the median, stand elsewhere than when the place was
-/// found; tags that the calibration does not know, than when first seen. Covered tags have no look,
-/// and one tag alone may have been kicked.
-void check_moved(const CameraRecord& record, const TrackedCamera& camera, const Rig& rig,
-                 const TrackOptions& options, std::vector<Issue>& issues) {
-  std::map<int, TagCorners> was = calibrated_corners(rig, camera.name);
-  std::map<double, std::vector<double>> shifts;
-  std::vector<ReferenceLook> looks = record.references;
-  std::ranges::sort(looks, [](const ReferenceLook& a, const ReferenceLook& b) {
-    return std::pair(a.time_s, a.tag) < std::pair(b.time_s, b.tag);
-  });
-  for (const ReferenceLook& look : looks) {
-    const auto [before, is_first] = was.emplace(look.tag, look.corners);
-    if (!is_first) shifts[look.time_s].push_back(shift_of(before->second, look.corners));
-  }
-  constexpr double kSpan_s = 5;
-  double worst = 0;
-  double worst_at = 0;
-  std::optional<double> first;
-  for (auto& [clock, of_tags] : shifts) {
-    const double time = clock - camera.start_s;
-    if (of_tags.size() < 2 || time < -kSpan_s || time > duration_of(options) + kSpan_s) continue;
-    const double shift = median(of_tags);
-    if (shift <= options.limits.moved_px) continue;
-    if (!first) first = time;
-    if (shift <= worst) continue;
-    worst = shift;
-    worst_at = time;
-  }
-  if (!first) return;
-  issues.push_back(
-      {IssueCode::CameraMoved,
-       fmt::format("camera {} moved: from {:.1f} s on its floor tags are elsewhere, most {:.1f} px "
-                   "at {:.1f} s (limit {:.1f} px); fix the camera, calibrate its place again",
-                   camera.name, *first, worst, worst_at, options.limits.moved_px),
-       {},
-       *first,
-       {}});
-}
-
 /// Frames whose tags all stand on the same bits as in the frame before: the same picture again.
 std::int64_t frames_twice(const Observations& observations, int camera) {
   std::map<std::int64_t, std::vector<std::array<double, 3>>> frames;
@@ -245,14 +185,16 @@ FrameReport frame_report(const Observations& observations, std::span<const Track
     if (!options.span.lengths_s.empty()) {
       check_length(record, frames, options.span.lengths_s[c], report.issues);
     }
-    check_moved(record, cameras[c], rig, options, report.issues);
+    if (auto moved = camera_moved(record, cameras[c], rig, options)) {
+      report.issues.push_back(std::move(*moved));
+    }
   }
   measure_coverage(report, std::move(spans), duration);
   check_coverage(report, slack, options);
   if (!intervals.empty()) {
     const auto [least, most] = std::ranges::minmax(intervals);
     report.frame_rate_least = 1 / most;
-    report.frame_rate_most = 1 / least;
+    if (least > 0) report.frame_rate_most = 1 / least;
     report.frame_rate_median = 1 / median(intervals);
   }
   return report;

@@ -19,15 +19,16 @@ constexpr double kBorder_m = 0.03;
 /// Walls stand between the camera and the floor behind them, and throw shadows.
 constexpr double kWall_m = 0.08;
 /// Around a robot's centre, with its tag's plate; and how high that is.
-constexpr double kRobot_m = 0.19;
+constexpr double kRobot_m = 0.155;
 constexpr double kRobotHeight_m = 0.25;
 /// Spots of floor that a patch is compared with: those nearest to it.
 constexpr std::size_t kSpots = 60;
 constexpr std::size_t kLeastSpots = 15;
-/// Within a place, along each side.
-constexpr int kSamples = 11;
-/// Of the place's sides that is looked at.
-constexpr double kInner = 0.6;
+/// Within a place, along each side, from so far within its border on.
+constexpr int kSamples = 15;
+constexpr double kWithin_m = 0.02;
+/// Of those, as many must be seen: robots that stop on a patch leave a corner of it.
+constexpr double kLeastShare = 0.05;
 /// Grey levels that still tell colours.
 constexpr double kDarkest = 6;
 constexpr double kBrightest = 252;
@@ -104,13 +105,13 @@ std::optional<std::array<double, 3>> FloorLight::ratio_of(const Rectangle& place
     for (int row = 0; row < kSamples; ++row) {
       const double u = static_cast<double>(column) / (kSamples - 1) - 0.5;
       const double v = static_cast<double>(row) / (kSamples - 1) - 0.5;
-      const Point at{place.centre.x + u * kInner * place.width_m,
-                     place.centre.y + v * kInner * place.height_m};
+      const Point at{place.centre.x + u * (place.width_m - 2 * kWithin_m),
+                     place.centre.y + v * (place.height_m - 2 * kWithin_m)};
       if (is_hidden(at)) continue;
       if (const auto rgb = color_at(at)) within.push_back(*rgb);
     }
   }
-  if (2 * within.size() < static_cast<std::size_t>(kSamples) * kSamples) return std::nullopt;
+  if (static_cast<double>(within.size()) < kLeastShare * kSamples * kSamples) return std::nullopt;
   std::vector<Spot> around = floor_;
   const auto apart = [&](const Spot& spot) {
     return hypot(spot.at.x - place.centre.x, spot.at.y - place.centre.y);

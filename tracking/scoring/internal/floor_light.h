@@ -20,7 +20,7 @@ class FloorLight {
   std::optional<std::string> fault() const;
 
   /// Medians within the place over those of the floor around it; nothing when it is out of the
-  /// picture or more than half hidden.
+  /// picture or nearly all hidden.
   std::optional<std::array<double, 3>> ratio_of(const Rectangle& place) const;
 
  private:

@@ -1,0 +1,235 @@
+#include <algorithm>
+#include <chrono>
+#include <deque>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "sim/files/mission_file.h"
+#include "tracking/app/commands.h"
+#include "tracking/app/complaints.h"
+#include "tracking/app/stop_signal.h"
+#include "tracking/live/live_pages.h"
+#include "tracking/live/live_tracker.h"
+#include "tracking/live/newest_frame.h"
+#include "tracking/rig/rig_file.h"
+#include "tracking/video/video_writer.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::int64_t kPort = 8080;
+constexpr std::size_t kDelaysKept = 100;
+constexpr std::chrono::milliseconds kPatience{200};
+
+struct Words {
+  std::string arena;
+  std::string source;
+  std::string view;
+  std::string mission;
+  std::optional<std::int64_t> port;
+  std::string record;
+};
+
+/// Delays from having a frame to having its poses.
+class Delays {
+ public:
+  void add(double delay_s) {
+    last_.push_back(delay_s);
+    if (last_.size() > kDelaysKept) last_.pop_front();
+    all_.push_back(delay_s);
+  }
+  double most_of_late() const { return *std::max_element(last_.begin(), last_.end()); }
+  /// The one that a share of all is below.
+  double quantile(double share) {
+    if (all_.empty()) return 0;
+    std::sort(all_.begin(), all_.end());
+    return all_[static_cast<std::size_t>(share * static_cast<double>(all_.size() - 1))];
+  }
+
+ private:
+  std::deque<double> last_;
+  std::vector<double> all_;
+};
+
+/// One line that is written over on a terminal, else a line now and then.
+class StatusLine {
+ public:
+  explicit StatusLine(Output& output) : output_(&output) {}
+
+  void tell(const LiveState& state) {
+    const auto now = Clock::now();
+    if (output_->quiet || now < next_) return;
+    const bool terminal = output_->err_is_terminal;
+    next_ = now + (terminal ? std::chrono::milliseconds(500) : std::chrono::seconds(5));
+    output_->err << (terminal ? "\r\x1b[2K" : "") << live_state_line(state)
+                 << (terminal ? "" : "\n") << std::flush;
+    shown_ = terminal;
+  }
+  void clear() {
+    if (shown_) output_->err << "\r\x1b[2K" << std::flush;
+  }
+
+ private:
+  Output* output_;
+  Clock::time_point next_ = Clock::now();
+  bool shown_ = false;
+};
+
+Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name) {
+  std::string known;
+  for (const CameraSetup& camera : rig.cameras) {
+    if (camera.name == name || (name.empty() && rig.cameras.size() == 1)) return camera;
+    known += (known.empty() ? "" : ", ") + camera.name;
+  }
+  return bad_input(name.empty() ? "which camera of the arena is it? It has " + known
+                                : "the arena has no camera \"" + name + "\"; it has " + known,
+                   "--view");
+}
+
+/// Frames as they come, from their times on.
+class LiveRecording {
+ public:
+  static Expected<LiveRecording> open(const std::string& file, const SourceInfo& info) {
+    std::error_code ignored;
+    if (std::filesystem::exists(file, ignored))
+      return bad_input("is there already; a recording never overwrites one", file);
+    VideoOptions options;
+    options.live = true;
+    if (info.frame_rate > 0) options.frame_rate = info.frame_rate;
+    auto writer = VideoWriter::open(file, info.size, options);
+    if (!writer) return Unexpected(writer.error());
+    return LiveRecording(std::move(*writer));
+  }
+
+  Expected<void> add(FrameSource& source, double time_s) {
+    if (!first_s_) first_s_ = time_s;
+    return writer_.write(source.color(), time_s - *first_s_);
+  }
+  Expected<void> finish() { return writer_.finish(); }
+
+ private:
+  explicit LiveRecording(VideoWriter writer) : writer_(std::move(writer)) {}
+
+  VideoWriter writer_;
+  std::optional<double> first_s_;
+};
+
+struct Watched {
+  std::int64_t frames = 0;
+  std::int64_t dropped = 0;
+  Delays delays;
+  std::optional<Error> error;
+};
+
+/// Until the source ends or somebody asks for an end.
+Watched watch(FrameSource& source, LiveTracker& tracker, LivePages& pages, LiveRecording* recording,
+              Output& output) {
+  NewestFrame::OnFrame keep;
+  if (recording != nullptr)
+    keep = [recording](FrameSource& from, double time_s) { return recording->add(from, time_s); };
+  NewestFrame newest(source, keep);
+  StatusLine line(output);
+  Watched watched;
+  while (!stop_was_asked_for() && !newest.has_ended()) {
+    newest.wants_color(pages.is_watched());
+    auto frame = newest.take(kPatience);
+    if (!frame) continue;
+    LiveState state = tracker.look_at(frame->image(), frame->number, frame->time_s);
+    state.delay_s = std::chrono::duration<double>(Clock::now() - frame->in).count();
+    watched.delays.add(state.delay_s);
+    state.most_delay_s = watched.delays.most_of_late();
+    state.dropped = newest.dropped();
+    ++watched.frames;
+    line.tell(state);
+    pages.publish(std::move(state), std::move(frame->color));
+  }
+  line.clear();
+  watched.dropped = newest.dropped();
+  watched.error = newest.error();
+  return watched;
+}
+
+ExitCode answer(Watched& watched, Output& output) {
+  const double median_ms = 1000 * watched.delays.quantile(0.5);
+  const double late_ms = 1000 * watched.delays.quantile(0.95);
+  const double most_ms = 1000 * watched.delays.quantile(1);
+  if (output.json) {
+    output.out << "{\"frames\":" << watched.frames << ",\"dropped\":" << watched.dropped
+               << ",\"delay_ms\":{\"median\":" << json_number(median_ms)
+               << ",\"p95\":" << json_number(late_ms) << ",\"most\":" << json_number(most_ms)
+               << "}}\n";
+  } else {
+    output.out << watched.frames << " frames, " << watched.dropped << " dropped; delay "
+               << static_cast<int>(median_ms + 0.5) << " ms, 95 % within "
+               << static_cast<int>(late_ms + 0.5) << " ms, at most "
+               << static_cast<int>(most_ms + 0.5) << " ms\n";
+  }
+  return ExitCode::Done;
+}
+
+ExitCode live(const Words& words, Output& output) {
+  const auto failed = [&](const Error& error) {
+    return fail(output, exit_code_of_tracking(error), error);
+  };
+  auto rig = read_rig(words.arena);
+  if (!rig) return fail_all(output, rig.error());
+  const auto camera = camera_of(*rig, words.view);
+  if (!camera) return failed(camera.error());
+  LiveScenery scenery;
+  if (!words.mission.empty()) {
+    auto mission = built_in_mission(words.mission);
+    if (!mission && std::filesystem::exists(words.mission)) {
+      auto read = read_mission_file(words.mission);
+      if (!read) return fail_all(output, read.error());
+      mission = std::move(read->mission);
+    }
+    if (!mission) return failed(mission.error());
+    scenery.mission = std::move(*mission);
+  }
+  catch_stop_signals();
+  auto source = FrameSource::open(words.source);
+  if (!source) return failed(source.error());
+  std::optional<Arena> arena;
+  if (scenery.mission) arena = scenery.mission->arena;
+  auto tracker = LiveTracker::of(*rig, *camera, std::move(arena));
+  if (!tracker) return failed(tracker.error());
+  if (tracker->view() && tracker->view()->camera.size == (*source)->info().size)
+    scenery.view = tracker->view();
+  const auto pages = LivePages::start(static_cast<int>(words.port.value_or(kPort)), scenery);
+  if (!pages) return failed(pages.error());
+  std::unique_ptr<LiveRecording> recording;
+  if (!words.record.empty()) {
+    auto opened = LiveRecording::open(words.record, (*source)->info());
+    if (!opened) return failed(opened.error());
+    recording = std::make_unique<LiveRecording>(std::move(*opened));
+  }
+  if (!output.quiet) output.err << "Preview: " << (*pages)->address() << std::endl;
+  Watched watched = watch(**source, *tracker, **pages, recording.get(), output);
+  if (recording != nullptr) {
+    if (const auto ended = recording->finish(); !ended && !watched.error)
+      watched.error = ended.error();
+  }
+  if (watched.error) return failed(*watched.error);
+  return answer(watched, output);
+}
+
+}  // namespace
+
+Run declare_live(Options& options) {
+  auto words = std::make_shared<Words>();
+  options.text("--arena", words->arena, "Arena file", Options::Need::Required);
+  options.text("--camera", words->source,
+               "What to watch: camera:0, an address, a video file, a folder of images",
+               Options::Need::Required);
+  options.text("--view", words->view, "Which camera of the arena file that is, of several");
+  options.text("--mission", words->mission, "Mission whose floor is drawn in: a name or a file");
+  options.integer("--port", words->port, {0, 65'535},
+                  "Of the preview, on 127.0.0.1 alone (default 8080; 0: a free one)");
+  options.text("--record", words->record, "Record all frames, a .mkv");
+  return [words](Output& output) { return live(*words, output); };
+}
+
+}  // namespace swarmsmith::cli

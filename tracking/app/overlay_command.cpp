@@ -1,0 +1,281 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "base/id.h"
+#include "console/counter.h"
+#include "console/sha256.h"
+#include "console/whole_file.h"
+#include "tracking/app/commands.h"
+#include "tracking/app/run_analysis.h"
+#include "tracking/app/run_checks.h"
+#include "tracking/app/run_plan.h"
+#include "tracking/app/run_store.h"
+#include "tracking/app/watch_run.h"
+#include "tracking/overlay/draw_overlay.h"
+#include "tracking/overlay/picture_bytes.h"
+#include "tracking/scoring/real_run_rows.h"
+#include "tracking/video/video_writer.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Before and after the run.
+constexpr double kAround_s = 1;
+/// Floor tags are shown where they were within so long.
+constexpr double kReferenceHolds_s = 5;
+
+struct Words {
+  ScoreArguments run;
+  std::string video;
+  std::string camera;
+  std::string at;
+  std::string out;
+};
+
+/// A run with all that can be drawn of it.
+struct DrawnRun {
+  Rig rig;
+  RunLog log;
+  Observations observations;
+  RunAnalysis analysis;
+  std::vector<fs::path> videos;
+  std::size_t camera = 0;
+};
+
+OrRefusal<DrawnRun> run_of_videos(const Words& words, Output& output) {
+  auto plan = plan_run(words.run);
+  if (!plan) return tl::unexpected(std::move(plan.error()));
+  auto observations = watch_run(*plan, output);
+  if (!observations) return tl::unexpected(std::move(observations.error()));
+  auto analysis =
+      analyse(*observations, plan->rig, plan->whole_rig, plan->log, plan->takes_tags_for_centres);
+  if (!analysis) return tl::unexpected(std::move(analysis.error()));
+  DrawnRun run{plan->rig, plan->log, std::move(*observations), std::move(*analysis), {}};
+  for (const PlannedVideo& video : plan->videos)
+    run.videos.push_back(video.path);
+  return run;
+}
+
+OrRefusal<DrawnRun> run_of_store(const Words& words) {
+  const std::string store = store_word(words.run.store);
+  if (store.empty())
+    return refused(
+        ExitCode::Usage,
+        {ErrorKind::BadInput, "in which store? Name it, or set SWARMSMITH_STORE", "--store"});
+  auto reader = read_store(store);
+  if (!reader) return tl::unexpected(std::move(reader.error()));
+  const auto rows = find_run(**reader, words.run.videos.front());
+  if (!rows) return tl::unexpected(rows.error());
+  auto stored = stored_run(*rows);
+  if (!stored) return refused(std::move(stored.error()));
+  const Rig rig = rig_of_run(stored->rig, stored->log);
+  auto analysis = analyse(stored->observations, rig, stored->rig, stored->log, rows->score.biased);
+  if (!analysis) return tl::unexpected(std::move(analysis.error()));
+  DrawnRun run{rig, stored->log, std::move(stored->observations), std::move(*analysis), {}};
+  for (const RunVideo& video : run.log.videos)
+    run.videos.emplace_back(video.file);
+  return run;
+}
+
+/// Which camera, and that its video is the one that was scored.
+std::optional<Refusal> settle_video(const Words& words, DrawnRun& run) {
+  const auto& cameras = run.rig.cameras;
+  if (!words.camera.empty()) {
+    const auto found = std::find_if(cameras.begin(), cameras.end(),
+                                    [&](const CameraSetup& c) { return c.name == words.camera; });
+    if (found == cameras.end())
+      return refused(ExitCode::Usage,
+                     {ErrorKind::BadInput, "no camera \"" + words.camera + "\" filmed this run",
+                      "--camera"})
+          .value();
+    run.camera = static_cast<std::size_t>(found - cameras.begin());
+  }
+  fs::path& file = run.videos.at(run.camera);
+  if (!words.video.empty()) file = words.video;
+  const auto sha256 = sha256_of_file(file.string());
+  if (!sha256) {
+    Error error = sha256.error();
+    error.message += "; name the run's video by --video";
+    return refused(std::move(error)).value();
+  }
+  if (*sha256 != run.observations.cameras.at(run.camera).sha256)
+    return refused(ExitCode::Failed,
+                   {ErrorKind::Conflict,
+                    "this is another video than the run was scored from; name that by --video",
+                    file.string()})
+        .value();
+  return std::nullopt;
+}
+
+/// Tags of a frame, robots' and strays; `next` goes on through the sightings.
+std::vector<OverlayTag> tags_of(const DrawnRun& run, std::int64_t frame, double time_s,
+                                std::size_t& next) {
+  const std::vector<Sighting>& all = run.observations.sightings;
+  const auto camera = static_cast<int>(run.camera);
+  std::vector<OverlayTag> tags;
+  while (next < all.size() &&
+         (all[next].camera < camera || (all[next].camera == camera && all[next].frame < frame)))
+    ++next;
+  for (; next < all.size() && all[next].camera == camera && all[next].frame == frame; ++next) {
+    const bool is_robot =
+        std::any_of(run.rig.robots.begin(), run.rig.robots.end(),
+                    [&](const RobotSetup& robot) { return robot.tag == all[next].tag; });
+    tags.push_back({all[next].tag, all[next].corners,
+                    is_robot ? OverlayTag::Kind::Robot : OverlayTag::Kind::Unknown});
+  }
+  for (const ReferenceTag& reference : run.rig.references) {
+    const ReferenceLook* nearest = nullptr;
+    for (const ReferenceLook& look : run.observations.cameras[run.camera].references) {
+      const double away_s = std::abs(look.time_s - time_s);
+      if (look.tag == reference.tag && away_s <= kReferenceHolds_s &&
+          (nearest == nullptr || away_s < std::abs(nearest->time_s - time_s)))
+        nearest = &look;
+    }
+    if (nearest != nullptr)
+      tags.push_back({reference.tag, nearest->corners, OverlayTag::Kind::Reference});
+  }
+  return tags;
+}
+
+/// Where pictures go: a video, a folder, one picture.
+class Sink {
+ public:
+  Sink(std::string out, bool one) : out_(std::move(out)), one_(one) {}
+
+  Expected<void> add(const ColorImage& image, double time_s, double frame_rate) {
+    ++count_;
+    if (one_) return write_whole_file(out_, png_of(image));
+    if (is_folder()) {
+      std::error_code ignored;
+      fs::create_directories(out_, ignored);
+      return write_whole_file((fs::path(out_) / fmt::format("{:06}.png", count_)).string(),
+                              png_of(image));
+    }
+    if (!writer_) {
+      VideoOptions options;
+      if (frame_rate > 0) options.frame_rate = frame_rate;
+      auto opened = VideoWriter::open(out_, {image.width, image.height}, options);
+      if (!opened) return Unexpected(opened.error());
+      writer_ = std::make_unique<VideoWriter>(std::move(*opened));
+      first_s_ = time_s;
+    }
+    return writer_->write(image, time_s - first_s_);
+  }
+  Expected<void> finish() { return writer_ ? writer_->finish() : Expected<void>(); }
+  std::int64_t count() const { return count_; }
+
+ private:
+  bool is_folder() const { return out_.ends_with('/') || fs::is_directory(out_); }
+
+  std::string out_;
+  bool one_;
+  std::int64_t count_ = 0;
+  double first_s_ = 0;
+  std::unique_ptr<VideoWriter> writer_;
+};
+
+Expected<std::int64_t> draw(const DrawnRun& run, std::optional<double> at_s, const Words& words,
+                            Output& output) {
+  Mission mission = run.log.mission;
+  mission.arena.patches.insert(mission.arena.patches.end(), run.analysis.patches.begin(),
+                               run.analysis.patches.end());
+  const View view = run.rig.view_of(run.rig.cameras[run.camera]).value();
+  const OverlayRun overlay(run.analysis.tracked, run.rig, mission, run.analysis.scored.issues);
+  const std::vector<double>& times = run.observations.cameras[run.camera].frame_times;
+  const double start_s = run.analysis.starts_s[run.camera];
+  auto source = FrameSource::open(run.videos[run.camera].string());
+  if (!source) return Unexpected(source.error());
+  const double from_s = at_s.value_or(-kAround_s);
+  const double until_s = overlay.duration_s() + kAround_s;
+  Sink sink(words.out, at_s.has_value());
+  Counter drawing(output, "drew", "frames");
+  std::size_t next = 0;
+  for (std::size_t frame = 0; frame < times.size(); ++frame) {
+    const auto more = (*source)->next();
+    if (!more) return Unexpected(more.error());
+    if (!*more) break;
+    const double time_s = times[frame] - start_s;
+    // Half a microsecond: as much as the clocks' differences are rounded.
+    if (time_s < from_s - 5e-7) continue;
+    if (time_s > until_s) break;
+    ColorImage image = (*source)->color();
+    draw_overlay(image, view, mission, overlay.at(time_s),
+                 tags_of(run, static_cast<std::int64_t>(frame), times[frame], next));
+    if (auto added = sink.add(image, time_s, (*source)->info().frame_rate); !added)
+      return Unexpected(added.error());
+    drawing.tell(static_cast<std::int64_t>(frame + 1), static_cast<std::int64_t>(times.size()));
+    if (at_s) break;
+  }
+  if (auto finished = sink.finish(); !finished) return Unexpected(finished.error());
+  if (sink.count() > 0) return sink.count();
+  return Unexpected(Error{ErrorKind::BadInput, "the video has no frame there", words.out});
+}
+
+/// `--at` as seconds of the run.
+Expected<std::optional<double>> instant_of(const Words& words) {
+  if (words.at.empty()) return std::optional<double>();
+  double value = 0;
+  const char* const end = words.at.data() + words.at.size();
+  const auto read = std::from_chars(words.at.data(), end, value);
+  if (read.ec != std::errc{} || read.ptr != end || !std::isfinite(value))
+    return bad_input("\"" + words.at + "\" is no number of seconds", "--at");
+  if (!words.out.ends_with(".png")) return bad_input("one picture is a .png", "-o");
+  return std::optional<double>(value);
+}
+
+ExitCode overlay(const Words& words, Output& output) {
+  const auto at_s = instant_of(words);
+  if (!at_s) return fail(output, ExitCode::Usage, at_s.error());
+  const bool is_stored =
+      words.run.videos.size() == 1 && id_from_text<RealRunTag>(words.run.videos[0]).has_value();
+  if (!is_stored && words.run.arena.empty())
+    return fail(output, ExitCode::Usage,
+                "a video needs its arena file: --arena FILE; a stored run is called r7");
+  auto run = is_stored ? run_of_store(words) : run_of_videos(words, output);
+  if (!run) return fail(output, run.error());
+  if (const auto wrong = settle_video(words, *run)) return fail(output, *wrong);
+  const auto drawn = draw(*run, *at_s, words, output);
+  if (!drawn) return fail(output, exit_code_of_tracking(drawn.error()), drawn.error());
+  if (output.json)
+    output.out << "{\"file\":" << json_text(words.out) << ",\"frames\":" << *drawn << "}\n";
+  else
+    output.out << words.out << ": " << *drawn << (*drawn == 1 ? " frame\n" : " frames\n");
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_overlay(Options& options) {
+  auto words = std::make_shared<Words>();
+  ScoreArguments& run = words->run;
+  constexpr Options::Range kTags{0, 65'535};
+  options.words("RUN|VIDEO", run.videos, "A stored run, r7, or its videos, one a camera",
+                Options::Need::Required);
+  options.text("-o,--output", words->out, "Video (.mp4, .mkv), a folder (DIR/), or one .png",
+               Options::Need::Required);
+  options.text("--store", run.store, "Store of the run (else SWARMSMITH_STORE)");
+  options.text("--video", words->video, "Where a stored run's video is now");
+  options.text("--camera", words->camera, "Whose picture, of several (default: the first)");
+  options.text("--at", words->at, "One picture alone, so many seconds after the run's begin");
+  options.text("--arena", run.arena, "Arena file, of a run that is not stored");
+  options.text("--run", run.run, "Run log, of a run that is not stored");
+  options.text("--mission", run.mission, "Mission, of a run that is not stored");
+  options.text("--start", run.start, "When the run begins on the clock of the first video: 12.4 s");
+  options.integer("--sync-hidden", run.sync_hidden, kTags, "It begins when this tag is covered");
+  options.integer("--sync-shown", run.sync_shown, kTags, "It begins when this tag is laid open");
+  options.text("--patches", run.patches, "Colour patches: a CSV with seed,x,y,color");
+  options.texts("--times", run.times, "CSV with a time for each frame, one a video: frame,time_s");
+  options.flag("--accept-tag-as-centre", run.takes_tags_for_centres,
+               "Draw robots without an offset calibration at their tags");
+  return [words](Output& output) { return overlay(*words, output); };
+}
+
+}  // namespace swarmsmith::cli
