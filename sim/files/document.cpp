@@ -2,7 +2,9 @@
 
 #include <toml++/toml.h>
 
+#include <algorithm>
 #include <array>
+#include <optional>
 
 namespace swarmsmith {
 namespace {
@@ -43,6 +45,51 @@ Node converted(const toml::node& node) {
   return {DateOrTime{}, place};
 }
 
+/// Where the string that begins at `at` ends: behind its closing quotes, else at the end of the
+/// line, where a text of one line breaks off, or of the file.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const std::string_view three = text.substr(at, 3);
+  const bool is_long = three.size() == 3 && three[1] == quote && three[2] == quote;
+  for (std::size_t i = at + (is_long ? 3 : 1); i < text.size(); ++i) {
+    if (quote == '"' && text[i] == '\\') {
+      ++i;
+    } else if (!is_long && (text[i] == quote || text[i] == '\n')) {
+      return i + 1;
+    } else if (is_long && text.substr(i, 3) == three) {
+      i += 3;
+      // Up to two more quotes belong to the text.
+      while (i < text.size() && text[i] == quote)
+        ++i;
+      return i;
+    }
+  }
+  return text.size();
+}
+
+/// The first letter that is none of ASCII outside of strings and comments. TOML has none there, and
+/// the parser relies on it: what it does with them is not defined (version 3.3 of toml++).
+std::optional<Place> foreign_letter(std::string_view text) {
+  constexpr std::string_view kMark = "\xef\xbb\xbf";
+  const std::size_t begin = text.starts_with(kMark) ? kMark.size() : 0;
+  for (std::size_t i = begin; i < text.size();) {
+    if (text[i] == '"' || text[i] == '\'') {
+      i = end_of_string(text, i);
+    } else if (text[i] == '#') {
+      i = std::min(text.find('\n', i), text.size());
+    } else if (static_cast<unsigned char>(text[i]) >= 0x80) {
+      const std::string_view before = text.substr(0, i);
+      const std::size_t line = before.rfind('\n');
+      const std::size_t column = line == std::string_view::npos ? i - begin : i - line - 1;
+      return Place{static_cast<std::uint32_t>(1 + std::ranges::count(before, '\n')),
+                   static_cast<std::uint32_t>(1 + column)};
+    } else {
+      ++i;
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string_view type_name(const Node& node) {
@@ -60,6 +107,10 @@ std::string to_string(std::string_view file, Place place) {
 }
 
 Expected<Node> parse_document(std::string_view text, std::string_view file) {
+  if (const auto place = foreign_letter(text)) {
+    return bad_input("this is no TOML: letters such as umlauts stand in quotes or comments only",
+                     to_string(file, *place));
+  }
   try {
     return converted(toml::parse(text, file));
   } catch (const toml::parse_error& error) {

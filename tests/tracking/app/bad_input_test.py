@@ -1,5 +1,5 @@
-"""Each row of the table of bad input (tracking facts, section 10) with a real file: its message, its
-exit code, and that nothing, or a run marked INVALID, is in the store."""
+"""Each row of the table of bad input (tracking facts, section 10) with a real file: its message,
+its exit code, and that nothing, or a run marked INVALID, is in the store."""
 import fcntl
 import json
 import re
@@ -248,17 +248,17 @@ class BadInput(unittest.TestCase):
         self.assert_refused(self.score(silent), "E_LAYOUT_MISSING", r"\[\[patch\]\].*measured")
 
     def test_patches_that_are_measured(self):
-        log = LAB.film("colors", mission="color_selection")
-        said = call(TRACK, "score", "--run", log, "--arena", LAB.lab / "arena.toml", "--json")
-        measured = self.score(log, "--patches", "measured", "--json")
-        self.assertEqual(measured.returncode, said.returncode, measured.stderr)
-        self.assertEqual(re.search(r'"score":[^,]*', measured.stdout).group(0),
-                         re.search(r'"score":[^,]*', said.stdout).group(0))
+        for seed in (3, 5):
+            log = LAB.film(f"free{seed}", mission="color_selection", seed=seed)
+            said = call(TRACK, "score", "--run", log, "--arena", LAB.lab / "arena.toml", "--json")
+            measured = self.score(log, "--patches", "measured", "--json")
+            self.assertEqual(measured.returncode, said.returncode, measured.stderr)
+            self.assertEqual(json.loads(measured.stdout)["score"], json.loads(said.stdout)["score"])
 
     def test_settings_that_cannot_be(self):
         for number, (before, after, wanted) in enumerate((
                 ("x = 1.0430", "x = nan", r"`x` must be from -100 to 100, this is nan"),
-                ("edge = 0.1\n", "edge = -0.1\n", r"`edge` must be from 0\.005 to 2, this is -0\.1"),
+                ("edge = 0.1\n", "edge = -0.1\n", r"`edge` must be from 0\.005 to 2.* -0\.1"),
                 ("height = 0.2", "height = 2.9", r"`height` must be below.*2\.9"),
                 ("family =", "familie =", "did you mean \"family\""))):
             arena = LAB.copy_of_lab(f"{self.folder.name}/{number}", arena_toml=[(before, after)])

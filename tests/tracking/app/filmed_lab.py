@@ -1,4 +1,4 @@
-"""A filmed laboratory with calibrations, made once for the tests of a file, and runs filmed in it."""
+"""A filmed laboratory with calibrations, made once for each file of tests, and runs in it."""
 import os
 import pathlib
 import shutil
@@ -51,12 +51,12 @@ class FilmedLab:
     def close(self):
         self.temporary.cleanup()
 
-    def film(self, name, *wishes, mission="aggregation", seconds=3):
+    def film(self, name, *wishes, mission="aggregation", seconds=3, seed=3):
         """The path of the run log of a clip."""
         log = self.folder / "runs" / f"{name}.toml"
         if not log.exists():
             must(FILM, "run", self.folder / "runs" / name, "--lab", self.lab, "--mission", mission,
-                 "--machine", "tA1", "--seed", "3", "--seconds", seconds, *wishes)
+                 "--machine", "tA1", "--seed", seed, "--seconds", seconds, *wishes)
         return log
 
     def copy_of_lab(self, name, **changes):

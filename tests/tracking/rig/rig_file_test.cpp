@@ -5,6 +5,7 @@
 
 #include "base/math.h"
 #include "console/sha256.h"
+#include "sim/files/document.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
@@ -217,6 +218,15 @@ TEST(RigFile, NeedsACamera) {
               ElementsAre(AllOf(HasSubstr("E_CONFIG: "), HasSubstr("no [[camera]]"))));
   EXPECT_THAT(complaints_about("format = 2\n[[camera]]\nname=\"a\"\nmodel=\"b\"\nplace=\"c\"\n"),
               ElementsAre(HasSubstr("E_CONFIG: format 2 is newer")));
+}
+
+TEST(RigFile, TakesForeignLettersInStringsAndCommentsOnly) {
+  EXPECT_THAT(complaints_about("format = 1\nnam\xc3\xa9 = 1\n"),
+              ElementsAre(HasSubstr("arena.toml:2:4: E_CONFIG: this is no TOML: letters")));
+  const std::string quoted =
+      "# \xc3\xa9\na = \"\\\"\xc3\xa9\"\nb = '\xc3\xa9\\'\nc = \"\"\"\n\xc3\xa9\"\"\"\"\n";
+  EXPECT_TRUE(parse_document(quoted, "x.toml"));
+  EXPECT_FALSE(parse_document(quoted + "d = \xc3\xa9", "x.toml"));
 }
 
 TEST(RigFile, ShowsWhatIsWrongInACalibration) {
