@@ -83,8 +83,10 @@ bool TagSearch::full_is_due(double time_s) const {
 void TagSearch::search_whole(const GrayImage& image, double time_s, std::vector<Detection>& seen) {
   const bool has_small = std::any_of(followed_.begin(), followed_.end(),
                                      [&](const auto& each) { return is_small(each.second); });
-  // Every fourth in vain, the second first: perhaps the missing are small, or the light is poor.
-  const int decimate = has_small || passes_in_vain_ % 4 == 1 ? 1 : 2;
+  // The first frame, whose tags may be of any size; then every fourth in vain, the second first:
+  // perhaps the missing are small, or the light is poor.
+  const bool is_first = full_searches_ == 0;
+  const int decimate = is_first || has_small || passes_in_vain_ % 4 == 1 ? 1 : 2;
   for (const Detection& each : detector_.find(image, decimate))
     if (accepts(each)) add_new(each, seen);
   last_full_s_ = time_s;
