@@ -46,10 +46,10 @@ class Ssh(ProgramTest):
         self.environment = {**os.environ, "SWARMSMITH_WORKER": str(self.worker),
                             "SWARMSMITH_KEYS": str(keys)}
 
-    def campaign(self, hosts):
+    def campaign(self, hosts, budget=1500):
         self.hosts.write_text(hosts)
         self.file.write_text(campaigns.CAMPAIGN.format(
-            repetitions=1, budget=1500, duration_s=240,
+            repetitions=1, budget=budget, duration_s=240,
             workers='launcher = "ssh"\n[workers.ssh]\nhosts = "hosts"\n'
                     f'options = ["-F", "{self.ssh.client_config}"]\n'))
 
@@ -83,7 +83,8 @@ class Ssh(ProgramTest):
         self.assertEqual(self.digest(self.store), self.digest(local))
 
     def test_hosts_that_do_not_answer_and_workers_and_ssh_that_are_killed(self):
-        self.campaign("node1 slots=1\nnode2 slots=1 # the same host\nsilent\nclosed\n")
+        # Long enough to be running still when the second worker has come back.
+        self.campaign("node1 slots=1\nnode2 slots=1 # the same host\nsilent\nclosed\n", 5000)
         process = self.run_by_ssh()
         self.wait_for_workers(2)
         # A worker that dies is started again.

@@ -114,8 +114,11 @@ std::string text_of(const Result& result) {
     text += robot_text(robot, width);
   for (const std::string& reason : result.reasons)
     text += "  because " + reason + "\n";
-  for (const auto& [code, sentence] : result.issues)
-    text += "  " + code + ": " + sentence + "\n";
+  for (const auto& [code, sentence] : result.issues) {
+    const std::string line = code + ": " + sentence;
+    const bool is_said = std::ranges::find(result.reasons, line) != result.reasons.end();
+    if (!is_said) text += "  " + line + "\n";
+  }
   return text;
 }
 

@@ -1,15 +1,6 @@
 #include "tracking/detection/tag_detector.h"
 
 #include <apriltag/apriltag.h>
-#include <apriltag/tag16h5.h>
-#include <apriltag/tag25h9.h>
-#include <apriltag/tag36h10.h>
-#include <apriltag/tag36h11.h>
-#include <apriltag/tagCircle21h7.h>
-#include <apriltag/tagCircle49h12.h>
-#include <apriltag/tagCustom48h12.h>
-#include <apriltag/tagStandard41h12.h>
-#include <apriltag/tagStandard52h13.h>
 
 #include <algorithm>
 #include <array>
@@ -17,28 +8,11 @@
 #include <string_view>
 #include <tuple>
 
+#include "tracking/detection/internal/family_library.h"
 #include "tracking/geometry/tag_family.h"
 
 namespace swarmsmith {
 namespace {
-
-struct Family {
-  std::string_view name;
-  apriltag_family_t* (*make)();
-  void (*destroy)(apriltag_family_t*);
-};
-
-constexpr std::array<Family, 9> kFamilies = {{
-    {"tag36h11", tag36h11_create, tag36h11_destroy},
-    {"tag36h10", tag36h10_create, tag36h10_destroy},
-    {"tag25h9", tag25h9_create, tag25h9_destroy},
-    {"tag16h5", tag16h5_create, tag16h5_destroy},
-    {"tagStandard41h12", tagStandard41h12_create, tagStandard41h12_destroy},
-    {"tagStandard52h13", tagStandard52h13_create, tagStandard52h13_destroy},
-    {"tagCircle21h7", tagCircle21h7_create, tagCircle21h7_destroy},
-    {"tagCircle49h12", tagCircle49h12_create, tagCircle49h12_destroy},
-    {"tagCustom48h12", tagCustom48h12_create, tagCustom48h12_destroy},
-}};
 
 /// The library's table grows with codes x bits^n: 2 would take 3 GB for tagStandard52h13, and no
 /// search accepts more than 1.
@@ -74,20 +48,15 @@ ImagePoint middle_of(const TagCorners& corners) {
 
 /// Families are state that detectors write to, so each detector has its own.
 struct TagDetector::Library {
-  const Family* kind;
-  apriltag_family_t* family;
+  FamilyPointer family;
   apriltag_detector_t* detector;
 
-  explicit Library(const Family& of)
-      : kind(&of), family(of.make()), detector(apriltag_detector_create()) {
-    apriltag_detector_add_family_bits(detector, family, kBitsCorrected);
+  explicit Library(FamilyPointer of) : family(std::move(of)), detector(apriltag_detector_create()) {
+    apriltag_detector_add_family_bits(detector, family.get(), kBitsCorrected);
     detector->nthreads = 1;
     detector->refine_edges = true;
   }
-  ~Library() {
-    apriltag_detector_destroy(detector);
-    kind->destroy(family);
-  }
+  ~Library() { apriltag_detector_destroy(detector); }
   Library(const Library&) = delete;
   Library& operator=(const Library&) = delete;
 };
@@ -98,9 +67,8 @@ TagDetector& TagDetector::operator=(TagDetector&&) noexcept = default;
 TagDetector::~TagDetector() = default;
 
 Expected<TagDetector> TagDetector::of_family(const std::string& family) {
-  const auto* const found = std::find_if(kFamilies.begin(), kFamilies.end(),
-                                         [&](const Family& each) { return each.name == family; });
-  if (found != kFamilies.end()) return TagDetector(std::make_unique<Library>(*found));
+  FamilyPointer found = tag_family_of(family);
+  if (found) return TagDetector(std::make_unique<Library>(std::move(found)));
   std::string known;
   for (const TagFamily& each : known_tag_families())
     known += (known.empty() ? "" : ", ") + std::string(each.name);

@@ -10,7 +10,7 @@
 
 #include "analysis/drawing/figure_style.h"
 #include "tracking/printing/internal/page.h"
-#include "tracking/printing/tag_pattern.h"
+#include "tracking/detection/tag_pattern.h"
 
 namespace swarmsmith {
 namespace {

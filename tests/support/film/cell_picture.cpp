@@ -1,27 +1,13 @@
 #include "tests/support/film/cell_picture.h"
 
-#include <apriltag/apriltag.h>
-#include <apriltag/tag16h5.h>
-#include <apriltag/tag25h9.h>
-#include <apriltag/tag36h11.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <stdexcept>
+
+#include "tracking/detection/tag_pattern.h"
 
 namespace swarmsmith::film {
 namespace {
-
-struct Family {
-  const char* name;
-  apriltag_family_t* (*create)();
-  void (*destroy)(apriltag_family_t*);
-};
-
-constexpr Family kFamilies[] = {{"tag36h11", tag36h11_create, tag36h11_destroy},
-                                {"tag25h9", tag25h9_create, tag25h9_destroy},
-                                {"tag16h5", tag16h5_create, tag16h5_destroy}};
 
 /// The two cells that an opening reaches, and the share of the second.
 struct Span {
@@ -53,30 +39,15 @@ float CellPicture::at(float column, float row, float opening) const {
 }
 
 CellPicture tag_picture(const std::string& family, int tag) {
-  for (const Family& known : kFamilies) {
-    if (family != known.name) continue;
-    const std::unique_ptr<apriltag_family_t, void (*)(apriltag_family_t*)> codes(known.create(),
-                                                                                 known.destroy);
-    if (tag < 0 || static_cast<std::uint32_t>(tag) >= codes->ncodes)
-      throw std::invalid_argument(family + " has no tag " + std::to_string(tag));
-    // Debian's library does not export image_u8_destroy, which is these two lines.
-    const auto release = [](image_u8_t* image) {
-      std::free(image->buf);
-      std::free(image);
-    };
-    const std::unique_ptr<image_u8_t, decltype(release)> image(apriltag_to_image(codes.get(), tag),
-                                                               release);
-    CellPicture picture;
-    picture.width = image->width;
-    picture.height = image->height;
-    picture.border = (codes->total_width - codes->width_at_border) / 2;
-    for (int row = 0; row < picture.height; ++row) {
-      const std::uint8_t* from = image->buf + static_cast<std::ptrdiff_t>(row) * image->stride;
-      picture.gray.insert(picture.gray.end(), from, from + picture.width);
-    }
-    return picture;
-  }
-  throw std::invalid_argument("no tag family " + family);
+  const auto pattern = tag_pattern(family, tag);
+  if (!pattern) throw std::invalid_argument(to_string(pattern.error()));
+  CellPicture picture;
+  picture.width = pattern->cells;
+  picture.height = pattern->cells;
+  picture.border = (pattern->cells - pattern->border_cells) / 2;
+  for (const bool black : pattern->black)
+    picture.gray.push_back(black ? 0 : 255);
+  return picture;
 }
 
 }  // namespace swarmsmith::film

@@ -12,7 +12,7 @@
 #include "tests/support/printed_page.h"
 #include "tests/support/xml_check.h"
 #include "tracking/geometry/tag_family.h"
-#include "tracking/printing/tag_pattern.h"
+#include "tracking/detection/tag_pattern.h"
 
 extern "C" {
 #include <apriltag/apriltag.h>
