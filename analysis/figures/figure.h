@@ -29,7 +29,7 @@ struct FigureOptions {
   double width_mm = 84;  ///< a column of a paper; the height follows
   std::string by;        ///< groups of a comparison: source, method or mission
   std::string source;    ///< only scores of this source; empty: of all
-  std::string purpose;                 ///< only `test` or only `score`; empty: both
+  std::string purpose;   ///< only `test` or only `score`; empty: both
   std::optional<CandidateId> candidate;
   std::optional<std::int64_t> iteration;
   std::string parameter;  ///< names, with commas between; empty: the most telling ones

@@ -22,9 +22,9 @@ struct Verification {
 /// what is stored: candidates, pairs, steps, eliminations, elites, budget, winner. A design that is
 /// not finished is compared as far as it has come. Also evaluations with two different results,
 /// SQLite's own integrity check, and whether each campaign is the one of the file that the store
-/// keeps of it; and the scores of real runs, from their control cycles. Of several campaigns each is looked at as if it were alone, and so are the ids in
-/// its complaints. Imported ones have no races. Fails when a campaign cannot be played by this
-/// program at all.
+/// keeps of it; and the scores of real runs, from their control cycles. Of several campaigns each
+/// is looked at as if it were alone, and so are the ids in its complaints. Imported ones have no
+/// races. Fails when a campaign cannot be played by this program at all.
 Expected<Verification> verify(StoreReader& store);
 
 /// The designs of a store's only campaign, made from the file that it keeps.

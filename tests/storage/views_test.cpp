@@ -60,7 +60,8 @@ const std::map<std::string, std::string> kColumns{
      "residual_m sigma_m sigma_rad border_m too_close offset_calibration"},
     {"v_real_runs",
      "id run name candidate design mission source score verdict counts measured_verdict "
-     "overridden_by reason biased recorded duration_s robots cameras scorings scored stored program "
+     "overridden_by reason biased recorded duration_s robots cameras scorings scored stored "
+     "program "
      "key"},
     {"v_real_samples",
      "id run number video frame time_s tag u0 v0 u1 v1 u2 v2 u3 v3 hamming margin robot x y theta "

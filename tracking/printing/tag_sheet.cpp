@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "analysis/drawing/figure_style.h"
-#include "tracking/printing/internal/page.h"
 #include "tracking/detection/tag_pattern.h"
+#include "tracking/printing/internal/page.h"
 
 namespace swarmsmith {
 namespace {

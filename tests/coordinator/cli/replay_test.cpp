@@ -297,7 +297,8 @@ TEST(ThingId, IsALetterWithDigits) {
   EXPECT_EQ(parse_thing_id("e81200007t")->purpose, "t");
   EXPECT_EQ(parse_thing_id("d3")->letter, 'd');
   EXPECT_EQ(parse_thing_id("r7")->letter, 'r');
-  for (const char* wrong : {"", "e", "et", "c1t", "r1t", "x1", "e-1", "e1x", "1", "e1234567890123456789"})
+  for (const char* wrong :
+       {"", "e", "et", "c1t", "r1t", "x1", "e-1", "e1x", "1", "e1234567890123456789"})
     EXPECT_FALSE(parse_thing_id(wrong)) << wrong;
 }
 

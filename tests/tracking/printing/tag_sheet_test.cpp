@@ -11,8 +11,8 @@
 #include "tests/support/drawn_page.h"
 #include "tests/support/printed_page.h"
 #include "tests/support/xml_check.h"
-#include "tracking/geometry/tag_family.h"
 #include "tracking/detection/tag_pattern.h"
+#include "tracking/geometry/tag_family.h"
 
 extern "C" {
 #include <apriltag/apriltag.h>
