@@ -106,7 +106,7 @@ std::string film_run(const LabWish& lab_wish, const FilmWish& wish, const std::s
   options.robots = std::max(options.robots, run.mission.robots);
   const Lab lab = lab_of(options);
   const std::filesystem::path stem(name);
-  std::filesystem::create_directories(stem.parent_path());
+  if (stem.has_parent_path()) std::filesystem::create_directories(stem.parent_path());
   const auto beside = [&](const std::string& ending) {
     return std::filesystem::path(stem).concat(ending);
   };

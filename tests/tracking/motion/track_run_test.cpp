@@ -217,13 +217,14 @@ TEST(TrackRunTest, DropsHeadingsThatARobotCannotTurnTo) {
 }
 
 /// Another tag of the same number at a place of its own.
-void add_twin(SeenRun& seen, int tag, const Pose& at, std::int64_t from, std::int64_t to) {
+void add_twin(SeenRun& seen, int tag, const Pose& at, std::int64_t from, std::int64_t to,
+              double height_m = 0.2) {
   const View view = seen.rig.view_of(seen.rig.cameras[0]).value();
   std::vector<Sighting> twins;
   for (const Sighting& sighting : seen.observations.sightings) {
     if (sighting.tag != tag || sighting.frame < from || sighting.frame > to) continue;
     twins.push_back(sighting);
-    twins.back().corners = seen_corners(view, at, 0.1, 0.2);
+    twins.back().corners = seen_corners(view, at, 0.1, height_m);
   }
   seen.observations.sightings.insert(seen.observations.sightings.end(), twins.begin(), twins.end());
 }
@@ -246,6 +247,30 @@ TEST(TrackRunTest, DropsBothOfTwoThatMayBothBeTheRobot) {
   const TrackedRun run = seen.track().value();
   EXPECT_EQ(count_of(run.robots[0], Sample::Use::Duplicate), 2);
   EXPECT_LT(worst_error(run, on_circle), 3e-4);
+}
+
+TEST(TrackRunTest, ComplainsOfATwinOnTheFloorThoughItsScaleTellsItFromTheRobot) {
+  SeenRun seen = seen_run(on_circle, short_run());
+  add_twin(seen, 1, {-0.9, 0.1, 0}, 200, 230, 0);
+  const TrackedRun run = seen.track().value();
+  EXPECT_NE(find_issue(run, IssueCode::DuplicateId), nullptr);
+  EXPECT_LT(worst_error(run, on_circle), 5e-5);
+}
+
+/// The offset of each is then wrong on the other robot, and so is the score. After four frames the
+/// other's place is within reach again.
+TEST(TrackRunTest, TwoRobotsThatExchangeTheirTagsAreNoLongerBelieved) {
+  const Truth side_by_side = [](int robot, double time_s) {
+    return Pose{-0.5 + 0.25 * robot + 0.001 * time_s, 0.1, 0};
+  };
+  SeenRun seen = seen_run(side_by_side, {.cycles = 200, .frame_rate = 15});
+  for (Sighting& sighting : seen.observations.sightings) {
+    if (sighting.frame >= 100 && sighting.tag <= 2) sighting.tag = 3 - sighting.tag;
+  }
+  const TrackedRun run = seen.track().value();
+  const Issue* issue = find_issue(run, IssueCode::Gap);
+  ASSERT_NE(issue, nullptr);
+  EXPECT_THAT(issue->text, HasSubstr("cannot have come"));
 }
 
 TEST(TrackRunTest, ComplainsOfATwinThatStays) {

@@ -18,8 +18,17 @@ constexpr double kWindow_s = 0.5;
 /// Numbers of samples, by time.
 using Chain = std::vector<std::size_t>;
 
+/// Whether a chain is all that was seen since another one ended. With time everything comes within
+/// reach of where that was, also a tag that was put on another robot.
+bool has_taken_over(const Chain& chain, const Chain& from) {
+  constexpr std::size_t kNoStray = 3;
+  return chain.size() >= kNoStray && chain.front() > from.back();
+}
+
 /// Whether a chain is the better one for the next sample: established, then seen last.
 bool is_better(const Chain& a, const Chain& b) {
+  if (has_taken_over(a, b)) return true;
+  if (has_taken_over(b, a)) return false;
   const bool a_sure = a.size() >= kEstablished;
   const bool b_sure = b.size() >= kEstablished;
   return a_sure != b_sure ? a_sure : a.back() > b.back();

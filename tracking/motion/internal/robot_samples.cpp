@@ -99,6 +99,20 @@ std::vector<FrameGroup> frames_of(std::vector<Sample>& samples, int camera) {
   return frames;
 }
 
+/// Frames with the tag at two places, whatever became of the sightings: a twin that lies on the
+/// floor is a bad fit, and in everybody's way all the same.
+std::vector<std::int64_t> frames_with_twins(const std::vector<Sample>& samples) {
+  std::vector<std::int64_t> frames;
+  for (std::size_t i = 1; i < samples.size(); ++i) {
+    const bool is_twin =
+        samples[i].camera == samples[i - 1].camera && samples[i].frame == samples[i - 1].frame;
+    if (is_twin && (frames.empty() || frames.back() != samples[i].frame)) {
+      frames.push_back(samples[i].frame);
+    }
+  }
+  return frames;
+}
+
 /// The one of a frame's samples that fits to the track, or none.
 Sample* consistent_one(const FrameGroup& frame, const Sample* before, const Sample* after,
                        const TrackLimits& limits) {
@@ -131,7 +145,6 @@ void resolve_duplicates(RobotSamples& robot, int camera, const TrackLimits& limi
       const Sample* after = next_alone[i];
       used = consistent_one(frames[i], is_near(before, used) ? before : nullptr,
                             is_near(after, used) ? after : nullptr, limits);
-      robot.twice.push_back(samples.front()->frame);
       if (used == nullptr) ++robot.twice_unresolved;
       for (Sample* sample : samples) {
         if (sample != used) sample->use = Sample::Use::Duplicate;
@@ -180,6 +193,7 @@ RobotSamples samples_of(const TaggedRobot& robot, const std::vector<Sighting>& s
         sample_of(seen, robot, cameras[static_cast<std::size_t>(seen.camera)], options));
     made.samples.back().sighting = number;
   }
+  made.twice = frames_with_twins(made.samples);
   made.scale = drop_bad_fits(made.samples, robot.setup.edge_m, limits);
   for (Sample& sample : made.samples) {
     if (sample.use != Sample::Use::Used) continue;
