@@ -19,7 +19,8 @@ std::vector<ShotFrame> frames_of(const Schedule& schedule, Rng rng) {
     // A frame is late or early by less than half its turn.
     const double most_s = 0.4 / schedule.rate_hz;
     const double late_s = std::clamp(jitter.normal(0, schedule.jitter_s), -most_s, most_s);
-    const double true_s = nominal_s + late_s;
+    // The camera's clock begins with the first frame.
+    const double true_s = nominal_s + (turn == 0 ? std::fabs(late_s) : late_s);
     const bool dropped =
         drops.bernoulli(schedule.drop_share) ||
         std::any_of(schedule.drops.begin(), schedule.drops.end(),
