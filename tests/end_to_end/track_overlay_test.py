@@ -162,6 +162,8 @@ class OverlayAndLive(unittest.TestCase):
         self.assertEqual(live.returncode, 0)
         self.assertGreaterEqual(result["frames"] + result["dropped"], 25)
         self.assertGreater(result["delay_ms"]["median"], 0)
+        rows = (self.lab / "seen.times.csv").read_text().splitlines()
+        self.assertEqual(len(rows), 1 + result["frames"] + result["dropped"])
         again = track("record", "seen.mkv", "copy.mkv", "--json", cwd=self.lab)
         self.assertEqual(json.loads(again.stdout)["frames"], result["frames"] + result["dropped"])
 

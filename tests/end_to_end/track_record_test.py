@@ -205,6 +205,7 @@ class TrackRecord(unittest.TestCase):
                 (2, (images, "old.mkv", "--rate", "20"), "never overwrites"),
                 (2, (images, "run.mkv", "--rate", "fast"), "`fast` is no positive number"),
                 (2, (images, "run.mkv", "--seconds", "-1"), "`-1` is no positive number"),
+                (2, (images, "run.mkv", "--codec", "ffv1", "--quality", "50"), "has no quality"),
                 (2, ("camera:first", "run.mkv"), "camera:0:1920x1080@30"),
                 (1, (images, "run.mkv"), "--rate"),
                 (1, ("none.mp4", "run.mkv"), "No such file"),

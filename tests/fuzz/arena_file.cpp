@@ -22,7 +22,8 @@ void run(std::string_view input) {
   require(!rig->cameras.empty(), "a rig has a camera");
   for (const RobotSetup& robot : rig->robots) {
     require(robot.edge_m > 0 && robot.height_m >= 0, "a tag has a size and a height");
-    require(robot.height_m < rig->least_height_m, "a tag is below the cameras");
+    for (const CameraSetup& camera : rig->cameras)
+      require(robot.height_m < camera.least_height_m, "a tag is below the cameras");
   }
   require(misfits(*rig).empty(), "without calibrations none misfits");
 }

@@ -81,8 +81,8 @@ Expected<PlaceQuestion> question_of(const Arguments& arguments, const Rig& rig,
   question.survey = rig.references;
   question.camera = rig.models.at(camera.model_file).model;
   question.arena = corners_of(arena);
-  question.limits.least_height_m = rig.least_height_m;
-  question.limits.most_height_m = rig.most_height_m;
+  question.limits.least_height_m = camera.least_height_m;
+  question.limits.most_height_m = camera.most_height_m;
   if (arguments.again) {
     const auto old = rig.places.find(camera.place_file);
     if (old == rig.places.end()) {

@@ -1,13 +1,13 @@
 #include <algorithm>
 #include <chrono>
 #include <deque>
-#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "sim/files/mission_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/complaints.h"
+#include "tracking/app/recording.h"
 #include "tracking/app/stop_signal.h"
 #include "tracking/live/live_pages.h"
 #include "tracking/live/live_tracker.h"
@@ -93,27 +93,34 @@ Expected<CameraSetup> camera_of(const Rig& rig, const std::string& name) {
 class LiveRecording {
  public:
   static Expected<LiveRecording> open(const std::string& file, const SourceInfo& info) {
-    std::error_code ignored;
-    if (std::filesystem::exists(file, ignored))
-      return bad_input("is there already; a recording never overwrites one", file);
+    if (const auto right = check_recording_name(file); !right) return Unexpected(right.error());
     VideoOptions options;
     options.live = true;
     if (info.frame_rate > 0) options.frame_rate = info.frame_rate;
     auto writer = VideoWriter::open(file, info.size, options);
     if (!writer) return Unexpected(writer.error());
-    return LiveRecording(std::move(*writer));
+    return LiveRecording(std::move(*writer), Sidecar(file, info.is_live));
   }
 
   Expected<void> add(FrameSource& source, double time_s) {
     if (!first_s_) first_s_ = time_s;
-    return writer_.write(source.color(), time_s - *first_s_);
+    auto written = writer_.write(source.color(), time_s - *first_s_);
+    if (!written) return written;
+    return times_.add(frames_++, time_s - *first_s_, time_s);
   }
-  Expected<void> finish() { return writer_.finish(); }
+  Expected<void> finish() {
+    auto finished = writer_.finish();
+    if (!finished) return finished;
+    return times_.finish();
+  }
 
  private:
-  explicit LiveRecording(VideoWriter writer) : writer_(std::move(writer)) {}
+  LiveRecording(VideoWriter writer, Sidecar times)
+      : writer_(std::move(writer)), times_(std::move(times)) {}
 
   VideoWriter writer_;
+  Sidecar times_;
+  std::int64_t frames_ = 0;
   std::optional<double> first_s_;
 };
 
@@ -180,14 +187,9 @@ ExitCode live(const Words& words, Output& output) {
   if (!camera) return failed(camera.error());
   LiveScenery scenery;
   if (!words.mission.empty()) {
-    auto mission = built_in_mission(words.mission);
-    if (!mission && std::filesystem::exists(words.mission)) {
-      auto read = read_mission_file(words.mission);
-      if (!read) return fail_all(output, read.error());
-      mission = std::move(read->mission);
-    }
-    if (!mission) return failed(mission.error());
-    scenery.mission = std::move(*mission);
+    auto mission = find_mission(words.mission, "");
+    if (!mission) return fail_all(output, mission.error());
+    scenery.mission = std::move(mission->mission);
   }
   catch_stop_signals();
   auto source = FrameSource::open(words.source);
@@ -228,7 +230,7 @@ Run declare_live(Options& options) {
   options.text("--mission", words->mission, "Mission whose floor is drawn in: a name or a file");
   options.integer("--port", words->port, {0, 65'535},
                   "Of the preview, on 127.0.0.1 alone (default 8080; 0: a free one)");
-  options.text("--record", words->record, "Record all frames, a .mkv");
+  options.text("--record", words->record, "Record all frames, a .mkv, with their times beside it");
   return [words](Output& output) { return live(*words, output); };
 }
 

@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <system_error>
 #include <utility>
 
 #include "tracking/app/commands.h"
@@ -41,17 +39,6 @@ Expected<std::optional<double>> positive(const std::string& text, const char* op
   return std::optional<double>(value);
 }
 
-Expected<void> check_names(const Words& words) {
-  if (!words.file.ends_with(".mkv")) {
-    return bad_input("a recording is a .mkv, which stays readable when it is cut off", words.file);
-  }
-  std::error_code ignored;
-  if (std::filesystem::exists(words.file, ignored)) {
-    return bad_input("is there already; a recording never overwrites one", words.file);
-  }
-  return {};
-}
-
 /// How many frames a second when each has no time of its own.
 std::optional<double> counting_rate(const SourceInfo& info, std::optional<double> asked) {
   if (asked) return asked;
@@ -80,7 +67,11 @@ ExitCode record(const Words& words, Output& output) {
   if (!seconds) return failed(seconds.error());
   const auto rate = positive(words.rate, "--rate");
   if (!rate) return failed(rate.error());
-  if (const auto right = check_names(words); !right) return failed(right.error());
+  if (const auto right = check_recording_name(words.file); !right) return failed(right.error());
+  if (words.quality && words.codec == "ffv1") {
+    return failed({ErrorKind::BadInput, "ffv1 keeps every bit and has no quality; leave it out",
+                   "--quality"});
+  }
   auto source = FrameSource::open(words.source);
   if (!source) return failed(source.error());
   const SourceInfo& info = (*source)->info();

@@ -19,6 +19,17 @@ constexpr const char* kClearLine = "\r\x1b[2K";
 
 }  // namespace
 
+Expected<void> check_recording_name(const std::string& file) {
+  if (!file.ends_with(".mkv")) {
+    return bad_input("a recording is a .mkv, which stays readable when it is cut off", file);
+  }
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) {
+    return bad_input("is there already; a recording never overwrites one", file);
+  }
+  return {};
+}
+
 Sidecar::Sidecar(const std::string& video, bool has_clock)
     : file_(video.substr(0, video.rfind('.')) + ".times.csv"), has_clock_(has_clock) {
   out_.open(file_ + ".part", std::ios::binary | std::ios::trunc);

@@ -13,6 +13,9 @@
 
 namespace swarmsmith::cli {
 
+/// BadInput for a name that is no .mkv, and for a file that is there.
+Expected<void> check_recording_name(const std::string& file);
+
 /// The frame times beside the video: columns frame, time_s from the first frame on, and of a camera
 /// clock_s, its own clock. They get their name only when the video is whole: after a crash the rows
 /// and the frames that reached the disk need not agree, and the video has times of its own.

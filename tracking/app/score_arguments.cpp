@@ -34,7 +34,8 @@ void ScoreArguments::declare(Options& options) {
                "Score robots without an offset calibration; the score is then marked BIASED");
   options.text("--into", into, "Store to keep the run in; made when it is not there");
   options.text("--store", store, "The same for a store that is there (else SWARMSMITH_STORE)");
-  options.text("--csv", csv, "Write the trajectory: step,robot,x,y,theta");
+  options.text("--csv", csv,
+               "Write the trajectory: cycle,time_s,robot,x,y,theta (docs/trajectories.md)");
   options.text("--report", report, "Write the quality report, a page of HTML");
 }
 

@@ -46,7 +46,6 @@ struct CameraRecord {
   ImageSize size;
   std::int64_t frames = 0;
   std::int64_t damaged_frames = 0;  ///< that the decoder gave up
-  std::int64_t full_searches = 0;   ///< frames that were searched whole
   TimeSource time_source = TimeSource::Container;
   std::vector<double> frame_times;  ///< camera's clock, one a frame, increasing
   std::vector<ReferenceLook> references;

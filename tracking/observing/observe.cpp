@@ -154,7 +154,6 @@ Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& 
     if (on_frame) on_frame(record.frames, info.expected_frames, seen);
   }
   record.damaged_frames = video.source.damaged_frames();
-  record.full_searches = search.full_searches();
   record.references = recorder.take_references();
   result.sightings = recorder.take_sightings();
   if (const auto ended = note_end(video, broken, result); !ended.has_value())

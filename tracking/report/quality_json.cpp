@@ -65,7 +65,6 @@ Json camera_json(const ReportedRun& run, const CameraRecord& record) {
           {"height", record.size.height},
           {"frames", record.frames},
           {"damaged_frames", record.damaged_frames},
-          {"full_searches", record.full_searches},
           {"times", name_of(record.time_source)},
           {"calibration", calibration_json(run, finding)},
           {"place", place_json(run, finding)},

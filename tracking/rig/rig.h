@@ -34,7 +34,9 @@ struct CameraSetup {
   std::string place_file;  ///< of its PlaceCalibration
   StampedAt stamped_at = StampedAt::Middle;
   double exposure_s = 0;
-  double readout_s = 0;  ///< first row to last; 0 for a global shutter
+  double readout_s = 0;         ///< first row to last; 0 for a global shutter
+  double least_height_m = 0.5;  ///< that it may hang at
+  double most_height_m = 20;
 
   friend bool operator==(const CameraSetup&, const CameraSetup&) = default;
 };
@@ -112,8 +114,6 @@ struct Rig {
   std::vector<CameraSetup> cameras;  ///< at least one
   std::vector<ReferenceTag> references;
   std::vector<RobotSetup> robots;  ///< in the order of the score's robots
-  double least_height_m = 0.5;     ///< that a camera may hang at
-  double most_height_m = 20;
   /// By the file's name in the setups; only those that exist.
   std::map<std::string, CalibrationFile> files;
   std::map<std::string, CameraCalibration> models;

@@ -55,8 +55,7 @@ int read_tag(TableReader& table, Reading& reading, const std::string& owner) {
   return number;
 }
 
-CameraSetup read_camera(TableReader& table, Reading& reading,
-                        const std::vector<std::string>& taken) {
+CameraSetup read_camera(TableReader& table, const std::vector<std::string>& taken) {
   static const std::vector<std::string> kStamps = {"start", "middle", "end"};
   CameraSetup camera;
   camera.name = table.text("name").value_or("");
@@ -74,11 +73,8 @@ CameraSetup read_camera(TableReader& table, Reading& reading,
     const bool good = height->least >= kCameraHeight.least && height->most <= kCameraHeight.most &&
                       height->least < height->most;
     if (good) {
-      // One range for all cameras, the widest: it is a check against gross errors.
-      const bool first = taken.empty();
-      Rig& rig = reading.rig;
-      rig.least_height_m = first ? height->least : std::min(rig.least_height_m, height->least);
-      rig.most_height_m = first ? height->most : std::max(rig.most_height_m, height->most);
+      camera.least_height_m = height->least;
+      camera.most_height_m = height->most;
     } else {
       table.complain("height", "`height` must be [least, most] in metres, within 0.05 to 100");
     }
@@ -104,7 +100,10 @@ RobotSetup read_robot(TableReader& table, Reading& reading, const std::vector<st
   robot.tag = read_tag(table, reading, "robot \"" + robot.name + "\"");
   robot.edge_m = need(table, "edge", kEdge);
   robot.height_m = need(table, "height", kTagHeight);
-  const double least = reading.rig.least_height_m;
+  const auto lowest =
+      std::ranges::min_element(reading.rig.cameras, {}, &CameraSetup::least_height_m);
+  const double least =
+      lowest == reading.rig.cameras.end() ? CameraSetup{}.least_height_m : lowest->least_height_m;
   if (table.has("height") && robot.height_m >= least && robot.height_m < kTagHeight.most) {
     table.complain("height", "`height` must be below the camera, whose `height` begins at " +
                                  number_text(least) + " m; this is " + number_text(robot.height_m));
@@ -137,7 +136,7 @@ void read_cameras(TableReader& root, Reading& reading, const FindCalibration& fi
   std::vector<std::string> names;
   Rig& rig = reading.rig;
   for (TableReader& table : root.tables("camera")) {
-    const CameraSetup camera = read_camera(table, reading, names);
+    const CameraSetup camera = read_camera(table, names);
     names.push_back(camera.name);
     read_calibration(table, "model", camera.model_file,
                      find(CalibrationKind::Camera, camera.name, camera.model_file),

@@ -5,6 +5,8 @@
 #include <opencv2/aruco/charuco.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "tests/support/overhead_camera.h"
+
 namespace swarmsmith::film {
 namespace {
 
@@ -29,25 +31,6 @@ cv::Mat charuco(const BoardKind& kind) {
   cv::Mat image;
   board->draw({kind.columns * kSquare_px, kind.rows * kSquare_px}, image, 0, 1);
   return image;
-}
-
-/// Rotation by angles about x, then y, then z.
-std::array<double, 9> turned(double x, double y, double z) {
-  const double cx = std::cos(x);
-  const double sx = std::sin(x);
-  const double cy = std::cos(y);
-  const double sy = std::sin(y);
-  const double cz = std::cos(z);
-  const double sz = std::sin(z);
-  return {cz * cy,
-          cz * sy * sx - sz * cx,
-          cz * sy * cx + sz * sx,
-          sz * cy,
-          sz * sy * sx + cz * cx,
-          sz * sy * cx - cz * sx,
-          -sy,
-          cy * sx,
-          cy * cx};
 }
 
 Point3 moved(const std::array<double, 9>& r, const Point3& t, double x, double y) {
@@ -83,7 +66,7 @@ std::vector<Point> inner_corners(const BoardKind& kind) {
 FilmedBoard held(const FilmedBoard& board, const BoardKind& kind, const CameraModel& camera,
                  ImagePoint middle, double distance_m, double tilt_x, double tilt_y, double turn) {
   FilmedBoard there = board;
-  there.rotation = turned(tilt_x, tilt_y, turn);
+  there.rotation = rotation_about(tilt_x, tilt_y, turn);
   const Ray ray = rays_of(camera, std::vector<ImagePoint>{middle}).front();
   const Point3 centre{ray.x * distance_m, ray.y * distance_m, distance_m};
   const Point3 half = moved(there.rotation, {}, kind.width_m() / 2, kind.height_m() / 2);

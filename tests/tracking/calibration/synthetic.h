@@ -6,37 +6,13 @@
 
 #include "base/math.h"
 #include "base/rng.h"
+#include "tests/support/overhead_camera.h"
 #include "tracking/calibration/board.h"
 #include "tracking/calibration/solve_camera.h"
 #include "tracking/calibration/solve_place.h"
 #include "tracking/geometry/tag_pose.h"
 
 namespace swarmsmith {
-
-/// The lens that tracking facts were measured with.
-inline CameraModel wide_camera() {
-  return {
-      {1920, 1080}, Lens::Pinhole, 1015, 1015, 959.5, 539.5, {-0.285, 0.08, 0.0005, -0.0003, 0}};
-}
-
-/// Turned about its x axis, then y, then z, radians.
-inline std::array<double, 9> rotation_of(double rx, double ry, double rz) {
-  const double a = std::cos(rx);
-  const double b = std::sin(rx);
-  const double c = std::cos(ry);
-  const double d = std::sin(ry);
-  const double e = std::cos(rz);
-  const double f = std::sin(rz);
-  return {c * e,
-          b * d * e - a * f,
-          a * d * e + b * f,
-          c * f,
-          b * d * f + a * e,
-          a * d * f - b * e,
-          -d,
-          b * c,
-          a * c};
-}
 
 /// How a board is held.
 struct Holding {
@@ -57,8 +33,8 @@ inline BoardView held_board(const CameraModel& camera, const Board& board, Rng r
   const Ray ray = rays_of(camera, std::vector<ImagePoint>{aim}).front();
   CameraPlace place;
   // Half a turn about x, since the board's y is turned as well below.
-  place.rotation = rotation_of(std::numbers::pi + rng.uniform(-tilt, tilt),
-                               rng.uniform(-tilt, tilt), rng.uniform(-0.5, 0.5));
+  place.rotation = rotation_about(std::numbers::pi + rng.uniform(-tilt, tilt),
+                                  rng.uniform(-tilt, tilt), rng.uniform(-0.5, 0.5));
   const Point3 middle = place.seen_from_camera({board.width_m() / 2, board.height_m() / 2, 0});
   place.translation = {ray.x * depth - middle.x, ray.y * depth - middle.y, depth - middle.z};
   BoardView view;
@@ -93,7 +69,7 @@ inline std::vector<BoardView> held_boards(const CameraModel& camera, int count, 
 
 /// 2.7 m above the floor, tilted by 3 and 2 degrees.
 inline View laboratory() {
-  View view{wide_camera(), {rotation_of(std::numbers::pi + 0.052, 0.035, 0.4), {}}};
+  View view{wide_camera(), {rotation_about(std::numbers::pi + 0.052, 0.035, 0.4), {}}};
   const Point3 centre = view.place.seen_from_camera({0.06, -0.04, 2.7});
   view.place.translation = {-centre.x, -centre.y, -centre.z};
   return view;
@@ -109,15 +85,13 @@ inline std::vector<ReferenceTag> floor_tags() {
   return tags;
 }
 
-/// The corners of a tag on a plane.
+/// The same with noise.
 inline TagCorners seen_corners(const View& view, const Pose& pose, double edge_m, double height_m,
                                Rng& rng, double noise_px) {
-  const std::array<Point, 4> flat = corners_of(ReferenceTag{0, pose, edge_m});
-  TagCorners corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    corners[i] = image_of(view, Point3{flat[i].x, flat[i].y, height_m});
-    corners[i].u += rng.normal(0, noise_px);
-    corners[i].v += rng.normal(0, noise_px);
+  TagCorners corners = seen_corners(view, pose, edge_m, height_m);
+  for (ImagePoint& corner : corners) {
+    corner.u += rng.normal(0, noise_px);
+    corner.v += rng.normal(0, noise_px);
   }
   return corners;
 }

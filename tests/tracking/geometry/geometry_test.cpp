@@ -3,16 +3,11 @@
 #include <cmath>
 #include <numbers>
 
+#include "tests/support/overhead_camera.h"
 #include "tracking/geometry/tag_pose.h"
 
 namespace swarmsmith {
 namespace {
-
-/// The lens that tracking facts were measured with.
-CameraModel wide_camera() {
-  return {
-      {1920, 1080}, Lens::Pinhole, 1015, 1015, 959.5, 539.5, {-0.285, 0.08, 0.0005, -0.0003, 0}};
-}
 
 /// 2.7 m above the floor, looking down, tilted by an angle about the world's x axis.
 View view_from_above(double tilt_rad) {
@@ -68,20 +63,6 @@ TEST(ViewTest, PointsComeBackFromTheImageToTheirPlane) {
       EXPECT_NEAR(back.y, point.y, 1e-8);
     }
   }
-}
-
-/// Corners of a tag of a true edge at a height, as a camera sees them.
-TagCorners seen_corners(const View& view, const Pose& tag, double edge_m, double height_m) {
-  TagCorners corners;
-  const std::array<Point, 4> model{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const double x = model[i].x * edge_m;
-    const double y = model[i].y * edge_m;
-    corners[i] =
-        image_of(view, Point3{tag.x + std::cos(tag.theta) * x - std::sin(tag.theta) * y,
-                              tag.y + std::sin(tag.theta) * x + std::cos(tag.theta) * y, height_m});
-  }
-  return corners;
 }
 
 TEST(TagPoseTest, IsExactOnExactCorners) {

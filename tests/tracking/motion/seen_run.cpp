@@ -116,19 +116,6 @@ Pose on_circle(int robot, double time_s) {
   return {0.5 * at.cos, 0.5 * at.sin, wrap_angle(angle + 0.5 * kPi)};
 }
 
-TagCorners seen_corners(const View& view, const Pose& tag, double edge_m, double height_m) {
-  const std::array<Point, 4> model{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-  const SinCos turn = sin_cos(tag.theta);
-  TagCorners corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const double x = model.at(i).x * edge_m;
-    const double y = model.at(i).y * edge_m;
-    corners.at(i) = image_of(view, Point3{tag.x + turn.cos * x - turn.sin * y,
-                                          tag.y + turn.sin * x + turn.cos * y, height_m});
-  }
-  return corners;
-}
-
 const Issue* find_issue(const TrackedRun& run, IssueCode code) {
   const auto found = std::ranges::find(run.issues, code, &Issue::code);
   return found == run.issues.end() ? nullptr : &*found;

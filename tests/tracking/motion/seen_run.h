@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <functional>
 
+#include "tests/support/overhead_camera.h"
 #include "tracking/motion/track_run.h"
 
 namespace swarmsmith {
@@ -45,9 +46,6 @@ void add_camera(SeenRun& run, const Truth& truth, const Seeing& seeing, const Po
 
 /// Robots on circles of 0.5 m, 0.3 m/s, heading along them.
 Pose on_circle(int robot, double time_s);
-
-/// The tag's corners as the camera sees them.
-TagCorners seen_corners(const View& view, const Pose& tag, double edge_m, double height_m);
 
 /// The first issue of a kind, or nothing.
 const Issue* find_issue(const TrackedRun& run, IssueCode code);

@@ -72,7 +72,6 @@ CameraRecord record_of(const PlaceCalibration& place) {
                       .size = {1920, 1080},
                       .frames = 1812,
                       .damaged_frames = 1,
-                      .full_searches = 70,
                       .time_source = TimeSource::Sidecar};
   for (int span = 0; span < 5; ++span) {
     for (const PlaceCalibration::Seen& seen : place.tags) {

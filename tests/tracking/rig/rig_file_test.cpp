@@ -134,9 +134,7 @@ TEST(RigFile, SaysWhatHangsLiesAndDrives) {
   EXPECT_EQ(rig->file, "arena.toml");
   EXPECT_THAT(rig->cameras,
               ElementsAre(CameraSetup{"ceiling", "ceiling.camera.toml", "ceiling.place.toml",
-                                      StampedAt::Start, 0.008, 0.016}));
-  EXPECT_EQ(rig->least_height_m, 1.5);
-  EXPECT_EQ(rig->most_height_m, 4);
+                                      StampedAt::Start, 0.008, 0.016, 1.5, 4}));
   EXPECT_THAT(rig->references, ElementsAre(ReferenceTag{100, {1.0, 0.2, kPi / 2}, 0.10}));
   EXPECT_THAT(rig->robots, ElementsAre(RobotSetup{"rvr1", 1, 0.10, 0.20, "rvr1.offset.toml"},
                                        RobotSetup{"rvr2", 2, 0.10, 0.20, ""}));
