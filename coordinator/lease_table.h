@@ -37,10 +37,10 @@ struct TaskRecord {
   /// lease ends without a result, this one takes its place.
   std::optional<Lease> second;
   std::int64_t attempts = 0;
-  int deaths = 0;    ///< worker processes that died while it ran alone
+  int deaths = 0;                      ///< worker processes that died while it ran alone
   std::vector<std::string> died_with;  ///< the principals of these
-  int losses = 0;    ///< workers that fell silent, or died, while it may have run
-  int strays = 0;    ///< the same of workers of which nothing is known
+  int losses = 0;                      ///< workers that fell silent, or died, while it may have run
+  int strays = 0;                      ///< the same of workers of which nothing is known
   int timeouts = 0;
   WorkerNumber avoid = 0;  ///< try elsewhere, if there is an elsewhere
   bool alone = false;      ///< it may have killed a worker: nothing else may run beside it

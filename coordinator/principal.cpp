@@ -12,8 +12,7 @@ constexpr const char* kLoopback = "loopback";
 /// As principals have it.
 std::string network_of(const std::string& address) {
   constexpr std::string_view kMapped = "::ffff:";
-  const std::string text =
-      address.starts_with(kMapped) ? address.substr(kMapped.size()) : address;
+  const std::string text = address.starts_with(kMapped) ? address.substr(kMapped.size()) : address;
   std::array<unsigned char, 16> bytes{};
   if (inet_pton(AF_INET, text.c_str(), bytes.data()) == 1) {
     return bytes[0] == 127 ? kLoopback : text;
@@ -61,7 +60,8 @@ void Principals::forget_idle() {
     const Principal& it = each.second;
     const bool idle = it.workers.empty() && it.waiting.empty();
     const bool awaited = it.claims > 0 || it.on_trial > 0;
-    const bool known = it.quarantined || !it.unchecked.empty() || it.confirmed > 0 || it.strikes > 0;
+    const bool known =
+        it.quarantined || !it.unchecked.empty() || it.confirmed > 0 || it.strikes > 0;
     return idle && !awaited && !known;
   });
 }

@@ -14,8 +14,8 @@ namespace swarmsmith {
 
 /// Who answers for a worker: not the id that the worker chose, but what the transport knows of it.
 /// "node1@10.0.0.5": the name of its key and its address, without a key the address alone; all
-/// addresses of loopback are one, and so are those of an IPv6 network of 64 bits. A worker that this
-/// process started is known by the secret that it was given, and answers for itself.
+/// addresses of loopback are one, and so are those of an IPv6 network of 64 bits. A worker that
+/// this process started is known by the secret that it was given, and answers for itself.
 std::string principal_of(const WorkerHello& hello);
 
 /// Bytes as text.

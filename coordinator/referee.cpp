@@ -125,7 +125,8 @@ class ProcessReferee final : public Referee {
       const bool is_its_own =
           one.began && WIFSIGNALED(one.status) && is_fault(WTERMSIG(one.status));
       if (is_its_own && ++faults == kFaults) {
-        return {.kind = Ruling::Kind::Rejected, .reason = "its evaluation kills the process, which " + trouble};
+        return {.kind = Ruling::Kind::Rejected,
+                .reason = "its evaluation kills the process, which " + trouble};
       }
     }
     return {.kind = Ruling::Kind::NoWord, .reason = trouble};

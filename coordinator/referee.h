@@ -25,9 +25,9 @@ class Referee {
 struct RefereeOptions {
   std::string scenario;  ///< serialised
   int engine_version = 0;
-  std::string self_test;             ///< that its process must give
-  std::filesystem::path program{};   ///< empty: `find_worker_program`
-  std::function<void()> on_ruling{}; ///< from another thread
+  std::string self_test;              ///< that its process must give
+  std::filesystem::path program{};    ///< empty: `find_worker_program`
+  std::function<void()> on_ruling{};  ///< from another thread
 };
 
 /// A referee that is a child process of this one: `swarmsmith-worker --referee` (worker/referee.h),

@@ -1,8 +1,8 @@
 // What the scheduler brings before the referee, and what follows from its word.
 
+#include <fmt/format.h>
 #include <algorithm>
 #include <bit>
-#include <fmt/format.h>
 
 #include "coordinator/scheduler.h"
 #include "storage/answer.h"

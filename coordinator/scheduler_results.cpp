@@ -87,8 +87,7 @@ void Scheduler::take(WorkerEntry& entry, TaskRecord& record, const WorkerResult&
           .state_digest = result.state_digest,
           .wall_us = result.wall_us,
           .worker = entry.number,
-          .attempt =
-              lease != nullptr ? lease->attempt : std::max<std::int64_t>(record.attempts, 1),
+          .attempt = lease != nullptr ? lease->attempt : std::max<std::int64_t>(record.attempts, 1),
           .time = result.time});
 }
 

@@ -15,8 +15,8 @@ constexpr int kDeathsOfARejection = 3;
 /// Silent losses are mostly the network's: tolerated much longer.
 constexpr int kLossesUntilAlone = 2;
 constexpr int kLossesUntilRuled = 12;
-/// Losses with workers of which nothing is known say nothing of the task. But where nobody can prove
-/// himself, since each dies of it, the referee breaks the circle: one such task at a time.
+/// Losses with workers of which nothing is known say nothing of the task. But where nobody can
+/// prove himself, since each dies of it, the referee breaks the circle: one such task at a time.
 constexpr int kStraysUntilRuled = 6;
 
 }  // namespace
@@ -68,9 +68,9 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
                                            " workers already, which is the limit");
   }
   if (entry == nullptr && principal.workers.size() >= options_.max_workers_of_one) {
-    return refuse(RejectReason::Limit,
-                  "there are " + std::to_string(principal.workers.size()) + " workers of " +
-                      principal.name + " already, which is the limit for one key and address");
+    return refuse(RejectReason::Limit, "there are " + std::to_string(principal.workers.size()) +
+                                           " workers of " + principal.name +
+                                           " already, which is the limit for one key and address");
   }
   if (options_.self_test.empty()) options_.self_test = hello.self_test;
   if (entry != nullptr) ++counters_.reconnects;
@@ -88,8 +88,7 @@ void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
   actions_.emplace_back(SendWelcome{entry.peer, entry.hello.incarnation});
   entry.last_sent = now;
   if (draining_) actions_.emplace_back(SendDrain{entry.peer, entry.hello.incarnation});
-  actions_.emplace_back(
-      WorkerChanged{row_of(entry, "connected")});
+  actions_.emplace_back(WorkerChanged{row_of(entry, "connected")});
 }
 
 /// The worker is alive: what its disappearance counted against did not kill it.
@@ -282,13 +281,12 @@ Scheduler::Blame Scheduler::blame_of_program(WorkerEntry& entry, TaskRecord& rec
 
 /// Principals that have proved themselves and are there.
 std::size_t Scheduler::proven_present() const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(principals_.all(), [&](const auto& each) {
-        return is_proven(each.second) && std::ranges::any_of(each.second.workers, [&](auto number) {
-                 const auto at = workers_.all().find(number);
-                 return at != workers_.all().end() && at->second.usable();
-               });
-      }));
+  return static_cast<std::size_t>(std::ranges::count_if(principals_.all(), [&](const auto& each) {
+    return is_proven(each.second) && std::ranges::any_of(each.second.workers, [&](auto number) {
+             const auto at = workers_.all().find(number);
+             return at != workers_.all().end() && at->second.usable();
+           });
+  }));
 }
 
 void Scheduler::on_began(const Sender& sender, PackedKey key, TimePoint now) {

@@ -106,8 +106,8 @@ class Loop final : public Service {
         return;
       }
       telemetry_.on_frame_in(received.frame.size());
-      coordinator_.on_frame(
-          {received.peer, received.role, received.client, received.address}, received.frame, now);
+      coordinator_.on_frame({received.peer, received.role, received.client, received.address},
+                            received.frame, now);
     }
   }
 
@@ -305,9 +305,8 @@ Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options,
     const StoredTrust trust = campaign.store->trust();
     std::ranges::copy(trust.quarantined, std::back_inserter(scheduler.quarantined));
   }
-  const std::string lasting = options.keys
-                                  ? options.keys->secret_key
-                                  : campaigns.front().store->keep_secret(random_secret());
+  const std::string lasting = options.keys ? options.keys->secret_key
+                                           : campaigns.front().store->keep_secret(random_secret());
   scheduler.lease_secret =
       lease_secret_of(lasting, digest_of_scenario(options.coordinator.scenario));
   Expected<std::unique_ptr<ServerSocket>> socket = open_front_door(options);

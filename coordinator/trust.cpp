@@ -67,8 +67,8 @@ void Scheduler::hold_back(WorkerEntry& entry, TaskRecord& record, const WorkerRe
       principal.waiting, [&](const auto& each) { return each.result.key == result.key; });
   const Case* known = cases_.find(result.key);
   const bool is_said = known != nullptr && std::ranges::any_of(known->said, [&](const Said& said) {
-    return said.principal == principal.name;
-  });
+                         return said.principal == principal.name;
+                       });
   if (record.lease_of(entry.number) != nullptr) leases_.requeue(record, entry.number);
   if (!record.lease) leases_.park(record);
   if (is_held || is_said) return;

@@ -18,7 +18,7 @@ namespace swarmsmith {
 /// A worker process that said hello. It keeps its number when it comes back.
 struct WorkerEntry {
   WorkerNumber number = 0;
-  WorkerHello hello;  ///< the last one
+  WorkerHello hello;               ///< the last one
   Principal* principal = nullptr;  ///< who answers for it
   bool connected = false;
   PeerId peer = 0;  ///< while connected
@@ -83,8 +83,8 @@ class WorkerRegistry {
   std::size_t quarantined_ = 0;  ///< connected ones
 };
 
-/// The row that says how a worker is: "connected", "lost", "left" or "refused"; of one in quarantine
-/// always "quarantined", so that a later process knows it.
+/// The row that says how a worker is: "connected", "lost", "left" or "refused"; of one in
+/// quarantine always "quarantined", so that a later process knows it.
 WorkerRow row_of(const WorkerEntry& entry, const std::string& state);
 
 }  // namespace swarmsmith

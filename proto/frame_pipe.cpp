@@ -31,8 +31,8 @@ bool wait_for_bytes(int descriptor, const Deadline& deadline) {
   if (!deadline) return true;
   pollfd item{descriptor, POLLIN, 0};
   while (true) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(
-        *deadline - std::chrono::steady_clock::now());
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(*deadline - std::chrono::steady_clock::now());
     const auto time = std::clamp<std::int64_t>(left.count(), 0, 1'000'000);
     const int ready = poll(&item, 1, static_cast<int>(time));
     if (ready > 0) return true;

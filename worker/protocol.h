@@ -178,7 +178,7 @@ class WorkerProtocol {
   Duration busy_{0};  ///< slot time since then that finished evaluations took
   std::unordered_map<PackedKey, Held> held_;
   std::vector<std::pair<TimePoint, WorkItem>> announced_;  ///< to begin then
-  std::unordered_map<PackedKey, Finished> finished_;  ///< until acknowledged
+  std::unordered_map<PackedKey, Finished> finished_;       ///< until acknowledged
   std::vector<PackedKey> unsent_;
   TimePoint oldest_unsent_;
   std::deque<std::pair<TimePoint, PackedKey>> sent_;  ///< in order of sending, stale ones too

@@ -10,8 +10,8 @@ namespace swarmsmith {
 ///
 /// What goes through them is framed as on the wire, each frame behind its length (four bytes,
 /// little-endian). Out: Hello, once the self test is done. In: ScenarioReply, then Tasks. Out, for
-/// each task: Began before it is evaluated, then Results. What the process dies of after Began is the
-/// evaluation's doing.
+/// each task: Began before it is evaluated, then Results. What the process dies of after Began is
+/// the evaluation's doing.
 int serve_as_referee(const WorkerIdentity& identity, const EvaluatorFactory& make_evaluator,
                      int input, int output);
 

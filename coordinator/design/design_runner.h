@@ -241,9 +241,9 @@ class DesignRunner {
   bool reported_ = false;     ///< a step or an estimate came with the last batch
   std::int64_t pairs_known_ = 0;
   std::map<std::int64_t, Experiment> pairs_;  ///< of the race, as somebody was first tried on them
-  std::int64_t tests_known_ = 0;  ///< pairs of the tests
-  std::int64_t calls_known_ = 0;  ///< tasks of the targetEvaluator
-  std::int64_t test_calls_ = 0;   ///< of them in testing, before the race went on
+  std::int64_t tests_known_ = 0;              ///< pairs of the tests
+  std::int64_t calls_known_ = 0;              ///< tasks of the targetEvaluator
+  std::int64_t test_calls_ = 0;               ///< of them in testing, before the race went on
   /// Of tests: those who are tested again after an extension are not run again.
   std::unordered_map<std::uint64_t, StoredScore> tested_scores_;
   bool test_calls_wanted_ = false;

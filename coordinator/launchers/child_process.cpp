@@ -60,8 +60,8 @@ int spawn(std::vector<std::string> words, const posix_spawn_file_actions_t* stre
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(&attributes, 0);
-  const int failed =
-      posix_spawnp(&pid, arguments.front(), streams, &attributes, arguments.data(), environment.data());
+  const int failed = posix_spawnp(&pid, arguments.front(), streams, &attributes, arguments.data(),
+                                  environment.data());
   posix_spawnattr_destroy(&attributes);
   return failed;
 }

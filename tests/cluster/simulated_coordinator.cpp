@@ -103,8 +103,7 @@ void SimulatedCluster::settle_coordinator() {
                               }
                             },
                             [&](AppendRows& rows) { append(rows.campaign, std::move(rows.rows)); },
-                            [](const AnswerStatus&) {},
-                            [&](const AskReferee& ask) { judge(ask); }},
+                            [](const AnswerStatus&) {}, [&](const AskReferee& ask) { judge(ask); }},
                  action);
     }
   }

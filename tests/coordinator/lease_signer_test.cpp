@@ -8,9 +8,9 @@ namespace {
 
 TEST(LeaseSigner, SignsKeyAttemptAndPrincipal) {
   const LeaseSigner signer(lease_secret_of("secret", 1));
-  const std::set<std::uint64_t> signatures = {
-      signer.sign(1, 1, "a"), signer.sign(2, 1, "a"), signer.sign(1, 2, "a"),
-      signer.sign(1, 1, "b"), signer.sign(1, 1, ""),  signer.draw(1)};
+  const std::set<std::uint64_t> signatures = {signer.sign(1, 1, "a"), signer.sign(2, 1, "a"),
+                                              signer.sign(1, 2, "a"), signer.sign(1, 1, "b"),
+                                              signer.sign(1, 1, ""),  signer.draw(1)};
   EXPECT_EQ(signatures.size(), 6U);
   EXPECT_EQ(signer.sign(1, 1, "a"), LeaseSigner(lease_secret_of("secret", 1)).sign(1, 1, "a"));
 }

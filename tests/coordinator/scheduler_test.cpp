@@ -79,9 +79,9 @@ TEST_F(Schedulers, AcknowledgeWhateverComesOfADesignThatIsOver) {
 
 TEST_F(Schedulers, IgnoreAResultThatNobodyWants) {
   hello(1);
-  answer(1, {.key = key(77),
-             .attempt = 1,
-             .signature = scheduler.signer().sign(key(77), 1, name_of(1))});
+  answer(
+      1,
+      {.key = key(77), .attempt = 1, .signature = scheduler.signer().sign(key(77), 1, name_of(1))});
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
   EXPECT_TRUE(all<SendAcknowledged>().empty()) << "it may be wanted later";
   EXPECT_EQ(scheduler.counters().unknown, 1U);

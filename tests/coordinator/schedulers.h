@@ -34,8 +34,8 @@ class Schedulers : public ::testing::Test {
     sequence = 0;
     take();
   }
-  void enter(PeerId peer, const std::string& address, int slots = 1,
-             std::uint64_t incarnation = 1, const std::string& client = {}) {
+  void enter(PeerId peer, const std::string& address, int slots = 1, std::uint64_t incarnation = 1,
+             const std::string& client = {}) {
     WorkerHello hello;
     hello.identity = std::string(15, 's') + static_cast<char>('a' + peer % 20);
     hello.incarnation = incarnation;

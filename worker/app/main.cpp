@@ -166,9 +166,10 @@ int run_command_line(int argc, char** argv) {
                    "The file that it writes (STORE.coordinator); read again before each try to "
                    "connect, so that one that moved is found")
       ->type_name("FILE");
-  where->add_flag("--referee", arguments.referee,
-                  "Evaluate for the coordinator that started this process, through its standard "
-                  "input and output")
+  where
+      ->add_flag("--referee", arguments.referee,
+                 "Evaluate for the coordinator that started this process, through its standard "
+                 "input and output")
       ->group("");
   where->require_option(1);
   app.add_option("--key", arguments.key,
