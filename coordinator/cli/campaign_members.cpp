@@ -106,8 +106,11 @@ void CampaignMembers::replay(Member& member, std::vector<DesignPlan> plans) {
 void CampaignMembers::end(const ServiceEnd& end, const std::string& trouble) {
   for (std::size_t i = 0; i < running_.size(); ++i) {
     Member& member = members_[running_[i]];
-    member.end = end_of(member, end.reasons[i], trouble);
-    if (end.distrusted[i]) member.end = ExitCode::Store;
+    if (end.distrusted[i]) {
+      member.end = fail(output_, ExitCode::Store, in_front(member, ": ") + end.reasons[i]);
+    } else {
+      member.end = end_of(member, end.reasons[i], trouble);
+    }
   }
 }
 
