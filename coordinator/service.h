@@ -61,6 +61,8 @@ struct ServiceEnd {
   How how = How::Finished;
   /// Of each campaign, why it could not go on; empty where it could.
   std::vector<std::string> reasons{};
+  /// Of each campaign, what became of its store's file, where it was lost; empty where it was not.
+  std::vector<std::string> lost{};
 };
 
 /// A coordinator's loop: socket, clock and stores around a Coordinator. One thread, that of `run`.
@@ -77,7 +79,8 @@ class Service {
   virtual const std::string& endpoint() const = 0;
 
   /// Until all campaigns are over or `stop` is requested: then nothing more is leased, running
-  /// evaluations have the grace time, and the stores are flushed. Call once.
+  /// evaluations have the grace time, and the stores are flushed. When a store's file is lost, at
+  /// once. Call once.
   virtual ServiceEnd run(const std::stop_token& stop, const ServiceHooks& hooks) = 0;
 };
 

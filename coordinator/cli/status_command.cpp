@@ -141,7 +141,7 @@ Expected<FoundCoordinator> coordinator_of(const Arguments& arguments) {
   if (named.empty()) {
     const auto store = arguments.store.path();
     if (!store) return unexpected(ErrorKind::NotFound, store.error().message);
-    search.file = coordinator_file_of(*store);
+    search.file = coordinator_file_of(real_store(*store));
   } else if (const std::string endpoint =
                  (named.find("://") == std::string::npos ? "tcp://" : "") + named;
              is_tcp_address(endpoint)) {
