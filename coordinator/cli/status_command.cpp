@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "access/coordinator_file.h"
+#include "console/terminal.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/live_client.h"
 #include "coordinator/cli/query_output.h"
@@ -164,10 +165,10 @@ Screen screen_of(const Output& output) {
 
 /// A screenful in place of the one before, without a blank one between.
 void redraw(Output& output, const std::vector<std::string>& lines) {
-  output.out << "\x1b[H";
+  output.out << Verbatim{"\x1b[H"};
   for (const std::string& line : lines)
-    output.out << line << "\x1b[K\n";
-  output.out << "\x1b[J";
+    output.out << line << Verbatim{"\x1b[K"} << "\n";
+  output.out << Verbatim{"\x1b[J"};
 }
 
 void write_live(const Arguments& arguments, Output& output, const LiveStatus& status) {
@@ -203,7 +204,7 @@ ExitCode show_stored(const Arguments& arguments, Output& output, bool& running) 
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const auto status = read_status(**store);
   if (!status) return fail(output, ExitCode::Store, status.error());
-  if (arguments.watch && output.out_is_terminal) output.out << "\x1b[H\x1b[2J";
+  if (arguments.watch && output.out_is_terminal) output.out << Verbatim{"\x1b[H\x1b[2J"};
   output.json ? write_json(output, *status) : write_text(output, *status);
   running = status->campaign.cells.size() == 1 && status->of_campaign(0, "state") == "running";
   return ExitCode::Done;
