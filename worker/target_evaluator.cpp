@@ -75,8 +75,8 @@ class Programs {
                                         {"targetEvaluator", &target_.evaluator}}) {
       if (program->empty()) continue;
       if (const auto file = allowed_file(*program, allowed_); !file) {
-        return unexpected(file.error().kind,
-                          std::string(role) + ": " + file.error().message, file.error().where);
+        return unexpected(file.error().kind, std::string(role) + ": " + file.error().message,
+                          file.error().where);
       }
     }
     std::error_code failed;

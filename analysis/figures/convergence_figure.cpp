@@ -81,8 +81,7 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
   std::map<DesignId, const DesignRecord*> by_id;
   for (const DesignRecord& design : *known)
     by_id.emplace(design.design, &design);
-  Figure figure{.csv =
-                    "design,mission,method,iteration,experiments_used,rank,candidate,mean,n\n"};
+  Figure figure{.csv = "design,mission,method,iteration,experiments_used,rank,candidate,mean,n\n"};
   for (const EliteRecord& elite : *all) {
     const auto design = by_id.find(elite.design);
     // A design that came between the two queries is left for the next time.

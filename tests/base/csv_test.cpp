@@ -27,9 +27,8 @@ TEST(CsvField, IsNoFormula) {
 }
 
 TEST(CsvField, KeepsNumbersAndSwitches) {
-  for (const char* text :
-       {"-1.5", "-1e-300", "-0", "-inf", "1e400", "-1e400", "--nstates 1 --s0 0 --rwm0 10",
-        "-a 0.25 --name x_y/z:1,2"}) {
+  for (const char* text : {"-1.5", "-1e-300", "-0", "-inf", "1e400", "-1e400",
+                           "--nstates 1 --s0 0 --rwm0 10", "-a 0.25 --name x_y/z:1,2"}) {
     const std::string field = csv_field(text);
     EXPECT_EQ(field.find('\''), std::string::npos) << field;
   }
@@ -37,8 +36,9 @@ TEST(CsvField, KeepsNumbersAndSwitches) {
 
 TEST(CsvField, ComesBack) {
   for (const char* text :
-       {"", "'", "''", "a", "'a", "=1", "'=1", "''=1", "-1", "'-1", "'--nstates 1", "-x y", "'",
-        "it's", "'quoted'", "@", "+", "-", "\t", "\n", "'\r", "--", "---x", "--a=b"}) {
+       {"",   "'",   "''",           "a",    "'a",  "=1",   "'=1",      "''=1",
+        "-1", "'-1", "'--nstates 1", "-x y", "'",   "it's", "'quoted'", "@",
+        "+",  "-",   "\t",           "\n",   "'\r", "--",   "---x",     "--a=b"}) {
     std::string field = csv_field(text);
     if (field.starts_with('"')) field = field.substr(1, field.size() - 2);
     EXPECT_EQ(csv_text(field), text);

@@ -32,8 +32,11 @@ TEST(LogLine, KeepsUtf8AndReplacesWhatIsNone) {
 }
 
 TEST(LogLine, LetsNoTextSteerATerminal) {
-  const LogField fields[] = {{"host", "a\x1b[31m"}, {"job", "\xc2\x9b"}, {"cpu", "x\x7f"},
-                             {"build", "\xe2\x80\xae"}, {"note", "\x9b"}};
+  const LogField fields[] = {{"host", "a\x1b[31m"},
+                             {"job", "\xc2\x9b"},
+                             {"cpu", "x\x7f"},
+                             {"build", "\xe2\x80\xae"},
+                             {"note", "\x9b"}};
   EXPECT_EQ(log_line(false, "T", LogLevel::Info, "c\r", "e\x1b", fields),
             "T level=info component=\"c\\u000d\" event=\"e\\u001b\" host=\"a\\u001b[31m\" "
             "job=\"\\u009b\" cpu=\"x\\u007f\" build=\"\\u202e\" note=\"?\"");

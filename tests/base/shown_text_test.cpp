@@ -6,8 +6,9 @@ namespace swarmsmith {
 namespace {
 
 TEST(ShownText, KeepsWhatIsShown) {
-  for (const char* text : {"", "plain", "a\nb\tc", "gr\xc3\xbc\xc3\x9f \xe4\xb8\x96\xe7\x95\x8c",
-                           "\xf0\x9f\x90\x9d \"quoted\" \\ <b>", "\xc2\xa0\xe2\x80\xa7\xe2\x81\xaa"}) {
+  for (const char* text :
+       {"", "plain", "a\nb\tc", "gr\xc3\xbc\xc3\x9f \xe4\xb8\x96\xe7\x95\x8c",
+        "\xf0\x9f\x90\x9d \"quoted\" \\ <b>", "\xc2\xa0\xe2\x80\xa7\xe2\x81\xaa"}) {
     EXPECT_EQ(as_shown(text), text);
   }
 }
@@ -20,7 +21,9 @@ TEST(ShownText, HasEscapesForEveryControlCharacter) {
       EXPECT_GE(letter, ' ');
   }
   EXPECT_EQ(as_shown(std::string_view("a\0\x1b[2J\r\x7f", 8)), "a\\u0000\\u001b[2J\\u000d\\u007f");
-  EXPECT_EQ(as_shown("\xc2\x80 \xc2\x9b" "31m \xc2\x9f"), "\\u0080 \\u009b31m \\u009f");
+  EXPECT_EQ(as_shown("\xc2\x80 \xc2\x9b"
+                     "31m \xc2\x9f"),
+            "\\u0080 \\u009b31m \\u009f");
   EXPECT_EQ(as_shown("a\nb\tc", Layout::Escaped), "a\\nb\\tc");
 }
 
@@ -31,12 +34,14 @@ TEST(ShownText, HasEscapesForWhatTurnsLinesAroundOrBreaksThem) {
 }
 
 TEST(ShownText, HasEscapesForBytesThatAreNoText) {
-  EXPECT_EQ(as_shown("\x9b" "31m\xff"), "\\x9b31m\\xff");
+  EXPECT_EQ(as_shown("\x9b"
+                     "31m\xff"),
+            "\\x9b31m\\xff");
   EXPECT_EQ(as_shown("\xc3"), "\\xc3");
-  EXPECT_EQ(as_shown("\xc0\x9b"), "\\xc0\\x9b");                            // overlong
-  EXPECT_EQ(as_shown("\xe0\x82\x9b"), "\\xe0\\x82\\x9b");                   // overlong
-  EXPECT_EQ(as_shown("\xed\xa0\x80"), "\\xed\\xa0\\x80");                   // half of a pair
-  EXPECT_EQ(as_shown("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");          // beyond the last
+  EXPECT_EQ(as_shown("\xc0\x9b"), "\\xc0\\x9b");                             // overlong
+  EXPECT_EQ(as_shown("\xe0\x82\x9b"), "\\xe0\\x82\\x9b");                    // overlong
+  EXPECT_EQ(as_shown("\xed\xa0\x80"), "\\xed\\xa0\\x80");                    // half of a pair
+  EXPECT_EQ(as_shown("\xf4\x90\x80\x80"), "\\xf4\\x90\\x80\\x80");           // beyond the last
   EXPECT_EQ(as_shown("\xf8\x88\x80\x80\x80"), "\\xf8\\x88\\x80\\x80\\x80");  // five bytes
 }
 

@@ -196,9 +196,8 @@ TEST_F(Replay, WritesCommandsStatesAndReadingsToStandardOutput) {
                                   "leds,ground_r,ground_g,ground_b\n0,0,0,"));
   EXPECT_THAT(
       ran.out,
-      HasSubstr(
-          ",0,0,0,exploration,#000000 #000000 #000000 #000000 #000000,,,\n"));  // before the
-                                                                                  // first cycle
+      HasSubstr(",0,0,0,exploration,#000000 #000000 #000000 #000000 #000000,,,\n"));  // before the
+                                                                                      // first cycle
   EXPECT_THAT(ran.out, HasSubstr("\n1200,120,2,"));
   EXPECT_THAT(ran.out, HasSubstr(",1,stop,"));
   EXPECT_THAT(ran.err, StartsWith("e100001: same bits as stored"));

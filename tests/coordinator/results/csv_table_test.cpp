@@ -29,7 +29,8 @@ TEST(CsvTable, ReadsQuotesCommasLineBreaksAndBothLineEnds) {
 
 TEST(CsvTable, ReadsTextsThatWereKeptFromBeingFormulas) {
   const std::vector<std::string> texts = {"=1+1", "'=1+1", "@x", "-2+3", "-1.5", "it's", "a,\"b\""};
-  const auto table = parse_csv(csv_line({"a", "b", "c", "d", "e", "f", "g"}) + csv_line(texts), "t");
+  const auto table =
+      parse_csv(csv_line({"a", "b", "c", "d", "e", "f", "g"}) + csv_line(texts), "t");
   ASSERT_TRUE(table);
   EXPECT_EQ(table->rows.front().cells, texts);
 }

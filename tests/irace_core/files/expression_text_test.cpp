@@ -143,7 +143,8 @@ TEST(ExpressionText, DeepTreesReadBackOrAreRefused) {
 
 TEST(ExpressionText, NeedsLittleStackHoweverLongATextIs) {
   with_small_stack([] {
-    for (const std::string part : {"!", "-", "2^", "1 + ", "a & ", "(", "!(", "c(", "a %in% c(1, "}) {
+    for (const std::string part :
+         {"!", "-", "2^", "1 + ", "a & ", "(", "!(", "c(", "a %in% c(1, "}) {
       for (const int times : {900, 200'000}) {
         std::string text;
         for (int i = 0; i < times; ++i)
