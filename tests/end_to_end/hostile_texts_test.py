@@ -29,7 +29,8 @@ ARGUMENTS = {
     "check": [["{file}"]],
     "profile": [[], ["{store}"]],
     "serve": [["{file}", "--store", "{store}", "--bind", "{store}"]],
-    "worker": [["--connect", "{store}"], ["--coordinator", "{store}"], ["--slots", "{store}"]],
+    "worker": [["--connect", "{store}"], ["--connect", "tcp://127.0.0.1:1", "--key", "{store}"],
+               ["--slots", "{store}"]],
     "pause": [["{store}"], ["{store}", "d1"]],
     "cancel": [["{store}", "d1"]],
     "extend": [["{store}", "d1", "--budget", "5000"]],
@@ -164,19 +165,20 @@ class HostileTexts(ProgramTest):
                 for form in ([], ["--json"]):
                     yield [*command.split(), *filled, *form]
 
-    def assert_shown(self, arguments):
-        """Runs it; a name of the control bytes and the command where there are some."""
-        done = run(*arguments, cwd=self.folder)
-        found = controls_in(done.stdout) + controls_in(done.stderr)
-        return f"{arguments}: {found[:5]} in {done.stdout[:300]} {done.stderr[:300]}" if found else ""
-
     def assert_all_shown(self, invocations):
-        """How many there were."""
+        """Runs all of them; those whose output had something hostile, as escapes."""
         invocations = list(invocations)
         with concurrent.futures.ThreadPoolExecutor(max_workers=2) as pool:
-            complaints = [text for text in pool.map(self.assert_shown, invocations) if text]
+            written = list(pool.map(lambda words: run(*words, cwd=self.folder), invocations))
+        complaints = []
+        for words, done in zip(invocations, written):
+            if found := controls_in(done.stdout) + controls_in(done.stderr):
+                complaints.append((words, found[:5], done.stdout[:300], done.stderr[:300]))
         self.assertEqual(complaints, [])
-        return len(invocations)
+        shown = [words for words, done in zip(invocations, written)
+                 if b"\\u001b]0;mine\\u0007" in done.stdout + done.stderr]
+        print(f"{len(shown)} of {len(invocations)} showed something", end=" ", flush=True)
+        return shown
 
     def test_every_command_knows_what_it_is_tried_with(self):
         self.assertEqual([name for name in ARGUMENTS if name not in self.commands()], [])
@@ -186,11 +188,11 @@ class HostileTexts(ProgramTest):
         change(store, rows_for_empty_tables(store))
         change(store, [hostile(table, column) for table, columns in tables_of(store).items()
                        for column, _ in columns if table != "meta"])
-        print("tried", self.assert_all_shown(self.invocations(store, self.file)), "commands")
+        self.assertTrue(self.assert_all_shown(self.invocations(store, self.file)))
 
     def test_texts_of_each_table_are_shown(self):
         """What is hostile elsewhere keeps no command from coming to this table."""
-        tried = 0
+        showed = set()
         tables = tables_of(self.finished_store("plain.db"))
         for table, columns in tables.items():
             store = self.folder / f"{table}.db"
@@ -198,13 +200,13 @@ class HostileTexts(ProgramTest):
             change(store, rows_for_empty_tables(store))
             change(store, [hostile(table, column) for column, _ in columns])
             readers = ("status", "ls", "show", "explain", "query", "compare", "verify")
-            tried += self.assert_all_shown(
-                words for words in self.invocations(store, self.file) if words[0] in readers)
-        print("tried", tried, "commands")
+            showed.update(words[0] for words in self.assert_all_shown(
+                words for words in self.invocations(store, self.file) if words[0] in readers))
+        self.assertEqual(showed, set(readers))
 
     def test_names_of_files_are_shown_by_every_command(self):
         name = self.folder / os.fsdecode(HOSTILE.replace(b"/", b"").replace(b"\0", b""))
-        print("tried", self.assert_all_shown(self.invocations(name, name)), "commands")
+        self.assertTrue(self.assert_all_shown(self.invocations(name, name)))
 
     def test_keys_and_values_of_files_are_shown(self):
         escapes = r"\u001b[31m\u0007\u009b\u202e\u007f\n"
@@ -231,6 +233,42 @@ class HostileTexts(ProgramTest):
         self.assertNotIn(b"\r\n", done.stdout)
         for form in ("--csv", "--json"):
             self.assertEqual(controls_in(on_a_terminal("query", store, sql, form), b"\r\n\t"), [])
+
+    def formulas_in(self, table):
+        """Cells that a spreadsheet would calculate; and there are cells."""
+        self.assertNotIn(b"\r", table)
+        rows = list(csv.reader(io.StringIO(table.decode(), newline="")))
+        self.assertTrue(rows)
+        return [cell for row in rows for cell in row
+                if re.match("[=+@\t\r\n-]", cell) and not re.fullmatch("-[0-9.e+-]+|-inf", cell)
+                and not re.fullmatch("--?[a-zA-Z][a-zA-Z0-9 ._/:,-]*", cell)]
+
+    def test_no_table_has_a_formula(self):
+        store = self.finished_store("formulas.db")
+        change(store, [(f"UPDATE design SET {column} = '=1+1'", [])
+                       for column in ("mission", "method", "reason")])
+        guarded = 0
+        for words in (["query", store, "SELECT * FROM v_designs", "--csv"],
+                      ["query", store, "SELECT * FROM v_design_scores", "--csv"],
+                      ["query", store, "SELECT '=1', '-2+3', '@x', char(9) || '=1'", "--csv"],
+                      ["compare", "--by", "mission", store, "--csv"]):
+            done = run(*words)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(self.formulas_in(done.stdout), [])
+            guarded += done.stdout.count(b"'=")
+        done = run("supplement", store, "-o", self.folder / "supplement")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        tables = list((self.folder / "supplement").rglob("*.csv"))
+        self.assertGreater(len(tables), 10)
+        for table in tables:
+            self.assertEqual(self.formulas_in(table.read_bytes()), [], table)
+            guarded += table.read_bytes().count(b"'=")
+        self.assertGreater(guarded, 100)
+        # What was written is read again as what it was.
+        scores = self.folder / "scores.csv"
+        scores.write_bytes(run("query", store, "SELECT * FROM v_design_scores", "--csv").stdout)
+        done = run("import", scores, "--into", store)
+        self.assertEqual(done.returncode, 0, done.stderr)
 
 
 if __name__ == "__main__":
