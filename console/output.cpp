@@ -69,7 +69,7 @@ void print_error(Output& output, const Error& error) {
 }
 
 void print_note(Output& output, std::string_view text) {
-  if (!output.quiet) output.err << indented(std::string(text)) << '\n';
+  if (!output.quiet) output.err << text << '\n';
 }
 
 ExitCode fail(Output& output, ExitCode code, const std::string& message) {
