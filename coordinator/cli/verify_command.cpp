@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "base/shown_text.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/design/verify.h"
@@ -20,7 +21,7 @@ void write(Output& output, const Verification& found) {
     return;
   }
   for (const std::string& complaint : found.complaints)
-    output.out << complaint << "\n";
+    output.out << as_shown(complaint, Layout::Escaped) << "\n";
   if (found.complaints.empty()) {
     output.out << "clean: " << found.evaluations << " evaluations of " << found.designs
                << " designs, " << found.finished << " finished; every race was played again";

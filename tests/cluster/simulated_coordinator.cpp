@@ -40,7 +40,9 @@ void SimulatedCluster::start_coordinator() {
   std::vector<CampaignWork> works;
   known.reserve(campaigns_.size());
   commands.reserve(campaigns_.size());
+  check_promises();
   for (Running& running : campaigns_) {
+    running.disk.open(schedule_.closes_beside);
     running.source = std::make_unique<RacedCampaign>(running.shape, running.disk);
     running.tickets = 0;
     running.uncommitted.clear();
@@ -71,6 +73,7 @@ void SimulatedCluster::crash_coordinator() {
     for (std::uint64_t i = 0; i < written; ++i)
       write(running, running.uncommitted[i].rows);
     running.uncommitted.clear();
+    running.disk.crash();
   }
   const bool noticed = rng_.bernoulli(0.7);
   for (int i = 0; i < kWorkers; ++i) {
