@@ -13,9 +13,11 @@
 #include <thread>
 #include <utility>
 
+#include "coordinator/event_text.h"
 #include "coordinator/launchers/child_process.h"
 #include "coordinator/launchers/worker_program.h"
 #include "coordinator/messages.h"
+#include "coordinator/task_key.h"
 #include "proto/frame_pipe.h"
 #include "proto/wire.h"
 #include "storage/answer.h"
