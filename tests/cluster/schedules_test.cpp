@@ -48,7 +48,7 @@ TEST(SimulatedCluster, DoesTheSameForTheSameSeed) {
 
 TEST(SimulatedCluster, FindsACoordinatorThatClosesItsStoresBesideSqlite) {
   int found = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 600; ++seed) {
     Schedule schedule = schedule_of(seed);
     schedule.closes_beside = true;
     const std::string failure = SimulatedCluster(schedule).run();
