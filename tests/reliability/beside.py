@@ -32,6 +32,7 @@ class Beside(FaultTest):
         super().setUp()
         self.acknowledged = set()
         self.confirmed = []
+        self.cancelled = set()
         self.heard = threading.Lock()
         self.client = self.start("client", sys.executable, "-c", CLIENT, self.folder, self.pause)
 
@@ -56,11 +57,14 @@ class Beside(FaultTest):
             keys = message("ToWorker", body).get("acknowledged", {}).get("keys", [])
             with self.heard:
                 self.acknowledged |= {(key["candidate"], key.get("purpose", 0), key.get("pair", 0))
-                                      for key in keys}
+                                      for key in keys
+                                      if (key["candidate"] - 1) // 1_000_000 + 1 not in self.cancelled}
         return body
 
     def ask(self, kind, *words):
         """A command to the campaign; one that is confirmed is remembered."""
+        if kind == "cancel":  # from then on nobody wants the results of the design
+            self.cancelled.add(int(words[0][1:]))
         done = call(kind, self.store, *words)
         if done.returncode == 0:
             self.confirmed.append((kind, words[0] if words else None))
@@ -71,6 +75,7 @@ class Beside(FaultTest):
         with self.heard:
             self.acknowledged.clear()
         self.confirmed.clear()
+        self.cancelled.clear()
 
     def assert_promises_are_kept(self):
         with self.heard:
