@@ -49,7 +49,9 @@ class HeldFile {
   HeldFile(int descriptor, std::filesystem::path path)
       : descriptor_(descriptor), path_(std::move(path)) {}
 
-  static std::optional<Identity> identity_of(const std::filesystem::path& path);
+  /// None when nothing has the name; `known` when the system does not say.
+  static std::optional<Identity> identity_of(const std::filesystem::path& path,
+                                             std::optional<Identity> known);
   std::string fate_of_store() const;
 
   int descriptor_;  ///< SQLite's
