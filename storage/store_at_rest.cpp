@@ -34,13 +34,12 @@ class SqliteAtRest final : public StoreAtRest {
       : writer_(std::move(writer)), path_(std::move(path)), is_new_(is_new) {}
 
   ~SqliteAtRest() override {
+    if (!is_new_) return give_up(writer_);
+    if (!writer_.file.fate().empty()) return;
     std::error_code ignored;
     // While the right to write it is held.
-    if (is_new_ && writer_.file.fate().empty()) {
-      for (const char* ending : {"", "-wal", "-shm"})
-        fs::remove(path_.string() + ending, ignored);
-    }
-    give_up(writer_);
+    for (const char* ending : {"", "-wal", "-shm"})
+      fs::remove(path_.string() + ending, ignored);
   }
 
   bool is_new() const override { return is_new_; }
@@ -90,7 +89,7 @@ Expected<void> SqliteAtRest::in_one_go(const std::function<Expected<void>()>& ch
   }
   is_new_ = false;
   const std::string fate = writer_.file.fate();
-  return fate.empty() ? Expected<void>() : Unexpected(save_lost(writer_, fate, path_).error);
+  return fate.empty() ? Expected<void>() : Unexpected(save_lost(writer_, fate).error);
 }
 
 Expected<void> SqliteAtRest::check_candidate(CandidateId candidate) const {

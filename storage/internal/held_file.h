@@ -28,6 +28,8 @@ class HeldFile {
   HeldFile& operator=(HeldFile&&) = delete;
   ~HeldFile();
 
+  const std::filesystem::path& path() const { return path_; }
+
   /// Whether file, log and shared memory are still what has their names; what happened, as the
   /// beginning of a sentence, when not ("the store was deleted"). The first time, log and shared
   /// memory are taken for SQLite's: right after it has opened them.
