@@ -34,12 +34,13 @@ class SqliteAtRest final : public StoreAtRest {
       : writer_(std::move(writer)), path_(std::move(path)), is_new_(is_new) {}
 
   ~SqliteAtRest() override {
-    if (!is_new_) return give_up(writer_);
-    if (!writer_.file.fate().empty()) return;
-    std::error_code ignored;
-    // While the right to write it is held.
-    for (const char* ending : {"", "-wal", "-shm"})
-      fs::remove(path_.string() + ending, ignored);
+    if (!is_new_) {
+      give_up(writer_);
+    } else if (writer_.file.fate().empty()) {  // while the right to write it is held
+      std::error_code ignored;
+      for (const char* ending : {"", "-wal", "-shm"})
+        fs::remove(path_.string() + ending, ignored);
+    }
   }
 
   bool is_new() const override { return is_new_; }
