@@ -1,6 +1,7 @@
 """What stands beside a campaign: an ordinary client of its store, people who look at it, and somebody
 who overhears what it has promised."""
 import contextlib
+import functools
 import sqlite3
 import sys
 import threading
@@ -50,15 +51,16 @@ class Beside(FaultTest):
 
     def overhear(self, address):
         """An address that leads to the coordinator, and remembers what it acknowledges."""
-        return Proxy(self, address, rewrite=self.hear)
+        # Of the store of now: what comes late, after another one has begun, is no promise of that.
+        return Proxy(self, address, rewrite=functools.partial(self.hear, self.acknowledged))
 
-    def hear(self, direction, body):
+    def hear(self, acknowledged, direction, body):
         if direction == "down":
             keys = message("ToWorker", body).get("acknowledged", {}).get("keys", [])
             with self.heard:
-                self.acknowledged |= {(key["candidate"], key.get("purpose", 0), key.get("pair", 0))
-                                      for key in keys
-                                      if (key["candidate"] - 1) // 1_000_000 + 1 not in self.cancelled}
+                acknowledged |= {(key["candidate"], key.get("purpose", 0), key.get("pair", 0))
+                                 for key in keys
+                                 if (key["candidate"] - 1) // 1_000_000 + 1 not in self.cancelled}
         return body
 
     def ask(self, kind, *words):
@@ -72,8 +74,7 @@ class Beside(FaultTest):
 
     def forget(self):
         """Another store begins."""
-        with self.heard:
-            self.acknowledged.clear()
+        self.acknowledged = set()
         self.confirmed.clear()
         self.cancelled.clear()
 
