@@ -12,6 +12,7 @@
 #include "base/expected.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/live_status.h"
+#include "coordinator/referee.h"
 #include "coordinator/work_source.h"
 #include "proto/socket.h"
 #include "storage/store.h"
@@ -29,6 +30,10 @@ struct ServiceOptions {
   bool insecure_plaintext = false;
   /// A new list of clients when there is one; asked ten times a second, and must not wait.
   std::function<std::optional<std::vector<ListedClient>>()> new_clients{};
+  /// Makes the referee for a scenario; it calls the function, from any thread, when it has ruled.
+  /// Empty: there is none, so that nothing is audited, and what needs one stops its campaign.
+  std::function<std::unique_ptr<Referee>(const std::string& scenario, std::function<void()>)>
+      make_referee{};
   /// How long running evaluations are waited for when the campaign is interrupted.
   Duration grace = std::chrono::seconds(5);
 };
@@ -63,6 +68,8 @@ struct ServiceEnd {
   std::vector<std::string> reasons{};
   /// Of each campaign, what became of its store's file, where it was lost; empty where it was not.
   std::vector<std::string> lost{};
+  /// Of each, whether it stopped because its stored scores are wrong, or may be.
+  std::vector<bool> distrusted{};
 };
 
 /// A coordinator's loop: socket, clock and stores around a Coordinator. One thread, that of `run`.

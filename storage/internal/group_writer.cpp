@@ -100,6 +100,16 @@ bool GroupWriter::finished() {
   return is_finished(writer_.connection);
 }
 
+StoredTrust GroupWriter::trust() {
+  const std::lock_guard guard(connection_mutex_);
+  return read_trust(writer_.connection);
+}
+
+std::string GroupWriter::keep_secret(const std::string& fresh) {
+  const std::lock_guard guard(connection_mutex_);
+  return swarmsmith::keep_secret(writer_.connection, fresh);
+}
+
 void GroupWriter::run(const std::stop_token& stop) {
   std::vector<Batch> group;
   std::string trouble;

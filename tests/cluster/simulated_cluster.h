@@ -158,6 +158,7 @@ class SimulatedCluster {
   void start_coordinator();
   void crash_coordinator();
   void settle_coordinator();
+  void judge(const AskReferee& ask);
   void tick_coordinator();
   void append(std::uint32_t campaign, std::vector<Row> rows);
   void commit(std::uint32_t campaign);

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "base/overloaded.h"
+#include "coordinator/lease_signer.h"
 #include "coordinator/paused_designs.h"
+#include "coordinator/task_key.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {
@@ -20,6 +22,8 @@ CoordinatorOptions coordinator_options(std::int64_t first_worker, std::size_t ca
   for (CampaignPolicy& policy : options.scheduler.campaigns)
     policy.audit_every = 10;
   options.scenario = kScenario;
+  // As it is found again after a crash.
+  options.scheduler.lease_secret = lease_secret_of("lasting", 1);
   return options;
 }
 
@@ -102,7 +106,7 @@ void SimulatedCluster::settle_coordinator() {
                               }
                             },
                             [&](AppendRows& rows) { append(rows.campaign, std::move(rows.rows)); },
-                            [](const AnswerStatus&) {}},
+                            [](const AnswerStatus&) {}, [&](const AskReferee& ask) { judge(ask); }},
                  action);
     }
   }
@@ -112,6 +116,24 @@ void SimulatedCluster::settle_coordinator() {
     if (!complaint.empty()) fail(complaint);
     if (coordinator_->stopped(index)) fail("stopped: " + *coordinator_->stopped(index));
   }
+}
+
+/// The coordinator's own child: it knows the truth, and takes some time to find it.
+void SimulatedCluster::judge(const AskReferee& ask) {
+  const PackedKey key = key_of(ask.task);
+  const CampaignShape& shape = campaigns_.at(ask.task.campaign).shape;
+  const Truth truth = truth_of(shape, {ask.task.mission, ask.task.machine, ask.task.seed});
+  const bool has_score = truth.kind == Truth::Kind::Score;
+  const Ruling ruling{.key = key,
+                      .kind = has_score ? Ruling::Kind::Score : Ruling::Kind::Rejected,
+                      .score = truth.score,
+                      .state_digest = truth.state_digest,
+                      .wall_us = 1000,
+                      .reason = has_score ? "" : "planted"};
+  on_process(kCoordinator, milliseconds(1), [this, ruling] {
+    coordinator_->on_ruling(ruling, clock(kCoordinator));
+    settle_coordinator();
+  });
 }
 
 void SimulatedCluster::append(std::uint32_t campaign, std::vector<Row> rows) {

@@ -1,6 +1,7 @@
 #include "tests/cluster/simulated_cluster.h"
 
 #include <algorithm>
+#include <string>
 
 #include "coordinator/paused_designs.h"
 #include "proto/wire.h"
@@ -11,6 +12,11 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
+
+/// Every worker is on a host of its own.
+std::string address_of(int worker) {
+  return "10.0.0." + std::to_string(worker + 1);
+}
 
 }  // namespace
 
@@ -27,7 +33,8 @@ void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string
       const Connection& over = connections_.at(connection);
       if (to == kCoordinator) {
         if (over.coordinator_life != coordinator_process_.life) return;
-        coordinator_->on_frame({connection}, frame, clock(kCoordinator));
+        coordinator_->on_frame({.id = connection, .address = address_of(from)}, frame,
+                               clock(kCoordinator));
         settle_coordinator();
       } else {
         Worker& worker = workers_[static_cast<std::size_t>(to)];
