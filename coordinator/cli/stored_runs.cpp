@@ -23,8 +23,11 @@ std::int64_t integer_of(const Cell& cell) {
 /// With a run's columns in the order of `read_outcome`.
 std::string select_evaluations(const std::string& condition) {
   return "SELECT e.id, 'c' || e.candidate, e.seed, e.status, e.score, e.state_digest, e.source, "
-         "c.fsm_config, e.design FROM (SELECT * FROM v_evaluations WHERE " +
-         condition + ") AS e JOIN v_candidates AS c ON c.candidate = e.candidate";
+         "c.fsm_config, e.design, e.worker, w.host, w.client FROM (SELECT * FROM v_evaluations "
+         "WHERE " +
+         condition +
+         ") AS e JOIN v_candidates AS c ON c.candidate = e.candidate LEFT JOIN v_workers AS w ON "
+         "w.worker = e.worker";
 }
 
 /// What the evaluation's own row says.
@@ -36,6 +39,9 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
     run.outcome = StoredOutcome{std::strtod(cells[4].text.c_str(), nullptr),
                                 static_cast<std::uint64_t>(integer_of(cells[5]))};
   }
+  run.worker = integer_of(cells[9]);
+  run.host = cells[10].text;
+  run.key = cells[11].text;
   return run;
 }
 
@@ -178,20 +184,100 @@ Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
   // The n-th of N rows is taken when a multiple of N / count lies in (n - 1, n]. What was not
   // simulated here has no last state.
   const std::string number = std::to_string(count);
-  const auto rows =
-      select(*store_,
-             "WITH all_of (id, n, total) AS (SELECT id, row_number() OVER (ORDER BY candidate, "
-             "purpose, pair), count(*) OVER () FROM v_evaluations "
-             "WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL "
-             "AND (state_digest <> 0 OR purpose <> 'score')) "
-             "SELECT id FROM all_of WHERE n * " +
-                 number + " / total > (n - 1) * " + number + " / total ORDER BY n",
-             {.rows = 1'000'000'000, .seconds = 600});
+  return ids_of(
+      "WITH all_of (id, n, total) AS (SELECT id, row_number() OVER (ORDER BY candidate, "
+      "purpose, pair), count(*) OVER () FROM v_evaluations "
+      "WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL "
+      "AND (state_digest <> 0 OR purpose <> 'score')) "
+      "SELECT id FROM all_of WHERE n * " +
+      number + " / total > (n - 1) * " + number + " / total ORDER BY n");
+}
+
+Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
+  const std::string campaigns = of_campaigns();
+  if (campaigns.empty()) return std::vector<std::string>{};
+  const std::string given =
+      " FROM v_evaluations AS e LEFT JOIN v_workers AS w ON w.worker = "
+      "e.worker WHERE e.source <> 'real' AND " +
+      campaigns + " AND ";
+  const std::string in_order = " ORDER BY e.candidate, e.purpose, e.pair";
+  std::vector<std::string> all;
+  const auto add = [&](const std::string& sql) -> Expected<void> {
+    auto ids = ids_of(sql);
+    if (!ids) return Unexpected(ids.error());
+    all.insert(all.end(), ids->begin(), ids->end());
+    return {};
+  };
+  if (wanted.rejections) {
+    const auto added = add("SELECT e.id" + given + "e.status = 'rejected'" + in_order);
+    if (!added) return Unexpected(added.error());
+  }
+  if (wanted.tests) {
+    const auto added =
+        add("SELECT e.id" + given + "e.status = 'ok' AND e.purpose = 'test'" + in_order);
+    if (!added) return Unexpected(added.error());
+  }
+  if (wanted.scores > 0) {
+    // Numbers below 2^31 whose squares fit in SQLite's integers: nobody can guess the order without
+    // the seed.
+    const std::string seed = std::to_string(wanted.seed);
+    const auto added = add(
+        "WITH drawn AS (SELECT e.id, w.client, w.host, (e.candidate * 100003 + e.pair * 7 + "
+        "e.purpose = 'test') % 2147483629 AS x" +
+        given + "e.status = 'ok'" + (wanted.tests ? " AND e.purpose <> 'test'" : "") +
+        "), mixed AS (SELECT id, client, host, ((x + " + seed +
+        ") % 2147483629) AS y FROM drawn), "
+        "ordered AS (SELECT id, client, host, (y * y + " +
+        seed +
+        ") % 2147483629 AS z FROM mixed), "
+        "ranked AS (SELECT id, z, row_number() OVER (PARTITION BY client, host ORDER BY z * z % "
+        "2147483629, id) AS n FROM ordered) SELECT id FROM ranked ORDER BY n, z, id LIMIT " +
+        std::to_string(wanted.scores));
+    if (!added) return Unexpected(added.error());
+  }
+  return all;
+}
+
+Expected<std::vector<std::string>> StoredRuns::ids_of(const std::string& sql) {
+  const auto rows = select(*store_, sql, {.rows = 1'000'000'000, .seconds = 600});
   if (!rows) return Unexpected(rows.error());
   std::vector<std::string> ids;
   for (const auto& cells : rows->cells)
     ids.push_back(cells.front().text);
   return ids;
+}
+
+std::string StoredRuns::of_campaigns() const {
+  std::string designs;
+  for (const KnownDesign& design : worlds_.designs()) {
+    const auto world = worlds_.of(design.id);
+    if (world && *world && (*world)->profile)
+      designs += (designs.empty() ? "" : ",") + std::to_string(design.id.value);
+  }
+  if (designs.empty()) return {};
+  return "e.purpose IN ('race', 'look-ahead', 'test') AND e.design IN (" + designs + ")";
+}
+
+bool StoredRuns::has_machines() const {
+  return std::ranges::any_of(worlds_.designs(), [&](const KnownDesign& design) {
+    const auto world = worlds_.of(design.id);
+    return world && *world && !(*world)->has_programs && !(*world)->has_parameters;
+  });
+}
+
+Error programs_scored(const std::string& where) {
+  return {ErrorKind::BadInput,
+          "programs scored this store: their evaluations cannot be made again here; the races can "
+          "be checked, by `swarmsmith verify` without --sample",
+          where};
+}
+
+std::string StoredRun::given_by() const {
+  if (worker == 0) return {};
+  std::string text = "; given by worker " + std::to_string(worker);
+  if (!host.empty()) text += " on " + host;
+  if (!key.empty()) text += " (key " + key + ")";
+  return text;
 }
 
 Expected<DesignWorld> StoredRuns::world_of(DesignId design) const {
