@@ -14,8 +14,9 @@ using std::chrono::seconds;
 /// How long a campaign may take after the last fault: several rounds of the longest time-outs.
 constexpr Duration kPatience = seconds(240);
 
-/// Ten times what the busiest schedule needs.
+/// Ten times what the busiest schedule needs, and what a hostile peer may say.
 constexpr std::uint64_t kMaxEvents = 300'000;
+constexpr std::uint64_t kMaxEventsOfStranger = 100'000;
 
 }  // namespace
 
@@ -43,7 +44,7 @@ std::string SimulatedCluster::run() {
     queue_.pop();
     now_ = event.at;
     event.what();
-    if (order_ > kMaxEvents) fail("a storm of messages");
+    if (order_ > kMaxEvents + strangers_.size() * kMaxEventsOfStranger) fail("a storm of messages");
     if (now_ < faults_end_ || coordinator_ == nullptr || !coordinator_->finished()) {
       if (now_ > limit) fail("the campaign does not end");
       continue;

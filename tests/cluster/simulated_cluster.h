@@ -14,9 +14,9 @@
 #include "base/clock.h"
 #include "base/rng.h"
 #include "coordinator/coordinator.h"
-#include "tests/support/hostile_peer.h"
 #include "tests/cluster/raced_campaign.h"
 #include "tests/cluster/simulated_disk.h"
+#include "tests/support/hostile_peer.h"
 #include "worker/protocol.h"
 
 namespace swarmsmith::cluster {

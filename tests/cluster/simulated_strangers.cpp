@@ -18,7 +18,12 @@ using std::chrono::milliseconds;
 
 void SimulatedCluster::invite_strangers() {
   for (std::size_t i = 0; i < schedule_.hostile.size(); ++i) {
-    strangers_.push_back({.peer = HostilePeer(schedule_.hostile[i], rng_.split("stranger", i))});
+    const Oracle oracle = [this](const pb::Task& task) {
+      const CampaignShape& shape = campaigns_.at(task.key().campaign()).shape;
+      return truth_of(shape, {task.mission(), task.machine(), task.seed()});
+    };
+    strangers_.push_back(
+        {.peer = HostilePeer(schedule_.hostile[i], rng_.split("stranger", i), oracle)});
     at(now_ + between(Duration{0}, schedule_.faults.until / 2), [this, i] { visit(i); });
     tick_stranger(i);
   }
@@ -142,7 +147,7 @@ void SimulatedCluster::check_trust() {
 /// Only who was asked and lies can bring the campaign there, and it says why.
 void SimulatedCluster::on_stopped(const std::string& reason) {
   const bool may_lie = std::ranges::any_of(schedule_.hostile, [](Misdeed misdeed) {
-    return misdeed == Misdeed::Lies || misdeed == Misdeed::Renames;
+    return misdeed == Misdeed::Lies || misdeed == Misdeed::LiesLater || misdeed == Misdeed::Renames;
   });
   if (!may_lie || reason.empty()) fail("stopped: " + reason);
   stopped_ = reason;

@@ -16,6 +16,7 @@ constexpr std::size_t kMemory = 200;
 /// Results under one id of a peer that changes it.
 constexpr int kResultsOfAName = 4;
 constexpr int kFlood = 100;
+constexpr int kTrueAtFirst = 12;
 
 void remember(std::deque<std::string>& frames, const std::string& frame) {
   frames.push_back(frame);
@@ -35,6 +36,8 @@ const char* name_of(Misdeed misdeed) {
   switch (misdeed) {
     case Misdeed::Lies:
       return "lies";
+    case Misdeed::LiesLater:
+      return "lies later";
     case Misdeed::Rejects:
       return "rejects";
     case Misdeed::Fails:
@@ -61,7 +64,8 @@ const char* name_of(Misdeed misdeed) {
   return "";
 }
 
-HostilePeer::HostilePeer(Misdeed misdeed, Rng rng) : misdeed_(misdeed), rng_(std::move(rng)) {}
+HostilePeer::HostilePeer(Misdeed misdeed, Rng rng, Oracle oracle)
+    : misdeed_(misdeed), rng_(std::move(rng)), oracle_(std::move(oracle)) {}
 
 void HostilePeer::overhear(const std::string& frame) {
   remember(overheard_, frame);
@@ -112,6 +116,7 @@ void HostilePeer::on_tasks(const pb::Tasks& tasks) {
   }
   switch (misdeed_) {
     case Misdeed::Lies:
+    case Misdeed::LiesLater:
     case Misdeed::Rejects:
     case Misdeed::Fails:
     case Misdeed::Renames:
@@ -140,17 +145,32 @@ void HostilePeer::answer(const pb::Tasks& tasks) {
     pb::Result result = result_of(task);
     if (misdeed_ == Misdeed::Rejects) {
       result.set_rejected(true);
+      ++acts_;
     } else if (misdeed_ == Misdeed::Fails) {
       result.set_failure("because");
+      ++acts_;
+    } else if (is_honest_now()) {
+      const Truth truth = oracle_(task);
+      result.set_score(truth.score);
+      result.set_state_digest(truth.state_digest);
+      if (truth.kind != Truth::Kind::Score) result.set_failure("planted");
     } else {
       lie(result);
+      ++acts_;
     }
     *message.mutable_results()->add_results() = std::move(result);
-    if (misdeed_ != Misdeed::Replays) ++acts_;
   }
   say(std::move(message));
   answered_ += tasks.tasks_size();
   if (misdeed_ == Misdeed::Renames && answered_ >= kResultsOfAName) hang_up();
+}
+
+/// Those that come to their evil deeds later, and those that replay what was true.
+bool HostilePeer::is_honest_now() {
+  if (!oracle_) return false;
+  ++truths_;
+  if (misdeed_ == Misdeed::LiesLater) return truths_ <= kTrueAtFirst || rng_.bernoulli(0.3);
+  return misdeed_ == Misdeed::Replays;
 }
 
 pb::Result HostilePeer::result_of(const pb::Task& task) {
@@ -293,6 +313,7 @@ void HostilePeer::on_tick() {
     case Misdeed::Replays:
       return replay();
     case Misdeed::Floods:
+      if (!rng_.bernoulli(0.1)) return;
       for (int i = 0; i < kFlood; ++i)
         talk_nonsense();
       return;
@@ -301,6 +322,7 @@ void HostilePeer::on_tick() {
     case Misdeed::TalksAtRandom:
       return talk_at_random();
     case Misdeed::Lies:
+    case Misdeed::LiesLater:
     case Misdeed::Rejects:
     case Misdeed::Fails:
     case Misdeed::Renames:

@@ -3,18 +3,21 @@
 #include <array>
 #include <cstdint>
 #include <deque>
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "base/rng.h"
 #include "proto/wire.pb.h"
+#include "tests/support/truth.h"
 
 namespace swarmsmith::cluster {
 
 /// What a hostile peer is after. All of its messages are well formed.
 enum class Misdeed {
   Lies,              ///< plausible scores for what it was leased
+  LiesLater,         ///< the same, once it has answered rightly for a while
   Rejects,           ///< says of what it was leased that it is to be rejected
   Fails,             ///< says that it has no score for what it was leased
   Guesses,           ///< scores, rejections and failures for keys that it was never leased
@@ -29,17 +32,23 @@ enum class Misdeed {
 };
 
 inline constexpr std::array kMisdeeds = {
-    Misdeed::Lies,        Misdeed::Rejects,      Misdeed::Fails,         Misdeed::Guesses,
-    Misdeed::Replays,     Misdeed::Floods,       Misdeed::Renames,       Misdeed::LeavesWithLeases,
-    Misdeed::LeavesAlone, Misdeed::ClaimsLeases, Misdeed::TalksNonsense, Misdeed::TalksAtRandom};
+    Misdeed::Lies,         Misdeed::LiesLater,    Misdeed::Rejects,
+    Misdeed::Fails,        Misdeed::Guesses,      Misdeed::Replays,
+    Misdeed::Floods,       Misdeed::Renames,      Misdeed::LeavesWithLeases,
+    Misdeed::LeavesAlone,  Misdeed::ClaimsLeases, Misdeed::TalksNonsense,
+    Misdeed::TalksAtRandom};
 
 const char* name_of(Misdeed misdeed);
+
+/// What an evaluation really gives.
+using Oracle = std::function<Truth(const pb::Task&)>;
 
 /// One peer that is no worker: frames in, frames and hang-ups out, all by its stream of random
 /// numbers. It knows the protocol, and how an honest worker introduces itself.
 class HostilePeer {
  public:
-  HostilePeer(Misdeed misdeed, Rng rng);
+  /// Without an oracle it never tells the truth.
+  HostilePeer(Misdeed misdeed, Rng rng, Oracle oracle = {});
 
   Misdeed misdeed() const { return misdeed_; }
   /// What an honest worker said: it is imitated, and may be said again.
@@ -65,6 +74,7 @@ class HostilePeer {
   void answer(const pb::Tasks& tasks);
   /// A result for the task, with what its lease says.
   pb::Result result_of(const pb::Task& task);
+  bool is_honest_now();
   void lie(pb::Result& result);
   pb::Key guess();
   void guess_results();
@@ -76,12 +86,14 @@ class HostilePeer {
 
   Misdeed misdeed_;
   Rng rng_;
+  Oracle oracle_;
   pb::Hello hello_;
   std::uint64_t scenario_ = 0;
   std::uint64_t incarnation_ = 0;
   std::uint64_t sequence_ = 0;
   std::uint64_t acts_ = 0;
   int answered_ = 0;  ///< under this id
+  int truths_ = 0;
   std::deque<pb::Task> held_;
   std::deque<std::string> overheard_;
   std::deque<std::string> said_;
