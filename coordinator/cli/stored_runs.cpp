@@ -1,5 +1,7 @@
 #include "coordinator/cli/stored_runs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
@@ -83,6 +85,22 @@ Expected<void> complete(StoredRun& run, const DesignWorld& world, const std::str
   if (!instance) return Unexpected(instance.error());
   run.instance = std::move(*instance);
   return {};
+}
+
+/// Scores from each key and host in turn. Their order is drawn from numbers below 2^31, whose
+/// squares fit in SQLite's integers.
+std::string in_turn(const std::string& given, const StoredRuns::Wanted& wanted) {
+  constexpr const char* kSql =
+      "WITH drawn AS (SELECT e.id, w.client, w.host, (e.candidate * 100003 + e.pair * 7 + "
+      "(e.purpose = 'test') + {seed}) % {prime} AS x{given} AND e.status = 'ok'{but}), "
+      "mixed AS (SELECT id, client, host, (x * x + {seed}) % {prime} AS y FROM drawn), "
+      "ordered AS (SELECT id, client, host, y * y % {prime} AS z FROM mixed), "
+      "ranked AS (SELECT id, z, row_number() OVER (PARTITION BY client, host ORDER BY z, id) AS n "
+      "FROM ordered) SELECT id FROM ranked ORDER BY n, z, id LIMIT {count}";
+  return fmt::format(fmt::runtime(kSql), fmt::arg("seed", wanted.seed),
+                     fmt::arg("prime", 2'147'483'629), fmt::arg("given", given),
+                     fmt::arg("but", wanted.tests ? " AND e.purpose <> 'test'" : ""),
+                     fmt::arg("count", wanted.scores));
 }
 
 }  // namespace
@@ -197,43 +215,22 @@ Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
   const std::string campaigns = of_campaigns();
   if (campaigns.empty()) return std::vector<std::string>{};
   const std::string given =
-      " FROM v_evaluations AS e LEFT JOIN v_workers AS w ON w.worker = "
-      "e.worker WHERE e.source <> 'real' AND " +
-      campaigns + " AND ";
+      " FROM v_evaluations AS e LEFT JOIN v_workers AS w ON w.worker = e.worker "
+      "WHERE e.source <> 'real' AND " +
+      campaigns;
   const std::string in_order = " ORDER BY e.candidate, e.purpose, e.pair";
+  std::vector<std::string> parts;
+  if (wanted.rejections)
+    parts.push_back("SELECT e.id" + given + " AND e.status = 'rejected'" + in_order);
+  if (wanted.tests)
+    parts.push_back("SELECT e.id" + given + " AND e.status = 'ok' AND e.purpose = 'test'" +
+                    in_order);
+  if (wanted.scores > 0) parts.push_back(in_turn(given, wanted));
   std::vector<std::string> all;
-  const auto add = [&](const std::string& sql) -> Expected<void> {
-    auto ids = ids_of(sql);
+  for (const std::string& sql : parts) {
+    const auto ids = ids_of(sql);
     if (!ids) return Unexpected(ids.error());
     all.insert(all.end(), ids->begin(), ids->end());
-    return {};
-  };
-  if (wanted.rejections) {
-    const auto added = add("SELECT e.id" + given + "e.status = 'rejected'" + in_order);
-    if (!added) return Unexpected(added.error());
-  }
-  if (wanted.tests) {
-    const auto added =
-        add("SELECT e.id" + given + "e.status = 'ok' AND e.purpose = 'test'" + in_order);
-    if (!added) return Unexpected(added.error());
-  }
-  if (wanted.scores > 0) {
-    // Numbers below 2^31 whose squares fit in SQLite's integers: nobody can guess the order without
-    // the seed.
-    const std::string seed = std::to_string(wanted.seed);
-    const auto added = add(
-        "WITH drawn AS (SELECT e.id, w.client, w.host, (e.candidate * 100003 + e.pair * 7 + "
-        "e.purpose = 'test') % 2147483629 AS x" +
-        given + "e.status = 'ok'" + (wanted.tests ? " AND e.purpose <> 'test'" : "") +
-        "), mixed AS (SELECT id, client, host, ((x + " + seed +
-        ") % 2147483629) AS y FROM drawn), "
-        "ordered AS (SELECT id, client, host, (y * y + " +
-        seed +
-        ") % 2147483629 AS z FROM mixed), "
-        "ranked AS (SELECT id, z, row_number() OVER (PARTITION BY client, host ORDER BY z * z % "
-        "2147483629, id) AS n FROM ordered) SELECT id FROM ranked ORDER BY n, z, id LIMIT " +
-        std::to_string(wanted.scores));
-    if (!added) return Unexpected(added.error());
   }
   return all;
 }

@@ -104,7 +104,7 @@ class Visitor {
   std::uint64_t flush() {
     std::uint64_t said = 0;
     for (const std::string& frame : peer_.take_frames())
-      said += socket_.send(frame) == SendStatus::Sent ? 1 : 0;
+      said += socket_.send(frame) == SendStatus::Sent ? 1U : 0U;
     return said;
   }
 
