@@ -33,7 +33,7 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
   for (const CampaignWork& campaign : campaigns) {
     const auto index = static_cast<std::uint32_t>(campaigns_.size());
     close_ended(index, *campaign.source);
-    scheduler_.know(index, campaign.known);
+    scheduler_.know(index, campaign.known, campaign.trust.principals);
     facts_.campaign_digests.push_back(campaign.digest);
     campaigns_.push_back({.source = campaign.source, .paused = paused_designs(campaign.commands)});
     if (!campaign.commands.empty()) campaigns_.back().commands = campaign.commands.back().number;
@@ -53,7 +53,7 @@ void Coordinator::send(PeerId peer, std::string frame) {
   actions_.emplace_back(SendFrame{peer, std::move(frame), {}});
 }
 
-void Coordinator::carry_out(SchedulerAction& action) {
+void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
   std::visit(
       Overloaded{
           [&](const SendWelcome& a) { send(a.peer, frame_of(a, facts_, options_.scheduler)); },
@@ -80,7 +80,13 @@ void Coordinator::carry_out(SchedulerAction& action) {
             campaign.sees_no_further = false;
           },
           [&](const OutcomeRepeated& a) { repeat(a); },
-          [&](const ConflictFound& a) { campaigns_[a.campaign].own_rows.emplace_back(a.row); },
+          [&](const ConflictFound& a) {
+            Campaign& campaign = campaigns_[a.campaign];
+            campaign.own_rows.emplace_back(a.row);
+            std::optional<Task> task = campaign.source->task_of(a.row.key);
+            if (task) task->campaign = a.campaign;
+            scheduler_.on_disputed(pack(a.row.key, a.campaign), std::move(task), now);
+          },
           [&](const WorkerChanged& a) { put_row(a.row); },
           [&](FailureKept& a) { campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row)); },
           [&](AttemptEnded& a) { campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row)); },
@@ -91,8 +97,11 @@ void Coordinator::carry_out(SchedulerAction& action) {
           [&](StopCampaign& a) {
             Campaign& campaign = campaigns_[a.campaign];
             if (!campaign.stopped) campaign.stopped = std::move(a.reason);
+            campaign.distrusted |= a.distrusted;
+            if (a.distrusted) campaign.own_rows.emplace_back(CampaignStateRow{"distrusted"});
             scheduler_.forget(a.campaign);
           },
+          [&](AskReferee& a) { actions_.emplace_back(std::move(a)); },
       },
       action);
 }
@@ -102,10 +111,10 @@ void Coordinator::close_ended(std::uint32_t index, WorkSource& source) {
     scheduler_.close_design(index, design);
 }
 
-bool Coordinator::progress() {
+bool Coordinator::progress(TimePoint now) {
   std::vector<SchedulerAction> actions = scheduler_.take_actions();
   for (SchedulerAction& action : actions)
-    carry_out(action);
+    carry_out(action, now);
   bool more = !actions.empty();
   for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
     Campaign& campaign = campaigns_[index];
@@ -157,15 +166,15 @@ bool Coordinator::look_ahead() {
 std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
   scheduler_.on_time(now);
   do {
-    while (progress()) {
+    while (progress(now)) {
     }
     scheduler_.dispatch(now);
-  } while (progress());
+  } while (progress(now));
   // Once: what this leaves idle is filled when something happens.
   if (look_ahead()) {
     do {
       scheduler_.dispatch(now);
-    } while (progress());
+    } while (progress(now));
   }
   for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
     append(index);

@@ -26,6 +26,8 @@ struct CoordinatorOptions {
   /// A peer whose frames were wrong this often is not listened to for `refuse_for`.
   int malformed_limit = 10;
   Duration refuse_for = std::chrono::seconds(60);
+  /// That the workers have which this process started; empty for none.
+  std::string local_secret;
 };
 
 /// A campaign that is to be run.
@@ -34,13 +36,15 @@ struct CampaignWork {
   WorkSource* source = nullptr;          ///< must outlive the coordinator
   std::span<const StoredScore> known;    ///< outcomes that are in its store; read at the start only
   std::span<const CommandRow> commands;  ///< the same, of what people asked
+  StoredTrust trust{};
 };
 
 /// Who sent a frame, as the socket knows it.
 struct Peer {
   PeerId id = 0;
   Role role = Role::Anyone;
-  std::string_view client;  ///< name of its key
+  std::string_view client;   ///< name of its key
+  std::string_view address;  ///< as the transport sees it
 };
 
 /// Actions.
@@ -60,7 +64,7 @@ struct AppendRows {
 struct AnswerStatus {
   PeerId peer = 0;
 };
-using CoordinatorAction = std::variant<SendFrame, AppendRows, AnswerStatus>;
+using CoordinatorAction = std::variant<SendFrame, AppendRows, AnswerStatus, AskReferee>;
 
 /// Scheduler, campaigns and rows put together. Pure: frames and the time in, frames and rows out.
 /// Campaigns share the workers, and nothing else: each has its source of work and its store.
@@ -80,6 +84,8 @@ class Coordinator {
   /// The peer's key is not good any more: its leases go to others, and nobody is blamed.
   void on_cut_off(PeerId peer, TimePoint now);
   void on_tick(TimePoint now);
+  /// What came of `AskReferee`.
+  void on_ruling(const Ruling& ruling, TimePoint now) { scheduler_.on_ruling(ruling, now); }
   void on_appended(std::uint32_t campaign, std::uint64_t ticket);
   void on_committed(std::uint32_t campaign, std::uint64_t ticket);
   /// No leases from now on, or again: the disks do not keep up, or all is to stop.
@@ -104,6 +110,9 @@ class Coordinator {
   const std::optional<std::string>& stopped(std::uint32_t campaign = 0) const {
     return campaigns_[campaign].stopped;
   }
+
+  /// Whether it stopped because scores in its store are wrong, or may be.
+  bool distrusted(std::uint32_t campaign = 0) const { return campaigns_[campaign].distrusted; }
 
   /// Of which nothing is leased until somebody resumes them.
   const std::set<DesignId>& paused(std::uint32_t campaign = 0) const {
@@ -148,6 +157,7 @@ class Coordinator {
     /// It had nothing to look ahead at, and nothing came since that changes this.
     bool sees_no_further = false;
     std::optional<std::string> stopped{};
+    bool distrusted = false;
   };
 
   // coordinator_frames.cpp
@@ -172,10 +182,10 @@ class Coordinator {
   void append(std::uint32_t campaign);
   void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
 
-  void carry_out(SchedulerAction& action);
+  void carry_out(SchedulerAction& action, TimePoint now);
   void send(PeerId peer, std::string frame);
   void close_ended(std::uint32_t index, WorkSource& source);
-  bool progress();
+  bool progress(TimePoint now);
   bool look_ahead();
 
   CoordinatorOptions options_;

@@ -79,6 +79,8 @@ void Coordinator::on_work(const Peer& peer, const pb::ToCoordinator& message, Ti
     case pb::ToCoordinator::kHello: {
       WorkerHello hello = hello_of(message.hello(), message.incarnation(), facts_.scenario_digest);
       hello.client = peer.client;
+      hello.address = peer.address;
+      hello.local = same_secret(message.hello().secret(), options_.local_secret);
       scheduler_.on_hello(peer.id, std::move(hello), now);
       return;
     }
@@ -95,6 +97,9 @@ void Coordinator::on_work(const Peer& peer, const pb::ToCoordinator& message, Ti
       return;
     case pb::ToCoordinator::kReturned:
       scheduler_.on_returned(sender, keys_of(message.returned()), now);
+      return;
+    case pb::ToCoordinator::kBegan:
+      scheduler_.on_began(sender, *pack(message.began().key()), now);
       return;
     case pb::ToCoordinator::kGoodbye:
       scheduler_.on_goodbye(sender, now);

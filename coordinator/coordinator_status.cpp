@@ -25,6 +25,9 @@ LiveStatus Coordinator::status() const {
   status.duplicates = count(counters.duplicates);
   status.conflicts = count(counters.conflicts);
   status.unknown = count(counters.unknown);
+  status.unleased = count(counters.unleased);
+  status.rulings = count(counters.rulings);
+  status.referee_queue = count(scheduler_.cases().size());
   status.audits = count(counters.audited);
   status.quarantined =
       count(scheduler_.workers().connected()) - count(scheduler_.workers().trusted());

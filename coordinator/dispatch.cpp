@@ -14,7 +14,7 @@ constexpr int kResendsOfAProgram = 3;
 /// Programs that take less are leased one ahead for each slot.
 constexpr double kShortProgramUs = 20'000;
 /// What a task takes on the wire besides its machine.
-constexpr std::size_t kTaskBytes = 48;
+constexpr std::size_t kTaskBytes = 57;
 constexpr std::size_t kAliveBytes = 8;
 
 }  // namespace
@@ -57,6 +57,7 @@ void Scheduler::on_tick(TimePoint now) {
   }
   if (now - forgot_ > kForgetEvery) {
     workers_.forget_old(now);
+    principals_.forget_idle();
     forgot_ = now;
   }
 }
@@ -95,7 +96,7 @@ void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
     if (record.second) record.copied = false;
     note_attempt(record, entry.number, "expired", now);
     ++counters_.expired;
-    if (take_back(record, entry.number)) ++counters_.requeued;
+    if (leases_.requeue(record, entry.number)) ++counters_.requeued;
   }
   leases_.loads().settle_older(entry.number, now - longest);
 }
@@ -113,9 +114,10 @@ void Scheduler::drain(TimePoint now) {
 /// what it may want later.
 void Scheduler::dispatch(TimePoint now) {
   latest_ = now;
-  if (held_ || draining_ || workers_.trusted() == 0) return;
+  if (held_ || draining_) return;
+  ask_referee();
+  if (workers_.trusted() == 0) return;
   dispatch_alone(now);
-  dispatch_audits(now);
   dispatch_wanted(now);
   if (leases_.wanted_ready() > 0 || options_.evaluates_programs) return;
   copy_stragglers(now);
@@ -142,9 +144,12 @@ void Scheduler::dispatch_alone(TimePoint now) {
     if (entry.connected && entry.reserved) ++reserved;
   }
   const std::size_t limit = std::max<std::size_t>(1, workers_.trusted() / 2);
+  // A stranger's death would say nothing.
+  const std::size_t proven = proven_present();
   for (auto& [number, entry] : workers_.all()) {
     if (!leases_.has_alone()) return;
-    if (!entry.usable() || entry.credit == 0) continue;
+    if (!entry.usable() || leases_.loads().of(number).credit == 0) continue;
+    if (proven > 0 && !is_proven(*entry.principal)) continue;
     if (!entry.reserved && reserved >= limit) continue;
     if (!entry.reserved) ++reserved;
     entry.reserved = true;
@@ -207,7 +212,9 @@ void Scheduler::put_task(WorkerEntry& entry, const TaskRecord& record, SendTasks
                          TimePoint now) {
   const Lease& lease =
       record.second && record.second->worker == entry.number ? *record.second : *record.lease;
-  message.tasks.push_back({record.task, lease.attempt});
+  message.tasks.push_back({record.task, lease.attempt,
+                           signer_.sign(key_of(record.task), lease.attempt, entry.principal->name),
+                           lease.alone});
   message.bytes += record.task.machine.size() + kAliveBytes * record.task.alive.size() + kTaskBytes;
   const bool full =
       message.tasks.size() >= kTasksPerMessage || message.bytes >= kTaskBytesPerMessage;

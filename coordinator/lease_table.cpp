@@ -36,23 +36,28 @@ const TaskRecord* LeaseTable::find(PackedKey key) const {
   return at == records_.end() ? nullptr : &at->second;
 }
 
+std::list<PackedKey>& LeaseTable::special_queue(const TaskRecord& record) {
+  if (record.parked) return parked_;
+  return record.task.ahead ? unwanted_ : alone_;
+}
+
 void LeaseTable::enter_queue(TaskRecord& record, bool at_front) {
   const PackedKey key = key_of(record.task);
   const bool ahead = record.task.ahead;
-  if (!record.alone && !record.troubled) {
+  if (!is_special(record)) {
     record.place = at_front ? queues_.push_front(*record.design, ahead, key)
                             : queues_.push_back(*record.design, ahead, key);
     return;
   }
-  std::list<PackedKey>& queue = ahead ? parked_ : alone_;
+  std::list<PackedKey>& queue = special_queue(record);
   record.place = queue.insert(at_front ? queue.begin() : queue.end(), key);
 }
 
 void LeaseTable::leave_queue(TaskRecord& record) {
-  if (!record.alone && !record.troubled) {
+  if (!is_special(record)) {
     queues_.erase(*record.design, record.task.ahead, record.place);
   } else {
-    (record.task.ahead ? parked_ : alone_).erase(record.place);
+    special_queue(record).erase(record.place);
   }
 }
 
@@ -176,7 +181,7 @@ void LeaseTable::copy(TaskRecord& record, WorkerNumber worker, TimePoint now) {
   ++copies_;
 }
 
-bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker) {
+bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker, bool at_front) {
   const Lease* lease = record.lease_of(worker);
   SWARMSMITH_ASSERT(lease != nullptr, "a lease that ends is the worker's");
   end(record, *lease);
@@ -194,8 +199,31 @@ bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker) {
   by_age_.erase(record.place);
   queues_.on_unleased(*record.design, record.task.ahead);
   if (!record.task.ahead) --wanted_leased_;
-  enter_queue(record, true);
+  enter_queue(record, at_front);
   return true;
+}
+
+void LeaseTable::park(TaskRecord& record) {
+  SWARMSMITH_ASSERT(!record.lease, "a task that is parked has no lease");
+  if (record.parked) return;
+  leave_queue(record);
+  record.parked = true;
+  enter_queue(record, false);
+}
+
+void LeaseTable::unpark(TaskRecord& record) {
+  if (!record.parked) return;
+  leave_queue(record);
+  record.parked = false;
+  enter_queue(record, true);
+}
+
+void LeaseTable::shelve(TaskRecord& record) {
+  SWARMSMITH_ASSERT(!record.lease && record.task.ahead, "look-ahead is shelved, without a lease");
+  leave_queue(record);
+  record.parked = false;
+  record.troubled = true;
+  enter_queue(record, true);
 }
 
 void LeaseTable::end(TaskRecord& record, const Lease& lease) {

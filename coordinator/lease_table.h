@@ -24,6 +24,7 @@ struct Lease {
   TimePoint renewed;     ///< when the worker last said that it runs
   bool adopted = false;  ///< the worker had it already when it came back
   bool alone = false;    ///< the worker has nothing else
+  bool began = false;    ///< and it said that it runs
 
   WorkerLoads::Place of_worker;  ///< kept by the table: its place among those of its worker
 };
@@ -36,13 +37,15 @@ struct TaskRecord {
   /// lease ends without a result, this one takes its place.
   std::optional<Lease> second;
   std::int64_t attempts = 0;
-  int failures = 0;  ///< workers said that there is no score
-  int deaths = 0;    ///< worker processes that died while it ran alone
-  int losses = 0;    ///< workers that fell silent while it may have run
+  int deaths = 0;                      ///< worker processes that died while it ran alone
+  std::vector<std::string> died_with;  ///< the principals of these
+  int losses = 0;                      ///< workers that fell silent, or died, while it may have run
+  int strays = 0;                      ///< the same of workers of which nothing is known
   int timeouts = 0;
   WorkerNumber avoid = 0;  ///< try elsewhere, if there is an elsewhere
   bool alone = false;      ///< it may have killed a worker: nothing else may run beside it
-  bool audit = false;      ///< it has its result, and this is the second one (audit.h)
+  /// The referee has it, or somebody's word on it waits for the referee: nobody else gets it.
+  bool parked = false;
   /// Look-ahead that would end its campaign: not tried again before it is wanted.
   bool troubled = false;
   bool copied = false;  ///< since it was last queued
@@ -59,8 +62,8 @@ struct TaskRecord {
 /// Tasks without an outcome by key: queued, or leased to one worker, or to two. A task enters by
 /// `add` and leaves by `remove`; between the two it goes back and forth any number of times
 /// (`grant`, `copy`, `requeue`), at least once to somebody. Queues: those that may only run alone;
-/// those that a race waits for, by design; look-ahead, by design; and look-ahead that waits until
-/// it is wanted, since it may not run beside others or would end its campaign.
+/// those that a race waits for, by design; look-ahead, by design; look-ahead that waits until it is
+/// wanted, since it may not run beside others or would end its campaign; and what is parked.
 class LeaseTable {
  public:
   /// At the end of its queue. False when the key is there already. `now` is for the meters.
@@ -88,9 +91,14 @@ class LeaseTable {
   void grant(TaskRecord& record, WorkerNumber worker, TimePoint now, std::uint64_t cost_us = 1);
   /// Leases it a second time.
   void copy(TaskRecord& record, WorkerNumber worker, TimePoint now);
-  /// Takes the worker's lease away. When it was the only one, the task is queued at the front, and
-  /// the answer is true.
-  bool requeue(TaskRecord& record, WorkerNumber worker);
+  /// Takes the worker's lease away. When it was the only one, the task is queued, at the front or
+  /// the end, and the answer is true.
+  bool requeue(TaskRecord& record, WorkerNumber worker, bool at_front = true);
+  /// Keeps a queued task from all workers, or lets it go to them again.
+  void park(TaskRecord& record);
+  void unpark(TaskRecord& record);
+  /// Keeps queued look-ahead until somebody wants it.
+  void shelve(TaskRecord& record);
 
   /// Keys leased to a worker, the oldest lease first; second copies too.
   const std::list<PackedKey>& leases_of(WorkerNumber worker) const {
@@ -112,6 +120,7 @@ class LeaseTable {
   std::size_t wanted_of(PoolDesign id) const;
   /// Queued ones that are not held.
   bool has_alone() const;
+  std::size_t parked() const { return parked_.size(); }
 
   WorkerLoads& loads() { return loads_; }
   const WorkerLoads& loads() const { return loads_; }
@@ -126,13 +135,18 @@ class LeaseTable {
   void end(TaskRecord& record, const Lease& lease);
   void enter_queue(TaskRecord& record, bool at_front);
   void leave_queue(TaskRecord& record);
+  /// Of those that are in no design's queue.
+  std::list<PackedKey>& special_queue(const TaskRecord& record);
+  static bool is_special(const TaskRecord& record) {
+    return record.alone || record.troubled || record.parked;
+  }
   /// A task that must run alone, and may.
   bool is_ready(PackedKey key) const { return !find(key)->design->held; }
   TaskRecord* found(std::optional<PackedKey> key) { return key ? find(*key) : nullptr; }
 
   std::unordered_map<PackedKey, TaskRecord> records_;
   DesignQueues queues_;
-  std::list<PackedKey> alone_, parked_;
+  std::list<PackedKey> alone_, unwanted_, parked_;
   std::list<PackedKey> by_age_;
   WorkerLoads loads_;
   std::vector<CampaignMeters> meters_;

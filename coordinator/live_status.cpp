@@ -48,6 +48,9 @@ void each_field(Json& json, Status& status, const Visit& visit) {
   visit(json, "duplicates", status.duplicates);
   visit(json, "conflicts", status.conflicts);
   visit(json, "unknown", status.unknown);
+  visit(json, "unleased", status.unleased);
+  visit(json, "rulings", status.rulings);
+  visit(json, "referee_queue", status.referee_queue);
   visit(json, "audits", status.audits);
   visit(json, "quarantined", status.quarantined);
   visit(json, "lost_workers", status.lost_workers);

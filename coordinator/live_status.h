@@ -73,8 +73,11 @@ struct LiveStatus {
   std::int64_t expired = 0;  ///< leases whose time was over
   std::int64_t duplicates = 0;
   std::int64_t conflicts = 0;
-  std::int64_t unknown = 0;  ///< results that nobody had asked for
-  std::int64_t audits = 0;   ///< second results that were compared
+  std::int64_t unknown = 0;        ///< results that nobody had asked for
+  std::int64_t unleased = 0;       ///< results of tasks that their senders were never given
+  std::int64_t audits = 0;         ///< results that were made again, and compared
+  std::int64_t rulings = 0;        ///< evaluations of the referee, audits included
+  std::int64_t referee_queue = 0;  ///< evaluations that wait for it
   std::int64_t lost_workers = 0;
   std::int64_t reconnects = 0;
   std::int64_t malformed = 0;

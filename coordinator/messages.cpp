@@ -37,11 +37,16 @@ WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uin
                   .job = hello.job(),
                   .cpu = hello.cpu(),
                   .client = {},
+                  .address = {},
                   .same_scenario = hello.scenario() == scenario,
                   .holds = {}};
   out.holds.reserve(static_cast<std::size_t>(hello.holds_size()));
-  for (const pb::Key& key : hello.holds())
-    out.holds.push_back(*pack(key));
+  const bool is_signed = hello.signatures_size() == hello.holds_size();
+  for (int i = 0; i < hello.holds_size(); ++i) {
+    out.holds.push_back({.key = *pack(hello.holds(i)),
+                         .attempt = is_signed ? hello.attempts(i) : 0,
+                         .signature = is_signed ? hello.signatures(i) : 0});
+  }
   return out;
 }
 
@@ -56,7 +61,8 @@ void results_of(const pb::Results& results, std::vector<WorkerResult>& out) {
                    .rejected = result.rejected(),
                    .time = result.time(),
                    .failure = result.failure(),
-                   .details = {result.command(), result.output(), result.errors()}});
+                   .details = {result.command(), result.output(), result.errors()},
+                   .signature = result.signature()});
   }
 }
 
@@ -117,6 +123,8 @@ std::string frame_of(const SendTasks& action, const PoolFacts& facts,
     pb::Task& out = *tasks.add_tasks();
     unpack(key_of(task), *out.mutable_key());
     out.set_attempt(leased.attempt);
+    out.set_signature(leased.signature);
+    out.set_alone(leased.alone);
     out.set_mission(task.mission);
     out.set_method(task.method);
     out.set_instance(task.instance);

@@ -7,13 +7,25 @@ namespace swarmsmith {
 Scheduler::Scheduler(SchedulerOptions options)
     : options_(std::move(options)),
       workers_(options_.first_worker),
+      signer_(options_.lease_secret),
       closed_(options_.campaigns.size()),
       estimates_us_(options_.campaigns.size()) {
   SWARMSMITH_ASSERT(!options_.campaigns.empty() && options_.campaigns.size() <= kMaxCampaigns,
                     "a coordinator has some campaigns, and not too many for its keys");
+  for (const std::string& name : options_.quarantined)
+    principals_.at(name).quarantined = true;
 }
 
-void Scheduler::know(std::uint32_t campaign, std::span<const StoredScore> known) {
+void Scheduler::know(std::uint32_t campaign, std::span<const StoredScore> known,
+                     const std::map<std::int64_t, std::string>& principals) {
+  std::map<std::int64_t, std::int64_t> of_workers;
+  for (const StoredScore& score : known)
+    ++of_workers[score.worker];
+  // What was made again is not remembered: all of it may be wrong when they are found to lie.
+  for (const auto& [worker, count] : of_workers) {
+    const auto name = principals.find(worker);
+    if (name != principals.end()) principals_.at(name->second).unchecked_of(campaign) += count;
+  }
   for (const StoredScore& score : known) {
     done_.insert(pack(score.key, campaign), score.status, score.score, score.state_digest);
   }
@@ -55,16 +67,26 @@ void Scheduler::note(const char* severity, const char* kind,
       Noted{campaign, {.severity = severity, .kind = kind, .text = event_text(fields)}});
 }
 
-void Scheduler::stop(std::uint32_t campaign, const std::string& reason) {
+void Scheduler::stop(std::uint32_t campaign, const std::string& reason, bool distrusted) {
+  if (!stopped_.insert(campaign).second) return;
   // What a program wrote may be long; it is in the table of failures.
   note("error", "campaign stopped", {{"reason", reason.substr(0, reason.find('\n'))}}, campaign);
-  actions_.emplace_back(StopCampaign{campaign, reason});
+  actions_.emplace_back(StopCampaign{campaign, reason, distrusted});
 }
 
 void Scheduler::forget(std::uint32_t campaign) {
   stopped_.insert(campaign);
   leases_.remove_all(campaign);
-  audits_.forget(campaign);
+  const auto is_of = [&](PackedKey key) { return campaign_of(key) == campaign; };
+  std::erase_if(disputed_, [&](const auto& each) { return is_of(each.first); });
+  for (const Case& one : cases_.forget(campaign)) {
+    for (const Said& said : one.said)
+      let_go(said);
+  }
+  for (auto& [name, principal] : principals_.all()) {
+    std::erase_if(principal.waiting, [&](const auto& each) { return is_of(each.result.key); });
+    try_waiting(principal, latest_);
+  }
 }
 
 }  // namespace swarmsmith

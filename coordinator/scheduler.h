@@ -5,13 +5,16 @@
 #include <set>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "base/clock.h"
-#include "coordinator/audit.h"
+#include "coordinator/cases.h"
 #include "coordinator/done_table.h"
 #include "coordinator/event_text.h"
+#include "coordinator/lease_signer.h"
 #include "coordinator/lease_table.h"
+#include "coordinator/principal.h"
 #include "coordinator/scheduler_types.h"
 #include "coordinator/worker_registry.h"
 #include "storage/rows.h"
@@ -26,18 +29,28 @@ namespace swarmsmith {
 /// least once; the first outcome counts, since evaluations are pure. Later ones are compared with
 /// it bit by bit.
 ///
+/// Authority (docs/decisions/0019). A result needs the lease of its task: one of this process, or
+/// one that it signed. Trust goes by principal (principal.h). In a campaign of the simulator no
+/// worker's word rejects an evaluation or stops the campaign: failures, time-outs, deaths and
+/// results with other bits are cases for the *referee*, the coordinator's own child process, whose
+/// word is the answer. It also makes the first results of a new principal again before they count,
+/// and a share of the later ones.
+///
 /// When a worker disappears nobody is blamed yet. Workers start tasks in the order of their leases
 /// and report 64 results at most at a time, so what ran is among the first (slots + 64) leases:
-/// after a death each of these is tried again *alone*, on a worker that has nothing else, and only
-/// a death there counts. Three such are a rejection. With programs in place of the simulator the
-/// second death is the first that makes it so, and other rules keep their calls few: see
+/// after a death of a worker that has proved itself each of these is tried again *alone*, on a
+/// worker that has nothing else and says when it begins, and only a death there counts. With
+/// programs in place of the simulator three such are a rejection, the second death is the first
+/// that makes a task run alone, and other rules keep their calls few: see
 /// SchedulerOptions::evaluates_programs.
 class Scheduler {
  public:
   explicit Scheduler(SchedulerOptions options);
 
   /// These have an outcome that is on disk: their results are acknowledged when they come again.
-  void know(std::uint32_t campaign, std::span<const StoredScore> known);
+  /// By the principals of their workers, as far as these are known.
+  void know(std::uint32_t campaign, std::span<const StoredScore> known,
+            const std::map<std::int64_t, std::string>& principals = {});
 
   /// A task that was added as look-ahead and is there still may come once more: it is wanted now.
   void add(std::vector<Task> tasks);
@@ -61,6 +74,12 @@ class Scheduler {
                     const std::optional<SlotReport>& slots = {});
   void on_returned(const Sender& sender, std::span<const PackedKey> keys, TimePoint now);
   void on_goodbye(const Sender& sender, TimePoint now);
+  /// A worker has begun with a task that it runs alone.
+  void on_began(const Sender& sender, PackedKey key, TimePoint now);
+  /// What came of `AskReferee`.
+  void on_ruling(const Ruling& ruling, TimePoint now);
+  /// The task of a `ConflictFound`, as its campaign has it; none when it cannot be made again.
+  void on_disputed(PackedKey key, std::optional<Task> task, TimePoint now);
   /// Any other message: a sign of life. False, and a question, when the peer is not known.
   bool on_sign_of_life(const Sender& sender, TimePoint now);
   /// The transport says that the connection is no more, and that these leases never got there.
@@ -91,11 +110,14 @@ class Scheduler {
 
   std::vector<SchedulerAction> take_actions();
 
-  /// Whether second results are waited for that may still come. Then the campaigns are not over.
-  bool is_auditing() const;
+  /// Whether the referee has something to do. Then the campaigns are not over.
+  bool is_auditing() const { return !cases_.empty(); }
 
   const LeaseTable& leases() const { return leases_; }
   const WorkerRegistry& workers() const { return workers_; }
+  const Principals& principals() const { return principals_; }
+  const Cases& cases() const { return cases_; }
+  const LeaseSigner& signer() const { return signer_; }
   const SchedulerCounters& counters() const { return counters_; }
   /// The connection of a worker that is there.
   const WorkerEntry* connected_worker(WorkerNumber number);
@@ -110,31 +132,54 @@ class Scheduler {
   void adopt(WorkerEntry& entry, TimePoint now);
   void take_back_charges(WorkerEntry& entry);
   void lose(WorkerEntry& entry, Loss loss, const std::string& state, TimePoint now);
-  void suspect(WorkerEntry& entry, TaskRecord& record, Loss loss);
+  /// What a loss means for a task that may have run there.
+  enum class Blame { Nobody, Task, Rejected };
+  Blame blame(WorkerEntry& entry, TaskRecord& record, Loss loss);
+  Blame blame_of_program(WorkerEntry& entry, TaskRecord& record, Loss loss);
+  std::size_t proven_present() const;
 
   void on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now);
-  void on_failure(WorkerEntry& entry, const WorkerResult& result, SendAcknowledged& acknowledged,
-                  TimePoint now);
+  void on_failure(WorkerEntry& entry, const WorkerResult& result, TimePoint now);
   void on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now);
-  /// Ends the worker's lease. True when the task is queued again; an audit is not, but waits again
-  /// for a worker that may make it, and `record` is gone.
-  bool take_back(TaskRecord& record, WorkerNumber worker);
+  /// The result becomes the outcome.
+  void take(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result, TimePoint now);
   void note_attempt(TaskRecord& record, WorkerNumber worker, const char* outcome, TimePoint now);
   void note_attempt(PackedKey key, const Lease& lease, const char* outcome, TimePoint now);
   void note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now);
-  void dispatch_audits(TimePoint now);
-  void on_audited(WorkerEntry& entry, const WorkerResult& result, TimePoint now);
+
+  // trust.cpp
+  /// Whether the worker was given the task: it has a lease of it, or the result one that is signed.
+  bool may_answer(const WorkerEntry& entry, const WorkerResult& result);
+  bool is_proven(const Principal& principal) const;
+  /// Whether its results wait for what the referee says of its first ones.
+  bool is_on_trial(const Principal& principal, std::uint32_t campaign) const;
+  void hold_back(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result, TimePoint now);
+  void try_waiting(Principal& principal, TimePoint now);
+  void take_waiting(Principal& principal, TimePoint now);
+  /// Opens a case when the result is one of those that are made again.
+  void audit(const TaskRecord& record, const WorkerEntry& entry, const WorkerResult& result);
+  /// What its workers may hold now.
+  void update_room(Principal& principal);
+  void strike(Principal& principal, TimePoint now);
+  void convict(Principal& principal, const std::string& evidence, TimePoint now);
+  void quarantine(Principal& principal, const std::string& reason, TimePoint now);
+
+  // rulings.cpp
+  void claim(WorkerEntry& entry, TaskRecord& record, Said::What what, TimePoint now);
+  void ask_referee();
+  void on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now);
+  void carry_out(const Case& ruled, const Ruling& ruling, TimePoint now);
+  void compare_with_stored(const Case& ruled, const Ruling& ruling);
+  void let_go(const Said& said);
+
   /// It has an outcome, or is of a design that is over.
   bool is_done(PackedKey key) const { return done_.find(key) != nullptr || done_.is_closed(key); }
-  void judge(const WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
-  /// `worker` failed at what somebody else has done.
-  void strike(WorkerNumber worker, TimePoint now);
-  void quarantine(WorkerEntry& entry, const std::string& reason, TimePoint now);
+  void dispute(WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
   void accept(const Outcome& outcome);
-  void repeat(const WorkerEntry& entry, const WorkerResult& result);
+  void repeat(WorkerEntry& entry, const WorkerResult& result);
   void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
               const FailureDetails& details = {});
-  void stop(std::uint32_t campaign, const std::string& reason);
+  void stop(std::uint32_t campaign, const std::string& reason, bool distrusted = false);
   const CampaignPolicy& policy_of(const TaskRecord& record) const {
     return options_.campaigns[record.task.campaign];
   }
@@ -167,9 +212,14 @@ class Scheduler {
 
   SchedulerOptions options_;
   LeaseTable leases_;
+  Principals principals_;
   WorkerRegistry workers_;
   DoneTable done_;
-  Audits audits_;
+  Cases cases_;
+  /// Results with other bits than the outcome's, whose tasks are asked for.
+  std::unordered_map<PackedKey, std::vector<Said>> disputed_;
+  LeaseSigner signer_;
+  double referee_us_ = 0;  ///< of one of its evaluations
   SchedulerCounters counters_;
   std::vector<SchedulerAction> actions_;
   double estimate_us_ = 0;            ///< of an evaluation's time, in all campaigns

@@ -9,8 +9,6 @@
 namespace swarmsmith {
 namespace {
 
-constexpr int kFailuresOfARejection = 2;
-
 double value_of(const DoneEntry& entry) {
   return std::bit_cast<double>(entry.score_bits);
 }
@@ -23,13 +21,17 @@ void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> r
   if (entry == nullptr) return;
   SendAcknowledged acknowledged{entry->peer, entry->hello.incarnation, {}};
   for (const WorkerResult& result : results) {
-    leases_.loads().settle(entry->number, result.key);
-    if (entry->quarantined || stopped_.contains(campaign_of(result.key))) {
+    const bool may = may_answer(*entry, result);
+    if (!may) ++counters_.unleased;
+    if (!may || entry->quarantined || stopped_.contains(campaign_of(result.key))) {
       acknowledged.keys.push_back(result.key);
     } else if (result.failure.empty()) {
       on_score(*entry, result, now);
     } else {
-      on_failure(*entry, result, acknowledged, now);
+      // A failure is told once: for the lease under which it ran. Nothing is written, so the worker
+      // may forget it at once.
+      acknowledged.keys.push_back(result.key);
+      on_failure(*entry, result, now);
     }
   }
   if (!acknowledged.keys.empty()) actions_.emplace_back(std::move(acknowledged));
@@ -37,34 +39,18 @@ void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> r
 
 void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {
   TaskRecord* record = leases_.find(result.key);
-  if (record != nullptr && !record->audit) {
-    ++entry.done;
-    const bool failed_elsewhere = record->avoid != 0 && record->avoid != entry.number;
-    if (failed_elsewhere) strike(record->avoid, now);
-    const std::int64_t every = options_.evaluates_programs ? 0 : policy_of(*record).audit_every;
-    if (!result.rejected && Audits::chooses(result.key, every)) {
-      audits_.open(record->task, {entry.number, result.score, result.state_digest});
+  if (record != nullptr) {
+    const bool is_claim = result.rejected && !options_.evaluates_programs;
+    if (is_claim) {
+      // Nothing will be written for its word.
+      actions_.emplace_back(SendAcknowledged{entry.peer, entry.hello.incarnation, {result.key}});
+      return claim(entry, *record, Said::What::NoScore, now);
     }
-    learn(record->task.campaign, result.wall_us);
-    note_second_copy(*record, entry.number, now);
-    const Lease* lease = record->lease_of(entry.number);
-    CampaignMeters& meters = leases_.meters(record->task.campaign);
-    meters.evaluation.observe(std::chrono::microseconds(std::max<std::int64_t>(result.wall_us, 0)));
-    if (lease != nullptr) meters.round_trip.observe(now - lease->granted);
-    accept(
-        {.key = record->task.key,
-         .campaign = record->task.campaign,
-         .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
-         .score = result.rejected ? 0 : result.score,
-         .state_digest = result.state_digest,
-         .wall_us = result.wall_us,
-         .worker = entry.number,
-         .attempt = lease != nullptr ? lease->attempt : std::max<std::int64_t>(record->attempts, 1),
-         .time = result.time});
-    return;
+    if (is_on_trial(*entry.principal, record->task.campaign)) {
+      return hold_back(entry, *record, result, now);
+    }
+    return take(entry, *record, result, now);
   }
-  const bool is_audit = record != nullptr && record->lease_of(entry.number) != nullptr;
-  if (is_audit) return on_audited(entry, result, now);
   if (is_done(result.key)) return repeat(entry, result);
   // Wanted later, perhaps: after a restart the race may not have come so far. Not acknowledged, so
   // it comes again.
@@ -73,6 +59,36 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoi
   if (campaign < closed_.size() && closed_[campaign]) {
     actions_.emplace_back(SendAcknowledged{entry.peer, entry.hello.incarnation, {result.key}});
   }
+}
+
+void Scheduler::take(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result,
+                     TimePoint now) {
+  const std::uint32_t campaign = record.task.campaign;
+  ++entry.done;
+  audit(record, entry, result);
+  Principal& principal = *entry.principal;
+  ++principal.unchecked_of(campaign);
+  if (++principal.taken == 1) update_room(principal);
+  const bool failed_elsewhere =
+      options_.evaluates_programs && record.avoid != 0 && record.avoid != entry.number;
+  if (failed_elsewhere) {
+    if (const WorkerEntry* other = workers_.of_number(record.avoid)) strike(*other->principal, now);
+  }
+  learn(campaign, result.wall_us);
+  note_second_copy(record, entry.number, now);
+  const Lease* lease = record.lease_of(entry.number);
+  CampaignMeters& meters = leases_.meters(campaign);
+  meters.evaluation.observe(std::chrono::microseconds(std::max<std::int64_t>(result.wall_us, 0)));
+  if (lease != nullptr) meters.round_trip.observe(now - lease->granted);
+  accept({.key = record.task.key,
+          .campaign = campaign,
+          .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
+          .score = result.rejected ? 0 : result.score,
+          .state_digest = result.state_digest,
+          .wall_us = result.wall_us,
+          .worker = entry.number,
+          .attempt = lease != nullptr ? lease->attempt : std::max<std::int64_t>(record.attempts, 1),
+          .time = result.time});
 }
 
 void Scheduler::accept(const Outcome& outcome) {
@@ -94,23 +110,37 @@ void Scheduler::note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint 
   }
 }
 
-void Scheduler::repeat(const WorkerEntry& entry, const WorkerResult& result) {
+void Scheduler::repeat(WorkerEntry& entry, const WorkerResult& result) {
   ++counters_.duplicates;
   actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
   // Two runs of a program may differ, in its time at least: the first one counts.
   if (options_.evaluates_programs) return;
-  if (const DoneEntry* known = done_.find(result.key)) judge(entry, *known, result);
+  if (const DoneEntry* known = done_.find(result.key)) dispute(entry, *known, result);
 }
 
-/// Another result with other bits: the campaign is not deterministic, or somebody lies.
-void Scheduler::judge(const WorkerEntry& entry, const DoneEntry& known,
-                      const WorkerResult& result) {
-  if (DoneTable::same(known, EvaluationStatus::Ok, result.score, result.state_digest)) return;
+/// Another result with other bits: the campaign is not deterministic, or somebody lies. The referee
+/// tells which, when the campaign has told the task.
+void Scheduler::dispute(WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result) {
+  const auto status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok;
+  if (DoneTable::same(known, status, result.score, result.state_digest)) return;
   ++counters_.conflicts;
+  if (entry.principal->claims >= Principal::kMostClaims) return;
+  if (++entry.principal->claims == Principal::kMostClaims) update_room(*entry.principal);
   const EvaluationKey key = unpack(result.key);
+  const bool has_score = !DoneTable::same(known, EvaluationStatus::Rejected, 0, 0);
+  std::vector<Said>& said = disputed_[result.key];
+  said.push_back({.what = has_score ? Said::What::Score : Said::What::NoScore,
+                  .score = value_of(known),
+                  .state_digest = known.state_digest,
+                  .taken = true});
+  said.push_back({.what = result.rejected ? Said::What::NoScore : Said::What::Score,
+                  .worker = entry.number,
+                  .principal = entry.principal->name,
+                  .score = result.score,
+                  .state_digest = result.state_digest});
   actions_.emplace_back(ConflictFound{campaign_of(result.key),
                                       {.key = key,
-                                       .kept_score = value_of(known),
+                                       .kept_score = has_score ? value_of(known) : 0,
                                        .other_score = result.score,
                                        .other_state_digest = result.state_digest,
                                        .other_worker = entry.number}});
@@ -119,11 +149,7 @@ void Scheduler::judge(const WorkerEntry& entry, const DoneEntry& known,
        campaign_of(result.key));
 }
 
-void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
-                           SendAcknowledged& acknowledged, TimePoint now) {
-  // A failure is told once: for the lease under which it ran. Nothing is written, so the worker
-  // may forget it at once.
-  acknowledged.keys.push_back(result.key);
+void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {
   TaskRecord* record = leases_.find(result.key);
   const Lease* lease = record == nullptr ? nullptr : record->lease_of(entry.number);
   if (lease == nullptr || (!lease->adopted && lease->attempt != result.attempt)) return;
@@ -144,24 +170,9 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result,
                                      .output = result.details.output,
                                      .errors = result.details.errors}});
   note_attempt(*record, entry.number, "failed", now);
-  if (record->audit) {
-    // The strike may send the worker to quarantine, which takes its leases back.
-    take_back(*record, entry.number);
-    return strike(entry.number, now);
-  }
-  record->avoid = entry.number;
-  if (record->second) {
-    // The other copy tells; two of them count once.
-    leases_.requeue(*record, entry.number);
-    return;
-  }
-  ++record->failures;
+  if (!options_.evaluates_programs) return claim(entry, *record, Said::What::NoScore, now);
   // A program's worker has tried again by itself, as often as the campaign allows.
-  if (options_.evaluates_programs || record->failures >= kFailuresOfARejection) {
-    reject(*record, entry.number, result.failure, result.details);
-  } else {
-    take_back(*record, entry.number);
-  }
+  reject(*record, entry.number, result.failure, result.details);
 }
 
 void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
@@ -182,6 +193,7 @@ void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
     Lease* lease = record == nullptr ? nullptr : record->lease_of(entry->number);
     if (lease == nullptr) continue;
     lease->renewed = now;
+    lease->began = true;
     // Of a program the worker itself keeps the time.
     if (options_.evaluates_programs) continue;
     const auto limit = policy_of(*record).task_timeout;
@@ -189,7 +201,7 @@ void Scheduler::on_heartbeat(const Sender& sender, std::uint32_t credit,
   }
 }
 
-/// A time never becomes a score: another try elsewhere, then the end.
+/// A time never becomes a score: another try elsewhere, then one by the referee.
 void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now) {
   ++entry.failed;
   ++counters_.failed;
@@ -197,24 +209,11 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now
   note("warning", "evaluation timed out",
        {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign);
   note_attempt(record, entry.number, "timed out", now);
-  if (record.audit) {
-    take_back(record, entry.number);
-    return strike(entry.number, now);
-  }
   record.avoid = entry.number;
-  const CampaignPolicy& policy = policy_of(record);
   // Two copies that hang count once.
-  const bool is_last = !record.second && ++record.timeouts > policy.retries;
-  record.troubled = is_last && record.task.ahead;
+  const bool is_last = !record.second && ++record.timeouts > policy_of(record).retries;
+  if (is_last) return claim(entry, record, Said::What::NoScore, now);
   leases_.requeue(record, entry.number);
-  if (is_last && !record.task.ahead) {
-    stop(record.task.campaign,
-         "the evaluation of " + name_of(record.task.key) + " took longer than " +
-             std::to_string(
-                 std::chrono::duration_cast<std::chrono::seconds>(policy.task_timeout).count()) +
-             " s in " + std::to_string(record.timeouts) +
-             " attempts: raise task_timeout_s, or retries");
-  }
 }
 
 /// `record` is gone afterwards, unless the campaign stops.
@@ -223,8 +222,8 @@ void Scheduler::reject(TaskRecord& record, WorkerNumber worker, const std::strin
   const EvaluationKey key = record.task.key;
   if (policy_of(record).stop_on_failure && record.task.ahead) {
     // Nobody may ever ask for it: no reason to stop before somebody does.
-    record.troubled = true;
-    leases_.requeue(record, worker);
+    if (record.lease_of(worker) != nullptr) leases_.requeue(record, worker);
+    if (!record.lease) leases_.shelve(record);
     return;
   }
   if (policy_of(record).stop_on_failure) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "coordinator/lease_signer.h"
 #include "coordinator/task.h"
 #include "coordinator/task_key.h"
 #include "proto/socket.h"
@@ -15,6 +16,13 @@
 namespace swarmsmith {
 
 /// What the scheduler sees of messages, and what it wants to be done: plain values.
+
+/// A task that a worker says it has, and the lease by which it was given.
+struct Hold {
+  PackedKey key = 0;
+  std::int64_t attempt = 0;
+  std::uint64_t signature = 0;  ///< LeaseSigner; 0 from workers that do not know of it
+};
 
 /// How a worker introduces itself.
 struct WorkerHello {
@@ -29,8 +37,10 @@ struct WorkerHello {
   std::string job;
   std::string cpu;
   std::string client;          ///< name of its key; empty without
+  std::string address;         ///< as the transport sees it, a number without a port
+  bool local = false;          ///< this process started it
   bool same_scenario = false;  ///< whether `holds` are of this campaign
-  std::vector<PackedKey> holds;
+  std::vector<Hold> holds;
 };
 
 /// One evaluation as a worker reports it: a score, or the reason why there is none.
@@ -44,6 +54,23 @@ struct WorkerResult {
   double time = 0;
   std::string failure;
   FailureDetails details;
+  std::uint64_t signature = 0;  ///< of the lease under which it ran
+};
+
+/// The referee's word: what an evaluation gives in a process of the coordinator's own.
+struct Ruling {
+  enum class Kind {
+    Score,
+    Rejected,  ///< it has no score: an exception, not a number, or the death of the process
+    TimedOut,  ///< it takes longer than the campaign allows
+    NoWord,    ///< the referee cannot do its work, for a reason of the host
+  };
+  PackedKey key = 0;
+  Kind kind = Kind::Score;
+  double score = 0;
+  std::uint64_t state_digest = 0;
+  std::int64_t wall_us = 0;
+  std::string reason{};  ///< a sentence, unless there is a score
 };
 
 struct RunningReport {
@@ -81,6 +108,8 @@ struct SendTasks {
   struct Leased {
     Task task;
     std::int64_t attempt = 0;
+    std::uint64_t signature = 0;
+    bool alone = false;  ///< the worker says when it begins
   };
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
@@ -137,19 +166,27 @@ struct AttemptEnded {
 struct StopCampaign {
   std::uint32_t campaign = 0;
   std::string reason;
+  /// Scores in its store are wrong, or may be.
+  bool distrusted = false;
+};
+/// The referee is to evaluate: the next one follows when `on_ruling` has told of this one.
+struct AskReferee {
+  Task task;
+  Duration timeout{};
 };
 
 using SchedulerAction =
     std::variant<SendWelcome, SendReject, SendTasks, SendAcknowledged, SendHeartbeat, SendWhoAreYou,
                  SendDrain, OutcomeAccepted, OutcomeRepeated, ConflictFound, WorkerChanged, Noted,
-                 FailureKept, AttemptEnded, StopCampaign>;
+                 FailureKept, AttemptEnded, StopCampaign, AskReferee>;
 
 /// What a campaign says of its evaluations.
 struct CampaignPolicy {
   Duration task_timeout = std::chrono::seconds(30);
   std::int64_t retries = 2;      ///< after time-outs, before the campaign stops
   bool stop_on_failure = false;  ///< else an evaluation that fails for good is a rejection
-  /// One evaluation of so many is made twice, by two workers; 0: none. Programs are not audited.
+  /// One evaluation of so many is made again by the referee, and the first ones of each principal
+  /// before they count; 0: none. Programs are not audited.
   std::int64_t audit_every = 200;
 };
 
@@ -171,11 +208,14 @@ struct SchedulerOptions {
   /// Of all campaigns or of none: evaluations by programs: none is run a second time while a worker
   /// that runs it is alive, a first failure is final, and two results of one evaluation may differ.
   bool evaluates_programs = false;
-  /// A worker that fails so often where others succeed, and at one of twenty of its evaluations,
-  /// gets no more.
+  /// A principal that fails so often where others (with the simulator: the referee) succeed, and at
+  /// one of twenty of its evaluations, gets no more.
   std::int64_t quarantine_after = 5;
   std::uint32_t max_credit = 4096;
   std::size_t max_workers = 10'000;
+  std::size_t max_workers_of_one = 5'000;  ///< that one principal answers for
+  LeaseSecret lease_secret{};
+  std::vector<std::string> quarantined{};  ///< principals, by an earlier process
   int engine_version = 0;
   std::string self_test;          ///< empty: that of the first worker
   std::int64_t first_worker = 1;  ///< number of the first worker that comes
@@ -188,14 +228,16 @@ struct SchedulerCounters {
   std::uint64_t failed = 0;  ///< attempts without a score
   std::uint64_t duplicates = 0;
   std::uint64_t conflicts = 0;
-  std::uint64_t unknown = 0;  ///< results of tasks that nobody asked for
+  std::uint64_t unknown = 0;   ///< results of tasks that nobody asked for
+  std::uint64_t unleased = 0;  ///< results of tasks that their senders were never given
   std::uint64_t expired = 0;
   std::uint64_t requeued = 0;
   std::uint64_t lost_workers = 0;
   std::uint64_t copies = 0;       ///< second leases of stragglers
   std::uint64_t ahead = 0;        ///< leases of look-ahead
-  std::uint64_t audited = 0;      ///< second results that were compared
-  std::uint64_t quarantined = 0;  ///< workers
+  std::uint64_t audited = 0;      ///< results that the referee made again, to compare
+  std::uint64_t rulings = 0;      ///< evaluations of the referee, audits included
+  std::uint64_t quarantined = 0;  ///< principals
   std::uint64_t reconnects = 0;   ///< hellos of workers that had been here before
 };
 

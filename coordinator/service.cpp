@@ -1,6 +1,7 @@
 #include "coordinator/service.h"
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -9,7 +10,9 @@
 #include "coordinator/campaign_stores.h"
 #include "coordinator/front_door.h"
 #include "coordinator/log_row.h"
+#include "coordinator/task_key.h"
 #include "coordinator/telemetry.h"
+#include "proto/wire.h"
 
 namespace swarmsmith {
 namespace {
@@ -42,6 +45,9 @@ class Loop final : public Service {
         stores_(campaigns, wakeup_),
         socket_(std::move(socket)),
         coordinator_(options_.coordinator, works),
+        referee_(options_.make_referee ? options_.make_referee(options_.coordinator.scenario,
+                                                               [this] { wakeup_.notify(); })
+                                       : nullptr),
         telemetry_(telemetry_of(campaigns), clock_.now()) {}
 
   const std::string& endpoint() const override { return socket_->endpoint(); }
@@ -67,6 +73,7 @@ class Loop final : public Service {
     wakeup_.clear();
     const TimePoint now = clock_.now();
     receive(now);
+    hear_referee(now);
     hear_news();
     // After the frames: what waited in the socket is a sign of life too.
     if (now >= next_tick_ && !more_frames_) {
@@ -99,8 +106,15 @@ class Loop final : public Service {
         return;
       }
       telemetry_.on_frame_in(received.frame.size());
-      coordinator_.on_frame({received.peer, received.role, received.client}, received.frame, now);
+      coordinator_.on_frame({received.peer, received.role, received.client, received.address},
+                            received.frame, now);
     }
+  }
+
+  void hear_referee(TimePoint now) {
+    if (referee_ == nullptr) return;
+    for (const Ruling& ruling : referee_->take_rulings())
+      coordinator_.on_ruling(ruling, now);
   }
 
   void hear_news() {
@@ -140,7 +154,8 @@ class Loop final : public Service {
         again = true;
         std::visit(Overloaded{[&](const SendFrame& send) { this->send(send, now); },
                               [&](AppendRows& append) { this->append(append); },
-                              [&](const AnswerStatus& answer) { this->answer(answer, now); }},
+                              [&](const AnswerStatus& answer) { this->answer(answer, now); },
+                              [&](AskReferee& ask) { judge(std::move(ask), now); }},
                    action);
       }
     }
@@ -157,6 +172,14 @@ class Loop final : public Service {
         coordinator_.on_unreachable(send, now);
         return;
     }
+  }
+
+  void judge(AskReferee ask, TimePoint now) {
+    if (referee_ != nullptr) return referee_->judge(std::move(ask));
+    coordinator_.on_ruling({.key = key_of(ask.task),
+                            .kind = Ruling::Kind::NoWord,
+                            .reason = "this coordinator was started without a referee"},
+                           now);
   }
 
   void append(AppendRows& append) {
@@ -218,7 +241,7 @@ class Loop final : public Service {
     hear_news();
     carry_out();
     report(clock_.now(), true);
-    return {ServiceEnd::How::Interrupted, reasons()};
+    return {ServiceEnd::How::Interrupted, reasons(), distrusted()};
   }
 
   ServiceEnd finish() {
@@ -232,7 +255,14 @@ class Loop final : public Service {
     report(clock_.now(), true);
     const std::vector<std::string> stopped = reasons();
     const bool all_well = std::ranges::all_of(stopped, &std::string::empty);
-    return {all_well ? ServiceEnd::How::Finished : ServiceEnd::How::Stopped, stopped};
+    return {all_well ? ServiceEnd::How::Finished : ServiceEnd::How::Stopped, stopped, distrusted()};
+  }
+
+  std::vector<bool> distrusted() const {
+    std::vector<bool> all;
+    for (std::uint32_t index = 0; index < stores_.count(); ++index)
+      all.push_back(coordinator_.distrusted(index));
+    return all;
   }
 
   std::vector<std::string> reasons() const {
@@ -248,6 +278,7 @@ class Loop final : public Service {
   CampaignStores stores_;
   std::unique_ptr<ServerSocket> socket_;
   Coordinator coordinator_;
+  std::unique_ptr<Referee> referee_;
   const ServiceHooks* hooks_ = nullptr;
   Telemetry telemetry_;
   RowLog row_log_;
@@ -265,6 +296,19 @@ class Loop final : public Service {
 
 Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options,
                                                  std::vector<ServiceCampaign> campaigns) {
+  SchedulerOptions& scheduler = options.coordinator.scheduler;
+  if (!options.make_referee) {
+    for (CampaignPolicy& policy : scheduler.campaigns)
+      policy.audit_every = 0;
+  }
+  for (const ServiceCampaign& campaign : campaigns) {
+    const StoredTrust trust = campaign.store->trust();
+    std::ranges::copy(trust.quarantined, std::back_inserter(scheduler.quarantined));
+  }
+  const std::string lasting = options.keys ? options.keys->secret_key
+                                           : campaigns.front().store->keep_secret(random_secret());
+  scheduler.lease_secret =
+      lease_secret_of(lasting, digest_of_scenario(options.coordinator.scenario));
   Expected<std::unique_ptr<ServerSocket>> socket = open_front_door(options);
   if (!socket) return Unexpected(socket.error());
   std::vector<std::vector<StoredScore>> known;
@@ -278,7 +322,8 @@ Expected<std::unique_ptr<Service>> Service::open(ServiceOptions options,
     works.push_back({.digest = campaign.digest,
                      .source = campaign.source,
                      .known = known.back(),
-                     .commands = commands.back()});
+                     .commands = commands.back(),
+                     .trust = campaign.store->trust()});
   }
   return std::make_unique<Loop>(std::move(options), std::move(*socket), campaigns, works);
 }

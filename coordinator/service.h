@@ -12,6 +12,7 @@
 #include "base/expected.h"
 #include "coordinator/coordinator.h"
 #include "coordinator/live_status.h"
+#include "coordinator/referee.h"
 #include "coordinator/work_source.h"
 #include "proto/socket.h"
 #include "storage/store.h"
@@ -29,6 +30,10 @@ struct ServiceOptions {
   bool insecure_plaintext = false;
   /// A new list of clients when there is one; asked ten times a second, and must not wait.
   std::function<std::optional<std::vector<ListedClient>>()> new_clients{};
+  /// Makes the referee for a scenario; it calls the function, from any thread, when it has ruled.
+  /// Empty: there is none, so that nothing is audited, and what needs one stops its campaign.
+  std::function<std::unique_ptr<Referee>(const std::string& scenario, std::function<void()>)>
+      make_referee{};
   /// How long running evaluations are waited for when the campaign is interrupted.
   Duration grace = std::chrono::seconds(5);
 };
@@ -61,6 +66,8 @@ struct ServiceEnd {
   How how = How::Finished;
   /// Of each campaign, why it could not go on; empty where it could.
   std::vector<std::string> reasons{};
+  /// Of each, whether that is because its stored scores are wrong, or may be.
+  std::vector<bool> distrusted{};
 };
 
 /// A coordinator's loop: socket, clock and stores around a Coordinator. One thread, that of `run`.

@@ -40,6 +40,10 @@ class WorkSource {
     return bad_input("this campaign knows no such command", command.kind);
   }
 
+  /// The task of an evaluation that was asked for, to be made again; nothing when it cannot be told
+  /// any more.
+  virtual std::optional<Task> task_of(const EvaluationKey& /*key*/) const { return std::nullopt; }
+
   /// The first outcome of a task that was taken; each task is told once.
   virtual void tell(const Outcome& outcome) = 0;
 

@@ -78,9 +78,11 @@ bool WorkerLoads::renew_lingering(WorkerNumber worker, PackedKey key, TimePoint 
   return true;
 }
 
-void WorkerLoads::settle(WorkerNumber worker, PackedKey key) {
-  if (of(worker).lingering.empty()) return;
-  change(worker, [&](WorkerLoad& load) { load.lingering.erase(key); });
+bool WorkerLoads::settle(WorkerNumber worker, PackedKey key) {
+  if (of(worker).lingering.empty()) return false;
+  bool lingered = false;
+  change(worker, [&](WorkerLoad& load) { lingered = load.lingering.erase(key) > 0; });
+  return lingered;
 }
 
 void WorkerLoads::settle_older(WorkerNumber worker, TimePoint than) {

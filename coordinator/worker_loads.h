@@ -50,7 +50,8 @@ class WorkerLoads {
   void linger(WorkerNumber worker, PackedKey key, TimePoint since);
   /// Renews it; false when it does not linger there.
   bool renew_lingering(WorkerNumber worker, PackedKey key, TimePoint now);
-  void settle(WorkerNumber worker, PackedKey key);
+  /// True when it lingered there.
+  bool settle(WorkerNumber worker, PackedKey key);
   /// What was not heard of since then never came there.
   void settle_older(WorkerNumber worker, TimePoint than);
 

@@ -5,14 +5,8 @@
 namespace swarmsmith {
 namespace {
 
-std::string hexadecimal(const std::string& bytes) {
-  static constexpr char kDigits[] = "0123456789abcdef";
-  std::string out;
-  for (const char c : bytes) {
-    out += kDigits[static_cast<unsigned char>(c) >> 4U];
-    out += kDigits[static_cast<unsigned char>(c) & 15U];
-  }
-  return out;
+std::string name_of(const std::string& principal, const std::string& identity) {
+  return principal + '\0' + identity;
 }
 
 }  // namespace
@@ -22,8 +16,9 @@ WorkerEntry* WorkerRegistry::of_peer(PeerId peer) {
   return at == by_peer_.end() ? nullptr : of_number(at->second);
 }
 
-WorkerEntry* WorkerRegistry::of_identity(const std::string& identity) {
-  const auto at = by_identity_.find(identity);
+WorkerEntry* WorkerRegistry::of_identity(const std::string& principal,
+                                         const std::string& identity) {
+  const auto at = by_identity_.find(name_of(principal, identity));
   return at == by_identity_.end() ? nullptr : of_number(at->second);
 }
 
@@ -32,12 +27,15 @@ WorkerEntry* WorkerRegistry::of_number(WorkerNumber number) {
   return at == entries_.end() ? nullptr : &at->second;
 }
 
-WorkerEntry& WorkerRegistry::add(const std::string& identity) {
-  SWARMSMITH_ASSERT(!by_identity_.contains(identity), "a worker is added once");
+WorkerEntry& WorkerRegistry::add(Principal& principal, const std::string& identity) {
+  const std::string name = name_of(principal.name, identity);
+  SWARMSMITH_ASSERT(!by_identity_.contains(name), "a worker is added once");
   const WorkerNumber number = next_++;
-  by_identity_[identity] = number;
+  by_identity_[name] = number;
   WorkerEntry& entry = entries_[number];
   entry.number = number;
+  entry.principal = &principal;
+  principal.workers.insert(number);
   return entry;
 }
 
@@ -89,7 +87,8 @@ void WorkerRegistry::forget_old(TimePoint now) {
   for (auto at = entries_.begin(); at != entries_.end();) {
     const WorkerEntry& entry = at->second;
     if (!entry.connected && now - entry.last_heard > kMemory) {
-      by_identity_.erase(entry.hello.identity);
+      by_identity_.erase(name_of(entry.principal->name, entry.hello.identity));
+      entry.principal->workers.erase(entry.number);
       at = entries_.erase(at);
     } else {
       ++at;
@@ -104,13 +103,14 @@ WorkerRow row_of(const WorkerEntry& entry, const std::string& state) {
           .pid = entry.hello.pid,
           .slots = entry.hello.slots,
           .build = entry.hello.build,
-          .state = state,
+          .state = entry.quarantined ? "quarantined" : state,
           .done = entry.done,
           .failed = entry.failed,
           .job = entry.hello.job,
           .cpu = entry.hello.cpu,
           .client = entry.hello.client,
-          .connections = static_cast<std::int64_t>(entry.hello.incarnation)};
+          .connections = static_cast<std::int64_t>(entry.hello.incarnation),
+          .principal = entry.principal->name};
 }
 
 }  // namespace swarmsmith

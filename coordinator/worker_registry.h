@@ -10,6 +10,7 @@
 
 #include "base/clock.h"
 #include "coordinator/lease_table.h"
+#include "coordinator/principal.h"
 #include "coordinator/scheduler_types.h"
 
 namespace swarmsmith {
@@ -17,7 +18,8 @@ namespace swarmsmith {
 /// A worker process that said hello. It keeps its number when it comes back.
 struct WorkerEntry {
   WorkerNumber number = 0;
-  WorkerHello hello;  ///< the last one
+  WorkerHello hello;               ///< the last one
+  Principal* principal = nullptr;  ///< who answers for it
   bool connected = false;
   PeerId peer = 0;  ///< while connected
   std::uint64_t last_sequence = 0;
@@ -34,8 +36,7 @@ struct WorkerEntry {
   bool reserved = false;
   std::int64_t done = 0;
   std::int64_t failed = 0;
-  std::int64_t strikes = 0;  ///< evaluations that failed here and not elsewhere
-  /// Nothing goes to it, and nothing is taken from it, until its process ends.
+  /// As its principal: nothing goes to it, and nothing is taken from it.
   bool quarantined = false;
 
   bool usable() const { return connected && !quarantined; }
@@ -52,11 +53,12 @@ class WorkerRegistry {
   explicit WorkerRegistry(WorkerNumber first = 1) : next_(first) {}
 
   WorkerEntry* of_peer(PeerId peer);
-  WorkerEntry* of_identity(const std::string& identity);
+  /// Ids are the workers' own: the same one of another principal is another worker.
+  WorkerEntry* of_identity(const std::string& principal, const std::string& identity);
   WorkerEntry* of_number(WorkerNumber number);
 
   /// A worker that was never seen; not yet connected.
-  WorkerEntry& add(const std::string& identity);
+  WorkerEntry& add(Principal& principal, const std::string& identity);
   void connect(WorkerEntry& entry, PeerId peer, TimePoint now);
   void disconnect(WorkerEntry& entry);
   /// Forgets workers that are not connected and were not heard of for long.
@@ -81,8 +83,8 @@ class WorkerRegistry {
   std::size_t quarantined_ = 0;  ///< connected ones
 };
 
-/// The row that says how a worker is: "connected", "lost", "left", "refused" or
-/// "quarantined".
+/// The row that says how a worker is: "connected", "lost", "left" or "refused"; of one in
+/// quarantine always "quarantined", so that a later process knows it.
 WorkerRow row_of(const WorkerEntry& entry, const std::string& state);
 
 }  // namespace swarmsmith

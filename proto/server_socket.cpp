@@ -68,6 +68,12 @@ std::string key_of(zmq::message_t& frame) {
   return user != nullptr ? user : "";
 }
 
+/// Where it comes from; the text lives as long as the frame.
+std::string_view address_of(zmq::message_t& frame) {
+  const char* address = zmq_msg_gets(frame.handle(), "Peer-Address");
+  return address != nullptr ? address : "";
+}
+
 }  // namespace
 
 std::uint64_t Refusals::total() const {
@@ -193,7 +199,11 @@ bool ServerSocket::receive(Received& received) {
     }
     if (frames != 1) impl_->frame.rebuild();
     if (!id || (impl_->by_key && (peer == nullptr || !peer->client))) continue;
-    received = {.peer = *id, .frame = impl_->frame.to_string_view(), .role = {}, .client = {}};
+    received = {.peer = *id,
+                .frame = impl_->frame.to_string_view(),
+                .role = {},
+                .client = {},
+                .address = address_of(impl_->frame)};
     if (peer != nullptr) {
       received.role = peer->client->role;
       received.client = peer->client->name;

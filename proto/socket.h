@@ -61,6 +61,7 @@ class ServerSocket {
     std::string_view frame;  ///< until the next call; empty when the message was no single frame
     Role role = Role::Anyone;
     std::string_view client;  ///< name of its key in the allow-list, as long; empty without keys
+    std::string_view address;  ///< of the peer, a number without a port, as long
   };
 
   /// `endpoint` as "tcp://127.0.0.1:5555"; port * takes a free one. Unavailable when it is taken.

@@ -83,7 +83,9 @@ bool is_fine(const pb::Hello& hello) {
          hello.slots() <= kMaxSlots && hello.build().size() <= kMaxTextBytes &&
          hello.self_test().size() <= kMaxTextBytes && hello.host().size() <= kMaxTextBytes &&
          hello.job().size() <= kMaxTextBytes && hello.cpu().size() <= kMaxTextBytes &&
-         all(hello.holds(), is_key);
+         hello.secret().size() <= kMaxTextBytes && all(hello.holds(), is_key) &&
+         (hello.signatures().empty() || (hello.signatures_size() == hello.holds_size() &&
+                                         hello.attempts_size() == hello.holds_size()));
 }
 
 bool is_result(const pb::Result& result) {
@@ -120,6 +122,8 @@ bool is_fine(const pb::ToCoordinator& message) {
       return is_fine(message.heartbeat());
     case pb::ToCoordinator::kReturned:
       return all(message.returned().keys(), is_key);
+    case pb::ToCoordinator::kBegan:
+      return is_key(message.began().key());
     case pb::ToCoordinator::kCommand:
       return is_fine(message.command());
     case pb::ToCoordinator::kWantStatus:

@@ -194,7 +194,8 @@ struct DesignStateRow {
 };
 
 struct CampaignStateRow {
-  std::string state;  ///< "running", "finished", "stopped"
+  /// "running", "finished", "stopped"; "distrusted": its scores are wrong, or may be
+  std::string state;
 };
 
 /// Not part of the answer.
@@ -212,6 +213,7 @@ struct WorkerRow {
   std::string cpu;     ///< model of its processor
   std::string client;  ///< name of its key in the allow-list; empty without keys
   std::int64_t connections = 1;
+  std::string principal{};  ///< key's name and address, by which it is trusted or not
 };
 
 /// A lease that did not simply end with the evaluation's result, or that was not the only one. Not
@@ -279,6 +281,7 @@ struct StoredScore {
   double time = 0;
   double bound = 0;
   std::int64_t iteration = 0;  ///< that used it last; 0: none (EvaluationRow)
+  std::int64_t worker = 0;
 };
 
 /// What is compared while a campaign is replayed.

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -44,6 +45,13 @@ struct StoreOptions {
   /// How long to wait for another process that is writing the store: a command to a campaign at
   /// rest does so for a moment.
   std::chrono::milliseconds patience{0};
+};
+
+/// What a store knows of those who gave it its scores.
+struct StoredTrust {
+  std::map<std::int64_t, std::string> principals;  ///< by worker
+  std::vector<std::string> quarantined;            ///< principals
+  bool distrusted = false;                         ///< its scores are wrong, or may be
 };
 
 /// The one writer of a store: a SQLite file in WAL mode, synchronous=FULL, with a thread of its own
@@ -91,6 +99,10 @@ class Store {
   virtual std::int64_t next_worker() = 0;
   /// Whether the campaign's row says that it is finished.
   virtual bool finished() = 0;
+  virtual StoredTrust trust() { return {}; }
+  /// A secret that lasts as long as the campaign does: `fresh`, unless the store has one. It goes
+  /// when the campaign is finished.
+  virtual std::string keep_secret(const std::string& fresh) { return fresh; }
 };
 
 /// A campaign of a store. Most stores have one; merged ones, and ones into which results were

@@ -6,9 +6,7 @@
 #include <utility>
 
 namespace swarmsmith {
-namespace {
 
-/// An exception, an error and a score that is no number are all failures with a sentence.
 Evaluated evaluate(const Evaluator& evaluator, const WorkItem& item) {
   Evaluated evaluated{.key = item.key, .attempt = item.attempt};
   const auto begin = std::chrono::steady_clock::now();
@@ -36,8 +34,6 @@ Evaluated evaluate(const Evaluator& evaluator, const WorkItem& item) {
   evaluated.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(spent).count();
   return evaluated;
 }
-
-}  // namespace
 
 Pool::Pool(int slots, EvaluatorFactory make_evaluator, std::function<void()> wake)
     : slots_(slots), make_evaluator_(std::move(make_evaluator)), wake_(std::move(wake)) {

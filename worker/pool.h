@@ -16,6 +16,10 @@
 
 namespace swarmsmith {
 
+/// Runs an item: an exception, an error and a score that is no number are all failures with a
+/// sentence.
+Evaluated evaluate(const Evaluator& evaluator, const WorkItem& item);
+
 /// What slots did since somebody asked, in order.
 struct ItemStarted {
   PackedKey key = 0;

@@ -53,10 +53,13 @@ void WorkerProtocol::greet(TimePoint now) {
   hello.set_pid(identity_.pid);
   hello.set_job(clipped_text(identity_.job));
   hello.set_cpu(clipped_text(identity_.cpu));
+  hello.set_secret(identity_.secret);
   hello.set_scenario(scenario_);
   for (const auto& [key, held] : held_) {
     if (hello.holds_size() >= kMaxItemsPerMessage) break;
     unpack(key, *hello.add_holds());
+    hello.add_attempts(held.attempt);
+    hello.add_signatures(held.signature);
   }
   send(message, now);
 }
@@ -153,6 +156,7 @@ void WorkerProtocol::on_welcome(const pb::Welcome& welcome, TimePoint now) {
     scenario_ = welcome.scenario();
     has_scenario_ = false;
     held_.clear();
+    announced_.clear();
     finished_.clear();
     unsent_.clear();
     sent_.clear();
@@ -196,6 +200,10 @@ void WorkerProtocol::on_drain(TimePoint now) {
   if (state_ != State::Active) return leave(ExitCode::Done, "drained without a connection");
   update_credit(now);
   actions_.emplace_back(TakeBack{});
+  std::vector<PackedKey> announced;
+  for (const auto& [when, item] : std::exchange(announced_, {}))
+    announced.push_back(item.key);
+  if (!announced.empty()) on_taken_back(announced, now);
   flush(now);
 }
 
@@ -223,6 +231,7 @@ void WorkerProtocol::on_tick(TimePoint now) {
   // This process was stopped or starved: no wonder that nobody was heard.
   if (now - ticked_ > dead_after_ / 2) last_heard_ = now;
   ticked_ = now;
+  if (state_ != State::Left) begin_alone(now);
   switch (state_) {
     case State::Left:
       return;
@@ -254,6 +263,13 @@ void WorkerProtocol::on_tick(TimePoint now) {
 }
 
 TimePoint WorkerProtocol::next_deadline() const {
+  TimePoint next = next_of_state();
+  for (const auto& [when, item] : announced_)
+    next = std::min(next, when);
+  return next;
+}
+
+TimePoint WorkerProtocol::next_of_state() const {
   switch (state_) {
     case State::Left:
       return ticked_;

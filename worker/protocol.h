@@ -28,7 +28,8 @@ struct WorkerIdentity {
   std::string host{};
   std::int64_t pid = 0;
   std::string job{};
-  std::string cpu{};  ///< model of the processor
+  std::string cpu{};     ///< model of the processor
+  std::string secret{};  ///< given by the coordinator that started it; empty for others
 };
 
 struct WorkerOptions {
@@ -41,6 +42,8 @@ struct WorkerOptions {
   Duration flush_after = std::chrono::milliseconds(5);
   Duration work_ahead = std::chrono::milliseconds(20);
   Duration grace = std::chrono::seconds(5);
+  /// A task that runs alone may end this process: it begins when its coordinator has been told.
+  Duration before_alone = std::chrono::milliseconds(20);
   /// Asks for nothing while it has more results than this that are not acknowledged.
   std::size_t max_unacknowledged = 16'384;
 };
@@ -68,6 +71,9 @@ struct Leave {
 };
 using WorkerAction = std::variant<OpenConnection, SendToCoordinator, UseScenario, RunItems,
                                   TakeBack, DropItems, Leave>;
+
+/// A task of a message; the caller has checked its key.
+WorkItem work_item_of(const pb::Task& task);
 
 /// A worker's side of the protocol. Pure: events in with the time, actions out.
 ///
@@ -106,10 +112,12 @@ class WorkerProtocol {
 
   struct Held {
     std::int64_t attempt = 0;
-    std::optional<TimePoint> started;
+    std::uint64_t signature = 0;
+    std::optional<TimePoint> started{};
   };
   struct Finished {
     Evaluated evaluated;
+    std::uint64_t signature = 0;
     bool queued = false;  ///< in `unsent_`
     TimePoint sent;
   };
@@ -121,6 +129,8 @@ class WorkerProtocol {
   void on_welcome(const pb::Welcome& welcome, TimePoint now);
   void on_reject(const pb::Reject& reject);
   void on_tasks(const pb::Tasks& tasks, TimePoint now);
+  void announce(WorkItem item, TimePoint now);
+  void begin_alone(TimePoint now);
   void on_scenario(const pb::ScenarioReply& reply, TimePoint now);
   void be_ready(TimePoint now);
   void queue_result(PackedKey key, Finished& finished, TimePoint now);
@@ -133,6 +143,7 @@ class WorkerProtocol {
   void heartbeat(TimePoint now);
   void count_busy(const Held& held, std::int64_t wall_us, TimePoint now);
   void finish_draining(TimePoint now);
+  TimePoint next_of_state() const;
   void send(pb::ToCoordinator& message, TimePoint now);
 
   WorkerIdentity identity_;
@@ -166,7 +177,8 @@ class WorkerProtocol {
   TimePoint welcomed_;
   Duration busy_{0};  ///< slot time since then that finished evaluations took
   std::unordered_map<PackedKey, Held> held_;
-  std::unordered_map<PackedKey, Finished> finished_;  ///< until acknowledged
+  std::vector<std::pair<TimePoint, WorkItem>> announced_;  ///< to begin then
+  std::unordered_map<PackedKey, Finished> finished_;       ///< until acknowledged
   std::vector<PackedKey> unsent_;
   TimePoint oldest_unsent_;
   std::deque<std::pair<TimePoint, PackedKey>> sent_;  ///< in order of sending, stale ones too

@@ -6,6 +6,20 @@
 // The part of the protocol that carries work: tasks in, results out, credit for more.
 
 namespace swarmsmith {
+
+WorkItem work_item_of(const pb::Task& task) {
+  return {.key = *pack(task.key()),
+          .attempt = task.attempt(),
+          .signature = task.signature(),
+          .mission = task.mission(),
+          .method = task.method(),
+          .instance = task.instance(),
+          .seed = task.seed(),
+          .machine = task.machine(),
+          .bound = task.bound(),
+          .alive = {task.alive().begin(), task.alive().end()}};
+}
+
 void WorkerProtocol::on_tasks(const pb::Tasks& tasks, TimePoint now) {
   if (state_ != State::Active || !has_scenario_ || tasks.scenario() != scenario_) return;
   RunItems run;
@@ -16,6 +30,10 @@ void WorkerProtocol::on_tasks(const pb::Tasks& tasks, TimePoint now) {
       const Evaluated& known = finished->second.evaluated;
       const bool again = !known.failure.empty() && task.attempt() > known.attempt;
       if (!again) {
+        if (known.failure.empty()) {
+          finished->second.signature = task.signature();
+          finished->second.evaluated.attempt = task.attempt();
+        }
         queue_result(key, finished->second, now);
         continue;
       }
@@ -25,21 +43,35 @@ void WorkerProtocol::on_tasks(const pb::Tasks& tasks, TimePoint now) {
       refused.push_back(key);
       continue;
     }
-    const auto [held, is_new] = held_.try_emplace(key, Held{task.attempt(), {}});
+    const auto [held, is_new] = held_.try_emplace(key);
     held->second.attempt = task.attempt();
+    held->second.signature = task.signature();
     if (!is_new) continue;
-    run.items.push_back({.key = key,
-                         .attempt = task.attempt(),
-                         .mission = task.mission(),
-                         .method = task.method(),
-                         .instance = task.instance(),
-                         .seed = task.seed(),
-                         .machine = task.machine(),
-                         .bound = task.bound(),
-                         .alive = {task.alive().begin(), task.alive().end()}});
+    if (task.alone()) {
+      announce(work_item_of(task), now);
+    } else {
+      run.items.push_back(work_item_of(task));
+    }
   }
   if (!run.items.empty()) actions_.emplace_back(std::move(run));
   if (!refused.empty()) on_taken_back(refused, now);
+}
+
+void WorkerProtocol::announce(WorkItem item, TimePoint now) {
+  pb::ToCoordinator message;
+  unpack(item.key, *message.mutable_began()->mutable_key());
+  send(message, now);
+  announced_.emplace_back(now + options_.before_alone, std::move(item));
+}
+
+void WorkerProtocol::begin_alone(TimePoint now) {
+  RunItems run;
+  std::erase_if(announced_, [&](auto& each) {
+    const bool is_due = now >= each.first;
+    if (is_due) run.items.push_back(std::move(each.second));
+    return is_due;
+  });
+  if (!run.items.empty()) actions_.emplace_back(std::move(run));
 }
 
 void WorkerProtocol::on_started(PackedKey key, TimePoint now) {
@@ -54,12 +86,13 @@ void WorkerProtocol::on_evaluated(Evaluated evaluated, TimePoint now) {
   // What ends this worker ends its programs too: such a failure says nothing of the evaluation.
   if (drain_until_ && !evaluated.failure.empty()) return on_taken_back({&key, 1}, now);
   evaluated.attempt = held->second.attempt;
+  const std::uint64_t signature = held->second.signature;
   count_busy(held->second, evaluated.wall_us, now);
   held_.erase(held);
   const auto spent_us = static_cast<double>(evaluated.wall_us);
   estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
   Finished& finished = finished_[key];
-  finished = Finished{std::move(evaluated), false, {}};
+  finished = Finished{std::move(evaluated), signature, false, {}};
   queue_result(key, finished, now);
   if (must_flush(now)) flush(now);
   if (drain_until_) finish_draining(now);
@@ -103,6 +136,7 @@ void WorkerProtocol::send_results(std::span<const PackedKey> keys, TimePoint now
     pb::Result& out = *results.add_results();
     unpack(key, *out.mutable_key());
     out.set_attempt(evaluated.attempt);
+    out.set_signature(at->second.signature);
     out.set_score(evaluated.score);
     out.set_state_digest(evaluated.state_digest);
     out.set_wall_us(evaluated.wall_us);

@@ -16,6 +16,7 @@ namespace swarmsmith {
 struct WorkItem {
   PackedKey key = 0;  ///< says the campaign too
   std::int64_t attempt = 0;
+  std::uint64_t signature = 0;  ///< of its lease
   std::uint32_t mission = 0;
   std::uint32_t method = 0;
   /// From 1; of a call of a targetEvaluator in testing the negative of it.

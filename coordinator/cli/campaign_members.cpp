@@ -50,6 +50,14 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
     const std::vector<CommandRow> commands = (*store)->commands();
     for (const CommandRow& command : commands)
       listener.restore(i, command);
+    if ((*store)->trust().distrusted) {
+      return fail(output_, ExitCode::Store,
+                  {ErrorKind::Conflict,
+                   "scores in this store are not to be believed (`swarmsmith query STORE \"SELECT "
+                   "text FROM event WHERE severity = 'error'\"` says why); run the campaign again "
+                   "into a new store",
+                   campaign.store.string()});
+    }
     if ((*store)->finished() && !waits_for_extension(commands)) continue;
     members_[i].store = std::move(*store);
     running_.push_back(i);
@@ -99,6 +107,7 @@ void CampaignMembers::end(const ServiceEnd& end, const std::string& trouble) {
   for (std::size_t i = 0; i < running_.size(); ++i) {
     Member& member = members_[running_[i]];
     member.end = end_of(member, end.reasons[i], trouble);
+    if (end.distrusted[i]) member.end = ExitCode::Store;
   }
 }
 

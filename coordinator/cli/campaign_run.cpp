@@ -109,6 +109,7 @@ class CampaignRun {
   Expected<std::unique_ptr<Service>> listen() {
     ServiceOptions service = service_options(members_.campaigns(), options_);
     service.coordinator.scheduler.first_worker = members_.first_worker();
+    local_secret_ = service.coordinator.local_secret;
     service.keys = access_.keys;
     service.insecure_plaintext = access_.insecure_plaintext;
     if (access_.watch) {
@@ -122,6 +123,7 @@ class CampaignRun {
     const Campaign& first = members_.campaign(members_.running().front());
     WorkersSetup setup{.launch = launch_of(first, options_),
                        .local_slots = static_cast<int>(options_.slots),
+                       .local_secret = local_secret_,
                        .campaign_digest = campaign_digest(first),
                        .store = first.store};
     const auto file = std::filesystem::absolute(coordinator_files().front());
@@ -198,6 +200,7 @@ class CampaignRun {
   LiveStatus last_;
   std::unique_ptr<HttpServer> pages_;
   Access access_;
+  std::string local_secret_;
 };
 
 /// Lines of several campaigns begin with their names.

@@ -59,6 +59,15 @@ ServiceOptions service_options(const std::vector<const Campaign*>& campaigns,
   scheduler.engine_version = kEngineVersion;
   scheduler.self_test = self_test_digest();
   scheduler.evaluates_programs = campaigns.front()->target.has_value();
+  if (!scheduler.evaluates_programs) {
+    service.make_referee = [](const std::string& scenario, std::function<void()> on_ruling) {
+      return make_process_referee({.scenario = scenario,
+                                   .engine_version = kEngineVersion,
+                                   .self_test = self_test_digest(),
+                                   .on_ruling = std::move(on_ruling)});
+    };
+  }
+  service.coordinator.local_secret = random_secret();
   service.bind = bind_of(options);
   return service;
 }

@@ -82,6 +82,13 @@ std::vector<Row> CampaignRunner::take_rows() {
   return std::exchange(rows_, {});
 }
 
+std::optional<Task> CampaignRunner::task_of(const EvaluationKey& key) const {
+  const DesignId id = design_of(key.candidate);
+  if (const auto found = open_.find(id); found != open_.end()) return found->second.task_of(key);
+  const auto kept = kept_.find(id);
+  return kept == kept_.end() ? std::nullopt : kept->second.task_of(key);
+}
+
 void CampaignRunner::tell(const Outcome& outcome) {
   const DesignId id = design_of(outcome.key.candidate);
   // Given ahead, and wanted since an outcome that came with this one.

@@ -46,6 +46,7 @@ class CampaignRunner final : public WorkSource {
   std::vector<EvaluationKey> take_dropped() override;
   std::vector<DesignId> take_ended() override { return std::exchange(ended_, {}); }
   Expected<void> carry_out(const CommandRow& command) override;
+  std::optional<Task> task_of(const EvaluationKey& key) const override;
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override;
   bool finished() const override;

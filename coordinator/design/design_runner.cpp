@@ -163,7 +163,8 @@ void DesignRunner::want_batch(std::vector<Task>& tasks, std::vector<Row>& rows) 
 }
 
 void DesignRunner::record_pair(Purpose purpose, const Experiment& experiment,
-                               std::vector<Row>& rows) const {
+                               std::vector<Row>& rows) {
+  if (purpose == Purpose::Race) pairs_.emplace(experiment.pair, experiment);
   record(PairRow{.design = plan_.row.id,
                  .purpose = purpose,
                  .number = experiment.pair,

@@ -83,6 +83,9 @@ class DesignRunner {
   /// was written by another engine or is damaged.
   Expected<void> advance(std::vector<Task>& tasks, std::vector<Row>& rows);
 
+  /// The task of an evaluation in the race or the tests that was asked for; nothing for others.
+  std::optional<Task> task_of(const EvaluationKey& key) const;
+
   /// A wanted task's outcome, or that of one that was given ahead; its row goes to `rows`. Call
   /// `advance` after one or more of these.
   void tell(const Outcome& outcome, std::vector<Row>& rows);
@@ -178,7 +181,7 @@ class DesignRunner {
   void put(std::size_t position, const StoredScore& score);
   /// The store has the evaluation; when no iteration has used it so far, it takes it from this row.
   void record_use(const StoredScore& score, std::vector<Row>& rows) const;
-  void record_pair(Purpose purpose, const Experiment& experiment, std::vector<Row>& rows) const;
+  void record_pair(Purpose purpose, const Experiment& experiment, std::vector<Row>& rows);
   Expected<void> record_events(std::vector<Row>& rows);
   Expected<void> record_step(const RaceStep& step, std::vector<Row>& rows);
   void record_estimate(const TimeEstimated& estimated, std::vector<Row>& rows);
@@ -237,9 +240,10 @@ class DesignRunner {
   std::size_t consumed_ = 0;  ///< of them, by the race's steps
   bool reported_ = false;     ///< a step or an estimate came with the last batch
   std::int64_t pairs_known_ = 0;
-  std::int64_t tests_known_ = 0;  ///< pairs of the tests
-  std::int64_t calls_known_ = 0;  ///< tasks of the targetEvaluator
-  std::int64_t test_calls_ = 0;   ///< of them in testing, before the race went on
+  std::map<std::int64_t, Experiment> pairs_;  ///< of the race, as somebody was first tried on them
+  std::int64_t tests_known_ = 0;              ///< pairs of the tests
+  std::int64_t calls_known_ = 0;              ///< tasks of the targetEvaluator
+  std::int64_t test_calls_ = 0;               ///< of them in testing, before the race went on
   /// Of tests: those who are tested again after an extension are not run again.
   std::unordered_map<std::uint64_t, StoredScore> tested_scores_;
   bool test_calls_wanted_ = false;

@@ -93,6 +93,19 @@ void DesignRunner::want_test_calls(std::vector<Task>& tasks, std::vector<Row>& r
   }
 }
 
+std::optional<Task> DesignRunner::task_of(const EvaluationKey& key) const {
+  const std::int64_t number = number_of(key.candidate);
+  if (number > static_cast<std::int64_t>(machines_.size())) return std::nullopt;
+  if (key.purpose == Purpose::Test && key.pair <= plan_.tests.count) {
+    return task_of(key, test_experiment(plan_, number, key.pair));
+  }
+  const auto pair = pairs_.find(key.pair);
+  if (key.purpose != Purpose::Race || pair == pairs_.end()) return std::nullopt;
+  Experiment experiment = pair->second;
+  experiment.configuration = number;
+  return task_of(key, experiment);
+}
+
 bool DesignRunner::finish_tests(std::vector<Task>& tasks, std::vector<Row>& rows) {
   if (!awaited_.empty()) return false;
   if (!plan_.scenario.target_evaluator) return true;

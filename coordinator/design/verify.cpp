@@ -216,6 +216,17 @@ void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complai
   if (!found) complaints.push_back(to_string(found.error()));
 }
 
+/// Coordinators say so when they find a lie, or another error, among the stored scores.
+void complain_of_distrust(StoreReader& store, std::vector<std::string>& complaints) {
+  for (const StoredCampaign& campaign : store.campaigns()) {
+    if (campaign.state != "distrusted") continue;
+    complaints.push_back(fmt::format(
+        "campaign {}: stored scores are wrong, or may be: the coordinator made some of them again, "
+        "with other bits; see the events",
+        campaign.row.name));
+  }
+}
+
 /// The races of one campaign, which the reader shows as if it were alone.
 void verify_campaign(StoreReader& store, std::vector<DesignPlan> plans, Verification& result) {
   std::map<DesignId, DesignAnswer> stored;
@@ -246,6 +257,7 @@ std::string name_of(const StoredCampaign& campaign) {
 Expected<Verification> verify(StoreReader& store) {
   Verification result{.complaints = store.integrity()};
   complain_of_conflicts(store, result.complaints);
+  complain_of_distrust(store, result.complaints);
   result.real_runs = verify_real_runs(store, result.complaints);
   const std::vector<StoredCampaign> campaigns = store.campaigns();
   for (const StoredCampaign& campaign : campaigns) {

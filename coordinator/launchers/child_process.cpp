@@ -41,20 +41,27 @@ struct Pipe {
   }
 };
 
-int spawn(const std::vector<std::string>& words, const posix_spawn_file_actions_t* streams,
-          pid_t& pid) {
-  std::vector<std::string> copy = words;
-  std::vector<char*> arguments;
-  arguments.reserve(copy.size() + 1);
-  for (std::string& word : copy)
-    arguments.push_back(word.data());
-  arguments.push_back(nullptr);
+std::vector<char*> pointers_to(std::vector<std::string>& texts) {
+  std::vector<char*> pointers;
+  pointers.reserve(texts.size() + 1);
+  for (std::string& text : texts)
+    pointers.push_back(text.data());
+  pointers.push_back(nullptr);
+  return pointers;
+}
+
+int spawn(std::vector<std::string> words, const posix_spawn_file_actions_t* streams,
+          std::vector<std::string> variables, pid_t& pid) {
+  const std::vector<char*> arguments = pointers_to(words);
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    variables.emplace_back(*variable);
+  const std::vector<char*> environment = pointers_to(variables);
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETPGROUP);
   posix_spawnattr_setpgroup(&attributes, 0);
-  const int failed =
-      posix_spawnp(&pid, arguments.front(), streams, &attributes, arguments.data(), environ);
+  const int failed = posix_spawnp(&pid, arguments.front(), streams, &attributes, arguments.data(),
+                                  environment.data());
   posix_spawnattr_destroy(&attributes);
   return failed;
 }
@@ -64,6 +71,7 @@ int spawn(const std::vector<std::string>& words, const posix_spawn_file_actions_
 ChildProcess::ChildProcess(ChildProcess&& other) noexcept
     : pid_(std::exchange(other.pid_, 0)),
       input_(std::exchange(other.input_, -1)),
+      output_(std::exchange(other.output_, -1)),
       errors_(std::exchange(other.errors_, -1)),
       line_(std::move(other.line_)),
       last_line_(std::move(other.last_line_)) {}
@@ -72,31 +80,35 @@ ChildProcess::~ChildProcess() {
   finish_by({});
 }
 
-Expected<void> ChildProcess::start(const std::vector<std::string>& words, Streams streams) {
+Expected<void> ChildProcess::start(const std::vector<std::string>& words, Streams streams,
+                                   const std::vector<std::string>& variables) {
   close_streams();
   line_.clear();
   last_line_.clear();
   int failed = 0;
   if (streams == Streams::Inherited) {
-    failed = spawn(words, nullptr, pid_);
+    failed = spawn(words, nullptr, variables, pid_);
   } else {
     Pipe input;
-    Pipe errors;
-    if (input.write < 0 || errors.write < 0) {
+    Pipe words_of_it;
+    if (input.write < 0 || words_of_it.write < 0) {
       return unexpected(ErrorKind::Unavailable,
                         std::string("cannot be started: ") + std::strerror(errno), words.front());
     }
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_adddup2(&actions, input.read, STDIN_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, errors.write, STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, errors.write, STDERR_FILENO);
-    failed = spawn(words, &actions, pid_);
+    posix_spawn_file_actions_adddup2(&actions, words_of_it.write, STDOUT_FILENO);
+    if (streams == Streams::Held) {
+      posix_spawn_file_actions_adddup2(&actions, words_of_it.write, STDERR_FILENO);
+    }
+    failed = spawn(words, &actions, variables, pid_);
     posix_spawn_file_actions_destroy(&actions);
     if (failed == 0) {
       input_ = std::exchange(input.write, -1);
-      errors_ = std::exchange(errors.read, -1);
-      fcntl(errors_, F_SETFL, O_NONBLOCK);
+      int& kept = streams == Streams::Held ? errors_ : output_;
+      kept = std::exchange(words_of_it.read, -1);
+      if (streams == Streams::Held) fcntl(errors_, F_SETFL, O_NONBLOCK);
     }
   }
   if (failed == 0) return {};
@@ -156,6 +168,7 @@ void ChildProcess::finish_by(TimePoint until) {
 
 void ChildProcess::close_streams() {
   close_one(input_);
+  close_one(output_);
   close_one(errors_);
 }
 

@@ -19,6 +19,8 @@ class ChildProcess {
     Inherited,
     /// Its input ends when this object or this process does, and its errors are read by it.
     Held,
+    /// Its input ends as with Held, and its output is read by whoever has this object; both block.
+    Spoken,
   };
 
   ChildProcess() = default;
@@ -26,8 +28,10 @@ class ChildProcess {
   ChildProcess(ChildProcess&& other) noexcept;
   ChildProcess& operator=(ChildProcess&&) = delete;
 
-  /// Starts `words[0]`, looked for in PATH when its name has no slash. None may run yet.
-  Expected<void> start(const std::vector<std::string>& words, Streams streams);
+  /// Starts `words[0]`, looked for in PATH when its name has no slash, with further variables
+  /// ("NAME=value") in its environment. None may run yet.
+  Expected<void> start(const std::vector<std::string>& words, Streams streams,
+                       const std::vector<std::string>& variables = {});
 
   bool runs() const { return pid_ > 0; }
   pid_t pid() const { return pid_; }
@@ -35,6 +39,9 @@ class ChildProcess {
   std::optional<int> ended();
   void signal(int number) const;
   void end_input();
+  /// Descriptors of a Spoken one; -1 when it has ended.
+  int input() const { return input_; }
+  int output() const { return output_; }
   /// The last line that it has written to its errors so far; empty for none.
   const std::string& last_line();
   /// Waits for its end until then, and ends it with SIGKILL after that.
@@ -45,6 +52,7 @@ class ChildProcess {
 
   pid_t pid_ = 0;
   int input_ = -1;
+  int output_ = -1;
   int errors_ = -1;
   std::string line_;       ///< the one that is being written
   std::string last_line_;  ///< not blank

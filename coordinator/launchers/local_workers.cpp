@@ -8,6 +8,7 @@
 #include <random>
 #include <utility>
 
+#include "base/local_secret.h"
 #include "coordinator/launchers/worker_program.h"
 
 namespace swarmsmith {
@@ -45,6 +46,9 @@ Expected<LocalWorkers> LocalWorkers::start(const LocalWorkersOptions& options) {
       std::to_string(slots), "--die-with-parent", "--parent",       std::to_string(getpid())};
   workers.command_.insert(workers.command_.end(), options.arguments.begin(),
                           options.arguments.end());
+  if (!options.secret.empty()) {
+    workers.variables_.push_back(std::string(kLocalSecret) + "=" + options.secret);
+  }
   workers.wanted_ = processes;
   std::random_device device;
   for (int i = 0; i < processes; ++i) {
@@ -64,7 +68,7 @@ LocalWorkers::~LocalWorkers() {
 /// it was told: so no moment is left in which it could be orphaned. Note that the kernel means the
 /// parent *thread*, which is why one thread does all of this.
 Expected<void> LocalWorkers::launch(Worker& worker, TimePoint now) {
-  const auto started = worker.process.start(command_, ChildProcess::Streams::Inherited);
+  const auto started = worker.process.start(command_, ChildProcess::Streams::Inherited, variables_);
   if (!started) {
     return unexpected(ErrorKind::Unavailable, "a worker " + started.error().message,
                       started.error().where);

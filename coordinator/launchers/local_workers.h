@@ -18,6 +18,7 @@ struct LocalWorkersOptions {
   int slots = 0;  ///< of each process; 0: as many as CPUs, shared among the processes
   std::filesystem::path program;       ///< empty: `find_worker_program`
   std::vector<std::string> arguments;  ///< more of them, for the program
+  std::string secret{};                ///< by which the coordinator knows them; empty for none
 };
 
 /// Worker processes of this host. They die with this process whatever happens to it. One that ends
@@ -50,6 +51,7 @@ class LocalWorkers final : public Launcher {
   void on_ended(Worker& worker, int status, TimePoint now);
 
   std::vector<std::string> command_;
+  std::vector<std::string> variables_;  ///< of their environment
   std::vector<Worker> workers_;
   std::int64_t wanted_ = 0;
   std::string trouble_;

@@ -27,7 +27,8 @@ Started start_local(const WorkersSetup& setup) {
   return boxed(LocalWorkers::start({.endpoint = setup.address.endpoint,
                                     .processes = static_cast<int>(setup.launch.processes),
                                     .slots = setup.local_slots,
-                                    .arguments = std::move(arguments)}));
+                                    .arguments = std::move(arguments),
+                                    .secret = setup.local_secret}));
 }
 
 Started start_ssh(const WorkersSetup& setup) {

@@ -17,6 +17,7 @@ struct WorkersSetup {
   WorkerAddress address;
   int local_slots = 0;                 ///< of each local process; 0: the cores, shared
   std::vector<std::string> arguments;  ///< more of them, for the worker program
+  std::string local_secret;            ///< by which the coordinator knows those of this host
   std::string campaign_digest;
   std::filesystem::path store;
   /// Where files for workers elsewhere go: all of them must see it.

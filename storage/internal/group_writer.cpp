@@ -99,6 +99,16 @@ bool GroupWriter::finished() {
   return is_finished(connection_);
 }
 
+StoredTrust GroupWriter::trust() {
+  const std::lock_guard guard(connection_mutex_);
+  return read_trust(connection_);
+}
+
+std::string GroupWriter::keep_secret(const std::string& fresh) {
+  const std::lock_guard guard(connection_mutex_);
+  return swarmsmith::keep_secret(connection_, fresh);
+}
+
 void GroupWriter::run(const std::stop_token& stop) {
   std::vector<Batch> group;
   std::string trouble;

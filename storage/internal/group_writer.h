@@ -32,6 +32,8 @@ class GroupWriter final : public Store {
   std::vector<CommandRow> commands() override;
   std::int64_t next_worker() override;
   bool finished() override;
+  StoredTrust trust() override;
+  std::string keep_secret(const std::string& fresh) override;
 
  private:
   struct Batch {

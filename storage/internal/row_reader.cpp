@@ -250,7 +250,7 @@ std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const
   std::vector<StoredScore> scores;
   const std::string times = is_first_schema(connection) ? "NULL, NULL" : "time, bound";
   Statement row(connection, "SELECT candidate, purpose, pair, status, score, state_digest, " +
-                                times + ", iteration FROM evaluation WHERE " +
+                                times + ", iteration, worker FROM evaluation WHERE " +
                                 candidates_of(part, "candidate") +
                                 " ORDER BY candidate, purpose, pair");
   const Shift shift = shift_of(part);
@@ -261,7 +261,8 @@ std::vector<StoredScore> read_scores(const sqlite::Connection& connection, const
                       .state_digest = row.bits(5),
                       .time = row.real(6),
                       .bound = row.real(7),
-                      .iteration = row.integer(8)});
+                      .iteration = row.integer(8),
+                      .worker = row.integer(9)});
   }
   return scores;
 }
@@ -305,6 +306,35 @@ std::vector<CommandRow> read_commands(const sqlite::Connection& connection, cons
 std::int64_t read_next_worker(const sqlite::Connection& connection) {
   Statement row(connection, "SELECT coalesce(max(id), 0) + 1 FROM worker");
   return row.step() ? row.integer(0) : 1;
+}
+
+StoredTrust read_trust(const sqlite::Connection& connection) {
+  StoredTrust trust;
+  Statement worker(connection, "SELECT id, principal, state FROM worker WHERE principal <> ''");
+  while (worker.step()) {
+    trust.principals.emplace(worker.integer(0), worker.text(1));
+    if (worker.text(2) == "quarantined") trust.quarantined.push_back(worker.text(1));
+  }
+  trust.distrusted = sqlite::integer_of(connection,
+                                        "SELECT count(*) FROM campaign"
+                                        " WHERE id = 1 AND state = 'distrusted'") > 0;
+  return trust;
+}
+
+std::string keep_secret(sqlite::Connection& connection, const std::string& fresh) {
+  sqlite::Transaction transaction(connection);
+  Statement(connection, "INSERT OR IGNORE INTO meta VALUES ('lease_secret', ?)").run(fresh);
+  const std::string kept =
+      sqlite::text_of(connection, "SELECT value FROM meta WHERE key = 'lease_secret'");
+  transaction.commit();
+  return kept;
+}
+
+void forget_secret(sqlite::Connection& connection) {
+  // Its bytes do not stay behind in the file either.
+  connection.execute(
+      "PRAGMA secure_delete = ON; DELETE FROM meta WHERE key = 'lease_secret';"
+      "PRAGMA secure_delete = OFF");
 }
 
 bool is_finished(const sqlite::Connection& connection) {

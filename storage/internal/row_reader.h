@@ -47,4 +47,9 @@ void read_answer(const sqlite::Connection& connection, const Part& part,
 void read_candidates(const sqlite::Connection& connection, const Part& part,
                      const std::function<void(const Row&)>& on_row);
 
+StoredTrust read_trust(const sqlite::Connection& connection);
+/// See Store::keep_secret.
+std::string keep_secret(sqlite::Connection& connection, const std::string& fresh);
+void forget_secret(sqlite::Connection& connection);
+
 }  // namespace swarmsmith

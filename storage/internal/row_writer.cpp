@@ -40,12 +40,12 @@ constexpr char kCampaignState[] =
     " coalesce(finished, strftime('%Y-%m-%dT%H:%M:%fZ', 'now')) END WHERE id = 1";
 constexpr char kWorker[] =
     "INSERT INTO worker (id, identity, host, pid, slots, build, state, done, failed, job, cpu,"
-    " client, connections)"
-    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO UPDATE SET identity = excluded.identity,"
+    " client, connections, principal)"
+    " VALUES (?,?,?,?,?,?,?,?,?,?,?,?,?,?) ON CONFLICT DO UPDATE SET identity = excluded.identity,"
     " host = excluded.host, pid = excluded.pid, slots = excluded.slots, build = excluded.build,"
     " state = excluded.state, done = excluded.done, failed = excluded.failed,"
     " job = excluded.job, cpu = excluded.cpu, client = excluded.client,"
-    " connections = excluded.connections,"
+    " connections = excluded.connections, principal = excluded.principal,"
     " last_seen = excluded.last_seen";
 constexpr char kConflict[] =
     "INSERT OR IGNORE INTO conflict (candidate, purpose, pair, kept_score, other_score,"
@@ -175,11 +175,13 @@ void RowWriter::put(const DesignStateRow& row) {
 
 void RowWriter::put(const CampaignStateRow& row) {
   campaign_state_.run(row.state);
+  // Nobody signs leases of a campaign that is over.
+  if (row.state == "finished") forget_secret(connection_);
 }
 
 void RowWriter::put(const WorkerRow& row) {
   worker_.run(row.id, row.identity, row.host, row.pid, row.slots, row.build, row.state, row.done,
-              row.failed, row.job, row.cpu, row.client, row.connections);
+              row.failed, row.job, row.cpu, row.client, row.connections, row.principal);
 }
 
 void RowWriter::put(const ConflictRow& row) {

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "embedded/kAuthoritySchema.h"
 #include "embedded/kClusterSchema.h"
 #include "embedded/kInitialSchema.h"
 #include "embedded/kResultsSchema.h"
@@ -33,11 +34,12 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 4> kMigrations = {
+  static const std::array<Migration, 5> kMigrations = {
       Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
       Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
       Migration{4, [](sqlite::Connection& connection) { connection.execute(kResultsSchema); }},
       Migration{5, [](sqlite::Connection& connection) { connection.execute(kTrackingSchema); }},
+      Migration{6, [](sqlite::Connection& connection) { connection.execute(kAuthoritySchema); }},
   };
   return kMigrations;
 }

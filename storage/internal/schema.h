@@ -15,7 +15,7 @@ namespace swarmsmith {
 /// "SwSm": marks a SQLite file as one of ours (PRAGMA application_id).
 inline constexpr std::int64_t kApplicationId = 0x5377536d;
 /// Version of tables and views (PRAGMA user_version). A change of either is a new version.
-inline constexpr std::int64_t kSchemaVersion = 5;
+inline constexpr std::int64_t kSchemaVersion = 6;
 
 /// The step from one version to the next; runs in a transaction of its own. Views need no step:
 /// they are made anew.

@@ -241,7 +241,7 @@ LEFT JOIN race_step AS s ON s.design = d.id AND s.step = x.step;
 
 CREATE VIEW v_workers AS
 SELECT id AS worker, identity, host, pid, slots, build, state, done, failed, first_seen, last_seen,
-       job, cpu, client, connections
+       job, cpu, client, connections, principal
 FROM worker;
 
 CREATE VIEW v_attempts AS

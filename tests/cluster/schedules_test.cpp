@@ -82,16 +82,17 @@ TEST(SimulatedCluster, LooksAheadAndSharesThePoolAmongCampaigns) {
   EXPECT_GT(ahead, 100U);
 }
 
-TEST(SimulatedCluster, RejectsWhatKillsItsWorkersThreeTimesAlone) {
+TEST(SimulatedCluster, RejectsWhatKillsAWorkerAloneAndTheRefereeToo) {
   int with_one = 0;
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     SimulatedCluster cluster(
         {.seed = seed, .faults = {}, .campaign = {.seed = seed, .killing = true}});
     EXPECT_EQ(cluster.run(), "") << seed;
     if (cluster.killers() != 1) continue;
-    // Once among others, perhaps once more as a second copy, three times alone.
-    EXPECT_GE(cluster.crashes(), 4) << seed;
-    EXPECT_LE(cluster.crashes(), 5) << seed;
+    // Once among others, perhaps once more as a second copy, once alone; or, while nobody has
+    // proved itself, six times.
+    EXPECT_GE(cluster.crashes(), 2) << seed;
+    EXPECT_LE(cluster.crashes(), 8) << seed;
     ++with_one;
   }
   EXPECT_GT(with_one, 0);

@@ -177,6 +177,7 @@ class SimulatedCluster {
   void start_coordinator();
   void crash_coordinator();
   void settle_coordinator();
+  void judge(const AskReferee& ask);
   void tick_coordinator();
   void append(std::uint32_t campaign, std::vector<Row> rows);
   void commit(std::uint32_t campaign);
@@ -199,7 +200,7 @@ class SimulatedCluster {
   Peer worker_at(PeerId connection) const;
   void check_row(const Running& running, const Row& row);
   void check_trust();
-  void on_stopped(const std::string& reason);
+  void on_stopped(const std::string& reason, bool distrusted);
   bool is_excused();
 
   // Workers.

@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "base/overloaded.h"
+#include "coordinator/lease_signer.h"
 #include "coordinator/paused_designs.h"
+#include "coordinator/task_key.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {
@@ -21,6 +23,8 @@ CoordinatorOptions coordinator_options(std::int64_t first_worker, std::size_t ca
   for (CampaignPolicy& policy : options.scheduler.campaigns)
     policy.audit_every = audit_every;
   options.scenario = kScenario;
+  // As it is found again after a crash.
+  options.scheduler.lease_secret = lease_secret_of("lasting", 1);
   return options;
 }
 
@@ -48,7 +52,8 @@ void SimulatedCluster::start_coordinator() {
     works.push_back({.digest = "cluster" + std::to_string(works.size()),
                      .source = running.source.get(),
                      .known = known.back(),
-                     .commands = commands.back()});
+                     .commands = commands.back(),
+                     .trust = running.disk.trust()});
   }
   coordinator_ = std::make_unique<Coordinator>(
       coordinator_options(first_worker, campaigns_.size(), schedule_.audit_every), works);
@@ -102,7 +107,7 @@ void SimulatedCluster::settle_coordinator() {
                               }
                             },
                             [&](AppendRows& rows) { append(rows.campaign, std::move(rows.rows)); },
-                            [](const AnswerStatus&) {}},
+                            [](const AnswerStatus&) {}, [&](const AskReferee& ask) { judge(ask); }},
                  action);
     }
   }
@@ -111,8 +116,27 @@ void SimulatedCluster::settle_coordinator() {
   for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
     const std::string complaint = campaigns_[index].source->complaint();
     if (!complaint.empty()) fail(complaint);
-    if (coordinator_->stopped(index)) on_stopped(*coordinator_->stopped(index));
+    if (coordinator_->stopped(index))
+      on_stopped(*coordinator_->stopped(index), coordinator_->distrusted(index));
   }
+}
+
+/// The coordinator's own child: it knows the truth, and takes some time to find it.
+void SimulatedCluster::judge(const AskReferee& ask) {
+  const PackedKey key = key_of(ask.task);
+  const CampaignShape& shape = campaigns_.at(ask.task.campaign).shape;
+  const Truth truth = truth_of(shape, {ask.task.mission, ask.task.machine, ask.task.seed});
+  const bool has_score = truth.kind == Truth::Kind::Score;
+  const Ruling ruling{.key = key,
+                      .kind = has_score ? Ruling::Kind::Score : Ruling::Kind::Rejected,
+                      .score = truth.score,
+                      .state_digest = truth.state_digest,
+                      .wall_us = 1000,
+                      .reason = has_score ? "" : "planted"};
+  on_process(kCoordinator, milliseconds(1), [this, ruling] {
+    coordinator_->on_ruling(ruling, clock(kCoordinator));
+    settle_coordinator();
+  });
 }
 
 void SimulatedCluster::append(std::uint32_t campaign, std::vector<Row> rows) {

@@ -1,8 +1,9 @@
 // Hostile peers among the simulated connections, and what must never come of them.
 
 #include <algorithm>
+#include <array>
+#include <string_view>
 
-#include "coordinator/audit.h"
 #include "coordinator/task_key.h"
 #include "proto/wire.h"
 #include "storage/answer.h"
@@ -10,6 +11,8 @@
 
 namespace swarmsmith::cluster {
 namespace {
+
+constexpr std::array<std::string_view, 3> kAddresses = {"10.0.0.1", "10.0.0.2", "10.0.0.3"};
 
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
@@ -101,15 +104,18 @@ void SimulatedCluster::to_stranger(PeerId peer, const std::string& frame) {
   });
 }
 
-/// With a key of their own or, as the workers then, without any.
+/// With a key of their own, and the address of a worker; without keys, from one address.
 Peer SimulatedCluster::stranger_at(PeerId connection) const {
-  if (!schedule_.keys) return {.id = connection};
-  return {.id = connection, .role = Role::Worker, .client = "hostile"};
+  if (!schedule_.keys) return {.id = connection, .address = "10.0.0.99"};
+  return {.id = connection, .role = Role::Worker, .client = "hostile", .address = kAddresses[0]};
 }
 
+/// Every worker is on a host of its own.
 Peer SimulatedCluster::worker_at(PeerId connection) const {
-  if (!schedule_.keys) return {.id = connection};
-  return {.id = connection, .role = Role::Worker, .client = "honest"};
+  const auto worker = static_cast<std::size_t>(connections_.at(connection).worker);
+  if (!schedule_.keys) return {.id = connection, .address = kAddresses[worker]};
+  return {
+      .id = connection, .role = Role::Worker, .client = "honest", .address = kAddresses[worker]};
 }
 
 /// Nobody's word rejects what has a score, and a wrong score is one of somebody who was asked.
@@ -145,20 +151,18 @@ void SimulatedCluster::check_trust() {
 }
 
 /// Only who was asked and lies can bring the campaign there, and it says why.
-void SimulatedCluster::on_stopped(const std::string& reason) {
+void SimulatedCluster::on_stopped(const std::string& reason, bool distrusted) {
   const bool may_lie = std::ranges::any_of(schedule_.hostile, [](Misdeed misdeed) {
     return misdeed == Misdeed::Lies || misdeed == Misdeed::LiesLater || misdeed == Misdeed::Renames;
   });
-  if (!may_lie || reason.empty()) fail("stopped: " + reason);
+  if (!may_lie || !distrusted || reason.empty()) fail("stopped: " + reason);
   stopped_ = reason;
 }
 
-/// Another answer than an honest cluster's, and the campaign did not say so: only where no lie was
-/// one of those that are looked at.
+/// Another answer than an honest cluster's, and the campaign did not say so: only where not every
+/// score is made again, so that lies may have been lucky.
 bool SimulatedCluster::is_excused() {
-  const bool found = std::ranges::any_of(
-      lies_, [&](PackedKey key) { return Audits::chooses(key, schedule_.audit_every); });
-  if (lies_.empty() || found) return false;
+  if (lies_.empty() || schedule_.audit_every == 1) return false;
   escaped_ = true;
   return true;
 }

@@ -23,6 +23,7 @@ class Coordinators : public ::testing::Test {
     pb::ToCoordinator message;
     message.mutable_hello()->set_worker_id(std::string(kWorkerIdBytes, static_cast<char>(peer)));
     message.mutable_hello()->set_slots(1);
+    message.mutable_hello()->set_secret("secret");
     say(message, peer);
     message.mutable_credit()->set_tasks(1000);
     say(message, peer);
@@ -32,10 +33,16 @@ class Coordinators : public ::testing::Test {
       if (auto* send = std::get_if<SendFrame>(&action)) {
         google::protobuf::Arena arena;
         heard.push_back(**decode_to_worker(send->frame, arena));
-      } else {
-        for (Row& row : std::get<AppendRows>(action).rows)
+      } else if (auto* append = std::get_if<AppendRows>(&action)) {
+        for (Row& row : append->rows)
           rows.push_back(std::move(row));
         coordinator.on_appended(0, ++ticket);
+      } else {
+        const PackedKey asked = key_of(std::get<AskReferee>(action).task);
+        const auto truth = cluster::truth_of(shape, unpack(asked));
+        coordinator.on_ruling(
+            {.key = asked, .score = truth.score, .state_digest = truth.state_digest}, now);
+        move();
       }
     }
   }
@@ -50,6 +57,7 @@ class Coordinators : public ::testing::Test {
         pb::Result& result = *results.add_results();
         *result.mutable_key() = task.key();
         result.set_attempt(task.attempt());
+        result.set_signature(task.signature());
         result.set_score(truth.score);
         result.set_state_digest(truth.state_digest);
       }
@@ -71,7 +79,7 @@ class Coordinators : public ::testing::Test {
 
   cluster::CampaignShape shape;
   SyntheticCampaign campaign{shape};
-  CoordinatorOptions options{.scheduler = {}, .scenario = "scenario"};
+  CoordinatorOptions options{.scheduler = {}, .scenario = "scenario", .local_secret = "secret"};
   Coordinator coordinator{options, {{.digest = "d", .source = &campaign}}};
   TimePoint now{std::chrono::seconds(50)};
   std::vector<pb::ToWorker> heard;

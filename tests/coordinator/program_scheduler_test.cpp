@@ -162,15 +162,14 @@ TEST_F(ProgramSchedulers, TakeARejectionAndItsTime) {
 
 TEST_F(Schedulers, KeepEveryFailureOfTheSimulatorToo) {
   hello(1);
-  hello(2);
   credit(1, 1);
   want(1, 1);
   answer(1, 1, 0, "no luck");
-  credit(2, 1);
-  answer(2, 1, 0, "no luck", 2);
+  rule_rejected(1);
   ASSERT_EQ(all<FailureKept>().size(), 2U);
-  EXPECT_EQ(all<FailureKept>()[1].row.attempt, 2);
-  EXPECT_EQ(all<FailureKept>()[1].row.worker, 2);
+  EXPECT_EQ(all<FailureKept>()[0].row.worker, 1);
+  EXPECT_EQ(all<FailureKept>()[1].row.reason, "not a number");
+  EXPECT_EQ(all<FailureKept>()[1].row.worker, 0) << "the referee is no worker";
 }
 
 }  // namespace

@@ -67,29 +67,23 @@ TEST_F(Schedulers, AcknowledgeWhateverComesOfADesignThatIsOver) {
   scheduler.close_design(0, {1});
   answer(1, 1, 2.6);
   EXPECT_TRUE(all<ConflictFound>().empty()) << "it is not compared any more";
-  answer(1, 77);  // nobody asked for it
-  EXPECT_EQ(all<OutcomeRepeated>().size(), 2U);
-  EXPECT_EQ(scheduler.counters().duplicates, 2U);
+  EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
+  EXPECT_EQ(scheduler.counters().duplicates, 1U);
   EXPECT_EQ(scheduler.counters().unknown, 0U);
   // What was given still gets its outcome.
   answer(1, 2, 3.5);
   answer(1, 2, 3.5);
   EXPECT_EQ(all<OutcomeAccepted>().size(), 2U);
-  EXPECT_EQ(scheduler.counters().duplicates, 3U);
-}
-
-TEST_F(Schedulers, TakeAResultThatWasNeverLeased) {
-  hello(1);
-  want(1, 1);
-  answer(1, 1);
-  EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(scheduler.leases().size(), 0U);
+  EXPECT_EQ(scheduler.counters().duplicates, 2U);
 }
 
 TEST_F(Schedulers, IgnoreAResultThatNobodyWants) {
   hello(1);
-  answer(1, 77);
+  answer(
+      1,
+      {.key = key(77), .attempt = 1, .signature = scheduler.signer().sign(key(77), 1, name_of(1))});
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  EXPECT_TRUE(all<SendAcknowledged>().empty()) << "it may be wanted later";
   EXPECT_EQ(scheduler.counters().unknown, 1U);
 }
 
@@ -140,18 +134,54 @@ TEST_F(Schedulers, TryAloneWhatRanWhenAWorkerDied) {
   EXPECT_EQ(given[2], (std::vector<std::int64_t>{1, 2}));
 }
 
-TEST_F(Schedulers, RejectAfterThreeDeathsAlone) {
+TEST_F(Schedulers, AskTheRefereeAfterADeathAlone) {
   want(1, 1);
-  for (PeerId peer = 1; peer <= 4; ++peer) {
-    EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  for (PeerId peer = 1; peer <= 2; ++peer) {
+    EXPECT_FALSE(asked());
+    hello(peer);
+    credit(peer, 10);
+    ASSERT_EQ(given[peer].size(), 1U);
+    scheduler.on_began({peer, 1, 2}, key(1), now);
+    scheduler.on_unreachable(peer, now);
+    move();
+  }
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  ASSERT_EQ(asked(), key(1));
+  hello(3);
+  credit(3, 10);
+  EXPECT_TRUE(given[3].empty()) << "nobody else gets it meanwhile";
+  rule_rejected(1);
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
+}
+
+TEST_F(Schedulers, TakeTheRefereesScoreWhereAWorkerDiedByAccident) {
+  want(1, 1);
+  for (PeerId peer = 1; peer <= 2; ++peer) {
+    hello(peer);
+    credit(peer, 10);
+    scheduler.on_began({peer, 1, 2}, key(1), now);
+    scheduler.on_unreachable(peer, now);
+    move();
+  }
+  rule_score(1, 4.5);
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 4.5);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.worker, 0);
+  EXPECT_EQ(scheduler.counters().quarantined, 0U) << "a death is no lie";
+}
+
+TEST_F(Schedulers, CountNoDeathOfAWorkerThatDidNotBegin) {
+  want(1, 1);
+  for (PeerId peer = 1; peer <= 8; ++peer) {
     hello(peer);
     credit(peer, 10);
     ASSERT_EQ(given[peer].size(), 1U);
     scheduler.on_unreachable(peer, now);
     move();
   }
-  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
-  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
+  EXPECT_FALSE(asked());
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
 }
 
 TEST_F(Schedulers, BlameNobodyForATaskThatNeverGotToTheWorker) {
@@ -182,33 +212,33 @@ TEST_F(Schedulers, TakeBackADeathWhenTheWorkerComesAgain) {
   EXPECT_EQ(given[1].size(), 11U);
 }
 
-TEST_F(Schedulers, ConfirmAFailureElsewhere) {
+TEST_F(Schedulers, BringAFailureBeforeTheReferee) {
   hello(1);
-  hello(2);
   credit(1, 10);
-  credit(2, 10);
   want(1, 1);
-  const PeerId first = given[1].empty() ? 2 : 1;
-  const PeerId second = 3 - first;
-  answer(first, 1, 0, "not a number");
+  answer(1, 1, 0, "not a number");
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
-  ASSERT_EQ(given[second].size(), 1U);
-  answer(first, 1, 0, "not a number");  // said twice: counts once
-  EXPECT_TRUE(all<OutcomeAccepted>().empty());
-  answer(second, 1, 0, "not a number", 2);
+  ASSERT_EQ(asked(), key(1));
+  answer(1, 1, 0, "not a number");  // said twice
+  rule_rejected(1);
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Rejected);
+  EXPECT_FALSE(asked());
 }
 
-TEST_F(Schedulers, StopAfterTooManyTimeouts) {
+TEST_F(Schedulers, BringATimeoutBeforeTheRefereeAfterTheRetries) {
   hello(1);
   credit(1, 10);
   want(1, 1);
   for (int i = 0; i < 3; ++i) {
-    EXPECT_TRUE(all<StopCampaign>().empty());
+    EXPECT_FALSE(asked());
     beat(1, {{key(1), 31'000}});
   }
+  ASSERT_EQ(asked(), key(1));
+  EXPECT_TRUE(all<StopCampaign>().empty());
+  rule({.key = key(1), .kind = Ruling::Kind::TimedOut, .reason = "took longer"});
   ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  EXPECT_FALSE(all<StopCampaign>()[0].distrusted);
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
 }
 

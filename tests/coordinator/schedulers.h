@@ -2,17 +2,20 @@
 
 #include <gtest/gtest.h>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "coordinator/scheduler.h"
+#include "coordinator/task_key.h"
 
 namespace swarmsmith {
 
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-/// A scheduler and workers played by hand; worker n has the peer n.
+/// A scheduler and workers played by hand; worker n has the peer n. `hello` is of a worker that the
+/// coordinator started itself, `enter` of one that came by itself, from an address.
 class Schedulers : public ::testing::Test {
  protected:
   void hello(PeerId peer, int slots = 1, std::uint64_t incarnation = 1, int version = 0,
@@ -23,10 +26,53 @@ class Schedulers : public ::testing::Test {
     hello.engine_version = version;
     hello.slots = slots;
     hello.same_scenario = true;
-    hello.holds = std::move(holds);
+    hello.local = true;
+    const std::string principal = principal_of(hello);
+    for (const PackedKey held : holds)
+      hello.holds.push_back({held, 1, scheduler.signer().sign(held, 1, principal)});
     scheduler.on_hello(peer, hello, now);
     sequence = 0;
     take();
+  }
+  void enter(PeerId peer, const std::string& address, int slots = 1, std::uint64_t incarnation = 1,
+             const std::string& client = {}) {
+    WorkerHello hello;
+    hello.identity = std::string(15, 's') + static_cast<char>('a' + peer % 20);
+    hello.incarnation = incarnation;
+    hello.slots = slots;
+    hello.address = address;
+    hello.client = client;
+    hello.same_scenario = true;
+    scheduler.on_hello(peer, hello, now);
+    sequence = 0;
+    take();
+  }
+  /// What the referee was asked last, and its answers.
+  std::optional<PackedKey> asked() const {
+    const auto asks = all<AskReferee>();
+    if (asks.size() == ruled) return std::nullopt;
+    return key_of(asks.back().task);
+  }
+  void rule(const Ruling& ruling) {
+    ++ruled;
+    scheduler.on_ruling(ruling, now);
+    move();
+  }
+  void rule_score(std::int64_t candidate, double score = 1) {
+    rule({.key = key(candidate), .score = score, .state_digest = 5, .wall_us = 100});
+  }
+  void rule_rejected(std::int64_t candidate) {
+    rule({.key = key(candidate), .kind = Ruling::Kind::Rejected, .reason = "not a number"});
+  }
+  /// An evaluation of which a worker says the truth while the referee says the same.
+  void prove(PeerId peer, std::int64_t first) {
+    for (std::int64_t candidate = first; candidate < first + 2; ++candidate) {
+      credit(peer, 1);
+      want(candidate, 1);
+      answer(peer, candidate);
+      rule_score(candidate);
+      credit(peer, 0);
+    }
   }
   void credit(PeerId peer, std::uint32_t tasks, std::uint64_t incarnation = 1) {
     scheduler.on_credit({peer, incarnation, ++sequence}, tasks, now);
@@ -39,6 +85,10 @@ class Schedulers : public ::testing::Test {
     }
     scheduler.add(std::move(tasks));
     move();
+  }
+  /// The principal of a worker that said `hello`.
+  static std::string name_of(PeerId peer) {
+    return "local " + hexadecimal(std::string(15, 'w') + static_cast<char>('a' + peer % 20));
   }
   static PackedKey key(std::int64_t candidate) { return pack(candidate, 0, 1); }
   void answer(PeerId peer, std::int64_t candidate, double score = 1, std::string failure = "",
@@ -95,6 +145,7 @@ class Schedulers : public ::testing::Test {
   std::vector<SchedulerAction> actions;
   std::map<PeerId, std::vector<std::int64_t>> given;
   std::uint64_t sequence = 0;
+  std::size_t ruled = 0;
 };
 
 }  // namespace swarmsmith

@@ -30,6 +30,29 @@ EvaluatorFactory honest(const CampaignShape& shape, const std::atomic<bool>& pau
   };
 }
 
+/// A referee in this process, which knows the truth.
+class HonestReferee final : public Referee {
+ public:
+  HonestReferee(const CampaignShape& shape, std::function<void()> on_ruling)
+      : shape_(shape), on_ruling_(std::move(on_ruling)) {}
+  void judge(AskReferee ask) override {
+    const cluster::Truth truth = cluster::truth_of(shape_, ask.task.key);
+    const bool has_score = truth.kind == cluster::Truth::Kind::Score;
+    rulings_.push_back({.key = key_of(ask.task),
+                        .kind = has_score ? Ruling::Kind::Score : Ruling::Kind::Rejected,
+                        .score = truth.score,
+                        .state_digest = truth.state_digest,
+                        .reason = has_score ? "" : "planted"});
+    on_ruling_();
+  }
+  std::vector<Ruling> take_rulings() override { return std::exchange(rulings_, {}); }
+
+ private:
+  CampaignShape shape_;
+  std::function<void()> on_ruling_;
+  std::vector<Ruling> rulings_;
+};
+
 /// A real service on loopback; tests add workers and trouble.
 class Services : public ::testing::Test {
  protected:
@@ -39,6 +62,9 @@ class Services : public ::testing::Test {
     shape = of;
     campaign = std::make_unique<SyntheticCampaign>(shape);
     options.coordinator.scenario = "scenario";
+    options.make_referee = [of](const std::string&, std::function<void()> on_ruling) {
+      return std::make_unique<HonestReferee>(of, std::move(on_ruling));
+    };
     auto opened = Service::open(options, {{"d", &store, campaign.get()}});
     ASSERT_TRUE(opened);
     service = std::move(*opened);

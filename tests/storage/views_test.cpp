@@ -47,7 +47,7 @@ const std::map<std::string, std::string> kColumns{
     {"v_race_matrix", "design iteration step pair instance seed candidate score rank"},
     {"v_workers",
      "worker identity host pid slots build state done failed first_seen last_seen job cpu client "
-     "connections"},
+     "connections principal"},
     {"v_attempts", "id design candidate pair attempt worker host held_ms outcome at"},
     {"v_commands", "number at who kind design step budget"},
     {"v_calibrations", "kind subject valid_from valid_until rms uses sha256 file"},

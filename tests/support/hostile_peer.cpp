@@ -127,6 +127,7 @@ void HostilePeer::on_tasks(const pb::Tasks& tasks) {
       return hang_up();
     case Misdeed::LeavesAlone:
       if (tasks.tasks_size() > 1) return give_back(tasks);
+      if (rng_.bernoulli(0.7)) say_began(tasks.tasks(0));
       ++acts_;
       return hang_up();
     case Misdeed::Guesses:
@@ -177,6 +178,7 @@ pb::Result HostilePeer::result_of(const pb::Task& task) {
   pb::Result result;
   *result.mutable_key() = task.key();
   result.set_attempt(task.attempt());
+  result.set_signature(task.signature());
   result.set_wall_us(rng_.uniform_int(1, 30'000));
   return result;
 }
@@ -347,14 +349,23 @@ void HostilePeer::say_hello(bool with_claims) {
   ++incarnation_;
   pb::ToCoordinator message;
   *message.mutable_hello() = hello_;
-  for (int i = 0; with_claims && i < 30; ++i)
+  for (int i = 0; with_claims && i < 30; ++i) {
     *message.mutable_hello()->add_holds() = guess();
+    message.mutable_hello()->add_attempts(rng_.uniform_int(0, 3));
+    message.mutable_hello()->add_signatures(rng_.next());
+  }
   say(std::move(message));
 }
 
 void HostilePeer::say_credit(std::uint32_t tasks) {
   pb::ToCoordinator message;
   message.mutable_credit()->set_tasks(tasks);
+  say(std::move(message));
+}
+
+void HostilePeer::say_began(const pb::Task& task) {
+  pb::ToCoordinator message;
+  *message.mutable_began()->mutable_key() = task.key();
   say(std::move(message));
 }
 

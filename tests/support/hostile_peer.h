@@ -82,6 +82,7 @@ class HostilePeer {
   void give_back(const pb::Tasks& tasks);
   void talk_nonsense();
   void talk_at_random();
+  void say_began(const pb::Task& task);
   void hang_up();
 
   Misdeed misdeed_;

@@ -182,6 +182,64 @@ TEST_F(Protocol, ComesBackWithWhatItHolds) {
   EXPECT_TRUE(said_body(pb::ToCoordinator::kCredit));
 }
 
+TEST_F(Protocol, ReturnsTheSignatureOfItsLease) {
+  be_welcome();
+  pb::ToWorker message;
+  message.mutable_tasks()->set_scenario(digest_of_scenario("scenario"));
+  for (int i = 1; i <= 2; ++i) {
+    pb::Task& task = *message.mutable_tasks()->add_tasks();
+    task.mutable_key()->set_candidate(i);
+    task.set_attempt(7);
+    task.set_signature(70 + static_cast<std::uint64_t>(i));
+  }
+  hear(message);
+  finish(1);
+  ASSERT_EQ(results_said(), 1);
+  for (const auto& one : said) {
+    if (one.has_results()) EXPECT_EQ(one.results().results(0).signature(), 71U);
+  }
+  protocol.on_connection_lost(now);
+  pass(seconds(1));
+  ASSERT_EQ(said.size(), 1U);
+  const pb::Hello& hello = said[0].hello();
+  ASSERT_EQ(hello.signatures_size(), 1);
+  EXPECT_EQ(hello.holds(0).candidate(), 2);
+  EXPECT_EQ(hello.signatures(0), 72U);
+  EXPECT_EQ(hello.attempts(0), 7);
+}
+
+TEST_F(Protocol, SaysThatItBeginsBeforeWhatRunsAlone) {
+  be_welcome();
+  pb::ToWorker message;
+  message.mutable_tasks()->set_scenario(digest_of_scenario("scenario"));
+  pb::Task& task = *message.mutable_tasks()->add_tasks();
+  task.mutable_key()->set_candidate(1);
+  task.set_alone(true);
+  hear(message);
+  EXPECT_TRUE(said_body(pb::ToCoordinator::kBegan));
+  EXPECT_TRUE(given.empty());
+  EXPECT_EQ(protocol.next_deadline(), now + milliseconds(20));
+  pass(milliseconds(19));
+  EXPECT_TRUE(given.empty());
+  pass(milliseconds(1));
+  EXPECT_EQ(given, std::vector<PackedKey>{key(1)});
+}
+
+TEST_F(Protocol, GivesBackWhatItHasNotBegun) {
+  be_welcome();
+  pb::ToWorker message;
+  message.mutable_tasks()->set_scenario(digest_of_scenario("scenario"));
+  pb::Task& task = *message.mutable_tasks()->add_tasks();
+  task.mutable_key()->set_candidate(1);
+  task.set_alone(true);
+  hear(message);
+  protocol.on_drain(now);
+  take();
+  EXPECT_TRUE(said_body(pb::ToCoordinator::kReturned));
+  pass(seconds(1));
+  EXPECT_TRUE(given.empty());
+}
+
 TEST_F(Protocol, DropsEverythingWhenAnotherCampaignRuns) {
   be_welcome();
   get_tasks(1, 3);

@@ -15,11 +15,13 @@
 
 #include "access/find_coordinator.h"
 #include "base/descriptor_limit.h"
+#include "base/local_secret.h"
 #include "base/log.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "target/guard.h"
 #include "worker/evaluate.h"
+#include "worker/referee.h"
 #include "worker/service.h"
 #include "worker/slots.h"
 
@@ -60,6 +62,7 @@ struct Arguments {
   bool watch_input = false;
   std::vector<std::string> allow;
   bool allow_shell = false;
+  bool referee = false;
 };
 
 /// Drains when standard input ends. A thread does nothing but wait for that: a signal that ends
@@ -120,10 +123,15 @@ Expected<WorkerServiceOptions> service_options(const Arguments& arguments) {
 
 int run(const Arguments& arguments) {
   if (arguments.die_with_parent) die_with_parent(arguments.parent);
+  if (arguments.referee) {
+    return serve_as_referee({.engine_version = kEngineVersion, .self_test = self_test_digest()},
+                            make_evaluators(), STDIN_FILENO, STDOUT_FILENO);
+  }
   const int slots = arguments.slots > 0 ? arguments.slots : available_slots();
   WorkerIdentity identity = identity_of_this_process(slots, SWARMSMITH_VERSION);
   identity.engine_version = kEngineVersion;
   identity.self_test = self_test_digest();
+  if (const char* secret = std::getenv(kLocalSecret)) identity.secret = secret;
   Expected<AllowedPrograms> allowed = allowed_programs(arguments);
   if (!allowed) return fail(allowed.error());
   const Expected<WorkerServiceOptions> options = service_options(arguments);
@@ -158,6 +166,11 @@ int run_command_line(int argc, char** argv) {
                    "The file that it writes (STORE.coordinator); read again before each try to "
                    "connect, so that one that moved is found")
       ->type_name("FILE");
+  where
+      ->add_flag("--referee", arguments.referee,
+                 "Evaluate for the coordinator that started this process, through its standard "
+                 "input and output")
+      ->group("");
   where->require_option(1);
   app.add_option("--key", arguments.key,
                  "Key file; default, where one is needed: SWARMSMITH_KEY, else worker.key in "

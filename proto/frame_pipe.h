@@ -1,0 +1,24 @@
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+namespace swarmsmith {
+
+/// Frames through a pipe between two processes, each behind its length (four bytes, little-endian).
+
+/// Waits until all of it is written; false when the other end is closed. The caller has SIGPIPE
+/// ignored.
+bool write_frame(int descriptor, std::string_view frame);
+
+/// Waits for a whole frame; false at the end of the pipe, or when the frame is longer than `most`.
+bool read_frame(int descriptor, std::size_t most, std::string& frame);
+
+enum class PipeRead { Frame, Ended, TimedOut };
+/// The same, no longer than until `deadline`.
+PipeRead read_frame_until(int descriptor, std::size_t most, std::string& frame,
+                          std::chrono::steady_clock::time_point deadline);
+
+}  // namespace swarmsmith
