@@ -22,10 +22,18 @@ std::int64_t integer_of(const Cell& cell) {
   return std::strtoll(cell.text.c_str(), nullptr, 10);
 }
 
+/// Who answers for a worker, as far as a store of this schema says it.
+std::string who(std::int64_t schema) {
+  if (schema >= 6) return "w.principal";
+  return schema >= 3 ? "w.client" : "''";
+}
+
 /// With a run's columns in the order of `read_outcome`.
-std::string select_evaluations(const std::string& condition) {
+std::string select_evaluations(std::int64_t schema, const std::string& condition) {
   return "SELECT e.id, 'c' || e.candidate, e.seed, e.status, e.score, e.state_digest, e.source, "
-         "c.fsm_config, e.design, e.worker, w.host, w.client FROM (SELECT * FROM v_evaluations "
+         "c.fsm_config, e.design, e.worker, w.host, " +
+         who(schema) +
+         " FROM (SELECT * FROM v_evaluations "
          "WHERE " +
          condition +
          ") AS e JOIN v_candidates AS c ON c.candidate = e.candidate LEFT JOIN v_workers AS w ON "
@@ -43,7 +51,7 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
   }
   run.worker = integer_of(cells[9]);
   run.host = cells[10].text;
-  run.key = cells[11].text;
+  run.who = cells[11].text;
   return run;
 }
 
@@ -87,18 +95,20 @@ Expected<void> complete(StoredRun& run, const DesignWorld& world, const std::str
   return {};
 }
 
-/// Scores from each key and host in turn. Their order is drawn from numbers below 2^31, whose
-/// squares fit in SQLite's integers.
-std::string in_turn(const std::string& given, const StoredRuns::Wanted& wanted) {
+/// Scores from each who answers for workers in turn. Their order is drawn from numbers below 2^31,
+/// whose squares fit in SQLite's integers.
+std::string in_turn(std::int64_t schema, const std::string& given,
+                    const StoredRuns::Wanted& wanted) {
   constexpr const char* kSql =
-      "WITH drawn AS (SELECT e.id, w.client, w.host, (e.candidate * 100003 + e.pair * 7 + "
+      "WITH drawn AS (SELECT e.id, {who} AS who, (e.candidate * 100003 + e.pair * 7 + "
       "(e.purpose = 'test') + {seed}) % {prime} AS x{given} AND e.status = 'ok'{but}), "
-      "mixed AS (SELECT id, client, host, (x * x + {seed}) % {prime} AS y FROM drawn), "
-      "ordered AS (SELECT id, client, host, y * y % {prime} AS z FROM mixed), "
-      "ranked AS (SELECT id, z, row_number() OVER (PARTITION BY client, host ORDER BY z, id) AS n "
+      "mixed AS (SELECT id, who, (x * x + {seed}) % {prime} AS y FROM drawn), "
+      "ordered AS (SELECT id, who, y * y % {prime} AS z FROM mixed), "
+      "ranked AS (SELECT id, z, row_number() OVER (PARTITION BY who ORDER BY z, id) AS n "
       "FROM ordered) SELECT id FROM ranked ORDER BY n, z, id LIMIT {count}";
   return fmt::format(fmt::runtime(kSql), fmt::arg("seed", wanted.seed),
-                     fmt::arg("prime", 2'147'483'629), fmt::arg("given", given),
+                     fmt::arg("who", who(schema)), fmt::arg("prime", 2'147'483'629),
+                     fmt::arg("given", given),
                      fmt::arg("but", wanted.tests ? " AND e.purpose <> 'test'" : ""),
                      fmt::arg("count", wanted.scores));
 }
@@ -135,7 +145,7 @@ Expected<StoredRuns> StoredRuns::open(std::unique_ptr<StoreReader> store) {
 }
 
 Expected<StoredRun> StoredRuns::evaluation(const ThingId& id) {
-  const auto rows = select(*store_, select_evaluations(is_evaluation(id)));
+  const auto rows = select(*store_, select_evaluations(store_->schema(), is_evaluation(id)));
   if (!rows) return Unexpected(rows.error());
   const std::string name = "e" + id.digits + id.purpose;
   if (rows->cells.empty()) {
@@ -185,8 +195,9 @@ Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) 
   // The pair may have served the race and more: all of these hold the same outcome.
   const auto known =
       select(*store_,
-             select_evaluations("candidate = " + id.digits + " AND seed = " + std::to_string(seed) +
-                                " AND state_digest <> 0 AND source = " + sql_text(source)) +
+             select_evaluations(store_->schema(),
+                                "candidate = " + id.digits + " AND seed = " + std::to_string(seed) +
+                                    " AND state_digest <> 0 AND source = " + sql_text(source)) +
                  " ORDER BY e.purpose = 'race' DESC, e.pair",
              {.rows = 1});
   if (!known) return Unexpected(known.error());
@@ -225,7 +236,7 @@ Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
   if (wanted.tests)
     parts.push_back("SELECT e.id" + given + " AND e.status = 'ok' AND e.purpose = 'test'" +
                     in_order);
-  if (wanted.scores > 0) parts.push_back(in_turn(given, wanted));
+  if (wanted.scores > 0) parts.push_back(in_turn(store_->schema(), given, wanted));
   std::vector<std::string> all;
   for (const std::string& sql : parts) {
     const auto ids = ids_of(sql);
@@ -273,7 +284,7 @@ std::string StoredRun::given_by() const {
   if (worker == 0) return {};
   std::string text = "; given by worker " + std::to_string(worker);
   if (!host.empty()) text += " on " + host;
-  if (!key.empty()) text += " (key " + key + ")";
+  if (!who.empty()) text += " (" + who + ")";
   return text;
 }
 

@@ -37,10 +37,10 @@ struct StoredRun {
   int engine_version = 0;   ///< that made the stored outcome; 0 when the store does not say
   std::int64_t worker = 0;  ///< that gave it; 0 when the store does not say
   std::string host;         ///< of the worker, as it says
-  std::string key;          ///< name of the worker's key; empty without
+  std::string who;          ///< answers for the worker: its key and address
 
   SimulationSetup setup() const { return {machine, flavour, profile, mission, instance, seed}; }
-  /// "; given by worker 3 on lab7 (key lab)", empty when nobody knows.
+  /// "; given by worker 3 on lab7 (lab@10.0.0.7)", empty when nobody knows.
   std::string given_by() const;
 };
 
@@ -66,7 +66,7 @@ class StoredRuns {
   struct Wanted {
     bool rejections = false;  ///< all
     bool tests = false;       ///< all of winners
-    /// So many others that have a score, from each key and host in turn, which ones a matter of
+    /// So many others that have a score, from each key and address in turn, which ones a matter of
     /// `seed`.
     std::int64_t scores = 0;
     std::int64_t seed = 1;

@@ -97,11 +97,12 @@ class Verify(ProgramTest):
     def test_each_key_and_host_has_its_turn(self):
         """One that gave five results among a thousand is looked at like the others."""
         self.change("INSERT INTO worker SELECT 99, 'liar', 'far', 1, 1, build, state, 5, 0, "
-                    "first_seen, last_seen, job, cpu, 'liar', connections FROM worker LIMIT 1")
+                    "first_seen, last_seen, job, cpu, 'liar', connections, 'liar@10.0.0.9' "
+                    "FROM worker LIMIT 1")
         self.change("UPDATE evaluation SET worker = 99, state_digest = state_digest + 1 "
                     "WHERE candidate = 4 AND purpose = 0 AND pair = 1")
         self.assertEqual(self.different("--sample", 2), ["e400001"])
-        self.assertIn("on far (key liar)", "".join(self.verify("--sample", 2)["complaints"]))
+        self.assertIn("on far (liar@10.0.0.9)", "".join(self.verify("--sample", 2)["complaints"]))
 
 
 if __name__ == "__main__":
