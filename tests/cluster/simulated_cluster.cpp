@@ -28,10 +28,11 @@ SimulatedCluster::SimulatedCluster(const Schedule& schedule)
   for (Worker& worker : workers_)
     worker.slots = static_cast<int>(rng_.uniform_int(1, 3));
   if (schedule_.slow_worker) workers_.front().slowness = 100;
+  // They are there first, to hear how the workers introduce themselves.
+  invite_strangers();
   start_coordinator();
   for (int i = 0; i < kWorkers; ++i)
     start_worker(i);
-  invite_strangers();
   plan_faults();
   plan_commands();
 }
