@@ -17,6 +17,7 @@
 #include "coordinator/scheduler.h"
 #include "coordinator/slot_account.h"
 #include "coordinator/work_source.h"
+#include "storage/store.h"
 
 namespace swarmsmith {
 

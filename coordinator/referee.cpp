@@ -13,6 +13,7 @@
 #include <thread>
 #include <utility>
 
+#include "coordinator/event_text.h"
 #include "coordinator/launchers/child_process.h"
 #include "coordinator/launchers/worker_program.h"
 #include "coordinator/messages.h"

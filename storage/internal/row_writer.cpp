@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/overloaded.h"
 #include "storage/answer.h"
+#include "storage/internal/row_reader.h"
 
 namespace swarmsmith {
 namespace {
