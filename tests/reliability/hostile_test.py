@@ -4,12 +4,11 @@ The answer is that of an undisturbed run, or the campaign ends with exit code 3 
 says why there is none.
 """
 import json
-import os
 import re
 import time
 import unittest
 
-from rig import LONG, FaultTest, call, rows, stored, wait_for
+from rig import LONG, FaultTest, call, stored, wait_for
 from programs import BIN
 
 HOSTILE = BIN / "hostile"
@@ -122,7 +121,6 @@ class Hostile(FaultTest):
 
 class Strangers(Hostile):
     """On loopback, without keys: the workers are those that the coordinator started itself."""
-    more = '\n[workers]\nbind = "127.0.0.1:*"\n'
     workers = ()
 
     def begin(self):
