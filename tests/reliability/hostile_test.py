@@ -4,11 +4,12 @@ The answer is that of an undisturbed run, or the campaign ends with exit code 3 
 says why there is none.
 """
 import json
+import pathlib
 import re
 import time
 import unittest
 
-from rig import LONG, FaultTest, call, stored, wait_for
+from rig import LONG, FaultTest, call, rows, stored, wait_for
 from programs import BIN
 
 HOSTILE = BIN / "hostile"
@@ -36,9 +37,9 @@ class Hostile(FaultTest):
 
     def sizes(self, coordinator):
         """Bytes of the store with its log, and of what was logged."""
-        files = self.store.parent.glob(self.store.name + "*")
-        return (sum(file.stat().st_size for file in files if file.exists()),
-                coordinator.err.stat().st_size)
+        [[store]] = rows(self.store, "select page_count * page_size from pragma_page_count, "
+                                     "pragma_page_size")
+        return store, coordinator.err.stat().st_size
 
     def measured(self, coordinator, hostile=None):
         """Waits for the end. Evaluations a second (while `hostile` lasts), and most memory in kB."""
@@ -61,7 +62,7 @@ class Hostile(FaultTest):
     @staticmethod
     def memory_kb(pid):
         try:
-            status = open(f"/proc/{pid}/status").read()
+            status = pathlib.Path(f"/proc/{pid}/status").read_text()
         except OSError:
             return 0
         found = re.search(r"VmHWM:\s+(\d+)", status)
