@@ -4,47 +4,28 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <iterator>
 
 #include "base/overloaded.h"
+#include "base/shown_text.h"
 
 namespace swarmsmith {
 namespace {
 
 constexpr std::array<std::string_view, 5> kLevels = {"debug", "info", "warning", "error", "none"};
 
-/// Bytes of the UTF-8 character that `text` begins with; 0 when it is none.
-std::size_t utf8_length(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  const std::size_t length = first < 0x80                    ? 1
-                             : first >= 0xc2 && first < 0xe0 ? 2
-                             : first >= 0xe0 && first < 0xf0 ? 3
-                             : first >= 0xf0 && first < 0xf5 ? 4
-                                                             : 0;
-  if (length == 0 || length > text.size()) return 0;
-  for (std::size_t i = 1; i < length; ++i) {
-    if ((byte(i) & 0xc0U) != 0x80U) return 0;
-  }
-  // Overlong forms, surrogates, and what lies behind the last character.
-  const bool wrong =
-      length > 1 && ((first == 0xe0 && byte(1) < 0xa0) || (first == 0xed && byte(1) > 0x9f) ||
-                     (first == 0xf0 && byte(1) < 0x90) || (first == 0xf4 && byte(1) > 0x8f));
-  return wrong ? 0 : length;
-}
-
+/// A text that is no UTF-8 gets question marks: JSON has no escape for a byte.
 void append_quoted(std::string& out, std::string_view text) {
   out += '"';
   while (!text.empty()) {
-    const std::size_t length = utf8_length(text);
+    const std::size_t length = character_length(text);
     const char c = text.front();
     if (length == 0) {
       out += '?';
     } else if (c == '"' || c == '\\') {
       out += '\\';
       out += c;
-    } else if (static_cast<unsigned char>(c) < 0x20) {
-      fmt::format_to(std::back_inserter(out), "\\u{:04x}", static_cast<unsigned char>(c));
+    } else if (const std::string escape = escape_of(text, length); !escape.empty()) {
+      out += escape;
     } else {
       out += text.substr(0, length);
     }
@@ -55,7 +36,8 @@ void append_quoted(std::string& out, std::string_view text) {
 
 /// Bare when it reads as one word, quoted otherwise.
 void append_word(std::string& out, std::string_view text) {
-  const bool word = !text.empty() && text.find_first_of(" \t\n\r\"=\\") == std::string_view::npos;
+  const bool word = !text.empty() && text.find_first_of(" \"=\\") == std::string_view::npos &&
+                    as_shown(text, Layout::Escaped) == text;
   if (word) {
     out += text;
   } else {

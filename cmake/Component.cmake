@@ -1,3 +1,15 @@
+# swarmsmith_share_units(SOURCE...): where files are compiled eight in a unit (CMAKE_UNITY_BUILD, as
+# the gates do: a fifth of the time), those whose names in unnamed namespaces a neighbour has as well stay alone.
+function(swarmsmith_share_units)
+  if(CMAKE_UNITY_BUILD)
+    find_package(Python3 REQUIRED COMPONENTS Interpreter)
+    execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/alone.py ${ARGN}
+      WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE alone COMMAND_ERROR_IS_FATAL ANY)
+    string(REPLACE "\n" ";" alone "${alone}")
+    set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+  endif()
+endfunction()
+
 # swarmsmith_component(NAME SOURCES ... HEADERS ... PUBLIC ... PRIVATE ...)
 #
 # One folder, one static library swarmsmith_NAME. HEADERS are the folder's public surface; each is
@@ -6,6 +18,7 @@ function(swarmsmith_component name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;HEADERS;PUBLIC;PRIVATE")
   set(target swarmsmith_${name})
   add_library(${target} STATIC ${arg_SOURCES})
+  swarmsmith_share_units(${arg_SOURCES})
   target_sources(${target} PUBLIC FILE_SET HEADERS BASE_DIRS ${PROJECT_SOURCE_DIR}
     FILES ${arg_HEADERS})
   target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR})
@@ -18,6 +31,7 @@ endfunction()
 function(swarmsmith_program name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "" "SOURCES;PRIVATE")
   add_executable(${name} ${arg_SOURCES})
+  swarmsmith_share_units(${arg_SOURCES})
   target_link_libraries(${name} PRIVATE ${arg_PRIVATE} swarmsmith_warnings
     swarmsmith_exact_arithmetic)
 endfunction()
@@ -30,14 +44,17 @@ function(swarmsmith_test name)
   if(NOT arg_TIMEOUT)
     set(arg_TIMEOUT 120)
   endif()
+  math(EXPR limit "${arg_TIMEOUT} * ${SWARMSMITH_PATIENCE}")
   set(target ${name}_test)
   add_executable(${target} ${arg_SOURCES})
+  swarmsmith_share_units(${arg_SOURCES})
   target_link_libraries(${target} PRIVATE ${arg_USES} GTest::gmock GTest::gtest_main
     swarmsmith_warnings swarmsmith_exact_arithmetic)
   target_compile_definitions(${target} PRIVATE
     SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
     SWARMSMITH_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
-    SWARMSMITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+    SWARMSMITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
+    $<$<BOOL:${SWARMSMITH_SANITIZE}>:SWARMSMITH_SANITIZED>)
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
-    PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${arg_TIMEOUT})
+    PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${limit})
 endfunction()

@@ -1,15 +1,10 @@
 #include "console/counter.h"
 
-#include <string_view>
 #include <utility>
 
+#include "console/terminal.h"
+
 namespace swarmsmith::cli {
-namespace {
-
-constexpr std::string_view kClearLine = "\r\x1b[2K";
-
-}  // namespace
-
 Counter::Counter(Output& output, std::string verb, std::string noun)
     : output_(&output),
       verb_(std::move(verb)),

@@ -9,11 +9,14 @@
 #include <filesystem>
 #include <iostream>
 
+#include "base/shown_text.h"
+#include "console/terminal.h"
+
 namespace swarmsmith::cli {
 namespace {
 
-constexpr std::string_view kRed = "\x1b[31m";
-constexpr std::string_view kPlain = "\x1b[0m";
+constexpr Verbatim kRed{"\x1b[31m"};
+constexpr Verbatim kPlain{"\x1b[0m"};
 
 /// NO_COLOR counts when it is not empty (no-color.org).
 bool is_set(const char* variable) {
@@ -27,27 +30,29 @@ bool is_dumb() {
   return terminal == nullptr || std::string_view(terminal) == "dumb";
 }
 
-/// Bytes of the UTF-8 character at the begin of `text`; 0 when there is none.
-std::size_t character_at(std::string_view text) {
-  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-  const unsigned char first = byte(0);
-  if (first < 0x80) return 1;
-  const std::size_t size = first < 0xc2 ? 0 : first < 0xe0 ? 2 : first < 0xf0 ? 3 : 4;
-  if (size == 0 || first > 0xf4 || text.size() < size) return 0;
-  for (std::size_t i = 1; i < size; ++i) {
-    if ((byte(i) & 0xc0U) != 0x80) return 0;
-  }
-  // Longer than needed, half of a surrogate pair, beyond the last.
-  const unsigned char second = byte(1);
-  if ((first == 0xe0 && second < 0xa0) || (first == 0xed && second > 0x9f)) return 0;
-  if ((first == 0xf0 && second < 0x90) || (first == 0xf4 && second > 0x8f)) return 0;
-  return size;
+/// Lines after the first stand to the right: none of them looks like an error of its own.
+std::string indented(std::string text) {
+  text.erase(text.find_last_not_of('\n') + 1);
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; ++at)
+    text.insert(at + 1, "  ");
+  return text;
 }
+
+/// A standard stream, through which no text of others steers a terminal.
+struct ShownStream {
+  explicit ShownStream(std::ostream& behind) : buffer(behind.rdbuf()), stream(&buffer) {
+    stream.flags(behind.flags());
+  }
+  ShownBuffer buffer;
+  std::ostream stream;
+};
 
 }  // namespace
 
 Output standard_output() {
-  Output output{.out = std::cout, .err = std::cerr};
+  static ShownStream out(std::cout);
+  static ShownStream err(std::cerr);
+  Output output{.out = out.stream, .err = err.stream};
   output.err_is_terminal = isatty(STDERR_FILENO) == 1 && !is_dumb();
   output.out_is_terminal = isatty(STDOUT_FILENO) == 1 && !is_dumb();
   output.color = output.err_is_terminal && !is_set("NO_COLOR");
@@ -56,7 +61,9 @@ Output standard_output() {
 
 void print_error(Output& output, const Error& error) {
   if (output.color) output.err << kRed;
-  output.err << output.program << ": " << to_string(error);
+  output.err << output.program << ": "
+             << to_string(Error{error.kind, indented(error.message),
+                                as_shown(error.where, Layout::Escaped)});
   if (output.color) output.err << kPlain;
   output.err << '\n';
 }
@@ -90,7 +97,7 @@ std::string json_text(std::string_view text) {
   constexpr std::string_view kDigits = "0123456789abcdef";
   std::string quoted = "\"";
   while (!text.empty()) {
-    const std::size_t size = character_at(text);
+    const std::size_t size = character_length(text);
     const char letter = text.front();
     const auto code = static_cast<unsigned char>(letter);
     if (size != 1) {

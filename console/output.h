@@ -26,7 +26,8 @@ struct Output {
 /// Streams of this process; asks the environment about terminals and colour.
 Output standard_output();
 
-/// "PROGRAM: where: what was found and what to do", one line an error.
+/// "PROGRAM: where: what was found and what to do"; further lines of the text, such as what a
+/// program wrote, are indented.
 void print_error(Output& output, const Error& error);
 /// What a person may like to know; not when quiet.
 void print_note(Output& output, std::string_view text);

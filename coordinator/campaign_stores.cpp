@@ -9,7 +9,7 @@ CampaignStores::CampaignStores(const std::vector<ServiceCampaign>& campaigns, Wa
     : wakeup_(&wakeup), news_(campaigns.size()) {
   for (const ServiceCampaign& campaign : campaigns) {
     const std::size_t index = entries_.size();
-    entries_.push_back({campaign.store, campaign.file, campaign.name, ""});
+    entries_.push_back({campaign.store, campaign.file, campaign.name, "", false});
     campaign.store->set_listener([this, index](const WriterNews& news) {
       {
         const std::scoped_lock lock(mutex_);
@@ -47,6 +47,17 @@ std::string CampaignStores::trouble() const {
   const auto some =
       std::ranges::find_if(entries_, [](const Entry& entry) { return !entry.trouble.empty(); });
   return some == entries_.end() ? std::string() : some->trouble;
+}
+
+bool CampaignStores::any_lost() const {
+  return std::ranges::any_of(entries_, &Entry::is_lost);
+}
+
+std::vector<std::string> CampaignStores::lost() const {
+  std::vector<std::string> lost;
+  for (const Entry& entry : entries_)
+    lost.push_back(entry.is_lost ? entry.trouble : "");
+  return lost;
 }
 
 void CampaignStores::each_log(

@@ -37,6 +37,12 @@ class CampaignStores {
   /// Of the first store that cannot write; empty when all can.
   std::string trouble() const;
 
+  /// The file of a store is lost; its trouble says how.
+  void set_lost(std::size_t campaign) { entries_[campaign].is_lost = true; }
+  bool any_lost() const;
+  /// Of each store, the trouble of one that is lost; empty for the others.
+  std::vector<std::string> lost() const;
+
   /// The length of a store's write-ahead log, for each that has a file.
   void each_log(const std::function<void(std::size_t, std::int64_t)>& on_bytes) const;
 
@@ -46,6 +52,7 @@ class CampaignStores {
     std::filesystem::path file;
     std::string name;
     std::string trouble;
+    bool is_lost = false;
   };
 
   Wakeup* wakeup_;

@@ -41,7 +41,7 @@ struct Principal {
   int on_trial = 0;                ///< first results that are before the referee
   int claims = 0;                  ///< failures, deaths and contradictions that are before it
   bool quarantined = false;
-  std::vector<Waiting> waiting;
+  std::map<PackedKey, Waiting> waiting;
   std::vector<std::int64_t> unchecked;  ///< outcomes of it that nobody made again, by campaign
 
   std::int64_t& unchecked_of(std::uint32_t campaign) {

@@ -84,7 +84,7 @@ void Scheduler::forget(std::uint32_t campaign) {
       let_go(said);
   }
   for (auto& [name, principal] : principals_.all()) {
-    std::erase_if(principal.waiting, [&](const auto& each) { return is_of(each.result.key); });
+    std::erase_if(principal.waiting, [&](const auto& each) { return is_of(each.first); });
     try_waiting(principal, latest_);
   }
 }

@@ -57,6 +57,7 @@ class Loop final : public Service {
     const std::stop_callback wake(stop, [this] { wakeup_.notify(); });
     carry_out();
     while (true) {
+      if (stores_.any_lost()) return halt();
       if (coordinator_.finished()) return finish();
       if (stop.stop_requested()) {
         wait_for_running();
@@ -127,7 +128,10 @@ class Loop final : public Service {
       // The others' results find their place on disk.
       coordinator_.hold(index, !news->trouble.empty());
       telemetry_.set_trouble(index, news->trouble);
-      if (news->trouble.empty()) {
+      if (news->is_lost) {
+        stores_.set_lost(index);
+        log(LogLevel::Error, "coordinator", "store is lost", {{"reason", news->trouble}});
+      } else if (news->trouble.empty()) {
         log(LogLevel::Info, "coordinator", "store writes again");
       } else {
         log(LogLevel::Error, "coordinator", "store cannot be written; leasing stopped",
@@ -228,7 +232,7 @@ class Loop final : public Service {
     coordinator_.hold(holding());
     const TimePoint until = clock_.now() + options_.grace;
     while (coordinator_.scheduler().leases().leased() > 0 && clock_.now() < until &&
-           coordinator_.scheduler().workers().connected() > 0) {
+           coordinator_.scheduler().workers().connected() > 0 && !stores_.any_lost()) {
       step();
     }
   }
@@ -241,13 +245,14 @@ class Loop final : public Service {
     hear_news();
     carry_out();
     report(clock_.now(), true);
-    return {ServiceEnd::How::Interrupted, reasons(), distrusted()};
+    return {ServiceEnd::How::Interrupted, reasons(), stores_.lost(), distrusted()};
   }
 
   ServiceEnd finish() {
     coordinator_.drain(clock_.now());
     carry_out();
     stores_.flush();
+    hear_news();
     // A worker that did not hear of the end would look for the coordinator until somebody stops it.
     const TimePoint until = clock_.now() + kFarewell;
     while (coordinator_.scheduler().workers().connected() > 0 && clock_.now() < until)
@@ -255,7 +260,8 @@ class Loop final : public Service {
     report(clock_.now(), true);
     const std::vector<std::string> stopped = reasons();
     const bool all_well = std::ranges::all_of(stopped, &std::string::empty);
-    return {all_well ? ServiceEnd::How::Finished : ServiceEnd::How::Stopped, stopped, distrusted()};
+    return {all_well ? ServiceEnd::How::Finished : ServiceEnd::How::Stopped, stopped,
+            stores_.lost(), distrusted()};
   }
 
   std::vector<bool> distrusted() const {

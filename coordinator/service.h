@@ -66,7 +66,9 @@ struct ServiceEnd {
   How how = How::Finished;
   /// Of each campaign, why it could not go on; empty where it could.
   std::vector<std::string> reasons{};
-  /// Of each, whether that is because its stored scores are wrong, or may be.
+  /// Of each campaign, what became of its store's file, where it was lost; empty where it was not.
+  std::vector<std::string> lost{};
+  /// Of each, whether it stopped because its stored scores are wrong, or may be.
   std::vector<bool> distrusted{};
 };
 
@@ -84,7 +86,8 @@ class Service {
   virtual const std::string& endpoint() const = 0;
 
   /// Until all campaigns are over or `stop` is requested: then nothing more is leased, running
-  /// evaluations have the grace time, and the stores are flushed. Call once.
+  /// evaluations have the grace time, and the stores are flushed. When a store's file is lost, at
+  /// once. Call once.
   virtual ServiceEnd run(const std::stop_token& stop, const ServiceHooks& hooks) = 0;
 };
 

@@ -63,24 +63,22 @@ bool Scheduler::is_on_trial(const Principal& principal, std::uint32_t campaign) 
 void Scheduler::hold_back(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result,
                           TimePoint now) {
   Principal& principal = *entry.principal;
-  const bool is_held = std::ranges::any_of(
-      principal.waiting, [&](const auto& each) { return each.result.key == result.key; });
   const Case* known = cases_.find(result.key);
   const bool is_said = known != nullptr && std::ranges::any_of(known->said, [&](const Said& said) {
                          return said.principal == principal.name;
                        });
   if (record.lease_of(entry.number) != nullptr) leases_.requeue(record, entry.number);
   if (!record.lease) leases_.park(record);
-  if (is_held || is_said) return;
-  principal.waiting.push_back({entry.number, result});
+  if (is_said) return;
+  principal.waiting.try_emplace(result.key, Principal::Waiting{entry.number, result});
   try_waiting(principal, now);
 }
 
 /// Brings as many of its results before the referee as its trial takes.
 void Scheduler::try_waiting(Principal& principal, TimePoint now) {
   while (!principal.waiting.empty() && principal.confirmed + principal.on_trial < kTrial) {
-    const Principal::Waiting one = std::move(principal.waiting.front());
-    principal.waiting.erase(principal.waiting.begin());
+    const Principal::Waiting one =
+        std::move(principal.waiting.extract(principal.waiting.begin()).mapped());
     const TaskRecord* record = leases_.find(one.result.key);
     // Somebody else was faster: it is compared when it is sent again.
     if (record == nullptr) continue;
@@ -102,8 +100,8 @@ void Scheduler::try_waiting(Principal& principal, TimePoint now) {
 
 /// It is known now: what waited counts.
 void Scheduler::take_waiting(Principal& principal, TimePoint now) {
-  for (const Principal::Waiting& one : std::exchange(principal.waiting, {})) {
-    TaskRecord* record = leases_.find(one.result.key);
+  for (const auto& [key, one] : std::exchange(principal.waiting, {})) {
+    TaskRecord* record = leases_.find(key);
     WorkerEntry* entry = workers_.of_number(one.worker);
     if (record == nullptr) continue;
     if (entry != nullptr) {
@@ -207,9 +205,9 @@ void Scheduler::quarantine(Principal& principal, const std::string& reason, Time
     actions_.emplace_back(WorkerChanged{row_of(entry, "quarantined")});
   }
   // What it said, and was not taken yet, is as if it had not been said.
-  for (const Principal::Waiting& one : std::exchange(principal.waiting, {})) {
-    TaskRecord* record = leases_.find(one.result.key);
-    if (record != nullptr && !cases_.knows(one.result.key)) leases_.unpark(*record);
+  for (const auto& [key, one] : std::exchange(principal.waiting, {})) {
+    TaskRecord* record = leases_.find(key);
+    if (record != nullptr && !cases_.knows(key)) leases_.unpark(*record);
   }
   if (workers_.trusted() == 0) note("error", "no worker left that is trusted", {});
 }

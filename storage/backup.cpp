@@ -51,7 +51,9 @@ Expected<Backup> copy_store(const fs::path& store, const fs::path& to, const OnC
   if (const auto reader = StoreReader::open(store); !reader) return Unexpected(reader.error());
   Backup made;
   try {
-    Connection original = connect_for_reading(store);
+    auto connected = connect_for_reading(store);
+    if (!connected) return Unexpected(connected.error());
+    Connection& original = *connected;
     const Snapshot snapshot(original);
     const std::int64_t schema = schema_of(original);  // the snapshot begins with the first reading
     Connection copy(to.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);

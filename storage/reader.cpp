@@ -156,22 +156,45 @@ std::vector<Row> StoreReader::answer_rows() {
   return rows;
 }
 
-Expected<std::unique_ptr<StoreReader>> StoreReader::open(const fs::path& path) {
+Expected<std::unique_ptr<StoreReader>> StoreReader::open(const fs::path& named) {
+  const fs::path path = real_store(named);
   std::error_code trouble;
   if (!fs::exists(path, trouble) && !trouble) {
     return unexpected(ErrorKind::NotFound, "there is no such store", path.string());
   }
-  if (auto sound = check_database_file(path); !sound) return Unexpected(sound.error());
   try {
-    Connection connection = connect_for_reading(path);
-    if (is_blank(connection)) {
+    auto connection = connect_for_reading(path);
+    if (!connection) return Unexpected(connection.error());
+    if (is_blank(*connection)) {
       return unexpected(ErrorKind::NotFound, "the file is empty: no campaign has begun in it",
                         path.string());
     }
-    if (auto ours = check_identity(connection, path); !ours) return Unexpected(ours.error());
-    return std::make_unique<SqliteReader>(std::make_shared<Connection>(std::move(connection)));
+    if (auto ours = check_identity(*connection, path); !ours) return Unexpected(ours.error());
+    return std::make_unique<SqliteReader>(std::make_shared<Connection>(std::move(*connection)));
   } catch (const sqlite::SqliteError& error) {
     return refused(error, path);
+  }
+}
+
+fs::path real_store(const fs::path& named) {
+  constexpr int kMostLinks = 40;  // as the kernel has it
+  fs::path path = named;
+  std::error_code trouble;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(path, trouble)); ++i) {
+    const fs::path target = fs::read_symlink(path, trouble);
+    if (trouble) break;
+    path = target.is_absolute() ? target : path.parent_path() / target;
+  }
+  return path;
+}
+
+bool is_database(const fs::path& path) {
+  std::error_code trouble;
+  if (!fs::is_regular_file(path, trouble)) return false;
+  try {
+    return has_database_header(Connection(path.string(), SQLITE_OPEN_READONLY));
+  } catch (const sqlite::SqliteError&) {
+    return false;
   }
 }
 

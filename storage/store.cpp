@@ -89,35 +89,33 @@ void write_birth(Connection& connection, const CampaignRow& campaign,
 }
 
 /// Changes nothing until it is sure that the store is the campaign's.
-Expected<Connection> prepare(const fs::path& path, bool unclean, const CampaignRow& campaign,
-                             const std::vector<DesignRow>& designs) {
-  auto connection = connect_writer(path, unclean);
-  if (!connection) return connection;
-  if (is_blank(*connection)) {
-    write_birth(*connection, campaign, designs);
-    return connection;
+Expected<void> prepare(Connection& connection, const fs::path& path, const CampaignRow& campaign,
+                       const std::vector<DesignRow>& designs) {
+  if (is_blank(connection)) {
+    write_birth(connection, campaign, designs);
+    return {};
   }
-  migrate(*connection, path, migrations());
-  if (auto same = check_campaign(*connection, path, campaign); !same) {
-    return Unexpected(same.error());
-  }
-  name_flavours(*connection, designs);
-  return connection;
+  migrate(connection, path, migrations());
+  if (auto same = check_campaign(connection, path, campaign); !same) return same;
+  name_flavours(connection, designs);
+  return {};
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<Store>> Store::open(const fs::path& path, const CampaignRow& campaign,
+Expected<std::unique_ptr<Store>> Store::open(const fs::path& named, const CampaignRow& campaign,
                                              const std::vector<DesignRow>& designs,
                                              const StoreOptions& options) {
+  const fs::path path = real_store(named);
   if (auto folder = check_folder(path); !folder) return Unexpected(folder.error());
-  auto lock = lock_for_writing(path, options.patience);
-  if (!lock) return Unexpected(lock.error());
   try {
-    auto connection = prepare(path, lock->unclean, campaign, designs);
-    if (!connection) return Unexpected(connection.error());
-    lock->file.set_suspect(false);
-    return std::make_unique<GroupWriter>(std::move(lock->file), std::move(*connection), options);
+    auto writer = open_writer(path, options.patience);
+    if (!writer) return Unexpected(writer.error());
+    if (auto ready = prepare(writer->connection, path, campaign, designs); !ready) {
+      return Unexpected(ready.error());
+    }
+    writer->lock.set_suspect(false);
+    return std::make_unique<GroupWriter>(std::move(*writer), path, options);
   } catch (const sqlite::SqliteError& error) {
     return not_writable(error, path);
   }

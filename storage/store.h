@@ -34,6 +34,9 @@ class StoreFailure : public std::runtime_error {
 struct WriterNews {
   std::uint64_t committed = 0;  ///< every batch up to this ticket is on disk
   std::string trouble;          ///< why commits are being retried (disk full, ...); empty when well
+  /// The file was deleted, renamed or replaced: nothing is written any more. `trouble` says where
+  /// what was committed is now.
+  bool is_lost = false;
 };
 
 struct StoreOptions {
@@ -55,15 +58,17 @@ struct StoredTrust {
 };
 
 /// The one writer of a store: a SQLite file in WAL mode, synchronous=FULL, with a thread of its own
-/// that takes whatever has queued up as one transaction (group commit). Holds the store's lock
-/// while it lives, so that there is never a second one. Rows that are already there are ignored, or
-/// replaced where the row says that it holds absolute values: appending twice does no harm.
+/// that takes whatever has queued up as one transaction (group commit). Holds the lock of the file,
+/// whatever it is called, while it lives, so that there is never a second one. Rows that are
+/// already there are ignored, or replaced where the row says that it holds absolute values:
+/// appending twice does no harm.
 class Store {
  public:
   /// Makes the store when the file does not exist, else opens and migrates it. Errors: Conflict
   /// (another process holds it: its pid and host; or another campaign's: the keys that differ),
   /// Corrupt (no SQLite file, truncated, damaged), Newer (schema of a later version), BadInput (a
-  /// network file system, no such folder, not writable), Unavailable (the disk refuses).
+  /// network file system, no such folder, not writable, a second name), Unavailable (the disk
+  /// refuses).
   static Expected<std::unique_ptr<Store>> open(const std::filesystem::path& path,
                                                const CampaignRow& campaign,
                                                const std::vector<DesignRow>& designs,
@@ -81,11 +86,13 @@ class Store {
 
   /// `on_news` is called from the writer's thread after each commit and whenever commits begin to
   /// fail (disk full: it retries every second until there is room) or work again; before flush()
-  /// returns. It must not call the store.
+  /// returns. When the file is lost, which is looked at with each commit and once a second, for the
+  /// last time. It must not call the store.
   virtual void set_listener(std::function<void(const WriterNews&)> on_news) = 0;
 
-  /// Waits until everything appended so far is on disk.
-  virtual void flush() = 0;
+  /// Waits until everything appended so far is on disk. Conflict when the file is lost, with what
+  /// happened and where the rest is.
+  virtual Expected<void> flush() = 0;
 
   /// Every evaluation that is stored, for replay; read before the first append.
   virtual std::vector<StoredScore> scores() = 0;
@@ -119,9 +126,9 @@ struct StoredCampaign {
 /// sees the store as it is at that moment. Members throw std::runtime_error when the disk fails.
 class StoreReader {
  public:
-  /// Errors: NotFound, Corrupt, Newer, Unavailable (a folder in which SQLite cannot make its -shm
-  /// file, while a log waits there). A store of an older schema is read as it is; a query that
-  /// names what it lacks is told how to come to a newer one.
+  /// Errors: NotFound, Corrupt, Newer, BadInput (a second name), Unavailable (a folder in which
+  /// SQLite cannot make its -shm file, while a log waits there). A store of an older schema is read
+  /// as it is; a query that names what it lacks is told how to come to a newer one.
   static Expected<std::unique_ptr<StoreReader>> open(const std::filesystem::path& path);
   virtual ~StoreReader() = default;
 
@@ -179,6 +186,14 @@ class StoreReader {
       const std::function<void(const std::vector<std::string>&)>& on_columns,
       const std::function<void(const std::vector<Cell>&)>& on_row) = 0;
 };
+
+/// The file that a name leads to: symbolic links are followed, also to where nothing is yet. Log,
+/// lock and the coordinator's file lie beside it.
+std::filesystem::path real_store(const std::filesystem::path& named);
+
+/// Whether a file begins as SQLite's do; false when it cannot be read. Looks at it through SQLite,
+/// as everybody must who may be looking at a store (decision 18).
+bool is_database(const std::filesystem::path& path);
 
 /// A text as a literal of SQL, in quotes.
 std::string sql_text(std::string_view text);

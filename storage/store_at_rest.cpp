@@ -30,19 +30,17 @@ constexpr char kDesign[] =
 
 class SqliteAtRest final : public StoreAtRest {
  public:
-  SqliteAtRest(LockFile lock, Connection connection, fs::path path, bool is_new)
-      : lock_(std::move(lock)),
-        connection_(std::move(connection)),
-        path_(std::move(path)),
-        is_new_(is_new) {}
+  SqliteAtRest(Writer writer, fs::path path, bool is_new)
+      : writer_(std::move(writer)), path_(std::move(path)), is_new_(is_new) {}
 
   ~SqliteAtRest() override {
-    // Only tidies up: what was committed is on disk.
-    sqlite3_wal_checkpoint_v2(connection_->handle(), nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr,
-                              nullptr);
-    connection_.reset();
     std::error_code ignored;
-    if (is_new_) fs::remove(path_, ignored);
+    // While the right to write it is held.
+    if (is_new_ && writer_.file.fate().empty()) {
+      for (const char* ending : {"", "-wal", "-shm"})
+        fs::remove(path_.string() + ending, ignored);
+    }
+    give_up(writer_);
   }
 
   bool is_new() const override { return is_new_; }
@@ -59,8 +57,7 @@ class SqliteAtRest final : public StoreAtRest {
   Expected<void> add_campaign(const Addition& addition);
   void remove(const EvaluationKey& key);
 
-  LockFile lock_;
-  std::optional<Connection> connection_;
+  Writer writer_;
   fs::path path_;
   bool is_new_;
 };
@@ -72,7 +69,7 @@ Expected<void> SqliteAtRest::add(const Addition& addition) {
     if (auto added = add_campaign(addition); !added) return added;
     for (const EvaluationKey& key : addition.removed)
       remove(key);
-    RowWriter writer(*connection_);
+    RowWriter writer(writer_.connection);
     for (const Row& row : addition.rows)
       writer.write(row);
     return {};
@@ -81,8 +78,8 @@ Expected<void> SqliteAtRest::add(const Addition& addition) {
 
 Expected<void> SqliteAtRest::in_one_go(const std::function<Expected<void>()>& change) {
   try {
-    sqlite::Transaction transaction(*connection_);
-    if (is_new_) write_empty_store(*connection_);
+    sqlite::Transaction transaction(writer_.connection);
+    if (is_new_) write_empty_store(writer_.connection);
     if (auto changed = change(); !changed) return changed;
     transaction.commit();
   } catch (const sqlite::SqliteError& error) {
@@ -92,12 +89,13 @@ Expected<void> SqliteAtRest::in_one_go(const std::function<Expected<void>()>& ch
         path_.string());
   }
   is_new_ = false;
-  return {};
+  const std::string fate = writer_.file.fate();
+  return fate.empty() ? Expected<void>() : Unexpected(save_lost(writer_, fate, path_).error);
 }
 
 Expected<void> SqliteAtRest::check_candidate(CandidateId candidate) const {
   if (!candidate) return {};
-  Statement known(*connection_, "SELECT 1 FROM candidate WHERE id = ?");
+  Statement known(writer_.connection, "SELECT 1 FROM candidate WHERE id = ?");
   known.bind(candidate.value);
   if (known.step()) return {};
   return unexpected(ErrorKind::NotFound, "the store has no candidate " + to_string(candidate),
@@ -105,7 +103,7 @@ Expected<void> SqliteAtRest::check_candidate(CandidateId candidate) const {
 }
 
 Expected<RealRunRows> SqliteAtRest::stored_run(RealRunId id) const {
-  if (auto rows = read_real_run(*connection_, id)) return std::move(*rows);
+  if (auto rows = read_real_run(writer_.connection, id)) return std::move(*rows);
   return unexpected(ErrorKind::NotFound, "the store has no real run " + to_string(id),
                     path_.string());
 }
@@ -114,9 +112,9 @@ Expected<RealRunWritten> SqliteAtRest::add_real_run(const RealRunRows& rows) {
   require_whole(rows);
   RealRunWritten written;
   const auto added = in_one_go([&]() -> Expected<void> {
-    if (const auto known = real_run_of_key(*connection_, rows.key)) {
+    if (const auto known = real_run_of_key(writer_.connection, rows.key)) {
       written = {.id = *known, .is_new = false};
-      const auto differ = differing_inputs(*read_real_run(*connection_, *known), rows);
+      const auto differ = differing_inputs(*read_real_run(writer_.connection, *known), rows);
       if (differ.empty()) return {};
       return unexpected(
           ErrorKind::Conflict,
@@ -126,8 +124,8 @@ Expected<RealRunWritten> SqliteAtRest::add_real_run(const RealRunRows& rows) {
           path_.string());
     }
     if (auto known = check_candidate(rows.candidate); !known) return known;
-    if (is_new_) write_campaign_of_real_runs(*connection_, rows.key);
-    written.id = write_real_run(*connection_, rows);
+    if (is_new_) write_campaign_of_real_runs(writer_.connection, rows.key);
+    written.id = write_real_run(writer_.connection, rows);
     return {};
   });
   if (!added) return Unexpected(added.error());
@@ -147,7 +145,7 @@ Expected<void> SqliteAtRest::rescore_real_run(RealRunId id, const RealRunRows& r
           path_.string());
     }
     if (auto known = check_candidate(rows.candidate); !known) return known;
-    rewrite_real_run(*connection_, id, rows);
+    rewrite_real_run(writer_.connection, id, rows);
     return {};
   });
 }
@@ -163,7 +161,7 @@ Expected<void> SqliteAtRest::add_override(const RealOverrideRow& row) {
   }
   return in_one_go([&]() -> Expected<void> {
     if (const auto stored = stored_run(row.run); !stored) return Unexpected(stored.error());
-    write_override(*connection_, row);
+    write_override(writer_.connection, row);
     return {};
   });
 }
@@ -172,10 +170,10 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
   if (!addition.campaign) return {};
   const CampaignRow& campaign = *addition.campaign;
   std::int64_t designs =
-      sqlite::integer_of(*connection_, "SELECT coalesce(max(id), 0) FROM design");
-  Statement(*connection_, kCampaign)
+      sqlite::integer_of(writer_.connection, "SELECT coalesce(max(id), 0) FROM design");
+  Statement(writer_.connection, kCampaign)
       .run(campaign.name, campaign.digest, campaign.deciding, campaign.file, campaign.seed);
-  Statement insert(*connection_, kDesign);
+  Statement insert(writer_.connection, kDesign);
   for (const auto& [row, name] : addition.designs) {
     if (row.id.value != ++designs) {
       return unexpected(
@@ -190,37 +188,37 @@ Expected<void> SqliteAtRest::add_campaign(const Addition& addition) {
 }
 
 void SqliteAtRest::remove(const EvaluationKey& key) {
-  Statement(*connection_, "DELETE FROM evaluation WHERE candidate = ? AND purpose = ? AND pair = ?")
+  Statement(writer_.connection,
+            "DELETE FROM evaluation WHERE candidate = ? AND purpose = ? AND pair = ?")
       .run(key.candidate.value, static_cast<std::int64_t>(key.purpose), key.pair);
 }
 
 }  // namespace
 
-Expected<std::unique_ptr<StoreAtRest>> StoreAtRest::open(const fs::path& path, IfMissing if_missing,
+Expected<std::unique_ptr<StoreAtRest>> StoreAtRest::open(const fs::path& named,
+                                                         IfMissing if_missing,
                                                          const std::vector<DesignRow>& designs) {
+  const fs::path path = real_store(named);
   std::error_code trouble;
   const bool exists = fs::exists(path, trouble);
   if (!exists && if_missing == IfMissing::Refuse) {
     return unexpected(ErrorKind::NotFound, "there is no such store", path.string());
   }
   if (auto folder = check_folder(path); !folder) return Unexpected(folder.error());
-  auto lock = lock_for_writing(path, {});
-  if (!lock) return Unexpected(lock.error());
   try {
-    auto connection = connect_writer(path, lock->unclean);
-    if (!connection) return Unexpected(connection.error());
-    const bool blank = is_blank(*connection);
+    auto writer = open_writer(path, {});
+    if (!writer) return Unexpected(writer.error());
+    const bool blank = is_blank(writer->connection);
     if (blank && exists && if_missing == IfMissing::Refuse) {
       return unexpected(ErrorKind::NotFound, "the file is empty: no campaign has begun in it",
                         path.string());
     }
     if (!blank) {
-      migrate(*connection, path, migrations());
-      name_flavours(*connection, designs);
+      migrate(writer->connection, path, migrations());
+      name_flavours(writer->connection, designs);
     }
-    lock->file.set_suspect(false);
-    return std::make_unique<SqliteAtRest>(std::move(lock->file), std::move(*connection), path,
-                                          blank);
+    writer->lock.set_suspect(false);
+    return std::make_unique<SqliteAtRest>(std::move(*writer), path, blank);
   } catch (const sqlite::SqliteError& error) {
     return not_writable(error, path);
   }

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <vector>
 
+#include "base/shown_text.h"
 #include "target/command_line.h"
 #include "target/internal/aclib.h"
-#include "target/internal/utf8.h"
 #include "target/number.h"
 
 namespace swarmsmith {
@@ -171,7 +171,7 @@ Expected<std::string> parse_job_id(std::string_view output) {
 }
 
 std::string printable(std::string_view text, std::size_t longest) {
-  std::string out = as_utf8(text);
+  std::string out = as_shown(text);
   if (out.size() <= longest) return out;
   constexpr std::string_view kCut = "...";
   std::string_view end = std::string_view(out).substr(out.size() - (longest - kCut.size()));

@@ -28,7 +28,7 @@ Expected<Reading> parse_evaluator_output(std::string_view output, const Target& 
 /// The job's id that a targetRunner prints in batch mode, and nothing else.
 Expected<std::string> parse_job_id(std::string_view output);
 
-/// The text as people may see it: what is not UTF-8 or no printable character becomes \xNN, and of
+/// The text as people may see it: escapes for what is not shown (base/shown_text.h), and of
 /// a long text only the end stays, after "...".
 std::string printable(std::string_view text, std::size_t longest);
 

@@ -156,7 +156,8 @@ Expected<std::string> find_program(const std::string& name) {
 }
 
 Expected<ProcessEnd> run_process(const ProcessCall& call, const Interrupt& interrupt) {
-  const Expected<std::string> program = find_program(call.words.at(0));
+  const Expected<std::string> program =
+      call.file.empty() ? find_program(call.words.at(0)) : call.file;
   if (!program) return Unexpected(program.error());
   Expected<Child> child = spawn(*program, call.words, call.folder);
   if (!child) return Unexpected(child.error());

@@ -15,6 +15,8 @@ namespace swarmsmith {
 struct ProcessCall {
   /// Program and arguments. A program without a slash in its name is looked for in PATH.
   std::vector<std::string> words;
+  /// The file that is run under the name `words[0]`; empty: the one that this name means.
+  std::string file{};
   std::string folder;                 ///< in which it runs; empty: where this process is
   std::chrono::milliseconds limit{};  ///< 0 for none
   /// Between SIGTERM and SIGKILL.

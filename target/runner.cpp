@@ -64,6 +64,11 @@ tl::expected<TargetRunner::Command, TargetFailure> TargetRunner::command(
   command.process.folder = target_.folder;
   command.process.term_grace = options_.term_grace;
   command.process.limit = std::chrono::seconds(target_.timeout_s);
+  if (options_.file_of) {
+    Expected<std::string> file = options_.file_of(program);
+    if (!file) return tl::unexpected(failure(command, nullptr, to_string(file.error())));
+    command.process.file = std::move(*file);
+  }
   Expected<Words> split = split_words(arguments);
   if (!split) {
     return tl::unexpected(
@@ -75,6 +80,7 @@ tl::expected<TargetRunner::Command, TargetFailure> TargetRunner::command(
     command.process.words = std::move(split->words);
     command.process.words.insert(command.process.words.begin(), program);
   } else if (options_.shell) {
+    command.process.file.clear();  // a shell may run anything: there is nothing to keep to
     command.process.words = {"/bin/sh", "-c", shell_quoted(program) + " " + arguments};
   } else {
     return tl::unexpected(failure(
@@ -138,12 +144,25 @@ tl::expected<TargetResult, TargetFailure> TargetRunner::run_once(const Command& 
   return TargetResult{*reading, std::isinf(reading->cost)};
 }
 
+/// A launcher is told the file behind the runner's name.
+tl::expected<TargetRunner::Command, TargetFailure> TargetRunner::runner_command(
+    const RunnerCall& call) const {
+  if (target_.launcher.empty()) return command(target_.runner, arguments_of(target_, call));
+  if (!options_.file_of) return command(target_.launcher, arguments_of(target_, call));
+  Target target = target_;
+  Expected<std::string> file = options_.file_of(target_.runner);
+  if (!file) {
+    return tl::unexpected(
+        failure({.process = {}, .text = typed(target_.runner)}, nullptr, to_string(file.error())));
+  }
+  target.runner = std::move(*file);
+  return command(target_.launcher, arguments_of(target, call));
+}
+
 tl::expected<TargetResult, TargetFailure> TargetRunner::run(const RunnerCall& call) const {
-  const bool launched = !target_.launcher.empty();
-  const auto made =
-      command(launched ? target_.launcher : target_.runner, arguments_of(target_, call));
-  if (!made) return tl::unexpected(made.error());
   for (std::int64_t attempt = 1;; ++attempt) {
+    const auto made = runner_command(call);
+    if (!made) return tl::unexpected(made.error());
     auto result = run_once(*made, call.bound);
     if (result || interrupt_->triggered()) return result;
     if (attempt <= target_.retries) continue;

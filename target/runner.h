@@ -1,6 +1,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <string>
 #include <tl/expected.hpp>
 
@@ -31,6 +32,9 @@ struct TargetFailure {
 };
 
 struct RunnerOptions {
+  /// The file behind a program's name, looked up and checked anew before each start: that file is
+  /// run, whatever the name means a moment later. Without it a program is run by its name.
+  std::function<Expected<std::string>(const std::string& program)> file_of{};
   /// Whether texts that only a shell understands are given to one.
   bool shell = false;
   std::chrono::milliseconds batch_poll = std::chrono::seconds(2);
@@ -58,6 +62,7 @@ class TargetRunner {
   };
   tl::expected<Command, TargetFailure> command(const std::string& program,
                                                const std::string& arguments) const;
+  tl::expected<Command, TargetFailure> runner_command(const RunnerCall& call) const;
   tl::expected<ProcessEnd, TargetFailure> call(const Command& command,
                                                const std::string& role) const;
   tl::expected<TargetResult, TargetFailure> run_once(const Command& command, double bound) const;

@@ -32,6 +32,21 @@ std::uint64_t digest_of(const Reading& reading) {
   return digest.value64();
 }
 
+/// The file behind a program's name, if it is one of the list's, now: a path without links. Who can
+/// change what lies there has been trusted with it.
+Expected<std::string> allowed_file(const std::string& program,
+                                   const std::vector<std::string>& allowed) {
+  std::optional<std::string> file = canonical(program);
+  if (!file) {
+    return unexpected(ErrorKind::NotFound, "there is no such program on this host", program);
+  }
+  if (std::ranges::find(allowed, *file) != allowed.end()) return std::move(*file);
+  return unexpected(ErrorKind::Conflict, "the campaign wants to run the program " + *file +
+                                             ", which this worker may not: start the worker with "
+                                             "--allow " +
+                                             *file);
+}
+
 /// An instance as programs are told of it.
 struct NamedInstance {
   std::string id;
@@ -46,29 +61,23 @@ class Programs {
         target_(*scenario_->target),
         allowed_(allowed.programs),
         interrupt_(std::move(interrupt)),
-        runner_(target_, {.shell = allowed.shell, .batch_poll = allowed.batch_poll}, *interrupt_) {}
+        runner_(target_,
+                {.file_of = [list = allowed.programs](
+                                const std::string& program) { return allowed_file(program, list); },
+                 .shell = allowed.shell,
+                 .batch_poll = allowed.batch_poll},
+                *interrupt_) {}
 
-  /// Whether a program is one of the list's, now.
-  Expected<void> check(const std::string& program, const char* role) const {
-    const std::optional<std::string> resolved = canonical(program);
-    if (!resolved) {
-      return unexpected(ErrorKind::NotFound,
-                        std::string("there is no program ") + role + " on this host", program);
-    }
-    if (std::ranges::find(allowed_, *resolved) != allowed_.end()) return {};
-    return unexpected(ErrorKind::Conflict,
-                      std::string("the campaign wants to run the ") + role + " " + *resolved +
-                          ", which this worker may not: start the worker with --allow " +
-                          *resolved);
-  }
-
+  /// So that a campaign that cannot run here is refused before anything does.
   Expected<void> check_all() const {
-    if (auto fine = check(target_.runner, "targetRunner"); !fine) return fine;
-    if (!target_.launcher.empty()) {
-      if (auto fine = check(target_.launcher, "targetRunnerLauncher"); !fine) return fine;
-    }
-    if (!target_.evaluator.empty()) {
-      if (auto fine = check(target_.evaluator, "targetEvaluator"); !fine) return fine;
+    for (const auto& [role, program] : {std::pair{"targetRunner", &target_.runner},
+                                        {"targetRunnerLauncher", &target_.launcher},
+                                        {"targetEvaluator", &target_.evaluator}}) {
+      if (program->empty()) continue;
+      if (const auto file = allowed_file(*program, allowed_); !file) {
+        return unexpected(file.error().kind, std::string(role) + ": " + file.error().message,
+                          file.error().where);
+      }
     }
     std::error_code failed;
     if (std::filesystem::is_directory(target_.folder, failed)) return {};
@@ -78,10 +87,6 @@ class Programs {
   }
 
   tl::expected<Measured, Failure> operator()(const WorkItem& item) const {
-    // A link may have been changed since the scenario came.
-    if (const auto fine = check_all(); !fine) {
-      return tl::unexpected(Failure{to_string(fine.error())});
-    }
     const Expected<NamedInstance> instance = instance_of(item);
     if (!instance) return tl::unexpected(Failure{to_string(instance.error())});
     const auto result = evaluate(item, *instance);

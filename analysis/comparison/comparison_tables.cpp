@@ -5,8 +5,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "analysis/records/csv.h"
 #include "analysis/statistics/effect_size.h"
+#include "base/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -20,7 +20,7 @@ std::string csv_number(std::optional<double> value) {
 }
 
 std::string csv_row(const std::vector<std::string>& fields) {
-  return fmt::format("{}\r\n", fmt::join(fields, ","));
+  return fmt::format("{}\n", fmt::join(fields, ","));
 }
 
 }  // namespace
@@ -28,7 +28,7 @@ std::string csv_row(const std::vector<std::string>& fields) {
 std::string groups_csv(const Comparison& comparison) {
   std::string csv =
       "mission,method,source,n,designs,runs,mean,sd,min,lower_quartile,median,upper_quartile,max"
-      "\r\n";
+      "\n";
   for (const ComparedGroup& group : comparison.groups) {
     const Summary& summary = group.summary;
     csv += csv_row({csv_field(group.mission), csv_field(group.method), csv_field(group.source),
@@ -44,7 +44,7 @@ std::string groups_csv(const Comparison& comparison) {
 std::string pairs_csv(const Comparison& comparison) {
   std::string csv =
       "mission,method,source,first,second,n_first,n_second,test,statistic,p,p_holm,p_method,zeros,"
-      "least_p,a12,magnitude,mean_difference,difference_low,difference_high,notes\r\n";
+      "least_p,a12,magnitude,mean_difference,difference_low,difference_high,notes\n";
   for (const ComparedPair& pair : comparison.pairs) {
     csv += csv_row({csv_field(pair.mission),
                     csv_field(pair.method),
@@ -72,7 +72,7 @@ std::string pairs_csv(const Comparison& comparison) {
 
 std::string ranks_csv(const std::vector<ComparedRanks>& ranks) {
   std::string csv =
-      "source,name,mean_rank,low,high,blocks,incomplete,chi_squared,degrees,p,missions\r\n";
+      "source,name,mean_rank,low,high,blocks,incomplete,chi_squared,degrees,p,missions\n";
   for (const ComparedRanks& ranking : ranks) {
     const FriedmanTest& test = ranking.test;
     const double half = test.half_width.value_or(NAN);

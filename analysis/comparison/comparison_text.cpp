@@ -9,6 +9,7 @@
 
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/statistics/effect_size.h"
+#include "base/shown_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -25,7 +26,10 @@ std::size_t width_of(std::string_view text) {
       std::ranges::count_if(text, [](char letter) { return (letter & '\xc0') != '\x80'; }));
 }
 
-std::string aligned(const TextTable& table) {
+std::string aligned(TextTable table) {
+  for (auto& row : table.rows)
+    std::ranges::transform(row, row.begin(),
+                           [](const auto& cell) { return as_shown(cell, Layout::Escaped); });
   std::vector<std::size_t> widths(table.rows.front().size());
   for (const auto& row : table.rows) {
     for (std::size_t i = 0; i < row.size(); ++i)

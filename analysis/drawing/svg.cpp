@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/base64.h"
+#include "base/shown_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -41,11 +42,11 @@ std::string attribute(std::string_view name, std::string_view value) {
   return " " + std::string(name) + "=\"" + std::string(value) + "\"";
 }
 
-/// Letters that mean something in XML are written as entities; control characters, which XML cannot
-/// hold at all, are dropped.
+/// Letters that mean something in XML are written as entities, control characters, which XML cannot
+/// hold at all, as escapes.
 std::string escaped(std::string_view text) {
   std::string result;
-  for (const char letter : text) {
+  for (const char letter : as_shown(text, Layout::Escaped)) {
     if (letter == '&') {
       result += "&amp;";
     } else if (letter == '<') {
@@ -54,7 +55,7 @@ std::string escaped(std::string_view text) {
       result += "&gt;";
     } else if (letter == '"') {
       result += "&quot;";
-    } else if (static_cast<unsigned char>(letter) >= 0x20) {
+    } else {
       result += letter;
     }
   }

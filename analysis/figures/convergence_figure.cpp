@@ -7,7 +7,7 @@
 #include "analysis/figures/convergence_plot.h"
 #include "analysis/figures/design_choice.h"
 #include "analysis/figures/makers.h"
-#include "analysis/records/csv.h"
+#include "base/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -81,14 +81,13 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
   std::map<DesignId, const DesignRecord*> by_id;
   for (const DesignRecord& design : *known)
     by_id.emplace(design.design, &design);
-  Figure figure{.csv =
-                    "design,mission,method,iteration,experiments_used,rank,candidate,mean,n\r\n"};
+  Figure figure{.csv = "design,mission,method,iteration,experiments_used,rank,candidate,mean,n\n"};
   for (const EliteRecord& elite : *all) {
     const auto design = by_id.find(elite.design);
     // A design that came between the two queries is left for the next time.
     if (design == by_id.end()) continue;
     made.add(elite);
-    figure.csv += fmt::format("{},{},{},{},{},{},{},{},{}\r\n", elite.design.value,
+    figure.csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", elite.design.value,
                               csv_field(design->second->mission), csv_field(design->second->method),
                               elite.iteration, elite.experiments_used, elite.rank,
                               elite.candidate.value, elite.mean, elite.runs);

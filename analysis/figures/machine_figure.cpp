@@ -85,19 +85,19 @@ Expected<StoredMachine> machine_of(const MachineRecord& candidate) {
 
 std::string machine_csv(const StoredMachine& stored) {
   std::string csv =
-      "state,behaviour,behaviour_parameters,transition,target,condition,condition_parameters\r\n";
+      "state,behaviour,behaviour_parameters,transition,target,condition,condition_parameters\n";
   for (std::size_t i = 0; i < stored.machine.states.size(); ++i) {
     const State& state = stored.machine.states[i];
     const Module behaviour = module_of(state.behaviour);
     const std::string begin =
         fmt::format("{},{},{}", i, id_of(behaviour),
                     parameters_text(behaviour, parameters_of(state.behaviour), *stored.flavour));
-    csv += begin + ",,,,\r\n";
+    csv += begin + ",,,,\n";
     for (std::size_t j = 0; j < state.transitions.size(); ++j) {
       const Transition& transition = state.transitions[j];
       const Module condition = module_of(transition.condition);
       csv += fmt::format(
-          "{},{},{},{},{}\r\n", begin, j, transition.target, id_of(condition),
+          "{},{},{},{},{}\n", begin, j, transition.target, id_of(condition),
           parameters_text(condition, parameters_of(transition.condition), *stored.flavour));
     }
   }

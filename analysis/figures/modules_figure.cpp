@@ -8,7 +8,7 @@
 #include "analysis/figures/internal/panel_grid.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/module_chart.h"
-#include "analysis/records/csv.h"
+#include "base/csv.h"
 #include "sim/control/module.h"
 
 namespace swarmsmith {
@@ -83,11 +83,11 @@ Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options
   sort_as_drawn(*frequencies);
   const std::vector<std::string> ids = ids_of(*frequencies);
   ModuleChart chart{.title = "Modules of the winners", .width_mm = options.width_mm};
-  Figure figure{.csv = "mission,method,module,designs,avg_occurrences,occurrence_rate\r\n"};
+  Figure figure{.csv = "mission,method,module,designs,avg_occurrences,occurrence_rate\n"};
   for (const ModuleFrequency& frequency : *frequencies) {
     const std::size_t designs = counts->at({frequency.method, frequency.mission});
     add(chart, frequency, designs, ids);
-    figure.csv += fmt::format("{},{},{},{},{},{}\r\n", csv_field(frequency.mission),
+    figure.csv += fmt::format("{},{},{},{},{},{}\n", csv_field(frequency.mission),
                               csv_field(frequency.method), csv_field(frequency.module), designs,
                               frequency.average_occurrences, frequency.occurrence_rate);
   }

@@ -10,7 +10,7 @@
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/parallel_plot.h"
-#include "analysis/records/csv.h"
+#include "base/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -82,7 +82,7 @@ ParallelPlot::Line line_of(const ParameterTable& table, const std::vector<std::s
 }
 
 std::string csv_of(const ParallelPlot& plot, DesignId design) {
-  std::string csv = "design,candidate,elite,mean,parameter,value\r\n";
+  std::string csv = "design,candidate,elite,mean,parameter,value\n";
   for (const auto& line : plot.lines) {
     for (std::size_t p = 0; p < plot.parameters.size(); ++p) {
       const auto& parameter = plot.parameters[p];
@@ -92,7 +92,7 @@ std::string csv_of(const ParallelPlot& plot, DesignId design) {
                     ? fmt::format("{}", line.values[p])
                     : csv_field(parameter.categories[static_cast<std::size_t>(line.values[p])]);
       }
-      csv += fmt::format("{},{},{},{},{},{}\r\n", design.value, line.name.substr(1),
+      csv += fmt::format("{},{},{},{},{},{}\n", design.value, line.name.substr(1),
                          line.is_elite ? 1 : 0, line.mean, csv_field(parameter.name), value);
     }
   }

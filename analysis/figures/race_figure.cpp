@@ -10,7 +10,7 @@
 #include "analysis/figures/design_choice.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/race_plot.h"
-#include "analysis/records/csv.h"
+#include "base/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -166,7 +166,7 @@ std::string description_of(const Race& race, const std::vector<Ranked>& rows) {
 std::string csv_of(const Race& race) {
   std::string csv =
       "design,iteration,step,marker,alive_before,alive_after,pair,instance,seed,candidate,"
-      "elite_before,elite_after,score,rank,dropped\r\n";
+      "elite_before,elite_after,score,rank,dropped\n";
   const auto maybe = [](const std::optional<double>& value) {
     return value ? fmt::format("{}", *value) : "";
   };
@@ -177,7 +177,7 @@ std::string csv_of(const Race& race) {
     const StepRecord& step = race.steps[at];
     const auto dropped = race.dropped.find(cell.candidate);
     const bool here = dropped != race.dropped.end() && dropped->second.step == cell.step;
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\r\n", race.design.design.value,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}\n", race.design.design.value,
                        step.iteration, step.step, csv_field(step.marker), step.alive_before,
                        step.alive_after, cell.pair, cell.instance, cell.seed, cell.candidate.value,
                        race.elites_before.contains(cell.candidate) ? 1 : 0,

@@ -10,7 +10,7 @@
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/sampling_plot.h"
-#include "analysis/records/csv.h"
+#include "base/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -83,7 +83,7 @@ SamplingPlot::Panel panel_of(const ParameterTable& table, const ParameterColumn&
 
 /// What is counted: a value, or the lower and upper end of a part of the range.
 std::string csv_of(const SamplingPlot& plot, DesignId design) {
-  std::string csv = "design,parameter,iteration,candidates,kind,value,low,high,count\r\n";
+  std::string csv = "design,parameter,iteration,candidates,kind,value,low,high,count\n";
   for (const auto& panel : plot.panels) {
     for (std::size_t at = 0; at < panel.columns.size(); ++at) {
       const auto& column = panel.columns[at];
@@ -95,14 +95,14 @@ std::string csv_of(const SamplingPlot& plot, DesignId design) {
       for (std::size_t i = 0; i < column.counts.size(); ++i) {
         active += column.counts[i];
         if (!panel.categories.empty()) {
-          csv += fmt::format("{},value,{},,,{}\r\n", key, csv_field(panel.categories[i]),
+          csv += fmt::format("{},value,{},,,{}\n", key, csv_field(panel.categories[i]),
                              column.counts[i]);
         } else {
           const double low = panel.low + part * static_cast<double>(i);
-          csv += fmt::format("{},range,,{},{},{}\r\n", key, low, low + part, column.counts[i]);
+          csv += fmt::format("{},range,,{},{},{}\n", key, low, low + part, column.counts[i]);
         }
       }
-      csv += fmt::format("{},not active,,,,{}\r\n", key, column.candidates - active);
+      csv += fmt::format("{},not active,,,,{}\n", key, column.candidates - active);
       std::map<double, std::size_t> elites;
       for (const double value : column.elites)
         ++elites[value];
@@ -110,7 +110,7 @@ std::string csv_of(const SamplingPlot& plot, DesignId design) {
         const std::string text = panel.categories.empty()
                                      ? fmt::format("{}", value)
                                      : csv_field(panel.categories[static_cast<std::size_t>(value)]);
-        csv += fmt::format("{},elite,{},,,{}\r\n", key, text, count);
+        csv += fmt::format("{},elite,{},,,{}\n", key, text, count);
       }
     }
   }

@@ -2,13 +2,14 @@
 
 #include "analysis/machines/internal/machine_colors.h"
 #include "analysis/machines/machine_drawing.h"
+#include "base/shown_text.h"
 
 namespace swarmsmith {
 namespace {
 
 std::string dot_text(std::string_view text) {
   std::string result = "\"";
-  for (const char letter : text) {
+  for (const char letter : as_shown(text, Layout::Escaped)) {
     if (letter == '"' || letter == '\\') result += '\\';
     result += letter;
   }

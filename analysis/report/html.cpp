@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "analysis/report/internal/style.h"
+#include "base/shown_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -42,7 +43,7 @@ std::string captioned(std::string_view id, std::string_view caption, std::string
 std::string html_escaped(std::string_view text) {
   std::string result;
   result.reserve(text.size());
-  for (const char letter : text) {
+  for (const char letter : as_shown(text)) {
     switch (letter) {
       case '&':
         result += "&amp;";
@@ -56,11 +57,8 @@ std::string html_escaped(std::string_view text) {
       case '"':
         result += "&quot;";
         break;
-      default: {
-        const auto code = static_cast<unsigned char>(letter);
-        const bool is_control = code < 0x20 && letter != '\n' && letter != '\t';
-        result += is_control || code == 0x7f ? ' ' : letter;
-      }
+      default:
+        result += letter;
     }
   }
   return result;

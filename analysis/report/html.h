@@ -8,8 +8,8 @@
 
 namespace swarmsmith {
 
-/// Text as it may stand in an element or an attribute; control characters, which XML cannot hold,
-/// become blanks.
+/// Text as it may stand in an element or an attribute; what is not shown becomes an escape
+/// (base/shown_text.h).
 std::string html_escaped(std::string_view text);
 
 /// A number as people read it: four significant digits, no exponent up to a million, no sign before

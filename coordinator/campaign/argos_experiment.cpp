@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "base/shown_text.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine_text.h"
 
@@ -70,9 +71,9 @@ Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
 /// Within a comment of XML two hyphens must not meet.
 std::string comment_text(std::string_view text) {
   std::string result;
-  for (const char letter : text) {
+  for (const char letter : as_shown(text, Layout::Escaped)) {
     if (letter == '-' && !result.empty() && result.back() == '-') result += ' ';
-    if (static_cast<unsigned char>(letter) >= 0x20) result += letter;
+    result += letter;
   }
   return result;
 }

@@ -106,8 +106,13 @@ void CampaignMembers::replay(Member& member, std::vector<DesignPlan> plans) {
 void CampaignMembers::end(const ServiceEnd& end, const std::string& trouble) {
   for (std::size_t i = 0; i < running_.size(); ++i) {
     Member& member = members_[running_[i]];
-    member.end = end_of(member, end.reasons[i], trouble);
-    if (end.distrusted[i]) member.end = ExitCode::Store;
+    if (!end.lost[i].empty()) {
+      member.end = lose(member, end.lost[i]);
+    } else if (end.distrusted[i]) {
+      member.end = fail(output_, ExitCode::Store, in_front(member, ": ") + end.reasons[i]);
+    } else {
+      member.end = end_of(member, end.reasons[i], trouble);
+    }
   }
 }
 
@@ -123,6 +128,12 @@ ExitCode CampaignMembers::end_of(const Member& member, const std::string& reason
   if (!trouble.empty()) return ExitCode::Unreachable;
   print_resume(member);
   return ending_signal() == SIGTERM ? ExitCode::Terminated : ExitCode::Interrupted;
+}
+
+ExitCode CampaignMembers::lose(const Member& member, const std::string& fate) {
+  return fail(
+      output_, ExitCode::Store,
+      {ErrorKind::Conflict, in_front(member, ": ") + fate, member.campaign->store.string()});
 }
 
 ExitCode CampaignMembers::fail_of(const Member& member, Error error) {
@@ -147,7 +158,8 @@ std::vector<ServiceCampaign> CampaignMembers::served() const {
   for (const std::size_t i : running_) {
     const Member& member = members_[i];
     served.push_back({campaign_digest(*member.campaign), member.store.get(), member.runner.get(),
-                      member.name, design_rows(*member.campaign), member.campaign->store});
+                      member.name, design_rows(*member.campaign),
+                      real_store(member.campaign->store)});
   }
   return served;
 }
@@ -169,7 +181,7 @@ std::int64_t CampaignMembers::first_worker() const {
 std::vector<std::filesystem::path> CampaignMembers::coordinator_files() const {
   std::vector<std::filesystem::path> paths;
   for (const std::size_t i : running_)
-    paths.push_back(coordinator_file_of(members_[i].campaign->store));
+    paths.push_back(coordinator_file_of(real_store(members_[i].campaign->store)));
   return paths;
 }
 

@@ -59,6 +59,7 @@ class CampaignMembers {
 
   void replay(Member& member, std::vector<DesignPlan> plans);
   ExitCode end_of(const Member& member, const std::string& reason, const std::string& trouble);
+  ExitCode lose(const Member& member, const std::string& fate);
   ExitCode fail_of(const Member& member, Error error);
   std::string in_front(const Member& member, const std::string& mark) const;
   void print_resume(const Member& member);

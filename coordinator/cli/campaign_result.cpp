@@ -4,6 +4,7 @@
 #include <map>
 #include <vector>
 
+#include "base/shown_text.h"
 #include "coordinator/cli/mean_interval.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/query_output.h"
@@ -71,20 +72,22 @@ std::string shown(const std::string& text, bool as_cost = false) {
 /// One paragraph a design: what it is, how good its machine is, the machine.
 void write_text(Output& output, const Rows& rows, bool costs) {
   for (const auto& cells : rows.cells) {
-    output.out << cells[0].text << "  " << cells[1].text << ", " << cells[2].text << ", repetition "
-               << cells[3].text << ": " << cells[4].text << " after " << cells[5].text
-               << " experiments\n";
+    const auto text = [&](std::size_t column) {
+      return as_shown(cells[column].text, Layout::Escaped);
+    };
+    output.out << text(0) << "  " << text(1) << ", " << text(2) << ", repetition " << text(3)
+               << ": " << text(4) << " after " << text(5) << " experiments\n";
     if (cells[6].type == Cell::Type::Null) continue;
-    output.out << "  best " << cells[6].text << ", mean " << (costs ? "cost " : "score ")
+    output.out << "  best " << text(6) << ", mean " << (costs ? "cost " : "score ")
                << shown(cells[7].text, costs) << " in the race";
     if (cells[8].type != Cell::Type::Null) {
       output.out << ", " << shown(cells[8].text, costs);
       if (cells[9].type != Cell::Type::Null) {
         output.out << " +- " << shown(cells[9].text) << " (95 %)";
       }
-      output.out << " on " << cells[10].text << (costs ? " test instances" : " fresh seeds");
+      output.out << " on " << text(10) << (costs ? " test instances" : " fresh seeds");
     }
-    output.out << "\n  " << cells[11].text << "\n";
+    output.out << "\n  " << text(11) << "\n";
   }
 }
 
@@ -104,7 +107,7 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
         "{\"v\":1,\"event\":\"done\",\"designs\":" + rows_as_json(*rows) + "}";
     output.out << of_campaign(event, name) << "\n";
   } else {
-    if (!name.empty()) output.out << "campaign " << name << "\n";
+    if (!name.empty()) output.out << "campaign " << as_shown(name, Layout::Escaped) << "\n";
     write_text(output, *rows, *costs);
   }
   return ExitCode::Done;

@@ -69,14 +69,14 @@ Expected<void> ask_design(Store& store, const Campaign& campaign,
 }
 
 /// Written as one, and on disk when this returns.
-void write(Store& store, std::vector<CommandRow> commands, std::int64_t number) {
+Expected<void> write(Store& store, std::vector<CommandRow> commands, std::int64_t number) {
   std::vector<Row> rows;
   for (CommandRow& command : commands) {
     command.number = ++number;
     rows.emplace_back(std::move(command));
   }
   store.append(std::move(rows));
-  store.flush();
+  return store.flush();
 }
 
 }  // namespace
@@ -92,7 +92,9 @@ Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
     std::vector<DesignId> designs;
     for (const CommandRow& row : *rows)
       designs.push_back(row.design);
-    if (!rows->empty()) write(store, *rows, last);
+    if (!rows->empty()) {
+      if (auto written = write(store, *rows, last); !written) return Unexpected(written.error());
+    }
     return sentence_of_pause(command.kind, designs);
   }
   const auto campaign = parse_campaign(known.file, path.string());
@@ -100,7 +102,7 @@ Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
   if (auto asked = ask_design(store, *campaign, commands, command); !asked) {
     return Unexpected(asked.error());
   }
-  write(store, {command}, last);
+  if (auto written = write(store, {command}, last); !written) return Unexpected(written.error());
   const std::string name = to_string(command.design);
   if (command.kind == "cancel") return name + " ends when the campaign is run again";
   return name + " gets " + std::to_string(command.budget) +

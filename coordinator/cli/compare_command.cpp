@@ -2,6 +2,7 @@
 
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/comparison/comparison_text.h"
+#include "console/terminal.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/comparison_json.h"
 #include "coordinator/cli/store_argument.h"
@@ -44,7 +45,7 @@ ExitCode run(Arguments& arguments, Output& output) {
   if (arguments.csv) {
     // By mission there are no pairs.
     const bool groups = arguments.table.empty() && comparison->options.by == CompareBy::Mission;
-    output.out << csv_of(*comparison, groups ? "groups" : arguments.table);
+    write_data(output, csv_of(*comparison, groups ? "groups" : arguments.table));
     for (const std::string& note : comparison->notes)
       print_note(output, note);
   } else {

@@ -1,7 +1,6 @@
 #include "coordinator/cli/design_argument.h"
 
 #include <algorithm>
-#include <fstream>
 
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
@@ -10,15 +9,6 @@
 
 namespace swarmsmith::cli {
 namespace {
-
-/// SQLite's files begin with these 15 characters.
-bool is_store(const std::string& file) {
-  constexpr std::string_view kBegin = "SQLite format 3";
-  std::ifstream stream(file, std::ios::binary);
-  std::string begin(kBegin.size(), '\0');
-  stream.read(begin.data(), static_cast<std::streamsize>(begin.size()));
-  return begin == kBegin;
-}
 
 Expected<Campaign> campaign_or_last(CampaignOrErrors read, Output& output) {
   if (read) return std::move(*read);
@@ -31,7 +21,7 @@ Expected<Campaign> campaign_or_last(CampaignOrErrors read, Output& output) {
 }  // namespace
 
 Expected<Campaign> campaign_of(const std::string& file, Output& output) {
-  if (!is_store(file)) return campaign_or_last(read_campaign(file), output);
+  if (!is_database(file)) return campaign_or_last(read_campaign(file), output);
   const auto store = StoreReader::open(file);
   if (!store) return Unexpected(store.error());
   const std::vector<StoredCampaign> campaigns = (*store)->campaigns();

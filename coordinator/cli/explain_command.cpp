@@ -1,6 +1,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/shown_text.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
@@ -101,7 +102,8 @@ std::string used(const History& history) {
 
 void write_line(Output& output, const char* name, const std::string& value) {
   if (!value.empty())
-    output.out << name << std::string(12 - std::string(name).size(), ' ') << value << "\n";
+    output.out << name << std::string(12 - std::string(name).size(), ' ')
+               << as_shown(value, Layout::Escaped) << "\n";
 }
 
 void write_outcome(Output& output, const std::string& id, const History& history) {

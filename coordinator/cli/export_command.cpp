@@ -2,6 +2,7 @@
 #include <memory>
 #include <optional>
 
+#include "console/terminal.h"
 #include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/export_irace.h"
@@ -180,7 +181,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
   const bool json = output.json || arguments.format == "json";
   const std::string text = json ? as_json(*rows) : as_fsm_config(*rows);
   if (arguments.file.empty()) {
-    output.out << text;
+    write_data(output, text);
     return ExitCode::Done;
   }
   const auto done = write_whole_file(arguments.file, text);

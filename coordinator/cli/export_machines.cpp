@@ -7,6 +7,7 @@
 #include "analysis/figures/machine_figure.h"
 #include "analysis/machines/machine_drawing.h"
 #include "console/pdf.h"
+#include "console/terminal.h"
 #include "console/whole_file.h"
 #include "coordinator/campaign/argos_experiment.h"
 #include "coordinator/campaign/campaign_file.h"
@@ -127,7 +128,7 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& can
     const auto text = written(store, id, what, *width);
     if (!text) return fail(output, code_of(text.error()), text.error());
     if (what.place.empty()) {
-      output.out << text->bytes;
+      write_data(output, text->bytes);
       continue;
     }
     files.push_back(folder ? (fs::path(what.place) / text->name).string() : what.place);

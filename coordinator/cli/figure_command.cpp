@@ -4,6 +4,7 @@
 
 #include "analysis/figures/figure.h"
 #include "console/pdf.h"
+#include "console/terminal.h"
 #include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/figure_arguments.h"
@@ -98,7 +99,7 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
     return fail(output, is_usage ? ExitCode::Usage : ExitCode::Failed, bytes.error());
   }
   if (arguments.file.empty() || arguments.file == "-") {
-    output.out << *bytes;
+    write_data(output, *bytes);
     return ExitCode::Done;
   }
   if (const auto written = write_whole_file(arguments.file, *bytes); !written)

@@ -4,6 +4,7 @@
 #include <memory>
 #include <random>
 
+#include "console/terminal.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/irace_campaign.h"
@@ -74,7 +75,7 @@ ExitCode import_scenario(const Arguments& arguments, Output& output) {
   if (!faults.empty()) return ExitCode::Usage;
   const std::string text = heading(setup->scenario_file, campaign) + workers_text(campaign);
   if (arguments.out.empty()) {
-    output.out << text;
+    write_data(output, text);
     return ExitCode::Done;
   }
   if (auto written = write_file(arguments.out, text); !written) {

@@ -16,6 +16,9 @@ std::string trimmed(const std::string& text) {
 
 /// Comments and line breaks are what `export` and people put in.
 Expected<NamedMachine> machine_of_file(const std::string& file) {
+  if (is_database(file)) {
+    return bad_input("this is a store; name one of its candidates, c812, with --store", file);
+  }
   std::ifstream stream(file);
   if (!stream) {
     return bad_input(

@@ -1,3 +1,4 @@
+#include "base/shown_text.h"
 #include "storage/merge.h"
 
 #include <memory>
@@ -24,8 +25,8 @@ std::string designs_text(const StoredCampaign& campaign) {
 void write(Output& output, const Merged& merged, const std::string& file) {
   if (!output.json) {
     for (const StoredCampaign& campaign : merged.campaigns)
-      output.out << campaign.row.name << "  " << campaign.state << "  " << designs_text(campaign)
-                 << "\n";
+      output.out << as_shown(campaign.row.name, Layout::Escaped) << "  " << campaign.state << "  "
+                 << designs_text(campaign) << "\n";
     output.out << file << ": " << merged.campaigns.size() << " campaigns, digest " << merged.digest
                << "\n";
     return;

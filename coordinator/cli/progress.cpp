@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "console/terminal.h"
 #include "coordinator/cli/progress_text.h"
 
 namespace swarmsmith::cli {
@@ -16,7 +17,6 @@ constexpr auto kRedrawEvery = std::chrono::milliseconds(100);
 constexpr auto kPlainEvery = std::chrono::seconds(30);
 constexpr auto kEventEvery = std::chrono::seconds(1);
 constexpr std::int64_t kHeadlineEvery = 40;
-constexpr const char* kClearLine = "\r\x1b[2K";
 
 }  // namespace
 

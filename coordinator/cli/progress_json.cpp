@@ -200,6 +200,7 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live, st
       .add("lost_workers", live.lost_workers)
       .add("duplicates", live.duplicates)
       .add("conflicts", live.conflicts)
+      .add("unleased", live.unleased)
       .add("malformed", live.malformed)
       .add("trouble", live.trouble)
       .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher))

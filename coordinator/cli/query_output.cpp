@@ -4,7 +4,9 @@
 #include <charconv>
 #include <cstdio>
 
-#include "analysis/records/csv.h"
+#include "base/csv.h"
+#include "base/shown_text.h"
+#include "console/terminal.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -21,7 +23,7 @@ std::size_t width_of(const std::string& text) {
 /// For people six significant digits of a real are enough.
 std::string shown(const Cell& cell) {
   if (cell.type == Type::Null) return "-";
-  if (cell.type != Type::Real) return cell.text;
+  if (cell.type != Type::Real) return as_shown(cell.text, Layout::Escaped);
   char buffer[32];
   const int size =
       std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(cell.text.c_str(), nullptr));
@@ -89,7 +91,7 @@ std::string rows_as_text(const Rows& rows) {
   std::vector<std::size_t> widths;
   std::vector<bool> right;
   for (std::size_t column = 0; column < rows.columns.size(); ++column) {
-    widths.push_back(width_of(rows.columns[column]));
+    widths.push_back(width_of(as_shown(rows.columns[column], Layout::Escaped)));
     right.push_back(!rows.cells.empty() && is_number(rows.cells.front()[column]));
     for (const auto& cells : rows.cells) {
       widths[column] = std::max(widths[column], width_of(shown(cells[column])));
@@ -105,7 +107,7 @@ std::string rows_as_text(const Rows& rows) {
     line.erase(line.find_last_not_of(' ') + 1);
     text += line + "\n";
   };
-  add_line([&](std::size_t column) { return rows.columns[column]; });
+  add_line([&](std::size_t column) { return as_shown(rows.columns[column], Layout::Escaped); });
   for (const auto& cells : rows.cells) {
     add_line([&](std::size_t column) { return shown(cells[column]); });
   }
@@ -113,18 +115,12 @@ std::string rows_as_text(const Rows& rows) {
 }
 
 std::string rows_as_csv(const Rows& rows) {
-  std::string text;
-  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
-    if (column > 0) text += ",";
-    text += csv_field(rows.columns[column]);
-  }
-  text += "\r\n";
+  std::string text = csv_line(rows.columns);
   for (const auto& cells : rows.cells) {
-    for (std::size_t column = 0; column < cells.size(); ++column) {
-      if (column > 0) text += ",";
-      text += csv_field(cells[column].text);
-    }
-    text += "\r\n";
+    std::vector<std::string> texts;
+    for (const Cell& cell : cells)
+      texts.push_back(cell.text);
+    text += csv_line(texts);
   }
   return text;
 }
@@ -153,7 +149,7 @@ void write_rows(Output& output, const Rows& rows, Form form) {
       output.out << rows_as_text(rows);
       break;
     case Form::Csv:
-      output.out << rows_as_csv(rows);
+      write_data(output, rows_as_csv(rows));
       break;
     case Form::Json: {
       std::string columns;

@@ -10,7 +10,7 @@
 
 namespace swarmsmith::cli {
 
-/// How rows are written: aligned columns for people, RFC 4180, or one JSON object
+/// How rows are written: aligned columns for people, CSV (base/csv.h), or one JSON object
 /// {"columns":[...],"rows":[{...}],"truncated":false}.
 enum class Form { Text, Csv, Json };
 
@@ -31,7 +31,7 @@ void letter_ids(Rows& rows);
 
 /// Aligned columns below a headline, numbers on the right, six digits of reals.
 std::string rows_as_text(const Rows& rows);
-/// RFC 4180 with a headline; null is empty; full precision.
+/// CSV (base/csv.h) with a headline; null is empty; full precision.
 std::string rows_as_csv(const Rows& rows);
 /// The "rows" array alone.
 std::string rows_as_json(const Rows& rows);

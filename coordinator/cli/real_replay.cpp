@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/arena/arena_panels.h"
+#include "base/csv.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/stored_runs.h"
 #include "sim/control/module.h"
@@ -148,8 +149,8 @@ std::string table_of(const RealReplay& replay, RealRunId id) {
   csv += kCsvLineEnd;
   for (const ShownRun& run : replay.runs) {
     const bool is_real = &run == &replay.runs.front();
-    const std::string first = is_real ? to_string(id) + "," + run.source + ",,"
-                                      : fmt::format(",{},{},", run.source, run.seed);
+    const std::string first = is_real ? to_string(id) + "," + csv_field(run.source) + ",,"
+                                      : fmt::format(",{},{},", csv_field(run.source), run.seed);
     const std::size_t robots = run.robots.size();
     for (std::size_t cycle = 0; cycle < run.robots.front().size(); ++cycle) {
       for (std::size_t robot = 0; robot < robots; ++robot) {

@@ -6,6 +6,7 @@
 
 #include "analysis/arena/arena_picture.h"
 #include "analysis/drawing/svg.h"
+#include "console/terminal.h"
 #include "console/whole_file.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/real_replay.h"
@@ -41,7 +42,7 @@ Expected<double> width_of(const RecordingArguments& recording) {
 Expected<void> write(const std::string& file, const std::string& bytes, Output& output) {
   if (file.empty()) return {};
   if (file != "-") return write_whole_file(file, bytes);
-  output.out << bytes;
+  write_data(output, bytes);
   return {};
 }
 

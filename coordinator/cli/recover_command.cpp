@@ -1,3 +1,4 @@
+#include "base/shown_text.h"
 #include "storage/recover.h"
 
 #include <memory>
@@ -99,9 +100,9 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
     output.out << end.orphans << " rows belong to what is lost, and were left out\n";
   }
   for (const Rebuilt::Design& design : report.designs)
-    output.out << design_text(design) << "\n";
+    output.out << as_shown(design_text(design), Layout::Escaped) << "\n";
   for (const std::string& complaint : report.complaints)
-    output.out << complaint << "\n";
+    output.out << as_shown(complaint, Layout::Escaped) << "\n";
   output.out << file << ": " << end.evaluations << " evaluations, digest " << end.digest << "\n";
 }
 

@@ -1,6 +1,7 @@
 #include <memory>
 
 #include "analysis/report/report.h"
+#include "console/terminal.h"
 #include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/program_name.h"
@@ -42,7 +43,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
     return fail(output, no_design ? ExitCode::NoSuchId : ExitCode::Store, report.error());
   }
   if (to_output) {
-    output.out << *report;
+    write_data(output, *report);
     return ExitCode::Done;
   }
   if (const auto written = write_whole_file(arguments.file, *report); !written)

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/shown_text.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
@@ -104,7 +105,8 @@ std::string as_lines(const Rows& rows) {
     const auto& cell = rows.cells.front()[column];
     if (cell.type == StoreReader::Cell::Type::Null || cell.text.empty()) continue;
     const std::string& name = rows.columns[column];
-    text += name + std::string(width - name.size() + 2, ' ') + cell.text + "\n";
+    text += name + std::string(width - name.size() + 2, ' ') +
+            as_shown(cell.text, Layout::Escaped) + "\n";
   }
   return text;
 }

@@ -7,6 +7,8 @@
 #include <thread>
 
 #include "access/coordinator_file.h"
+#include "base/shown_text.h"
+#include "console/terminal.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/live_client.h"
 #include "coordinator/cli/query_output.h"
@@ -98,12 +100,12 @@ void write_text(Output& output, const Status& status) {
   const std::size_t campaigns = status.campaign.cells.size();
   const std::string failures = status.failures.cells.front().front().text;
   for (std::size_t i = 0; i < campaigns; ++i) {
-    output.out << "campaign " << status.of_campaign(i, "name") << "  "
-               << status.of_campaign(i, "state") << "  designs "
-               << status.of_campaign(i, "designs_finished") << "/"
-               << status.of_campaign(i, "designs") << "  experiments "
-               << status.of_campaign(i, "used") << "/" << status.of_campaign(i, "budget")
-               << "  candidates " << status.of_campaign(i, "candidates");
+    const auto cell = [&](const char* column) {
+      return as_shown(status.of_campaign(i, column), Layout::Escaped);
+    };
+    output.out << "campaign " << cell("name") << "  " << cell("state") << "  designs "
+               << cell("designs_finished") << "/" << cell("designs") << "  experiments "
+               << cell("used") << "/" << cell("budget") << "  candidates " << cell("candidates");
     if (campaigns == 1) output.out << "  failed " << failures;
     output.out << "\n";
   }
@@ -141,7 +143,7 @@ Expected<FoundCoordinator> coordinator_of(const Arguments& arguments) {
   if (named.empty()) {
     const auto store = arguments.store.path();
     if (!store) return unexpected(ErrorKind::NotFound, store.error().message);
-    search.file = coordinator_file_of(*store);
+    search.file = coordinator_file_of(real_store(*store));
   } else if (const std::string endpoint =
                  (named.find("://") == std::string::npos ? "tcp://" : "") + named;
              is_tcp_address(endpoint)) {
@@ -164,20 +166,20 @@ Screen screen_of(const Output& output) {
 
 /// A screenful in place of the one before, without a blank one between.
 void redraw(Output& output, const std::vector<std::string>& lines) {
-  output.out << "\x1b[H";
+  output.out << Verbatim{"\x1b[H"};
   for (const std::string& line : lines)
-    output.out << line << "\x1b[K\n";
-  output.out << "\x1b[J";
+    output.out << as_shown(line, Layout::Escaped) << Verbatim{"\x1b[K"} << "\n";
+  output.out << Verbatim{"\x1b[J"};
 }
 
 void write_live(const Arguments& arguments, Output& output, const LiveStatus& status) {
   if (!arguments.watch) {
     for (const std::string& line : status_lines(status, screen_of(output)))
-      output.out << line << "\n";
+      output.out << as_shown(line, Layout::Escaped) << "\n";
   } else if (output.out_is_terminal) {
     redraw(output, status_lines(status, screen_of(output)));
   } else {
-    output.out << status_summary(status) << "\n";
+    output.out << as_shown(status_summary(status), Layout::Escaped) << "\n";
   }
 }
 
@@ -203,7 +205,7 @@ ExitCode show_stored(const Arguments& arguments, Output& output, bool& running) 
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const auto status = read_status(**store);
   if (!status) return fail(output, ExitCode::Store, status.error());
-  if (arguments.watch && output.out_is_terminal) output.out << "\x1b[H\x1b[2J";
+  if (arguments.watch && output.out_is_terminal) output.out << Verbatim{"\x1b[H\x1b[2J"};
   output.json ? write_json(output, *status) : write_text(output, *status);
   running = status->campaign.cells.size() == 1 && status->of_campaign(0, "state") == "running";
   return ExitCode::Done;

@@ -102,6 +102,7 @@ std::string troubles(const LiveStatus& status) {
   add("failed", status.failed);
   add("rejected", status.rejected);
   add("conflicts", status.conflicts);
+  add("unleased results", status.unleased);
   add("quarantined workers", status.quarantined);
   add("requeued", status.requeued);
   add("expired", status.expired);

@@ -5,6 +5,7 @@
 #include <random>
 #include <utility>
 
+#include "base/shown_text.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/compared_runs.h"
 #include "coordinator/cli/store_argument.h"
@@ -52,7 +53,7 @@ void write_json(Output& output, const Verification& found, const std::optional<S
 
 void write_text(Output& output, const Verification& found, const std::optional<Sampled>& sampled) {
   for (const std::string& complaint : found.complaints)
-    output.out << complaint << "\n";
+    output.out << as_shown(complaint, Layout::Escaped) << "\n";
   std::string again = "; nothing was evaluated again";
   if (sampled) {
     again = fmt::format("; {} evaluations were made again (--seed {}), {} with other bits",

@@ -6,6 +6,8 @@
 #include <system_error>
 #include <utility>
 
+#include "base/csv.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -26,7 +28,7 @@ class Scanner {
     while (true) {
       auto field = rest_.starts_with('"') ? quoted() : plain();
       if (!field) return std::nullopt;
-      fields.push_back(std::move(*field));
+      fields.emplace_back(csv_text(*field));
       if (rest_.starts_with(',')) {
         rest_.remove_prefix(1);
         continue;

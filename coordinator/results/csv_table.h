@@ -22,7 +22,8 @@ struct CsvRow {
 };
 
 /// A comma-separated text with a headline (RFC 4180): fields in quotes may hold commas, line breaks
-/// and doubled quotes. Line ends are LF or CRLF; blank lines are skipped, and a byte order mark.
+/// and doubled quotes; an apostrophe that keeps a spreadsheet from calculating is none of the text
+/// (base/csv.h). Line ends are LF or CRLF; blank lines are skipped, and a byte order mark.
 struct CsvTable {
   std::string file;  ///< for messages
   std::vector<std::string> columns;

@@ -42,7 +42,7 @@ inline constexpr FieldChoices<bool> kScorePoints = {{{"centre", false}, {"tag", 
 /// value, limits)`, `flag(key, value)`, `choice(key, value, choices)`, `colors(key, list)`,
 /// `delays(key, list)`, `period(key, least, most)` and `point(key, value, limits)`.
 template <class AnyProfile, class Visitor>
-void visit_fields(AnyProfile& profile, Visitor& visitor) {
+void visit_profile_fields(AnyProfile& profile, Visitor& visitor) {
   visitor.choice("contacts", profile.contacts, kContactModels);
 
   visitor.device("proximity");

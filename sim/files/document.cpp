@@ -67,22 +67,113 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
   return text.size();
 }
 
-/// The first letter that is none of ASCII outside of strings and comments. TOML has none there, and
-/// the parser relies on it: what it does with them is not defined (version 3.3 of toml++).
-std::optional<Place> foreign_letter(std::string_view text) {
+/// Levels of tables, lists and parts of keys, far more than any file of ours has. The parser and
+/// whoever walks its tree call themselves for each.
+constexpr std::size_t kDeepest = 64;
+
+/// How deep the tree is at each letter of a file, counted from the letters outside of strings and
+/// comments without reading the file: never too few.
+class Depth {
+ public:
+  void add(char letter) {
+    switch (letter) {
+      case '\n':
+        if (open_.empty()) parts_ = 0;
+        begins_line_ = true;
+        return;
+      case ' ':
+      case '\t':
+      case '\r':
+        return;
+      case '.':
+        ++parts_;
+        break;
+      case ',':
+        parts_ = 0;
+        break;
+      case '[':
+      case '{':
+        begin(letter);
+        break;
+      case ']':
+      case '}':
+        end();
+        break;
+      default:
+        break;
+    }
+    begins_line_ = false;
+  }
+
+  std::size_t levels() const { return header_ + inside_ + parts_ + 1; }
+
+ private:
+  void begin(char letter) {
+    if (open_.empty() && begins_line_ && letter == '[') {
+      header_ = 0;
+      in_header_ = true;
+    } else if (!in_header_) {
+      open_.push_back(parts_ + 1);
+      inside_ += open_.back();
+      parts_ = 0;
+    }
+  }
+
+  void end() {
+    if (in_header_) {
+      header_ = parts_ + 1;
+    } else if (!open_.empty()) {
+      inside_ -= open_.back();
+      open_.pop_back();
+    }
+    in_header_ = false;
+    parts_ = 0;
+  }
+
+  std::vector<std::size_t> open_;  ///< levels of each list and inline table that is open
+  std::size_t inside_ = 0;         ///< their sum
+  std::size_t header_ = 0;         ///< parts of the last header: [a.b] has two
+  std::size_t parts_ = 0;          ///< dots of the key that is being read
+  bool in_header_ = false;
+  bool begins_line_ = true;
+};
+
+/// Where something is, and why it cannot be read.
+struct Fault {
+  Place place;
+  std::string reason;
+};
+
+Fault fault_at(std::string_view text, std::size_t begin, std::size_t at, std::string reason) {
+  const std::string_view before = text.substr(0, at);
+  const std::size_t line = before.rfind('\n');
+  const std::size_t column = line == std::string_view::npos ? at - begin : at - line - 1;
+  return {{static_cast<std::uint32_t>(1 + std::ranges::count(before, '\n')),
+           static_cast<std::uint32_t>(1 + column)},
+          std::move(reason)};
+}
+
+/// The first thing that the parser must not see. Letters that are none of ASCII outside of strings
+/// and comments: TOML has none there, and the parser relies on it (what it does with them is not
+/// defined: version 3.3 of toml++). Depth that would take more stack than there is.
+std::optional<Fault> fault_of(std::string_view text) {
   constexpr std::string_view kMark = "\xef\xbb\xbf";
   const std::size_t begin = text.starts_with(kMark) ? kMark.size() : 0;
+  Depth depth;
   for (std::size_t i = begin; i < text.size();) {
+    if (static_cast<unsigned char>(text[i]) >= 0x80) {
+      return fault_at(text, begin, i, "letters such as umlauts stand in quotes or comments only");
+    }
+    depth.add(text[i]);
+    if (depth.levels() > kDeepest) {
+      return fault_at(text, begin, i,
+                      "keys, tables and lists are nested deeper than " + std::to_string(kDeepest) +
+                          " levels here");
+    }
     if (text[i] == '"' || text[i] == '\'') {
       i = end_of_string(text, i);
     } else if (text[i] == '#') {
       i = std::min(text.find('\n', i), text.size());
-    } else if (static_cast<unsigned char>(text[i]) >= 0x80) {
-      const std::string_view before = text.substr(0, i);
-      const std::size_t line = before.rfind('\n');
-      const std::size_t column = line == std::string_view::npos ? i - begin : i - line - 1;
-      return Place{static_cast<std::uint32_t>(1 + std::ranges::count(before, '\n')),
-                   static_cast<std::uint32_t>(1 + column)};
     } else {
       ++i;
     }
@@ -107,9 +198,8 @@ std::string to_string(std::string_view file, Place place) {
 }
 
 Expected<Node> parse_document(std::string_view text, std::string_view file) {
-  if (const auto place = foreign_letter(text)) {
-    return bad_input("this is no TOML: letters such as umlauts stand in quotes or comments only",
-                     to_string(file, *place));
+  if (const auto fault = fault_of(text)) {
+    return bad_input("this is no TOML: " + fault->reason, to_string(file, fault->place));
   }
   try {
     return converted(toml::parse(text, file));

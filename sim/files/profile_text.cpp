@@ -64,7 +64,7 @@ std::vector<Section> profile_sections(const Profile& profile, const std::string&
   std::vector<Section> sections;
   FieldWriter writer(sections, header);
   writer.add("name", quoted_text(profile.name));
-  visit_fields(profile, writer);
+  visit_profile_fields(profile, writer);
   return sections;
 }
 

@@ -5,6 +5,7 @@
 #include <charconv>
 #include <tuple>
 
+#include "base/shown_text.h"
 #include "base/suggestion.h"
 #include "sim/files/toml_text.h"
 
@@ -35,6 +36,13 @@ std::optional<double> as_number(const Node& node) {
 template <class Number>
 bool within(Number value, Limits<Number> limits) {
   return value >= limits.least && value <= limits.most;
+}
+
+/// A key that the file's author chose, short enough for a sentence.
+std::string shown_key(std::string_view key) {
+  constexpr std::size_t kLongest = 60;
+  std::string shown = as_shown(key.substr(0, kLongest), Layout::Escaped);
+  return "`" + shown + (key.size() > kLongest ? "...`" : "`");
 }
 
 /// "at least 1", "from 0 to 1".
@@ -320,7 +328,7 @@ void TableReader::finish(std::span<const std::string> not_yet) {
     }
     std::string hint = did_you_mean(entry.key, known);
     if (hint.empty()) hint = "; known are: " + joined(known);
-    complaints_->add(entry.place, name() + " has no key `" + entry.key + "`" + hint);
+    complaints_->add(entry.place, name() + " has no key " + shown_key(entry.key) + hint);
   }
 }
 

@@ -187,14 +187,14 @@ void to_message(const Profile& profile, pb::Profile& message) {
   message.Clear();
   message.set_name(profile.name);
   FieldWriter writer(message);
-  visit_fields(profile, writer);
+  visit_profile_fields(profile, writer);
 }
 
 Expected<Profile> from_message(const pb::Profile& message) {
   Profile profile;
   profile.name = message.name();
   FieldReader reader(message);
-  visit_fields(profile, reader);
+  visit_profile_fields(profile, reader);
   reader.finish();
   if (!reader.complaint().empty()) return bad_input(reader.complaint(), reader.where());
   return profile;

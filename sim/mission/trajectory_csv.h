@@ -17,8 +17,8 @@ namespace swarmsmith {
 /// its pose in metres and radians.
 inline constexpr std::string_view kTrajectoryColumns = "cycle,time_s,robot,x,y,theta";
 
-/// Ends of lines as RFC 4180 has them; `parse_trajectory_csv` takes a bare LF as well.
-inline constexpr std::string_view kCsvLineEnd = "\r\n";
+/// End of lines, as in all tables; `parse_trajectory_csv` takes CR LF as well.
+inline constexpr std::string_view kCsvLineEnd = "\n";
 
 /// Appends the cells of `kTrajectoryColumns`, without a comma or an end of line behind them.
 void append_pose_cells(std::string& line, int cycle, int robot, const Pose& pose);

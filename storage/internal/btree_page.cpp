@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <unordered_set>
 
 namespace swarmsmith {
 namespace {
@@ -90,7 +91,8 @@ std::optional<std::vector<StoredValue>> values_of(Bytes payload) {
 
 /// A payload with what of it is on overflow pages.
 std::optional<std::vector<std::uint8_t>> payload_of(const PageImage& image, Bytes cell,
-                                                    std::uint64_t size, bool has_rowids) {
+                                                    std::uint64_t size, bool has_rowids,
+                                                    std::uint64_t& chained) {
   const std::uint64_t usable = image.page_size();
   const std::uint64_t most = has_rowids ? usable - 35 : (usable - 12) * 64 / 255 - 23;
   const std::uint64_t least = (usable - 12) * 32 / 255 - 23;
@@ -99,14 +101,15 @@ std::optional<std::vector<std::uint8_t>> payload_of(const PageImage& image, Byte
     const std::uint64_t kept = least + (size - least) % (usable - 4);
     here = kept <= most ? kept : least;
   }
-  if (size > std::uint64_t{image.pages()} * usable || here + (size > most ? 4 : 0) > cell.size())
-    return {};
+  if (size > image.bytes() || here + (size > most ? 4 : 0) > cell.size()) return {};
   std::vector<std::uint8_t> payload(cell.begin(), cell.begin() + static_cast<std::ptrdiff_t>(here));
   if (size <= most) return payload;
   auto next = static_cast<std::uint32_t>(big_endian(cell, here, 4));
+  std::unordered_set<std::uint32_t> passed;
   while (payload.size() < size) {
     const Bytes page = image.page(next);
-    if (page.empty()) return {};
+    if (page.empty() || chained < usable || !passed.insert(next).second) return {};
+    chained -= usable;
     const auto part = std::min<std::uint64_t>(size - payload.size(), usable - 4);
     payload.insert(payload.end(), page.begin() + 4,
                    page.begin() + 4 + static_cast<std::ptrdiff_t>(part));
@@ -117,7 +120,8 @@ std::optional<std::vector<std::uint8_t>> payload_of(const PageImage& image, Byte
   return payload;
 }
 
-std::optional<StoredRecord> record_of(const PageImage& image, Bytes cell, bool has_rowids) {
+std::optional<StoredRecord> record_of(const PageImage& image, Bytes cell, bool has_rowids,
+                                      std::uint64_t& chained) {
   Cursor cursor(cell);
   const auto size = cursor.varint();
   if (!size) return {};
@@ -127,7 +131,7 @@ std::optional<StoredRecord> record_of(const PageImage& image, Bytes cell, bool h
     if (!rowid) return {};
     record.rowid = static_cast<std::int64_t>(*rowid);
   }
-  const auto payload = payload_of(image, cursor.rest(), *size, has_rowids);
+  const auto payload = payload_of(image, cursor.rest(), *size, has_rowids, chained);
   if (!payload) return {};
   auto values = values_of(*payload);
   if (!values) return {};
@@ -137,7 +141,8 @@ std::optional<StoredRecord> record_of(const PageImage& image, Bytes cell, bool h
 
 }  // namespace
 
-std::optional<BtreePage> read_btree_page(const PageImage& image, std::uint32_t number) {
+std::optional<BtreePage> read_btree_page(const PageImage& image, std::uint32_t number,
+                                         std::uint64_t& chained) {
   const Bytes bytes = image.page(number);
   if (bytes.empty()) return {};
   const std::size_t start = number == 1 ? 100 : 0;
@@ -160,7 +165,7 @@ std::optional<BtreePage> read_btree_page(const PageImage& image, std::uint32_t n
       at += 4;
       if (page.has_rowids) continue;
     }
-    if (auto record = record_of(image, bytes.subspan(at), page.has_rowids)) {
+    if (auto record = record_of(image, bytes.subspan(at), page.has_rowids, chained)) {
       page.records.push_back(std::move(*record));
     } else {
       ++page.broken;

@@ -33,7 +33,9 @@ struct BtreePage {
   std::int64_t broken = 0;  ///< cells that are no whole record
 };
 
-/// None when the page is no page of a b-tree.
-std::optional<BtreePage> read_btree_page(const PageImage& image, std::uint32_t number);
+/// None when the page is no page of a b-tree. `chained` is how many bytes of overflow pages may
+/// still be read, and becomes less: in a damaged file every cell may lead to the same long chain.
+std::optional<BtreePage> read_btree_page(const PageImage& image, std::uint32_t number,
+                                         std::uint64_t& chained);
 
 }  // namespace swarmsmith

@@ -5,7 +5,6 @@
 #include <array>
 #include <cstdint>
 #include <cstdlib>
-#include <fstream>
 #include <string_view>
 
 #include <fmt/format.h>
@@ -19,8 +18,7 @@ constexpr std::string_view kMagic{"SQLite format 3\0", 16};
 constexpr std::string_view kWayOut =
     "take it from a backup, or let `swarmsmith recover` make a new store of what can be read";
 
-std::uint64_t big_endian(const std::array<char, kHeaderBytes>& header, std::size_t at,
-                         std::size_t bytes) {
+std::uint64_t big_endian(std::string_view header, std::size_t at, std::size_t bytes) {
   std::uint64_t value = 0;
   for (std::size_t i = 0; i < bytes; ++i) {
     value = value << 8U | static_cast<unsigned char>(header[at + i]);
@@ -42,24 +40,23 @@ std::string damaged_text(const std::string& fault) {
   return fmt::format("the store is damaged: {}; {}", fault, kWayOut);
 }
 
-Expected<void> check_database_file(const std::filesystem::path& path) {
-  std::error_code trouble;
-  const std::uint64_t size = std::filesystem::file_size(path, trouble);
-  if (trouble) return bad_input("cannot be read: " + trouble.message(), path.string());
+bool has_database_header(const sqlite::Connection& connection) {
+  return connection.file_bytes(0, kMagic.size()) == kMagic;
+}
+
+Expected<void> check_database_file(const sqlite::Connection& connection,
+                                   const std::filesystem::path& path) {
+  const auto size = static_cast<std::uint64_t>(connection.file_size());
   if (size == 0) return {};
-  std::array<char, kHeaderBytes> header{};
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return bad_input("cannot be opened for reading", path.string());
-  file.read(header.data(), header.size());
-  const auto got = std::min<std::size_t>(static_cast<std::size_t>(file.gcount()), kMagic.size());
-  if (std::string_view(header.data(), got) != kMagic.substr(0, got)) {
+  const std::string header = connection.file_bytes(0, kHeaderBytes);
+  if (header.substr(0, kMagic.size()) != kMagic.substr(0, header.size())) {
     return unexpected(ErrorKind::Corrupt,
                       "this is no store: the file is no SQLite database; name another path, or "
                       "move the file away",
                       path.string());
   }
-  if (size < kHeaderBytes) return truncated(path, size, kHeaderBytes);
-  if (has_pending_log(path)) return {};
+  if (header.size() < kHeaderBytes) return truncated(path, size, kHeaderBytes);
+  if (has_pending_log(connection.file())) return {};
   // https://www.sqlite.org/fileformat2.html#the_database_header: 1 stands for 65536, and the page
   // count holds when both change counters agree.
   const std::uint64_t page = big_endian(header, 16, 2) == 1 ? 65536 : big_endian(header, 16, 2);

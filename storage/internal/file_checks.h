@@ -4,18 +4,24 @@
 #include <string>
 
 #include "base/expected.h"
+#include "storage/internal/sqlite.h"
 
 namespace swarmsmith {
 
-/// Looks at a store from outside, before SQLite does, since SQLite's own words ("database disk
+/// Looks at a store before SQLite reads it, since SQLite's own words ("database disk
 /// image is malformed") say neither what is wrong nor what to do.
 
 /// "the store is damaged: FAULT; take it from a backup, or ..."
 std::string damaged_text(const std::string& fault);
 
-/// Corrupt when the file does not begin as a SQLite database does, or is shorter than its header
-/// says (unless a write-ahead log lies beside it, which may hold the rest). An empty file passes.
-Expected<void> check_database_file(const std::filesystem::path& path);
+/// Whether it begins as SQLite's files do.
+bool has_database_header(const sqlite::Connection& connection);
+
+/// Corrupt when the file of a fresh connection does not begin as a SQLite database does, or is
+/// shorter than its header says (unless a write-ahead log lies beside it, which may hold the rest).
+/// An empty file passes. `path` is what people call it. Throws SqliteError.
+Expected<void> check_database_file(const sqlite::Connection& connection,
+                                   const std::filesystem::path& path);
 
 /// BadInput when the folder does not exist, or lies on a file system shared between hosts: there
 /// SQLite's shared memory and locks do not work, and two writers would destroy the store. The

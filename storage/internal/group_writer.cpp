@@ -15,6 +15,9 @@ namespace {
 /// So many batches are committed without waiting for more.
 constexpr std::size_t kLargeGroup = 1024;
 
+/// Without work, the file is looked at this often: whether it is still the store's.
+constexpr std::chrono::seconds kLookAtFile{1};
+
 /// A constraint, a type or a misuse: the same rows would fail again and for ever, and it is our own
 /// logic that made them. All else is the disk's trouble, and passes.
 bool is_our_fault(const sqlite::SqliteError& error) {
@@ -25,10 +28,10 @@ bool is_our_fault(const sqlite::SqliteError& error) {
 
 }  // namespace
 
-GroupWriter::GroupWriter(LockFile lock, sqlite::Connection connection, const StoreOptions& options)
-    : lock_(std::move(lock)),
-      connection_(std::move(connection)),
-      rows_(connection_),
+GroupWriter::GroupWriter(Writer writer, std::filesystem::path path, const StoreOptions& options)
+    : writer_(std::move(writer)),
+      path_(std::move(path)),
+      rows_(writer_.connection),
       retry_(options.retry),
       gather_(options.gather),
       thread_([this](const std::stop_token& stop) { run(stop); }) {}
@@ -36,9 +39,7 @@ GroupWriter::GroupWriter(LockFile lock, sqlite::Connection connection, const Sto
 GroupWriter::~GroupWriter() {
   thread_.request_stop();
   thread_.join();
-  // Only tidies up; whatever fails here, the log holds it and the next opening folds it in.
-  sqlite3_wal_checkpoint_v2(connection_.handle(), nullptr, SQLITE_CHECKPOINT_TRUNCATE, nullptr,
-                            nullptr);
+  give_up(writer_);
 }
 
 std::uint64_t GroupWriter::append(std::vector<Row> rows) {
@@ -61,42 +62,43 @@ void GroupWriter::set_listener(std::function<void(const WriterNews&)> on_news) {
   listener_ = std::move(on_news);
 }
 
-void GroupWriter::flush() {
+Expected<void> GroupWriter::flush() {
   std::unique_lock guard(mutex_);
   const std::uint64_t wanted = last_ticket_;
   awaited_ = std::max(awaited_, wanted);
   work_.notify_one();
-  committed_changed_.wait(guard, [&] { return committed_ >= wanted; });
+  committed_changed_.wait(guard, [&] { return committed_ >= wanted || lost_; });
+  return lost_ ? Expected<void>(Unexpected(*lost_)) : Expected<void>();
 }
 
 std::vector<StoredScore> GroupWriter::scores() {
   const std::lock_guard guard(connection_mutex_);
-  return read_scores(connection_, first_campaign(connection_));
+  return read_scores(writer_.connection, first_campaign(writer_.connection));
 }
 
 std::vector<StoredStep> GroupWriter::steps() {
   const std::lock_guard guard(connection_mutex_);
-  return read_steps(connection_, first_campaign(connection_));
+  return read_steps(writer_.connection, first_campaign(writer_.connection));
 }
 
 std::vector<DesignStateRow> GroupWriter::design_states() {
   const std::lock_guard guard(connection_mutex_);
-  return read_design_states(connection_);
+  return read_design_states(writer_.connection);
 }
 
 std::vector<CommandRow> GroupWriter::commands() {
   const std::lock_guard guard(connection_mutex_);
-  return read_commands(connection_);
+  return read_commands(writer_.connection);
 }
 
 std::int64_t GroupWriter::next_worker() {
   const std::lock_guard guard(connection_mutex_);
-  return read_next_worker(connection_);
+  return read_next_worker(writer_.connection);
 }
 
 bool GroupWriter::finished() {
   const std::lock_guard guard(connection_mutex_);
-  return is_finished(connection_);
+  return is_finished(writer_.connection);
 }
 
 StoredTrust GroupWriter::trust() {
@@ -113,17 +115,20 @@ void GroupWriter::run(const std::stop_token& stop) {
   std::vector<Batch> group;
   std::string trouble;
   while (take_group(stop, group)) {
-    const std::string before = std::exchange(trouble, commit(group));
-    if (trouble.empty()) {
-      const std::uint64_t ticket = group.back().ticket;
+    const std::string before = trouble;
+    if (!group.empty()) trouble = commit(group);
+    const bool done = !group.empty() && trouble.empty();
+    const std::uint64_t ticket = done ? group.back().ticket : committed_;
+    if (const std::string fate = writer_.file.fate(); !fate.empty()) return lose(fate, ticket);
+    if (done) {
       group.clear();
-      tell({.committed = ticket, .trouble = {}});
+      tell({.committed = ticket});
       const std::lock_guard guard(mutex_);
       committed_ = ticket;
       committed_changed_.notify_all();
-      continue;
     }
-    if (trouble != before) tell({.committed = group.front().ticket - 1, .trouble = trouble});
+    if (trouble.empty()) continue;
+    if (trouble != before) tell({.committed = ticket, .trouble = trouble});
     if (stop.stop_requested()) return;
     std::unique_lock guard(mutex_);
     work_.wait_for(guard, stop, retry_, [] { return false; });
@@ -133,18 +138,32 @@ void GroupWriter::run(const std::stop_token& stop) {
 bool GroupWriter::take_group(const std::stop_token& stop, std::vector<Batch>& group) {
   if (!group.empty()) return true;
   std::unique_lock guard(mutex_);
-  work_.wait(guard, stop, [this] { return !queue_.empty(); });
+  work_.wait_for(guard, stop, kLookAtFile, [this] { return !queue_.empty(); });
+  if (queue_.empty()) return !stop.stop_requested();
   work_.wait_until(guard, stop, next_commit_,
                    [this] { return awaited_ > committed_ || queue_.size() >= kLargeGroup; });
   std::swap(group, queue_);
   next_commit_ = std::chrono::steady_clock::now() + gather_;
-  return !group.empty();
+  return true;
+}
+
+void GroupWriter::lose(const std::string& fate, std::uint64_t ticket) {
+  const std::unique_lock file(connection_mutex_);
+  const Lost lost = save_lost(writer_, fate, path_);
+  {
+    const std::lock_guard guard(mutex_);
+    // What is in no file any more was never stored.
+    if (lost.saved) committed_ = ticket;
+    lost_ = lost.error;
+    committed_changed_.notify_all();
+  }
+  tell({.committed = committed_, .trouble = lost.error.message, .is_lost = true});
 }
 
 std::string GroupWriter::commit(const std::vector<Batch>& group) {
   const std::lock_guard guard(connection_mutex_);
   try {
-    sqlite::Transaction transaction(connection_);
+    sqlite::Transaction transaction(writer_.connection);
     for (const Batch& batch : group) {
       for (const Row& row : batch.rows)
         rows_.write(row);

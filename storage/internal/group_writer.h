@@ -2,13 +2,15 @@
 
 #include <condition_variable>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
-#include "storage/internal/lock_file.h"
+#include "storage/internal/open_writer.h"
 #include "storage/internal/row_writer.h"
 #include "storage/internal/sqlite.h"
 #include "storage/store.h"
@@ -20,12 +22,12 @@ namespace swarmsmith {
 /// shared by more rows.
 class GroupWriter final : public Store {
  public:
-  GroupWriter(LockFile lock, sqlite::Connection connection, const StoreOptions& options);
+  GroupWriter(Writer writer, std::filesystem::path path, const StoreOptions& options);
   ~GroupWriter() override;
 
   std::uint64_t append(std::vector<Row> rows) override;
   void set_listener(std::function<void(const WriterNews&)> on_news) override;
-  void flush() override;
+  Expected<void> flush() override;
   std::vector<StoredScore> scores() override;
   std::vector<StoredStep> steps() override;
   std::vector<DesignStateRow> design_states() override;
@@ -42,27 +44,31 @@ class GroupWriter final : public Store {
   };
 
   void run(const std::stop_token& stop);
-  /// Fills an empty `group` from the queue, waiting for work; false when there will be none.
+  /// Fills an empty `group` from the queue, waiting for work for a while; false when there will be
+  /// none.
   bool take_group(const std::stop_token& stop, std::vector<Batch>& group);
   /// Why the group could not be committed; empty when it is on disk.
   std::string commit(const std::vector<Batch>& group);
+  /// The file is not the store's any more; batches up to `ticket` are in it.
+  void lose(const std::string& fate, std::uint64_t ticket);
   void tell(const WriterNews& news);
 
-  LockFile lock_;
   std::mutex connection_mutex_;  ///< the writer's thread, and callers that read
-  sqlite::Connection connection_;
+  Writer writer_;
+  std::filesystem::path path_;
   RowWriter rows_;
   std::chrono::milliseconds retry_;
   std::chrono::milliseconds gather_;
   std::chrono::steady_clock::time_point next_commit_{};  ///< of the writer's thread
 
-  std::mutex mutex_;  ///< guards the next six
+  std::mutex mutex_;  ///< guards the next seven
   std::condition_variable_any work_;
   std::condition_variable committed_changed_;
   std::vector<Batch> queue_;
   std::uint64_t last_ticket_ = 0;
   std::uint64_t committed_ = 0;
   std::uint64_t awaited_ = 0;  ///< somebody waits in flush() for this ticket
+  std::optional<Error> lost_;  ///< the file; nothing is written any more
 
   std::mutex listener_mutex_;
   std::function<void(const WriterNews&)> listener_;

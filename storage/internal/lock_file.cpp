@@ -30,6 +30,21 @@ std::string host_name() {
   return ::gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "unknown";
 }
 
+}  // namespace
+
+std::string holder_text(const std::string& pid) {
+  return fmt::format("pid={} host={}", pid, host_name());
+}
+
+std::string in_use_text(const std::string& holder) {
+  return fmt::format(
+      "another process is writing this store ({}); wait for it to end or stop it, or read with a "
+      "read-only command",
+      holder.empty() ? "it did not leave its name" : holder);
+}
+
+namespace {
+
 /// Whether the path still names the file that was opened: its last holder may have removed it
 /// between our open and our lock.
 bool still_there(int descriptor, const std::filesystem::path& path) {
@@ -61,18 +76,14 @@ Expected<LockFile> LockFile::acquire(const std::filesystem::path& store,
         std::this_thread::sleep_for(kLookAgain);
         continue;
       }
-      return unexpected(ErrorKind::Conflict,
-                        fmt::format("another process is writing this store ({}); wait for it to "
-                                    "end or stop it, or read with a read-only command",
-                                    holder.empty() ? "it did not leave its name" : holder),
-                        store.string());
+      return unexpected(ErrorKind::Conflict, in_use_text(holder), store.string());
     }
     if (!still_there(descriptor, path)) {
       ::close(descriptor);
       continue;
     }
     const bool left_behind = !read_holder(descriptor).empty();
-    const std::string holder = fmt::format("pid={} host={}\n", ::getpid(), host_name());
+    const std::string holder = holder_text(std::to_string(::getpid())) + "\n";
     // For people only: a disk so full that this fails must not stop us here.
     if (::ftruncate(descriptor, 0) != 0 ||
         ::pwrite(descriptor, holder.data(), holder.size(), 0) < 0) {

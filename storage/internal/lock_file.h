@@ -2,15 +2,22 @@
 
 #include <chrono>
 #include <filesystem>
+#include <string>
 
 #include "base/expected.h"
 
 namespace swarmsmith {
 
-/// The right to write a store: an flock on the file `<store>.lock`, which holds "pid=... host=..."
-/// for people. The kernel gives the lock back when the process dies, so that a file left behind is
-/// no obstacle; it only says that the last writer did not end well. Removed at the end, unless the
-/// store is suspect.
+/// "pid=... host=...", of a process of this host.
+std::string holder_text(const std::string& pid);
+/// That somebody else writes a store: for people.
+std::string in_use_text(const std::string& holder);
+
+/// The right to be the next to write the store of a name: an flock on the file `<store>.lock`,
+/// which holds "pid=... host=..." for people. The right to write the file itself is HeldFile's;
+/// this one is there before the file is, and tells how the last writer ended. The kernel gives the
+/// lock back when the process dies, so that a file left behind is no obstacle; it only says that
+/// the last writer did not end well. Removed at the end, unless the store is suspect.
 class LockFile {
  public:
   /// Conflict when another process (or another store of this one) holds it for as long as that,

@@ -3,8 +3,12 @@
 #include <fcntl.h>
 #include <unistd.h>
 #include <cerrno>
+#include <csignal>
+#include <cstdlib>
 #include <cstring>
+#include <string>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -28,12 +32,40 @@ void sync(const fs::path& path) {
   ::close(descriptor);
 }
 
+/// The number of a process that does not live on this host; a part may be another host's only on a
+/// shared file system, which check_folder refuses.
+bool is_of_the_dead(const std::string& number) {
+  if (number.empty() || number.find_first_not_of("0123456789") != std::string::npos) return false;
+  const auto pid = static_cast<pid_t>(std::strtol(number.c_str(), nullptr, 10));
+  return pid > 0 && ::kill(pid, 0) != 0 && errno == ESRCH;
+}
+
+/// Removes what killed processes have left of files of this name: "NAME.part-PID", and all that
+/// begins so ("-wal", ".store-2.part-PID").
+void clear_left_behind(const fs::path& wanted) {
+  const std::string beginning = wanted.filename().string() + ".part-";
+  std::error_code trouble;
+  const fs::path folder = wanted.parent_path().empty() ? fs::path(".") : wanted.parent_path();
+  std::vector<fs::path> left;
+  for (fs::directory_iterator entry(folder, trouble), end; !trouble && entry != end;
+       entry.increment(trouble)) {
+    const std::string name = entry->path().filename().string();
+    if (!name.starts_with(beginning)) continue;
+    const std::string rest = name.substr(beginning.size());
+    const std::string number = rest.substr(0, rest.find_first_of("-."));
+    if (is_of_the_dead(number)) left.push_back(entry->path());
+  }
+  for (const fs::path& part : left)
+    fs::remove(part, trouble);
+}
+
 }  // namespace
 
 Expected<NewFile> NewFile::beside(const fs::path& wanted) {
   if (auto folder = check_folder(wanted); !folder) return Unexpected(folder.error());
   std::error_code trouble;
   if (fs::exists(fs::symlink_status(wanted, trouble))) return taken(wanted);
+  clear_left_behind(wanted);
   NewFile file(wanted, fmt::format("{}.part-{}", wanted.string(), ::getpid()));
   file.remove();  // of a process of that number, which was killed
   return file;

@@ -22,29 +22,15 @@ using sqlite::Statement;
 /// Folds in the log that a crash has left and looks at every page.
 Expected<void> recover(Connection& connection, const fs::path& path) {
   connection.execute("PRAGMA wal_checkpoint(TRUNCATE)");
-  if (auto sound = check_database_file(path); !sound) return sound;
+  if (auto sound = check_database_file(connection, path); !sound) return sound;
   const std::string fault = sqlite::text_of(connection, "PRAGMA quick_check(1)");
   if (fault == "ok") return {};
   return unexpected(ErrorKind::Corrupt, damaged_text(fault + ", and it was not closed properly"),
                     path.string());
 }
 
-}  // namespace
-
-Expected<WriterLock> lock_for_writing(const fs::path& path, std::chrono::milliseconds patience) {
-  auto lock = LockFile::acquire(path, patience);
-  if (!lock) return Unexpected(lock.error());
-  const bool exists = fs::exists(path);
-  const bool unclean = exists && (lock->left_behind() || has_pending_log(path));
-  lock->set_suspect(unclean);
-  if (exists) {
-    if (auto sound = check_database_file(path); !sound) return Unexpected(sound.error());
-  }
-  return WriterLock{std::move(*lock), unclean};
-}
-
-Expected<Connection> connect_writer(const fs::path& path, bool unclean) {
-  Connection connection(path.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+/// In WAL mode, and nothing of it changed. `unclean`: the last writer did not end well.
+Expected<void> prepare(Connection& connection, const fs::path& path, bool unclean) {
   if (sqlite3_db_readonly(connection.handle(), "main") != 0) {
     return bad_input("the store may not be written by this user", path.string());
   }
@@ -53,17 +39,51 @@ Expected<Connection> connect_writer(const fs::path& path, bool unclean) {
   sqlite3_busy_timeout(connection.handle(), 5000);
   const bool blank = is_blank(connection);
   if (!blank) {
-    if (auto ours = check_identity(connection, path); !ours) return Unexpected(ours.error());
+    if (auto ours = check_identity(connection, path); !ours) return ours;
   }
   configure_writer(connection);
   if (sqlite::text_of(connection, "PRAGMA journal_mode") != "wal") {
     return bad_input("the file system cannot hold a write-ahead log; put the store on a local disk",
                      path.string());
   }
-  if (unclean && !blank) {
-    if (auto sound = recover(connection, path); !sound) return Unexpected(sound.error());
+  return unclean && !blank ? recover(connection, path) : Expected<void>();
+}
+
+}  // namespace
+
+Expected<Writer> open_writer(const fs::path& path, std::chrono::milliseconds patience) {
+  auto lock = LockFile::acquire(path, patience);
+  if (!lock) return Unexpected(lock.error());
+  const bool unclean = fs::exists(path) && (lock->left_behind() || has_pending_log(path));
+  lock->set_suspect(unclean);
+  Connection connection(path.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
+  auto file = HeldFile::hold(connection, path);
+  if (!file) return Unexpected(file.error());
+  if (auto sound = check_database_file(connection, path); !sound) return Unexpected(sound.error());
+  if (auto ready = prepare(connection, path, unclean); !ready) return Unexpected(ready.error());
+  file->fate();  // from now on
+  return Writer{std::move(*lock), std::move(connection), std::move(*file)};
+}
+
+Lost save_lost(Writer& writer, const std::string& fate, const fs::path& path) {
+  // Neither folded into a file that is not the store's any more, nor trusted by the next one.
+  sqlite3_db_config(writer.connection.handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  writer.lock.set_suspect(true);
+  const auto saved = writer.file.save(writer.connection);
+  const std::string rest =
+      saved ? *saved : "what it held could not be saved: " + to_string(saved.error());
+  return {.saved = saved.has_value(),
+          .error = {ErrorKind::Conflict,
+                    fmt::format("{} while it was being written; {}", fate, rest), path.string()}};
+}
+
+void give_up(Writer& writer) {
+  if (!writer.file.fate().empty()) {
+    sqlite3_db_config(writer.connection.handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    return;
   }
-  return connection;
+  sqlite3_wal_checkpoint_v2(writer.connection.handle(), nullptr, SQLITE_CHECKPOINT_TRUNCATE,
+                            nullptr, nullptr);
 }
 
 void write_empty_store(Connection& connection) {

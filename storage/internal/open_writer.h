@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "storage/internal/held_file.h"
 #include "storage/internal/lock_file.h"
 #include "storage/internal/sqlite.h"
 #include "storage/rows.h"
@@ -13,21 +14,33 @@ namespace swarmsmith {
 
 /// What every writer of a store begins with, whatever it is going to write.
 
-/// The right to write, and whether the last writer did not end well.
-struct WriterLock {
-  LockFile file;
-  bool unclean = false;
+/// A store that is open for writing. What is declared last is given up first: the file while SQLite
+/// still has it open, then SQLite's handle, then the name.
+struct Writer {
+  LockFile lock;
+  sqlite::Connection connection;
+  HeldFile file;
 };
 
-/// Takes the lock, which is suspect as long as an unclean store has not been looked at, and looks
-/// at the file from outside. Errors as of Store::open.
-Expected<WriterLock> lock_for_writing(const std::filesystem::path& path,
-                                      std::chrono::milliseconds patience);
+/// Takes the locks and opens the file for writing, or makes an empty one: ours or blank, of any
+/// schema up to this program's, in WAL mode, the only name of its file. After an unclean end its
+/// log is folded in and every page checked; until the caller trusts the file, its lock is suspect
+/// then. `path` without links (real_store). Changes no content. Errors as of Store::open. Throws
+/// SqliteError.
+Expected<Writer> open_writer(const std::filesystem::path& path, std::chrono::milliseconds patience);
 
-/// Opens the file for writing, or makes an empty one: ours or blank, of any schema up to this
-/// program's, in WAL mode; when `unclean`, its log is folded in and every page checked. Changes no
-/// content. Throws SqliteError.
-Expected<sqlite::Connection> connect_writer(const std::filesystem::path& path, bool unclean);
+/// What became of a store whose file has met its fate (HeldFile::fate).
+struct Lost {
+  bool saved = false;  ///< all that was committed is in another file
+  Error error;         ///< what happened, where the rest is, what to do; of the kind Conflict
+};
+
+/// Saves what was committed, and leaves the rest as it is.
+Lost save_lost(Writer& writer, const std::string& fate, const std::filesystem::path& path);
+
+/// Before it is closed: folds the log into the file, unless that was lost. Only tidies up; what was
+/// committed is on disk, and the next opening folds it in.
+void give_up(Writer& writer);
 
 /// Tables, views and where the file was made, in a blank file; the caller holds a transaction.
 void write_empty_store(sqlite::Connection& connection);

@@ -7,6 +7,10 @@
 #include <string_view>
 #include <utility>
 
+#include <fmt/format.h>
+
+#include "storage/internal/sqlite.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -14,7 +18,15 @@ constexpr std::size_t kHeader = 100;
 constexpr std::size_t kLogHeader = 32;
 constexpr std::size_t kFrameHeader = 24;
 
-Expected<std::vector<std::uint8_t>> bytes_of(const std::filesystem::path& file) {
+/// Of the database: SQLite opens whatever has the name, and nobody else may open it.
+std::vector<std::uint8_t> bytes_of_database(const std::filesystem::path& file) {
+  const sqlite::Connection connection(file.string(), SQLITE_OPEN_READONLY);
+  const std::string bytes = connection.file_bytes(0, connection.file_size());
+  return {bytes.begin(), bytes.end()};
+}
+
+/// Of the log, on which SQLite has no locks.
+Expected<std::vector<std::uint8_t>> bytes_of_log(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) return bad_input("cannot be opened for reading", file.string());
   std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(stream),
@@ -63,15 +75,17 @@ std::uint64_t big_endian(PageImage::Bytes bytes, std::size_t at, std::size_t cou
 }
 
 Expected<PageImage> PageImage::read(const std::filesystem::path& file) {
-  auto bytes = bytes_of(file);
-  if (!bytes) return Unexpected(bytes.error());
   PageImage image;
-  image.bytes_ = std::move(*bytes);
+  try {
+    image.bytes_ = bytes_of_database(file);
+  } catch (const sqlite::SqliteError& error) {
+    return bad_input(fmt::format("cannot be read: {}", error.what()), file.string());
+  }
   image.read_header();
   const std::filesystem::path log = file.string() + "-wal";
   std::error_code none;
   if (std::filesystem::exists(log, none)) {
-    if (const auto logged = bytes_of(log)) image.read_log(*logged);
+    if (const auto logged = bytes_of_log(log)) image.read_log(*logged);
   }
   return image;
 }
@@ -90,9 +104,6 @@ void PageImage::read_header() {
 
 void PageImage::set_page_size(std::size_t bytes) {
   page_size_ = bytes;
-  pages_ = static_cast<std::uint32_t>(bytes_.size() / page_size_);
-  for (const auto& [number, page] : newer_)
-    pages_ = std::max(pages_, number);
 }
 
 /// Frames count up to the last that ends a transaction; what follows, or does not fit the checksum,
@@ -129,6 +140,25 @@ void PageImage::read_log(const std::vector<std::uint8_t>& log) {
     std::copy_n(first.begin(), kHeader, bytes_.begin());
 }
 
+std::vector<std::uint32_t> PageImage::numbers() const {
+  constexpr std::uint64_t kMostPages = 0xfffffffe;  // SQLite's own limit
+  const std::uint64_t in_file = std::min<std::uint64_t>(bytes_.size() / page_size_, kMostPages);
+  std::vector<std::uint32_t> numbers;
+  for (std::uint64_t number = 1; number <= in_file; ++number)
+    numbers.push_back(static_cast<std::uint32_t>(number));
+  for (const auto& [number, page] : newer_)
+    if (number > in_file) numbers.push_back(number);
+  std::sort(numbers.begin() + static_cast<std::ptrdiff_t>(in_file), numbers.end());
+  return numbers;
+}
+
+std::uint64_t PageImage::bytes() const {
+  std::uint64_t bytes = bytes_.size();
+  for (const auto& [number, page] : newer_)
+    bytes += page.size();
+  return bytes;
+}
+
 PageImage::Bytes PageImage::page(std::uint32_t number) const {
   if (const auto newer = newer_.find(number); newer != newer_.end()) return newer->second;
   if (number == 0 || std::uint64_t{number} * page_size_ > bytes_.size()) return {};
@@ -145,7 +175,7 @@ std::vector<std::uint32_t> PageImage::free_pages() const {
   std::vector<std::uint32_t> free;
   if (!has_header_ || bytes_.size() < kHeader) return free;
   auto trunk = static_cast<std::uint32_t>(big_endian(bytes_, 32, 4));
-  while (trunk != 0 && free.size() < pages_) {
+  while (trunk != 0 && free.size() < bytes() / page_size_) {
     const Bytes bytes = page(trunk);
     if (bytes.empty()) break;
     free.push_back(trunk);

@@ -27,8 +27,12 @@ class PageImage {
   std::size_t page_size() const { return page_size_; }
   /// For a file whose header does not say it.
   void set_page_size(std::size_t bytes);
-  /// The last one may be cut off in the middle, and is not counted then.
-  std::uint32_t pages() const { return pages_; }
+  /// The pages that there are, in order: those of the file, of which the last one may be cut off
+  /// and is not counted then, and those that only the log has. A damaged log may give them any
+  /// number.
+  std::vector<std::uint32_t> numbers() const;
+  /// Of file and log: no record can be larger.
+  std::uint64_t bytes() const;
   /// Page 1, 2, ...; empty when there is none.
   Bytes page(std::uint32_t number) const;
   /// PRAGMA user_version, as the header says.
@@ -44,7 +48,6 @@ class PageImage {
   /// By number: what the log has in place of the file's.
   std::unordered_map<std::uint32_t, std::vector<std::uint8_t>> newer_;
   std::size_t page_size_ = 8192;
-  std::uint32_t pages_ = 0;
   bool has_header_ = false;
 };
 

@@ -8,6 +8,7 @@
 #include "base/hash.h"
 #include "storage/answer.h"
 #include "storage/internal/file_checks.h"
+#include "storage/internal/held_file.h"
 #include "storage/internal/real_run_reader.h"
 #include "storage/internal/row_reader.h"
 #include "storage/internal/schema.h"
@@ -39,11 +40,13 @@ bool cannot_make_files(const fs::path& path) {
 
 /// A store in WAL mode needs a -shm file beside it. Where none can be made and no log waits, nobody
 /// can be writing, and the file may be read as it is.
-sqlite::Connection connect_for_reading(const fs::path& path) {
+Expected<sqlite::Connection> connect_for_reading(const fs::path& path) {
   const bool still = cannot_make_files(path) && !has_pending_log(path);
   Connection connection =
       still ? Connection(immutable_uri(path), SQLITE_OPEN_READONLY | SQLITE_OPEN_URI)
             : Connection(path.string(), SQLITE_OPEN_READONLY);
+  if (auto only = check_only_name(connection, path); !only) return Unexpected(only.error());
+  if (auto sound = check_database_file(connection, path); !sound) return Unexpected(sound.error());
   configure_reader(connection);
   return connection;
 }

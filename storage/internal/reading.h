@@ -11,9 +11,9 @@ namespace swarmsmith {
 /// A folder in which this user cannot make files.
 bool cannot_make_files(const std::filesystem::path& store);
 
-/// A connection that only reads, also where no file can be made beside the store. Throws
-/// SqliteError.
-sqlite::Connection connect_for_reading(const std::filesystem::path& path);
+/// A connection that only reads, also where no file can be made beside the store. Corrupt when the
+/// file is no database or is cut off. Throws SqliteError.
+Expected<sqlite::Connection> connect_for_reading(const std::filesystem::path& path);
 
 /// One state of the store for several statements; a reader's transaction only ever reads.
 class Snapshot {

@@ -48,7 +48,11 @@ std::optional<std::pair<std::string, std::uint32_t>> root_in(const StoredRecord&
 class Salvager {
  public:
   Salvager(const PageImage& image, std::vector<TableShape> shapes)
-      : image_(image), shapes_(std::move(shapes)), finds_(shapes_.size()) {
+      : image_(image),
+        numbers_(image.numbers()),
+        chained_(kReadings * image.bytes()),
+        shapes_(std::move(shapes)),
+        finds_(shapes_.size()) {
     for (std::size_t i = 0; i < shapes_.size(); ++i)
       finds_[i].name = shapes_[i].name;
     for (const std::uint32_t page : image_.free_pages())
@@ -64,7 +68,7 @@ class Salvager {
       finds_[table].tree_is_lost = root == roots_.end();
       if (root != roots_.end()) walk(table, root->second, on_row);
     }
-    for (std::uint32_t number = 1; number <= image_.pages(); ++number) {
+    for (const std::uint32_t number : numbers_) {
       if (!seen_.contains(number)) take_stray(number, on_row);
     }
   }
@@ -74,9 +78,9 @@ class Salvager {
 
  private:
   void find_roots() {
-    for (std::uint32_t number = 1; number <= image_.pages(); ++number) {
+    for (const std::uint32_t number : numbers_) {
       if (seen_.contains(number)) continue;
-      const auto page = read_btree_page(image_, number);
+      const auto page = read_btree_page(image_, number, chained_);
       if (!page) continue;
       for (const StoredRecord& record : page->records) {
         if (const auto root = root_in(record)) roots_.insert(*root);
@@ -91,7 +95,7 @@ class Salvager {
       const std::uint32_t number = open.back();
       open.pop_back();
       if (seen_.contains(number)) continue;
-      const auto page = read_btree_page(image_, number);
+      const auto page = read_btree_page(image_, number, chained_);
       if (!page || page->has_rowids != shapes_[table].has_rowids) {
         ++finds_[table].lost_pages;
         continue;
@@ -113,7 +117,7 @@ class Salvager {
   /// A page that no tree has led to: its rows go where only one table could have them.
   template <class OnRow>
   void take_stray(std::uint32_t number, OnRow& on_row) {
-    const auto page = read_btree_page(image_, number);
+    const auto page = read_btree_page(image_, number, chained_);
     if (!page) return;
     for (const StoredRecord& record : page->records) {
       std::optional<std::size_t> place;
@@ -134,7 +138,13 @@ class Salvager {
     }
   }
 
+  /// A whole record is read three times at most: for roots, by its tree, and as a stray. The rest
+  /// is for broken ones, whose chains may lead anywhere.
+  static constexpr std::uint64_t kReadings = 16;
+
   const PageImage& image_;
+  std::vector<std::uint32_t> numbers_;
+  std::uint64_t chained_;
   std::vector<TableShape> shapes_;
   std::vector<TableFind> finds_;
   std::map<std::string, std::uint32_t> roots_;
@@ -228,7 +238,7 @@ PageFind salvage_pages(PageImage& image, Connection& into) {
   PageFind found;
   found.schema_is_guessed = said < 1 || said > kSchemaVersion;
   found.schema = found.schema_is_guessed ? guess(image) : said;
-  found.pages = image.pages();
+  found.pages = static_cast<std::int64_t>(image.numbers().size());
   const std::vector<TableShape> shapes = shapes_of_schema(found.schema);
   Salvager salvager(image, shapes);
   std::vector<std::int64_t> doubled(shapes.size());

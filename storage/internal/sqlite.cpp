@@ -1,5 +1,12 @@
 #include "storage/internal/sqlite.h"
 
+#include <sys/stat.h>
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+
+#include <fmt/format.h>
+
 #include "base/assert.h"
 
 namespace swarmsmith::sqlite {
@@ -12,15 +19,109 @@ std::string file_of(sqlite3* handle) {
   return file == nullptr ? std::string() : std::string(file);
 }
 
+sqlite3_file& database_of(sqlite3* handle) {
+  sqlite3_file* file = nullptr;
+  sqlite3_file_control(handle, "main", SQLITE_FCNTL_FILE_POINTER, static_cast<void*>(&file));
+  SWARMSMITH_ASSERT(file != nullptr && file->pMethods != nullptr, "the database is a file");
+  return *file;
+}
+
+/// SQLite says only that it could not.
+std::string reason_of(sqlite3* handle) {
+  const int reason = sqlite3_system_errno(handle);
+  return reason == 0 ? std::string(sqlite3_errmsg(handle))
+                     : fmt::format("{} ({})", sqlite3_errmsg(handle), std::strerror(reason));
+}
+
+/// Listens to SQLite while it opens a database in this thread, for the descriptor that it does not
+/// tell. SQLite's calls of the system can be replaced (sqlite3_vfs::xSetSystemCall).
+class Listener {
+ public:
+  Listener() {
+    static const bool listens = replace_calls();
+    SWARMSMITH_ASSERT(listens, "SQLite's calls of the system can be replaced");
+    now_ = this;
+  }
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+  ~Listener() { now_ = nullptr; }
+
+  int descriptor() const { return descriptor_; }
+
+ private:
+  using Open = int (*)(const char*, int, int);
+  using Stat = int (*)(const char*, struct stat*);
+
+  static bool replace_calls() {
+    if (sqlite3_initialize() != SQLITE_OK) return false;
+    sqlite3_vfs* system = sqlite3_vfs_find("unix");
+    if (system == nullptr) return false;
+    open_ = reinterpret_cast<Open>(system->xGetSystemCall(system, "open"));
+    stat_ = reinterpret_cast<Stat>(system->xGetSystemCall(system, "stat"));
+    const auto set = [&](const char* name, auto* call) {
+      return system->xSetSystemCall(system, name, reinterpret_cast<sqlite3_syscall_ptr>(call));
+    };
+    return set("open", &open) == SQLITE_OK && set("stat", &stat) == SQLITE_OK;
+  }
+  static int open(const char* path, int flags, int mode) {
+    const int descriptor = open_(path, flags, mode);
+    if (now_ != nullptr && descriptor >= 0) now_->descriptor_ = descriptor;
+    return descriptor;
+  }
+  /// By it SQLite looks whether it has left a descriptor of the file open, to take that again. Each
+  /// connection shall have one of its own, whose lock is its own.
+  static int stat(const char* path, struct stat* found) {
+    if (now_ == nullptr) return stat_(path, found);
+    errno = ENOENT;
+    return -1;
+  }
+
+  static inline Open open_ = nullptr;
+  static inline Stat stat_ = nullptr;
+  static thread_local Listener* now_;
+  int descriptor_ = -1;
+};
+
+thread_local Listener* Listener::now_ = nullptr;
+
 }  // namespace
 
 Connection::Connection(const std::string& file, int flags) {
   sqlite3* opened = nullptr;
+  const Listener listener;
   const int code = sqlite3_open_v2(file.c_str(), &opened, flags | SQLITE_OPEN_NOMUTEX, nullptr);
   handle_.reset(opened);
+  if (code == SQLITE_OK && !this->file().empty()) descriptor_ = listener.descriptor();
   if (opened == nullptr) throw SqliteError(code, sqlite3_errstr(code));
   sqlite3_extended_result_codes(opened, 1);
-  if (code != SQLITE_OK) fail(code);
+  if (code != SQLITE_OK) fail(code, reason_of(opened));
+}
+
+std::int64_t Connection::file_size() const {
+  sqlite3_file& file = database_of(handle_.get());
+  sqlite3_int64 size = 0;
+  if (const int code = file.pMethods->xFileSize(&file, &size); code != SQLITE_OK)
+    fail(code, "its size cannot be read");
+  return size;
+}
+
+std::string Connection::file_bytes(std::int64_t at, std::int64_t count) const {
+  constexpr std::int64_t kAtOnce = 1 << 24;
+  sqlite3_file& file = database_of(handle_.get());
+  std::string bytes(
+      static_cast<std::size_t>(std::max<std::int64_t>(0, std::min(count, file_size() - at))), '\0');
+  for (std::size_t done = 0; done < bytes.size(); done += kAtOnce) {
+    const auto part = static_cast<int>(std::min<std::size_t>(kAtOnce, bytes.size() - done));
+    const int code = file.pMethods->xRead(&file, bytes.data() + done, part,
+                                          at + static_cast<std::int64_t>(done));
+    // A file that was cut off meanwhile ends in zeros.
+    if (code != SQLITE_OK && code != SQLITE_IOERR_SHORT_READ) fail(code, "it cannot be read");
+  }
+  return bytes;
+}
+
+std::string Connection::file() const {
+  return file_of(handle_.get());
 }
 
 void Connection::execute(const std::string& sql) {

@@ -34,10 +34,20 @@ class Connection {
   Connection(const std::string& file, int flags);
 
   sqlite3* handle() const { return handle_.get(); }
+  /// With which SQLite has the database file open; -1 without a file. It is SQLite's: to be asked
+  /// and to be locked by flock, never to be closed.
+  int descriptor() const { return descriptor_; }
   /// Runs every statement of `sql`, rows are thrown away. Throws SqliteError.
   void execute(const std::string& sql);
   /// Rows that the last statement changed.
   std::int64_t changes() const { return sqlite3_changes64(handle_.get()); }
+  /// Length of the database file, and its bytes from `at` on, as many of `count` as there are: read
+  /// by the handle with which SQLite has it open. Nobody else may open it: when a process closes
+  /// any descriptor of a file, it loses all its locks on it (decision 18). Throws SqliteError.
+  std::int64_t file_size() const;
+  std::string file_bytes(std::int64_t at, std::int64_t count) const;
+  /// Where the file is, without symbolic links; empty when it has none.
+  std::string file() const;
   [[noreturn]] void fail(int code) const;
   [[noreturn]] void fail(int code, const std::string& message) const;
 
@@ -46,6 +56,7 @@ class Connection {
     void operator()(sqlite3* handle) const { sqlite3_close_v2(handle); }
   };
   std::unique_ptr<sqlite3, Close> handle_;
+  int descriptor_ = -1;
 };
 
 /// A prepared statement. Parameters and columns count from the left; texts that are bound must live

@@ -15,7 +15,7 @@ TEST(LogLine, IsOneObjectWithNumbersAsNumbers) {
   const LogField fields[] = {{"worker", std::int64_t{7}}, {"share", 0.5}, {"host", "a \"b\"\n"}};
   EXPECT_EQ(log_line(true, "T", LogLevel::Warning, "coordinator", "worker lost", fields),
             R"({"time":"T","level":"warning","component":"coordinator","event":"worker lost",)"
-            R"("worker":7,"share":0.5,"host":"a \"b\"\u000a"})");
+            R"("worker":7,"share":0.5,"host":"a \"b\"\n"})");
 }
 
 TEST(LogLine, IsKeysAndValuesForPeople) {
@@ -29,6 +29,21 @@ TEST(LogLine, KeepsUtf8AndReplacesWhatIsNone) {
   EXPECT_EQ(log_line(true, "T", LogLevel::Info, "c", "e", fields),
             "{\"time\":\"T\",\"level\":\"info\",\"component\":\"c\",\"event\":\"e\","
             "\"good\":\"Bo\xc3\xb6t\",\"bad\":\"a??\",\"long\":\"??\"}");
+}
+
+TEST(LogLine, LetsNoTextSteerATerminal) {
+  const LogField fields[] = {{"host", "a\x1b[31m"},
+                             {"job", "\xc2\x9b"},
+                             {"cpu", "x\x7f"},
+                             {"build", "\xe2\x80\xae"},
+                             {"note", "\x9b"}};
+  EXPECT_EQ(log_line(false, "T", LogLevel::Info, "c\r", "e\x1b", fields),
+            "T level=info component=\"c\\u000d\" event=\"e\\u001b\" host=\"a\\u001b[31m\" "
+            "job=\"\\u009b\" cpu=\"x\\u007f\" build=\"\\u202e\" note=\"?\"");
+  EXPECT_EQ(log_line(true, "T", LogLevel::Info, "c", "e", fields),
+            "{\"time\":\"T\",\"level\":\"info\",\"component\":\"c\",\"event\":\"e\","
+            "\"host\":\"a\\u001b[31m\",\"job\":\"\\u009b\",\"cpu\":\"x\\u007f\","
+            "\"build\":\"\\u202e\",\"note\":\"?\"}");
 }
 
 TEST(LogSettings, AreWordsWithCommas) {

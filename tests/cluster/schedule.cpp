@@ -49,6 +49,7 @@ Schedule schedule_of(std::uint64_t seed) {
     campaign.designs = 1;
   }
   schedule.faults.commands = up_to(4);
+  schedule.faults.visits = up_to(20);
   return schedule;
 }
 

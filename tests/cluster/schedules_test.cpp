@@ -46,6 +46,18 @@ TEST(SimulatedCluster, DoesTheSameForTheSameSeed) {
   EXPECT_EQ(one.events(), other.events());
 }
 
+TEST(SimulatedCluster, FindsACoordinatorThatClosesItsStoresBesideSqlite) {
+  int found = 0;
+  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+    Schedule schedule = schedule_of(seed);
+    schedule.closes_beside = true;
+    const std::string failure = SimulatedCluster(schedule).run();
+    EXPECT_TRUE(failure.empty() || failure.ends_with(" is lost")) << seed << ": " << failure;
+    if (!failure.empty()) ++found;
+  }
+  EXPECT_GT(found, 5);
+}
+
 TEST(SimulatedCluster, NeedsFewEventsWithoutFaults) {
   SimulatedCluster cluster({.seed = 1, .faults = {}, .campaign = {}});
   EXPECT_EQ(cluster.run(), "");

@@ -38,6 +38,7 @@ struct Faults {
   int total_crashes = 0;   ///< of coordinator and workers at once
   int full_disks = 0;      ///< for up to 20 s nothing can be committed
   int flaps = 0;           ///< a worker's link goes down and up ten times
+  int visits = 0;          ///< of an ordinary client that opens, reads and closes the stores
   Duration until = std::chrono::seconds(0);
 };
 
@@ -52,6 +53,8 @@ struct Schedule {
   std::vector<Misdeed> hostile{};
   bool keys = false;  ///< the workers have one key, and all hostile peers another
   std::int64_t audit_every = 10;
+  /// The coordinator opens and closes its stores beside SQLite, as it once did after a crash.
+  bool closes_beside = false;
 };
 
 /// A schedule out of a seed: some kinds of faults, rare or dense.
@@ -172,6 +175,7 @@ class SimulatedCluster {
   SendStatus to_worker(PeerId peer, const std::string& frame);
   void check_acknowledged(const std::string& frame);
   void check_confirmed(const std::string& frame);
+  void check_promises();
 
   // Coordinator and its disk.
   void start_coordinator();
@@ -236,7 +240,9 @@ class SimulatedCluster {
   std::string stopped_;
   bool escaped_ = false;
   std::vector<Worker> workers_;
-  std::set<PackedKey> failed_;   ///< said once to have no score
+  std::set<PackedKey> failed_;  ///< said once to have no score
+  std::set<PackedKey> acknowledged_;
+  std::size_t confirmed_ = 0;    ///< commands on disk when the last one was confirmed
   std::set<PackedKey> killers_;  ///< killed a worker
   std::map<PeerId, Connection> connections_;
   PeerId peers_ = 0;

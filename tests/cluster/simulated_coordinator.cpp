@@ -41,7 +41,9 @@ void SimulatedCluster::start_coordinator() {
   std::vector<CampaignWork> works;
   known.reserve(campaigns_.size());
   commands.reserve(campaigns_.size());
+  check_promises();
   for (Running& running : campaigns_) {
+    running.disk.open(schedule_.closes_beside);
     running.source = std::make_unique<RacedCampaign>(running.shape, running.disk);
     running.source->watch(running.truths);
     running.tickets = 0;
@@ -74,6 +76,7 @@ void SimulatedCluster::crash_coordinator() {
     for (std::uint64_t i = 0; i < written; ++i)
       write(running, running.uncommitted[i].rows);
     running.uncommitted.clear();
+    running.disk.crash();
   }
   cut_strangers_off();
   const bool noticed = rng_.bernoulli(0.7);

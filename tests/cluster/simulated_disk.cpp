@@ -19,6 +19,24 @@ bool is_replaced(const Row& row) {
 
 }  // namespace
 
+void SimulatedDisk::open(bool closes_beside) {
+  is_open_ = true;
+  is_locked_ = !(is_unclean_ && closes_beside);
+  is_unclean_ = false;
+}
+
+void SimulatedDisk::crash() {
+  is_open_ = is_locked_ = false;
+  is_unclean_ = true;
+  if (named_) rows_ = std::move(*named_);
+  named_.reset();
+}
+
+void SimulatedDisk::visit() {
+  const bool is_last = !is_locked_;
+  if (is_last && is_open_ && !named_) named_ = rows_;
+}
+
 SimulatedDisk::RowKey SimulatedDisk::key_of(const Row& row) {
   using Key = std::tuple<std::int64_t, std::int64_t, std::int64_t>;
   const auto of_evaluation = [](const EvaluationKey& key) {

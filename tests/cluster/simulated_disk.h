@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
@@ -14,8 +15,20 @@ namespace swarmsmith::cluster {
 
 /// What a store does with rows, in memory: the first evaluation stays, absolute values are
 /// replaced, what is there already is ignored. Stricter than a store, which cannot know better.
+///
+/// Below it is a file as SQLite and the kernel have it: commits stand in a log, and the last client
+/// that closes the file folds the log into it and takes the log away. Who has the file open is
+/// known by locks, and a process loses its own when it closes any descriptor of the file.
 class SimulatedDisk {
  public:
+  /// The coordinator opens the store. After a crash it looks at the whole file; with
+  /// `closes_beside` by a descriptor of its own, which it closes while SQLite has the file open.
+  void open(bool closes_beside);
+  /// The coordinator dies. What the next one finds is what the file's name leads to.
+  void crash();
+  /// An ordinary client opens the store, reads and closes it.
+  void visit();
+
   /// Takes the rows as one unit. What is wrong with them, as a sentence; empty when nothing is.
   std::string commit(const std::vector<Row>& rows);
 
@@ -44,6 +57,12 @@ class SimulatedDisk {
   std::vector<Kind> rows_of() const;
 
   std::map<RowKey, Row> rows_;
+  /// What the file's name leads to, when that is not what the coordinator sees: it writes a log
+  /// that was taken away.
+  std::optional<std::map<RowKey, Row>> named_;
+  bool is_open_ = false;    ///< by the coordinator
+  bool is_locked_ = false;  ///< so that others know of it
+  bool is_unclean_ = false;
 };
 
 }  // namespace swarmsmith::cluster

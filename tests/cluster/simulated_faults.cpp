@@ -46,6 +46,10 @@ void SimulatedCluster::plan_faults() {
   sometimes(faults.full_disks,
             [this](int) { disk_full_until_ = now_ + between(milliseconds(10), seconds(20)); });
   sometimes(faults.flaps, [this](int worker) { flap(worker, 10); });
+  sometimes(faults.visits, [this](int) {
+    for (Running& running : campaigns_)
+      running.disk.visit();
+  });
   sometimes(faults.cuts, [this](int worker) {
     const TimePoint until = now_ + between(milliseconds(10), seconds(8));
     const std::uint64_t ways = rng_.below(3);

@@ -88,8 +88,20 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
     const SimulatedDisk& disk = running.disk;
     // What nobody wants any more need not be kept.
     if (disk.finished() || running.source->is_void(packed)) continue;
-    if (!disk.holds(packed) && !failed_.contains(packed)) fail("acknowledged what is not on disk");
+    if (disk.holds(packed)) {
+      acknowledged_.insert(packed);
+    } else if (!failed_.contains(packed)) {
+      fail("acknowledged what is not on disk");
+    }
   }
+}
+
+/// Of a coordinator that has died: the next one finds all of it.
+void SimulatedCluster::check_promises() {
+  for (const PackedKey key : acknowledged_) {
+    if (!campaigns_.at(campaign_of(key)).disk.holds(key)) fail("an acknowledged result is lost");
+  }
+  if (campaigns_.front().disk.commands().size() < confirmed_) fail("a confirmed command is lost");
 }
 
 /// Whoever asked is told when it is on disk: what the disk has is what will be after a crash.
@@ -102,8 +114,10 @@ void SimulatedCluster::check_confirmed(const std::string& frame) {
   const bool more = std::ranges::any_of(running.uncommitted, [&](const Batch& batch) {
     return std::ranges::any_of(batch.rows, is_command);
   });
-  if (!more && paused_designs(running.disk.commands()) != coordinator_->paused())
+  if (more) return;
+  if (paused_designs(running.disk.commands()) != coordinator_->paused())
     fail("what a person was told of is not on disk");
+  confirmed_ = running.disk.commands().size();
 }
 
 }  // namespace swarmsmith::cluster

@@ -15,7 +15,7 @@ from programs import CAMPAIGN, SWARMSMITH, ProgramTest, call
 
 LEAST = 1350  # what the whole space needs
 EXPLORE = ["--nstates", "1", "--s0", "0", "--rwm0", "10"]
-DEADLINE_S = 60
+DEADLINE_S = 60 * programs.PATIENCE
 
 
 def wait_for(condition, what):

@@ -5,7 +5,7 @@ import sqlite3
 import time
 import unittest
 
-from programs import ProgramTest, call, children_of, send
+from programs import PATIENCE, ProgramTest, call, children_of, send
 
 
 class Commands(ProgramTest):
@@ -47,7 +47,7 @@ class Commands(ProgramTest):
                 send(worker, signal.SIGCONT)
 
     def until(self, condition, what, timeout=60):
-        deadline = time.monotonic() + timeout
+        deadline = time.monotonic() + timeout * PATIENCE
         while not condition():
             if time.monotonic() > deadline:
                 self.fail(what)

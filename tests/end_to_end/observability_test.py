@@ -10,7 +10,7 @@ import subprocess
 import time
 import unittest
 
-from programs import SWARMSMITH, ProgramTest, call, send
+from programs import PATIENCE, SWARMSMITH, ProgramTest, call, send
 
 
 class Observability(ProgramTest):
@@ -48,7 +48,7 @@ class Observability(ProgramTest):
         return found
 
     def eventually(self, get, timeout=60):
-        end = time.monotonic() + timeout
+        end = time.monotonic() + timeout * PATIENCE
         while time.monotonic() < end:
             value = get()
             if value:

@@ -9,6 +9,8 @@ import unittest
 
 BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
 SWARMSMITH = str(BIN / "swarmsmith")
+#: How much longer than usual a program may take: more than 1 under sanitizers.
+PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))
 
 CAMPAIGN = """\
 format = 1
@@ -38,7 +40,7 @@ profile = "argos3"
 def call(*arguments, timeout=300, cwd=None):
     """Runs swarmsmith to its end; returns the finished process with its output as text."""
     return subprocess.run([SWARMSMITH, *map(str, arguments)], capture_output=True, text=True,
-                          errors="replace", timeout=timeout, cwd=cwd)
+                          errors="replace", timeout=timeout * PATIENCE, cwd=cwd)
 
 
 def start(*arguments, cwd=None):

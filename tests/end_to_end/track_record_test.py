@@ -12,6 +12,7 @@ import time
 import unittest
 
 TRACK = str(pathlib.Path(os.environ["SWARMSMITH_BIN"]) / "swarmsmith-track")
+PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))  # see programs.py
 WIDTH, HEIGHT = 160, 120
 
 
@@ -22,7 +23,7 @@ def image(number):
 
 
 def wait_for(condition, what, seconds=60):
-    end = time.monotonic() + seconds
+    end = time.monotonic() + seconds * PATIENCE
     while not condition():
         if time.monotonic() > end:
             raise AssertionError("waited in vain for " + what)

@@ -12,16 +12,15 @@ import subprocess
 import time
 import unittest
 
-from network import Proxy
+from beside import Beside
 from rig import (BIN, LONG, SWARMSMITH, WORKER, FaultTest, call, calls_in, need, need_root, rows,
                  stored, wait_for)
-from wire import message
 
 PRELOAD = str(BIN / "faulty_calls.so")
 REFUSED = 3  # exit code: the store cannot be used
 
 
-class Full(FaultTest):
+class Full(Beside):
     budget = 3000
 
     def mount(self):
@@ -87,7 +86,7 @@ class Full(FaultTest):
         self.count("killed on a full disk")
 
 
-class Slow(FaultTest):
+class Slow(Beside):
     budget = 8000
 
     def test_every_sync_takes_50_to_500_ms(self):
@@ -102,28 +101,19 @@ class Slow(FaultTest):
         self.assert_none(numbers, "failed", "lost_workers", "expired")
 
 
-class PowerCut(FaultTest):
+class PowerCut(Beside):
+    """The client is away: the power that goes is its own, too."""
     budget = 3000
 
     def setUp(self):
         super().setUp()
-        self.acknowledged = set()
-
-    def watch(self, direction, body):
-        """Remembers what the coordinator has acknowledged."""
-        if direction == "down":
-            for key in message("ToWorker", body).get("acknowledged", {}).get("keys", []):
-                self.acknowledged.add((key["candidate"], key.get("purpose", 0), key.get("pair", 0)))
-        return body
+        self.client.send(signal.SIGSTOP)
 
     def assert_acknowledged_are_kept(self):
         with contextlib.suppress(FileNotFoundError):
             (self.folder / "campaign.db-shm").unlink()  # memory: a power cut takes it
-        if not self.acknowledged:
-            return
         # Opening it for writing repairs what the cut left, as the next run would.
-        kept = set(rows(self.store, "select candidate, purpose, pair from evaluation"))
-        self.assertLessEqual(self.acknowledged, kept, "an acknowledged result is lost")
+        self.assert_promises_are_kept()
 
     def test_at_the_nth_change(self):
         """What was not synced when the power went is there in part, or not at all."""
@@ -139,7 +129,7 @@ class PowerCut(FaultTest):
             with self.subTest(n=n):
                 for suffix in ("", "-wal", "-shm", ".lock"):
                     (self.folder / f"campaign.db{suffix}").unlink(missing_ok=True)
-                self.acknowledged.clear()
+                self.forget()
                 ended = self.play({"SWARMSMITH_FAULT": f"power={n}:{n}"})
                 self.assertIn(ended, (-signal.SIGKILL, 0))
                 self.count("power cut", int(ended != 0))
@@ -155,7 +145,7 @@ class PowerCut(FaultTest):
         wait_for(lambda: serve.address() or not serve.alive(), "a coordinator")
         worker = proxy = None
         if serve.alive():
-            proxy = Proxy(self, serve.address(), rewrite=self.watch)
+            proxy = self.overhear(serve.address())
             worker = self.worker(proxy.address, slots=2)
         ended = serve.wait(60)
         if worker is not None:

@@ -1,16 +1,18 @@
-"""kill -9 of workers and coordinator, at any moment: the same answer."""
+"""kill -9 of workers and coordinator, at any moment and beside an ordinary client of the store: the
+same answer, and every promise is kept."""
 import random
 import signal
 import subprocess
 import time
 import unittest
 
+from beside import Beside, Onlookers
 from rig import BIN, LONG, FaultTest, calls_in, children_of, events, rows, send, stored, wait_for
 
 PRELOAD = str(BIN / "faulty_calls.so")
 
 
-class Kill(FaultTest):
+class Kill(Beside):
     budget = 20000 if LONG else 6000
 
     def test_workers_at_random(self):
@@ -74,7 +76,8 @@ class Kill(FaultTest):
     def test_coordinator_at_random(self):
         serve = self.serve()
         address = serve.address()
-        workers = [self.worker(address) for _ in range(2)]
+        proxy = self.overhear(address)
+        workers = [self.worker(proxy.address) for _ in range(2)]
         rng = random.Random(2)
         step = self.budget // (25 if LONG else 8)
         before = 0
@@ -82,11 +85,13 @@ class Kill(FaultTest):
             self.wait_stored(before + rng.randrange(1, step))
             serve.kill()
             self.count("coordinator killed")
+            self.assert_promises_are_kept()
             now = stored(self.store)
             self.assertGreaterEqual(now, before, "a stored result was lost")
             before = now
             serve = self.serve(bind=address)
         self.finish(serve, workers)
+        self.assert_promises_are_kept()
         self.assertEqual({row[0] for row in rows(self.store, "select pid from worker")},
                          {worker.pid for worker in workers}, "a worker did not reconnect")
 
@@ -116,7 +121,93 @@ class Kill(FaultTest):
         self.assertIn("--nstates", again.out.read_text())
 
 
-class KillAtPoints(FaultTest):
+class KillBeside(Beside):
+    """Coordinator and workers are killed again and again while people look at the store, and tell it
+    to pause and to go on: whatever was acknowledged or confirmed is there after each kill."""
+
+    budget = 40000 if LONG else 4000
+    kills = 200 if LONG else 12
+
+    def setUp(self):
+        super().setUp()
+        self.rng = random.Random(11)
+        self.coordinator = self.serve()
+        self.address = self.coordinator.address()
+        self.proxy = self.overhear(self.address)
+        self.workers = [self.worker(self.proxy.address) for _ in range(2)]
+
+    def test_beside_an_ordinary_client(self):
+        self.kill_all_the_time()
+
+    def test_beside_backup_status_report_and_dashboard(self):
+        with Onlookers(self) as people:
+            self.kill_all_the_time()
+        self.assertEqual(people.crashes, [])
+
+    def kill_all_the_time(self):
+        step = self.budget // (self.kills + 10)
+        for n in range(self.kills):
+            self.wait_stored(stored(self.store) + self.rng.randrange(1, step))
+            if n % 4 == 3:
+                self.pause_or_resume()
+            if n % 2 == 0 or n % 5 == 0:
+                self.kill_coordinator()
+            if n % 2 == 1:
+                self.kill_worker()
+        self.assert_promises_are_kept()
+        self.finish(self.coordinator)
+        self.assert_promises_are_kept()
+
+    def kill_coordinator(self):
+        self.coordinator.kill()
+        self.count("coordinator killed")
+        self.assert_promises_are_kept()
+        self.coordinator = self.serve(bind=self.address)
+
+    def kill_worker(self):
+        one = self.rng.randrange(len(self.workers))
+        self.workers[one].kill()
+        self.count("worker killed")
+        self.workers[one] = self.worker(self.proxy.address)
+
+    def pause_or_resume(self):
+        """Killed right after it has confirmed."""
+        for kind in ("pause", "resume"):
+            done = self.ask(kind, "d1")
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            self.kill_coordinator()
+
+
+class KillAfterCommands(Beside):
+    """Commands that change the answer: whatever was confirmed acts, though nobody lives to see it."""
+    budget = 2000
+
+    def campaign_text(self):
+        return super().campaign_text().replace("seed = 7\n", "seed = 7\nrepetitions = 2\n")
+
+    def test_extend_and_cancel_outlive_the_coordinator(self):
+        serve = self.serve()
+        address = serve.address()
+        proxy = self.overhear(address)
+        worker = self.worker(proxy.address, slots=2)
+        for kind, words in (("extend", ("d1", "--budget", "500")), ("cancel", ("d2",))):
+            self.wait_stored(stored(self.store) + 200)
+            done = self.ask(kind, *words)
+            self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+            serve.kill()
+            self.count("coordinator killed")
+            self.assert_promises_are_kept()
+            serve = self.serve(bind=address)
+        serve.wait()
+        self.assertEqual(worker.wait(30), 0, worker.tail())
+        self.assert_promises_are_kept()
+        self.assert_clean(self.store)
+        used = dict(rows(self.store, "select design, used from v_designs"))
+        self.assertGreater(used[1], self.budget, "the extension was forgotten")
+        self.assertLess(used[2], self.budget * 0.9, "the cancellation was forgotten")
+
+
+class KillAtPoints(Beside):
     """At the n-th write, sync and message of the coordinator, before and after it: a commit is a
     sync, an acknowledgement a message, and the first and last ones are the birth of the store, the
     first leases, the winner and the end."""
@@ -139,14 +230,17 @@ class KillAtPoints(FaultTest):
                         self.kill_at(f"kill-{when}={call}:{n}")
 
     def kill_at(self, fault):
-        for suffix in ("", "-wal", "-shm", ".lock"):
-            path = self.folder / f"campaign.db{suffix}"
-            path.unlink(missing_ok=True)
+        # A store of its own: the client may still have the last one open.
+        self.store.unlink(missing_ok=True)
+        self.store = self.folder / f"{fault.replace(':', '-')}.db"
+        self.forget()
         ended = self.once({"SWARMSMITH_FAULT": fault}, None)
         # The last calls of another run may never come: then it ended well.
         self.assertIn(ended, (-signal.SIGKILL, 0))
         if ended != 0:
             self.count("coordinator killed at a call")
+            if self.store.exists():
+                self.assert_promises_are_kept()
             self.once({}, 0)
         self.assert_same_answer()
 
@@ -158,10 +252,12 @@ class KillAtPoints(FaultTest):
         worker = None
         wait_for(lambda: serve.address() or not serve.alive(), "a coordinator")
         if serve.alive():
-            worker = self.worker(serve.address(), slots=2)
+            proxy = self.overhear(serve.address())
+            worker = self.worker(proxy.address, slots=2)
         ended = serve.wait(60)
         if worker is not None:
             worker.kill()
+            proxy.close()
         if wanted is not None:
             self.assertEqual(ended, wanted, serve.tail())
         return ended

@@ -52,27 +52,25 @@ class Liars(Visited):
                     "score": score + 1.0, "state_digest": 77}
                    for candidate, pair, score, _ in known]
         self.say(peer, 2, results={"scenario": scenario, "results": results})
-        wait_for(lambda: self.coordinator.progress().get("conflicts", 0) >= 50
-                 or not self.coordinator.alive(), "conflicts that are seen", 15)
         stray = [{"key": {"candidate": 900000 + n, "purpose": 0, "pair": 1}, "attempt": 1,
                   "score": 99.0, "state_digest": 1} for n in range(100)]
         self.say(peer, 3, results={"scenario": scenario, "results": stray})
+        wait_for(lambda: self.coordinator.progress().get("unleased", 0) >= 150
+                 or not self.coordinator.alive(), "results that are refused", 15)
         self.say(peer, 4, results={"scenario": 1234, "results": results})
         self.count("lie about what is known", 50)
         self.count("result of a task that is none", 100)
         peer.close()
-        self.assertEqual(self.coordinator.wait(), 0, self.coordinator.tail())
-        self.assertEqual(self.digest(self.store), self.expected())
-        # A store with two words about one evaluation is never called clean.
-        self.assertIn("a worker is wrong", call("verify", self.store).stdout)
-        self.assertEqual(len(rows(self.store, "select * from conflict")), 50)
-        self.assertEqual(len(events(self.store, "not deterministic")), 50)
+        self.finish_undisturbed()
+        # Who was given nothing has no say, and makes no work.
+        self.assertEqual(rows(self.store, "select * from conflict"), [])
         self.assertEqual(rows(self.store, "select count(*) from evaluation where score = 99"),
                          [(0,)])
 
     def test_plausible_scores(self):
-        """It answers all that it is asked, and invents: the audit finds it, and it is asked no
-        more. What it said before is in the store, which is not called clean."""
+        """It answers all that it is asked, and invents. Without keys it is one of all on this host,
+        which have proved themselves: an audit finds it, and the campaign says that it cannot be
+        believed."""
         peer, welcome = self.enter()
         peer.socket.settimeout(1)
         rng = random.Random(4)
@@ -99,14 +97,13 @@ class Liars(Visited):
             with contextlib.suppress(OSError):
                 self.say(peer, sequence, results={"scenario": welcome["scenario"],
                                                   "results": results})
-        self.assertEqual(self.coordinator.wait(), 0, self.coordinator.tail())
+        self.assertEqual(self.coordinator.wait(), 3, self.coordinator.tail())
+        self.assertIn("not to be believed", self.coordinator.log())
         self.count("invented score", told)
-        [found] = events(self.store, "worker in quarantine")
-        print(f"\n  found after {found['results in the store']} of its scores", end="")
-        self.assertEqual(found["host"], "stranger")
-        self.assertIn("a worker is wrong", call("verify", self.store).stdout)
-        quarantined = "select count(*) from worker where state = 'quarantined'"
-        self.assertEqual(rows(self.store, quarantined), [(1,)])
+        [found] = events(self.store, "workers in quarantine")
+        print(f"\n  found after {told} of its scores", end="")
+        self.assertEqual(found["who"], "loopback")
+        self.assertIn("wrong, or may be", call("verify", self.store).stdout)
 
     def test_somebody_elses_leases(self):
         """It returns and fails what others hold, says old words, and leaves again."""

@@ -19,7 +19,7 @@ import tempfile
 import time
 import unittest
 
-from programs import BIN, CAMPAIGN, SWARMSMITH, call, children_of, send  # noqa: F401
+from programs import BIN, CAMPAIGN, PATIENCE, SWARMSMITH, call, children_of, send  # noqa: F401
 
 WORKER = str(BIN / "swarmsmith-worker")
 LONG = os.environ.get("SWARMSMITH_LONG") == "1"
@@ -29,7 +29,7 @@ MARK = "SWARMSMITH_TEST_MARK"
 
 def wait_for(condition, what, seconds=60, pause=0.02):
     """Polls until `condition()` is true and returns it; an AssertionError names what never came."""
-    limit = time.monotonic() + seconds
+    limit = time.monotonic() + seconds * PATIENCE
     while True:
         value = condition()
         if value:
@@ -105,7 +105,7 @@ class Program:
 
     def wait(self, seconds=180):
         try:
-            return self.process.wait(timeout=seconds)
+            return self.process.wait(timeout=seconds * PATIENCE)
         except subprocess.TimeoutExpired:
             raise AssertionError(
                 f"{self.name} did not end in {seconds} s:\n{self.tail()}") from None

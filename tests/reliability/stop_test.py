@@ -3,10 +3,11 @@ import signal
 import time
 import unittest
 
-from rig import FaultTest, events
+from beside import Beside
+from rig import events
 
 
-class Stopping(FaultTest):
+class Stopping(Beside):
     budget = 8000
 
     def fleet(self):

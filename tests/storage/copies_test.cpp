@@ -1,4 +1,7 @@
+#include <fmt/format.h>
 #include <gmock/gmock.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <fstream>
 #include <functional>
@@ -264,6 +267,26 @@ TEST_F(MergeTest, MergedStoresCanBeMergedAndTheOrderDoesNotChangeTheDigest) {
   EXPECT_EQ(one->digest, two->digest);
   EXPECT_EQ(open_reader(all)->alone(3)->digest(), digest_of(b));
   EXPECT_NE(one->digest, digest_of(out));
+}
+
+TEST_F(MergeTest, ClearsWhatKilledCopiesHaveLeftAndNothingElse) {
+  const pid_t dead = ::fork();
+  if (dead == 0) ::_exit(0);
+  ::waitpid(dead, nullptr, 0);
+  const std::string part = fmt::format("out.db.part-{}", dead);
+  const std::vector<std::string> left{part, part + "-wal", part + ".store-2.part-1"};
+  const std::vector<std::string> kept{fmt::format("out.db.part-{}", ::getppid()),
+                                      "out.db.part-of-mine", "out.db-part-1",
+                                      fmt::format("other.db.part-{}", dead)};
+  for (const auto& names : {left, kept}) {
+    for (const std::string& name : names)
+      std::ofstream(folder / name) << "x";
+  }
+  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  for (const std::string& name : left)
+    EXPECT_FALSE(fs::exists(folder / name)) << name;
+  for (const std::string& name : kept)
+    EXPECT_TRUE(fs::exists(folder / name)) << name;
 }
 
 TEST_F(MergeTest, RefusesTheSameCampaignTwice) {

@@ -12,6 +12,7 @@
 #include "storage/store_at_rest.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/synthetic_real_run.h"
+#include "tests/support/write_ahead_log.h"
 
 namespace swarmsmith {
 namespace {
@@ -238,6 +239,43 @@ TEST_F(RecoverTest, ATruncatedStoreGivesWhatIsLeftAndSaysWhatIsNot) {
   for (const SalvagedTable& table : found.tables)
     lost += table.lost_pages;
   EXPECT_GT(lost, 0);
+}
+
+TEST_F(RecoverTest, ALogMayGiveItsPagesAnyNumber) {
+  for (const std::uint32_t number : {0xffffffffU, 0xfffffffeU, 0x80000000U, 0U}) {
+    const LogFrame frame{
+        .page = number, .pages_after = number, .bytes = bytes.substr(5 * kPage, kPage)};
+    write_bytes(
+        damaged.string() + "-wal",
+        write_ahead_log({frame, {.page = 1, .pages_after = 1, .bytes = bytes.substr(0, kPage)}},
+                        kPage));
+    EXPECT_EQ(recovered(), digest) << number;
+  }
+}
+
+TEST_F(RecoverTest, CellsThatAllLeadToOneLongChainAreNotFollowedForEver) {
+  // Leaves full of cells that are one and the same: 2,048,003 bytes, of which 1,003 are here and
+  // the others on the 250 pages that begin at page 301.
+  constexpr std::size_t kCells = 600, kAt = 4096;
+  std::string leaf(kPage, '\0');
+  leaf[0] = 0x0d;
+  leaf[3] = static_cast<char>(kCells >> 8U);
+  leaf[4] = static_cast<char>(kCells & 0xffU);
+  for (std::size_t i = 0; i < kCells; ++i)
+    leaf[8 + 2 * i] = static_cast<char>(kAt >> 8U);
+  leaf.replace(kAt, 4, "\xfd\x80\x03\x01", 4);
+  leaf.replace(kAt + 4 + 1003, 4, std::string("\x00\x00\x01\x2d", 4));
+  std::string file = bytes.substr(0, 2 * kPage);
+  for (std::uint32_t page = 3; page <= 1500; ++page) {
+    std::string chained(kPage, '\0');
+    chained[2] = static_cast<char>((page + 1) >> 8U);
+    chained[3] = static_cast<char>((page + 1) & 0xffU);
+    file += page <= 300 ? leaf : chained;
+  }
+  write_bytes(damaged, file);
+  const auto recovery = Recovery::begin(damaged, out);
+  ASSERT_FALSE(recovery);
+  EXPECT_THAT(recovery.error().message, HasSubstr("nothing of a store"));
 }
 
 TEST_F(RecoverTest, SaysWhatCannotBe) {

@@ -1,6 +1,7 @@
 #include "storage/store.h"
 
 #include <gmock/gmock.h>
+#include <fstream>
 
 #include <bit>
 #include <cmath>
@@ -226,6 +227,36 @@ TEST_F(StoreTest, KeepsWorkersConflictsAndEventsForPeople) {
             (std::vector<std::vector<std::string>>{{"lost", "12"}}));
   EXPECT_EQ(cells_of(*reader, "SELECT other_score FROM conflict").size(), 1U);
   EXPECT_EQ(cells_of(*reader, "SELECT kind FROM event")[0][0], "worker lost");
+}
+
+TEST_F(StoreTest, RemembersWhoIsNotBelieved) {
+  auto store = begun();
+  EXPECT_FALSE(store->trust().distrusted);
+  WorkerRow worker;
+  worker.id = 4;
+  worker.principal = "node@10.0.0.5";
+  worker.state = "quarantined";
+  store->append({worker, CampaignStateRow{"distrusted"}});
+  store->flush();
+  const StoredTrust trust = store->trust();
+  EXPECT_TRUE(trust.distrusted);
+  EXPECT_EQ(trust.quarantined, std::vector<std::string>{"node@10.0.0.5"});
+  EXPECT_EQ(trust.principals.at(4), "node@10.0.0.5");
+}
+
+TEST_F(StoreTest, KeepsASecretUntilTheCampaignIsFinished) {
+  const std::string secret = "the quick brown fox jumps over it";
+  auto store = begun();
+  EXPECT_EQ(store->keep_secret(secret), secret);
+  EXPECT_EQ(store->keep_secret("another"), secret);
+  store->append({CampaignStateRow{"finished"}});
+  store->flush();
+  EXPECT_EQ(cells_of(*open_reader(path), "SELECT * FROM meta WHERE key = 'lease_secret'").size(),
+            0U);
+  store.reset();
+  std::ifstream file(path, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_EQ(bytes.find(secret), std::string::npos) << "stores are published";
 }
 
 }  // namespace

@@ -20,7 +20,10 @@ class MemoryStore final : public Store {
   void set_listener(std::function<void(const WriterNews&)> on_news) override {
     on_news_ = std::move(on_news);
   }
-  void flush() override { tell(); }
+  Expected<void> flush() override {
+    tell();
+    return {};
+  }
   std::vector<StoredScore> scores() override { return known; }
   std::vector<StoredStep> steps() override { return {}; }
   std::vector<DesignStateRow> design_states() override { return {}; }

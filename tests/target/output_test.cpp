@@ -119,7 +119,7 @@ TEST(Output, SaysWhatIsWrongWithIt) {
   EXPECT_TRUE(mentions(fault("1 -2", plain()), "above 0"));
   EXPECT_TRUE(mentions(fault("1 Inf", plain()), "infinite"));
   EXPECT_TRUE(mentions(fault("1 NaN", plain()), "is NaN"));
-  EXPECT_TRUE(mentions(fault(std::string_view("1\0 2", 4), plain()), "`1\\x00`"));
+  EXPECT_TRUE(mentions(fault(std::string_view("1\0 2", 4), plain()), "`1\\u0000`"));
   EXPECT_TRUE(mentions(fault(std::string(5000, '9') + "x", plain()), "...`"));
 }
 
@@ -202,7 +202,7 @@ TEST(JobId, IsOneWord) {
 
 TEST(Printable, KeepsTextAndTheEndOfIt) {
   EXPECT_EQ(printable("a\tb\n", 100), "a\tb\n");
-  EXPECT_EQ(printable(std::string_view("a\0\x1b[\xff", 5), 100), "a\\x00\\x1b[\\xff");
+  EXPECT_EQ(printable(std::string_view("a\0\x1b[\xff", 5), 100), "a\\u0000\\u001b[\\xff");
   EXPECT_EQ(printable("gr\xc3\xbc\xc3\x9f", 100), "gr\xc3\xbc\xc3\x9f");
   EXPECT_EQ(printable("\xc3", 100), "\\xc3");
   EXPECT_EQ(printable("\xed\xa0\x80", 100), "\\xed\\xa0\\x80");

@@ -153,6 +153,70 @@ TEST_F(TargetEvaluators, SeeThroughLinks) {
   EXPECT_TRUE(mentions(measured.error().reason, "may not"));
 }
 
+/// Makes the link mean the one and the other in turn, as fast as it can.
+void swap_until(const std::stop_token& over, const std::filesystem::path& link,
+                const std::filesystem::path& one, const std::filesystem::path& other) {
+  const std::filesystem::path next = link.string() + ".next";
+  for (bool odd = false; !over.stop_requested(); odd = !odd) {
+    std::filesystem::remove(next);
+    std::filesystem::create_symlink(odd ? one : other, next);
+    std::filesystem::rename(next, link);
+  }
+}
+
+TEST_F(TargetEvaluators, RunTheFileThatWasCheckedWhateverALinkMeansThen) {
+  script("stranger", "touch stranger-ran; echo 9\n");
+  std::filesystem::create_directory(folder / "good");
+  std::filesystem::create_directory(folder / "bad");
+  std::filesystem::rename(folder / "target-runner", folder / "good/run");
+  std::filesystem::rename(folder / "stranger", folder / "bad/run");
+  allowed.programs = {*allowed_program((folder / "good/run").string())};
+  // The program itself is a link, or a folder on the way to it is one.
+  const std::pair<std::string, std::string> links[] = {{"link", ""}, {"folder", "/run"}};
+  for (const auto& [link, rest] : links) {
+    const auto good = folder / (rest.empty() ? "good/run" : "good");
+    const auto bad = folder / (rest.empty() ? "bad/run" : "bad");
+    std::filesystem::create_symlink(good, folder / link);
+    scenario.target->runner = (folder / link).string() + rest;
+    const auto evaluator = make();
+    ASSERT_TRUE(evaluator);
+    std::jthread swapper(
+        [&](const std::stop_token& over) { swap_until(over, folder / link, good, bad); });
+    int ran = 0;
+    int refused = 0;
+    while (ran < 100 || refused < 100) {
+      const auto measured = (*evaluator)(item());
+      measured ? ++ran : ++refused;
+      if (measured) {
+        ASSERT_EQ(measured->score, -2.5);
+      } else {
+        ASSERT_TRUE(mentions(measured.error().reason, "may not")) << measured.error().reason;
+      }
+      ASSERT_FALSE(std::filesystem::exists(folder / "stranger-ran"));
+    }
+  }
+}
+
+TEST_F(TargetEvaluators, TellALauncherTheFileThatWasChecked) {
+  script("stranger", "touch stranger-ran; echo 9\n");
+  std::filesystem::create_symlink(folder / "target-runner", folder / "link");
+  allowed.programs = {*allowed_program("/bin/sh"),
+                      *allowed_program((folder / "target-runner").string())};
+  scenario.target->launcher = "/bin/sh";
+  scenario.target->runner = (folder / "link").string();
+  const auto evaluator = make();
+  ASSERT_TRUE(evaluator) << evaluator.error().message;
+  std::jthread swapper([&](const std::stop_token& over) {
+    swap_until(over, folder / "link", folder / "target-runner", folder / "stranger");
+  });
+  int ran = 0;
+  int refused = 0;
+  while (ran < 100 || refused < 100) {
+    (*evaluator)(item()) ? ++ran : ++refused;
+    ASSERT_FALSE(std::filesystem::exists(folder / "stranger-ran"));
+  }
+}
+
 TEST_F(TargetEvaluators, NeedTheFolder) {
   scenario.target->folder = (folder / "nowhere").string();
   EXPECT_TRUE(mentions(make().error().message, "folder"));

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "console/terminal.h"
 #include "sim/files/mission_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/complaints.h"
@@ -64,12 +65,12 @@ class StatusLine {
     if (output_->quiet || now < next_) return;
     const bool terminal = output_->err_is_terminal;
     next_ = now + (terminal ? std::chrono::milliseconds(500) : std::chrono::seconds(5));
-    output_->err << (terminal ? "\r\x1b[2K" : "") << live_state_line(state)
+    output_->err << (terminal ? kClearLine : Verbatim{}) << live_state_line(state)
                  << (terminal ? "" : "\n") << std::flush;
     shown_ = terminal;
   }
   void clear() {
-    if (shown_) output_->err << "\r\x1b[2K" << std::flush;
+    if (shown_) output_->err << kClearLine << std::flush;
   }
 
  private:

@@ -9,15 +9,12 @@
 #include <thread>
 #include <utility>
 
+#include "console/terminal.h"
 #include "tracking/app/stop_signal.h"
 #include "tracking/rig/issue.h"
 
 namespace swarmsmith::cli {
-namespace {
-
-constexpr const char* kClearLine = "\r\x1b[2K";
-
-}  // namespace
+namespace {}  // namespace
 
 Expected<void> check_recording_name(const std::string& file) {
   if (!file.ends_with(".mkv")) {
@@ -139,7 +136,8 @@ void Recording::tell(Output& output) {
   if (output.quiet || now < next_line_) return;
   const bool terminal = output.err_is_terminal;
   next_line_ = now + (terminal ? std::chrono::milliseconds(500) : std::chrono::seconds(10));
-  output.err << (terminal ? kClearLine : "") << summary() << (terminal ? "" : "\n") << std::flush;
+  output.err << (terminal ? kClearLine : Verbatim{}) << summary() << (terminal ? "" : "\n")
+             << std::flush;
   shown_ = terminal;
 }
 

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "console/terminal.h"
 #include "console/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
@@ -36,7 +37,7 @@ OrRefusal<std::vector<VerdictOverride>> overrides_of(StoreReader& store, const s
 /// Written where a person wants it; standard output when the file is "-".
 ExitCode write(const std::string& text, const ReportArguments& arguments, Output& output) {
   if (output.json || arguments.file == "-") {
-    output.out << text << (text.ends_with('\n') ? "" : "\n");
+    write_data(output, text + (text.ends_with('\n') ? "" : "\n"));
     return ExitCode::Done;
   }
   const std::string file = arguments.file.empty() ? arguments.run + ".html" : arguments.file;

@@ -9,6 +9,8 @@
 #include <csignal>
 #include <cstdlib>
 #include <exception>
+#include <iostream>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,6 +19,7 @@
 #include "base/descriptor_limit.h"
 #include "base/local_secret.h"
 #include "base/log.h"
+#include "base/shown_text.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "target/guard.h"
@@ -199,7 +202,12 @@ int run_command_line(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : static_cast<int>(ExitCode::Usage);
+    std::ostringstream out;
+    std::ostringstream errors;
+    const int code = app.exit(error, out, errors);
+    std::cout << out.str();
+    std::cerr << as_shown(errors.str());  // with the words that it was given
+    return code == 0 ? 0 : static_cast<int>(ExitCode::Usage);
   }
   if (!arguments.connect.empty() && !is_tcp_address(arguments.connect)) {
     return fail({ErrorKind::BadInput, "this is no address; it is written tcp://HOST:PORT",

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/internal/panel_grid.h"
-#include "analysis/records/csv.h"
+#include "base/csv.h"
 #include "base/suggestion.h"
 
 namespace swarmsmith {
@@ -76,9 +76,9 @@ ScoreGroup group_of(const DesignScore& score, const Names& names, std::string_vi
 
 std::string csv_of(const std::vector<DesignScore>& scores) {
   std::string csv =
-      "design,mission,method,repetition,candidate,source,purpose,pair,instance,seed,score\r\n";
+      "design,mission,method,repetition,candidate,source,purpose,pair,instance,seed,score\n";
   for (const DesignScore& score : scores) {
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\r\n", score.design.value,
+    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", score.design.value,
                        csv_field(score.mission), csv_field(score.method), score.repetition,
                        score.candidate.value, csv_field(score.source), score.purpose, score.pair,
                        score.instance, score.seed, score.score);

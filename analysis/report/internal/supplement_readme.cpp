@@ -6,6 +6,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "base/shown_text.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -64,6 +66,17 @@ std::string file_list(const std::vector<SupplementFile>& files, const Supplement
   return text + "| `SHA256SUMS` | checksums of all other files |\n";
 }
 
+/// A campaign's name as Markdown shows it.
+std::string markdown_text(std::string_view text) {
+  constexpr std::string_view kMarks = "\\`*_{}[]<>()#+-.!|&~";
+  std::string marked;
+  for (const char letter : as_shown(text, Layout::Escaped)) {
+    if (kMarks.find(letter) != std::string_view::npos) marked += '\\';
+    marked += letter;
+  }
+  return marked;
+}
+
 }  // namespace
 
 std::string supplement_readme(const std::vector<SupplementFile>& files,
@@ -72,7 +85,7 @@ std::string supplement_readme(const std::vector<SupplementFile>& files,
   std::vector<std::string> names;
   std::string again;
   for (const CampaignRecord& campaign : campaigns) {
-    names.push_back(campaign.name);
+    names.push_back(markdown_text(campaign.name));
     if (campaign.file.empty()) continue;
     again += fmt::format("    swarmsmith run campaign{}.toml\n",
                          campaigns.size() == 1 ? "" : fmt::format("-{}", campaign.campaign));

@@ -42,8 +42,10 @@ ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesyste
   Progress progress(output, std::span<const DesignRow>{}, begin);
   CostEvents events(progress);
   RunListener& teller = output.json ? static_cast<RunListener&>(events) : console;
+  std::error_code trouble;
+  const bool is_new = !std::filesystem::exists(store.file(), trouble);
   const ExitCode ended = carry_out(output, {*campaign}, run_options(slots, store), teller).front();
-  if (ended != ExitCode::Done) return explain_end(output, ended);
+  if (ended != ExitCode::Done) return explain_end(output, ended, is_new);
   const auto reader = StoreReader::open(store.file());
   if (!reader) return fail(output, ExitCode::Failed, reader.error());
   const auto result = read_irace_result(**reader, setup.space);

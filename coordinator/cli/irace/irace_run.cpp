@@ -62,13 +62,14 @@ class ScenarioRun {
     CostEvents events(progress);
     RunListener& teller = output_.json ? static_cast<RunListener&>(events) : *console;
     // What is wrong with a store is said by who opens it to write; nothing begins before.
-    if (!is_finished() && may_begin() && !output_.json) {
+    const bool begins = may_begin();
+    if (!is_finished() && begins && !output_.json) {
       console->write_begin();
       if (auto told = tell_what_was(*console); !told)
         return fail(output_, ExitCode::Failed, told.error());
     }
     const ExitCode ended = carry_out(output_, {campaign_}, options, teller).front();
-    return ended == ExitCode::Done ? report() : explain_end(output_, ended);
+    return ended == ExitCode::Done ? report() : explain_end(output_, ended, begins);
   }
 
  private:
@@ -174,9 +175,11 @@ RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
   return options;
 }
 
-ExitCode explain_end(Output& output, ExitCode ended) {
+ExitCode explain_end(Output& output, ExitCode ended, bool began) {
   if (ended == ExitCode::Interrupted || ended == ExitCode::Terminated) return ended;
   if (ended == ExitCode::Store) {
+    // It has said what became of the store.
+    if (began) return ended;
     output.err << "Give the options that made this store, or another one: --log-file NAME, or "
                   "--store PATH.\n";
   }

@@ -19,9 +19,10 @@ struct IraceSlots {
 /// Both as the worker processes of `carry_out`.
 RunOptions run_options(const IraceSlots& slots, const StorePlace& store);
 
-/// What to exit with after `carry_out` did not come to its end: 1 for all errors, as irace. Says
-/// what to do about a store of another scenario.
-ExitCode explain_end(Output& output, ExitCode ended);
+/// What to exit with after `carry_out` did not come to its end: 1 for all errors, as irace, but
+/// that of a store that was lost after the run `began`. Says what to do about a store of another
+/// scenario.
+ExitCode explain_end(Output& output, ExitCode ended, bool began);
 
 /// Runs the scenario into its store, or goes on with it, and prints irace's report. Failed for
 /// whatever goes wrong, as irace; Interrupted and Terminated as `run`.

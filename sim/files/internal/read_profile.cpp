@@ -142,7 +142,7 @@ class FieldReader {
 
 void read_profile_fields(TableReader& table, Profile& profile) {
   FieldReader reader(table);
-  visit_fields(profile, reader);
+  visit_profile_fields(profile, reader);
   reader.finish();
 }
 

@@ -22,21 +22,21 @@ TEST(ComparisonTables, AreRfc4180) {
   const Comparison comparison = compare(scores(), {.by = CompareBy::Method});
   EXPECT_EQ(groups_csv(comparison),
             "mission,method,source,n,designs,runs,mean,sd,min,lower_quartile,median,upper_quartile,"
-            "max\r\n"
-            "aggregation,\"a, b\",rvr,2,2,2,3.5,0.7071067811865476,3,3.25,3.5,3.75,4\r\n"
-            "aggregation,c,rvr,2,2,2,1.5,0.7071067811865476,1,1.25,1.5,1.75,2\r\n");
+            "max\n"
+            "aggregation,\"a, b\",rvr,2,2,2,3.5,0.7071067811865476,3,3.25,3.5,3.75,4\n"
+            "aggregation,c,rvr,2,2,2,1.5,0.7071067811865476,1,1.25,1.5,1.75,2\n");
   EXPECT_THAT(pairs_csv(comparison),
-              HasSubstr("\r\naggregation,,rvr,\"a, b\",c,2,2,rank-sum,4,0.3333333333333333,"
+              HasSubstr("\naggregation,,rvr,\"a, b\",c,2,2,rank-sum,4,0.3333333333333333,"
                         "0.3333333333333333,exact,0,0.3333333333333333,1,large,2,"));
   EXPECT_THAT(ranks_csv(comparison.ranks),
-              HasSubstr("\r\nrvr,\"a, b\",1,1,1,2,0,2,1,0.15729920705028"));
+              HasSubstr("\nrvr,\"a, b\",1,1,1,2,0,2,1,0.15729920705028"));
 }
 
 TEST(ComparisonTables, LeaveEmptyWhatIsNotThere) {
   const Comparison comparison = compare(
       records_of({{.method = "a", .scores = {3}}, {.design = 2, .method = "b", .scores = {3}}}),
       {.by = CompareBy::Method});
-  EXPECT_THAT(groups_csv(comparison), HasSubstr("a,rvr,1,1,1,3,,3,3,3,3,3\r\n"));
+  EXPECT_THAT(groups_csv(comparison), HasSubstr("a,rvr,1,1,1,3,,3,3,3,3,3\n"));
   EXPECT_THAT(pairs_csv(comparison), HasSubstr(",rank-sum,0.5,,,\"normal approximation, "));
 }
 

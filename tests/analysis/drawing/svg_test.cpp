@@ -17,7 +17,7 @@ TEST(Svg, IsAFileInMillimetres) {
   EXPECT_THAT(text, StartsWith("<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"84mm\" "
                                "height=\"97.5mm\" viewBox=\"0 0 84 97.5\""));
   EXPECT_THAT(text, HasSubstr("<title>a &lt; b</title>"));
-  EXPECT_THAT(text, HasSubstr("<desc>&quot;c&quot; &amp; d</desc>"));
+  EXPECT_THAT(text, HasSubstr("<desc>&quot;c&quot; &amp; d\\u0001</desc>"));
   EXPECT_THAT(text, EndsWith("</svg>\n"));
 }
 

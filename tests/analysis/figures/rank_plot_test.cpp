@@ -73,7 +73,7 @@ TEST_F(RanksFigureTest, RanksMethodsWhereThereAreSeveral) {
   EXPECT_THAT(figure->svg, HasSubstr("Ranks by method"));
   EXPECT_THAT(figure->svg, HasSubstr("3 repetitions in rvr: aggregation"));
   EXPECT_THAT(figure->svg, HasSubstr("chocolate"));
-  EXPECT_THAT(figure->csv, HasSubstr("\r\nrvr,chocolate,"));
+  EXPECT_THAT(figure->csv, HasSubstr("\nrvr,chocolate,"));
   EXPECT_THAT(text_problems(figure->svg), IsEmpty());
   EXPECT_EQ(figure->svg, make(*store, {})->svg);
 }

@@ -6,7 +6,6 @@
 
 #include "analysis/drawing/axes.h"
 #include "analysis/figures/figure.h"
-#include "analysis/records/csv.h"
 #include "tests/storage/fixture.h"
 #include "tests/support/drawn_page.h"
 
@@ -157,7 +156,7 @@ TEST_F(StoreFigures, SamplingCountsEveryCandidateOfAnIteration) {
     counted += std::stoll(figure.csv.substr(count));
   }
   EXPECT_EQ(counted, 8);
-  EXPECT_THAT(figure.csv, HasSubstr("1,NumStates,1,8,not active,,,,0\r\n"));
+  EXPECT_THAT(figure.csv, HasSubstr("1,NumStates,1,8,not active,,,,0\n"));
   EXPECT_THAT(figure.csv, HasSubstr("1,NumStates,1,8,elite,"));
   EXPECT_THAT(refusal("sampling", {.filter = {.design = {{1}}}, .parameter = "speed"}),
               HasSubstr("NumConnections0"));
@@ -186,11 +185,6 @@ TEST_F(StoreFigures, ConvergenceHasAPanelAMission) {
   EXPECT_TRUE(page.has_text("aggregation"));
   EXPECT_TRUE(page.has_text("color_selection"));
   EXPECT_EQ(rows_of(made("convergence", {}).csv), 2U * 3 * 3);
-}
-
-TEST(CsvCell, QuotesWhatHasToBe) {
-  EXPECT_EQ(csv_field("plain text"), "plain text");
-  EXPECT_EQ(csv_field("a,\"b\""), "\"a,\"\"b\"\"\"");
 }
 
 }  // namespace

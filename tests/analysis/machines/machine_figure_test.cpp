@@ -36,7 +36,7 @@ TEST_F(MachineFigureTest, DrawsTheBestOfTheOneDesignThatIsNamed) {
   EXPECT_THAT(figure->svg, HasSubstr("<title>d2 " + to_string(best) + ", "));
   EXPECT_THAT(figure->tex, StartsWith("\\begin{tikzpicture}"));
   EXPECT_THAT(figure->csv, StartsWith("state,behaviour,behaviour_parameters,transition,target,"
-                                      "condition,condition_parameters\r\n0,"));
+                                      "condition,condition_parameters\n0,"));
   const auto named = make({.candidate = best});
   ASSERT_TRUE(named);
   EXPECT_EQ(named->svg, figure->svg);
@@ -76,10 +76,10 @@ TEST(MachineCsv, HasARowForEachStateAndTransition) {
       .flavour = &watermelon()};
   EXPECT_EQ(machine_csv(stored),
             "state,behaviour,behaviour_parameters,transition,target,condition,condition_parameters"
-            "\r\n0,attraction,alpha=2.5,,,,\r\n"
-            "0,attraction,alpha=2.5,0,1,color_detection,beta=0.45 label=red\r\n"
-            "0,attraction,alpha=2.5,1,1,inverted_neighbour_count,xi=3 eta=1.5\r\n"
-            "1,stop,,,,,\r\n");
+            "\n0,attraction,alpha=2.5,,,,\n"
+            "0,attraction,alpha=2.5,0,1,color_detection,beta=0.45 label=red\n"
+            "0,attraction,alpha=2.5,1,1,inverted_neighbour_count,xi=3 eta=1.5\n"
+            "1,stop,,,,,\n");
 }
 
 }  // namespace

@@ -111,7 +111,7 @@ TEST_F(RecordsTest, CsvQuotesWhatItMust) {
   const auto text = csv_of_rows(
       *reader, "SELECT 1 AS \"a,b\", 'x\"y' AS c, NULL AS d, 0.1 AS e, 'line\nfeed' AS f");
   ASSERT_TRUE(text);
-  EXPECT_EQ(*text, "\"a,b\",c,d,e,f\r\n1,\"x\"\"y\",,0.1,\"line\nfeed\"\r\n");
+  EXPECT_EQ(*text, "\"a,b\",c,d,e,f\n1,\"x\"\"y\",,0.1,\"line\nfeed\"\n");
   EXPECT_FALSE(csv_of_rows(*reader, "SELECT * FROM v_nothing"));
 }
 

@@ -22,7 +22,7 @@ TEST(XmlCheck, FindsWhatIsWrong) {
 
 TEST(Html, EscapesWhatMeansSomething) {
   EXPECT_EQ(html_escaped("<b a=\"1\">&"), "&lt;b a=&quot;1&quot;&gt;&amp;");
-  EXPECT_EQ(html_escaped(std::string_view("a\0b\x1b", 4)), "a b ");
+  EXPECT_EQ(html_escaped(std::string_view("a\0b\x1b", 4)), "a\\u0000b\\u001b");
   EXPECT_EQ(html_escaped("zwölf\n"), "zwölf\n");
 }
 

@@ -268,7 +268,7 @@ TEST_F(EvaluateFromStore, StoresNothingThatIsNoScoreOfTheDesign) {
   EXPECT_EQ(run({"query", store_, "SELECT count(*) AS n FROM v_evaluations WHERE purpose = 'score'",
                  "--csv"})
                 .out,
-            "n\r\n0\r\n");
+            "n\n0\n");
 }
 
 TEST_F(EvaluateFromStore, StaysOutWhileACampaignWrites) {

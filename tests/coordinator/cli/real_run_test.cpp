@@ -126,10 +126,10 @@ TEST_F(RealRuns, AreReplayedBesideSimulationsFromTheSameStarts) {
   for (const char* word : {"r1 run01, 2026-11-21, c1", "rvr, seed 5", "rvr2", "VALID"})
     EXPECT_THAT(svg, HasSubstr(word));
   const std::string csv = content("r.csv");
-  EXPECT_THAT(csv, StartsWith("run,source,seed,cycle,time_s,robot,x,y,theta,kind\r\n"));
-  EXPECT_THAT(csv, HasSubstr("\r\nr1,real,,7,0.7,2,"));
-  EXPECT_THAT(csv, HasSubstr(",interpolated\r\n"));
-  EXPECT_THAT(csv, HasSubstr("\r\n,rvr,5,100,10,0,"));
+  EXPECT_THAT(csv, StartsWith("run,source,seed,cycle,time_s,robot,x,y,theta,kind\n"));
+  EXPECT_THAT(csv, HasSubstr("\nr1,real,,7,0.7,2,"));
+  EXPECT_THAT(csv, HasSubstr(",interpolated\n"));
+  EXPECT_THAT(csv, HasSubstr("\n,rvr,5,100,10,0,"));
   EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + 3 * 101 * 3);
   EXPECT_EQ(run({"replay", "r1", store_, "--beside", "2", "--svg", file("again.svg")}).code, 0);
   EXPECT_NE(content("again.svg"), svg);

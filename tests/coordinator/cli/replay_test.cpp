@@ -193,13 +193,12 @@ TEST_F(Replay, WritesCommandsStatesAndReadingsToStandardOutput) {
   const Ran ran = run({"replay", "e100001", store_, "--csv", "-", "--readings", "ground_color"});
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, StartsWith("cycle,time_s,robot,x,y,theta,cmd_left,cmd_right,state,behaviour,"
-                                  "leds,ground_r,ground_g,ground_b\r\n0,0,0,"));
+                                  "leds,ground_r,ground_g,ground_b\n0,0,0,"));
   EXPECT_THAT(
       ran.out,
-      HasSubstr(
-          ",0,0,0,exploration,#000000 #000000 #000000 #000000 #000000,,,\r\n"));  // before the
-                                                                                  // first cycle
-  EXPECT_THAT(ran.out, HasSubstr("\r\n1200,120,2,"));
+      HasSubstr(",0,0,0,exploration,#000000 #000000 #000000 #000000 #000000,,,\n"));  // before the
+                                                                                      // first cycle
+  EXPECT_THAT(ran.out, HasSubstr("\n1200,120,2,"));
   EXPECT_THAT(ran.out, HasSubstr(",1,stop,"));
   EXPECT_THAT(ran.err, StartsWith("e100001: same bits as stored"));
 }

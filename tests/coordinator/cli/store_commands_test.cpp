@@ -112,7 +112,7 @@ TEST_F(Query, ListsTheViewsWhenTheStatementIsMissing) {
 TEST_F(Query, WritesTextCsvAndJson) {
   const std::string sql = "SELECT 1 AS a, 'x,\"y\"' AS b, NULL AS c, 0.1 AS d";
   EXPECT_EQ(run({"query", store_, sql}).out, "a  b      c    d\n1  x,\"y\"  -  0.1\n");
-  EXPECT_EQ(run({"query", store_, sql, "--csv"}).out, "a,b,c,d\r\n1,\"x,\"\"y\"\"\",,0.1\r\n");
+  EXPECT_EQ(run({"query", store_, sql, "--csv"}).out, "a,b,c,d\n1,\"x,\"\"y\"\"\",,0.1\n");
   EXPECT_EQ(json::parse(run({"query", store_, sql, "--json"}).out),
             json::parse(R"({"columns":["a","b","c","d"],"truncated":false,
                             "rows":[{"a":1,"b":"x,\"y\"","c":null,"d":0.1}]})"));

@@ -135,6 +135,26 @@ TEST(CampaignRunner, KeepsTheBudgetAndTestsTheWinnerOnFreshSeeds) {
   }
 }
 
+TEST(CampaignRunner, TellsTheTaskOfAnEvaluationAgain) {
+  CampaignRunner runner(small_plans(1), {}, {});
+  std::size_t told = 0;
+  for (auto tasks = runner.take_tasks(); !tasks.empty(); tasks = runner.take_tasks()) {
+    for (const Task& task : tasks) {
+      const std::optional<Task> again = runner.task_of(task.key);
+      ASSERT_TRUE(again) << to_string(task.key);
+      EXPECT_EQ(again->machine, task.machine);
+      EXPECT_EQ(again->seed, task.seed);
+      EXPECT_EQ(again->instance, task.instance);
+      EXPECT_EQ(again->mission, task.mission);
+      runner.tell(outcome_of(task));
+      ++told;
+    }
+  }
+  EXPECT_GT(told, 1000U);
+  EXPECT_FALSE(runner.task_of({{999'999}, Purpose::Race, 1}));
+  EXPECT_FALSE(runner.task_of({{1}, Purpose::Race, 99'999}));
+}
+
 TEST(CampaignRunner, SaysWhichDesignsAreOverForGood) {
   Memory memory;
   CampaignRunner runner(small_plans(3), {}, {DesignId{2}}, {},

@@ -2,6 +2,8 @@
 
 #include <gmock/gmock.h>
 
+#include "base/csv.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -23,6 +25,14 @@ TEST(CsvTable, ReadsQuotesCommasLineBreaksAndBothLineEnds) {
   EXPECT_EQ(table->place(table->rows[1]), "t.csv:5");
   EXPECT_EQ(cell_of(*table, table->rows[1], "a"), "2");
   EXPECT_EQ(cell_of(*table, table->rows[1], "c"), "");
+}
+
+TEST(CsvTable, ReadsTextsThatWereKeptFromBeingFormulas) {
+  const std::vector<std::string> texts = {"=1+1", "'=1+1", "@x", "-2+3", "-1.5", "it's", "a,\"b\""};
+  const auto table =
+      parse_csv(csv_line({"a", "b", "c", "d", "e", "f", "g"}) + csv_line(texts), "t");
+  ASSERT_TRUE(table);
+  EXPECT_EQ(table->rows.front().cells, texts);
 }
 
 TEST(CsvTable, NamesEveryBadRowByItsLine) {

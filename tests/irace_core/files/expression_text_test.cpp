@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/irace_core/files/random_expressions.h"
+#include "tests/support/small_stack.h"
 
 namespace swarmsmith {
 namespace {
@@ -138,6 +139,25 @@ TEST(ExpressionText, DeepTreesReadBackOrAreRefused) {
       }
     }
   }
+}
+
+TEST(ExpressionText, NeedsLittleStackHoweverLongATextIs) {
+  with_small_stack([] {
+    for (const std::string part :
+         {"!", "-", "2^", "1 + ", "a & ", "(", "!(", "c(", "a %in% c(1, "}) {
+      for (const int times : {900, 200'000}) {
+        std::string text;
+        for (int i = 0; i < times; ++i)
+          text += part;
+        text += "1";
+        for (int i = 0; i < times && part.find('(') != std::string::npos; ++i)
+          text += ')';
+        const Read result = read(text);
+        EXPECT_TRUE(times == 900 || !result.expression) << part;
+        if (result.expression) EXPECT_TRUE(read(print(*result.expression)).expression) << part;
+      }
+    }
+  });
 }
 
 TEST(ExpressionText, MinusBeforeAConstantReadsBackAsANegativeConstant) {

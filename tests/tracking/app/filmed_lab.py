@@ -10,6 +10,7 @@ import unittest
 BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
 TRACK = BIN / "swarmsmith-track"
 FILM = BIN / "film"
+PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))
 BOARD = "charuco:9x6:0.04:0.03:4x4_50"
 
 
@@ -17,7 +18,7 @@ def call(program, *words, cwd=None, timeout=300, **more):
     """Runs a program to its end, output as text."""
     environment = {name: value for name, value in os.environ.items() if name != "SWARMSMITH_STORE"}
     return subprocess.run([str(program), *map(str, words)], capture_output=True, text=True,
-                          errors="replace", timeout=timeout, cwd=cwd, env=environment, check=False,
+                          errors="replace", timeout=timeout * PATIENCE, cwd=cwd, env=environment, check=False,
                           **more)
 
 

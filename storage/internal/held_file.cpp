@@ -1,0 +1,162 @@
+#include "storage/internal/held_file.h"
+
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <sys/vfs.h>
+#include <unistd.h>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "storage/internal/file_checks.h"
+#include "storage/internal/lock_file.h"
+#include "storage/internal/new_file.h"
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::array kBeside{"-wal", "-shm"};
+
+/// Who has an flock on the file, as the kernel lists them.
+std::string holder_of(const struct stat& file) {
+  const std::string place =
+      fmt::format("{:02x}:{:02x}:{}", major(file.st_dev), minor(file.st_dev), file.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream words(line);
+    std::string number, kind, advisory, access, pid, where;
+    words >> number >> kind >> advisory >> access >> pid >> where;
+    if (kind == "FLOCK" && access == "WRITE" && where == place) return holder_text(pid);
+  }
+  return {};
+}
+
+bool is_on_shared_file_system(int descriptor) {
+  struct statfs about {};
+  return ::fstatfs(descriptor, &about) == 0 && is_network_file_system(about.f_type);
+}
+
+/// "s.db.saved", "s.db.saved-2", ... in the first of these folders that takes one: the store's own
+/// may be gone, or full.
+Expected<fs::path> copy_beside(sqlite::Connection& connection, const fs::path& path) {
+  constexpr int kMostNames = 1000;
+  std::error_code ignored;
+  Error last;
+  for (const fs::path& folder :
+       {path.parent_path(), fs::current_path(ignored), fs::temp_directory_path(ignored)}) {
+    for (int n = 1; n <= kMostNames; ++n) {
+      const std::string name = path.filename().string() + ".saved";
+      const fs::path wanted = folder / (n == 1 ? name : fmt::format("{}-{}", name, n));
+      if (fs::exists(fs::symlink_status(wanted, ignored))) continue;
+      auto copy = NewFile::beside(wanted);
+      if (copy) {
+        try {
+          sqlite::Statement(connection, "VACUUM INTO ?").run(copy->path().string());
+          if (auto published = copy->publish(); published)
+            return wanted;
+          else
+            last = published.error();
+        } catch (const sqlite::SqliteError& error) {
+          last = {ErrorKind::Unavailable, error.what(), wanted.string()};
+        }
+      } else {
+        last = copy.error();
+      }
+      break;
+    }
+  }
+  return Unexpected(last);
+}
+
+}  // namespace
+
+Expected<void> check_only_name(const sqlite::Connection& connection, const fs::path& path) {
+  struct stat file {};
+  if (::fstat(connection.descriptor(), &file) != 0 || file.st_nlink <= 1) return {};
+  return bad_input(
+      "the store has a second name (a hard link), and SQLite keeps a log for each name: what is in "
+      "the other's log would be missing here; remove the other name, or copy the file and use the "
+      "copy",
+      path.string());
+}
+
+Expected<HeldFile> HeldFile::hold(const sqlite::Connection& connection, const fs::path& path) {
+  const int descriptor = connection.descriptor();
+  struct stat file {};
+  if (::fstat(descriptor, &file) != 0) {
+    return unexpected(ErrorKind::Unavailable, "cannot be looked at", path.string());
+  }
+  if (!is_on_shared_file_system(descriptor) && ::flock(descriptor, LOCK_EX | LOCK_NB) != 0) {
+    return unexpected(ErrorKind::Conflict, in_use_text(holder_of(file)), path.string());
+  }
+  HeldFile held(descriptor, path);
+  if (auto only = check_only_name(connection, path); !only) return Unexpected(only.error());
+  if (const std::string fate = held.fate_of_store(); !fate.empty()) {
+    return unexpected(ErrorKind::Conflict, fate + " while it was opened; try again", path.string());
+  }
+  return held;
+}
+
+HeldFile::HeldFile(HeldFile&& other) noexcept
+    : descriptor_(std::exchange(other.descriptor_, -1)),
+      path_(std::move(other.path_)),
+      beside_(other.beside_) {}
+
+HeldFile::~HeldFile() {
+  // SQLite may keep the descriptor for a while after the connection is closed.
+  if (descriptor_ >= 0) ::flock(descriptor_, LOCK_UN);
+}
+
+std::optional<HeldFile::Identity> HeldFile::identity_of(const fs::path& path) {
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0) return std::nullopt;
+  return Identity{file.st_dev, file.st_ino};
+}
+
+std::string HeldFile::fate_of_store() const {
+  struct stat file {};
+  if (::fstat(descriptor_, &file) != 0) return "the store's file is closed";
+  const auto named = identity_of(path_);
+  if (named == Identity{file.st_dev, file.st_ino}) return {};
+  std::string fate = "the store was deleted";
+  if (file.st_nlink > 0) {
+    std::error_code none;
+    const fs::path now = fs::read_symlink(fmt::format("/proc/self/fd/{}", descriptor_), none);
+    fate = none ? "the store was renamed" : "the store was renamed to " + now.string();
+  }
+  return named ? fate + ", and another file has its name," : fate;
+}
+
+std::string HeldFile::fate() {
+  if (std::string fate = fate_of_store(); !fate.empty()) return fate;
+  for (std::size_t i = 0; i < kBeside.size(); ++i) {
+    const std::string name = path_.string() + kBeside[i];
+    const auto now = identity_of(name);
+    if (!beside_[i]) beside_[i] = now;
+    if (now == beside_[i]) continue;
+    return fmt::format("{}, which SQLite needs beside the store, was {}", name,
+                       now ? "replaced" : "deleted or renamed");
+  }
+  return {};
+}
+
+Expected<std::string> HeldFile::save(sqlite::Connection& connection) const {
+  const auto copy = copy_beside(connection, path_);
+  if (!copy) return Unexpected(copy.error());
+  for (std::size_t i = 0; i < kBeside.size(); ++i) {
+    const std::string name = path_.string() + kBeside[i];
+    if (beside_[i] && identity_of(name) == beside_[i]) ::unlink(name.c_str());
+  }
+  return fmt::format(
+      "everything so far is in {0}: `mv {0} {1}` gives it its name again, and the same command "
+      "goes "
+      "on from there",
+      copy->string(), path_.string());
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,104 @@
+#include <gmock/gmock.h>
+#include <sys/stat.h>
+#include <sys/sysmacros.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+#include <fmt/format.h>
+
+#include "storage/backup.h"
+#include "storage/merge.h"
+#include "storage/recover.h"
+#include "storage/store_at_rest.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith {
+namespace {
+
+/// SQLite's shared lock: a read lock on 510 bytes behind the first GiB.
+/// https://www.sqlite.org/fileformat2.html, section 1.3.1 (the lock-byte page)
+constexpr std::int64_t kSharedFirst = 0x40000002;
+
+/// Whether this process has the lock that tells all others that the file is open here. A process
+/// loses it when it closes any descriptor of the file, and the next ordinary client that leaves
+/// then takes the write-ahead log away.
+bool is_locked_here(const std::filesystem::path& path) {
+  struct stat file {};
+  if (::stat(path.c_str(), &file) != 0) return false;
+  const std::string place =
+      fmt::format("{:02x}:{:02x}:{}", major(file.st_dev), minor(file.st_dev), file.st_ino);
+  std::ifstream locks("/proc/locks");
+  for (std::string line; std::getline(locks, line);) {
+    std::istringstream words(line);
+    std::string number, kind, advisory, access, where;
+    std::int64_t pid = 0, first = 0;
+    words >> number >> kind >> advisory >> access >> pid >> where >> first;
+    if (kind == "POSIX" && pid == ::getpid() && where == place && first == kSharedFirst)
+      return true;
+  }
+  return false;
+}
+
+struct LocksTest : testing::Test {
+  TemporaryFolder folder;
+  std::filesystem::path path = folder / "s.db";
+  SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 1});
+
+  std::unique_ptr<Store> filled_store() {
+    auto store = open_store(path, campaign);
+    for (const auto& batch : campaign.batches)
+      store->append(batch);
+    store->flush();
+    return store;
+  }
+  /// The store as a killed writer leaves it, with its log.
+  void leave_unclean() {
+    const auto killed = filled_store();
+    const std::filesystem::path copy = folder / "copy.db";
+    for (const char* ending : {"", "-wal", ".lock"})
+      std::filesystem::copy_file(path.string() + ending, copy.string() + ending);
+    path = copy;
+  }
+};
+
+TEST_F(LocksTest, AWriterHoldsItsLockAfterEveryKindOfStart) {
+  EXPECT_FALSE(is_locked_here(path));
+  filled_store();
+  {
+    const auto clean = open_store(path, campaign);
+    EXPECT_TRUE(is_locked_here(path)) << "after a clean end";
+  }
+  EXPECT_FALSE(is_locked_here(path));
+  leave_unclean();
+  const auto unclean = open_store(path, campaign);
+  EXPECT_TRUE(is_locked_here(path)) << "after a crash";
+}
+
+TEST_F(LocksTest, NothingThatIsDoneWithAStoreTakesTheLockOfItsWriterAway) {
+  const auto writer = filled_store();
+  ASSERT_TRUE(is_locked_here(path));
+  const auto after = [&](const char* what, const std::function<void()>& done) {
+    done();
+    EXPECT_TRUE(is_locked_here(path)) << what;
+  };
+  after("reading", [&] { EXPECT_NE(open_reader(path)->digest(), ""); });
+  after("checking", [&] { EXPECT_THAT(open_reader(path)->integrity(), testing::IsEmpty()); });
+  after("asking", [&] { EXPECT_TRUE(is_database(path)); });
+  after("copying", [&] { EXPECT_TRUE(back_up(path, folder / "b.db", [](auto, auto) {})); });
+  after("merging", [&] { EXPECT_TRUE(merge_stores({path}, folder / "m.db", [](auto, auto) {})); });
+  after("recovering", [&] {
+    auto recovery = Recovery::begin(path, folder / "r.db");
+    ASSERT_TRUE(recovery);
+    EXPECT_TRUE((*recovery)->finish());
+  });
+  after("a second writer", [&] {
+    EXPECT_FALSE(Store::open(path, campaign.campaign, campaign.designs));
+    EXPECT_FALSE(StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse));
+  });
+}
+
+}  // namespace
+}  // namespace swarmsmith
