@@ -17,6 +17,7 @@
 #include "coordinator/launchers/child_process.h"
 #include "coordinator/launchers/worker_program.h"
 #include "coordinator/messages.h"
+#include "coordinator/task_key.h"
 #include "proto/frame_pipe.h"
 #include "proto/wire.h"
 #include "storage/answer.h"

@@ -103,12 +103,12 @@ bool GroupWriter::finished() {
 
 StoredTrust GroupWriter::trust() {
   const std::lock_guard guard(connection_mutex_);
-  return read_trust(connection_);
+  return read_trust(writer_.connection);
 }
 
 std::string GroupWriter::keep_secret(const std::string& fresh) {
   const std::lock_guard guard(connection_mutex_);
-  return swarmsmith::keep_secret(connection_, fresh);
+  return swarmsmith::keep_secret(writer_.connection, fresh);
 }
 
 void GroupWriter::run(const std::stop_token& stop) {
