@@ -288,11 +288,15 @@ std::string StoredRun::given_by() const {
   return text;
 }
 
-Expected<DesignWorld> StoredRuns::world_of(DesignId design) const {
-  auto world = worlds_.of(design);
-  if (!world) return Unexpected(world.error());
-  if (!*world) return bad_input("the store has no design " + to_string(design));
-  return std::move(**world);
+Expected<DesignWorld> StoredRuns::world_of(DesignId design) {
+  // Its campaign's file is read once for all evaluations of the design.
+  if (!world_ || world_->design.id != design) {
+    auto world = worlds_.of(design);
+    if (!world) return Unexpected(world.error());
+    if (!*world) return bad_input("the store has no design " + to_string(design));
+    world_ = std::move(**world);
+  }
+  return *world_;
 }
 
 }  // namespace swarmsmith::cli

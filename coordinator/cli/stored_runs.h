@@ -81,13 +81,14 @@ class StoredRuns {
       : store_(std::move(store)), worlds_(std::move(worlds)) {}
 
   /// The design's world, or why there is none.
-  Expected<DesignWorld> world_of(DesignId design) const;
+  Expected<DesignWorld> world_of(DesignId design);
   Expected<std::vector<std::string>> ids_of(const std::string& sql);
   /// SQL that is true of evaluations of campaigns that simulate; empty when none does.
   std::string of_campaigns() const;
 
   std::unique_ptr<StoreReader> store_;
   DesignWorlds worlds_;
+  std::optional<DesignWorld> world_;  ///< the last one
 };
 
 /// Why nothing of a store can be evaluated again.

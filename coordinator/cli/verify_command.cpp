@@ -14,7 +14,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// Scores that are evaluated again when nobody says how many: a twentieth of a second.
+/// Scores that are evaluated again when nobody says how many: well below a second.
 constexpr std::int64_t kUsualSample = 64;
 constexpr std::int64_t kLargest = 2'147'483'647;
 
