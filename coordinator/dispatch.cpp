@@ -139,17 +139,18 @@ void Scheduler::dispatch_wanted(TimePoint now) {
 /// Reserves workers for tasks that may have killed one, at most half of them at a time.
 void Scheduler::dispatch_alone(TimePoint now) {
   if (!leases_.has_alone()) return;
+  // A stranger's death would say nothing.
+  const bool only_proven = proven_present() > 0;
   std::size_t reserved = 0;
   for (auto& [number, entry] : workers_.all()) {
+    if (only_proven && !is_proven(*entry.principal)) entry.reserved = false;
     if (entry.connected && entry.reserved) ++reserved;
   }
   const std::size_t limit = std::max<std::size_t>(1, workers_.trusted() / 2);
-  // A stranger's death would say nothing.
-  const std::size_t proven = proven_present();
   for (auto& [number, entry] : workers_.all()) {
     if (!leases_.has_alone()) return;
     if (!entry.usable() || leases_.loads().of(number).credit == 0) continue;
-    if (proven > 0 && !is_proven(*entry.principal)) continue;
+    if (only_proven && !is_proven(*entry.principal)) continue;
     if (!entry.reserved && reserved >= limit) continue;
     if (!entry.reserved) ++reserved;
     entry.reserved = true;

@@ -143,7 +143,7 @@ TEST_F(ProgramSchedulers, TakeTheFirstOfTwoResults) {
   credit(1, 1);
   want(1, 1);
   answer(1, 1, 2.5);
-  answer(1, 1, 2.6);
+  resend(1, 1, 2.6);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 2.5);
   EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
   EXPECT_TRUE(all<ConflictFound>().empty());

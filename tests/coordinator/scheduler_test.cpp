@@ -41,7 +41,7 @@ TEST_F(Schedulers, AcceptTheFirstResultAndDropTheSecond) {
   credit(1, 1);
   want(1, 1);
   answer(1, 1, 2.5);
-  answer(1, 1, 2.5);
+  resend(1, 1, 2.5);
   ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 2.5);
   EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
@@ -53,7 +53,7 @@ TEST_F(Schedulers, ReportASecondResultWithOtherBits) {
   credit(1, 1);
   want(1, 1);
   answer(1, 1, 2.5);
-  answer(1, 1, 2.6);
+  resend(1, 1, 2.6);
   ASSERT_EQ(all<ConflictFound>().size(), 1U);
   EXPECT_EQ(all<ConflictFound>()[0].row.kept_score, 2.5);
   EXPECT_EQ(all<ConflictFound>()[0].row.other_score, 2.6);
@@ -65,14 +65,14 @@ TEST_F(Schedulers, AcknowledgeWhateverComesOfADesignThatIsOver) {
   want(1, 2);
   answer(1, 1, 2.5);
   scheduler.close_design(0, {1});
-  answer(1, 1, 2.6);
+  resend(1, 1, 2.6);
   EXPECT_TRUE(all<ConflictFound>().empty()) << "it is not compared any more";
   EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
   EXPECT_EQ(scheduler.counters().duplicates, 1U);
   EXPECT_EQ(scheduler.counters().unknown, 0U);
   // What was given still gets its outcome.
   answer(1, 2, 3.5);
-  answer(1, 2, 3.5);
+  resend(1, 2, 3.5);
   EXPECT_EQ(all<OutcomeAccepted>().size(), 2U);
   EXPECT_EQ(scheduler.counters().duplicates, 2U);
 }

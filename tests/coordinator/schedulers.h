@@ -102,6 +102,15 @@ class Schedulers : public ::testing::Test {
     scheduler.on_results({peer, 1, 0}, {&result, 1}, now);
     move();
   }
+  /// The same, with the signature of a lease of a worker that said `hello`, as workers send it.
+  void resend(PeerId peer, std::int64_t candidate, double score = 1, std::int64_t attempt = 1) {
+    answer(peer, {.key = key(candidate),
+                  .attempt = attempt,
+                  .score = score,
+                  .state_digest = 5,
+                  .wall_us = 100,
+                  .signature = scheduler.signer().sign(key(candidate), attempt, name_of(peer))});
+  }
   /// Any result.
   void answer(PeerId peer, const WorkerResult& result) {
     scheduler.on_results({peer, 1, 0}, {&result, 1}, now);
