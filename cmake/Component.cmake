@@ -53,8 +53,10 @@ function(swarmsmith_test name)
   target_compile_definitions(${target} PRIVATE
     SWARMSMITH_TEST_DATA="${PROJECT_SOURCE_DIR}/tests/golden"
     SWARMSMITH_BIN_DIR="${CMAKE_BINARY_DIR}/bin"
-    SWARMSMITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}"
-    $<$<BOOL:${SWARMSMITH_SANITIZE}>:SWARMSMITH_SANITIZED>)
+    SWARMSMITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  if(SWARMSMITH_SANITIZE)
+    target_compile_definitions(${target} PRIVATE SWARMSMITH_SANITIZED)
+  endif()
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${limit})
 endfunction()

@@ -115,7 +115,7 @@ Expected<std::unique_ptr<Store>> Store::open(const fs::path& named, const Campai
       return Unexpected(ready.error());
     }
     writer->lock.set_suspect(false);
-    return std::make_unique<GroupWriter>(std::move(*writer), path, options);
+    return std::make_unique<GroupWriter>(std::move(*writer), options);
   } catch (const sqlite::SqliteError& error) {
     return not_writable(error, path);
   }

@@ -34,13 +34,13 @@ class SqliteAtRest final : public StoreAtRest {
       : writer_(std::move(writer)), path_(std::move(path)), is_new_(is_new) {}
 
   ~SqliteAtRest() override {
-    std::error_code ignored;
-    // While the right to write it is held.
-    if (is_new_ && writer_.file.fate().empty()) {
+    if (!is_new_) {
+      give_up(writer_);
+    } else if (writer_.file.fate().empty()) {  // while the right to write it is held
+      std::error_code ignored;
       for (const char* ending : {"", "-wal", "-shm"})
         fs::remove(path_.string() + ending, ignored);
     }
-    give_up(writer_);
   }
 
   bool is_new() const override { return is_new_; }
@@ -90,7 +90,7 @@ Expected<void> SqliteAtRest::in_one_go(const std::function<Expected<void>()>& ch
   }
   is_new_ = false;
   const std::string fate = writer_.file.fate();
-  return fate.empty() ? Expected<void>() : Unexpected(save_lost(writer_, fate, path_).error);
+  return fate.empty() ? Expected<void>() : Unexpected(save_lost(writer_, fate).error);
 }
 
 Expected<void> SqliteAtRest::check_candidate(CandidateId candidate) const {

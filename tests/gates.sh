@@ -105,14 +105,16 @@ gate_tsan() { sanitizer_gate tsan; }
 
 # Each target from its seeds and what earlier runs have found worth keeping; a row of the table each.
 gate_fuzz() {
+  local commit row
   configure build-asan --preset asan
   cmake --build build-asan -j "$jobs" --target fuzzers
   mkdir -p build-fuzz/found
-  local commit
   commit=$(clean_commit)
-  grep -sL "^$commit	" build-gate/fuzz-*.row | xargs -r rm
-  COMMIT=$commit xargs -P 2 -L 1 tests/fuzz/run_one "${SWARMSMITH_FUZZ_SECONDS:-600}" <build-asan/fuzzers.txt
+  for row in build-gate/fuzz-*.row; do  # those of other commits are not of this table
+    grep -qs "^$commit	" "$row" || rm -f "$row"
+  done
   echo "$(wc -l <build-asan/fuzzers.txt) targets" >&3
+  COMMIT=$commit xargs -P 2 -L 1 tests/fuzz/run_one "${SWARMSMITH_FUZZ_SECONDS:-600}" <build-asan/fuzzers.txt
 }
 
 # run_gate NAME. Called alone, not as a condition: its subshell ends at the first command that fails.
@@ -128,6 +130,7 @@ run_gate() {
   number=$(set -e; exec 3>&1 >"$log" 2>&1; "gate_$1")
   status=$?
   set -e
+  [ "$(clean_commit)" = "$commit" ] || commit=  # edited meanwhile
   printf '%s\t%s\t%s\t%s\t%s\t%s\n' "${commit:-changed}" "$1" "$(what_runs "$1")" "${number:--}" \
     "$([ $status -eq 0 ] && echo green || echo RED)" "$((SECONDS - began)) s" >"$row"
   [ $status -eq 0 ] || tail -n 30 "$log" >&2
@@ -136,6 +139,7 @@ run_gate() {
 # gate [NAME...]: all of them without a name. Says yes only when all are green.
 gate() {
   local name rows=()
+  shopt -s nullglob
   [ $# -gt 0 ] || set -- "${all_gates[@]}"
   for name in "$@"; do
     what_runs "$name" >/dev/null || { echo "dev: no gate '$name'; there are ${all_gates[*]}" >&2; exit 2; }

@@ -206,6 +206,7 @@ class CampaignRun {
 /// Lines of several campaigns begin with their names.
 std::vector<ToldCampaign> told(const std::vector<Campaign>& campaigns) {
   std::vector<ToldCampaign> told;
+  told.reserve(campaigns.size());
   for (const Campaign& campaign : campaigns) {
     told.push_back(
         {campaigns.size() > 1 ? name_among(campaigns, campaign) : "", design_rows(campaign)});

@@ -81,10 +81,12 @@ Example:
 
 constexpr std::string_view kVerifyDetails =
     R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
-budget and winner with what is stored; checks the file itself, too. Exit code 0 when all is clean.
+budget and winner with what is stored; checks the file itself, too. Evaluates some of it again: all
+rejections and 64 scores, or as many as --sample says. Exit code 0 when all is clean.
 
-Example:
-  swarmsmith verify demo.db)";
+Examples:
+  swarmsmith verify demo.db
+  swarmsmith verify demo.db --sample 5_000)";
 
 constexpr std::string_view kInitDetails = R"(Examples:
   swarmsmith init mine

@@ -2,8 +2,8 @@
 
 #include <memory>
 
-#include "console/counter.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/compared_runs.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/real_replay_command.h"
 #include "coordinator/cli/recording.h"
@@ -32,25 +32,6 @@ struct Arguments {
 
 std::string hexadecimal(std::uint64_t digest) {
   return fmt::format("{:016x}", digest);
-}
-
-/// "e81200007", or "c812, seed 7" for what the store does not hold.
-std::string name_of(const StoredRun& run) {
-  return run.id.empty() ? run.candidate + ", seed " + std::to_string(run.seed) : run.id;
-}
-
-std::string values_text(double score, std::uint64_t digest) {
-  return "score " + json_number(score) + ", state digest " + hexadecimal(digest);
-}
-
-/// Both values, and why they may differ.
-std::string difference_text(const StoredRun& run, const SimulationResult& result) {
-  std::string text = name_of(run) + ": the replay gives " +
-                     values_text(result.score, result.state_digest) + "; the store holds " +
-                     values_text(run.outcome->score, run.outcome->state_digest);
-  const std::string older = other_engine(run.engine_version);
-  if (!older.empty()) text += "; " + older;
-  return text;
 }
 
 std::string as_json(const StoredRun& run, const SimulationResult& result) {
@@ -119,32 +100,26 @@ Expected<StoredRun> find_run(StoredRuns& runs, const Arguments& arguments) {
 
 /// Every difference is an error of its own; the answer counts them.
 ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
+  if (!runs.has_machines()) return fail(output, ExitCode::Usage, programs_scored("--sample"));
   const auto ids = runs.sample(count);
   if (!ids) return fail(output, ExitCode::Store, ids.error());
-  std::size_t different = 0;
-  std::string different_json;
-  const auto of = static_cast<std::int64_t>(ids->size());
-  std::int64_t replayed = 0;
   Counter counter(output, "replayed", "evaluations");
-  for (const std::string& id : *ids) {
-    counter.tell(replayed++, of);
-    const auto run = runs.evaluation(*parse_thing_id(id));
-    if (!run) return fail(output, ExitCode::Store, run.error());
-    const SimulationResult result = simulate(run->setup());
-    if (same_bits(*run->outcome, result)) continue;
-    ++different;
-    different_json += (different_json.empty() ? "" : ",") + json_text(id);
-    print_error(output, {ErrorKind::Conflict, difference_text(*run, result), ""});
+  const auto different = compare_again(runs, *ids, counter);
+  if (!different) return fail(output, ExitCode::Failed, different.error());
+  std::string different_json;
+  for (const Difference& difference : *different) {
+    different_json += (different_json.empty() ? "" : ",") + json_text(difference.id);
+    print_error(output, {ErrorKind::Conflict, difference.sentence, ""});
   }
-  counter.tell(replayed, of);
+  const std::size_t same = ids->size() - different->size();
   if (output.json) {
-    output.out << "{\"replayed\":" << ids->size() << ",\"same_bits\":" << ids->size() - different
+    output.out << "{\"replayed\":" << ids->size() << ",\"same_bits\":" << same
                << ",\"different\":[" << different_json << "]}\n";
   } else {
-    output.out << ids->size() << " evaluations replayed, " << ids->size() - different
+    output.out << ids->size() << " evaluations replayed, " << same
                << " with the same bits as stored\n";
   }
-  return different == 0 ? ExitCode::Done : ExitCode::Failed;
+  return different->empty() ? ExitCode::Done : ExitCode::Failed;
 }
 
 /// What cannot be meant, before any store is opened.

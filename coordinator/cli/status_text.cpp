@@ -181,6 +181,7 @@ std::vector<std::string> host_lines(const LiveStatus& status) {
            std::tuple(-b.second.failed, -b.second.gone, b.second.busy());
   });
   std::vector<std::string> lines;
+  lines.reserve(sorted.size());
   for (const auto& [name, host] : sorted) {
     lines.push_back(fmt::format(
         "{:<20.20} {:>4} {:>4} {:>5} {:>5} {:>5.0f}% {:>8.1f} {:>6} {:>6.1f}s", name, host.workers,

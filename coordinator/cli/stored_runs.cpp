@@ -1,5 +1,7 @@
 #include "coordinator/cli/stored_runs.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <bit>
 #include <cstdlib>
@@ -20,11 +22,22 @@ std::int64_t integer_of(const Cell& cell) {
   return std::strtoll(cell.text.c_str(), nullptr, 10);
 }
 
+/// Who answers for a worker, as far as a store of this schema says it.
+std::string who(std::int64_t schema) {
+  if (schema >= 6) return "w.principal";
+  return schema >= 3 ? "w.client" : "''";
+}
+
 /// With a run's columns in the order of `read_outcome`.
-std::string select_evaluations(const std::string& condition) {
+std::string select_evaluations(std::int64_t schema, const std::string& condition) {
   return "SELECT e.id, 'c' || e.candidate, e.seed, e.status, e.score, e.state_digest, e.source, "
-         "c.fsm_config, e.design FROM (SELECT * FROM v_evaluations WHERE " +
-         condition + ") AS e JOIN v_candidates AS c ON c.candidate = e.candidate";
+         "c.fsm_config, e.design, e.worker, w.host, " +
+         who(schema) +
+         " FROM (SELECT * FROM v_evaluations "
+         "WHERE " +
+         condition +
+         ") AS e JOIN v_candidates AS c ON c.candidate = e.candidate LEFT JOIN v_workers AS w ON "
+         "w.worker = e.worker";
 }
 
 /// What the evaluation's own row says.
@@ -36,6 +49,9 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
     run.outcome = StoredOutcome{std::strtod(cells[4].text.c_str(), nullptr),
                                 static_cast<std::uint64_t>(integer_of(cells[5]))};
   }
+  run.worker = integer_of(cells[9]);
+  run.host = cells[10].text;
+  run.who = cells[11].text;
   return run;
 }
 
@@ -79,6 +95,24 @@ Expected<void> complete(StoredRun& run, const DesignWorld& world, const std::str
   return {};
 }
 
+/// Scores from each who answers for workers in turn. Their order is drawn from numbers below 2^31,
+/// whose squares fit in SQLite's integers.
+std::string in_turn(std::int64_t schema, const std::string& given,
+                    const StoredRuns::Wanted& wanted) {
+  constexpr const char* kSql =
+      "WITH drawn AS (SELECT e.id, {who} AS who, (e.candidate * 100003 + e.pair * 7 + "
+      "(e.purpose = 'test') + {seed}) % {prime} AS x{given} AND e.status = 'ok'{but}), "
+      "mixed AS (SELECT id, who, (x * x + {seed}) % {prime} AS y FROM drawn), "
+      "ordered AS (SELECT id, who, y * y % {prime} AS z FROM mixed), "
+      "ranked AS (SELECT id, z, row_number() OVER (PARTITION BY who ORDER BY z, id) AS n "
+      "FROM ordered) SELECT id FROM ranked ORDER BY n, z, id LIMIT {count}";
+  return fmt::format(fmt::runtime(kSql), fmt::arg("seed", wanted.seed),
+                     fmt::arg("who", who(schema)), fmt::arg("prime", 2'147'483'629),
+                     fmt::arg("given", given),
+                     fmt::arg("but", wanted.tests ? " AND e.purpose <> 'test'" : ""),
+                     fmt::arg("count", wanted.scores));
+}
+
 }  // namespace
 
 bool same_bits(const StoredOutcome& stored, const SimulationResult& result) {
@@ -111,7 +145,7 @@ Expected<StoredRuns> StoredRuns::open(std::unique_ptr<StoreReader> store) {
 }
 
 Expected<StoredRun> StoredRuns::evaluation(const ThingId& id) {
-  const auto rows = select(*store_, select_evaluations(is_evaluation(id)));
+  const auto rows = select(*store_, select_evaluations(store_->schema(), is_evaluation(id)));
   if (!rows) return Unexpected(rows.error());
   const std::string name = "e" + id.digits + id.purpose;
   if (rows->cells.empty()) {
@@ -161,8 +195,9 @@ Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) 
   // The pair may have served the race and more: all of these hold the same outcome.
   const auto known =
       select(*store_,
-             select_evaluations("candidate = " + id.digits + " AND seed = " + std::to_string(seed) +
-                                " AND state_digest <> 0 AND source = " + sql_text(source)) +
+             select_evaluations(store_->schema(),
+                                "candidate = " + id.digits + " AND seed = " + std::to_string(seed) +
+                                    " AND state_digest <> 0 AND source = " + sql_text(source)) +
                  " ORDER BY e.purpose = 'race' DESC, e.pair",
              {.rows = 1});
   if (!known) return Unexpected(known.error());
@@ -178,15 +213,41 @@ Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
   // The n-th of N rows is taken when a multiple of N / count lies in (n - 1, n]. What was not
   // simulated here has no last state.
   const std::string number = std::to_string(count);
-  const auto rows =
-      select(*store_,
-             "WITH all_of (id, n, total) AS (SELECT id, row_number() OVER (ORDER BY candidate, "
-             "purpose, pair), count(*) OVER () FROM v_evaluations "
-             "WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL "
-             "AND (state_digest <> 0 OR purpose <> 'score')) "
-             "SELECT id FROM all_of WHERE n * " +
-                 number + " / total > (n - 1) * " + number + " / total ORDER BY n",
-             {.rows = 1'000'000'000, .seconds = 600});
+  return ids_of(
+      "WITH all_of (id, n, total) AS (SELECT id, row_number() OVER (ORDER BY candidate, "
+      "purpose, pair), count(*) OVER () FROM v_evaluations "
+      "WHERE status = 'ok' AND source <> 'real' AND seed IS NOT NULL "
+      "AND (state_digest <> 0 OR purpose <> 'score')) "
+      "SELECT id FROM all_of WHERE n * " +
+      number + " / total > (n - 1) * " + number + " / total ORDER BY n");
+}
+
+Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
+  const std::string campaigns = of_campaigns();
+  if (campaigns.empty()) return std::vector<std::string>{};
+  const std::string given =
+      " FROM v_evaluations AS e LEFT JOIN v_workers AS w ON w.worker = e.worker "
+      "WHERE e.source <> 'real' AND " +
+      campaigns;
+  const std::string in_order = " ORDER BY e.candidate, e.purpose, e.pair";
+  std::vector<std::string> parts;
+  if (wanted.rejections)
+    parts.push_back("SELECT e.id" + given + " AND e.status = 'rejected'" + in_order);
+  if (wanted.tests)
+    parts.push_back("SELECT e.id" + given + " AND e.status = 'ok' AND e.purpose = 'test'" +
+                    in_order);
+  if (wanted.scores > 0) parts.push_back(in_turn(store_->schema(), given, wanted));
+  std::vector<std::string> all;
+  for (const std::string& sql : parts) {
+    const auto ids = ids_of(sql);
+    if (!ids) return Unexpected(ids.error());
+    all.insert(all.end(), ids->begin(), ids->end());
+  }
+  return all;
+}
+
+Expected<std::vector<std::string>> StoredRuns::ids_of(const std::string& sql) {
+  const auto rows = select(*store_, sql, {.rows = 1'000'000'000, .seconds = 600});
   if (!rows) return Unexpected(rows.error());
   std::vector<std::string> ids;
   for (const auto& cells : rows->cells)
@@ -194,11 +255,48 @@ Expected<std::vector<std::string>> StoredRuns::sample(std::int64_t count) {
   return ids;
 }
 
-Expected<DesignWorld> StoredRuns::world_of(DesignId design) const {
-  auto world = worlds_.of(design);
-  if (!world) return Unexpected(world.error());
-  if (!*world) return bad_input("the store has no design " + to_string(design));
-  return std::move(**world);
+std::string StoredRuns::of_campaigns() const {
+  std::string designs;
+  for (const KnownDesign& design : worlds_.designs()) {
+    const auto world = worlds_.of(design.id);
+    if (world && *world && (*world)->profile)
+      designs += (designs.empty() ? "" : ",") + std::to_string(design.id.value);
+  }
+  if (designs.empty()) return {};
+  return "e.purpose IN ('race', 'look-ahead', 'test') AND e.design IN (" + designs + ")";
+}
+
+bool StoredRuns::has_machines() const {
+  return std::ranges::any_of(worlds_.designs(), [&](const KnownDesign& design) {
+    const auto world = worlds_.of(design.id);
+    return world && *world && !(*world)->has_programs && !(*world)->has_parameters;
+  });
+}
+
+Error programs_scored(const std::string& where) {
+  return {ErrorKind::BadInput,
+          "programs scored this store: their evaluations cannot be made again here; the races can "
+          "be checked, by `swarmsmith verify` without --sample",
+          where};
+}
+
+std::string StoredRun::given_by() const {
+  if (worker == 0) return {};
+  std::string text = "; given by worker " + std::to_string(worker);
+  if (!host.empty()) text += " on " + host;
+  if (!who.empty()) text += " (" + who + ")";
+  return text;
+}
+
+Expected<DesignWorld> StoredRuns::world_of(DesignId design) {
+  // Its campaign's file is read once for all evaluations of the design.
+  if (!world_ || world_->design.id != design) {
+    auto world = worlds_.of(design);
+    if (!world) return Unexpected(world.error());
+    if (!*world) return bad_input("the store has no design " + to_string(design));
+    world_ = std::move(**world);
+  }
+  return *world_;
 }
 
 }  // namespace swarmsmith::cli

@@ -34,9 +34,14 @@ struct StoredRun {
   Profile profile;
   Mission mission;
   Instance instance;
-  int engine_version = 0;  ///< that made the stored outcome; 0 when the store does not say
+  int engine_version = 0;   ///< that made the stored outcome; 0 when the store does not say
+  std::int64_t worker = 0;  ///< that gave it; 0 when the store does not say
+  std::string host;         ///< of the worker, as it says
+  std::string who;          ///< answers for the worker: its key and address
 
   SimulationSetup setup() const { return {machine, flavour, profile, mission, instance, seed}; }
+  /// "; given by worker 3 on lab7 (lab@10.0.0.7)", empty when nobody knows.
+  std::string given_by() const;
 };
 
 /// Whether a simulation gave what the store holds, bit for bit. The store keeps -0 as 0.
@@ -57,16 +62,37 @@ class StoredRuns {
   /// the order of candidates; all when there are fewer.
   Expected<std::vector<std::string>> sample(std::int64_t count);
 
+  /// Which evaluations of campaigns, simulated for the race or its tests, are wanted.
+  struct Wanted {
+    bool rejections = false;  ///< all
+    bool tests = false;       ///< all of winners
+    /// So many others that have a score, from each key and address in turn, which ones a matter of
+    /// `seed`.
+    std::int64_t scores = 0;
+    std::int64_t seed = 1;
+  };
+  /// Ids, first those of rejections. Empty where no campaign of the store simulates.
+  Expected<std::vector<std::string>> chosen(const Wanted& wanted);
+  /// Whether the store has anything that can be simulated; not when programs score all of it.
+  bool has_machines() const;
+
  private:
   StoredRuns(std::unique_ptr<StoreReader> store, DesignWorlds worlds)
       : store_(std::move(store)), worlds_(std::move(worlds)) {}
 
   /// The design's world, or why there is none.
-  Expected<DesignWorld> world_of(DesignId design) const;
+  Expected<DesignWorld> world_of(DesignId design);
+  Expected<std::vector<std::string>> ids_of(const std::string& sql);
+  /// SQL that is true of evaluations of campaigns that simulate; empty when none does.
+  std::string of_campaigns() const;
 
   std::unique_ptr<StoreReader> store_;
   DesignWorlds worlds_;
+  std::optional<DesignWorld> world_;  ///< the last one
 };
+
+/// Why nothing of a store can be evaluated again.
+Error programs_scored(const std::string& where);
 
 /// The stored version (0: not known) differs from this program's: a sentence that says so, else
 /// empty.

@@ -33,6 +33,7 @@ bool IteratedRace::State::begin_postselection() {
   const bool asks = instances_.size() - pairs_seen_ >= schedule_.pairs_between_tests();
   const std::vector<std::int64_t> ids = preferred();
   std::vector<irace::PostselectionCandidate> all;
+  all.reserve(ids.size());
   for (const std::int64_t id : ids) {
     all.push_back({id, pairs_seen_ - static_cast<std::int64_t>(candidate(id).results.size())});
   }

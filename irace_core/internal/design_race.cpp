@@ -104,6 +104,7 @@ void IteratedRace::State::start_race(irace::RaceSettings settings,
                         .subspan(static_cast<std::size_t>(settings.new_pairs),
                                  static_cast<std::size_t>(settings.past_pairs));
   std::vector<irace::Contestant> all;
+  all.reserve(contestants.size());
   for (const std::int64_t id : contestants) {
     all.push_back(settings.past_pairs > 0 ? contestant(id, past) : irace::Contestant{id, {}, {}});
   }

@@ -126,6 +126,7 @@ PairedResult wilcoxon_test(std::span<const double> first, std::span<const double
   if (never_better) return {0, 0, true, false};
 
   std::vector<double> magnitudes;
+  magnitudes.reserve(differences.size());
   for (const double difference : differences)
     magnitudes.push_back(std::fabs(difference));
   const AverageRanks ranked = average_ranks(magnitudes);

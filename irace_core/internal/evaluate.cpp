@@ -186,6 +186,7 @@ Values elementwise(const Values& a, const Values& b, Function function) {
   const std::size_t size = std::max(a.size(), b.size());
   if (size == 1) return function(a[0], b[0]);
   std::vector<Scalar> result;
+  result.reserve(size);
   for (std::size_t i = 0; i < size; ++i) {
     result.push_back(function(a[i % a.size()], b[i % b.size()]));
   }

@@ -31,6 +31,7 @@ std::vector<double> rank_sums(const std::vector<std::vector<double>>& costs, con
   RankTable table(group.size());
   for (const std::size_t row : rows) {
     std::vector<Entry> entries;
+    entries.reserve(group.size());
     for (std::size_t i = 0; i < group.size(); ++i) {
       entries.push_back({costs[group[i]][row], static_cast<std::uint32_t>(i)});
     }

@@ -66,6 +66,7 @@ void RankTable::add_ranks(std::span<const Entry> sorted) {
 
 AverageRanks average_ranks(std::span<const double> values) {
   std::vector<Entry> row;
+  row.reserve(values.size());
   for (std::size_t i = 0; i < values.size(); ++i) {
     row.push_back({values[i], static_cast<std::uint32_t>(i)});
   }

@@ -28,9 +28,8 @@ bool is_our_fault(const sqlite::SqliteError& error) {
 
 }  // namespace
 
-GroupWriter::GroupWriter(Writer writer, std::filesystem::path path, const StoreOptions& options)
+GroupWriter::GroupWriter(Writer writer, const StoreOptions& options)
     : writer_(std::move(writer)),
-      path_(std::move(path)),
       rows_(writer_.connection),
       retry_(options.retry),
       gather_(options.gather),
@@ -149,7 +148,7 @@ bool GroupWriter::take_group(const std::stop_token& stop, std::vector<Batch>& gr
 
 void GroupWriter::lose(const std::string& fate, std::uint64_t ticket) {
   const std::unique_lock file(connection_mutex_);
-  const Lost lost = save_lost(writer_, fate, path_);
+  const Lost lost = save_lost(writer_, fate);
   {
     const std::lock_guard guard(mutex_);
     // What is in no file any more was never stored.

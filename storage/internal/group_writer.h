@@ -2,7 +2,6 @@
 
 #include <condition_variable>
 #include <cstdint>
-#include <filesystem>
 #include <functional>
 #include <mutex>
 #include <optional>
@@ -22,7 +21,7 @@ namespace swarmsmith {
 /// shared by more rows.
 class GroupWriter final : public Store {
  public:
-  GroupWriter(Writer writer, std::filesystem::path path, const StoreOptions& options);
+  GroupWriter(Writer writer, const StoreOptions& options);
   ~GroupWriter() override;
 
   std::uint64_t append(std::vector<Row> rows) override;
@@ -55,7 +54,6 @@ class GroupWriter final : public Store {
 
   std::mutex connection_mutex_;  ///< the writer's thread, and callers that read
   Writer writer_;
-  std::filesystem::path path_;
   RowWriter rows_;
   std::chrono::milliseconds retry_;
   std::chrono::milliseconds gather_;

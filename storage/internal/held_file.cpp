@@ -5,6 +5,7 @@
 #include <sys/sysmacros.h>
 #include <sys/vfs.h>
 #include <unistd.h>
+#include <cerrno>
 #include <fstream>
 #include <sstream>
 #include <utility>
@@ -41,36 +42,38 @@ bool is_on_shared_file_system(int descriptor) {
   return ::fstatfs(descriptor, &about) == 0 && is_network_file_system(about.f_type);
 }
 
-/// "s.db.saved", "s.db.saved-2", ... in the first of these folders that takes one: the store's own
-/// may be gone, or full.
-Expected<fs::path> copy_beside(sqlite::Connection& connection, const fs::path& path) {
-  constexpr int kMostNames = 1000;
+/// "s.db.saved", "s.db.saved-2", ...: the first that nothing has.
+fs::path free_name(const fs::path& folder, const fs::path& store) {
+  const fs::path wanted = folder / (store.filename().string() + ".saved");
+  fs::path name = wanted;
   std::error_code ignored;
-  Error last;
+  for (int n = 2; fs::exists(fs::symlink_status(name, ignored)); ++n)
+    name = fmt::format("{}-{}", wanted.string(), n);
+  return name;
+}
+
+Expected<void> copy_into(sqlite::Connection& connection, const fs::path& name) {
+  auto copy = NewFile::beside(name);
+  if (!copy) return Unexpected(copy.error());
+  try {
+    sqlite::Statement(connection, "VACUUM INTO ?").run(copy->path().string());
+  } catch (const sqlite::SqliteError& error) {
+    return unexpected(ErrorKind::Unavailable, error.what(), name.string());
+  }
+  return copy->publish();
+}
+
+/// In the first of these folders that takes it: the store's own may be gone, or full.
+Expected<fs::path> copy_beside(sqlite::Connection& connection, const fs::path& path) {
+  std::error_code ignored;
+  Expected<void> copied;
   for (const fs::path& folder :
        {path.parent_path(), fs::current_path(ignored), fs::temp_directory_path(ignored)}) {
-    for (int n = 1; n <= kMostNames; ++n) {
-      const std::string name = path.filename().string() + ".saved";
-      const fs::path wanted = folder / (n == 1 ? name : fmt::format("{}-{}", name, n));
-      if (fs::exists(fs::symlink_status(wanted, ignored))) continue;
-      auto copy = NewFile::beside(wanted);
-      if (copy) {
-        try {
-          sqlite::Statement(connection, "VACUUM INTO ?").run(copy->path().string());
-          if (auto published = copy->publish(); published)
-            return wanted;
-          else
-            last = published.error();
-        } catch (const sqlite::SqliteError& error) {
-          last = {ErrorKind::Unavailable, error.what(), wanted.string()};
-        }
-      } else {
-        last = copy.error();
-      }
-      break;
-    }
+    const fs::path name = free_name(folder, path);
+    copied = copy_into(connection, name);
+    if (copied) return name;
   }
-  return Unexpected(last);
+  return Unexpected(copied.error());
 }
 
 }  // namespace
@@ -112,17 +115,20 @@ HeldFile::~HeldFile() {
   if (descriptor_ >= 0) ::flock(descriptor_, LOCK_UN);
 }
 
-std::optional<HeldFile::Identity> HeldFile::identity_of(const fs::path& path) {
+std::optional<HeldFile::Identity> HeldFile::identity_of(const fs::path& path,
+                                                        std::optional<Identity> known) {
   struct stat file {};
-  if (::stat(path.c_str(), &file) != 0) return std::nullopt;
-  return Identity{file.st_dev, file.st_ino};
+  if (::stat(path.c_str(), &file) == 0) return Identity{file.st_dev, file.st_ino};
+  const bool is_gone = errno == ENOENT || errno == ENOTDIR;
+  return is_gone ? std::nullopt : known;
 }
 
 std::string HeldFile::fate_of_store() const {
   struct stat file {};
   if (::fstat(descriptor_, &file) != 0) return "the store's file is closed";
-  const auto named = identity_of(path_);
-  if (named == Identity{file.st_dev, file.st_ino}) return {};
+  const Identity held{file.st_dev, file.st_ino};
+  const auto named = identity_of(path_, held);
+  if (named == held) return {};
   std::string fate = "the store was deleted";
   if (file.st_nlink > 0) {
     std::error_code none;
@@ -136,7 +142,7 @@ std::string HeldFile::fate() {
   if (std::string fate = fate_of_store(); !fate.empty()) return fate;
   for (std::size_t i = 0; i < kBeside.size(); ++i) {
     const std::string name = path_.string() + kBeside[i];
-    const auto now = identity_of(name);
+    const auto now = identity_of(name, beside_[i]);
     if (!beside_[i]) beside_[i] = now;
     if (now == beside_[i]) continue;
     return fmt::format("{}, which SQLite needs beside the store, was {}", name,
@@ -150,7 +156,7 @@ Expected<std::string> HeldFile::save(sqlite::Connection& connection) const {
   if (!copy) return Unexpected(copy.error());
   for (std::size_t i = 0; i < kBeside.size(); ++i) {
     const std::string name = path_.string() + kBeside[i];
-    if (beside_[i] && identity_of(name) == beside_[i]) ::unlink(name.c_str());
+    if (beside_[i] && identity_of(name, std::nullopt) == beside_[i]) ::unlink(name.c_str());
   }
   return fmt::format(
       "everything so far is in {0}: `mv {0} {1}` gives it its name again, and the same command "

@@ -28,6 +28,8 @@ class HeldFile {
   HeldFile& operator=(HeldFile&&) = delete;
   ~HeldFile();
 
+  const std::filesystem::path& path() const { return path_; }
+
   /// Whether file, log and shared memory are still what has their names; what happened, as the
   /// beginning of a sentence, when not ("the store was deleted"). The first time, log and shared
   /// memory are taken for SQLite's: right after it has opened them.
@@ -49,7 +51,9 @@ class HeldFile {
   HeldFile(int descriptor, std::filesystem::path path)
       : descriptor_(descriptor), path_(std::move(path)) {}
 
-  static std::optional<Identity> identity_of(const std::filesystem::path& path);
+  /// None when nothing has the name; `known` when the system does not say.
+  static std::optional<Identity> identity_of(const std::filesystem::path& path,
+                                             std::optional<Identity> known);
   std::string fate_of_store() const;
 
   int descriptor_;  ///< SQLite's

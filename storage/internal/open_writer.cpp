@@ -65,21 +65,24 @@ Expected<Writer> open_writer(const fs::path& path, std::chrono::milliseconds pat
   return Writer{std::move(*lock), std::move(connection), std::move(*file)};
 }
 
-Lost save_lost(Writer& writer, const std::string& fate, const fs::path& path) {
+Lost save_lost(Writer& writer, const std::string& fate) {
+  writer.is_lost = true;
   // Neither folded into a file that is not the store's any more, nor trusted by the next one.
   sqlite3_db_config(writer.connection.handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
   writer.lock.set_suspect(true);
   const auto saved = writer.file.save(writer.connection);
   const std::string rest =
       saved ? *saved : "what it held could not be saved: " + to_string(saved.error());
-  return {.saved = saved.has_value(),
-          .error = {ErrorKind::Conflict,
-                    fmt::format("{} while it was being written; {}", fate, rest), path.string()}};
+  return {
+      .saved = saved.has_value(),
+      .error = {ErrorKind::Conflict, fmt::format("{} while it was being written; {}", fate, rest),
+                writer.file.path().string()}};
 }
 
 void give_up(Writer& writer) {
-  if (!writer.file.fate().empty()) {
-    sqlite3_db_config(writer.connection.handle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  if (writer.is_lost) return;
+  if (const std::string fate = writer.file.fate(); !fate.empty()) {
+    save_lost(writer, fate);
     return;
   }
   sqlite3_wal_checkpoint_v2(writer.connection.handle(), nullptr, SQLITE_CHECKPOINT_TRUNCATE,

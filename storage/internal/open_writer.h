@@ -20,6 +20,7 @@ struct Writer {
   LockFile lock;
   sqlite::Connection connection;
   HeldFile file;
+  bool is_lost = false;  ///< the file; nothing more can be done with it
 };
 
 /// Takes the locks and opens the file for writing, or makes an empty one: ours or blank, of any
@@ -36,10 +37,10 @@ struct Lost {
 };
 
 /// Saves what was committed, and leaves the rest as it is.
-Lost save_lost(Writer& writer, const std::string& fate, const std::filesystem::path& path);
+Lost save_lost(Writer& writer, const std::string& fate);
 
-/// Before it is closed: folds the log into the file, unless that was lost. Only tidies up; what was
-/// committed is on disk, and the next opening folds it in.
+/// Before it is closed: folds the log into the file, which only tidies up, since what was committed
+/// is on disk; or saves it, when the file was lost at the last moment.
 void give_up(Writer& writer);
 
 /// Tables, views and where the file was made, in a blank file; the caller holds a transaction.

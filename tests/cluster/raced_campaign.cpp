@@ -100,7 +100,8 @@ std::vector<DesignPlan> plans_of(const CampaignShape& shape) {
 RacedCampaign::RacedCampaign(const CampaignShape& shape, std::map<DesignId, StoredDesign> stored,
                              std::vector<DesignId> finished)
     // Some forget a design when it ends, some keep a few.
-    : runner_(plans_of(shape), std::move(stored), std::move(finished), {},
+    : shape_(shape),
+      runner_(plans_of(shape), std::move(stored), std::move(finished), {},
               {.finished = static_cast<std::size_t>(shape.seed % 3)}) {}
 
 RacedCampaign::RacedCampaign(const CampaignShape& shape, const SimulatedDisk& disk)
@@ -126,6 +127,9 @@ std::vector<Task> RacedCampaign::take_more(std::size_t count, std::size_t slots)
 
 /// Once ahead and once wanted; it may have been told between the two.
 void RacedCampaign::note(const Task& task) {
+  if (truths_ != nullptr) {
+    truths_->emplace(pack(task.key), truth_of(shape_, {task.mission, task.machine, task.seed}));
+  }
   const auto [at, is_new] = asked_.try_emplace(pack(task.key), Asked{.ahead = task.ahead});
   if (is_new) return;
   const bool is_wanted_now = at->second.ahead && !task.ahead;

@@ -55,6 +55,9 @@ class RacedCampaign final : public WorkSource {
   bool finished() const override { return runner_.finished(); }
   std::vector<DesignId> unfinished() const override { return runner_.unfinished(); }
 
+  /// What is asked for from now on is written there with its outcome.
+  void watch(std::map<PackedKey, Truth>& truths) { truths_ = &truths; }
+
   std::string complaint() const;
   /// Of a design that is over, and nobody was told of it: it need not be kept.
   bool is_void(PackedKey key) const;
@@ -67,8 +70,10 @@ class RacedCampaign final : public WorkSource {
   };
   void note(const Task& task);
 
+  CampaignShape shape_;
   CampaignRunner runner_;
   std::map<PackedKey, Asked> asked_;
+  std::map<PackedKey, Truth>* truths_ = nullptr;
   std::set<DesignId> ended_;
   std::string complaint_;
 };

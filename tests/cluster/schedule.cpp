@@ -53,4 +53,24 @@ Schedule schedule_of(std::uint64_t seed) {
   return schedule;
 }
 
+Schedule hostile_schedule_of(std::uint64_t seed) {
+  Schedule schedule = schedule_of(seed);
+  Rng rng = Rng(seed).split("hostile");
+  if (rng.bernoulli(0.5)) {
+    // Nothing but the strangers; sometimes the coordinator crashes among them.
+    const int crashes = rng.bernoulli(0.5) ? static_cast<int>(rng.uniform_int(1, 3)) : 0;
+    schedule.faults = {.coordinator_crashes = crashes, .until = schedule.faults.until};
+  }
+  // Whoever pauses a campaign that stops would wait for it.
+  schedule.faults.commands = 0;
+  const std::int64_t count = rng.uniform_int(1, 4);
+  for (std::int64_t i = 0; i < count; ++i)
+    schedule.hostile.push_back(kMisdeeds[rng.below(kMisdeeds.size())]);
+  // Several of one kind, as one person would start them.
+  if (rng.bernoulli(0.3)) schedule.hostile.assign(schedule.hostile.size(), schedule.hostile[0]);
+  schedule.keys = rng.bernoulli(0.7);
+  schedule.audit_every = rng.bernoulli(0.7) ? 1 : 5;
+  return schedule;
+}
+
 }  // namespace swarmsmith::cluster

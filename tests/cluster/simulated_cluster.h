@@ -16,6 +16,7 @@
 #include "coordinator/coordinator.h"
 #include "tests/cluster/raced_campaign.h"
 #include "tests/cluster/simulated_disk.h"
+#include "tests/support/hostile_peer.h"
 #include "worker/protocol.h"
 
 namespace swarmsmith::cluster {
@@ -48,12 +49,19 @@ struct Schedule {
   /// A second campaign in the same pool.
   std::optional<CampaignShape> other{};
   bool slow_worker = false;  ///< one of them takes a hundred times as long
+  /// Peers that are no workers, until the faults end.
+  std::vector<Misdeed> hostile{};
+  bool keys = false;  ///< the workers have one key, and all hostile peers another
+  std::int64_t audit_every = 10;
   /// The coordinator opens and closes its stores beside SQLite, as it once did after a crash.
   bool closes_beside = false;
 };
 
 /// A schedule out of a seed: some kinds of faults, rare or dense.
 Schedule schedule_of(std::uint64_t seed);
+
+/// The same with hostile peers, beside faults or none.
+Schedule hostile_schedule_of(std::uint64_t seed);
 
 /// What the simulated workers are sent, and know again.
 inline constexpr const char* kScenario = "scenario";
@@ -77,12 +85,21 @@ class SimulatedCluster {
   std::size_t killers() const { return killers_.size(); }
   /// Until all campaigns were over.
   Duration took() const { return over_ - begun_; }
+  /// How often hostile peers did what they are after.
+  std::uint64_t acts(Misdeed misdeed) const;
+  /// Why the campaign says that its answer cannot be had; empty when it came to its end.
+  const std::string& stopped() const { return stopped_; }
+  /// Wrong scores that are on disk.
+  std::size_t lies() const { return lies_.size(); }
+  /// Whether the answer is wrong by lies that no audit chose.
+  bool escaped() const { return escaped_; }
   /// What the schedulers did, those of coordinators that crashed included.
   const SchedulerCounters& counters() const { return counters_; }
 
  private:
   static constexpr int kWorkers = 3;
   static constexpr int kCoordinator = -1;
+  static constexpr int kNobody = -2;
   static constexpr PeerId kPerson = 1'000'000'000;
 
   struct Event {
@@ -112,8 +129,13 @@ class SimulatedCluster {
     int running = 0;
     TimePoint tick_at;
   };
+  struct Stranger {
+    HostilePeer peer;
+    PeerId connection = 0;
+  };
   struct Connection {
-    int worker = 0;
+    int worker = 0;  ///< kNobody: a stranger's
+    std::size_t stranger = 0;
     int worker_life = 0;
     int coordinator_life = 0;
     bool open = true;
@@ -130,6 +152,7 @@ class SimulatedCluster {
     std::deque<Batch> uncommitted{};
     std::uint64_t tickets = 0;
     TimePoint last_commit{};
+    std::map<PackedKey, Truth> truths{};  ///< of all that was ever asked for; without the campaign
   };
 
   // Events.
@@ -168,6 +191,22 @@ class SimulatedCluster {
   void check_answer(Running& running);
   void count();
 
+  // Strangers.
+  void invite_strangers();
+  void visit(std::size_t index);
+  void tick_stranger(std::size_t index);
+  void settle_stranger(std::size_t index);
+  void hang_up(std::size_t index);
+  void cut_strangers_off();
+  bool is_stranger(PeerId peer) const { return connections_.at(peer).worker == kNobody; }
+  void to_stranger(PeerId peer, const std::string& frame);
+  Peer stranger_at(PeerId connection) const;
+  Peer worker_at(PeerId connection) const;
+  void check_row(const Running& running, const Row& row);
+  void check_trust();
+  void on_stopped(const std::string& reason, bool distrusted);
+  bool is_excused();
+
   // Workers.
   void start_worker(int index);
   void crash_worker(int index);
@@ -195,6 +234,11 @@ class SimulatedCluster {
   std::unique_ptr<Coordinator> coordinator_;
   TimePoint disk_full_until_;
 
+  std::vector<Stranger> strangers_;
+  std::set<PackedKey> leased_to_strangers_;
+  std::set<PackedKey> lies_;  ///< on disk
+  std::string stopped_;
+  bool escaped_ = false;
   std::vector<Worker> workers_;
   std::set<PackedKey> failed_;  ///< said once to have no score
   std::set<PackedKey> acknowledged_;

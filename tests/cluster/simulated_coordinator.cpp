@@ -15,12 +15,13 @@ using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-CoordinatorOptions coordinator_options(std::int64_t first_worker, std::size_t campaigns) {
+CoordinatorOptions coordinator_options(std::int64_t first_worker, std::size_t campaigns,
+                                       std::int64_t audit_every) {
   CoordinatorOptions options;
   options.scheduler.campaigns.resize(campaigns);
   options.scheduler.first_worker = first_worker;
   for (CampaignPolicy& policy : options.scheduler.campaigns)
-    policy.audit_every = 10;
+    policy.audit_every = audit_every;
   options.scenario = kScenario;
   // As it is found again after a crash.
   options.scheduler.lease_secret = lease_secret_of("lasting", 1);
@@ -44,6 +45,7 @@ void SimulatedCluster::start_coordinator() {
   for (Running& running : campaigns_) {
     running.disk.open(schedule_.closes_beside);
     running.source = std::make_unique<RacedCampaign>(running.shape, running.disk);
+    running.source->watch(running.truths);
     running.tickets = 0;
     running.uncommitted.clear();
     first_worker = std::max(first_worker, running.disk.next_worker());
@@ -52,10 +54,11 @@ void SimulatedCluster::start_coordinator() {
     works.push_back({.digest = "cluster" + std::to_string(works.size()),
                      .source = running.source.get(),
                      .known = known.back(),
-                     .commands = commands.back()});
+                     .commands = commands.back(),
+                     .trust = running.disk.trust()});
   }
-  coordinator_ =
-      std::make_unique<Coordinator>(coordinator_options(first_worker, campaigns_.size()), works);
+  coordinator_ = std::make_unique<Coordinator>(
+      coordinator_options(first_worker, campaigns_.size(), schedule_.audit_every), works);
   on_process(kCoordinator, Duration{0}, [this] { tick_coordinator(); });
 }
 
@@ -75,6 +78,7 @@ void SimulatedCluster::crash_coordinator() {
     running.uncommitted.clear();
     running.disk.crash();
   }
+  cut_strangers_off();
   const bool noticed = rng_.bernoulli(0.7);
   for (int i = 0; i < kWorkers; ++i) {
     Worker& worker = workers_[static_cast<std::size_t>(i)];
@@ -100,7 +104,7 @@ void SimulatedCluster::settle_coordinator() {
     for (CoordinatorAction& action : actions) {
       std::visit(Overloaded{[&](const SendFrame& send) {
                               if (send.peer == kPerson) return check_confirmed(send.frame);
-                              check_acknowledged(send.frame);
+                              if (!is_stranger(send.peer)) check_acknowledged(send.frame);
                               if (to_worker(send.peer, send.frame) == SendStatus::Gone) {
                                 coordinator_->on_unreachable(send, clock(kCoordinator));
                               }
@@ -111,10 +115,12 @@ void SimulatedCluster::settle_coordinator() {
     }
   }
   check_leases();
+  check_trust();
   for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
     const std::string complaint = campaigns_[index].source->complaint();
     if (!complaint.empty()) fail(complaint);
-    if (coordinator_->stopped(index)) fail("stopped: " + *coordinator_->stopped(index));
+    if (coordinator_->stopped(index))
+      on_stopped(*coordinator_->stopped(index), coordinator_->distrusted(index));
   }
 }
 
@@ -165,7 +171,13 @@ void SimulatedCluster::commit(std::uint32_t campaign) {
 }
 
 void SimulatedCluster::write(Running& running, const std::vector<Row>& rows) {
-  if (const std::string complaint = running.disk.commit(rows); !complaint.empty()) fail(complaint);
+  std::vector<Row> kept = rows;
+  // Hostile peers give other results, and have them stored as such.
+  if (!schedule_.hostile.empty())
+    std::erase_if(kept, [](const Row& row) { return std::holds_alternative<ConflictRow>(row); });
+  for (const Row& row : kept)
+    check_row(running, row);
+  if (const std::string complaint = running.disk.commit(kept); !complaint.empty()) fail(complaint);
 }
 
 /// Of a coordinator that ends.

@@ -158,7 +158,8 @@ std::vector<StoredScore> SimulatedDisk::scores() const {
                       .status = row.status,
                       .score = row.score,
                       .state_digest = row.state_digest,
-                      .iteration = row.iteration});
+                      .iteration = row.iteration,
+                      .worker = row.worker});
   return scores;
 }
 
@@ -185,6 +186,18 @@ std::int64_t SimulatedDisk::next_worker() const {
 bool SimulatedDisk::finished() const {
   const std::vector<CampaignStateRow> states = rows_of<CampaignStateRow>();
   return !states.empty() && states.back().state == "finished";
+}
+
+StoredTrust SimulatedDisk::trust() const {
+  StoredTrust trust;
+  for (const WorkerRow& row : rows_of<WorkerRow>()) {
+    if (row.principal.empty()) continue;
+    trust.principals.emplace(row.id, row.principal);
+    if (row.state == "quarantined") trust.quarantined.push_back(row.principal);
+  }
+  const std::vector<CampaignStateRow> states = rows_of<CampaignStateRow>();
+  trust.distrusted = !states.empty() && states.back().state == "distrusted";
+  return trust;
 }
 
 std::vector<std::string> SimulatedDisk::answer() const {

@@ -9,6 +9,7 @@
 
 #include "proto/key.h"
 #include "storage/rows.h"
+#include "storage/store.h"
 
 namespace swarmsmith::cluster {
 
@@ -39,6 +40,7 @@ class SimulatedDisk {
   std::vector<CommandRow> commands() const;
   std::int64_t next_worker() const;
   bool finished() const;
+  StoredTrust trust() const;
 
   /// Rows that are part of the answer, a line each.
   std::vector<std::string> answer() const;

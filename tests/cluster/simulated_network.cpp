@@ -1,7 +1,6 @@
 #include "tests/cluster/simulated_cluster.h"
 
 #include <algorithm>
-#include <string>
 
 #include "coordinator/paused_designs.h"
 #include "proto/wire.h"
@@ -12,11 +11,6 @@ namespace {
 using std::chrono::microseconds;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
-
-/// Every worker is on a host of its own.
-std::string address_of(int worker) {
-  return "10.0.0." + std::to_string(worker + 1);
-}
 
 }  // namespace
 
@@ -33,8 +27,7 @@ void SimulatedCluster::transmit(int from, int to, PeerId connection, std::string
       const Connection& over = connections_.at(connection);
       if (to == kCoordinator) {
         if (over.coordinator_life != coordinator_process_.life) return;
-        coordinator_->on_frame({.id = connection, .address = address_of(from)}, frame,
-                               clock(kCoordinator));
+        coordinator_->on_frame(worker_at(connection), frame, clock(kCoordinator));
         settle_coordinator();
       } else {
         Worker& worker = workers_[static_cast<std::size_t>(to)];
@@ -66,12 +59,18 @@ void SimulatedCluster::connect(int index) {
 
 void SimulatedCluster::to_coordinator(int index, std::string frame) {
   const PeerId connection = workers_[static_cast<std::size_t>(index)].connection;
+  for (Stranger& stranger : strangers_)
+    stranger.peer.overhear(frame);
   if (connections_.at(connection).open) transmit(index, kCoordinator, connection, std::move(frame));
 }
 
 SendStatus SimulatedCluster::to_worker(PeerId peer, const std::string& frame) {
   const Connection& connection = connections_.at(peer);
   if (!connection.open) return SendStatus::Gone;
+  if (connection.worker == kNobody) {
+    to_stranger(peer, frame);
+    return SendStatus::Sent;
+  }
   const Process& worker = process(connection.worker);
   if (!worker.alive || worker.life != connection.worker_life) return SendStatus::Sent;  // silence
   transmit(kCoordinator, connection.worker, peer, frame);

@@ -80,6 +80,11 @@ class Target(ProgramTest):
         self.assertNotIn("--fsm-config", call("export", store).stdout)
         refused = call("replay", "e100001", store)
         self.assertIn("a program scored it", refused.stderr)
+        for command in ("verify", "replay"):
+            refused = call(command, "--sample", 5, store)
+            self.assertEqual(refused.returncode, 2, refused.stdout)
+            self.assertIn("programs scored this store", refused.stderr)
+        self.assertIn("nothing was evaluated again", call("verify", store).stdout)
 
     def test_check_runs_no_program_and_names_a_missing_one(self):
         done = call("check", self.file)

@@ -1,6 +1,7 @@
 """What stands beside a campaign: an ordinary client of its store, people who look at it, and somebody
 who overhears what it has promised."""
 import contextlib
+import functools
 import sqlite3
 import sys
 import threading
@@ -32,6 +33,7 @@ class Beside(FaultTest):
         super().setUp()
         self.acknowledged = set()
         self.confirmed = []
+        self.cancelled = set()
         self.heard = threading.Lock()
         self.client = self.start("client", sys.executable, "-c", CLIENT, self.folder, self.pause)
 
@@ -49,18 +51,22 @@ class Beside(FaultTest):
 
     def overhear(self, address):
         """An address that leads to the coordinator, and remembers what it acknowledges."""
-        return Proxy(self, address, rewrite=self.hear)
+        # Of the store of now: what comes late, after another one has begun, is no promise of that.
+        return Proxy(self, address, rewrite=functools.partial(self.hear, self.acknowledged))
 
-    def hear(self, direction, body):
+    def hear(self, acknowledged, direction, body):
         if direction == "down":
             keys = message("ToWorker", body).get("acknowledged", {}).get("keys", [])
             with self.heard:
-                self.acknowledged |= {(key["candidate"], key.get("purpose", 0), key.get("pair", 0))
-                                      for key in keys}
+                acknowledged |= {(key["candidate"], key.get("purpose", 0), key.get("pair", 0))
+                                 for key in keys
+                                 if (key["candidate"] - 1) // 1_000_000 + 1 not in self.cancelled}
         return body
 
     def ask(self, kind, *words):
         """A command to the campaign; one that is confirmed is remembered."""
+        if kind == "cancel":  # from then on nobody wants the results of the design
+            self.cancelled.add(int(words[0][1:]))
         done = call(kind, self.store, *words)
         if done.returncode == 0:
             self.confirmed.append((kind, words[0] if words else None))
@@ -68,9 +74,9 @@ class Beside(FaultTest):
 
     def forget(self):
         """Another store begins."""
-        with self.heard:
-            self.acknowledged.clear()
+        self.acknowledged = set()
         self.confirmed.clear()
+        self.cancelled.clear()
 
     def assert_promises_are_kept(self):
         with self.heard:

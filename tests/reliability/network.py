@@ -67,10 +67,11 @@ class Proxy:
                 number = next(self.numbers)
                 for it in (near, far):
                     it.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-                self.pass_on(number, "up", near, far)
-                self.pass_on(number, "down", far, near)
+                ends = itertools.count(1)
+                self.pass_on(number, "up", near, far, ends)
+                self.pass_on(number, "down", far, near, ends)
 
-    def pass_on(self, number, direction, source, sink):
+    def pass_on(self, number, direction, source, sink, ends):
         pieces = queue.Queue(maxsize=1000)
         self.recorded[number, direction] = bytearray()
 
@@ -98,6 +99,11 @@ class Proxy:
             for it in (source, sink):
                 with contextlib.suppress(OSError):
                     it.shutdown(socket.SHUT_RDWR)
+            if next(ends) == 2:  # both ways: a test of hundreds of kills would run out of descriptors
+                for it in (source, sink):
+                    with contextlib.suppress(ValueError):
+                        self.sockets.remove(it)
+                    it.close()
 
         self.thread(read)
         self.thread(write)

@@ -59,10 +59,13 @@ def rows(store, sql):
 
 
 def stored(store):
-    """Evaluations on disk; 0 as long as there is no store."""
+    """Evaluations on disk; 0 as long as there is no store, or an empty one. Whatever else keeps it from
+    being read is an error."""
     try:
         return rows(store, "select count(*) from evaluation")[0][0]
-    except sqlite3.Error:
+    except sqlite3.OperationalError as error:
+        if store.exists() and "no such table" not in str(error):
+            raise
         return 0
 
 

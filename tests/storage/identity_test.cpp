@@ -161,6 +161,17 @@ TEST_F(IdentityTest, AStoreWithoutItsLogIsSaved) {
   expect_saved([&] { fs::remove(path.string() + "-wal"); }, "s.db-wal, which SQLite needs");
 }
 
+TEST_F(IdentityTest, AStoreWithoutItsSharedMemoryIsSaved) {
+  expect_saved([&] { fs::remove(path.string() + "-shm"); }, "s.db-shm, which SQLite needs");
+}
+
+TEST_F(IdentityTest, AStoreThatIsDeletedJustBeforeItIsClosedIsSavedToo) {
+  auto store = filled_store();
+  fs::remove(path);
+  store.reset();
+  EXPECT_EQ(digest_of(path.string() + ".saved"), wanted());
+}
+
 TEST_F(IdentityTest, NothingIsSavedOverAnotherFile) {
   const fs::path saved = path.string() + ".saved";
   std::ofstream(saved) << "an earlier one";

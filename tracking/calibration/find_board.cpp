@@ -156,6 +156,7 @@ std::vector<std::size_t> pick_views(const std::vector<BoardSight>& sights, const
                                     ImageSize size, std::size_t most) {
   constexpr double kAlike = 0.05;
   std::vector<Outline> outlines;
+  outlines.reserve(sights.size());
   for (const BoardSight& sight : sights)
     outlines.push_back(outline_of(sight.view, board, size));
   std::vector<std::size_t> kept;

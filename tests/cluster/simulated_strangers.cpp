@@ -1,0 +1,178 @@
+// Hostile peers among the simulated connections, and what must never come of them.
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "coordinator/task_key.h"
+#include "proto/wire.h"
+#include "storage/answer.h"
+#include "tests/cluster/simulated_cluster.h"
+
+namespace swarmsmith::cluster {
+namespace {
+
+constexpr std::array<std::string_view, 3> kAddresses = {"10.0.0.1", "10.0.0.2", "10.0.0.3"};
+
+using std::chrono::microseconds;
+using std::chrono::milliseconds;
+
+}  // namespace
+
+void SimulatedCluster::invite_strangers() {
+  for (std::size_t i = 0; i < schedule_.hostile.size(); ++i) {
+    const Oracle oracle = [this](const pb::Task& task) {
+      const CampaignShape& shape = campaigns_.at(task.key().campaign()).shape;
+      return truth_of(shape, {task.mission(), task.machine(), task.seed()});
+    };
+    strangers_.push_back(
+        {.peer = HostilePeer(schedule_.hostile[i], rng_.split("stranger", i), oracle)});
+    at(now_ + between(Duration{0}, schedule_.faults.until / 2), [this, i] { visit(i); });
+    tick_stranger(i);
+  }
+}
+
+/// Comes (again), until all faults are over.
+void SimulatedCluster::visit(std::size_t index) {
+  Stranger& stranger = strangers_[index];
+  if (now_ >= faults_end_ || stranger.connection != 0) return;
+  if (!coordinator_process_.alive || !stranger.peer.knows_the_words()) {
+    at(now_ + milliseconds(20), [this, index] { visit(index); });
+    return;
+  }
+  stranger.connection = ++peers_;
+  connections_[stranger.connection] = {.worker = kNobody,
+                                       .stranger = index,
+                                       .coordinator_life = coordinator_process_.life,
+                                       .open = true};
+  stranger.peer.on_connected();
+  settle_stranger(index);
+}
+
+void SimulatedCluster::tick_stranger(std::size_t index) {
+  at(now_ + between(milliseconds(2), milliseconds(30)), [this, index] {
+    Stranger& stranger = strangers_[index];
+    if (now_ >= faults_end_) return hang_up(index);
+    if (stranger.connection != 0) {
+      stranger.peer.on_tick();
+      settle_stranger(index);
+    }
+    tick_stranger(index);
+  });
+}
+
+void SimulatedCluster::settle_stranger(std::size_t index) {
+  Stranger& stranger = strangers_[index];
+  for (std::string& frame : stranger.peer.take_frames()) {
+    on_process(kCoordinator, between(microseconds(30), microseconds(300)),
+               [this, from = stranger.connection, frame = std::move(frame)] {
+                 if (connections_.at(from).coordinator_life != coordinator_process_.life) return;
+                 coordinator_->on_frame(stranger_at(from), frame, clock(kCoordinator));
+                 settle_coordinator();
+               });
+  }
+  if (!stranger.peer.take_hang_up()) return;
+  hang_up(index);
+  at(now_ + between(milliseconds(1), milliseconds(60)), [this, index] { visit(index); });
+}
+
+void SimulatedCluster::hang_up(std::size_t index) {
+  Stranger& stranger = strangers_[index];
+  if (stranger.connection != 0) connections_[stranger.connection].open = false;
+  stranger.connection = 0;
+}
+
+/// The coordinator's process is gone, and all of its connections.
+void SimulatedCluster::cut_strangers_off() {
+  for (std::size_t i = 0; i < strangers_.size(); ++i) {
+    hang_up(i);
+    at(now_ + between(milliseconds(1), milliseconds(60)), [this, i] { visit(i); });
+  }
+}
+
+void SimulatedCluster::to_stranger(PeerId peer, const std::string& frame) {
+  google::protobuf::Arena arena;
+  if (const auto message = decode_to_worker(frame, arena); message && (*message)->has_tasks()) {
+    for (const pb::Task& task : (*message)->tasks().tasks())
+      leased_to_strangers_.insert(*pack(task.key()));
+  }
+  at(now_ + between(microseconds(30), microseconds(300)), [this, peer, frame] {
+    const std::size_t index = connections_.at(peer).stranger;
+    if (strangers_[index].connection != peer) return;
+    strangers_[index].peer.on_frame(frame);
+    settle_stranger(index);
+  });
+}
+
+/// With a key of their own, and the address of a worker; without keys, from one address.
+Peer SimulatedCluster::stranger_at(PeerId connection) const {
+  if (!schedule_.keys) return {.id = connection, .address = "10.0.0.99"};
+  return {.id = connection, .role = Role::Worker, .client = "hostile", .address = kAddresses[0]};
+}
+
+/// Every worker is on a host of its own.
+Peer SimulatedCluster::worker_at(PeerId connection) const {
+  const auto worker = static_cast<std::size_t>(connections_.at(connection).worker);
+  if (!schedule_.keys) return {.id = connection, .address = kAddresses[worker]};
+  return {
+      .id = connection, .role = Role::Worker, .client = "honest", .address = kAddresses[worker]};
+}
+
+/// Nobody's word rejects what has a score, and a wrong score is one of somebody who was asked.
+void SimulatedCluster::check_row(const Running& running, const Row& row) {
+  const auto* evaluation = std::get_if<EvaluationRow>(&row);
+  if (evaluation == nullptr) return;
+  const EvaluationKey key = evaluation->key;
+  const auto campaign = static_cast<std::uint32_t>(&running - campaigns_.data());
+  const PackedKey packed = pack(key, campaign);
+  const auto truth = running.truths.find(pack(key));
+  if (truth == running.truths.end()) return fail("a row of an evaluation that nobody asked for");
+  const bool has_score = truth->second.kind == Truth::Kind::Score;
+  if (evaluation->status == EvaluationStatus::Rejected) {
+    if (has_score) fail("rejected what has a score: " + to_string(key));
+    return;
+  }
+  const bool is_true = has_score && evaluation->score == truth->second.score &&
+                       evaluation->state_digest == truth->second.state_digest;
+  if (is_true) return;
+  if (!leased_to_strangers_.contains(packed))
+    fail("stored a score of somebody who had no lease of it: " + to_string(key));
+  lies_.insert(packed);
+}
+
+void SimulatedCluster::check_trust() {
+  for (const auto& [number, entry] : coordinator_->scheduler().workers().all()) {
+    const auto index = static_cast<unsigned char>(entry.hello.identity.front()) - 1U;
+    const bool is_honest =
+        index < kWorkers && entry.hello.host == "here" &&
+        entry.hello.identity.find_first_not_of(entry.hello.identity.front()) >= kWorkerIdBytes - 1;
+    if (is_honest && entry.quarantined) fail("an honest worker is in quarantine");
+  }
+}
+
+/// Only who was asked and lies can bring the campaign there, and it says why.
+void SimulatedCluster::on_stopped(const std::string& reason, bool distrusted) {
+  const bool may_lie = std::ranges::any_of(schedule_.hostile, [](Misdeed misdeed) {
+    return misdeed == Misdeed::Lies || misdeed == Misdeed::LiesLater || misdeed == Misdeed::Renames;
+  });
+  if (!may_lie || !distrusted || reason.empty()) fail("stopped: " + reason);
+  stopped_ = reason;
+}
+
+/// Another answer than an honest cluster's, and the campaign did not say so: only where not every
+/// score is made again, so that lies may have been lucky.
+bool SimulatedCluster::is_excused() {
+  if (lies_.empty() || schedule_.audit_every == 1) return false;
+  escaped_ = true;
+  return true;
+}
+
+std::uint64_t SimulatedCluster::acts(Misdeed misdeed) const {
+  std::uint64_t sum = 0;
+  for (const Stranger& stranger : strangers_) {
+    if (stranger.peer.misdeed() == misdeed) sum += stranger.peer.acts();
+  }
+  return sum;
+}
+
+}  // namespace swarmsmith::cluster

@@ -1,0 +1,191 @@
+"""Hostile peers beside honest workers, in numbers: strangers without a key, liars with one.
+
+The answer is that of an undisturbed run, or the campaign ends with exit code 3 and a sentence that
+says why there is none.
+"""
+import json
+import pathlib
+import re
+import time
+import unittest
+
+from rig import LONG, FaultTest, call, rows, stored, wait_for
+from programs import BIN
+
+HOSTILE = BIN / "hostile"
+#: What strangers do, by name. None of them may change anything.
+MIXES = {
+    "strays": "leaves alone,leaves with leases",
+    "rejections": "rejects",
+    "failures": "fails",
+    "guesses": "guesses",
+    "claims": "claims leases",
+    "replays": "replays",
+    "nonsense": "talks nonsense",
+    "floods": "floods",
+    "any order": "talks at random",
+    "crowd": "leaves alone,rejects,fails,guesses,claims leases,replays,talks nonsense,"
+             "talks at random,floods,leaves with leases",
+}
+
+
+class Hostile(FaultTest):
+    budget = 60000 if LONG else 8000
+    messages = 10000 if LONG else 1500
+    connections = 200 if LONG else 30
+    per_second = 2500 if LONG else 1500
+
+    def sizes(self, coordinator):
+        """Bytes of the store with its log, and of what was logged."""
+        [[store]] = rows(self.store, "select page_count * page_size from pragma_page_count, "
+                                     "pragma_page_size")
+        return store, coordinator.err.stat().st_size
+
+    def measured(self, coordinator, hostile=None):
+        """Waits for the end. Evaluations a second (while `hostile` lasts), and most memory in kB."""
+        memory, began, ended = 0, None, None
+        limit = time.monotonic() + 400
+        while coordinator.alive():
+            self.assertLess(time.monotonic(), limit, "the campaign does not end")
+            count, now = stored(self.store), time.monotonic()
+            if count > 100 and began is None:
+                began = (count, now)
+            if count > 100 and (hostile is None or hostile.alive()):
+                ended = (count, now)
+            memory = max(memory, self.memory_kb(coordinator.pid))
+            time.sleep(0.1)
+        rate = 0
+        if began and ended and ended[1] > began[1]:
+            rate = (ended[0] - began[0]) / (ended[1] - began[1])
+        return rate, memory
+
+    @staticmethod
+    def memory_kb(pid):
+        try:
+            status = pathlib.Path(f"/proc/{pid}/status").read_text()
+        except OSError:
+            return 0
+        found = re.search(r"VmHWM:\s+(\d+)", status)
+        return int(found.group(1)) if found else 0
+
+    def honest(self):
+        """The same campaign with nobody but honest workers: rate, and bytes of store and log."""
+        if "honest" not in type(self).__dict__.get("known", {}):
+            store, self.store = self.store, self.folder / "honest.db"
+            coordinator = self.begin()
+            rate, _ = self.measured(coordinator)
+            self.finish(coordinator, self.workers)
+            type(self).known = {"honest": (rate, *self.sizes(coordinator))}
+            self.store = store
+        return type(self).known["honest"]
+
+    def visit(self, name, misdeeds, key=None, **more):
+        """The campaign beside hostile peers, and what must hold."""
+        rate, store_size, log_size = self.honest()
+        coordinator = self.begin()
+        self.wait_stored(100)
+        address = self.address_of(coordinator)
+        words = {"messages": self.messages, "connections": self.connections,
+                 "rate": self.per_second, **more}
+        hostile = self.start("hostile", HOSTILE, address, 1 + len(name), words["messages"],
+                             words["connections"], words["rate"], misdeeds,
+                             *([key] if key else []))
+        meanwhile, memory = self.measured(coordinator, hostile)
+        end = coordinator.wait()
+        hostile.wait(60)
+        done = json.loads(hostile.out.read_text())
+        sizes = self.sizes(coordinator)
+        growth = [sizes[0] - store_size, sizes[1] - log_size]
+        print(f"\n  {name}: {done['messages']} messages over {done['connections']} connections, "
+              f"{done['acts']}; exit code {end}; {meanwhile:.0f}/s for {rate:.0f}/s; "
+              f"{memory} kB; store and log grew by {growth[0]} and {growth[1]} bytes", end="")
+        self.count("hostile message", done["messages"])
+        self.count("hostile connection", done["connections"])
+        self.assertLess(memory, 200_000, "the coordinator's memory")
+        self.assertLess(sum(growth), 1_000_000, "store and log")
+        if LONG and meanwhile:
+            self.assertGreater(meanwhile, rate / 2, "honest workers starve")
+        return coordinator, end, done
+
+    def assert_right(self, coordinator):
+        """The answer, and every score in the store is what this build gives."""
+        self.finish(coordinator, self.workers)
+        done = call("verify", self.store, "--sample", 2000, "--seed", 1)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+
+    def assert_says_why(self, coordinator):
+        self.assertRegex(coordinator.log(), "(score|store|worker)[^\n]*(wrong|believed|trust|new store)",
+                         coordinator.tail())
+        done = call("verify", self.store)
+        self.assertNotEqual(done.returncode, 0, "a store with lies is called clean")
+
+
+class Strangers(Hostile):
+    """On loopback, without keys: the workers are those that the coordinator started itself."""
+    workers = ()
+
+    def begin(self):
+        return self.run_local("--workers", "1")
+
+    def address_of(self, coordinator):
+        file = self.store.with_name(self.store.name + ".coordinator")
+        text = wait_for(lambda: file.exists() and file.read_text(), "the coordinator's file", 20)
+        return re.search(r"(127\.0\.0\.1:\d+)", text).group(1)
+
+    def mix(self, name):
+        coordinator, end, _ = self.visit(name, MIXES[name])
+        self.assertEqual(end, 0, coordinator.tail())
+        self.assert_right(coordinator)
+
+
+def mix_test(name):
+    def test(self):
+        self.mix(name)
+    return test
+
+
+for mix_name in MIXES:
+    if LONG or mix_name in ("strays", "rejections", "any order"):
+        setattr(Strangers, "test_" + mix_name.replace(" ", "_"), mix_test(mix_name))
+
+
+class Liars(Hostile):
+    """With keys: who lies is on the list of clients."""
+    workers = ()
+
+    def setUp(self):
+        super().setUp()
+        self.keys = self.keygen(self.folder / "keys")
+        self.keygen(self.keys, "--client", "liar")
+
+    def begin(self):
+        coordinator = self.serve("--keys", self.keys)
+        self.workers = [self.worker(coordinator.address(), "--key", self.keys / "worker.key")]
+        return coordinator
+
+    def address_of(self, coordinator):
+        return coordinator.address()
+
+    def lie(self, name, misdeeds, **more):
+        coordinator, end, done = self.visit(name, misdeeds, self.keys / "liar.key", **more)
+        self.count("lie", sum(done["acts"].values()))
+        if end == 3:
+            self.assert_says_why(coordinator)
+        else:
+            self.assertEqual(end, 0, coordinator.tail())
+            self.assert_right(coordinator)
+
+    def test_of_their_own_leases(self):
+        self.lie("liars", "lies")
+
+    def test_under_ever_new_names(self):
+        self.lie("liars who change their names", "renames")
+
+    def test_of_anything(self):
+        """Twenty lies a message: 50,000 at least."""
+        self.lie("liars with guessed keys", "lies,guesses,guesses,guesses,guesses",
+                 messages=4000 if LONG else 300, rate=400)
+
+
+if __name__ == "__main__":
+    unittest.main()
