@@ -109,6 +109,8 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
 void Coordinator::close_ended(std::uint32_t index, WorkSource& source) {
   for (const DesignId design : source.take_ended())
     scheduler_.close_design(index, design);
+  for (const PassedCandidates& passed : source.take_passed())
+    scheduler_.close_candidates(index, passed);
 }
 
 bool Coordinator::progress(TimePoint now) {

@@ -1,5 +1,7 @@
 #include "coordinator/done_table.h"
 
+#include <algorithm>
+
 #include "base/assert.h"
 #include "base/hash.h"
 
@@ -37,6 +39,12 @@ void DoneTable::Outcomes::grow() {
   for (const DoneEntry& entry : old) {
     if (entry.key != 0) entries[place_of(entry.key)] = entry;
   }
+}
+
+bool DoneTable::Outcomes::is_closed(PackedKey key) const {
+  const CandidateId candidate{candidate_of(key)};
+  return closed ||
+         (candidate.value < passed_before && !std::ranges::binary_search(kept, candidate));
 }
 
 const DoneTable::Outcomes* DoneTable::outcomes_of(PackedKey key) const {
@@ -81,9 +89,25 @@ void DoneTable::close(std::uint32_t campaign, DesignId design) {
   outcomes.closed = true;
 }
 
+void DoneTable::close_candidates(std::uint32_t campaign, const PassedCandidates& passed) {
+  Outcomes& outcomes = at(campaign, passed.design);
+  if (outcomes.closed) return;
+  Outcomes left;
+  left.passed_before = passed.before.value;
+  left.kept = passed.kept;
+  std::ranges::sort(left.kept);
+  for (const DoneEntry& entry : outcomes.entries) {
+    if (entry.key == 0 || left.is_closed(entry.key)) continue;
+    if (4 * (left.size + 1) > 3 * left.entries.size()) left.grow();
+    left.entries[left.place_of(entry.key)] = entry;
+    ++left.size;
+  }
+  outcomes = std::move(left);
+}
+
 bool DoneTable::is_closed(PackedKey key) const {
   const Outcomes* outcomes = outcomes_of(key);
-  return outcomes != nullptr && outcomes->closed;
+  return outcomes != nullptr && outcomes->is_closed(key);
 }
 
 std::size_t DoneTable::size() const {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "coordinator/task_key.h"
+#include "coordinator/work_source.h"
 #include "proto/key.h"
 #include "storage/rows.h"
 
@@ -19,16 +20,20 @@ struct DoneEntry {
 };
 
 /// The outcomes of the designs that go on, by design: 24 bytes each in one array (open addressing,
-/// linear probing, at most three quarters full), so that a design of 100,000 takes 6 MB. Of a
-/// design that is over only that is remembered, and memory does not grow with the campaign.
+/// linear probing, at most three quarters full), so that 100,000 take 6 MB. Of a design that is
+/// over, and of candidates that are out of their race, only that is remembered: memory grows
+/// neither with the campaign nor with a design's evaluations.
 class DoneTable {
  public:
-  /// Inserts, or returns the entry that is there already; null when the design is over.
+  /// Inserts, or returns the entry that is there already; null when the design is over. What comes
+  /// of a candidate that is out of its race, such as a test, is known until others are out.
   const DoneEntry* insert(PackedKey key, EvaluationStatus status, double score,
                           std::uint64_t state_digest);
   const DoneEntry* find(PackedKey key) const;
   /// Forgets the design's outcomes: nobody will want any more of it, whatever comes.
   void close(std::uint32_t campaign, DesignId design);
+  /// The same for the design's candidates that are out of its race.
+  void close_candidates(std::uint32_t campaign, const PassedCandidates& passed);
   bool is_closed(PackedKey key) const;
   std::size_t size() const;
 
@@ -42,7 +47,10 @@ class DoneTable {
     std::vector<DoneEntry> entries;
     std::size_t size = 0;
     bool closed = false;
+    std::int64_t passed_before = 0;  ///< candidates before this one that are not `kept` are out
+    std::vector<CandidateId> kept;   ///< ascending
 
+    bool is_closed(PackedKey key) const;
     std::size_t place_of(PackedKey key) const;
     void grow();
   };

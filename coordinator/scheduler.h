@@ -16,6 +16,7 @@
 #include "coordinator/lease_table.h"
 #include "coordinator/principal.h"
 #include "coordinator/scheduler_types.h"
+#include "coordinator/work_source.h"
 #include "coordinator/worker_registry.h"
 #include "storage/rows.h"
 
@@ -63,6 +64,10 @@ class Scheduler {
   /// Tasks of it that were added go on to their outcomes; other results are acknowledged as
   /// duplicates, and not compared any more.
   void close_design(std::uint32_t campaign, DesignId design) { done_.close(campaign, design); }
+  /// The same for those of the design's candidates that are out of its race.
+  void close_candidates(std::uint32_t campaign, const PassedCandidates& passed) {
+    done_.close_candidates(campaign, passed);
+  }
   /// The campaign is stopped: its tasks are forgotten, and what still comes of it is not kept.
   void forget(std::uint32_t campaign);
 

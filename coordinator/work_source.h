@@ -10,6 +10,13 @@
 
 namespace swarmsmith {
 
+/// Candidates of a design that are out of its race: those before `before` that are not `kept`.
+struct PassedCandidates {
+  DesignId design;
+  CandidateId before;
+  std::vector<CandidateId> kept{};
+};
+
 /// Where tasks come from and outcomes go: a campaign. Pure: no clock, no sockets, no store; what
 /// must be written comes out as rows. An abstract class because the cluster's tests put a small
 /// campaign of their own behind it; as it stands, a source looks ahead of nothing and obeys nobody.
@@ -33,6 +40,10 @@ class WorkSource {
   /// Designs, since the last call, of which nothing will be wanted any more, whatever is commanded:
   /// second results of theirs need not be recognised. Tasks that were given may still be told.
   virtual std::vector<DesignId> take_ended() { return {}; }
+
+  /// Candidates, since the last call, of which results are no longer waited for: second ones of
+  /// theirs need not be recognised. Tasks of theirs may still be given, and are told.
+  virtual std::vector<PassedCandidates> take_passed() { return {}; }
 
   /// Carries out "cancel" or "extend"; its row comes by `take_rows`, with the step at which it
   /// acts. Errors: no such design, or one of which it cannot be asked, with what can.

@@ -97,7 +97,7 @@ std::vector<RaceEvent> IteratedRace::take_events() {
 }
 
 const Configuration& IteratedRace::configuration(std::int64_t id) const {
-  return state_->candidates.at(static_cast<std::size_t>(id - 1)).configuration;
+  return state_->candidates.at(static_cast<std::size_t>(id - 1)).configuration.get();
 }
 
 const ParameterSpace& IteratedRace::space() const {

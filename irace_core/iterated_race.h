@@ -101,7 +101,8 @@ class IteratedRace {
   /// extension would. Only when finished().
   Expected<std::int64_t> least_extension() const;
 
-  /// A configuration by its id; throws std::out_of_range for an id that never was.
+  /// A configuration by its id; throws std::out_of_range for an id that never was. Valid until the
+  /// next tell().
   const Configuration& configuration(std::int64_t id) const;
   const ParameterSpace& space() const;
   const Scenario& scenario() const;

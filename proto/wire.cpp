@@ -1,7 +1,11 @@
 #include "proto/wire.h"
 
+#include <google/protobuf/io/coded_stream.h>
 #include <google/protobuf/stubs/logging.h>
+#include <google/protobuf/wire_format_lite.h>
 #include <cmath>
+#include <cstdint>
+#include <type_traits>
 
 #include "base/hash.h"
 #include "proto/key.h"
@@ -51,6 +55,35 @@ Expected<std::string_view> payload_of(std::string_view frame, std::size_t most) 
   return frame.substr(kFrameHeaderBytes);
 }
 
+/// Whether a message's body has more parts than any that is within the limits. Counted before it is
+/// parsed, which makes an object of some hundred bytes of each part of two bytes.
+bool has_too_many_parts(std::string_view payload) {
+  using google::protobuf::internal::WireFormatLite;
+  constexpr int kMost = kMaxItemsPerMessage + 64;
+  google::protobuf::io::CodedInputStream stream(
+      reinterpret_cast<const std::uint8_t*>(payload.data()), static_cast<int>(payload.size()));
+  int parts = 0;
+  while (const std::uint32_t tag = stream.ReadTag()) {
+    if (++parts > kMost) return true;
+    std::uint32_t size = 0;
+    if (WireFormatLite::GetTagWireType(tag) != WireFormatLite::WIRETYPE_LENGTH_DELIMITED) {
+      if (!WireFormatLite::SkipField(&stream, tag)) return false;
+      continue;
+    }
+    if (!stream.ReadVarint32(&size) || size > payload.size()) return false;
+    const int end = stream.CurrentPosition() + static_cast<int>(size);
+    const auto limit = stream.PushLimit(static_cast<int>(size));
+    while (const std::uint32_t inner = stream.ReadTag()) {
+      if (++parts > kMost) return true;
+      if (!WireFormatLite::SkipField(&stream, inner)) break;
+    }
+    stream.PopLimit(limit);
+    // A text of a later version is no body: what follows it counts.
+    if (!stream.Skip(end - stream.CurrentPosition())) return false;
+  }
+  return false;
+}
+
 template <class Message>
 Expected<const Message*> parse(std::string_view frame, std::size_t most,
                                google::protobuf::Arena& arena) {
@@ -58,6 +91,9 @@ Expected<const Message*> parse(std::string_view frame, std::size_t most,
   [[maybe_unused]] static auto* const kLoud = google::protobuf::SetLogHandler(nullptr);
   const Expected<std::string_view> payload = payload_of(frame, most);
   if (!payload) return Unexpected(payload.error());
+  if (std::is_same_v<Message, pb::ToCoordinator> && has_too_many_parts(*payload)) {
+    return bad_input("a message with more parts than the protocol's limits", "limits");
+  }
   auto* message = google::protobuf::Arena::CreateMessage<Message>(&arena);
   if (!message->ParseFromArray(payload->data(), static_cast<int>(payload->size()))) {
     return bad_input("a frame that is no message of this protocol", "protobuf");

@@ -166,12 +166,20 @@ class StoreReader {
   virtual std::vector<std::string> integrity() = 0;
 
   /// Calls `on_row` with the cells of each row of a read-only statement (texts; null as nullopt),
-  /// after `on_columns` with the names. Stops after so many rows or seconds, and says so by
+  /// after `on_columns` with the names. Stops after so many rows, seconds or bytes, and says so by
   /// `truncated`. A statement that would write, attach or change a setting, more than one
-  /// statement, or what does not parse, is BadInput with the reason.
+  /// statement, what does not parse, a value over 32 MB, a row over 64 MB, or a need of more
+  /// memory, is BadInput with the reason.
   struct QueryLimits {
     std::int64_t rows = 1'000'000;
     double seconds = 60;
+    /// Of all cells that are given, held as they are.
+    std::int64_t bytes = std::int64_t{128} << 20U;
+    /// What SQLite may take for the statement, in this process: sorting, grouping, values that it
+    /// makes. Its limit is the process's, so that nothing else may write meanwhile.
+    std::int64_t memory = std::int64_t{256} << 20U;
+    /// Large sorts go to temporary files: for statements of our own.
+    bool spill = false;
   };
   struct Cell {
     enum class Type { Null, Integer, Real, Text } type = Type::Null;

@@ -1,5 +1,6 @@
 #include "analysis/records/csv.h"
 
+#include <limits>
 #include <vector>
 
 #include "base/csv.h"
@@ -7,7 +8,11 @@
 namespace swarmsmith {
 namespace {
 
-constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000, .seconds = 600};
+constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000,
+                                           .seconds = 600,
+                                           .bytes = std::numeric_limits<std::int64_t>::max(),
+                                           .memory = std::int64_t{1} << 30U,
+                                           .spill = true};
 
 }  // namespace
 

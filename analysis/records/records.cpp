@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -15,7 +16,11 @@ using Cell = StoreReader::Cell;
 using Cells = std::vector<Cell>;
 
 /// Nobody looks at more, and a figure of it could not be drawn.
-constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000, .seconds = 600};
+constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000,
+                                           .seconds = 600,
+                                           .bytes = std::numeric_limits<std::int64_t>::max(),
+                                           .memory = std::int64_t{1} << 30U,
+                                           .spill = true};
 
 double real(const Cell& cell) {
   double value = 0;

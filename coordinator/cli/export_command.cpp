@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <limits>
 #include <memory>
 #include <optional>
 
@@ -163,7 +164,12 @@ ExitCode run(const Arguments& arguments, Output& output) {
   if (!sql) return fail(output, ExitCode::Usage, sql.error());
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  auto rows = select(**store, *sql, {.rows = 1'000'000'000, .seconds = 600});
+  auto rows = select(**store, *sql,
+                     {.rows = 1'000'000'000,
+                      .seconds = 600,
+                      .bytes = std::numeric_limits<std::int64_t>::max(),
+                      .memory = std::int64_t{1} << 30U,
+                      .spill = true});
   if (!rows) return fail(output, ExitCode::Store, rows.error());
   if (rows->cells.empty()) {
     const ExitCode code = nothing_found(arguments, output);

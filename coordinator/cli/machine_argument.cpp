@@ -1,11 +1,15 @@
 #include "coordinator/cli/machine_argument.h"
 
 #include <fstream>
+#include <sstream>
 
 #include "coordinator/cli/query_output.h"
+#include "sim/files/file_text.h"
 
 namespace swarmsmith::cli {
 namespace {
+
+constexpr std::size_t kMostBytes = 1U << 20U;
 
 /// Without blanks at both ends.
 std::string trimmed(const std::string& text) {
@@ -19,16 +23,18 @@ Expected<NamedMachine> machine_of_file(const std::string& file) {
   if (is_database(file)) {
     return bad_input("this is a store; name one of its candidates, c812, with --store", file);
   }
-  std::ifstream stream(file);
-  if (!stream) {
+  if (!std::ifstream(file)) {
     return bad_input(
         "this is no machine: neither a text that begins with --nstates, nor a file, "
         "nor a candidate such as c812",
         file);
   }
+  const auto text = read_file(file, "machine", kMostBytes);
+  if (!text) return Unexpected(text.error());
+  std::istringstream lines(*text);
   std::string machine;
   std::string line;
-  for (int number = 1; std::getline(stream, line); ++number) {
+  for (int number = 1; std::getline(lines, line); ++number) {
     line = trimmed(line);
     if (line.empty() || line.front() == '#') continue;
     const bool begins = line.starts_with("--nstates") || line.starts_with("--fsm-config");

@@ -1,5 +1,8 @@
+#include <cstdint>
+#include <limits>
 #include <memory>
 
+#include "base/csv.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
@@ -33,14 +36,26 @@ std::string take_sql(Arguments& arguments) {
   return sql;
 }
 
+/// Writes rows as they come: a table of millions is not held.
+ExitCode write_csv(StoreReader& store, const std::string& sql, Output& output) {
+  const auto end = store.query(
+      sql, {.bytes = std::numeric_limits<std::int64_t>::max()},
+      [&](const std::vector<std::string>& columns) { output.out << csv_line(columns); },
+      [&](const std::vector<StoreReader::Cell>& cells) { output.out << cells_as_csv(cells); });
+  if (!end) return fail(output, ExitCode::Usage, end.error());
+  if (end->truncated) note_truncated(output, static_cast<std::size_t>(end->rows));
+  return ExitCode::Done;
+}
+
 ExitCode run(Arguments& arguments, Output& output) {
   const std::string sql = take_sql(arguments);
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  const auto rows = select(**store, sql.empty() ? kViews : sql);
+  const std::string statement = sql.empty() ? kViews : sql;
+  if (arguments.csv) return write_csv(**store, statement, output);
+  const auto rows = select(**store, statement);
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
-  const Form form = arguments.csv ? Form::Csv : (output.json ? Form::Json : Form::Text);
-  write_rows(output, *rows, form);
+  write_rows(output, *rows, output.json ? Form::Json : Form::Text);
   return ExitCode::Done;
 }
 

@@ -30,6 +30,9 @@ std::string shown(const Cell& cell) {
   return {buffer, static_cast<std::size_t>(size)};
 }
 
+/// Columns are aligned up to here: one long text would widen each row.
+constexpr std::size_t kWidestColumn = 200;
+
 /// Numbers stand on the right of their column.
 bool is_number(const Cell& cell) {
   return cell.type == Type::Integer || cell.type == Type::Real;
@@ -96,6 +99,7 @@ std::string rows_as_text(const Rows& rows) {
     for (const auto& cells : rows.cells) {
       widths[column] = std::max(widths[column], width_of(shown(cells[column])));
     }
+    widths[column] = std::min(widths[column], kWidestColumn);
   }
   std::string text;
   const auto add_line = [&](const auto& text_of) {
@@ -114,14 +118,17 @@ std::string rows_as_text(const Rows& rows) {
   return text;
 }
 
+std::string cells_as_csv(const std::vector<Cell>& cells) {
+  std::vector<std::string> texts;
+  for (const Cell& cell : cells)
+    texts.push_back(cell.text);
+  return csv_line(texts);
+}
+
 std::string rows_as_csv(const Rows& rows) {
   std::string text = csv_line(rows.columns);
-  for (const auto& cells : rows.cells) {
-    std::vector<std::string> texts;
-    for (const Cell& cell : cells)
-      texts.push_back(cell.text);
-    text += csv_line(texts);
-  }
+  for (const auto& cells : rows.cells)
+    text += cells_as_csv(cells);
   return text;
 }
 
@@ -161,9 +168,11 @@ void write_rows(Output& output, const Rows& rows, Form form) {
       break;
     }
   }
-  if (rows.truncated) {
-    print_note(output, "only the first " + std::to_string(rows.cells.size()) + " rows are shown");
-  }
+  if (rows.truncated) note_truncated(output, rows.cells.size());
+}
+
+void note_truncated(Output& output, std::size_t rows) {
+  print_note(output, "only the first " + std::to_string(rows) + " rows are shown");
 }
 
 }  // namespace swarmsmith::cli

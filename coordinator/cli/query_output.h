@@ -31,7 +31,9 @@ void letter_ids(Rows& rows);
 
 /// Aligned columns below a headline, numbers on the right, six digits of reals.
 std::string rows_as_text(const Rows& rows);
-/// CSV (base/csv.h) with a headline; null is empty; full precision.
+/// One line of CSV (base/csv.h), with its end.
+std::string cells_as_csv(const std::vector<StoreReader::Cell>& cells);
+/// CSV with a headline; null is empty; full precision.
 std::string rows_as_csv(const Rows& rows);
 /// The "rows" array alone.
 std::string rows_as_json(const Rows& rows);
@@ -39,5 +41,7 @@ std::string rows_as_json(const Rows& rows);
 std::string row_as_json(const Rows& rows, std::size_t row);
 
 void write_rows(Output& output, const Rows& rows, Form form);
+/// That there would be more than these.
+void note_truncated(Output& output, std::size_t rows);
 
 }  // namespace swarmsmith::cli

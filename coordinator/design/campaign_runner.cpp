@@ -112,6 +112,7 @@ void CampaignRunner::advance(DesignRunner& design) {
     error_ = advanced.error();
     return;
   }
+  if (auto passed = design.take_passed()) passed_.push_back(std::move(*passed));
   if (design.state() == DesignState::Finished || design.state() == DesignState::Stopped)
     put_away(design.id());
 }

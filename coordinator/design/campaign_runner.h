@@ -45,6 +45,7 @@ class CampaignRunner final : public WorkSource {
   std::vector<Task> take_more(std::size_t count, std::size_t slots) override;
   std::vector<EvaluationKey> take_dropped() override;
   std::vector<DesignId> take_ended() override { return std::exchange(ended_, {}); }
+  std::vector<PassedCandidates> take_passed() override { return std::exchange(passed_, {}); }
   Expected<void> carry_out(const CommandRow& command) override;
   std::optional<Task> task_of(const EvaluationKey& key) const override;
   void tell(const Outcome& outcome) override;
@@ -91,6 +92,7 @@ class CampaignRunner final : public WorkSource {
   std::vector<Task> tasks_;
   std::vector<EvaluationKey> dropped_;  ///< of designs that were put away
   std::vector<DesignId> ended_;
+  std::vector<PassedCandidates> passed_;
   std::vector<Row> rows_;
   std::optional<Error> error_;
   bool state_recorded_ = false;

@@ -60,15 +60,13 @@ Expected<void> DesignRunner::record_events(std::vector<Row>& rows) {
 }
 
 void DesignRunner::record_candidate(const ConfigurationSampled& sampled, std::vector<Row>& rows) {
-  SWARMSMITH_ASSERT(sampled.id > static_cast<std::int64_t>(machines_.size()),
+  SWARMSMITH_ASSERT(sampled.id > static_cast<std::int64_t>(totals_.size()),
                     "configurations are numbered in the order of their creation");
   // Given ones that are forbidden have a number and nothing else.
-  machines_.resize(static_cast<std::size_t>(sampled.id - 1));
-  totals_.resize(machines_.size());
-  judged_.resize(machines_.size() + 1);
+  totals_.resize(static_cast<std::size_t>(sampled.id));
+  if (plan_.scenario.target_evaluator) judged_.resize(totals_.size());
   CandidateText text = plan_.describe(sampled.configuration);
-  machines_.push_back(text.machine);
-  totals_.emplace_back();
+  machines_[sampled.id] = text.machine;
   alive_.insert(sampled.id);
   record(CandidateRow{.id = candidate(sampled.id),
                       .iteration = sampled.iteration,
@@ -261,11 +259,21 @@ void DesignRunner::record_iteration_end(const IterationEnded& ended, std::vector
            rows);
   }
   alive_ = std::move(elites);
+  forget_losers();
   if (!ended.elites.empty()) {
     best_ = ended.elites.front().configuration;
     best_mean_ = to_score(ended.elites.front().mean);
   }
   record_state(rows);
+}
+
+/// What a race needs is kept of the elites alone: memory does not grow with the budget.
+void DesignRunner::forget_losers() {
+  std::erase_if(machines_, [&](const auto& known) { return !alive_.contains(known.first); });
+  passed_ = PassedCandidates{.design = id(),
+                             .before = candidate(static_cast<std::int64_t>(totals_.size()) + 1)};
+  for (const std::int64_t number : alive_)
+    passed_->kept.push_back(candidate(number));
 }
 
 void DesignRunner::record_state(std::vector<Row>& rows) {

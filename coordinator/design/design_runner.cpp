@@ -211,8 +211,15 @@ Task DesignRunner::task_of(const EvaluationKey& key, const Experiment& experimen
           .method = plan_.method,
           .instance = experiment.instance,
           .seed = experiment.seed,
-          .machine = machines_[static_cast<std::size_t>(experiment.configuration - 1)],
+          .machine = machine_of(experiment.configuration),
           .bound = experiment.bound};
+}
+
+/// The last race and the tests take candidates from anywhere.
+std::string DesignRunner::machine_of(std::int64_t number) const {
+  const auto known = machines_.find(number);
+  return known != machines_.end() ? known->second
+                                  : plan_.describe(race_->configuration(number)).machine;
 }
 
 void DesignRunner::put(std::size_t position, const StoredScore& score) {

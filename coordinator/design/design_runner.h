@@ -14,6 +14,7 @@
 #include "base/expected.h"
 #include "coordinator/campaign/candidate_text.h"
 #include "coordinator/task.h"
+#include "coordinator/work_source.h"
 #include "irace_core/iterated_race.h"
 #include "storage/rows.h"
 
@@ -103,6 +104,8 @@ class DesignRunner {
   /// Tasks that were given without being wanted and have no outcome, with their bounds: what may
   /// still come when the design is over.
   std::vector<std::pair<EvaluationKey, double>> outstanding() const;
+  /// Since the last call, if an iteration has ended.
+  std::optional<PassedCandidates> take_passed() { return std::exchange(passed_, std::nullopt); }
   /// How many tasks it waits for: the design with the fewest is the nearest to a barrier.
   std::size_t awaited() const { return awaited_.size(); }
 
@@ -176,6 +179,7 @@ class DesignRunner {
   void want(std::size_t position, const EvaluationKey& key, const Experiment& experiment,
             std::vector<Task>& tasks, std::vector<Row>& rows);
   Task task_of(const EvaluationKey& key, const Experiment& experiment) const;
+  std::string machine_of(std::int64_t number) const;
   /// What is stored under the key of this purpose and was not asked for.
   std::unordered_map<std::uint64_t, StoredScore>& known(Purpose purpose);
   void put(std::size_t position, const StoredScore& score);
@@ -193,6 +197,7 @@ class DesignRunner {
   void record_unused(std::size_t until, std::vector<Row>& rows);
   void record_candidate(const ConfigurationSampled& sampled, std::vector<Row>& rows);
   void record_iteration_start(const IterationStarted& started, std::vector<Row>& rows);
+  void forget_losers();
   void record_iteration_end(const IterationEnded& ended, std::vector<Row>& rows);
   void record_state(std::vector<Row>& rows);
   Error other_way() const;
@@ -218,6 +223,7 @@ class DesignRunner {
   };
   std::map<std::uint64_t, Ahead> ahead_;
   std::vector<EvaluationKey> dropped_;
+  std::optional<PassedCandidates> passed_;
   /// What the race would want after the current batch, on so many pairs; how many were looked at.
   std::vector<Experiment> next_;
   std::int64_t next_pairs_ = 0;
@@ -255,9 +261,9 @@ class DesignRunner {
   std::vector<std::int64_t> testing_;  ///< numbers of those who are tested
   std::optional<Error> fault_;         ///< of the store, found while the race was played again
 
-  std::vector<std::string> machines_;  ///< by candidate number - 1
-  std::vector<Totals> totals_;         ///< by candidate number - 1
-  /// By candidate number - 1, score by pair: what a targetEvaluator said last.
+  std::map<std::int64_t, std::string> machines_;  ///< by number, of those in the race
+  std::vector<Totals> totals_;                    ///< by candidate number - 1
+  /// By candidate number - 1, score by pair: what a targetEvaluator said last. Else empty.
   std::vector<std::map<std::int64_t, double>> judged_;
   std::vector<std::vector<std::int64_t>> elites_;  ///< of each iteration, best first
   std::set<std::int64_t> alive_;                   ///< numbers, in the current iteration

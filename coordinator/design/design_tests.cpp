@@ -95,7 +95,7 @@ void DesignRunner::want_test_calls(std::vector<Task>& tasks, std::vector<Row>& r
 
 std::optional<Task> DesignRunner::task_of(const EvaluationKey& key) const {
   const std::int64_t number = number_of(key.candidate);
-  if (number > static_cast<std::int64_t>(machines_.size())) return std::nullopt;
+  if (number > static_cast<std::int64_t>(totals_.size())) return std::nullopt;
   if (key.purpose == Purpose::Test && key.pair <= plan_.tests.count) {
     return task_of(key, test_experiment(plan_, number, key.pair));
   }

@@ -1,116 +1,22 @@
 #include "coordinator/http/http_server.h"
 
-#include <httplib.h>
-#include <poll.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
-#include <atomic>
 #include <chrono>
+#include <memory>
 #include <mutex>
-#include <thread>
 
+#include "base/http/page_server.h"
 #include "coordinator/http/metrics_text.h"
 
 namespace swarmsmith {
 namespace {
 
-using std::chrono::milliseconds;
 using Clock = std::chrono::steady_clock;
 
-constexpr std::size_t kThreads = 8;
-/// Connections that wait for a thread; further ones are closed at once.
-constexpr std::size_t kWaiting = 64;
-/// Of a request, headers included.
-constexpr std::size_t kMostRequestBytes = 16U << 10U;
-
-/// A connection that ends at its deadline, whatever the peer does meanwhile: a byte a second would
-/// hold a thread for hours under a time-out for each read.
-class DeadlineStream final : public httplib::Stream {
- public:
-  DeadlineStream(socket_t socket, Clock::time_point deadline)
-      : socket_(socket), deadline_(deadline) {}
-
-  bool is_readable() const override { return wait(POLLIN); }
-  bool is_writable() const override { return wait(POLLOUT); }
-  ssize_t read(char* data, std::size_t size) override {
-    if (read_ >= kMostRequestBytes || !wait(POLLIN)) return -1;
-    const ssize_t got = ::recv(socket_, data, std::min(size, kMostRequestBytes - read_), 0);
-    if (got > 0) read_ += static_cast<std::size_t>(got);
-    return got;
-  }
-  ssize_t write(const char* data, std::size_t size) override {
-    if (!wait(POLLOUT)) return -1;
-    return ::send(socket_, data, size, MSG_NOSIGNAL | MSG_DONTWAIT);
-  }
-  // Nobody asks for these, since nothing is logged about peers.
-  void get_remote_ip_and_port(std::string&, int&) const override {}
-  void get_local_ip_and_port(std::string&, int&) const override {}
-  socket_t socket() const override { return socket_; }
-
- private:
-  bool wait(short what) const {
-    const auto left = std::chrono::ceil<milliseconds>(deadline_ - Clock::now());
-    if (left.count() <= 0) return false;
-    pollfd ready{.fd = socket_, .events = what, .revents = 0};
-    return ::poll(&ready, 1, static_cast<int>(left.count())) > 0;
-  }
-
-  socket_t socket_;
-  Clock::time_point deadline_;
-  std::size_t read_ = 0;
-};
-
-/// Set while a connection is taken only to be closed.
-thread_local bool t_shedding = false;
-
-/// The library's pool, with an end to its queue.
-class BoundedPool final : public httplib::TaskQueue {
- public:
-  BoundedPool() : pool_(kThreads) {}
-
-  void enqueue(std::function<void()> connection) override {
-    if (waiting_ >= kWaiting) {
-      t_shedding = true;
-      connection();
-      t_shedding = false;
-      return;
-    }
-    ++waiting_;
-    pool_.enqueue([this, connection = std::move(connection)] {
-      --waiting_;
-      connection();
-    });
-  }
-  void shutdown() override { pool_.shutdown(); }
-
- private:
-  httplib::ThreadPool pool_;
-  std::atomic<std::size_t> waiting_ = 0;
-};
-
-/// The library's server with our own streams.
-class Listener final : public httplib::Server {
- public:
-  explicit Listener(milliseconds request_time) : request_time_(request_time) {
-    new_task_queue = [] { return new BoundedPool; };
-    set_payload_max_length(0);
-  }
-
- private:
-  bool process_and_close_socket(socket_t socket) override {
-    bool served = false;
-    if (!t_shedding) {
-      DeadlineStream stream(socket, Clock::now() + request_time_);
-      bool closed = false;
-      served = process_request(stream, true, closed, nullptr);
-    }
-    ::shutdown(socket, SHUT_RDWR);
-    ::close(socket);
-    return served;
-  }
-
-  milliseconds request_time_;
-};
+/// Ports after the first one that are tried.
+constexpr int kMorePorts = 100;
 
 std::string name_of_this_host() {
   std::array<char, 256> name{};
@@ -122,7 +28,9 @@ class Pages final : public HttpServer {
   explicit Pages(HttpOptions options)
       : options_(std::move(options)),
         host_name_(name_of_this_host()),
-        http_(options_.request_time) {
+        http_({.door = {.head_time = options_.request_time},
+               .answer_time = options_.request_time,
+               .at_once = {"/healthz", "/readyz"}}) {
     http_.set_pre_routing_handler(
         [this](const httplib::Request& request, httplib::Response& response) {
           return gate(request, response);
@@ -137,28 +45,22 @@ class Pages final : public HttpServer {
     page("/status", "application/json",
          [](const LiveStatus& status) { return to_json(status) + "\n"; });
   }
-  ~Pages() override {
-    http_.stop();
-    if (thread_.joinable()) thread_.join();
-  }
+  ~Pages() override { http_.stop_serving(); }
 
-  bool listen() {
+  Expected<void> listen() {
     HttpAddress& address = options_.address;
-    const int last = address.port + (options_.next_port ? 100 : 0);
-    for (; address.port <= std::min(last, 65535); ++address.port) {
-      const bool bound =
-          address.port == 0 ? bind_to_any() : http_.bind_to_port(address.host, address.port);
-      if (!bound) {
-        if (address.port == 0) return false;
-        continue;
+    const int last = std::min(address.port + (options_.next_port ? kMorePorts : 0), 65535);
+    while (true) {
+      const Expected<ListeningSocket> listening = listen_for_requests(address.host, address.port);
+      if (listening) {
+        address.port = listening->port;
+        http_.serve(*listening);
+        return {};
       }
-      thread_ = std::thread([this] { http_.listen_after_bind(); });
-      // The library forgets a `stop` that comes before it listens.
-      while (!http_.is_running())
-        std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      return true;
+      const bool taken = listening.error().kind == ErrorKind::Conflict;
+      if (!taken || address.port == 0 || address.port == last) return Unexpected(listening.error());
+      ++address.port;
     }
-    return false;
   }
 
   std::string address() const override { return to_string(options_.address); }
@@ -174,11 +76,6 @@ class Pages final : public HttpServer {
     LiveStatus status;
     Clock::time_point when;
   };
-
-  bool bind_to_any() {
-    options_.address.port = http_.bind_to_any_port(options_.address.host);
-    return options_.address.port > 0;
-  }
 
   std::shared_ptr<const Published> published() const {
     const std::scoped_lock lock(mutex_);
@@ -244,8 +141,7 @@ class Pages final : public HttpServer {
 
   HttpOptions options_;
   std::string host_name_;
-  Listener http_;
-  std::thread thread_;
+  PageServer http_;
   mutable std::mutex mutex_;  ///< held to copy a pointer, no longer
   std::shared_ptr<const Published> published_;
 };
@@ -261,12 +157,7 @@ Expected<std::unique_ptr<HttpServer>> HttpServer::start(HttpOptions options) {
         where);
   }
   auto pages = std::make_unique<Pages>(std::move(options));
-  if (!pages->listen()) {
-    return unexpected(ErrorKind::Conflict,
-                      "pages cannot be served here: the port is taken, or the "
-                      "host is not this one",
-                      where);
-  }
+  if (auto listening = pages->listen(); !listening) return Unexpected(listening.error());
   return std::unique_ptr<HttpServer>(std::move(pages));
 }
 

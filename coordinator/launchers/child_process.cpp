@@ -135,8 +135,11 @@ void ChildProcess::end_input() {
 }
 
 const std::string& ChildProcess::last_line() {
+  // Who writes without an end is not read for ever. More than a pipe holds, so that of a process
+  // that has ended nothing is left.
+  constexpr int kPiecesAtOnce = 64;
   std::array<char, 4096> buffer{};
-  while (errors_ >= 0) {
+  for (int piece = 0; piece < kPiecesAtOnce && errors_ >= 0; ++piece) {
     const ssize_t size = read(errors_, buffer.data(), buffer.size());
     if (size <= 0) break;
     for (ssize_t i = 0; i < size; ++i) {

@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <fstream>
-#include <iterator>
 #include <optional>
 #include <utility>
 
@@ -14,6 +13,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::int64_t kMostSlots = 1024;
+constexpr std::size_t kMostBytes = 1U << 20U;
 
 struct Word {
   std::string_view text;
@@ -127,7 +127,13 @@ HostsOrErrors read_hosts(const std::filesystem::path& file) {
     return tl::unexpected(std::vector<Error>{
         {ErrorKind::NotFound, "there is no such host file that can be read", file.string()}});
   }
-  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  std::string text(kMostBytes + 1, '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  if (text.size() > kMostBytes) {
+    return tl::unexpected(std::vector<Error>{
+        {ErrorKind::BadInput, "the host file is larger than 1 MB", file.string()}});
+  }
   return parse_hosts(text, file);
 }
 

@@ -1,7 +1,6 @@
 #include "irace_core/files/whole_file.h"
 
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 namespace swarmsmith {
@@ -16,8 +15,19 @@ Expected<std::string> read_whole_file(const std::filesystem::path& file) {
     return bad_input("is a folder; a file is wanted", file.string());
   }
   std::ifstream stream(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream.is_open() || stream.bad()) return bad_input("cannot be read", file.string());
+  if (!stream.is_open()) return bad_input("cannot be read", file.string());
+  // Piece by piece: a pipe or a device has no length, and perhaps no end.
+  constexpr std::size_t kMost = 64U << 20U;
+  constexpr std::size_t kPiece = 64U << 10U;
+  std::string text;
+  while (stream && text.size() <= kMost) {
+    const std::size_t before = text.size();
+    text.resize(before + kPiece);
+    stream.read(text.data() + before, kPiece);
+    text.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
+  if (stream.bad()) return bad_input("cannot be read", file.string());
+  if (text.size() > kMost) return bad_input("is larger than 64 MB", file.string());
   return text;
 }
 

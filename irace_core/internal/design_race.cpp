@@ -213,7 +213,7 @@ void IteratedRace::State::report_steps() {
 
 void IteratedRace::State::reject(std::int64_t id) {
   candidate(id).takes_part = false;
-  forbidden_.add_rejected(candidate(id).configuration);
+  forbidden_.add_rejected(candidate(id).configuration.get());
 }
 
 void IteratedRace::State::take_over_results() {
@@ -237,6 +237,7 @@ void IteratedRace::State::end_race() {
   take_over_results();
   choose_elites();
   if (elites.empty() && end_reason_) fall_back();
+  put_away_losers();
   ended_.push_back(elites);
   const std::string reason = race->stop_reason();
   race.reset();
@@ -251,6 +252,15 @@ void IteratedRace::State::end_race() {
   }
 }
 
+void IteratedRace::State::put_away_losers() {
+  for (std::size_t column = 0; column < race->size(); ++column) {
+    const std::int64_t id = race->contestant(column).id;
+    if (std::ranges::count(elites, id, &Elite::configuration) > 0) continue;
+    candidate(id).configuration.put_away();
+    candidate(id).results.shrink_to_fit();
+  }
+}
+
 /// The survivors by rank, each configuration once, as many as survive (irace facts, 13).
 void IteratedRace::State::choose_elites() {
   elites.clear();
@@ -258,7 +268,8 @@ void IteratedRace::State::choose_elites() {
     if (static_cast<std::int64_t>(elites.size()) == schedule_.min_survival()) break;
     const std::int64_t id = race->contestant(survivor.column).id;
     const bool is_copy = std::any_of(elites.begin(), elites.end(), [&](const Elite& elite) {
-      return candidate(elite.configuration).configuration == candidate(id).configuration;
+      return candidate(elite.configuration).configuration.get() ==
+             candidate(id).configuration.get();
     });
     if (!is_copy) elites.push_back(candidate(id).as_elite(id, survivor.rank));
   }

@@ -12,7 +12,7 @@ using irace::RacePlan;
 std::int64_t IteratedRace::State::add(Candidate candidate, std::int64_t in_iteration) {
   const auto id = static_cast<std::int64_t>(candidates.size()) + 1;
   events.emplace_back(
-      ConfigurationSampled{id, candidate.parent, in_iteration, candidate.configuration});
+      ConfigurationSampled{id, candidate.parent, in_iteration, candidate.configuration.get()});
   candidates.push_back(std::move(candidate));
   return id;
 }
@@ -115,11 +115,11 @@ std::vector<std::int64_t> IteratedRace::State::lines_to_restart(
   std::vector<const Configuration*> all;
   std::vector<std::int64_t> owners;
   for (const Elite& elite : elites) {
-    all.push_back(&candidate(elite.configuration).configuration);
+    all.push_back(&candidate(elite.configuration).configuration.get());
     owners.push_back(elite.configuration);
   }
   for (const Candidate& fresh : sampled) {
-    all.push_back(&fresh.configuration);
+    all.push_back(&fresh.configuration.get());
     owners.push_back(fresh.parent);
   }
   std::vector<std::int64_t> ids;
@@ -136,7 +136,7 @@ std::vector<EliteLine> IteratedRace::State::elite_lines() const {
   std::vector<EliteLine> lines;
   for (const Elite& elite : elites) {
     const Candidate& known = candidate(elite.configuration);
-    lines.push_back({elite.configuration, known.parent, &known.configuration});
+    lines.push_back({elite.configuration, known.parent, &known.configuration.get()});
   }
   return lines;
 }

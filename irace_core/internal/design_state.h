@@ -10,6 +10,7 @@
 
 #include "base/rng.h"
 #include "irace_core/internal/instances.h"
+#include "irace_core/internal/kept_configuration.h"
 #include "irace_core/internal/model.h"
 #include "irace_core/internal/race.h"
 #include "irace_core/internal/sampling.h"
@@ -28,7 +29,7 @@ struct Candidate {
     double time;
   };
 
-  Configuration configuration;
+  irace::KeptConfiguration configuration;
   std::int64_t parent = 0;
   bool takes_part = true;       ///< false for forbidden initial ones, and for rejected ones
   std::vector<Result> results;  ///< in the order in which they came
@@ -152,6 +153,8 @@ class IteratedRace::State {
   void take_over_results();
   void reject(std::int64_t id);
   void choose_elites();
+  /// Those who took part and are no elites: they are seldom looked at again.
+  void put_away_losers();
   /// Reports how much the time that is left is good for.
   void report_time(std::vector<std::pair<std::int64_t, std::int64_t>> evaluated);
 

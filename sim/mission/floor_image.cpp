@@ -3,7 +3,9 @@
 #include <png.h>
 
 #include <algorithm>
+#include <mutex>
 #include <utility>
+#include <vector>
 
 namespace swarmsmith {
 namespace {
@@ -16,13 +18,52 @@ struct PngImage : png_image {
   ~PngImage() { png_image_free(this); }
 };
 
+/// The pictures that are in use: a mission may show one in forty places, and a coordinator has many
+/// campaigns.
+class Known {
+ public:
+  /// One made of the same bytes; null when there is none.
+  std::shared_ptr<const Picture> find(const std::string& png) {
+    const std::scoped_lock lock(mutex_);
+    std::erase_if(pictures_, [](const auto& picture) { return picture.expired(); });
+    for (const auto& known : pictures_) {
+      if (auto picture = known.lock(); picture != nullptr && picture->png() == png) return picture;
+    }
+    return nullptr;
+  }
+  void add(const std::shared_ptr<const Picture>& picture) {
+    const std::scoped_lock lock(mutex_);
+    pictures_.push_back(picture);
+  }
+  std::int64_t pixels() {
+    const std::scoped_lock lock(mutex_);
+    std::int64_t sum = 0;
+    for (const auto& known : pictures_) {
+      if (const auto picture = known.lock())
+        sum += std::int64_t{picture->width()} * std::int64_t{picture->height()};
+    }
+    return sum;
+  }
+
+ private:
+  std::mutex mutex_;
+  std::vector<std::weak_ptr<const Picture>> pictures_;
+};
+
+Known& known_pictures() {
+  static Known known;
+  return known;
+}
+
 }  // namespace
 
-Expected<std::shared_ptr<const Picture>> Picture::from_png(std::string bytes) {
+Expected<std::shared_ptr<const Picture>> Picture::from_png(std::string bytes,
+                                                           std::int64_t most_in_use) {
   if (bytes.size() > kMostBytes) {
     return bad_input("the image has " + std::to_string(bytes.size()) +
                      " bytes; at most 1 MB is taken: make it smaller, or use fewer colours");
   }
+  if (auto known = known_pictures().find(bytes)) return known;
   PngImage image;
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
     return bad_input("this is no PNG image: " + std::string(image.message));
@@ -32,6 +73,11 @@ Expected<std::shared_ptr<const Picture>> Picture::from_png(std::string bytes) {
     return bad_input("the image has " + std::to_string(image.width) + " x " +
                      std::to_string(image.height) +
                      " pixels; at most 16 million are taken: make it smaller");
+  }
+  if (pixels + known_pictures().pixels() > most_in_use) {
+    return bad_input("the pictures of all floors have more than " +
+                     std::to_string(most_in_use / 1'000'000) +
+                     " million pixels together: make them smaller");
   }
   image.format = PNG_FORMAT_RGBA;
   // Else files with 16 bits a channel would be taken for linear light.
@@ -45,6 +91,7 @@ Expected<std::shared_ptr<const Picture>> Picture::from_png(std::string bytes) {
     return bad_input("the PNG image is damaged: " + std::string(image.message));
   }
   picture->png_ = std::move(bytes);
+  known_pictures().add(picture);
   return picture;
 }
 

@@ -19,10 +19,14 @@ class Picture {
  public:
   static constexpr std::size_t kMostBytes = 1U << 20U;
   static constexpr std::int64_t kMostPixels = 16'000'000;
+  /// Of all pictures that a process has; the same file is decoded once.
+  static constexpr std::int64_t kMostPixelsInUse = 32'000'000;
 
   /// Reads the bytes of a PNG file: any kind of pixels, told as 8-bit sRGB. More than a megabyte or
   /// 16 million pixels, and what is no PNG, are errors.
-  static Expected<std::shared_ptr<const Picture>> from_png(std::string bytes);
+  /// So is one that makes the pictures in use larger than `most_in_use` pixels together.
+  static Expected<std::shared_ptr<const Picture>> from_png(
+      std::string bytes, std::int64_t most_in_use = kMostPixelsInUse);
 
   int width() const { return width_; }
   int height() const { return height_; }

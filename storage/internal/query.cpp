@@ -46,15 +46,34 @@ int only_reading(void*, int action, const char* first, const char* second, const
   }
 }
 
+/// Of a value that a statement makes or reads. The longest that stores have is the text of a
+/// campaign with its pictures, 24 MB at most.
+constexpr int kMostValueBytes = 32 << 20;
+constexpr std::int64_t kMostRowBytes = 2 * kMostValueBytes;
+
+struct Limit {
+  int which;
+  int value;
+};
+constexpr std::array<Limit, 5> kLimits{{{SQLITE_LIMIT_LENGTH, kMostValueBytes},
+                                        {SQLITE_LIMIT_SQL_LENGTH, 1 << 20},
+                                        {SQLITE_LIMIT_LIKE_PATTERN_LENGTH, 1000},
+                                        {SQLITE_LIMIT_ATTACHED, 0},
+                                        {SQLITE_LIMIT_WORKER_THREADS, 0}}};
+
 /// The rules of a user's statement, on the connection while this lives.
 class Rules {
  public:
-  Rules(sqlite::Connection& connection, double seconds)
+  Rules(sqlite::Connection& connection, const StoreReader::QueryLimits& limits)
       : handle_(connection.handle()),
         deadline_(SteadyClock::now() +
                   std::chrono::duration_cast<SteadyClock::duration>(
-                      std::chrono::duration<double>(std::clamp(seconds, 0.0, 1e6)))) {
+                      std::chrono::duration<double>(std::clamp(limits.seconds, 0.0, 1e6)))),
+        memory_before_(sqlite3_hard_heap_limit64(sqlite3_memory_used() +
+                                                 std::max<std::int64_t>(limits.memory, 1 << 20))) {
     constexpr int kInstructions = 2000;  // some 20 us
+    for (std::size_t i = 0; i < kLimits.size(); ++i)
+      limits_before_[i] = sqlite3_limit(handle_, kLimits[i].which, kLimits[i].value);
     sqlite3_set_authorizer(handle_, only_reading, nullptr);
     sqlite3_progress_handler(
         handle_, kInstructions,
@@ -65,13 +84,39 @@ class Rules {
   ~Rules() {
     sqlite3_set_authorizer(handle_, nullptr, nullptr);
     sqlite3_progress_handler(handle_, 0, nullptr, nullptr);
+    for (std::size_t i = 0; i < kLimits.size(); ++i)
+      sqlite3_limit(handle_, kLimits[i].which, limits_before_[i]);
+    sqlite3_hard_heap_limit64(memory_before_);
   }
   bool late() const { return SteadyClock::now() >= deadline_; }
 
  private:
   sqlite3* handle_;
   SteadyClock::time_point deadline_;
+  std::int64_t memory_before_;
+  std::array<int, kLimits.size()> limits_before_{};
 };
+
+/// Bad input of a statement that SQLite refused with this code, in its words or in better ones.
+Unexpected refused(const sqlite::Connection& connection, int code, const std::string& sql,
+                   const StoreReader::QueryLimits& limits) {
+  switch (code & 0xff) {
+    case SQLITE_NOMEM:
+      return bad_input(fmt::format("the query needs more memory than {} MB; ask for fewer rows or "
+                                   "columns, or sort and group less",
+                                   limits.memory >> 20U),
+                       sql);
+    case SQLITE_TOOBIG:
+      if (sql.size() >= (1U << 20U)) return bad_input("the query is longer than 1 MB");
+      return bad_input(
+          fmt::format("a value in the query is longer than {} MB, the most that it may "
+                      "make or read",
+                      kMostValueBytes >> 20U),
+          sql);
+    default:
+      return bad_input(sqlite3_errmsg(connection.handle()), sql);
+  }
+}
 
 bool is_blank_text(const char* text) {
   const std::string_view rest(text);
@@ -84,7 +129,8 @@ struct Finalize {
 };
 using UserStatement = std::unique_ptr<sqlite3_stmt, Finalize>;
 
-Expected<UserStatement> prepare(const sqlite::Connection& connection, const std::string& sql) {
+Expected<UserStatement> prepare(const sqlite::Connection& connection, const std::string& sql,
+                                const StoreReader::QueryLimits& limits) {
   sqlite3_stmt* prepared = nullptr;
   const char* tail = nullptr;
   const int code = sqlite3_prepare_v2(connection.handle(), sql.c_str(), -1, &prepared, &tail);
@@ -92,7 +138,7 @@ Expected<UserStatement> prepare(const sqlite::Connection& connection, const std:
   if (code == SQLITE_AUTH) {
     return bad_input("a query may only read: no writing, attaching, transactions or settings", sql);
   }
-  if (code != SQLITE_OK) return bad_input(sqlite3_errmsg(connection.handle()), sql);
+  if (code != SQLITE_OK) return refused(connection, code, sql, limits);
   if (statement == nullptr) return bad_input("the query is empty", sql);
   if (!is_blank_text(tail)) return bad_input("one statement at a time, please", tail);
   if (sqlite3_stmt_readonly(prepared) == 0) return bad_input("a query may only read", sql);
@@ -116,14 +162,72 @@ StoreReader::Cell cell_at(sqlite3_stmt* row, int column) {
   return {Type::Text, bytes == nullptr ? std::string() : std::string(bytes, size)};
 }
 
+/// Bytes of the row's texts.
+std::int64_t bytes_of(sqlite3_stmt* row, std::size_t width) {
+  std::int64_t bytes = 0;
+  for (std::size_t i = 0; i < width; ++i) {
+    const int type = sqlite3_column_type(row, static_cast<int>(i));
+    if (type != SQLITE_TEXT && type != SQLITE_BLOB) continue;
+    bytes += sqlite3_column_bytes(row, static_cast<int>(i));
+  }
+  return bytes;
+}
+
+/// Gives rows to `on_row` until the end, or a limit.
+Expected<StoreReader::QueryEnd> give_rows(
+    sqlite::Connection& connection, sqlite3_stmt* row, const std::string& sql,
+    const StoreReader::QueryLimits& limits, const Rules& rules,
+    const std::function<void(const std::vector<StoreReader::Cell>&)>& on_row) {
+  const auto width = static_cast<std::size_t>(sqlite3_column_count(row));
+  StoreReader::QueryEnd end;
+  std::int64_t given = 0;
+  std::vector<StoreReader::Cell> cells(width);
+  while (true) {
+    const int code = sqlite3_step(row);
+    if (code == SQLITE_DONE) return end;
+    const bool enough = code == SQLITE_ROW && (end.rows >= limits.rows || rules.late());
+    if (code == SQLITE_INTERRUPT || enough) {
+      end.truncated = true;
+      return end;
+    }
+    if (code != SQLITE_ROW) {
+      // The statement's own fault (a number too large, bad JSON, too much memory), or the file's.
+      constexpr std::array<int, 4> kOwn{SQLITE_ERROR, SQLITE_TOOBIG, SQLITE_MISMATCH, SQLITE_NOMEM};
+      if (std::ranges::count(kOwn, code & 0xff) == 0) connection.fail(code);
+      return refused(connection, code, sql, limits);
+    }
+    const std::int64_t bytes = bytes_of(row, width);
+    if (bytes > kMostRowBytes) {
+      return bad_input(fmt::format("a row of the answer has {} MB; {} MB is the most", bytes >> 20U,
+                                   kMostRowBytes >> 20U),
+                       sql);
+    }
+    given += bytes + static_cast<std::int64_t>(width * sizeof(StoreReader::Cell));
+    if (given > limits.bytes) {
+      end.truncated = true;
+      return end;
+    }
+    for (std::size_t i = 0; i < width; ++i)
+      cells[i] = cell_at(row, static_cast<int>(i));
+    // A value that was only announced so far (zeroblob) may have found no room.
+    if (sqlite3_errcode(connection.handle()) == SQLITE_NOMEM) {
+      return refused(connection, SQLITE_NOMEM, sql, limits);
+    }
+    on_row(cells);
+    ++end.rows;
+  }
+}
+
 }  // namespace
 
 Expected<StoreReader::QueryEnd> run_query(
     sqlite::Connection& connection, const std::string& sql, const StoreReader::QueryLimits& limits,
     const std::function<void(const std::vector<std::string>&)>& on_columns,
     const std::function<void(const std::vector<StoreReader::Cell>&)>& on_row) {
-  const Rules rules(connection, limits.seconds);
-  auto statement = prepare(connection, sql);
+  // In memory there is a limit, on the disk there would be none.
+  connection.execute(limits.spill ? "PRAGMA temp_store = DEFAULT" : "PRAGMA temp_store = MEMORY");
+  const Rules rules(connection, limits);
+  auto statement = prepare(connection, sql, limits);
   if (!statement) return Unexpected(statement.error());
   sqlite3_stmt* row = statement->get();
 
@@ -132,30 +236,7 @@ Expected<StoreReader::QueryEnd> run_query(
   for (std::size_t i = 0; i < width; ++i)
     names[i] = sqlite3_column_name(row, static_cast<int>(i));
   on_columns(names);
-
-  StoreReader::QueryEnd end;
-  std::vector<StoreReader::Cell> cells(width);
-  while (true) {
-    const int code = sqlite3_step(row);
-    if (code == SQLITE_DONE) return end;
-    if (code == SQLITE_INTERRUPT ||
-        (code == SQLITE_ROW && (end.rows >= limits.rows || rules.late()))) {
-      end.truncated = true;
-      return end;
-    }
-    if (code != SQLITE_ROW) {
-      // The statement's own fault (a number too large, bad JSON), or the file's.
-      if ((code & 0xff) != SQLITE_ERROR && (code & 0xff) != SQLITE_TOOBIG &&
-          (code & 0xff) != SQLITE_MISMATCH) {
-        connection.fail(code);
-      }
-      return bad_input(sqlite3_errmsg(connection.handle()), sql);
-    }
-    for (std::size_t i = 0; i < width; ++i)
-      cells[i] = cell_at(row, static_cast<int>(i));
-    on_row(cells);
-    ++end.rows;
-  }
+  return give_rows(connection, row, sql, limits, rules, on_row);
 }
 
 }  // namespace swarmsmith

@@ -1,6 +1,7 @@
 #include "tests/cluster/raced_campaign.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <utility>
 
 #include "base/assert.h"
@@ -160,11 +161,22 @@ std::vector<DesignId> RacedCampaign::take_ended() {
   return ended;
 }
 
+std::vector<PassedCandidates> RacedCampaign::take_passed() {
+  std::vector<PassedCandidates> passed = runner_.take_passed();
+  for (const PassedCandidates& each : passed)
+    passed_[each.design] = each;
+  return passed;
+}
+
 bool RacedCampaign::is_void(PackedKey key) const {
   const EvaluationKey unpacked = unpack(key);
   const auto asked = asked_.find(pack(unpacked));
   const bool told = asked != asked_.end() && asked->second.told;
-  return !told && ended_.contains(design_of(unpacked.candidate));
+  const DesignId design = design_of(unpacked.candidate);
+  const auto passed = passed_.find(design);
+  const bool is_out = passed != passed_.end() && unpacked.candidate < passed->second.before &&
+                      std::ranges::count(passed->second.kept, unpacked.candidate) == 0;
+  return !told && (is_out || ended_.contains(design));
 }
 
 std::string RacedCampaign::complaint() const {

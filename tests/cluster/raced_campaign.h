@@ -50,6 +50,7 @@ class RacedCampaign final : public WorkSource {
   std::vector<Task> take_more(std::size_t count, std::size_t slots) override;
   std::vector<EvaluationKey> take_dropped() override { return runner_.take_dropped(); }
   std::vector<DesignId> take_ended() override;
+  std::vector<PassedCandidates> take_passed() override;
   void tell(const Outcome& outcome) override;
   std::vector<Row> take_rows() override { return runner_.take_rows(); }
   bool finished() const override { return runner_.finished(); }
@@ -75,6 +76,7 @@ class RacedCampaign final : public WorkSource {
   std::map<PackedKey, Asked> asked_;
   std::map<PackedKey, Truth>* truths_ = nullptr;
   std::set<DesignId> ended_;
+  std::map<DesignId, PassedCandidates> passed_;  ///< the last of each
   std::string complaint_;
 };
 

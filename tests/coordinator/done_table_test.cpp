@@ -49,6 +49,35 @@ TEST(DoneTable, ForgetsADesignThatIsOver) {
   EXPECT_EQ(table.size(), 2U);
 }
 
+TEST(DoneTable, ForgetsCandidatesThatAreOutOfTheirRace) {
+  const auto key = [](std::int64_t number, std::int64_t pair) {
+    return pack({.candidate = candidate_id({2}, number), .pair = pair});
+  };
+  DoneTable table;
+  for (std::int64_t number = 1; number <= 100; ++number) {
+    for (std::int64_t pair = 1; pair <= 50; ++pair)
+      table.insert(key(number, pair), kOk, static_cast<double>(pair), 7);
+  }
+  table.close_candidates(0, {.design = {2},
+                             .before = candidate_id({2}, 90),
+                             .kept = {candidate_id({2}, 40), candidate_id({2}, 7)}});
+  EXPECT_EQ(table.size(), 50U * (2 + 11));
+  EXPECT_TRUE(table.is_closed(key(1, 1)));
+  EXPECT_TRUE(table.is_closed(key(89, 77))) << "whatever comes of it";
+  EXPECT_EQ(table.find(key(89, 1)), nullptr);
+  EXPECT_NE(table.insert(key(89, 1), kOk, 1, 7), nullptr) << "a test, asked for once more";
+  EXPECT_NE(table.find(key(89, 1)), nullptr);
+  for (const std::int64_t number : {7, 40, 90, 100}) {
+    EXPECT_FALSE(table.is_closed(key(number, 1)));
+    ASSERT_NE(table.find(key(number, 33)), nullptr);
+    EXPECT_TRUE(DoneTable::same(*table.find(key(number, 33)), kOk, 33, 7));
+  }
+  EXPECT_NE(table.insert(key(101, 1), kOk, 1, 7), nullptr);
+  EXPECT_FALSE(table.is_closed(pack({.candidate = candidate_id({1}, 1), .pair = 1})));
+  table.close_candidates(0, {.design = {2}, .before = candidate_id({2}, 102)});
+  EXPECT_EQ(table.size(), 0U);
+}
+
 TEST(DoneTable, FindsAMillion) {
   DoneTable table;
   for (PackedKey key = 1; key <= 1'000'000; ++key) {

@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 #include <limits>
+#include <string>
+#include <vector>
 
 #include "base/rng.h"
 
@@ -34,6 +36,59 @@ std::string fault_of(const std::string& frame) {
   Arena arena;
   const auto message = decode_to_coordinator(frame, arena);
   return message ? "" : message.error().where;
+}
+
+/// A body of `field` that has `count` parts of nothing, 2 bytes each.
+std::string empty_parts(int field, int part, std::size_t count) {
+  std::string body;
+  for (std::size_t i = 0; i < count; ++i) {
+    body += static_cast<char>(part << 3 | 2);
+    body += '\0';
+  }
+  std::string text(1, static_cast<char>(field << 3 | 2));
+  for (std::size_t size = body.size(); true; size >>= 7U) {
+    text += static_cast<char>(size > 127 ? (size & 127U) | 128U : size);
+    if (size <= 127) break;
+  }
+  return text + body;
+}
+
+/// Else a megabyte makes objects of a hundred.
+TEST(Wire, CountsPartsBeforeItMakesThem) {
+  const std::string head = encode(pb::ToCoordinator());
+  // Unknown fields whose text is no message: cut short, a wrong tag, the end of no group.
+  const std::vector<std::string> before = {
+      "", {"\x7a\x02\x0a\x50", 4}, {"\x7a\x01\x00", 3}, "\x7a\x01\x0c"};
+  Arena arena;
+  for (int field = 1; field <= 15; ++field) {
+    for (int part = 1; part <= 15; ++part) {
+      for (const std::string& unknown : before) {
+        const std::string frame = head + unknown + empty_parts(field, part, 400'000);
+        ASSERT_LT(frame.size(), kMaxFrameBytes);
+        const auto message = decode_to_coordinator(frame, arena);
+        ASSERT_FALSE(message) << field << " " << part;
+        EXPECT_EQ(message.error().where, "limits");
+      }
+    }
+  }
+  EXPECT_LT(arena.SpaceAllocated(), 1U << 20U);
+  EXPECT_EQ(fault_of(head + empty_parts(4, 9, 4000)), "") << "parts that are not known here";
+}
+
+/// As large as the limits let it be.
+TEST(Wire, TakesTheLargestHello) {
+  pb::ToCoordinator message;
+  pb::Hello& hello = *message.mutable_hello();
+  hello.set_worker_id(std::string(kWorkerIdBytes, 'a'));
+  hello.set_slots(1);
+  for (int i = 0; i < kMaxItemsPerMessage; ++i) {
+    hello.add_holds()->set_candidate(i + 1);
+    hello.add_attempts(i);
+    hello.add_signatures(~std::uint64_t{0});
+  }
+  EXPECT_EQ(fault_of(encode(message)), "");
+  hello.add_holds()->set_candidate(1);
+  EXPECT_EQ(fault_of(encode(message)), "limits");
 }
 
 TEST(Wire, GivesBackWhatWasSent) {

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <fstream>
 
 #include "storage/internal/sqlite.h"
 #include "tests/storage/fixture.h"
@@ -113,6 +114,64 @@ TEST_F(QueryTest, StopsAtTheLimitOfTimeAlsoBeforeTheFirstRow) {
   EXPECT_EQ(end->rows, 0);
   EXPECT_TRUE(end->truncated);
   EXPECT_TRUE(query("SELECT 1")) << "the limit outlived its query";
+}
+
+/// Of this process, in MB, at its highest.
+double peak_memory() {
+  std::ifstream file("/proc/self/status");
+  for (std::string word; file >> word;) {
+    if (word != "VmHWM:") continue;
+    double kilobytes = 0;
+    file >> kilobytes;
+    return kilobytes / 1024;
+  }
+  return 0;
+}
+
+/// Whatever makes much of little: long values, long rows, many rows, what is sorted, grouped, or
+/// remembered.
+TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
+  const double before = peak_memory();
+  const std::string many =
+      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 20000000) ";
+  for (const std::string sql :
+       {std::string("SELECT zeroblob(900000000)"), std::string("SELECT hex(zeroblob(400000000))"),
+        std::string("SELECT printf('%900000000d', 1)"),
+        std::string("SELECT printf('%.*c', 900000000, 'x')"),
+        std::string("SELECT randomblob(900000000)"),
+        std::string("SELECT replace(hex(zeroblob(10000000)), '0', 'xxxxxxxxxxxxxxxx')"),
+        many + "SELECT group_concat(i) FROM n",
+        many + "SELECT group_concat(printf('%0100d', i), '') FROM n",
+        many + "SELECT json_group_array(printf('%0100d', i)) FROM n",
+        many + "SELECT printf('%0100d', i) AS s FROM n ORDER BY s DESC",
+        many + "SELECT count(*) FROM n GROUP BY printf('%0100d', i)",
+        many + "SELECT DISTINCT printf('%0100d', i) FROM n LIMIT -1 OFFSET 20000000",
+        std::string("WITH RECURSIVE n (i, s) AS (SELECT 1, '' UNION SELECT i + 1, "
+                    "printf('%01000d', i) FROM n) "
+                    "SELECT count(*) FROM n"),
+        std::string("SELECT randomblob(30000000), randomblob(30000000), randomblob(30000000), "
+                    "randomblob(30000000), randomblob(30000000), randomblob(30000000)"),
+        std::string("SELECT zeroblob(30000000), zeroblob(30000000), zeroblob(30000000)")}) {
+    const auto end = query(sql, {.seconds = 600});
+    ASSERT_FALSE(end) << sql << " gave " << end->rows << " rows";
+    EXPECT_EQ(end.error().kind, ErrorKind::BadInput) << sql;
+    EXPECT_THAT(end.error().message, testing::HasSubstr(" MB")) << sql;
+    rows.clear();
+  }
+  EXPECT_LT(peak_memory() - before, 500);
+  EXPECT_TRUE(query("SELECT printf('%.*c', 30000000, 'x')")) << "a long value is one";
+  EXPECT_TRUE(query("SELECT count(*) FROM v_evaluations")) << "the limits outlived their query";
+}
+
+TEST_F(QueryTest, StopsAtTheLimitOfBytes) {
+  const std::string many =
+      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 1000000) "
+      "SELECT printf('%01000d', i) FROM n";
+  const auto end = query(many, {.bytes = 1 << 20});
+  ASSERT_TRUE(end);
+  EXPECT_TRUE(end->truncated);
+  EXPECT_GT(end->rows, 900);
+  EXPECT_LT(end->rows, 1100);
 }
 
 TEST_F(QueryTest, FindsNoFaultInASoundStoreAndSaysWhatIsWrongInAnother) {

@@ -1,15 +1,14 @@
 #include "tracking/live/live_pages.h"
 
 #include <fmt/format.h>
-#include <httplib.h>
 
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
-#include <thread>
 #include <utility>
 
+#include "base/http/page_server.h"
 #include "embedded/kLivePage.h"
 #include "tracking/overlay/picture_bytes.h"
 
@@ -32,13 +31,6 @@ struct Shown {
 class Pages final : public LivePages {
  public:
   explicit Pages(LiveScenery scenery) : scenery_(std::move(scenery)) {
-    http_.new_task_queue = [] { return new httplib::ThreadPool(kThreads); };
-    http_.set_payload_max_length(0);
-    // Without the library's SO_REUSEPORT, by which two programs would share a port unawares.
-    http_.set_socket_options([](socket_t socket) {
-      const int yes = 1;
-      ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-    });
     http_.set_pre_routing_handler(
         [this](const httplib::Request& request, httplib::Response& response) {
           return gate(request, response);
@@ -62,20 +54,15 @@ class Pages final : public LivePages {
       stopping_ = true;
     }
     changed_.notify_all();
-    http_.stop();
-    if (thread_.joinable()) thread_.join();
+    http_.stop_serving();
   }
 
-  bool listen(int port) {
-    port_ = port != 0 && http_.bind_to_port(kHost, port) ? port
-            : port == 0                                  ? http_.bind_to_any_port(kHost)
-                                                         : -1;
-    if (port_ <= 0) return false;
-    thread_ = std::thread([this] { http_.listen_after_bind(); });
-    // The library forgets a `stop` that comes before it listens.
-    while (!http_.is_running())
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    return true;
+  Expected<void> listen(int port) {
+    const Expected<ListeningSocket> listening = listen_for_requests(kHost, port);
+    if (!listening) return Unexpected(listening.error());
+    port_ = listening->port;
+    http_.serve(*listening);
+    return {};
   }
 
   std::string address() const override { return fmt::format("http://{}:{}/", kHost, port_); }
@@ -208,19 +195,18 @@ class Pages final : public LivePages {
   std::int64_t pictures_ = 0;
   bool stopping_ = false;
   int port_ = 0;
-  httplib::Server http_;
-  std::thread thread_;
+  PageServer http_{{.threads = kThreads, .answer_time = std::nullopt}};
 };
 
 }  // namespace
 
 Expected<std::unique_ptr<LivePages>> LivePages::start(int port, LiveScenery scenery) {
   auto pages = std::make_unique<Pages>(std::move(scenery));
-  if (!pages->listen(port))
-    return unexpected(ErrorKind::Conflict,
-                      "cannot listen there: another program may; choose another --port, or 0 for "
-                      "a free one",
-                      fmt::format("{}:{}", kHost, port));
+  if (auto listening = pages->listen(port); !listening) {
+    Error error = listening.error();
+    error.message += "; --port 0 takes a free one";
+    return Unexpected(error);
+  }
   return std::unique_ptr<LivePages>(std::move(pages));
 }
 

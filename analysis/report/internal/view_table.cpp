@@ -1,6 +1,7 @@
 #include "analysis/report/internal/view_table.h"
 
 #include <charconv>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -9,7 +10,11 @@ namespace {
 
 using Cell = StoreReader::Cell;
 
-constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000, .seconds = 600};
+constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000,
+                                           .seconds = 600,
+                                           .bytes = std::numeric_limits<std::int64_t>::max(),
+                                           .memory = std::int64_t{1} << 30U,
+                                           .spill = true};
 
 double real(const Cell& cell) {
   double value = 0;

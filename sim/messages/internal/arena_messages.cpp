@@ -179,7 +179,7 @@ Patch ArenaReader::patch(const pb::Patch& message, const std::string& field) {
       patch.shape = rectangle(message.rectangle(), field);
       break;
     case pb::Patch::kImage: {
-      auto picture = Picture::from_png(message.image().png());
+      auto picture = Picture::from_png(message.image().png(), 2 * Picture::kMostPixelsInUse);
       if (!picture) {
         complain(field + ".image", picture.error().message);
         break;

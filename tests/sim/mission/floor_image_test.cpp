@@ -60,6 +60,35 @@ TEST(Picture, OfTooManyPixelsIsAnErrorBeforeItIsUnpacked) {
   EXPECT_THAT(picture.error().message, HasSubstr("4001 x 4000 pixels; at most 16 million"));
 }
 
+TEST(Picture, OfOneFileIsDecodedOnce) {
+  const std::vector<std::uint8_t> black(4 * 1000 * 1000, 0);
+  const std::string bytes = png_of(1000, 1000, black);
+  std::vector<std::shared_ptr<const Picture>> pictures;
+  for (int i = 0; i < 400; ++i)
+    pictures.push_back(Picture::from_png(bytes).value());
+  EXPECT_EQ(pictures.front(), pictures.back());
+  pictures.clear();
+  EXPECT_TRUE(Picture::from_png(bytes).has_value());
+}
+
+TEST(Picture, ThatAreInUseHaveALimitTogether) {
+  std::vector<std::shared_ptr<const Picture>> pictures;
+  std::string refusal;
+  for (int side = 3900; side < 4000 && refusal.empty(); ++side) {
+    const std::vector<std::uint8_t> black(4 * static_cast<std::size_t>(side * side), 0);
+    auto picture = Picture::from_png(png_of(side, side, black));
+    if (picture) {
+      pictures.push_back(*picture);
+    } else {
+      refusal = picture.error().message;
+    }
+  }
+  EXPECT_EQ(pictures.size(), 2U);
+  EXPECT_THAT(refusal, HasSubstr("more than 32 million pixels together"));
+  pictures.clear();
+  EXPECT_TRUE(Picture::from_png(kPng).has_value()) << "they are not in use any more";
+}
+
 TEST(FloorImage, LiesWithItsTopRowAtTheLargestYAndOwnsItsBorder) {
   Arena arena{.walls = {}, .patches = {}};
   // Pixels of 1 m x 1 m: x from 0 to 2, y from 0 to 3.

@@ -106,6 +106,42 @@ TEST(LivePagesTest, OtherNamesAndMethodsAreRefused) {
   EXPECT_EQ(client.Delete("/")->status, 405);
 }
 
+TEST(LivePagesTest, RangesMultiplyNoPicture) {
+  const auto pages = LivePages::start(0, {}).value();
+  const Publishing publishing(*pages);
+  httplib::Client client("127.0.0.1", port_of(*pages));
+  const auto whole = client.Get("/frame.jpg");
+  ASSERT_TRUE(whole);
+  std::string ranges = "bytes=-";
+  while (ranges.size() < 8000)
+    ranges += ",-";
+  const auto answer = client.Get("/frame.jpg", httplib::Headers{{"Range", ranges}});
+  ASSERT_TRUE(answer);
+  EXPECT_EQ(answer->status, 200);
+  EXPECT_LT(answer->body.size(), 2 * whole->body.size());
+}
+
+TEST(LivePagesTest, HalfOpenConnectionsKeepNobodyWaiting) {
+  const auto pages = LivePages::start(0, {}).value();
+  httplib::Client client("127.0.0.1", port_of(*pages));
+  std::vector<int> sockets;
+  for (int i = 0; i < 60; ++i) {
+    const int one = ::socket(AF_INET, SOCK_STREAM, 0);
+    sockaddr_in address = {};
+    address.sin_family = AF_INET;
+    address.sin_port = htons(static_cast<std::uint16_t>(port_of(*pages)));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    ASSERT_EQ(::connect(one, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    sockets.push_back(one);
+  }
+  client.set_read_timeout(2);
+  const auto page = client.Get("/");
+  ASSERT_TRUE(page) << "they were waited for";
+  EXPECT_EQ(page->status, 200);
+  for (const int one : sockets)
+    ::close(one);
+}
+
 TEST(LivePagesTest, AnotherProgramsPortIsAnError) {
   const auto pages = LivePages::start(0, {}).value();
   const auto second = LivePages::start(port_of(*pages), {});

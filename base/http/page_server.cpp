@@ -1,0 +1,181 @@
+#include "base/http/page_server.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace swarmsmith {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr std::string_view kBusy =
+    "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+
+/// A request's head that is there already; what is written is kept.
+class HeadStream : public httplib::Stream {
+ public:
+  HeadStream(int socket, std::string head) : socket_(socket), head_(std::move(head)) {}
+
+  bool is_readable() const override { return read_ < head_.size(); }
+  bool is_writable() const override { return true; }
+  ssize_t read(char* data, std::size_t size) override {
+    const std::size_t got = head_.copy(data, size, read_);
+    read_ += got;
+    return static_cast<ssize_t>(got);
+  }
+  ssize_t write(const char* data, std::size_t size) override {
+    written_.append(data, size);
+    return static_cast<ssize_t>(size);
+  }
+  // Nobody asks for these, since nothing is logged about peers.
+  void get_remote_ip_and_port(std::string&, int&) const override {}
+  void get_local_ip_and_port(std::string&, int&) const override {}
+  socket_t socket() const override { return socket_; }
+
+  const std::string& written() const { return written_; }
+
+ private:
+  int socket_;
+  std::string head_;
+  std::size_t read_ = 0;
+  std::string written_;
+};
+
+/// What is written goes out, until the deadline: a peer that reads a byte a second would hold a
+/// thread for hours under a time-out for each write.
+class DeadlineStream final : public HeadStream {
+ public:
+  DeadlineStream(int socket, std::string head, std::optional<Clock::time_point> deadline)
+      : HeadStream(socket, std::move(head)), deadline_(deadline) {}
+
+  bool is_writable() const override {
+    int left_ms = kLongestPause;
+    if (deadline_) {
+      const auto left = std::chrono::ceil<std::chrono::milliseconds>(*deadline_ - Clock::now());
+      if (left.count() <= 0) return false;
+      left_ms = static_cast<int>(left.count());
+    }
+    pollfd ready{.fd = socket(), .events = POLLOUT, .revents = 0};
+    return ::poll(&ready, 1, left_ms) > 0;
+  }
+  ssize_t write(const char* data, std::size_t size) override {
+    if (!is_writable()) return -1;
+    return ::send(socket(), data, size, MSG_NOSIGNAL | MSG_DONTWAIT);
+  }
+
+ private:
+  /// Of a reader of a stream without an end, who must take something in this time.
+  static constexpr int kLongestPause = 5000;
+
+  std::optional<Clock::time_point> deadline_;
+};
+
+/// What came after the head is taken first: else the system would throw the answer away.
+void close_connection(int socket) {
+  constexpr int kMostReads = 16;
+  std::array<char, 4096> rest{};
+  ::shutdown(socket, SHUT_WR);
+  for (int i = 0; i < kMostReads; ++i) {
+    if (::recv(socket, rest.data(), rest.size(), MSG_DONTWAIT) <= 0) break;
+  }
+  ::close(socket);
+}
+
+bool is_read_by_pages(std::string_view line) {
+  constexpr std::array<std::string_view, 2> kNames = {"host:", "authorization:"};
+  return std::ranges::any_of(kNames, [&](std::string_view name) {
+    return line.size() >= name.size() &&
+           std::equal(name.begin(), name.end(), line.begin(), [](char expected, char letter) {
+             const bool upper = letter >= 'A' && letter <= 'Z';
+             return expected == (upper ? letter + 32 : letter);
+           });
+  });
+}
+
+/// The request line and the headers that pages read.
+std::string bare(std::string_view head) {
+  std::string kept;
+  while (!head.empty()) {
+    const std::size_t end = head.find('\n');
+    const std::string_view line = head.substr(0, end == std::string_view::npos ? end : end + 1);
+    head.remove_prefix(line.size());
+    if (kept.empty() || is_read_by_pages(line)) kept += line;
+  }
+  return kept + "\r\n";
+}
+
+/// The path that a request line asks for; empty when there is none.
+std::string_view path_of(std::string_view head) {
+  constexpr std::string_view kGet = "GET ";
+  if (!head.starts_with(kGet)) return {};
+  head.remove_prefix(kGet.size());
+  return head.substr(0, head.find_first_of(" ?\r\n"));
+}
+
+}  // namespace
+
+PageServer::PageServer(PageServerOptions options) : options_(std::move(options)) {
+  set_payload_max_length(0);
+}
+
+PageServer::~PageServer() {
+  stop_serving();
+}
+
+void PageServer::serve(ListeningSocket listening) {
+  // The library ends its streams when it has no socket.
+  svr_sock_ = listening.descriptor;
+  pool_ = std::make_unique<httplib::ThreadPool>(options_.threads);
+  door_ = std::make_unique<RequestDoor>(
+      listening, options_.door,
+      [this](int socket, std::string head) { on_request(socket, bare(head)); });
+}
+
+void PageServer::stop_serving() {
+  svr_sock_ = INVALID_SOCKET;
+  door_.reset();
+  if (pool_ != nullptr) pool_->shutdown();
+  pool_.reset();
+}
+
+void PageServer::on_request(int socket, std::string head) {
+  const std::string_view path = path_of(head);
+  if (std::ranges::count(options_.at_once, path) > 0) {
+    return answer_at_once(socket, std::move(head));
+  }
+  if (waiting_ >= options_.waiting) {
+    (void)!::send(socket, kBusy.data(), kBusy.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+    return close_connection(socket);
+  }
+  ++waiting_;
+  pool_->enqueue([this, socket, head = std::move(head)] {
+    --waiting_;
+    answer(socket, head);
+  });
+}
+
+/// It is short, so that the system takes all of it, whether it is read or not.
+void PageServer::answer_at_once(int socket, std::string head) {
+  HeadStream stream(socket, std::move(head));
+  bool closed = false;
+  process_request(stream, true, closed, nullptr);
+  const std::string& text = stream.written();
+  (void)!::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  close_connection(socket);
+}
+
+void PageServer::answer(int socket, std::string head) {
+  const auto deadline =
+      options_.answer_time ? std::optional(Clock::now() + *options_.answer_time) : std::nullopt;
+  DeadlineStream stream(socket, std::move(head), deadline);
+  bool closed = false;
+  process_request(stream, true, closed, nullptr);
+  close_connection(socket);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <httplib.h>
+
+#include <atomic>
+#include <chrono>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "base/http/request_door.h"
+
+namespace swarmsmith {
+
+struct PageServerOptions {
+  DoorLimits door{};
+  std::size_t threads = 8;
+  /// Requests that wait for a thread; further ones are answered 503.
+  std::size_t waiting = 64;
+  /// From the request to the last byte of the answer; none: as long as its reader takes.
+  std::optional<std::chrono::milliseconds> answer_time = std::chrono::milliseconds(3000);
+  /// Paths whose answers are short and cost nothing: the door gives them itself, so that they wait
+  /// for nobody.
+  std::vector<std::string> at_once{};
+};
+
+/// The library's routing behind a RequestDoor: pages by GET, one request a connection. Of a
+/// request's headers pages see Host and Authorization, and no other has an effect: no ranges, which
+/// multiply an answer, no compression, no bodies.
+class PageServer : public httplib::Server {
+ public:
+  explicit PageServer(PageServerOptions options);
+  ~PageServer() override;
+
+  /// Serves until the end of the object, or `stop_serving`. Owns the socket. Handlers are set
+  /// before.
+  void serve(ListeningSocket listening);
+  /// Waits for answers that are being given; handlers are not called any more.
+  void stop_serving();
+
+ private:
+  void on_request(int socket, std::string head);
+  void answer_at_once(int socket, std::string head);
+  void answer(int socket, std::string head);
+
+  PageServerOptions options_;
+  std::unique_ptr<httplib::ThreadPool> pool_;
+  std::atomic<std::size_t> waiting_ = 0;
+  std::unique_ptr<RequestDoor> door_;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,90 @@
+#include "irace_core/internal/kept_configuration.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+
+namespace swarmsmith::irace {
+namespace {
+
+// A byte a parameter: inactive, a whole number below kWhole, or kOther and the bits that follow. A
+// run of inactive ones is kInactive and a byte with its length.
+constexpr int kWhole = 254;
+constexpr unsigned char kOther = 254;
+constexpr unsigned char kInactive = 255;
+constexpr std::size_t kLongestRun = 255;
+
+bool is_small(double value) {
+  // Infinity does not come so far as to be converted.
+  return value >= 0 && value < kWhole && value == static_cast<double>(static_cast<int>(value));
+}
+
+std::string pack(const Configuration& configuration) {
+  std::string packed;
+  for (std::size_t i = 0; i < configuration.size();) {
+    std::size_t run = 0;
+    while (i + run < configuration.size() && run < kLongestRun && !configuration.is_active(i + run))
+      ++run;
+    if (run > 0) {
+      packed += static_cast<char>(kInactive);
+      packed += static_cast<char>(run);
+      i += run;
+      continue;
+    }
+    const double value = configuration[i++];
+    if (is_small(value)) {
+      packed += static_cast<char>(static_cast<unsigned char>(value));
+      continue;
+    }
+    packed += static_cast<char>(kOther);
+    packed.append(reinterpret_cast<const char*>(&value), sizeof value);
+  }
+  packed.shrink_to_fit();
+  return packed;
+}
+
+/// Of as many parameters as `configuration` has, all of which are inactive.
+void unpack(const std::string& packed, Configuration& configuration) {
+  std::size_t parameter = 0;
+  for (std::size_t i = 0; i < packed.size();) {
+    const auto kind = static_cast<unsigned char>(packed[i++]);
+    if (kind == kInactive) {
+      parameter += static_cast<unsigned char>(packed[i++]);
+    } else if (kind == kOther) {
+      double value = 0;
+      std::memcpy(&value, packed.data() + i, sizeof value);
+      i += sizeof value;
+      configuration.set(parameter++, value);
+    } else {
+      configuration.set(parameter++, kind);
+    }
+  }
+}
+
+std::size_t size_of(const std::string& packed) {
+  std::size_t size = 0;
+  for (std::size_t i = 0; i < packed.size(); ++i) {
+    const auto kind = static_cast<unsigned char>(packed[i]);
+    size += kind == kInactive ? static_cast<unsigned char>(packed[++i]) : 1U;
+    if (kind == kOther) i += sizeof(double);
+  }
+  return size;
+}
+
+}  // namespace
+
+const Configuration& KeptConfiguration::get() const {
+  if (packed_.empty()) return configuration_;
+  configuration_ = Configuration(size_of(packed_));
+  unpack(packed_, configuration_);
+  packed_ = {};
+  return configuration_;
+}
+
+void KeptConfiguration::put_away() {
+  if (!packed_.empty()) return;
+  packed_ = pack(configuration_);
+  configuration_ = {};
+}
+
+}  // namespace swarmsmith::irace
