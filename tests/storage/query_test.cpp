@@ -134,7 +134,7 @@ TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
   const double before = peak_memory();
   const std::string many =
       "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 20000000) ";
-  for (const std::string sql :
+  for (const std::string& sql :
        {std::string("SELECT zeroblob(900000000)"), std::string("SELECT hex(zeroblob(400000000))"),
         std::string("SELECT printf('%900000000d', 1)"),
         std::string("SELECT printf('%.*c', 900000000, 'x')"),
