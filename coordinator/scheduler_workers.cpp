@@ -112,15 +112,19 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
   for (const PackedKey key : leased) {
     if (!held.contains(key)) leases_.requeue(*leases_.find(key), entry.number);
   }
-  for (const PackedKey key : held) {
-    if (is_done(key)) leases_.loads().linger(entry.number, key, now);
+  const auto was_given = [&](const Hold& hold) {
+    return hold.signature == signer_.sign(hold.key, hold.attempt, entry.principal->name);
+  };
+  for (const Hold& hold : entry.hello.holds) {
+    const bool is_over = held.contains(hold.key) && is_done(hold.key);
+    if (is_over && was_given(hold)) leases_.loads().linger(entry.number, hold.key, now);
   }
   if (held_ || draining_ || entry.quarantined || !entry.hello.same_scenario) return;
   for (const Hold& hold : entry.hello.holds) {
     TaskRecord* record = leases_.find(hold.key);
     // What must run alone is leased anew, when the worker has nothing else.
     if (record == nullptr || record->lease || record->alone || record->parked) continue;
-    if (hold.signature != signer_.sign(hold.key, hold.attempt, entry.principal->name)) continue;
+    if (!was_given(hold)) continue;
     leases_.grant(*record, entry.number, now, cost_us(record->task.campaign));
     record->lease->adopted = true;
   }

@@ -89,7 +89,7 @@ class Footnotes {
   std::string text() const {
     std::string text;
     for (std::size_t i = 0; i < notes_.size(); ++i)
-      text += fmt::format("  {}) {}\n", i + 1, notes_[i]);
+      text += fmt::format("  {}) {}\n", i + 1, as_shown(notes_[i], Layout::Escaped));
     return text;
   }
 
@@ -174,7 +174,7 @@ std::string comparison_text(const Comparison& comparison) {
   if (!how.empty()) text += "\n" + how;
   if (!comparison.notes.empty()) text += "\n";
   for (const std::string& note : comparison.notes)
-    text += note + "\n";
+    text += as_shown(note, Layout::Escaped) + "\n";
   return text;
 }
 

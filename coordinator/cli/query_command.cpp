@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/csv.h"
+#include "console/terminal.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
@@ -40,8 +41,10 @@ std::string take_sql(Arguments& arguments) {
 ExitCode write_csv(StoreReader& store, const std::string& sql, Output& output) {
   const auto end = store.query(
       sql, {.bytes = std::numeric_limits<std::int64_t>::max()},
-      [&](const std::vector<std::string>& columns) { output.out << csv_line(columns); },
-      [&](const std::vector<StoreReader::Cell>& cells) { output.out << cells_as_csv(cells); });
+      [&](const std::vector<std::string>& columns) { write_data(output, csv_line(columns)); },
+      [&](const std::vector<StoreReader::Cell>& cells) {
+        write_data(output, cells_as_csv(cells));
+      });
   if (!end) return fail(output, ExitCode::Usage, end.error());
   if (end->truncated) note_truncated(output, static_cast<std::size_t>(end->rows));
   return ExitCode::Done;

@@ -107,8 +107,11 @@ ExitCode run(const Arguments& arguments, Output& output) {
     auto again = evaluate_again(std::move(*store), arguments, output);
     if (!again && again.error().kind == ErrorKind::BadInput)
       return fail(output, ExitCode::Usage, again.error());
-    if (!again) return fail(output, ExitCode::Store, again.error());
-    sampled = std::move(*again);
+    if (again) {
+      sampled = std::move(*again);
+    } else {
+      found->complaints.push_back("nothing can be evaluated again: " + to_string(again.error()));
+    }
   }
   for (const Difference& difference : sampled ? sampled->different : std::vector<Difference>{})
     found->complaints.push_back("evaluation " + difference.sentence);

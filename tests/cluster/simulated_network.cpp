@@ -86,8 +86,9 @@ void SimulatedCluster::check_acknowledged(const std::string& frame) {
     const PackedKey packed = *pack(key);
     const Running& running = campaigns_.at(campaign_of(packed));
     const SimulatedDisk& disk = running.disk;
-    // What nobody wants any more need not be kept.
+    // What nobody wants any more need not be kept: of a campaign that has stopped, nothing.
     if (disk.finished() || running.source->is_void(packed)) continue;
+    if (coordinator_->stopped(campaign_of(packed))) continue;
     if (disk.holds(packed)) {
       acknowledged_.insert(packed);
     } else if (!failed_.contains(packed)) {

@@ -150,19 +150,24 @@ void SimulatedCluster::check_trust() {
   }
 }
 
-/// Only who was asked and lies can bring the campaign there, and it says why.
+/// Only who was asked and lies can bring the campaign there, and it says why. Several strangers of
+/// one principal answer for each other's leases.
 void SimulatedCluster::on_stopped(const std::string& reason, bool distrusted) {
-  const bool may_lie = std::ranges::any_of(schedule_.hostile, [](Misdeed misdeed) {
-    return misdeed == Misdeed::Lies || misdeed == Misdeed::LiesLater || misdeed == Misdeed::Renames;
+  const bool may_lie = std::ranges::any_of(schedule_.hostile, [&](Misdeed misdeed) {
+    return misdeed == Misdeed::Lies || misdeed == Misdeed::LiesLater ||
+           misdeed == Misdeed::Renames || misdeed == Misdeed::TalksAtRandom ||
+           (misdeed == Misdeed::Guesses && schedule_.hostile.size() > 1);
   });
   if (!may_lie || !distrusted || reason.empty()) fail("stopped: " + reason);
   stopped_ = reason;
 }
 
 /// Another answer than an honest cluster's, and the campaign did not say so: only where not every
-/// score is made again, so that lies may have been lucky.
+/// score is made again, so that lies may have been lucky, or where the coordinator died before it
+/// made one again that it had chosen.
 bool SimulatedCluster::is_excused() {
-  if (lies_.empty() || schedule_.audit_every == 1) return false;
+  const bool died = process(kCoordinator).life > 1;
+  if (lies_.empty() || (schedule_.audit_every == 1 && !died)) return false;
   escaped_ = true;
   return true;
 }

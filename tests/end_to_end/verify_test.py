@@ -101,8 +101,8 @@ class Verify(ProgramTest):
                     "FROM worker LIMIT 1")
         self.change("UPDATE evaluation SET worker = 99, state_digest = state_digest + 1 "
                     "WHERE candidate = 4 AND purpose = 0 AND pair = 1")
-        self.assertEqual(self.different("--sample", 2), ["e400001"])
-        self.assertIn("on far (liar@10.0.0.9)", "".join(self.verify("--sample", 2)["complaints"]))
+        self.assertEqual(self.different("--sample", 8), ["e400001"])
+        self.assertIn("on far (liar@10.0.0.9)", "".join(self.verify("--sample", 8)["complaints"]))
 
 
 if __name__ == "__main__":

@@ -11,7 +11,7 @@ namespace {
 
 TEST(KeptConfigurationTest, GivesTheSameBitsBack) {
   Rng rng(1);
-  for (const std::size_t size : {0, 1, 7, 254, 255, 256, 600, 1111}) {
+  for (const std::size_t size : {0U, 1U, 7U, 254U, 255U, 256U, 600U, 1111U}) {
     for (int round = 0; round < 20; ++round) {
       Configuration configuration(size);
       for (std::size_t i = 0; i < size; ++i) {
