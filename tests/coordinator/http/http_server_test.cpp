@@ -128,8 +128,13 @@ TEST(HttpServerTest, RangesMultiplyNoAnswer) {
   std::string ranges = "Range: bytes=-";
   while (ranges.size() < 8000)
     ranges += ",-";
+  const std::vector<std::string> paths = {"/healthz", "/readyz", "/metrics", "/status"};
+  for (const std::string& path : paths) {
+    for (int i = 0; i < 3; ++i)
+      get(port, path);
+  }
   const double before = peak_memory();
-  for (const std::string path : {"/healthz", "/readyz", "/metrics", "/status"}) {
+  for (const std::string& path : paths) {
     for (const std::string& header :
          {ranges, std::string("range: bytes=0-1,2-3"), "X: y\n" + ranges}) {
       const std::string answer = get(port, path, header + "\r\n");
@@ -137,7 +142,7 @@ TEST(HttpServerTest, RangesMultiplyNoAnswer) {
       EXPECT_LE(answer.size(), whole.size()) << path;
     }
   }
-  EXPECT_LT(peak_memory() - before, 40) << "some copies of the page";
+  EXPECT_LT(peak_memory() - before, 40) << "no more than without ranges";
 }
 
 TEST(HttpServerTest, SlowConnectionsKeepNoProbeWaiting) {
