@@ -6,8 +6,10 @@
 // A store is a file whose name ends in ".db" and that begins as SQLite's files do.
 
 #include <dlfcn.h>
+#include <execinfo.h>
 #include <fcntl.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <cstdarg>
 #include <cstdio>
@@ -38,13 +40,25 @@ bool is_store(const char* path) {
   return reads && std::memcmp(begin.data(), "SQLite format 3", begin.size()) == 0;
 }
 
+std::string library_of(const void* address) {
+  Dl_info about{};
+  return dladdr(address, &about) != 0 && about.dli_fname != nullptr ? about.dli_fname : "unknown";
+}
+
+/// Whether SQLite is among the next callers: its own call of open may go through a function of the
+/// program (sqlite3_vfs::xSetSystemCall), which then opens for it.
+bool is_for_sqlite() {
+  std::array<void*, 6> callers{};
+  const int count = backtrace(callers.data(), static_cast<int>(callers.size()));
+  return std::any_of(callers.begin(), callers.begin() + count, [](const void* caller) {
+    return library_of(caller).find("libsqlite3") != std::string::npos;
+  });
+}
+
 void look(const char* path, const void* caller) {
   const char* log = std::getenv("SWARMSMITH_BESIDE_LOG");
-  if (log == nullptr) return;
-  Dl_info about{};
-  const std::string library =
-      dladdr(caller, &about) != 0 && about.dli_fname != nullptr ? about.dli_fname : "unknown";
-  if (library.find("libsqlite3") != std::string::npos || !is_store(path)) return;
+  if (log == nullptr || is_for_sqlite() || !is_store(path)) return;
+  const std::string library = library_of(caller);
   const std::string line = library + " " + path + "\n";
   static auto* const open_file = real<Open>("open");
   const int file = open_file(log, O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0644);
