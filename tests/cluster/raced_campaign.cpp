@@ -129,7 +129,8 @@ std::vector<Task> RacedCampaign::take_more(std::size_t count, std::size_t slots)
 /// Once ahead and once wanted; it may have been told between the two.
 void RacedCampaign::note(const Task& task) {
   if (truths_ != nullptr) {
-    truths_->emplace(pack(task.key), truth_of(shape_, {task.mission, task.machine, task.seed}));
+    truths_->insert_or_assign(pack(task.key),
+                              truth_of(shape_, {task.mission, task.machine, task.seed}));
   }
   const auto [at, is_new] = asked_.try_emplace(pack(task.key), Asked{.ahead = task.ahead});
   if (is_new) return;
