@@ -1,9 +1,15 @@
 # swarmsmith_share_units(SOURCE...): where files are compiled eight in a unit (CMAKE_UNITY_BUILD, as
-# the gates do: a fifth of the time), those whose names in unnamed namespaces a neighbour has as well stay alone.
+# ./dev does: a quarter of the time), those whose names in unnamed namespaces a neighbour has as well
+# stay alone.
 function(swarmsmith_share_units)
   if(CMAKE_UNITY_BUILD)
-    find_package(Python3 REQUIRED COMPONENTS Interpreter)
-    execute_process(COMMAND ${Python3_EXECUTABLE} ${PROJECT_SOURCE_DIR}/cmake/alone.py ${ARGN}
+    if(NOT SWARMSMITH_PYTHON)  # the interpreter itself: what stands in front of it takes 0.2 s a call
+      find_package(Python3 REQUIRED COMPONENTS Interpreter)
+      execute_process(COMMAND ${Python3_EXECUTABLE} -c "import sys; print(sys.executable)"
+        OUTPUT_VARIABLE python OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+      set(SWARMSMITH_PYTHON ${python} CACHE INTERNAL "")
+    endif()
+    execute_process(COMMAND ${SWARMSMITH_PYTHON} ${PROJECT_SOURCE_DIR}/cmake/alone.py ${ARGN}
       WORKING_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR} OUTPUT_VARIABLE alone COMMAND_ERROR_IS_FATAL ANY)
     string(REPLACE "\n" ";" alone "${alone}")
     set_source_files_properties(${alone} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)

@@ -84,7 +84,7 @@ class OpenedBeside(FaultTest):
 
     def commands(self, store, out):
         yield from (("status", store), ("verify", store), ("digest", store), ("ls", "designs", store),
-                    ("show", "d1", "--store", store), ("check", store), ("pause", store, "d1"),
+                    ("show", "d1", "--store", store), ("pause", store, "d1"),
                     ("resume", store, "d1"), ("query", store, "select 1"),
                     ("backup", store, out / "copy.backup"), ("recover", store, "-o", out / "new.recovered"),
                     ("merge", store, "-o", out / "merged.backup"), ("report", store, "-o", out / "r.html"),

@@ -205,31 +205,34 @@ class FaultTest(unittest.TestCase):
 
     # --- what must hold ---
 
-    def expected(self):
-        """Digest of the undisturbed campaign on one worker. Computed once for each text and each
-        build, and kept in the build folder."""
+    def reference(self):
+        """The store of the undisturbed campaign on one worker. Made once for each text and each build,
+        and kept in the build folder."""
         text = self.campaign_text()
         key = hashlib.sha256(text.encode())
         for program in (SWARMSMITH, WORKER):
             key.update(pathlib.Path(program).read_bytes())
         cache = pathlib.Path(os.environ.get("SWARMSMITH_REFERENCES", self.folder))
         cache.mkdir(parents=True, exist_ok=True)
-        kept = cache / f"{key.hexdigest()[:24]}.digest"
+        kept = cache / f"{key.hexdigest()[:24]}.db"
         with (cache / "lock").open("w") as lock:
             fcntl.flock(lock, fcntl.LOCK_EX)
             if not kept.exists():
-                kept.write_text(self.undisturbed())
-        return kept.read_text()
+                with tempfile.TemporaryDirectory(dir=cache) as folder:
+                    self.undisturbed(pathlib.Path(folder) / "reference.db").rename(kept)
+        return kept
 
-    def undisturbed(self):
-        with tempfile.TemporaryDirectory(prefix="swarmsmith-reference-") as folder:
-            store = pathlib.Path(folder) / "reference.db"
-            file = pathlib.Path(folder) / "campaign.toml"
-            file.write_text(self.campaign_text())
-            done = call("run", file, "--store", store, "--workers", "1", "--no-dashboard")
-            self.assertEqual(done.returncode, 0, done.stderr)
-            self.assert_clean(store)
-            return self.digest(store)
+    def undisturbed(self, store):
+        file = store.with_suffix(".toml")
+        file.write_text(self.campaign_text())
+        done = call("run", file, "--store", store, "--workers", "1", "--no-dashboard")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assert_clean(store)
+        return store
+
+    def expected(self):
+        """Digest of the undisturbed campaign."""
+        return self.digest(self.reference())
 
     def digest(self, store):
         done = call("digest", store)

@@ -117,7 +117,7 @@ class Programs(FaultTest):
         self.planted = self.folder / "planted"
         self.planted.mkdir()
 
-    def undisturbed(self):
+    def expected(self):
         """With the same faults for good, if any, and none besides, on one worker."""
         keep, self.store = self.store, self.folder / "undisturbed.db"
         run = self.run_local("--workers", "1", env=self.for_good)
@@ -126,9 +126,6 @@ class Programs(FaultTest):
         digest = self.digest(self.store)
         self.store = keep
         return digest
-
-    def expected(self):
-        return self.undisturbed()
 
     for_good = {}
 

@@ -105,7 +105,7 @@ TEST(ArgosExperiment, KeepsItsCommentWellFormed) {
   const auto text = argos_experiment(
       {.machine = explorer(), .mission = *built_in_mission("aggregation"), .title = "a--b---c\n"});
   ASSERT_TRUE(text);
-  EXPECT_THAT(*text, HasSubstr("<!-- a- -b- - -c\n     For"));
+  EXPECT_THAT(*text, HasSubstr("<!-- a- -b- - -c\\n\n     For"));
 }
 
 }  // namespace

@@ -94,7 +94,7 @@ TagCorners square_corners(double u, double v, double edge_px, double turned_rad)
   return {corner(-1, -1), corner(1, -1), corner(1, 1), corner(-1, 1)};
 }
 
-Picture painted(int width, int height, const std::string& family,
+PaintedPicture painted(int width, int height, const std::string& family,
                 const std::vector<PaintedTag>& tags, const Shortcomings& shortcomings,
                 std::uint64_t seed) {
   cv::Mat finer(height * kFiner, width * kFiner, CV_32F, cv::Scalar(shortcomings.floor));
@@ -109,7 +109,7 @@ Picture painted(int width, int height, const std::string& family,
     cv::RNG(seed).fill(noise, cv::RNG::NORMAL, 0, shortcomings.noise);
     picture += noise;
   }
-  Picture result{width, height,
+  PaintedPicture result{width, height,
                  std::vector<std::uint8_t>(static_cast<std::size_t>(width * height))};
   cv::Mat bytes(height, width, CV_8U, result.pixels.data());
   picture.convertTo(bytes, CV_8U);

@@ -24,7 +24,7 @@ struct Shortcomings {
 };
 
 /// A picture that owns its pixels.
-struct Picture {
+struct PaintedPicture {
   int width = 0;
   int height = 0;
   std::vector<std::uint8_t> pixels;
@@ -37,7 +37,7 @@ TagCorners square_corners(double u, double v, double edge_px, double turned_rad)
 
 /// Official tag images, as the library draws them, put at their corners with four times the
 /// picture's resolution; the same seed gives the same noise.
-Picture painted(int width, int height, const std::string& family,
+PaintedPicture painted(int width, int height, const std::string& family,
                 const std::vector<PaintedTag>& tags, const Shortcomings& shortcomings = {},
                 std::uint64_t seed = 1);
 

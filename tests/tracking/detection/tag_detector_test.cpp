@@ -42,7 +42,7 @@ TEST_P(EveryFamily, GivesCornersInTheOrderOfTheUprightTag) {
   std::vector<PaintedTag> tags;
   for (int i = 0; i < 4; ++i)
     tags.push_back({i, square_corners(120.3 + 180 * i, 130.6, 72, i * std::numbers::pi / 2)});
-  const Picture picture = painted(800, 260, family, tags);
+  const PaintedPicture picture = painted(800, 260, family, tags);
   std::vector<Detection> found = detector(family).find(picture.gray(), 1);
   // Families of few bits find tags between tags; such have small margins.
   std::erase_if(found, [](const Detection& each) { return each.margin < 20; });
@@ -71,7 +71,7 @@ TEST(TagDetectorTest, HasNoBiasInItsCorners) {
         tags.push_back({i, square_corners(80 + 128 * (i % 5) + 0.137 * i + 0.11 * seed,
                                           80 + 120 * (i / 5) + 0.071 * i + 0.19 * seed, 41,
                                           0.43 * i + 1.1 * seed)});
-      const Picture picture =
+      const PaintedPicture picture =
           painted(680, 400, "tag36h11", tags, {}, static_cast<std::uint64_t>(seed));
       const std::vector<Detection> found = finder.find(picture.gray(), decimate);
       ASSERT_EQ(found.size(), tags.size());
@@ -96,7 +96,7 @@ TEST(TagDetectorTest, HasNoBiasInItsCorners) {
 TEST(TagDetectorTest, FindsInAWindowWhatItFindsInTheWholeFrame) {
   const std::vector<PaintedTag> tags{{3, square_corners(100.4, 90.2, 42, 0.3)},
                                      {7, square_corners(420.1, 260.7, 44, 2.1)}};
-  const Picture picture = painted(640, 400, "tag36h11", tags);
+  const PaintedPicture picture = painted(640, 400, "tag36h11", tags);
   TagDetector finder = detector();
   const std::vector<Detection> whole = finder.find(picture.gray(), 1);
   ASSERT_EQ(whole.size(), 2U);
@@ -109,7 +109,7 @@ TEST(TagDetectorTest, FindsInAWindowWhatItFindsInTheWholeFrame) {
 }
 
 TEST(TagDetectorTest, RowsMayBeFurtherApartThanTheyAreLong) {
-  const Picture picture =
+  const PaintedPicture picture =
       painted(320, 200, "tag36h11", {{5, square_corners(150.2, 99.1, 50, 0.7)}});
   constexpr int kStride = 350;
   std::vector<std::uint8_t> padded(kStride * 200, 77);
@@ -125,7 +125,7 @@ TEST(TagDetectorTest, RowsMayBeFurtherApartThanTheyAreLong) {
 }
 
 TEST(TagDetectorTest, WindowsBeyondTheEdgeAreCutOff) {
-  const Picture picture = painted(320, 200, "tag36h11", {{5, square_corners(50, 50, 50, 0.7)}});
+  const PaintedPicture picture = painted(320, 200, "tag36h11", {{5, square_corners(50, 50, 50, 0.7)}});
   TagDetector finder = detector();
   EXPECT_EQ(finder.find(picture.gray(), {-40, -40, 100, 100}, 1).size(), 1U);
   EXPECT_TRUE(finder.find(picture.gray(), {-40, -40, 3, 3}, 1).empty());
@@ -133,7 +133,7 @@ TEST(TagDetectorTest, WindowsBeyondTheEdgeAreCutOff) {
 }
 
 TEST(TagDetectorTest, ATagThatIsThereTwiceIsFoundTwice) {
-  const Picture picture =
+  const PaintedPicture picture =
       painted(400, 200, "tag36h11",
               {{5, square_corners(90, 90, 50, 0)}, {5, square_corners(290, 90, 50, 1)}});
   const auto found = detector().find(picture.gray(), 1);

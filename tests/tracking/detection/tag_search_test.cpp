@@ -20,7 +20,7 @@ TagSearch search_for(std::set<int> expected, std::set<int> still = {}) {
   return {TagDetector::of_family("tag36h11").value(), options};
 }
 
-Picture picture_of(const std::vector<PaintedTag>& tags, const Shortcomings& look = {},
+PaintedPicture picture_of(const std::vector<PaintedTag>& tags, const Shortcomings& look = {},
                    std::uint64_t seed = 1) {
   return painted(kWidth, kHeight, "tag36h11", tags, look, seed);
 }
@@ -38,7 +38,7 @@ TEST(TagSearchTest, FollowsTagsThatMoveWithOneWholeFrameASecond) {
     // 180 pixels a second, and a turn of half a circle a second.
     const PaintedTag first{1, square_corners(80 + 6.0 * frame, 100, 42, 0.1 * frame)};
     const PaintedTag second{2, square_corners(500 - 3.0 * frame, 300, 42, 1)};
-    const Picture picture = picture_of({first, second});
+    const PaintedPicture picture = picture_of({first, second});
     const auto seen = search.find(picture.gray(), 12.5 + frame * kFrame_s);
     ASSERT_EQ(tags_of(seen), (std::vector<int>{1, 2})) << "frame " << frame;
     EXPECT_NEAR(middle_of(seen[0].corners).u, 80 + 6.0 * frame, 0.2);
@@ -50,8 +50,8 @@ TEST(TagSearchTest, FollowsTagsThatMoveWithOneWholeFrameASecond) {
 /// Further in one frame than any window reaches.
 TEST(TagSearchTest, FindsATagThatJumpedInTheSameFrame) {
   TagSearch search = search_for({1});
-  const Picture here = picture_of({{1, square_corners(80, 80, 42, 0)}});
-  const Picture there = picture_of({{1, square_corners(520, 300, 42, 0)}});
+  const PaintedPicture here = picture_of({{1, square_corners(80, 80, 42, 0)}});
+  const PaintedPicture there = picture_of({{1, square_corners(520, 300, 42, 0)}});
   for (int frame = 0; frame < 10; ++frame)
     search.find(here.gray(), frame * kFrame_s);
   EXPECT_EQ(search.full_searches(), 1);
@@ -64,7 +64,7 @@ TEST(TagSearchTest, AHiddenTagCostsFewWholeFrames) {
   const PaintedTag shown{1, square_corners(80, 80, 42, 0)};
   const PaintedTag hidden{2, square_corners(500, 300, 42, 0)};
   search.find(picture_of({shown, hidden}).gray(), 0);
-  const Picture one = picture_of({shown});
+  const PaintedPicture one = picture_of({shown});
   for (int frame = 1; frame <= 150; ++frame)
     EXPECT_EQ(tags_of(search.find(one.gray(), frame * kFrame_s)), std::vector<int>{1});
   // In 5 s: 5 of one a second, and a few more at the beginning; not 150.
@@ -79,7 +79,7 @@ TEST(TagSearchTest, AHiddenTagCostsFewWholeFrames) {
 
 TEST(TagSearchTest, ATagThatNeverComesCostsFewWholeFrames) {
   TagSearch search = search_for({1, 77});
-  const Picture one = picture_of({{1, square_corners(80, 80, 42, 0)}});
+  const PaintedPicture one = picture_of({{1, square_corners(80, 80, 42, 0)}});
   for (int frame = 0; frame <= 150; ++frame)
     search.find(one.gray(), frame * kFrame_s);
   EXPECT_LE(search.full_searches(), 11);
@@ -89,8 +89,8 @@ TEST(TagSearchTest, AFloorTagThatIsCoveredAsksForNoWholeFrame) {
   TagSearch search = search_for({1, 100}, {100});
   const PaintedTag robot{1, square_corners(80, 80, 42, 0)};
   const PaintedTag floor{100, square_corners(500, 300, 42, 0)};
-  const Picture both = picture_of({robot, floor});
-  const Picture covered = picture_of({robot});
+  const PaintedPicture both = picture_of({robot, floor});
+  const PaintedPicture covered = picture_of({robot});
   int looks = 0;
   for (int frame = 0; frame < 28; ++frame) {
     const bool is_covered = frame >= 7 && frame < 20;
@@ -107,7 +107,7 @@ TEST(TagSearchTest, AFloorTagThatIsCoveredAsksForNoWholeFrame) {
 
 TEST(TagSearchTest, TagsThatAreThereTwiceAreKept) {
   TagSearch search = search_for({1});
-  const Picture twice =
+  const PaintedPicture twice =
       picture_of({{1, square_corners(80, 80, 42, 0)}, {1, square_corners(500, 300, 42, 0)}});
   EXPECT_EQ(tags_of(search.find(twice.gray(), 0)), (std::vector<int>{1, 1}));
   // Between whole frames the one is followed that was.
@@ -117,7 +117,7 @@ TEST(TagSearchTest, TagsThatAreThereTwiceAreKept) {
 
 TEST(TagSearchTest, FindsStrays) {
   TagSearch search = search_for({1});
-  const Picture picture =
+  const PaintedPicture picture =
       picture_of({{1, square_corners(80, 80, 42, 0)}, {30, square_corners(500, 300, 42, 0)}});
   EXPECT_EQ(tags_of(search.find(picture.gray(), 0)), (std::vector<int>{1, 30}));
 }
@@ -143,7 +143,7 @@ TEST(TagSearchTest, SmallTagsAreSearchedAtFullResolution) {
 
 TEST(TagSearchTest, FaintReadingsDoNotCount) {
   const Shortcomings faint{0.7, 1, 116, 131, 125};
-  const Picture picture = picture_of({{1, square_corners(80, 80, 60, 0)}}, faint);
+  const PaintedPicture picture = picture_of({{1, square_corners(80, 80, 60, 0)}}, faint);
   EXPECT_TRUE(search_for({1}).find(picture.gray(), 0).empty());
   auto detector = TagDetector::of_family("tag36h11").value();
   EXPECT_EQ(detector.find(picture.gray(), 1).size(), 1U) << "else the test shows nothing";

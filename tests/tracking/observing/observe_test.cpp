@@ -14,7 +14,7 @@ constexpr int kHeight = 240;
 class MemorySource : public FrameSource {
  public:
   struct Shot {
-    Picture picture;
+    PaintedPicture picture;
     std::optional<double> time_s;
   };
 
