@@ -32,6 +32,12 @@ struct Said {
   bool on_trial = false;  ///< one of the first results of its principal, which waits for the word
 };
 
+/// An outcome that is on disk, and who gave it.
+struct StoredWord {
+  EvaluationKey key;
+  Said said;
+};
+
 /// An evaluation that is before the referee, and who said what of it; nobody, when it was lost with
 /// strangers only.
 struct Case {

@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/overloaded.h"
+#include "coordinator/event_text.h"
 #include "coordinator/paused_designs.h"
 #include "proto/wire.h"
 
@@ -33,9 +34,10 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
   for (const CampaignWork& campaign : campaigns) {
     const auto index = static_cast<std::uint32_t>(campaigns_.size());
     close_ended(index, *campaign.source);
-    scheduler_.know(index, campaign.known, campaign.trust.principals);
     facts_.campaign_digests.push_back(campaign.digest);
-    campaigns_.push_back({.source = campaign.source, .paused = paused_designs(campaign.commands)});
+    campaigns_.push_back({.source = campaign.source,
+                          .paused = paused_designs(campaign.commands),
+                          .unaudited = scheduler_.know(index, campaign.known, campaign.trust)});
     if (!campaign.commands.empty()) campaigns_.back().commands = campaign.commands.back().number;
     for (const DesignId design : campaigns_.back().paused)
       scheduler_.hold_design(index, design.value, true);
@@ -44,7 +46,7 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
 
 bool Coordinator::finished() const {
   const bool done = std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
-    return campaign.stopped || campaign.source->finished();
+    return campaign.stopped || (campaign.source->finished() && campaign.unaudited.empty());
   });
   return done && settled() && !scheduler_.is_auditing();
 }
@@ -133,6 +135,7 @@ bool Coordinator::progress(TimePoint now) {
       scheduler_.add(std::move(tasks));
       more = true;
     }
+    audit_stored(index);
     if (!std::exchange(campaign.told, false)) continue;
     std::vector<PackedKey> dropped;
     for (const EvaluationKey& key : campaign.source->take_dropped())
@@ -141,6 +144,33 @@ bool Coordinator::progress(TimePoint now) {
     close_ended(index, *campaign.source);
   }
   return more;
+}
+
+/// Brings stored scores before the referee that an earlier process chose. Their designs are opened
+/// one after the other, so one is looked at a time, and all when the campaign is over: what cannot
+/// be told any more is of a design that has ended.
+void Coordinator::audit_stored(std::uint32_t index) {
+  Campaign& campaign = campaigns_[index];
+  std::deque<StoredWord>& words = campaign.unaudited;
+  const bool is_over = campaign.source->finished();
+  for (std::size_t left = is_over ? words.size() : std::min<std::size_t>(words.size(), 1); left > 0;
+       --left) {
+    StoredWord word = std::move(words.front());
+    words.pop_front();
+    std::optional<Task> task = campaign.source->task_of(word.key);
+    if (!task) {
+      words.push_back(std::move(word));
+      continue;
+    }
+    task->campaign = index;
+    scheduler_.audit_stored(std::move(*task), std::move(word.said));
+  }
+  if (!is_over || words.empty()) return;
+  campaign.own_rows.emplace_back(
+      EventRow{.severity = "warning",
+               .kind = "audits left out; `swarmsmith verify --sample` makes evaluations again",
+               .text = event_text({{"evaluations", static_cast<std::int64_t>(words.size())}})});
+  words.clear();
 }
 
 /// Asks the campaigns in turn for work for slots that would idle. False when there is none.

@@ -72,7 +72,8 @@ using CoordinatorAction = std::variant<SendFrame, AppendRows, AnswerStatus, AskR
 ///
 /// An outcome goes: accepted by the scheduler, told to the campaign, its row appended, the row's
 /// ticket committed, acknowledged to the worker. The race goes on before the commit, and what a
-/// crash takes away is evaluated again with the same bits; acknowledgements never do.
+/// crash takes away is evaluated again with the same bits. What was acknowledged is on disk, unless
+/// nobody will ever ask for it: a result made ahead for a candidate that is out of its race.
 class Coordinator {
  public:
   /// The order of `campaigns` is that of the scenario and of the scheduler's policies.
@@ -153,8 +154,9 @@ class Coordinator {
     std::vector<SendFrame> replies{};  ///< to be sent when their rows are on disk
     std::int64_t commands = 0;         ///< the largest number
     std::set<DesignId> paused{};
-    bool all_paused = false;  ///< and it was said
-    bool told = false;        ///< of an outcome, since it was last asked what it drops
+    std::deque<StoredWord> unaudited{};  ///< to be made again, as an earlier process chose
+    bool all_paused = false;             ///< and it was said
+    bool told = false;                   ///< of an outcome, since it was last asked what it drops
     /// It had nothing to look ahead at, and nothing came since that changes this.
     bool sees_no_further = false;
     std::optional<std::string> stopped{};
@@ -185,6 +187,7 @@ class Coordinator {
 
   void carry_out(SchedulerAction& action, TimePoint now);
   void send(PeerId peer, std::string frame);
+  void audit_stored(std::uint32_t index);
   void close_ended(std::uint32_t index, WorkSource& source);
   bool progress(TimePoint now);
   bool look_ahead();

@@ -146,9 +146,21 @@ void Scheduler::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint 
             now);
   } else if (is_decided) {
     ++principal->confirmed;
-    if (said.taken) --principal->unchecked_of(campaign_of(ruling.key));
+    if (said.taken) note_audited(said, *principal, ruling);
   }
   if (said.on_trial) try_waiting(*principal, now);
+}
+
+/// It is made again by no later process.
+void Scheduler::note_audited(const Said& said, Principal& principal, const Ruling& ruling) {
+  const std::uint32_t campaign = campaign_of(ruling.key);
+  --principal.unchecked_of(campaign);
+  actions_.emplace_back(AttemptEnded{campaign,
+                                     {.key = unpack(ruling.key),
+                                      .attempt = said.attempt,
+                                      .worker = 0,
+                                      .held_ms = ruling.wall_us / 1000,
+                                      .outcome = "audited"}});
 }
 
 /// The outcome that counts may be the wrong one, whoever gave it.

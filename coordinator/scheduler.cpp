@@ -16,19 +16,28 @@ Scheduler::Scheduler(SchedulerOptions options)
     principals_.at(name).quarantined = true;
 }
 
-void Scheduler::know(std::uint32_t campaign, std::span<const StoredScore> known,
-                     const std::map<std::int64_t, std::string>& principals) {
-  std::map<std::int64_t, std::int64_t> of_workers;
-  for (const StoredScore& score : known)
-    ++of_workers[score.worker];
-  // What was made again is not remembered: all of it may be wrong when they are found to lie.
-  for (const auto& [worker, count] : of_workers) {
-    const auto name = principals.find(worker);
-    if (name != principals.end()) principals_.at(name->second).unchecked_of(campaign) += count;
-  }
+std::deque<StoredWord> Scheduler::know(std::uint32_t campaign, std::span<const StoredScore> known,
+                                       const StoredTrust& trust) {
+  const std::int64_t every =
+      options_.evaluates_programs ? 0 : options_.campaigns[campaign].audit_every;
+  std::deque<StoredWord> unaudited;
   for (const StoredScore& score : known) {
-    done_.insert(pack(score.key, campaign), score.status, score.score, score.state_digest);
+    const PackedKey key = pack(score.key, campaign);
+    done_.insert(key, score.status, score.score, score.state_digest);
+    const auto name = trust.principals.find(score.worker);
+    if (name == trust.principals.end() || trust.audited.contains(score.key)) continue;
+    ++principals_.at(name->second).unchecked_of(campaign);
+    if (every == 0 || score.status != EvaluationStatus::Ok) continue;
+    if (!is_drawn(key, 1.0 / static_cast<double>(every))) continue;
+    unaudited.push_back({score.key,
+                         {.what = Said::What::Score,
+                          .worker = static_cast<WorkerNumber>(score.worker),
+                          .principal = name->second,
+                          .score = score.score,
+                          .state_digest = score.state_digest,
+                          .taken = true}});
   }
+  return unaudited;
 }
 
 void Scheduler::add(std::vector<Task> tasks) {

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <deque>
 #include <initializer_list>
 #include <optional>
 #include <set>
@@ -19,6 +20,7 @@
 #include "coordinator/work_source.h"
 #include "coordinator/worker_registry.h"
 #include "storage/rows.h"
+#include "storage/store.h"
 
 namespace swarmsmith {
 
@@ -49,9 +51,11 @@ class Scheduler {
   explicit Scheduler(SchedulerOptions options);
 
   /// These have an outcome that is on disk: their results are acknowledged when they come again.
-  /// By the principals of their workers, as far as these are known.
-  void know(std::uint32_t campaign, std::span<const StoredScore> known,
-            const std::map<std::int64_t, std::string>& principals = {});
+  /// Returns those that an earlier process chose to make again, and did not.
+  std::deque<StoredWord> know(std::uint32_t campaign, std::span<const StoredScore> known,
+                              const StoredTrust& trust = {});
+  /// Makes one of those again.
+  void audit_stored(Task task, Said said) { cases_.open(std::move(task), std::move(said), true); }
 
   /// A task that was added as look-ahead and is there still may come once more: it is wanted now.
   void add(std::vector<Task> tasks);
@@ -162,6 +166,7 @@ class Scheduler {
   void try_waiting(Principal& principal, TimePoint now);
   void take_waiting(Principal& principal, TimePoint now);
   /// Opens a case when the result is one of those that are made again.
+  bool is_drawn(PackedKey key, double share) const;
   void audit(const TaskRecord& record, const WorkerEntry& entry, const WorkerResult& result);
   /// What its workers may hold now.
   void update_room(Principal& principal);
@@ -172,6 +177,7 @@ class Scheduler {
   // rulings.cpp
   void claim(WorkerEntry& entry, TaskRecord& record, Said::What what, TimePoint now);
   void ask_referee();
+  void note_audited(const Said& said, Principal& principal, const Ruling& ruling);
   void on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now);
   void carry_out(const Case& ruled, const Ruling& ruling, TimePoint now);
   void compare_with_stored(const Case& ruled, const Ruling& ruling);

@@ -113,6 +113,11 @@ void Scheduler::take_waiting(Principal& principal, TimePoint now) {
   update_room(principal);
 }
 
+/// A later process draws the same.
+bool Scheduler::is_drawn(PackedKey key, double share) const {
+  return static_cast<double>(signer_.draw(key)) < share * 0x1p64;
+}
+
 void Scheduler::audit(const TaskRecord& record, const WorkerEntry& entry,
                       const WorkerResult& result) {
   const std::int64_t every = policy_of(record).audit_every;
@@ -124,7 +129,7 @@ void Scheduler::audit(const TaskRecord& record, const WorkerEntry& entry,
   const double dense =
       principal.local ? 0 : kDenseAtFirst / static_cast<double>(principal.taken + 1);
   const double share = std::max(1.0 / static_cast<double>(every), dense);
-  if (!has_word && static_cast<double>(signer_.draw(result.key)) >= share * 0x1p64) return;
+  if (!has_word && !is_drawn(result.key, share)) return;
   cases_.open(record.task,
               Said{.what = Said::What::Score,
                    .worker = entry.number,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <map>
 #include <memory>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -54,6 +55,7 @@ struct StoreOptions {
 struct StoredTrust {
   std::map<std::int64_t, std::string> principals;  ///< by worker
   std::vector<std::string> quarantined;            ///< principals
+  std::set<EvaluationKey> audited;                 ///< made again, with the same bits
   bool distrusted = false;                         ///< its scores are wrong, or may be
 };
 

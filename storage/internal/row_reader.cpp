@@ -315,6 +315,10 @@ StoredTrust read_trust(const sqlite::Connection& connection) {
     trust.principals.emplace(worker.integer(0), worker.text(1));
     if (worker.text(2) == "quarantined") trust.quarantined.push_back(worker.text(1));
   }
+  Statement audited(connection,
+                    "SELECT candidate, purpose, pair FROM attempt WHERE outcome = 'audited'");
+  while (audited.step())
+    trust.audited.insert(key_at(audited, 0));
   trust.distrusted = sqlite::integer_of(connection,
                                         "SELECT count(*) FROM campaign"
                                         " WHERE id = 1 AND state = 'distrusted'") > 0;

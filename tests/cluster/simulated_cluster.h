@@ -239,6 +239,7 @@ class SimulatedCluster {
   std::set<PackedKey> lies_;  ///< on disk
   std::string stopped_;
   bool escaped_ = false;
+  bool left_out_audits_ = false;
   std::vector<Worker> workers_;
   std::set<PackedKey> failed_;  ///< said once to have no score
   std::set<PackedKey> acknowledged_;

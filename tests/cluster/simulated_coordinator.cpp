@@ -144,6 +144,10 @@ void SimulatedCluster::judge(const AskReferee& ask) {
 
 void SimulatedCluster::append(std::uint32_t campaign, std::vector<Row> rows) {
   Running& running = campaigns_[campaign];
+  left_out_audits_ |= std::ranges::any_of(rows, [](const Row& row) {
+    const auto* event = std::get_if<EventRow>(&row);
+    return event != nullptr && event->kind.starts_with("audits left out");
+  });
   running.uncommitted.push_back({++running.tickets, std::move(rows)});
   coordinator_->on_appended(campaign, running.tickets);
   const bool slow = rng_.bernoulli(schedule_.faults.slow_commit);

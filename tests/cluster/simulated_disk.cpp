@@ -195,6 +195,9 @@ StoredTrust SimulatedDisk::trust() const {
     trust.principals.emplace(row.id, row.principal);
     if (row.state == "quarantined") trust.quarantined.push_back(row.principal);
   }
+  for (const AttemptRow& row : rows_of<AttemptRow>()) {
+    if (row.outcome == "audited") trust.audited.insert(row.key);
+  }
   const std::vector<CampaignStateRow> states = rows_of<CampaignStateRow>();
   trust.distrusted = !states.empty() && states.back().state == "distrusted";
   return trust;

@@ -12,6 +12,8 @@
 namespace swarmsmith::cluster {
 namespace {
 
+constexpr std::string_view kHostile = "hostile";
+constexpr std::string_view kElsewhere = "10.0.0.99";
 constexpr std::array<std::string_view, 3> kAddresses = {"10.0.0.1", "10.0.0.2", "10.0.0.3"};
 
 using std::chrono::microseconds;
@@ -106,8 +108,8 @@ void SimulatedCluster::to_stranger(PeerId peer, const std::string& frame) {
 
 /// With a key of their own, and the address of a worker; without keys, from one address.
 Peer SimulatedCluster::stranger_at(PeerId connection) const {
-  if (!schedule_.keys) return {.id = connection, .address = "10.0.0.99"};
-  return {.id = connection, .role = Role::Worker, .client = "hostile", .address = kAddresses[0]};
+  if (!schedule_.keys) return {.id = connection, .address = kElsewhere};
+  return {.id = connection, .role = Role::Worker, .client = kHostile, .address = kAddresses[0]};
 }
 
 /// Every worker is on a host of its own.
@@ -143,10 +145,9 @@ void SimulatedCluster::check_row(const Running& running, const Row& row) {
 
 void SimulatedCluster::check_trust() {
   for (const auto& [number, entry] : coordinator_->scheduler().workers().all()) {
-    const auto index = static_cast<unsigned char>(entry.hello.identity.front()) - 1U;
-    const bool is_honest =
-        index < kWorkers && entry.hello.host == "here" &&
-        entry.hello.identity.find_first_not_of(entry.hello.identity.front()) >= kWorkerIdBytes - 1;
+    // A stranger may come under id and host of another worker, but neither with its key nor from
+    // its address.
+    const bool is_honest = entry.hello.client != kHostile && entry.hello.address != kElsewhere;
     if (is_honest && entry.quarantined) fail("an honest worker is in quarantine");
   }
 }
@@ -163,12 +164,10 @@ void SimulatedCluster::on_stopped(const std::string& reason, bool distrusted) {
   stopped_ = reason;
 }
 
-/// Another answer than an honest cluster's, and the campaign did not say so: only where not every
-/// score is made again, so that lies may have been lucky, or where the coordinator died before it
-/// made one again that it had chosen.
+/// Another answer than an honest cluster's, and the campaign did not stop: only where not every
+/// score is made again, so that lies may have been lucky, or where it said that it left some out.
 bool SimulatedCluster::is_excused() {
-  const bool died = process(kCoordinator).life > 1;
-  if (lies_.empty() || (schedule_.audit_every == 1 && !died)) return false;
+  if (lies_.empty() || (schedule_.audit_every == 1 && !left_out_audits_)) return false;
   escaped_ = true;
   return true;
 }

@@ -201,6 +201,42 @@ TEST_F(Authority, GoesOnWhenTheRefereeFindsTheSameBits) {
   EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
 }
 
+TEST_F(Authority, RemembersWhatWasMadeAgain) {
+  options.campaigns[0].audit_every = 1;
+  scheduler = Scheduler(options);
+  hello(1);
+  credit(1, 2);
+  want(1, 2);
+  answer(1, 1, 3), answer(1, 2, 4);
+  rule_score(1, 3);
+  const auto ended = all<AttemptEnded>();
+  ASSERT_EQ(ended.size(), 1U);
+  EXPECT_EQ(ended[0].row.outcome, "audited");
+  EXPECT_EQ(pack(ended[0].row.key, 0), key(1));
+}
+
+TEST_F(Authority, MakesAgainWhatAProcessThatCrashedHadChosen) {
+  options.campaigns[0].audit_every = 1;
+  scheduler = Scheduler(options);
+  const auto stored = [](std::int64_t candidate, std::int64_t worker) {
+    return StoredScore{
+        .key = unpack(key(candidate)), .score = 99, .state_digest = 5, .worker = worker};
+  };
+  const std::vector<StoredScore> known{stored(1, 1), stored(2, 1), stored(3, 2)};
+  // The second one was made again, and nobody knows whose the third one is.
+  const std::deque<StoredWord> words =
+      scheduler.know(0, known, {.principals = {{1, "10.0.0.1"}}, .audited = {unpack(key(2))}});
+  ASSERT_EQ(words.size(), 1U);
+  EXPECT_EQ(pack(words[0].key, 0), key(1));
+  scheduler.audit_stored({.key = words[0].key, .machine = "m"}, words[0].said);
+  move();
+  EXPECT_TRUE(scheduler.is_auditing());
+  ASSERT_EQ(asked(), key(1));
+  rule_score(1, 3);
+  ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
+}
+
 TEST_F(Authority, MakesNothingAgainWhereNobodyWantsAudits) {
   options.campaigns[0].audit_every = 0;
   scheduler = Scheduler(options);

@@ -236,9 +236,13 @@ TEST_F(StoreTest, RemembersWhoIsNotBelieved) {
   worker.id = 4;
   worker.principal = "node@10.0.0.5";
   worker.state = "quarantined";
-  store->append({worker, CampaignStateRow{"distrusted"}});
+  const EvaluationKey audited{{7}, Purpose::Race, 3};
+  store->append({worker, CampaignStateRow{"distrusted"},
+                 AttemptRow{.key = audited, .outcome = "audited"},
+                 AttemptRow{.key = {{8}, Purpose::Race, 3}, .outcome = "lost"}});
   store->flush();
   const StoredTrust trust = store->trust();
+  EXPECT_EQ(trust.audited, std::set<EvaluationKey>{audited});
   EXPECT_TRUE(trust.distrusted);
   EXPECT_EQ(trust.quarantined, std::vector<std::string>{"node@10.0.0.5"});
   EXPECT_EQ(trust.principals.at(4), "node@10.0.0.5");
