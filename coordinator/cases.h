@@ -38,6 +38,13 @@ struct StoredWord {
   Said said;
 };
 
+/// A result with other bits than the outcome.
+struct Dispute {
+  Said kept;
+  Said other;
+  std::uint64_t signature = 0;  ///< of the lease of `other`
+};
+
 /// An evaluation that is before the referee, and who said what of it; nobody, when it was lost with
 /// strangers only.
 struct Case {

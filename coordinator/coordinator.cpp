@@ -82,13 +82,12 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
             campaign.sees_no_further = false;
           },
           [&](const OutcomeRepeated& a) { repeat(a); },
-          [&](const ConflictFound& a) {
-            Campaign& campaign = campaigns_[a.campaign];
-            campaign.own_rows.emplace_back(a.row);
-            std::optional<Task> task = campaign.source->task_of(a.row.key);
+          [&](const TaskInDispute& a) {
+            std::optional<Task> task = campaigns_[a.campaign].source->task_of(a.key);
             if (task) task->campaign = a.campaign;
-            scheduler_.on_disputed(pack(a.row.key, a.campaign), std::move(task), now);
+            scheduler_.on_disputed(pack(a.key, a.campaign), task, now);
           },
+          [&](const ConflictFound& a) { campaigns_[a.campaign].own_rows.emplace_back(a.row); },
           [&](const WorkerChanged& a) { put_row(a.row); },
           [&](FailureKept& a) { campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row)); },
           [&](AttemptEnded& a) { campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row)); },

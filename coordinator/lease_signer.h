@@ -2,9 +2,11 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "coordinator/task.h"
 #include "proto/key.h"
 
 namespace swarmsmith {
@@ -18,12 +20,24 @@ class LeaseSigner {
  public:
   explicit LeaseSigner(const LeaseSecret& secret) : secret_(secret) {}
 
-  /// Of the lease of an evaluation to a principal (principal.h); never 0, which stands for none.
-  std::uint64_t sign(PackedKey key, std::int64_t attempt, std::string_view principal) const;
+  /// Of the lease of a task to a principal (principal.h); never 0, which stands for none. 16 bits
+  /// of it are a mark of what is to be evaluated: after a crash that took a lie with it, another
+  /// machine may have the key.
+  std::uint64_t sign(const Task& task, std::int64_t attempt, std::string_view principal) const;
+  /// Whether the signature is of some lease of that key.
+  bool is_ours(std::uint64_t signature, PackedKey key, std::int64_t attempt,
+               std::string_view principal) const;
+  /// Whether one of ours is of a lease of this very task.
+  bool is_of(std::uint64_t signature, const Task& task) const;
   /// A number of 64 uniform bits that nobody can foretell who does not know the secret.
   std::uint64_t draw(PackedKey key) const;
 
  private:
+  std::uint64_t hash(std::span<const unsigned char> bytes) const;
+  std::uint64_t sign(PackedKey key, std::int64_t attempt, std::string_view principal,
+                     std::uint64_t mark) const;
+  std::uint64_t mark_of(const Task& task) const;
+
   LeaseSecret secret_;
 };
 

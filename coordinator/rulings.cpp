@@ -52,22 +52,43 @@ void Scheduler::ask_referee() {
   actions_.emplace_back(AskReferee{std::move(*task), timeout});
 }
 
-void Scheduler::on_disputed(PackedKey key, std::optional<Task> task, TimePoint now) {
+void Scheduler::on_disputed(PackedKey key, const std::optional<Task>& task, TimePoint now) {
   latest_ = now;
   const auto found = disputed_.extract(key);
   if (!found || stopped_.contains(campaign_of(key))) return;
-  for (const Said& said : found.mapped()) {
-    if (task) {
-      cases_.open(*task, said, true);
-    } else {
-      let_go(said);
+  for (const Dispute& dispute : found.mapped()) {
+    const Said& other = dispute.other;
+    if (!task) {
+      let_go(other);
+      continue;
     }
+    actions_.emplace_back(OutcomeRepeated{key, other.worker});
+    if (dispute.signature != 0 && !signer_.is_of(dispute.signature, *task)) {
+      ++counters_.unleased;
+      let_go(other);
+      continue;
+    }
+    note_conflict(key, dispute);
+    cases_.open(*task, dispute.kept, true);
+    cases_.open(*task, other, true);
   }
-  if (task) return;
-  stop(campaign_of(key),
-       "two workers gave other scores for the evaluation of " + name_of(unpack(key)) +
-           ", and it cannot be made again. Run the campaign again into a new store",
-       true);
+}
+
+void Scheduler::note_conflict(PackedKey key, const Dispute& dispute) {
+  ++counters_.conflicts;
+  const bool has_score = dispute.kept.what == Said::What::Score;
+  actions_.emplace_back(ConflictFound{campaign_of(key),
+                                      {.key = unpack(key),
+                                       .kept_score = has_score ? dispute.kept.score : 0,
+                                       .other_score = dispute.other.score,
+                                       .other_state_digest = dispute.other.state_digest,
+                                       .other_worker = dispute.other.worker}});
+  const WorkerEntry* worker = workers_.of_number(dispute.other.worker);
+  note("error", "not deterministic",
+       {{"evaluation", name_of(unpack(key))},
+        {"worker", dispute.other.worker},
+        {"host", worker == nullptr ? "" : worker->hello.host}},
+       campaign_of(key));
 }
 
 void Scheduler::on_ruling(const Ruling& ruling, TimePoint now) {

@@ -87,8 +87,9 @@ class Scheduler {
   void on_began(const Sender& sender, PackedKey key, TimePoint now);
   /// What came of `AskReferee`.
   void on_ruling(const Ruling& ruling, TimePoint now);
-  /// The task of a `ConflictFound`, as its campaign has it; none when it cannot be made again.
-  void on_disputed(PackedKey key, std::optional<Task> task, TimePoint now);
+  /// The task of a `TaskInDispute`; none when the race has not come so far since a restart. Then
+  /// the result is not acknowledged, and comes again.
+  void on_disputed(PackedKey key, const std::optional<Task>& task, TimePoint now);
   /// Any other message: a sign of life. False, and a question, when the peer is not known.
   bool on_sign_of_life(const Sender& sender, TimePoint now);
   /// The transport says that the connection is no more, and that these leases never got there.
@@ -177,6 +178,7 @@ class Scheduler {
   // rulings.cpp
   void claim(WorkerEntry& entry, TaskRecord& record, Said::What what, TimePoint now);
   void ask_referee();
+  void note_conflict(PackedKey key, const Dispute& dispute);
   void note_audited(const Said& said, Principal& principal, const Ruling& ruling);
   void on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now);
   void carry_out(const Case& ruled, const Ruling& ruling, TimePoint now);
@@ -228,7 +230,7 @@ class Scheduler {
   DoneTable done_;
   Cases cases_;
   /// Results with other bits than the outcome's, whose tasks are asked for.
-  std::unordered_map<PackedKey, std::vector<Said>> disputed_;
+  std::unordered_map<PackedKey, std::vector<Dispute>> disputed_;
   LeaseSigner signer_;
   double referee_us_ = 0;  ///< of one of its evaluations
   SchedulerCounters counters_;

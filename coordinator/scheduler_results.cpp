@@ -112,41 +112,36 @@ void Scheduler::note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint 
 
 void Scheduler::repeat(WorkerEntry& entry, const WorkerResult& result) {
   ++counters_.duplicates;
-  actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
+  const DoneEntry* known = done_.find(result.key);
+  const auto status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok;
   // Two runs of a program may differ, in its time at least: the first one counts.
-  if (options_.evaluates_programs) return;
-  if (const DoneEntry* known = done_.find(result.key)) dispute(entry, *known, result);
+  const bool is_the_same = known == nullptr || options_.evaluates_programs ||
+                           DoneTable::same(*known, status, result.score, result.state_digest);
+  if (is_the_same || entry.principal->claims >= Principal::kMostClaims) {
+    actions_.emplace_back(OutcomeRepeated{result.key, entry.number});
+  } else {
+    dispute(entry, *known, result);
+  }
 }
 
-/// Another result with other bits: the campaign is not deterministic, or somebody lies. The referee
-/// tells which, when the campaign has told the task.
+/// Another result with other bits: of another task, when a crash took away why that one had the
+/// key; or the campaign is not deterministic, or somebody lies. That is seen when the campaign has
+/// told the task.
 void Scheduler::dispute(WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result) {
-  const auto status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok;
-  if (DoneTable::same(known, status, result.score, result.state_digest)) return;
-  ++counters_.conflicts;
-  if (entry.principal->claims >= Principal::kMostClaims) return;
   if (++entry.principal->claims == Principal::kMostClaims) update_room(*entry.principal);
-  const EvaluationKey key = unpack(result.key);
   const bool has_score = !DoneTable::same(known, EvaluationStatus::Rejected, 0, 0);
-  std::vector<Said>& said = disputed_[result.key];
-  said.push_back({.what = has_score ? Said::What::Score : Said::What::NoScore,
-                  .score = value_of(known),
-                  .state_digest = known.state_digest,
-                  .taken = true});
-  said.push_back({.what = result.rejected ? Said::What::NoScore : Said::What::Score,
-                  .worker = entry.number,
-                  .principal = entry.principal->name,
-                  .score = result.score,
-                  .state_digest = result.state_digest});
-  actions_.emplace_back(ConflictFound{campaign_of(result.key),
-                                      {.key = key,
-                                       .kept_score = has_score ? value_of(known) : 0,
-                                       .other_score = result.score,
-                                       .other_state_digest = result.state_digest,
-                                       .other_worker = entry.number}});
-  note("error", "not deterministic",
-       {{"evaluation", name_of(key)}, {"worker", entry.number}, {"host", entry.hello.host}},
-       campaign_of(result.key));
+  disputed_[result.key].push_back(
+      {.kept = {.what = has_score ? Said::What::Score : Said::What::NoScore,
+                .score = value_of(known),
+                .state_digest = known.state_digest,
+                .taken = true},
+       .other = {.what = result.rejected ? Said::What::NoScore : Said::What::Score,
+                 .worker = entry.number,
+                 .principal = entry.principal->name,
+                 .score = result.score,
+                 .state_digest = result.state_digest},
+       .signature = result.signature});
+  actions_.emplace_back(TaskInDispute{campaign_of(result.key), unpack(result.key)});
 }
 
 void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {

@@ -142,6 +142,11 @@ struct OutcomeRepeated {
   PackedKey key = 0;
   std::int64_t worker = 0;
 };
+/// Two results differ: `Scheduler::on_disputed` needs the task.
+struct TaskInDispute {
+  std::uint32_t campaign = 0;
+  EvaluationKey key;
+};
 struct ConflictFound {
   std::uint32_t campaign = 0;
   ConflictRow row;
@@ -177,8 +182,8 @@ struct AskReferee {
 
 using SchedulerAction =
     std::variant<SendWelcome, SendReject, SendTasks, SendAcknowledged, SendHeartbeat, SendWhoAreYou,
-                 SendDrain, OutcomeAccepted, OutcomeRepeated, ConflictFound, WorkerChanged, Noted,
-                 FailureKept, AttemptEnded, StopCampaign, AskReferee>;
+                 SendDrain, OutcomeAccepted, OutcomeRepeated, TaskInDispute, ConflictFound,
+                 WorkerChanged, Noted, FailureKept, AttemptEnded, StopCampaign, AskReferee>;
 
 /// What a campaign says of its evaluations.
 struct CampaignPolicy {

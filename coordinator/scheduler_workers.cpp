@@ -113,7 +113,7 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
     if (!held.contains(key)) leases_.requeue(*leases_.find(key), entry.number);
   }
   const auto was_given = [&](const Hold& hold) {
-    return hold.signature == signer_.sign(hold.key, hold.attempt, entry.principal->name);
+    return signer_.is_ours(hold.signature, hold.key, hold.attempt, entry.principal->name);
   };
   for (const Hold& hold : entry.hello.holds) {
     const bool is_over = held.contains(hold.key) && is_done(hold.key);
@@ -124,7 +124,7 @@ void Scheduler::adopt(WorkerEntry& entry, TimePoint now) {
     TaskRecord* record = leases_.find(hold.key);
     // What must run alone is leased anew, when the worker has nothing else.
     if (record == nullptr || record->lease || record->alone || record->parked) continue;
-    if (!was_given(hold)) continue;
+    if (!was_given(hold) || !signer_.is_of(hold.signature, record->task)) continue;
     leases_.grant(*record, entry.number, now, cost_us(record->task.campaign));
     record->lease->adopted = true;
   }

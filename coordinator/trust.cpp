@@ -43,9 +43,11 @@ void Scheduler::note_attempt(TaskRecord& record, WorkerNumber worker, const char
 bool Scheduler::may_answer(const WorkerEntry& entry, const WorkerResult& result) {
   const bool lingered = leases_.loads().settle(entry.number, result.key);
   TaskRecord* record = leases_.find(result.key);
+  const bool is_signed = result.signature != 0;  // by workers since minor version 2
+  if (is_signed && record != nullptr && !signer_.is_of(result.signature, record->task))
+    return false;
   if (lingered || (record != nullptr && record->lease_of(entry.number) != nullptr)) return true;
-  return result.signature != 0 &&
-         result.signature == signer_.sign(result.key, result.attempt, entry.principal->name);
+  return signer_.is_ours(result.signature, result.key, result.attempt, entry.principal->name);
 }
 
 bool Scheduler::is_proven(const Principal& principal) const {

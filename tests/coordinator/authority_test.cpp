@@ -22,7 +22,7 @@ class Authority : public Schedulers {
             .score = 1,
             .state_digest = 5,
             .wall_us = 100,
-            .signature = scheduler.signer().sign(key(candidate), attempt, principal)};
+            .signature = scheduler.signer().sign(task_of(candidate), attempt, principal)};
   }
 };
 
@@ -83,6 +83,45 @@ TEST_F(Authority, TakesALeaseOfAProcessThatCrashed) {
   answer(1, signed_result(1, name_of(1), 7));
   EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
   EXPECT_EQ(scheduler.counters().unleased, 0U);
+}
+
+TEST_F(Authority, RefusesALeaseOfAnotherTaskUnderTheSameKey) {
+  // A crash took a lie away, and with it why another machine had this key.
+  Task other = task_of(1);
+  other.machine = "another";
+  hello(1);
+  want(1, 1);
+  WorkerResult result = signed_result(1, name_of(1), 7);
+  result.signature = scheduler.signer().sign(other, 7, name_of(1));
+  answer(1, result);
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  EXPECT_EQ(scheduler.counters().unleased, 1U);
+  // The same, when the outcome is there.
+  credit(1, 1);
+  answer(1, 1, 3);
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  result.score = 99;
+  answer(1, result);
+  dispute(1);
+  EXPECT_TRUE(all<ConflictFound>().empty());
+  EXPECT_EQ(scheduler.counters().unleased, 2U);
+}
+
+TEST_F(Authority, AsksForADisputedResultAgainUntilTheRaceTellsTheTask) {
+  hello(1);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 3);
+  resend(1, 1, 4);
+  const std::size_t acknowledged = all<OutcomeRepeated>().size();
+  scheduler.on_disputed(key(1), std::nullopt, now);
+  move();
+  EXPECT_TRUE(all<ConflictFound>().empty());
+  EXPECT_EQ(all<OutcomeRepeated>().size(), acknowledged);
+  resend(1, 1, 4);
+  dispute(1);
+  EXPECT_EQ(all<ConflictFound>().size(), 1U);
+  EXPECT_EQ(all<OutcomeRepeated>().size(), acknowledged + 1);
 }
 
 TEST_F(Authority, RefusesALeaseThatIsNotTheSenders) {
@@ -375,9 +414,8 @@ TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
   ASSERT_TRUE(scheduler.principals().all().at("10.0.0.1").taken > 0);
   // The first one comes with a lie.
   answer(1, {.key = key(10), .attempt = 1, .score = 99, .signature = signature});
+  dispute(10);
   ASSERT_EQ(all<ConflictFound>().size(), 1U);
-  scheduler.on_disputed(key(10), Task{.key = {{10}, Purpose::Race, 1}, .machine = "m"}, now);
-  move();
   ASSERT_EQ(asked(), key(10));
   rule_score(10);
   EXPECT_TRUE(scheduler.principals().all().at("10.0.0.1").quarantined);
@@ -396,8 +434,7 @@ TEST_F(Authority, StopsWhenAStoredScoreIsWrong) {
   credit(2, 1);
   answer(2, 1, 99, "", 2);
   answer(1, {.key = key(1), .attempt = 1, .score = 1, .state_digest = 5, .signature = signature});
-  scheduler.on_disputed(key(1), Task{.key = {{1}, Purpose::Race, 1}, .machine = "m"}, now);
-  move();
+  dispute(1);
   rule_score(1);
   ASSERT_EQ(all<StopCampaign>().size(), 1U);
   EXPECT_TRUE(all<StopCampaign>()[0].distrusted);

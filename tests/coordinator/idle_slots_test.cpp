@@ -79,6 +79,7 @@ TEST_F(IdleSlots, CompareTheCopiesBitByBit) {
   make_straggler();
   answer(2, 1, 2.5, "", 2);
   answer(1, 1, 2.6);
+  dispute(1);
   EXPECT_EQ(all<ConflictFound>().size(), 1U);
 }
 

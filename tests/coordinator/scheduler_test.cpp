@@ -54,6 +54,7 @@ TEST_F(Schedulers, ReportASecondResultWithOtherBits) {
   want(1, 1);
   answer(1, 1, 2.5);
   resend(1, 1, 2.6);
+  dispute(1);
   ASSERT_EQ(all<ConflictFound>().size(), 1U);
   EXPECT_EQ(all<ConflictFound>()[0].row.kept_score, 2.5);
   EXPECT_EQ(all<ConflictFound>()[0].row.other_score, 2.6);
@@ -79,9 +80,9 @@ TEST_F(Schedulers, AcknowledgeWhateverComesOfADesignThatIsOver) {
 
 TEST_F(Schedulers, IgnoreAResultThatNobodyWants) {
   hello(1);
-  answer(
-      1,
-      {.key = key(77), .attempt = 1, .signature = scheduler.signer().sign(key(77), 1, name_of(1))});
+  answer(1, {.key = key(77),
+             .attempt = 1,
+             .signature = scheduler.signer().sign(task_of(77), 1, name_of(1))});
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
   EXPECT_TRUE(all<SendAcknowledged>().empty()) << "it may be wanted later";
   EXPECT_EQ(scheduler.counters().unknown, 1U);

@@ -29,7 +29,8 @@ class Schedulers : public ::testing::Test {
     hello.local = true;
     const std::string principal = principal_of(hello);
     for (const PackedKey held : holds)
-      hello.holds.push_back({held, 1, scheduler.signer().sign(held, 1, principal)});
+      hello.holds.push_back(
+          {held, 1, scheduler.signer().sign(task_of(unpack(held)), 1, principal)});
     scheduler.on_hello(peer, hello, now);
     sequence = 0;
     take();
@@ -81,9 +82,17 @@ class Schedulers : public ::testing::Test {
   void want(std::int64_t first, std::int64_t count) {
     std::vector<Task> tasks;
     for (std::int64_t i = first; i < first + count; ++i) {
-      tasks.push_back({.key = {{i}, Purpose::Race, 1}, .machine = "m"});
+      tasks.push_back(task_of(i));
     }
     scheduler.add(std::move(tasks));
+    move();
+  }
+  static Task task_of(std::int64_t candidate) { return task_of({{candidate}, Purpose::Race, 1}); }
+  static Task task_of(const EvaluationKey& key) { return {.key = key, .machine = "m"}; }
+  /// The campaign tells the task.
+  void dispute(std::int64_t candidate) {
+    ASSERT_FALSE(all<TaskInDispute>().empty());
+    scheduler.on_disputed(key(candidate), task_of(candidate), now);
     move();
   }
   /// The principal of a worker that said `hello`.
@@ -104,12 +113,13 @@ class Schedulers : public ::testing::Test {
   }
   /// The same, with the signature of a lease of a worker that said `hello`, as workers send it.
   void resend(PeerId peer, std::int64_t candidate, double score = 1, std::int64_t attempt = 1) {
-    answer(peer, {.key = key(candidate),
-                  .attempt = attempt,
-                  .score = score,
-                  .state_digest = 5,
-                  .wall_us = 100,
-                  .signature = scheduler.signer().sign(key(candidate), attempt, name_of(peer))});
+    answer(peer,
+           {.key = key(candidate),
+            .attempt = attempt,
+            .score = score,
+            .state_digest = 5,
+            .wall_us = 100,
+            .signature = scheduler.signer().sign(task_of(candidate), attempt, name_of(peer))});
   }
   /// Any result.
   void answer(PeerId peer, const WorkerResult& result) {
