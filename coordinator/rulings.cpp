@@ -58,11 +58,13 @@ void Scheduler::on_disputed(PackedKey key, const std::optional<Task>& task, Time
   if (!found || stopped_.contains(campaign_of(key))) return;
   for (const Dispute& dispute : found.mapped()) {
     const Said& other = dispute.other;
+    // Of a campaign that is over nobody asks any more.
+    if (task || closed_[campaign_of(key)])
+      actions_.emplace_back(OutcomeRepeated{key, other.worker});
     if (!task) {
       let_go(other);
       continue;
     }
-    actions_.emplace_back(OutcomeRepeated{key, other.worker});
     if (dispute.signature != 0 && !signer_.is_of(dispute.signature, *task)) {
       ++counters_.unleased;
       let_go(other);

@@ -124,6 +124,19 @@ TEST_F(Authority, AsksForADisputedResultAgainUntilTheRaceTellsTheTask) {
   EXPECT_EQ(all<OutcomeRepeated>().size(), acknowledged + 1);
 }
 
+TEST_F(Authority, AcknowledgesADisputedResultOfACampaignThatIsOver) {
+  hello(1);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 3);
+  scheduler.close(0, true);
+  resend(1, 1, 4);
+  scheduler.on_disputed(key(1), std::nullopt, now);
+  move();
+  EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
+  EXPECT_TRUE(all<ConflictFound>().empty());
+}
+
 TEST_F(Authority, RefusesALeaseThatIsNotTheSenders) {
   hello(1), hello(2);
   want(1, 2);
