@@ -133,19 +133,18 @@ double peak_memory() {
 TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
   const double before = peak_memory();
   const std::string many =
-      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 20000000) ";
+      "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 200000) ";
   for (const std::string& sql :
        {std::string("SELECT zeroblob(900000000)"), std::string("SELECT hex(zeroblob(400000000))"),
         std::string("SELECT randomblob(900000000)"),
         std::string("SELECT replace(hex(zeroblob(10000000)), '0', 'xxxxxxxxxxxxxxxx')"),
-        many + "SELECT group_concat(i) FROM n",
-        many + "SELECT group_concat(printf('%0100d', i), '') FROM n",
-        many + "SELECT json_group_array(printf('%0100d', i)) FROM n",
-        many + "SELECT printf('%0100d', i) AS s FROM n ORDER BY s DESC",
-        many + "SELECT count(*) FROM n GROUP BY printf('%0100d', i)",
-        many + "SELECT DISTINCT printf('%0100d', i) FROM n LIMIT -1 OFFSET 20000000",
+        many + "SELECT group_concat(printf('%05000d', i), '') FROM n",
+        many + "SELECT json_group_array(printf('%05000d', i)) FROM n",
+        many + "SELECT printf('%05000d', i) AS s FROM n ORDER BY s DESC",
+        many + "SELECT count(*) FROM n GROUP BY printf('%05000d', i)",
+        many + "SELECT DISTINCT printf('%05000d', i) FROM n LIMIT -1 OFFSET 200000",
         std::string("WITH RECURSIVE n (i, s) AS (SELECT 1, '' UNION SELECT i + 1, "
-                    "printf('%01000d', i) FROM n) "
+                    "printf('%05000d', i) FROM n) "
                     "SELECT count(*) FROM n"),
         std::string("SELECT randomblob(30000000), randomblob(30000000), randomblob(30000000), "
                     "randomblob(30000000), randomblob(30000000), randomblob(30000000)"),
@@ -164,7 +163,7 @@ TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
 TEST_F(QueryTest, StopsAtTheLimitOfBytes) {
   const std::string many =
       "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 1000000) "
-      "SELECT printf('%01000d', i) FROM n";
+      "SELECT printf('%05000d', i) FROM n";
   const auto end = query(many, {.bytes = 1 << 20});
   ASSERT_TRUE(end);
   EXPECT_TRUE(end->truncated);
