@@ -44,6 +44,9 @@ struct Principal {
   std::map<PackedKey, Waiting> waiting;
   std::vector<std::int64_t> unchecked;  ///< outcomes of it that nobody made again, by campaign
 
+  /// Nothing of it was ever taken, or it is believed no more.
+  bool is_stranger() const { return !local && (taken == 0 || quarantined); }
+
   std::int64_t& unchecked_of(std::uint32_t campaign) {
     if (campaign >= unchecked.size()) unchecked.resize(campaign + 1);
     return unchecked[campaign];
@@ -55,6 +58,7 @@ class Principals {
  public:
   Principal& at(const std::string& name);
   Principal* find(const std::string& name);
+  const Principal* find(const std::string& name) const;
   /// Forgets those of which nobody is there, and nothing is to be remembered.
   void forget_idle();
 
