@@ -55,7 +55,7 @@ void Scheduler::on_tick(TimePoint now) {
     }
     expire(entry, now);
   }
-  if (now - forgot_ > kForgetEvery) {
+  if (now - forgot_ > kForgetEvery || workers_.has_many_gone()) {
     workers_.forget_old(now);
     principals_.forget_idle();
     forgot_ = now;

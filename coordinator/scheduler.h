@@ -213,7 +213,8 @@ class Scheduler {
   std::uint64_t cost_us(std::uint32_t campaign) const;
   Duration lease_time(std::uint32_t campaign) const;
   void note(const char* severity, const char* kind, std::initializer_list<EventField> fields,
-            std::optional<std::uint32_t> campaign = std::nullopt);
+            std::optional<std::uint32_t> campaign = std::nullopt, const Principal* source = nullptr,
+            WorkerNumber worker = 0);
 
   SchedulerOptions options_;
   LeaseTable leases_;
