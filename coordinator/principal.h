@@ -38,6 +38,8 @@ struct Principal {
   std::int64_t taken = 0;          ///< results that became outcomes
   std::int64_t confirmed = 0;      ///< results that the referee made again, with the same bits
   std::int64_t strikes = 0;        ///< its evaluations that failed, and do not fail elsewhere
+  std::int64_t astray = 0;         ///< leases that ended with its workers before it delivered
+  TimePoint waits_until;           ///< for these: nothing more goes to it
   int on_trial = 0;                ///< first results that are before the referee
   int claims = 0;                  ///< failures, deaths and contradictions that are before it
   bool quarantined = false;

@@ -151,7 +151,7 @@ void Scheduler::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   std::size_t most = entry.credit;
   if (principal.claims >= Principal::kMostClaims) most = 0;
   const bool is_new = !options_.evaluates_programs && !is_proven(principal);
-  if (is_new) most = std::min(most, kRoomOnTrial);
+  if (is_new) most = std::min(most, latest_ < principal.waits_until ? 0 : kRoomOnTrial);
   const auto slots = static_cast<std::size_t>(entry.usable() ? entry.hello.slots : 0);
   leases_.loads().set_capacity(entry.number, slots, slots > 0 ? most : 0);
 }
