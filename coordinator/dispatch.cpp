@@ -98,6 +98,7 @@ void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
     ++counters_.expired;
     if (leases_.requeue(record, entry.number)) ++counters_.requeued;
   }
+  go_astray(*entry.principal, late.size(), now);
   leases_.loads().settle_older(entry.number, now - longest);
 }
 

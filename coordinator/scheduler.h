@@ -165,6 +165,8 @@ class Scheduler {
   void audit(const TaskRecord& record, const WorkerEntry& entry, const WorkerResult& result);
   /// What its workers may hold now.
   void update_room(Principal& principal);
+  /// Leases that a stranger's workers had ended without a result.
+  void go_astray(Principal& principal, std::size_t leases, TimePoint now);
   void strike(Principal& principal, TimePoint now);
   void convict(Principal& principal, const std::string& evidence, TimePoint now);
   void quarantine(Principal& principal, const std::string& reason, TimePoint now);

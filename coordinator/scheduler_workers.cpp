@@ -18,10 +18,6 @@ constexpr int kLossesUntilRuled = 12;
 /// Losses with workers of which nothing is known say nothing of the task. But where nobody can
 /// prove himself, since each dies of it, the referee breaks the circle: one such task at a time.
 constexpr int kStraysUntilRuled = 6;
-/// Strangers that were given so much and have delivered nothing wait, while others work: races wait
-/// for what they take.
-constexpr std::int64_t kMostAstray = 64;
-constexpr Duration kWaitAfterThat = std::chrono::seconds(10);
 
 }  // namespace
 
@@ -211,13 +207,7 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state, Ti
   const bool at_front = loss == Loss::Left || is_proven(*entry.principal);
   workers_.disconnect(entry);
   leases_.loads().set_capacity(entry.number, 0, 0);
-  Principal& principal = *entry.principal;
-  if (!keys.empty() && !is_proven(principal)) {
-    principal.astray += static_cast<std::int64_t>(keys.size());
-    if (principal.astray >= kMostAstray && proven_present() > 0) {
-      principal.waits_until = now + kWaitAfterThat;
-    }
-  }
+  go_astray(*entry.principal, keys.size(), now);
   for (std::size_t i = keys.size(); i-- > 0;) {
     TaskRecord& record = *leases_.find(keys[i]);
     // What was merely queued there is nobody's affair.

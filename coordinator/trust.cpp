@@ -17,6 +17,10 @@ constexpr std::int64_t kTrial = 2;
 constexpr std::size_t kRoomOnTrial = 64;
 /// Of a principal's n-th result, this / n is made again, until that is less than usual.
 constexpr double kDenseAtFirst = 4;
+/// Strangers that were given so much and have delivered nothing wait, while others work: races wait
+/// for what they take. Each further one makes it a second longer.
+constexpr std::int64_t kMostAstray = 32;
+constexpr std::int64_t kMostSecondsToWait = 300;
 /// Audits do not wait for the referee longer than that: later ones are left out.
 constexpr double kMostBacklogUs = 2e6;
 
@@ -142,6 +146,15 @@ void Scheduler::update_room(Principal& principal) {
     WorkerEntry& entry = *workers_.of_number(number);
     set_credit(entry, entry.credit);
   }
+}
+
+void Scheduler::go_astray(Principal& principal, std::size_t leases, TimePoint now) {
+  if (leases == 0 || is_proven(principal)) return;
+  principal.astray += static_cast<std::int64_t>(leases);
+  if (principal.astray < kMostAstray || proven_present() == 0) return;
+  principal.waits_until =
+      now + std::chrono::seconds(std::min(principal.astray, kMostSecondsToWait));
+  update_room(principal);
 }
 
 void Scheduler::set_credit(WorkerEntry& entry, std::uint32_t credit) {
