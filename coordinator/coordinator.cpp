@@ -27,6 +27,7 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
       facts_{.campaign_digests = {},
              .scenario = options_.scenario,
              .scenario_digest = digest_of_scenario(options_.scenario)},
+      budgets_(options_.budgets),
       scheduler_(options_.scheduler),
       arena_(arena_options()) {
   SWARMSMITH_ASSERT(campaigns.size() == options_.scheduler.campaigns.size(),
@@ -75,6 +76,7 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
           [&](const SendWhoAreYou& a) { send(a.peer, frame_of(a)); },
           [&](const SendDrain& a) { send(a.peer, frame_of(a)); },
           [&](const OutcomeAccepted& a) {
+            name_worker(a.outcome.worker);
             waiting_[key_of(a.outcome)].first = a.outcome.worker;
             Campaign& campaign = campaigns_[a.outcome.campaign];
             campaign.source->tell(a.outcome);
@@ -87,14 +89,20 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
             if (task) task->campaign = a.campaign;
             scheduler_.on_disputed(pack(a.key, a.campaign), task, now);
           },
-          [&](const ConflictFound& a) { campaigns_[a.campaign].own_rows.emplace_back(a.row); },
-          [&](const WorkerChanged& a) { put_row(a.row); },
-          [&](FailureKept& a) { campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row)); },
-          [&](AttemptEnded& a) { campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row)); },
-          [&](Noted& a) {
-            if (!a.campaign) return put_row(a.row);
-            campaigns_[*a.campaign].own_rows.emplace_back(std::move(a.row));
+          [&](const ConflictFound& a) {
+            if (!may_name(a.row.other_worker, "conflict", kConflictBytes, now)) return;
+            campaigns_[a.campaign].own_rows.emplace_back(a.row);
           },
+          [&](const WorkerChanged& a) { put_worker(a.row, now); },
+          [&](FailureKept& a) {
+            if (!may_name(a.row.worker, "failure", bytes_of(a.row), now)) return;
+            campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row));
+          },
+          [&](AttemptEnded& a) {
+            if (!may_name(a.row.worker, "attempt", kAttemptBytes, now)) return;
+            campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row));
+          },
+          [&](Noted& a) { put_event(a, now); },
           [&](StopCampaign& a) {
             Campaign& campaign = campaigns_[a.campaign];
             if (!campaign.stopped) campaign.stopped = std::move(a.reason);
@@ -105,6 +113,11 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
           [&](AskReferee& a) { actions_.emplace_back(std::move(a)); },
       },
       action);
+}
+
+void Coordinator::drain(TimePoint now) {
+  scheduler_.drain(now);
+  put_rows(budgets_.take_news(now, true));
 }
 
 void Coordinator::close_ended(std::uint32_t index, WorkSource& source) {
@@ -206,6 +219,10 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     do {
       scheduler_.dispatch(now);
     } while (progress(now));
+  }
+  if (sample_due_) {
+    write_late_workers(now);
+    put_rows(budgets_.take_news(now));
   }
   for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
     append(index);

@@ -9,9 +9,11 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
+#include <unordered_set>
 #include <variant>
 #include <vector>
 
+#include "coordinator/budgets.h"
 #include "coordinator/live_status.h"
 #include "coordinator/messages.h"
 #include "coordinator/scheduler.h"
@@ -27,6 +29,7 @@ struct CoordinatorOptions {
   /// A peer whose frames were wrong this often is not listened to for `refuse_for`.
   int malformed_limit = 10;
   Duration refuse_for = std::chrono::seconds(60);
+  BudgetOptions budgets{};
   /// That the workers have which this process started; empty for none.
   std::string local_secret;
 };
@@ -98,7 +101,7 @@ class Coordinator {
   /// The same for one campaign: its store cannot write.
   void hold(std::uint32_t campaign, bool held) { scheduler_.hold_design(campaign, 0, held); }
   /// Sends the workers home.
-  void drain(TimePoint now) { scheduler_.drain(now); }
+  void drain(TimePoint now);
 
   /// Moves on as far as possible; the actions since the last call, in order.
   std::vector<CoordinatorAction> take_actions(TimePoint now);
@@ -165,13 +168,14 @@ class Coordinator {
 
   // coordinator_frames.cpp
   bool is_refused(PeerId peer, TimePoint now);
-  void on_malformed(PeerId peer, const Error& error, TimePoint now);
+  void on_malformed(const Peer& peer, const Error& error, TimePoint now);
   void on_message(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
   void on_work(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
-  void on_results(const Sender& sender, const pb::Results& results, TimePoint now);
+  void on_hello(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
+  void on_results(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
 
   // coordinator_commands.cpp
-  void on_command(const Peer& peer, const pb::Command& command);
+  void on_command(const Peer& peer, const pb::Command& command, TimePoint now);
   /// A sentence that says what was done.
   Expected<std::string> obey(std::uint32_t index, const pb::Command& command);
   Expected<std::string> pause(std::uint32_t index, const CommandRow& command);
@@ -182,6 +186,18 @@ class Coordinator {
   void repeat(const OutcomeRepeated& action);
   /// For the stores of all campaigns.
   void put_row(const Row& row);
+  void put_rows(std::vector<EventRow> rows);
+  /// Whether a row that is the principal's doing may be written; else it is counted.
+  bool may_write(const std::string& principal, std::string_view kind, std::size_t bytes,
+                 TimePoint now);
+  /// The same of a row that names the worker, whose own row then comes first.
+  bool may_name(WorkerNumber worker, std::string_view kind, std::size_t bytes, TimePoint now);
+  void name_worker(WorkerNumber worker);
+  void put_event(Noted& noted, TimePoint now);
+  void put_worker(const WorkerRow& row, TimePoint now);
+  void write_worker(const WorkerRow& row);
+  void write_late_workers(TimePoint now);
+  const Principal* principal_of_worker(WorkerNumber worker) const;
   void append(std::uint32_t campaign);
   void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
 
@@ -196,6 +212,12 @@ class Coordinator {
   PoolFacts facts_;
   std::vector<Campaign> campaigns_;
   std::vector<Row> pool_rows_;  ///< workers, and events that are of no campaign
+  Budgets budgets_;
+  // Workers whose row is in the stores; and rows for which there was no room.
+  std::unordered_set<WorkerNumber> written_;
+  std::map<WorkerNumber, WorkerRow> late_;
+  std::set<std::string> told_in_quarantine_;  ///< principals
+  TimePoint wrote_late_;
   Scheduler scheduler_;
   SlotAccount slots_;
   Holding holding_ = Holding::No;

@@ -20,7 +20,11 @@ std::string kind_of(pb::Command::Kind kind) {
 
 }  // namespace
 
-void Coordinator::on_command(const Peer& peer, const pb::Command& command) {
+void Coordinator::on_command(const Peer& peer, const pb::Command& command, TimePoint now) {
+  if (!budgets_.may_command(now)) {
+    budgets_.leave_out("command");
+    return send(peer.id, command_reply_of(false, "too many commands at once: ask again later"));
+  }
   const Expected<std::uint32_t> index = campaign_of(command);
   const Expected<std::string> done =
       index ? obey(*index, command) : Expected<std::string>(Unexpected(index.error()));

@@ -35,6 +35,7 @@ LiveStatus Coordinator::status() const {
   status.reconnects = count(counters.reconnects);
   status.malformed = count(malformed_count_);
   status.malformed_by = malformed_;
+  status.over_budget = {budgets_.left_out().begin(), budgets_.left_out().end()};
   status.uncommitted = count(waiting_.size());
   status.slot_times = slots_.since_start();
   status.slot_times_last_minute = slots_.last_minute();

@@ -55,7 +55,7 @@ void Scheduler::on_tick(TimePoint now) {
     }
     expire(entry, now);
   }
-  if (now - forgot_ > kForgetEvery) {
+  if (now - forgot_ > kForgetEvery || workers_.has_many_gone()) {
     workers_.forget_old(now);
     principals_.forget_idle();
     forgot_ = now;
@@ -98,6 +98,7 @@ void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
     ++counters_.expired;
     if (leases_.requeue(record, entry.number)) ++counters_.requeued;
   }
+  go_astray(*entry.principal, late.size(), now);
   leases_.loads().settle_older(entry.number, now - longest);
 }
 

@@ -57,6 +57,7 @@ void each_field(Json& json, Status& status, const Visit& visit) {
   visit(json, "reconnects", status.reconnects);
   visit(json, "malformed", status.malformed);
   visit(json, "malformed_by", status.malformed_by);
+  visit(json, "over_budget", status.over_budget);
   visit(json, "uncommitted", status.uncommitted);
   visit(json, "bytes_in", status.bytes_in);
   visit(json, "bytes_out", status.bytes_out);

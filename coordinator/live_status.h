@@ -82,8 +82,10 @@ struct LiveStatus {
   std::int64_t reconnects = 0;
   std::int64_t malformed = 0;
   std::map<std::string, std::uint64_t> malformed_by;  ///< by the part that was wrong
-  std::int64_t uncommitted = 0;                       ///< outcomes that are not on disk yet
-  std::int64_t bytes_in = 0;                          ///< of frames
+  /// What others wanted beyond their budgets, and was left out, by kind.
+  std::map<std::string, std::uint64_t> over_budget;
+  std::int64_t uncommitted = 0;  ///< outcomes that are not on disk yet
+  std::int64_t bytes_in = 0;     ///< of frames
   std::int64_t bytes_out = 0;
   std::int64_t quarantined = 0;   ///< workers that are here and get nothing
   std::int64_t gone_workers = 0;  ///< that were there within the last quarter of an hour

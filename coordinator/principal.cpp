@@ -1,33 +1,8 @@
 #include "coordinator/principal.h"
 
-#include <arpa/inet.h>
-#include <algorithm>
-#include <array>
+#include "proto/network.h"
 
 namespace swarmsmith {
-namespace {
-
-constexpr const char* kLoopback = "loopback";
-
-/// As principals have it.
-std::string network_of(const std::string& address) {
-  constexpr std::string_view kMapped = "::ffff:";
-  const std::string text = address.starts_with(kMapped) ? address.substr(kMapped.size()) : address;
-  std::array<unsigned char, 16> bytes{};
-  if (inet_pton(AF_INET, text.c_str(), bytes.data()) == 1) {
-    return bytes[0] == 127 ? kLoopback : text;
-  }
-  // An interface may follow: fe80::1%eth0.
-  if (inet_pton(AF_INET6, text.substr(0, text.find('%')).c_str(), bytes.data()) != 1) return text;
-  if (text == "::1") return kLoopback;
-  std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
-  std::array<char, INET6_ADDRSTRLEN> out{};
-  inet_ntop(AF_INET6, bytes.data(), out.data(), out.size());
-  return std::string(out.data()) + "/64";
-}
-
-}  // namespace
-
 std::string hexadecimal(const std::string& bytes) {
   static constexpr char kDigits[] = "0123456789abcdef";
   std::string out;
@@ -51,6 +26,11 @@ Principal& Principals::at(const std::string& name) {
 }
 
 Principal* Principals::find(const std::string& name) {
+  const auto at = principals_.find(name);
+  return at == principals_.end() ? nullptr : &at->second;
+}
+
+const Principal* Principals::find(const std::string& name) const {
   const auto at = principals_.find(name);
   return at == principals_.end() ? nullptr : &at->second;
 }

@@ -38,11 +38,16 @@ struct Principal {
   std::int64_t taken = 0;          ///< results that became outcomes
   std::int64_t confirmed = 0;      ///< results that the referee made again, with the same bits
   std::int64_t strikes = 0;        ///< its evaluations that failed, and do not fail elsewhere
+  std::int64_t astray = 0;         ///< leases that ended with its workers before it delivered
+  TimePoint waits_until;           ///< for these: nothing more goes to it
   int on_trial = 0;                ///< first results that are before the referee
   int claims = 0;                  ///< failures, deaths and contradictions that are before it
   bool quarantined = false;
   std::map<PackedKey, Waiting> waiting;
   std::vector<std::int64_t> unchecked;  ///< outcomes of it that nobody made again, by campaign
+
+  /// Nothing of it was ever taken, or it is believed no more.
+  bool is_stranger() const { return !local && (taken == 0 || quarantined); }
 
   std::int64_t& unchecked_of(std::uint32_t campaign) {
     if (campaign >= unchecked.size()) unchecked.resize(campaign + 1);
@@ -55,6 +60,7 @@ class Principals {
  public:
   Principal& at(const std::string& name);
   Principal* find(const std::string& name);
+  const Principal* find(const std::string& name) const;
   /// Forgets those of which nobody is there, and nothing is to be remembered.
   void forget_idle();
 

@@ -90,7 +90,7 @@ void Scheduler::note_conflict(PackedKey key, const Dispute& dispute) {
        {{"evaluation", name_of(unpack(key))},
         {"worker", dispute.other.worker},
         {"host", worker == nullptr ? "" : worker->hello.host}},
-       campaign_of(key));
+       campaign_of(key), principals_.find(dispute.other.principal), dispute.other.worker);
 }
 
 void Scheduler::on_ruling(const Ruling& ruling, TimePoint now) {

@@ -171,6 +171,8 @@ class Scheduler {
   void audit(const TaskRecord& record, const WorkerEntry& entry, const WorkerResult& result);
   /// What its workers may hold now.
   void update_room(Principal& principal);
+  /// Leases that a stranger's workers had ended without a result.
+  void go_astray(Principal& principal, std::size_t leases, TimePoint now);
   void strike(Principal& principal, TimePoint now);
   void convict(Principal& principal, const std::string& evidence, TimePoint now);
   void quarantine(Principal& principal, const std::string& reason, TimePoint now);
@@ -221,7 +223,8 @@ class Scheduler {
   std::uint64_t cost_us(std::uint32_t campaign) const;
   Duration lease_time(std::uint32_t campaign) const;
   void note(const char* severity, const char* kind, std::initializer_list<EventField> fields,
-            std::optional<std::uint32_t> campaign = std::nullopt);
+            std::optional<std::uint32_t> campaign = std::nullopt, const Principal* source = nullptr,
+            WorkerNumber worker = 0);
 
   SchedulerOptions options_;
   LeaseTable leases_;

@@ -155,7 +155,7 @@ void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result, TimeP
        {{"evaluation", name_of(record->task.key)},
         {"worker", entry.number},
         {"reason", result.failure}},
-       record->task.campaign);
+       record->task.campaign, entry.principal, entry.number);
   actions_.emplace_back(FailureKept{record->task.campaign,
                                     {.key = record->task.key,
                                      .attempt = lease->attempt,
@@ -202,7 +202,8 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now
   ++counters_.failed;
   ++leases_.meters(record.task.campaign).timed_out;
   note("warning", "evaluation timed out",
-       {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign);
+       {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign,
+       entry.principal, entry.number);
   note_attempt(record, entry.number, "timed out", now);
   record.avoid = entry.number;
   // Two copies that hang count once.

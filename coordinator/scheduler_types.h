@@ -158,6 +158,9 @@ struct Noted {
   /// None: of the pool, and for the stores of all campaigns.
   std::optional<std::uint32_t> campaign;
   EventRow row;
+  /// The principal whose doing it is; empty: it was decided here, and is always written.
+  std::string source;
+  std::int64_t worker = 0;  ///< that the text names
 };
 struct FailureKept {
   std::uint32_t campaign = 0;

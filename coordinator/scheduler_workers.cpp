@@ -50,7 +50,8 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
   }
   const auto refuse = [&](RejectReason reason, const std::string& sentence) {
     actions_.emplace_back(SendReject{peer, hello.incarnation, reason, sentence});
-    note("warning", "worker refused", {{"host", hello.host}, {"reason", sentence}});
+    note("warning", "worker refused", {{"host", hello.host}, {"reason", sentence}}, std::nullopt,
+         &principal);
   };
   if (const std::string objection = objection_to(hello); !objection.empty()) {
     return refuse(RejectReason::Build, objection);
@@ -81,6 +82,7 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
   set_credit(*entry, 0);
   take_back_charges(*entry);
   adopt(*entry, now);
+  entry->hello.holds = {};
   welcome(*entry, now);
 }
 
@@ -205,6 +207,7 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state, Ti
   const bool at_front = loss == Loss::Left || is_proven(*entry.principal);
   workers_.disconnect(entry);
   leases_.loads().set_capacity(entry.number, 0, 0);
+  go_astray(*entry.principal, keys.size(), now);
   for (std::size_t i = keys.size(); i-- > 0;) {
     TaskRecord& record = *leases_.find(keys[i]);
     // What was merely queued there is nobody's affair.
@@ -240,7 +243,8 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state, Ti
        {{"worker", entry.number},
         {"host", entry.hello.host},
         {"how", loss == Loss::Death ? "connection closed" : "silent"},
-        {"requeued", static_cast<std::int64_t>(keys.size())}});
+        {"requeued", static_cast<std::int64_t>(keys.size())}},
+       std::nullopt, entry.principal, entry.number);
 }
 
 /// Whether the loss says something of a task that only this worker had, and that may have run.

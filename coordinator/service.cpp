@@ -169,9 +169,11 @@ class Loop final : public Service {
     telemetry_.on_frame_out(send.frame.size());
     switch (socket_->send(send.peer, send.frame)) {
       case SendStatus::Sent:
+      // A scenario: who wants it asks again.
+      case SendStatus::Later:
         return;
       case SendStatus::Gone:
-      // Reads too slowly for a thousand messages: as good as gone; it will say hello again.
+      // Reads too slowly, and was cut off: it will say hello again.
       case SendStatus::Full:
         coordinator_.on_unreachable(send, now);
         return;

@@ -17,6 +17,10 @@ constexpr std::int64_t kTrial = 2;
 constexpr std::size_t kRoomOnTrial = 64;
 /// Of a principal's n-th result, this / n is made again, until that is less than usual.
 constexpr double kDenseAtFirst = 4;
+/// Strangers that were given so much and have delivered nothing wait, while others work: races wait
+/// for what they take. Each further one makes it a second longer.
+constexpr std::int64_t kMostAstray = 32;
+constexpr std::int64_t kMostSecondsToWait = 300;
 /// Audits do not wait for the referee longer than that: later ones are left out.
 constexpr double kMostBacklogUs = 2e6;
 
@@ -151,6 +155,15 @@ void Scheduler::update_room(Principal& principal) {
   }
 }
 
+void Scheduler::go_astray(Principal& principal, std::size_t leases, TimePoint now) {
+  if (leases == 0 || is_proven(principal)) return;
+  principal.astray += static_cast<std::int64_t>(leases);
+  if (principal.astray < kMostAstray || proven_present() == 0) return;
+  principal.waits_until =
+      now + std::chrono::seconds(std::min(principal.astray, kMostSecondsToWait));
+  update_room(principal);
+}
+
 void Scheduler::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   entry.credit = std::min(credit, options_.max_credit);
   entry.asked |= credit > 0;
@@ -158,7 +171,7 @@ void Scheduler::set_credit(WorkerEntry& entry, std::uint32_t credit) {
   std::size_t most = entry.credit;
   if (principal.claims >= Principal::kMostClaims) most = 0;
   const bool is_new = !options_.evaluates_programs && !is_proven(principal);
-  if (is_new) most = std::min(most, kRoomOnTrial);
+  if (is_new) most = std::min(most, latest_ < principal.waits_until ? 0 : kRoomOnTrial);
   const auto slots = static_cast<std::size_t>(entry.usable() ? entry.hello.slots : 0);
   leases_.loads().set_capacity(entry.number, slots, slots > 0 ? most : 0);
 }

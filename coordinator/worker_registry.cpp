@@ -1,5 +1,7 @@
 #include "coordinator/worker_registry.h"
 
+#include <algorithm>
+
 #include "base/assert.h"
 
 namespace swarmsmith {
@@ -84,9 +86,14 @@ void WorkerRegistry::quarantine(WorkerEntry& entry) {
 }
 
 void WorkerRegistry::forget_old(TimePoint now) {
+  auto idlers = static_cast<std::size_t>(
+      std::ranges::count_if(entries_, [](const auto& each) { return each.second.is_idler(); }));
   for (auto at = entries_.begin(); at != entries_.end();) {
     const WorkerEntry& entry = at->second;
-    if (!entry.connected && now - entry.last_heard > kMemory) {
+    const bool is_old = !entry.connected && now - entry.last_heard > kMemory;
+    const bool is_one_too_many = entry.is_idler() && idlers > kMostIdlers;
+    if (is_old || is_one_too_many) {
+      if (entry.is_idler()) --idlers;
       by_identity_.erase(name_of(entry.principal->name, entry.hello.identity));
       entry.principal->workers.erase(entry.number);
       at = entries_.erase(at);

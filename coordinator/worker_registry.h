@@ -39,6 +39,7 @@ struct WorkerEntry {
   /// As its principal: nothing goes to it, and nothing is taken from it.
   bool quarantined = false;
 
+  bool is_idler() const { return !connected && done == 0 && failed == 0; }
   bool usable() const { return connected && !quarantined; }
   /// Tasks that its last disappearance counted against; it takes that back by coming again.
   std::vector<PackedKey> charged;
@@ -49,6 +50,8 @@ struct WorkerEntry {
 class WorkerRegistry {
  public:
   static constexpr Duration kMemory = std::chrono::minutes(15);
+  /// Of workers that left without having done anything, so many are remembered.
+  static constexpr std::size_t kMostIdlers = 1000;
 
   explicit WorkerRegistry(WorkerNumber first = 1) : next_(first) {}
 
@@ -61,8 +64,11 @@ class WorkerRegistry {
   WorkerEntry& add(Principal& principal, const std::string& identity);
   void connect(WorkerEntry& entry, PeerId peer, TimePoint now);
   void disconnect(WorkerEntry& entry);
-  /// Forgets workers that are not connected and were not heard of for long.
+  /// Forgets workers that are not connected and were not heard of for long, and of those that did
+  /// nothing the oldest ones.
   void forget_old(TimePoint now);
+  /// Whether it is worth while.
+  bool has_many_gone() const { return entries_.size() > by_peer_.size() + 2 * kMostIdlers; }
 
   /// Its slots count no more.
   void quarantine(WorkerEntry& entry);

@@ -1,14 +1,15 @@
-#include <sys/socket.h>
-#include <sys/stat.h>
+#include <algorithm>
 #include <array>
-#include <cstdlib>
 #include <optional>
 #include <unordered_map>
 #include <utility>
 #include <zmq.hpp>
 
+#include "base/clock.h"
 #include "proto/internal/gate.h"
+#include "proto/internal/tcp_bytes.h"
 #include "proto/internal/zmq_support.h"
+#include "proto/network.h"
 #include "proto/socket.h"
 #include "proto/wire.h"
 
@@ -36,42 +37,26 @@ RoutingId routing_id_of(PeerId peer) {
           static_cast<unsigned char>(peer >> 8U), static_cast<unsigned char>(peer)};
 }
 
-/// Peers whose clients are remembered; gone ones are forgotten when a message does not reach them,
-/// or all together when there are more.
+/// Peers that are remembered; gone ones are forgotten when a message does not reach them, or all
+/// together when there are more.
 constexpr std::size_t kMostPeers = 20'000;
 
-/// A connection's descriptor; the number of its inode tells whether it is still that connection.
-struct Connection {
-  int descriptor = -1;
-  ino_t inode = 0;
-};
+/// What comes with a frame besides its bytes, about: a header, and the signs of life since the
+/// frame before, which honest peers send every second; encrypted, if so.
+constexpr std::uint64_t kBesidesAFrame = 32;
+constexpr std::uint64_t kBesidesAFrameByKey = 128;
+/// A longer frame may have to wait until others have theirs. Leases never are so long.
+constexpr std::size_t kLongFrame = 1U << 20U;
+/// Of who has less than this on its way, nothing is taken for the sake of others.
+constexpr std::uint64_t kLittle = 64U << 10U;
+/// While others wait, a long frame must get there at this pace.
+constexpr double kLeastBytesPerSecond = 256U << 10U;
+constexpr Duration kPatience = std::chrono::seconds(5);
+constexpr Duration kLookAgain = std::chrono::milliseconds(50);
 
-Connection connection_of(zmq::message_t& frame) {
-  const int descriptor = zmq_msg_get(frame.handle(), ZMQ_SRCFD);
-  struct stat status = {};
-  if (descriptor < 0 || fstat(descriptor, &status) != 0) return {};
-  return {descriptor, status.st_ino};
-}
-
-/// libzmq 4.3 cannot end one connection of a socket, so that the system is asked to: libzmq then
-/// finds it closed.
-void cut(const Connection& connection) {
-  struct stat status = {};
-  if (connection.descriptor < 0 || fstat(connection.descriptor, &status) != 0) return;
-  if (S_ISSOCK(status.st_mode) && status.st_ino == connection.inode) {
-    shutdown(connection.descriptor, SHUT_RDWR);
-  }
-}
-
-std::string key_of(zmq::message_t& frame) {
-  const char* user = zmq_msg_gets(frame.handle(), "User-Id");
-  return user != nullptr ? user : "";
-}
-
-/// Where it comes from; the text lives as long as the frame.
-std::string_view address_of(zmq::message_t& frame) {
-  const char* address = zmq_msg_gets(frame.handle(), "Peer-Address");
-  return address != nullptr ? address : "";
+std::string property_of(zmq::message_t& frame, const char* name) {
+  const char* value = zmq_msg_gets(frame.handle(), name);
+  return value != nullptr ? value : "";
 }
 
 }  // namespace
@@ -102,14 +87,28 @@ struct ServerSocket::Impl {
   struct Peer {
     std::string key;
     std::optional<ListedClient> client;  ///< nothing once it is cut off
+    std::string address;
     Connection connection;
+    Gate::Taken taken;
+    std::uint64_t* unsent_to_host = nullptr;
+    std::uint64_t given = 0;       ///< bytes of frames that were sent to it
+    std::uint64_t arrived = 0;     ///< of them, when that was looked up last
+    std::uint64_t long_frame = 0;  ///< size of one that is on its way
+    TimePoint slow_after;          ///< with that
+
+    std::uint64_t unsent() const { return given - arrived; }
   };
 
   zmq::context_t context{1};
   zmq::socket_t socket{context, zmq::socket_type::router};
   std::unique_ptr<Gate> gate;
   bool by_key = false;
-  std::unordered_map<PeerId, Peer> peers;  ///< with keys only
+  SocketOptions options;
+  SystemClock clock;
+  std::unordered_map<PeerId, Peer> peers;
+  std::unordered_map<std::string, std::uint64_t> unsent_to;  ///< by network
+  std::uint64_t unsent_to_all = 0;
+  TimePoint looked;  ///< at all peers
   std::string endpoint;
   zmq::message_t name;
   zmq::message_t frame;
@@ -118,12 +117,85 @@ struct ServerSocket::Impl {
   Peer& peer_behind(PeerId id) {
     const auto known = peers.find(id);
     if (known != peers.end()) return known->second;
-    if (peers.size() >= kMostPeers) peers.clear();
+    if (peers.size() >= kMostPeers) {
+      peers.clear();
+      unsent_to.clear();
+      unsent_to_all = 0;
+    }
     Peer& peer = peers[id];
-    peer.key = key_of(frame);
-    peer.connection = connection_of(frame);
+    peer.address = property_of(frame, "Peer-Address");
+    peer.connection = connection_at(zmq_msg_get(frame.handle(), ZMQ_SRCFD));
+    peer.taken = gate->meter_of(peer.connection);
+    peer.unsent_to_host = &unsent_to[network_of(peer.address)];
+    if (!by_key) return peer;
+    peer.key = property_of(frame, "User-Id");
     check(peer);
     return peer;
+  }
+
+  void change_unsent(Peer& peer, std::uint64_t given, std::uint64_t arrived) {
+    const std::uint64_t change = given - arrived - peer.unsent();
+    *peer.unsent_to_host += change;
+    unsent_to_all += change;
+    peer.given = given;
+    peer.arrived = arrived;
+    if (peer.unsent() <= kLittle) peer.long_frame = 0;
+  }
+
+  /// Asks the system what of the sent has arrived. libzmq sends more than frames, so that more may
+  /// have arrived than was given.
+  void look_at(Peer& peer) {
+    const std::optional<TcpBytes> bytes = tcp_bytes_of(peer.connection);
+    const std::uint64_t arrived = bytes ? bytes->acknowledged : peer.given;
+    change_unsent(peer, std::max(peer.given, arrived), arrived);
+  }
+
+  void look_at_all() {
+    const TimePoint now = clock.now();
+    if (now - looked < kLookAgain) return;
+    looked = now;
+    for (auto& [id, peer] : peers) {
+      if (peer.unsent() > 0) look_at(peer);
+      if (peer.long_frame > 0 && now > peer.slow_after) drop(peer);
+    }
+  }
+
+  void drop(Peer& peer) {
+    gate->count_refusal("reads too slowly", peer.address);
+    cut(peer.connection);
+    change_unsent(peer, peer.given, peer.given);
+  }
+
+  /// Whether so much may be sent to this peer now.
+  SendStatus room_for(Peer& peer, std::size_t size) {
+    if (peer.unsent() + size > kLittle) look_at(peer);
+    const bool is_long = size > kLongFrame;
+    if (is_long && peer.long_frame > 0) return SendStatus::Later;
+    if (!is_long && peer.unsent() + size > options.most_unsent + peer.long_frame) {
+      drop(peer);
+      return SendStatus::Full;
+    }
+    const auto fits = [&] {
+      // Alone, the longest frame may be sent.
+      return unsent_to_all <= kLittle ||
+             (unsent_to_all + size <= options.most_unsent_to_all &&
+              *peer.unsent_to_host + size <= options.most_unsent_to_host);
+    };
+    if (fits() || (!is_long && peer.unsent() + size <= kLittle)) return SendStatus::Sent;
+    look_at_all();
+    if (fits()) return SendStatus::Sent;
+    if (is_long) return SendStatus::Later;
+    drop(peer);
+    return SendStatus::Full;
+  }
+
+  void count_sent(Peer& peer, std::size_t size) {
+    if (size > kLongFrame) {
+      const std::chrono::duration<double> time(static_cast<double>(size) / kLeastBytesPerSecond);
+      peer.slow_after = clock.now() + kPatience + std::chrono::duration_cast<Duration>(time);
+      peer.long_frame = size;
+    }
+    change_unsent(peer, peer.given + size, peer.arrived);
   }
 
   /// Looks the peer up in the list as it is now; false when it has been cut off.
@@ -148,6 +220,7 @@ Expected<std::unique_ptr<ServerSocket>> ServerSocket::bind(const std::string& en
   // Else a message to a peer that has gone vanishes without an error.
   impl->socket.set(zmq::sockopt::router_mandatory, true);
   impl->by_key = keys.has_value();
+  impl->options = options;
   impl->gate = std::make_unique<Gate>(impl->context, impl->socket, impl->by_key, options);
   if (keys) {
     impl->gate->admit(std::move(keys->clients));
@@ -173,15 +246,26 @@ const std::string& ServerSocket::endpoint() const {
 }
 
 SendStatus ServerSocket::send(PeerId peer, std::string_view frame) {
-  if (impl_->by_key) {
-    const auto known = impl_->peers.find(peer);
-    if (known != impl_->peers.end() && !known->second.client) return SendStatus::Gone;
+  const auto known = impl_->peers.find(peer);
+  const bool is_known = known != impl_->peers.end();
+  if (is_known) {
+    if (impl_->by_key && !known->second.client) return SendStatus::Gone;
+    const SendStatus room = impl_->room_for(known->second, frame.size());
+    if (room != SendStatus::Sent) return room;
   }
   const RoutingId name = routing_id_of(peer);
   const std::string_view bytes(reinterpret_cast<const char*>(name.data()), name.size());
   SendStatus status = send_on(impl_->socket, bytes, zmq::send_flags::sndmore);
   if (status == SendStatus::Sent) status = send_on(impl_->socket, frame, zmq::send_flags::none);
-  if (status == SendStatus::Gone) impl_->peers.erase(peer);
+  if (!is_known) return status;
+  if (status == SendStatus::Sent) {
+    impl_->count_sent(known->second, frame.size());
+  } else if (status == SendStatus::Full) {
+    impl_->drop(known->second);
+  } else {
+    impl_->change_unsent(known->second, 0, 0);
+    impl_->peers.erase(known);
+  }
   return status;
 }
 
@@ -195,16 +279,18 @@ bool ServerSocket::receive(Received& received) {
     while (more) {
       (void)impl_->socket.recv(impl_->frame, zmq::recv_flags::dontwait);
       more = impl_->frame.more();
-      if (frames++ == 0 && id && impl_->by_key) peer = &impl_->peer_behind(*id);
+      if (frames++ == 0 && id) peer = &impl_->peer_behind(*id);
+      if (peer == nullptr || peer->taken == nullptr) continue;
+      *peer->taken += impl_->frame.size() + (impl_->by_key ? kBesidesAFrameByKey : kBesidesAFrame);
     }
     if (frames != 1) impl_->frame.rebuild();
-    if (!id || (impl_->by_key && (peer == nullptr || !peer->client))) continue;
+    if (peer == nullptr || (impl_->by_key && !peer->client)) continue;
     received = {.peer = *id,
                 .frame = impl_->frame.to_string_view(),
                 .role = {},
                 .client = {},
-                .address = address_of(impl_->frame)};
-    if (peer != nullptr) {
+                .address = peer->address};
+    if (impl_->by_key) {
       received.role = peer->client->role;
       received.client = peer->client->name;
     }

@@ -22,8 +22,9 @@ using PeerId = std::uint32_t;
 
 enum class SendStatus {
   Sent,
-  Gone,  ///< no such connection any more
-  Full,  ///< the peer reads too slowly
+  Gone,   ///< no such connection any more
+  Full,   ///< the peer reads too slowly; a server has ended the connection
+  Later,  ///< a long frame while too many are on their way: not sent
 };
 
 /// What a socket does with connections; shortened in tests.
@@ -39,13 +40,27 @@ struct SocketOptions {
   /// descriptor: where the process's limit is lower, libzmq leaves newcomers in the system's queue.
   /// ZMQ_MAX_SOCKETS is no limit here, since one socket has them all.
   int max_connections = 10'000;
+  /// Of these, of one address; all of loopback is one, and so is an IPv6 network of 64 bits.
+  int max_connections_of_host = 6'000;
+  // What a server holds of others, in bytes, of a connection, of a host and of all. Beyond that
+  // those who have most are cut off.
+  std::size_t most_waiting = 8U << 20U;  ///< that came and was not taken
+  std::size_t most_waiting_of_host = 32U << 20U;
+  std::size_t most_waiting_of_all = 64U << 20U;
+  std::size_t most_waiting_memory = 48U << 20U;  ///< by which the process grew while much waited
+  // And what was sent to others and has not arrived there. Beyond it long frames (scenarios) wait,
+  // and who takes what is short too slowly is cut off.
+  std::size_t most_unsent = 8U << 20U;  ///< and one long frame
+  std::size_t most_unsent_to_host = 40U << 20U;
+  std::size_t most_unsent_to_all = 64U << 20U;
 };
 
 /// Who was kept out since the start, or cut off.
 struct Refusals {
   /// By reason: "unlisted key", "expired key", "revoked key", "plaintext", "wrong server key", "bad
   /// handshake", "no handshake" (rubbish, silence, or a peer that hung up first), "too many
-  /// connections".
+  /// connections", "too many connections of one host", "too much at once" (bytes that nobody could
+  /// take), "reads too slowly".
   std::map<std::string, std::uint64_t> counts;
   std::map<std::string, std::string> last_from;  ///< address or key's name, where it is known
 
@@ -60,7 +75,7 @@ class ServerSocket {
     PeerId peer = 0;
     std::string_view frame;  ///< until the next call; empty when the message was no single frame
     Role role = Role::Anyone;
-    std::string_view client;  ///< name of its key in the allow-list, as long; empty without keys
+    std::string_view client;   ///< name of its key in the allow-list, as long; empty without keys
     std::string_view address;  ///< of the peer, a number without a port, as long
   };
 

@@ -116,10 +116,10 @@ bool is_key(const pb::Key& key) {
 
 bool is_fine(const pb::Hello& hello) {
   return hello.worker_id().size() == kWorkerIdBytes && hello.slots() >= 1 &&
-         hello.slots() <= kMaxSlots && hello.build().size() <= kMaxTextBytes &&
-         hello.self_test().size() <= kMaxTextBytes && hello.host().size() <= kMaxTextBytes &&
-         hello.job().size() <= kMaxTextBytes && hello.cpu().size() <= kMaxTextBytes &&
-         hello.secret().size() <= kMaxTextBytes && all(hello.holds(), is_key) &&
+         hello.slots() <= kMaxSlots && hello.build().size() <= kMaxNameBytes &&
+         hello.self_test().size() <= kMaxNameBytes && hello.host().size() <= kMaxNameBytes &&
+         hello.job().size() <= kMaxNameBytes && hello.cpu().size() <= kMaxNameBytes &&
+         hello.secret().size() <= kMaxNameBytes && all(hello.holds(), is_key) &&
          (hello.signatures().empty() || (hello.signatures_size() == hello.holds_size() &&
                                          hello.attempts_size() == hello.holds_size()));
 }

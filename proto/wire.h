@@ -29,9 +29,11 @@ inline constexpr std::size_t kMaxFrameToWorkerBytes = 32U << 20U;
 inline constexpr int kMaxItemsPerMessage = 4096;  ///< tasks, results or keys
 inline constexpr std::size_t kMaxMachineBytes = 16U << 10U;
 inline constexpr std::size_t kMaxTextBytes = 4U << 10U;
+/// Names of a hello: a coordinator keeps them for each worker.
+inline constexpr std::size_t kMaxNameBytes = 256;
 /// As much of a text as a message may carry.
-inline std::string clipped_text(const std::string& text) {
-  return text.substr(0, kMaxTextBytes);
+inline std::string clipped_text(const std::string& text, std::size_t most = kMaxTextBytes) {
+  return text.substr(0, most);
 }
 inline constexpr std::uint32_t kMaxSlots = 4096;
 inline constexpr std::size_t kWorkerIdBytes = 16;

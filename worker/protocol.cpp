@@ -45,14 +45,14 @@ void WorkerProtocol::greet(TimePoint now) {
   pb::ToCoordinator message;
   pb::Hello& hello = *message.mutable_hello();
   hello.set_worker_id(identity_.id);
-  hello.set_build(clipped_text(identity_.build));
+  hello.set_build(clipped_text(identity_.build, kMaxNameBytes));
   hello.set_engine_version(identity_.engine_version);
   hello.set_self_test(identity_.self_test);
   hello.set_slots(static_cast<std::uint32_t>(identity_.slots));
-  hello.set_host(clipped_text(identity_.host));
+  hello.set_host(clipped_text(identity_.host, kMaxNameBytes));
   hello.set_pid(identity_.pid);
-  hello.set_job(clipped_text(identity_.job));
-  hello.set_cpu(clipped_text(identity_.cpu));
+  hello.set_job(clipped_text(identity_.job, kMaxNameBytes));
+  hello.set_cpu(clipped_text(identity_.cpu, kMaxNameBytes));
   hello.set_secret(identity_.secret);
   hello.set_scenario(scenario_);
   for (const auto& [key, held] : held_) {

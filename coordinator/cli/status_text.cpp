@@ -108,6 +108,10 @@ std::string troubles(const LiveStatus& status) {
   add("expired", status.expired);
   add("lost workers", status.lost_workers);
   add("malformed", status.malformed);
+  std::int64_t over_budget = 0;
+  for (const auto& [kind, count] : status.over_budget)
+    over_budget += static_cast<std::int64_t>(count);
+  add("over budget", over_budget);
   std::int64_t refused = 0;
   for (const auto& [reason, count] : status.refused)
     refused += static_cast<std::int64_t>(count);

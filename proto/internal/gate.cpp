@@ -1,9 +1,15 @@
 #include "proto/internal/gate.h"
 
+#include <netdb.h>
 #include <sys/socket.h>
+#include <unistd.h>
 #include <algorithm>
 #include <array>
+#include <fstream>
+#include <functional>
 #include <utility>
+
+#include "proto/network.h"
 
 namespace swarmsmith {
 namespace {
@@ -17,11 +23,22 @@ constexpr int kEvents = ZMQ_EVENT_ACCEPTED | ZMQ_EVENT_HANDSHAKE_SUCCEEDED |
                         ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_DISCONNECTED;
 /// What libzmq may need to end a handshake that took too long.
 constexpr Duration kSlack = std::chrono::milliseconds(500);
-constexpr std::chrono::milliseconds kLookAgain{250};
+/// So often memory is looked at: a peer of this host can send some ten megabytes meanwhile.
+constexpr std::chrono::milliseconds kLookAgain{10};
+/// Connections are weighed when memory has grown by this, and else once in a while: a cluster's are
+/// thousands of questions to the system.
+constexpr std::size_t kGrowth = 8U << 20U;
+constexpr Duration kWeighAgain = std::chrono::seconds(1);
+/// So little waits in all when nothing is wrong.
+constexpr std::uint64_t kNextToNothing = 256U << 10U;
+/// Who has less waiting is not cut off for the memory that the process takes.
+constexpr std::uint64_t kLittle = 64U << 10U;
 
 constexpr const char* kSilent = "no handshake";
 /// Reasons that end connections which had come in.
 constexpr const char* kRevoked = "revoked key";
+constexpr const char* kTooMuch = "too much at once";
+constexpr const char* kTooSlow = "reads too slowly";
 
 /// Parts of a request, in their order.
 enum Part : std::size_t { Version, RequestId, Domain, Address, Identity, Mechanism, Credentials };
@@ -45,13 +62,33 @@ std::string reason_of_protocol_error(int error) {
   }
 }
 
+/// A number; empty when the connection is gone.
+std::string address_of(int descriptor) {
+  sockaddr_storage peer = {};
+  socklen_t size = sizeof peer;
+  std::array<char, NI_MAXHOST> text{};
+  auto* const address = reinterpret_cast<sockaddr*>(&peer);
+  if (getpeername(descriptor, address, &size) != 0 ||
+      getnameinfo(address, size, text.data(), text.size(), nullptr, 0, NI_NUMERICHOST) != 0) {
+    return {};
+  }
+  return text.data();
+}
+
+/// Bytes of memory that this process has.
+std::size_t resident_bytes() {
+  std::ifstream file("/proc/self/statm");
+  std::size_t pages = 0;
+  std::size_t resident = 0;
+  file >> pages >> resident;
+  return resident * static_cast<std::size_t>(sysconf(_SC_PAGESIZE));
+}
+
 }  // namespace
 
 Gate::Gate(zmq::context_t& context, zmq::socket_t& server, bool admit_by_key,
            const SocketOptions& options)
-    : server_(&server),
-      max_connections_(static_cast<std::size_t>(options.max_connections)),
-      young_for_(options.handshake_timeout + kSlack) {
+    : server_(&server), options_(options), young_for_(options.handshake_timeout + kSlack) {
   if (admit_by_key) {
     requests_ = zmq::socket_t(context, zmq::socket_type::rep);
     requests_.set(zmq::sockopt::linger, 0);
@@ -102,11 +139,13 @@ void Gate::work() {
   const std::size_t count = requests_.handle() != nullptr ? 3 : 2;
   const SystemClock clock;
   while (true) {
-    poll(items.data(), count, handshakes_.empty() ? std::chrono::milliseconds{-1} : kLookAgain);
+    poll(items.data(), count,
+         open_.empty() && handshakes_.empty() ? std::chrono::milliseconds{-1} : kLookAgain);
     if (items[0].revents != 0) break;
     const TimePoint now = clock.now();
     if (items[1].revents != 0) hear_event(now);
     grow_old(now);
+    weigh(now);
     if (count == 3 && items[2].revents != 0) answer_request();
   }
   // A socket belongs to the thread that uses it.
@@ -153,14 +192,7 @@ void Gate::hear_event(TimePoint now) {
   while (receive_event(monitor_, event)) {
     switch (event.event) {
       case ZMQ_EVENT_ACCEPTED:
-        ++accepted_;
-        if (open_.size() >= max_connections_) {
-          count_refusal("too many connections", "");
-          shutdown(event.value, SHUT_RDWR);
-        }
-        open_[event.value] = {.since = now};
-        handshakes_.emplace_back(now, event.value);
-        ++young_;
+        let_in(event.value, now);
         break;
       case ZMQ_EVENT_HANDSHAKE_SUCCEEDED:
         ++succeeded_;
@@ -168,15 +200,103 @@ void Gate::hear_event(TimePoint now) {
       case ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL:
         count_refusal(reason_of_protocol_error(event.value), "");
         break;
-      default: {
-        const auto at = open_.find(event.value);
-        if (at == open_.end()) break;
-        if (at->second.young) --young_;
-        open_.erase(at);
-      }
+      default:
+        forget(event.value);
     }
   }
   count_silent();
+}
+
+void Gate::let_in(int descriptor, TimePoint now) {
+  ++accepted_;
+  // Whose end was not heard of.
+  forget(descriptor);
+  const std::string address = address_of(descriptor);
+  const std::string network = network_of(address);
+  const char* refusal = nullptr;
+  if (open_.size() >= static_cast<std::size_t>(options_.max_connections)) {
+    refusal = "too many connections";
+  } else if (open_of_[network] >= options_.max_connections_of_host) {
+    refusal = "too many connections of one host";
+  }
+  if (refusal != nullptr) {
+    count_refusal(refusal, address);
+    shutdown(descriptor, SHUT_RDWR);
+  }
+  open_[descriptor] = {.since = now,
+                       .connection = connection_at(descriptor),
+                       .network = network,
+                       .cut = refusal != nullptr};
+  ++open_of_[network];
+  handshakes_.emplace_back(now, descriptor);
+  ++young_;
+}
+
+void Gate::forget(int descriptor) {
+  const auto at = open_.find(descriptor);
+  if (at == open_.end()) return;
+  if (at->second.young) --young_;
+  const auto of_host = open_of_.find(at->second.network);
+  if (--of_host->second == 0) open_of_.erase(of_host);
+  const std::scoped_lock lock(mutex_);
+  meters_.erase(at->second.connection.inode);
+  open_.erase(at);
+}
+
+Gate::Taken Gate::meter_of(const Connection& connection) {
+  if (connection.descriptor < 0) return nullptr;
+  const std::scoped_lock lock(mutex_);
+  Taken& taken = meters_[connection.inode];
+  if (taken == nullptr) taken = std::make_shared<std::atomic<std::uint64_t>>(0);
+  return taken;
+}
+
+void Gate::weigh(TimePoint now) {
+  const std::size_t resident = resident_bytes();
+  if (resident < resident_ + kGrowth && now - weighed_ < kWeighAgain) return;
+  weigh_all(resident);
+  resident_ = resident;
+  weighed_ = now;
+}
+
+/// What came and was not taken lies in queues of libzmq, which bounds the number of whole messages
+/// there, but neither their bytes nor the parts of one that has no end. A part of two bytes takes
+/// 64 there: so what waits has a budget in bytes, and one in memory.
+void Gate::weigh_all(std::size_t resident) {
+  std::vector<std::pair<std::uint64_t, Open*>> waiting;
+  std::unordered_map<std::string, std::uint64_t> of_host;
+  std::uint64_t of_all = 0;
+  for (auto& [descriptor, open] : open_) {
+    const std::optional<TcpBytes> bytes = open.cut ? std::nullopt : tcp_bytes_of(open.connection);
+    if (!bytes) continue;
+    const Taken meter = meter_of(open.connection);
+    std::uint64_t taken = meter->load();
+    // What comes with frames is a guess.
+    if (taken > bytes->received) meter->compare_exchange_strong(taken, bytes->received);
+    if (taken >= bytes->received) continue;
+    const std::uint64_t held = bytes->received - taken;
+    waiting.emplace_back(held, &open);
+    of_host[open.network] += held;
+    of_all += held;
+  }
+  if (of_all <= kNextToNothing || calm_ == 0) calm_ = resident;
+  const bool takes_too_much = resident > calm_ + options_.most_waiting_memory;
+  // Until it has grown as much once more: what is freed may stay with the process.
+  if (takes_too_much) calm_ = resident;
+  const std::uint64_t half = of_all / 2;
+  // Those with most go first.
+  std::ranges::sort(waiting, std::greater<>(), &std::pair<std::uint64_t, Open*>::first);
+  for (const auto& [held, open] : waiting) {
+    std::uint64_t& host = of_host[open->network];
+    const bool fits = held <= options_.most_waiting && host <= options_.most_waiting_of_host &&
+                      of_all <= options_.most_waiting_of_all;
+    if (fits && !(takes_too_much && of_all > half && held > kLittle)) continue;
+    count_refusal(kTooMuch, address_of(open->connection.descriptor));
+    cut(open->connection);
+    open->cut = true;
+    host -= held;
+    of_all -= held;
+  }
 }
 
 void Gate::grow_old(TimePoint now) {
@@ -200,7 +320,8 @@ void Gate::count_silent() {
   const std::scoped_lock lock(mutex_);
   std::int64_t failed = accepted_ - succeeded_ - young_;
   for (const auto& [reason, count] : refusals_.counts) {
-    if (reason != kSilent && reason != kRevoked) failed -= static_cast<std::int64_t>(count);
+    const bool had_come_in = reason == kRevoked || reason == kTooMuch || reason == kTooSlow;
+    if (reason != kSilent && !had_come_in) failed -= static_cast<std::int64_t>(count);
   }
   if (failed <= 0) return;
   std::uint64_t& known = refusals_.counts[kSilent];

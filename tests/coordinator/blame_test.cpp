@@ -64,6 +64,63 @@ TEST_F(Blame, StrangersHaveTheRefereeDoOneThingAtATime) {
   EXPECT_EQ(scheduler.cases().size(), 1U);
 }
 
+/// Else a race waits for what they took, again and again.
+TEST_F(Blame, StrangersThatTakeAndLeaveGetLittleWhileOthersWork) {
+  hello(1, 1);
+  want(1, 4000);
+  const auto visits = [&](PeerId first, PeerId last) {
+    std::size_t taken = 0;
+    for (PeerId peer = first; peer <= last; ++peer) {
+      enter(peer, "10.0.0.1", 1, peer);
+      credit(peer, 10, peer);
+      taken += given[peer].size();
+      leave(peer);
+      now += milliseconds(20);
+    }
+    return taken;
+  };
+  EXPECT_LE(visits(10, 200), 50U);
+  EXPECT_EQ(visits(201, 400), 0U);
+  // Others are not held back by it, nor is it for ever.
+  enter(500, "10.0.0.2", 1, 500);
+  credit(500, 10, 500);
+  EXPECT_EQ(given[500].size(), 10U);
+  now += seconds(50);
+  enter(501, "10.0.0.1", 1, 501);
+  credit(501, 10, 501);
+  EXPECT_EQ(given[501].size(), 10U);
+}
+
+TEST_F(Blame, StrangersThatTakeAndKeepGetLittleWhileOthersWork) {
+  hello(1, 1);
+  want(1, 4000);
+  std::size_t taken = 0;
+  for (PeerId peer = 10; peer < 20; ++peer) {
+    enter(peer, "10.0.0.1", 1, peer);
+    credit(peer, 10, peer);
+  }
+  for (int second = 0; second < 30; ++second) {
+    for (PeerId peer = 10; peer < 20; ++peer) {
+      credit(peer, 10, peer);
+      taken += std::exchange(given[peer], {}).size();
+    }
+    beat(1, {}, 0);
+    pass(seconds(1));
+  }
+  EXPECT_GE(taken, 32U);
+  EXPECT_LE(taken, 100U);
+}
+
+TEST_F(Blame, StrangersGetAllWhereThereIsNobodyElse) {
+  want(1, 4000);
+  for (PeerId peer = 10; peer <= 60; ++peer) {
+    enter(peer, "10.0.0.1", 1, peer);
+    credit(peer, 10, peer);
+    EXPECT_EQ(given[peer].size(), 10U);
+    leave(peer);
+  }
+}
+
 TEST_F(Blame, ANewcomerHoldsLittle) {
   want(1, 4000);
   enter(1, "10.0.0.1", 4000);

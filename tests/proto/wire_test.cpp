@@ -54,6 +54,16 @@ std::string empty_parts(int field, int part, std::size_t count) {
 }
 
 /// Else a megabyte makes objects of a hundred.
+TEST(Wire, NamesThatAreKeptAreShort) {
+  pb::ToCoordinator message;
+  message.mutable_hello()->set_worker_id(std::string(kWorkerIdBytes, 'a'));
+  message.mutable_hello()->set_slots(1);
+  message.mutable_hello()->set_host(std::string(kMaxNameBytes, 'h'));
+  EXPECT_EQ(fault_of(encode(message)), "");
+  message.mutable_hello()->set_host(std::string(kMaxNameBytes + 1, 'h'));
+  EXPECT_EQ(fault_of(encode(message)), "limits");
+}
+
 TEST(Wire, CountsPartsBeforeItMakesThem) {
   const std::string head = encode(pb::ToCoordinator());
   // Unknown fields whose text is no message: cut short, a wrong tag, the end of no group.

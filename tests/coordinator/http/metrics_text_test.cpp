@@ -65,6 +65,7 @@ LiveStatus busy_status() {
   LiveStatus status;
   status.workers = 3;
   status.malformed_by = {{"header", 2}};
+  status.over_budget = {{"hello", 7}};
   status.refused = {{"unlisted key", 5}};
   CampaignStatus campaign;
   campaign.name = "a \"b\"\\\n";
@@ -82,6 +83,7 @@ TEST(MetricsText, IsWhatAScraperReads) {
   EXPECT_THAT(page.complaints, ::testing::IsEmpty());
   EXPECT_EQ(page.value("swarmsmith_workers", "{state=\"connected\"}"), 3);
   EXPECT_EQ(page.value("swarmsmith_malformed_total", "{reason=\"header\"}"), 2);
+  EXPECT_EQ(page.value("swarmsmith_over_budget_total", "{reason=\"hello\"}"), 7);
   EXPECT_EQ(page.value("swarmsmith_refused_total", "{reason=\"unlisted key\"}"), 5);
   const std::string name = R"(campaign="a \"b\"\\\n")";
   EXPECT_EQ(page.value("swarmsmith_failed_total", "{" + name + ",reason=\"timed out\"}"), 4);

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "base/clock.h"
+
+namespace swarmsmith {
+
+/// So much at once, and then so much a second.
+struct Rate {
+  double burst = 0;
+  double per_second = 0;
+};
+
+/// Lets through what stays within a rate (a token bucket). Pure.
+class RateLimit {
+ public:
+  explicit RateLimit(Rate rate) : rate_(rate), left_(rate.burst) {}
+
+  bool has(double amount, TimePoint now) {
+    const std::chrono::duration<double> since = now - when_;
+    if (since.count() > 0) {
+      left_ += since.count() * rate_.per_second;
+      when_ = now;
+    }
+    if (left_ > rate_.burst) left_ = rate_.burst;
+    return left_ >= amount;
+  }
+  bool take(double amount, TimePoint now) {
+    if (!has(amount, now)) return false;
+    left_ -= amount;
+    return true;
+  }
+  /// Nothing was taken for so long that it is as good as new.
+  bool is_full(TimePoint now) const {
+    RateLimit then = *this;
+    return then.has(rate_.burst, now);
+  }
+
+ private:
+  Rate rate_;
+  double left_;
+  TimePoint when_;
+};
+
+/// The same for each of many names, whom strangers may choose: those that have been quiet are
+/// forgotten when there are too many, and then all are.
+class RateLimits {
+ public:
+  explicit RateLimits(Rate rate) : rate_(rate) {}
+
+  RateLimit& of(std::string_view name, TimePoint now) {
+    if (limits_.size() >= kMostNames) {
+      std::erase_if(limits_, [&](const auto& entry) { return entry.second.is_full(now); });
+      if (limits_.size() >= kMostNames) limits_.clear();
+    }
+    return limits_.try_emplace(std::string(name), rate_).first->second;
+  }
+
+ private:
+  static constexpr std::size_t kMostNames = 10'000;
+
+  Rate rate_;
+  std::unordered_map<std::string, RateLimit> limits_;
+};
+
+}  // namespace swarmsmith

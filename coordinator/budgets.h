@@ -1,0 +1,81 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/clock.h"
+#include "base/rate_limit.h"
+#include "proto/socket.h"
+#include "storage/rows.h"
+
+namespace swarmsmith {
+
+/// How much others can make a coordinator write, do and send. A stranger is a principal of which no
+/// result was ever taken; a thousand workers of one that come at once are within all of these.
+struct BudgetOptions {
+  // Bytes of rows and of their lines in the log.
+  Rate rows_of_stranger{.burst = 128 << 10, .per_second = 512};
+  Rate rows_of_strangers{.burst = 256 << 10, .per_second = 1024};  ///< all together
+  Rate rows_of_known{.burst = 512 << 10, .per_second = 4096};      ///< each
+  Rate hellos_of_peer{.burst = 10, .per_second = 1};
+  Rate hellos_of_principal{.burst = 4000, .per_second = 100};
+  Rate hellos_of_strangers{.burst = 10'000, .per_second = 500};
+  /// Scenarios and statuses: many bytes for few. But of any size, one.
+  Rate answers_of_peer{.burst = 20, .per_second = 2};
+  Rate answer_bytes{.burst = 16 << 20, .per_second = 128 << 20};
+  Rate commands{.burst = 1000, .per_second = 10};
+  /// What was left out becomes an event this often.
+  Duration tell_every = std::chrono::minutes(1);
+};
+
+/// Whose doing something is.
+struct Source {
+  std::string_view principal;
+  bool is_stranger = true;
+};
+
+/// Keeps these budgets. What is beyond them is left out, counted by kind, and told. Rows of the
+/// answer are never asked about, nor what the coordinator decides itself, nor what is said by
+/// workers that it started. Pure.
+class Budgets {
+ public:
+  explicit Budgets(const BudgetOptions& options = {});
+
+  bool may_write(const Source& source, std::size_t bytes, TimePoint now);
+  bool may_say_hello(PeerId peer, const Source& source, TimePoint now);
+  bool may_be_sent(PeerId peer, std::size_t bytes, TimePoint now);
+  bool may_command(TimePoint now) { return commands_.take(1, now); }
+
+  void leave_out(std::string_view kind);
+  /// By kind, since the start.
+  const std::map<std::string, std::uint64_t, std::less<>>& left_out() const { return left_out_; }
+  /// What was left out since the last time, as events, when it is time to tell; or `now_or_never`.
+  std::vector<EventRow> take_news(TimePoint now, bool now_or_never = false);
+
+ private:
+  BudgetOptions options_;
+  RateLimits rows_of_stranger_, rows_of_known_;
+  RateLimit rows_of_strangers_;
+  RateLimits hellos_of_peer_, hellos_of_principal_;
+  RateLimit hellos_of_strangers_;
+  RateLimits answers_of_peer_;
+  RateLimit answer_bytes_;
+  RateLimit commands_;
+  std::map<std::string, std::uint64_t, std::less<>> left_out_, told_;
+  TimePoint tell_again_;
+};
+
+/// About, in a store with its indexes and in the log.
+std::size_t bytes_of(const WorkerRow& row);
+std::size_t bytes_of(const EventRow& row);
+std::size_t bytes_of(const FailureRow& row);
+/// Of a worker's row that is there already, a line.
+inline constexpr std::size_t kChangeBytes = 150;
+inline constexpr std::size_t kConflictBytes = 120;
+inline constexpr std::size_t kAttemptBytes = 60;
+
+}  // namespace swarmsmith

@@ -1,0 +1,27 @@
+#include "proto/network.h"
+
+#include <arpa/inet.h>
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+namespace swarmsmith {
+
+std::string network_of(const std::string& address) {
+  constexpr const char* kLoopback = "loopback";
+  constexpr std::string_view kMapped = "::ffff:";
+  const std::string text = address.starts_with(kMapped) ? address.substr(kMapped.size()) : address;
+  std::array<unsigned char, 16> bytes{};
+  if (inet_pton(AF_INET, text.c_str(), bytes.data()) == 1) {
+    return bytes[0] == 127 ? kLoopback : text;
+  }
+  // An interface may follow: fe80::1%eth0.
+  if (inet_pton(AF_INET6, text.substr(0, text.find('%')).c_str(), bytes.data()) != 1) return text;
+  if (text == "::1") return kLoopback;
+  std::fill(bytes.begin() + 8, bytes.end(), std::uint8_t{0});
+  std::array<char, INET6_ADDRSTRLEN> out{};
+  inet_ntop(AF_INET6, bytes.data(), out.data(), out.size());
+  return std::string(out.data()) + "/64";
+}
+
+}  // namespace swarmsmith

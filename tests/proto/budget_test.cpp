@@ -1,0 +1,249 @@
+// What a server's socket holds of others.
+
+#include <gtest/gtest.h>
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+#include <array>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "proto/network.h"
+#include "proto/socket.h"
+
+namespace swarmsmith {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t kMiB = 1U << 20U;
+
+/// A peer by hand, in plaintext: libzmq's own would not say half a message, nor read nothing.
+class RawPeer {
+ public:
+  explicit RawPeer(const std::string& endpoint) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+    sockaddr_in address = {};
+    address.sin_family = AF_INET;
+    address.sin_port =
+        htons(static_cast<std::uint16_t>(std::stoi(endpoint.substr(endpoint.rfind(':') + 1))));
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    // What nobody reads stays with the server.
+    const int small = 4096;
+    setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &small, sizeof small);
+    timeval patience = {.tv_sec = 0, .tv_usec = 200'000};
+    setsockopt(socket_, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+    if (connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) return;
+    // Greeting and READY of ZMTP 3.0 with the mechanism NULL.
+    std::string words = "\xff" + std::string(8, '\0') + "\x7f\x03";
+    words += '\0';
+    words += "NULL" + std::string(16 + 1 + 31, '\0');
+    words += std::string(
+        "\x04\x1c\x05READY\x0bSocket-Type\0\0\0\x06"
+        "DEALER",
+        30);
+    say(words);
+    // libzmq ends a connection that speaks before both are ready.
+    constexpr std::size_t kGreeting = 64;
+    std::string heard;
+    std::array<char, 256> bytes{};
+    while (heard.size() < kGreeting + 2 ||
+           heard.size() < kGreeting + 2 + static_cast<unsigned char>(heard[kGreeting + 1])) {
+      const ssize_t got = ::recv(socket_, bytes.data(), bytes.size(), 0);
+      if (got <= 0) return;
+      heard.append(bytes.data(), static_cast<std::size_t>(got));
+    }
+  }
+  ~RawPeer() { ::close(socket_); }
+  RawPeer(const RawPeer&) = delete;
+  RawPeer& operator=(const RawPeer&) = delete;
+
+  /// False when the connection is closed, or nobody reads.
+  bool say(const std::string& bytes) const {
+    std::size_t said = 0;
+    while (said < bytes.size()) {
+      const ssize_t sent = ::send(socket_, bytes.data() + said, bytes.size() - said, MSG_NOSIGNAL);
+      if (sent <= 0) return false;
+      said += static_cast<std::size_t>(sent);
+    }
+    return true;
+  }
+
+  /// Takes what there is.
+  void read() const {
+    std::vector<char> bytes(kMiB);
+    while (::recv(socket_, bytes.data(), bytes.size(), 0) > 0) {
+    }
+  }
+
+ private:
+  int socket_;
+};
+
+/// A part of a message, after which others come.
+std::string part_of(std::size_t size) {
+  std::string part = "\x03";
+  for (int byte = 7; byte >= 0; --byte)
+    part += static_cast<char>(size >> (8 * static_cast<unsigned>(byte)));
+  return part + std::string(size, 'x');
+}
+
+class Budgets : public ::testing::Test {
+ protected:
+  void listen(const SocketOptions& options = {}) {
+    auto bound = ServerSocket::bind("tcp://127.0.0.1:*", options);
+    ASSERT_TRUE(bound);
+    server = std::move(*bound);
+  }
+  bool eventually(const std::function<bool()>& holds) {
+    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
+    while (std::chrono::steady_clock::now() < deadline) {
+      if (holds()) return true;
+      server->wait(wakeup, milliseconds(2));
+    }
+    return false;
+  }
+  std::uint64_t refused(const std::string& reason) const {
+    const Refusals refusals = server->refusals();
+    const auto at = refusals.counts.find(reason);
+    return at == refusals.counts.end() ? 0 : at->second;
+  }
+  /// The name of who has just said a frame.
+  PeerId next_peer() {
+    ServerSocket::Received received;
+    EXPECT_TRUE(eventually([&] { return server->receive(received); }));
+    return received.peer;
+  }
+  PeerId meet(const RawPeer& peer) {
+    peer.say(std::string("\0\5there", 7));
+    return next_peer();
+  }
+  PeerId meet(ClientSocket& client) {
+    client.connect();
+    client.send("there");
+    return next_peer();
+  }
+
+  Wakeup wakeup;
+  std::unique_ptr<ServerSocket> server;
+};
+
+TEST_F(Budgets, AMessageWithoutAnEndIsCutOff) {
+  listen();
+  const RawPeer peer(server->endpoint());
+  const std::string part = part_of(kMiB - 100);
+  std::size_t said = 0;
+  while (said < 300 * kMiB && peer.say(part))
+    said += part.size();
+  EXPECT_LT(said, 100 * kMiB);
+  EXPECT_TRUE(eventually([&] { return refused("too much at once") > 0; }));
+}
+
+TEST_F(Budgets, AMessageOfNothingButEmptyPartsIsCutOff) {
+  listen({.most_waiting_memory = 16 * kMiB});
+  const RawPeer peer(server->endpoint());
+  std::string empty;
+  for (int i = 0; i < 10'000; ++i)
+    empty += std::string("\x01\0", 2);
+  std::size_t said = 0;
+  while (said < 7 * kMiB && peer.say(empty))
+    said += empty.size();
+  EXPECT_TRUE(eventually([&] { return refused("too much at once") > 0; })) << said;
+}
+
+TEST_F(Budgets, OfAHostThoseWithMostAreCutOff) {
+  listen({.most_waiting_of_host = 4 * kMiB});
+  ClientSocket honest(server->endpoint());
+  const PeerId name = meet(honest);
+  std::vector<std::unique_ptr<RawPeer>> peers;
+  const std::string part = part_of(kMiB - 100);
+  for (int i = 0; i < 12; ++i) {
+    peers.push_back(std::make_unique<RawPeer>(server->endpoint()));
+    peers.back()->say(part);
+  }
+  EXPECT_TRUE(eventually([&] { return refused("too much at once") >= 8; }));
+  EXPECT_LT(refused("too much at once"), 12U);
+  EXPECT_EQ(server->send(name, "still there"), SendStatus::Sent);
+  EXPECT_FALSE(honest.lost());
+}
+
+TEST_F(Budgets, WhatIsTakenIsHeldNoMore) {
+  listen({.most_waiting = 2 * kMiB});
+  ClientSocket client(server->endpoint());
+  meet(client);
+  const std::string frame(kMiB / 2, 'x');
+  ServerSocket::Received received;
+  for (int i = 0; i < 40; ++i) {
+    client.send(frame);
+    ASSERT_TRUE(eventually([&] { return server->receive(received); }));
+    server->wait(wakeup, milliseconds(50));
+  }
+  EXPECT_EQ(server->refusals().total(), 0U);
+  EXPECT_FALSE(client.lost());
+}
+
+TEST_F(Budgets, WhoDoesNotReadIsCutOff) {
+  listen();
+  const RawPeer silent(server->endpoint());
+  const PeerId peer = meet(silent);
+  const std::string frame(200'000, 'x');
+  SendStatus status = SendStatus::Sent;
+  std::size_t sent = 0;
+  for (; status == SendStatus::Sent && sent < 100 * kMiB; sent += frame.size())
+    status = server->send(peer, frame);
+  EXPECT_EQ(status, SendStatus::Full);
+  EXPECT_LT(sent, 20 * kMiB);
+  EXPECT_EQ(refused("reads too slowly"), 1U);
+}
+
+TEST_F(Budgets, LongFramesWaitForOneAnotherAndShortOnesDoNot) {
+  listen({.most_unsent_to_all = 20 * kMiB});
+  const RawPeer first(server->endpoint());
+  const RawPeer second(server->endpoint());
+  const RawPeer third(server->endpoint());
+  const PeerId to_first = meet(first);
+  const PeerId to_second = meet(second);
+  const PeerId to_third = meet(third);
+  // More than the system's own buffers take.
+  const std::string scenario(12 * kMiB, 'x');
+  EXPECT_EQ(server->send(to_first, scenario), SendStatus::Sent);
+  EXPECT_EQ(server->send(to_first, scenario), SendStatus::Later) << "one at a time";
+  EXPECT_EQ(server->send(to_first, "short"), SendStatus::Sent);
+  EXPECT_EQ(server->send(to_second, scenario), SendStatus::Later) << "no room";
+  EXPECT_EQ(server->send(to_third, "short"), SendStatus::Sent);
+  first.read();
+  EXPECT_TRUE(eventually([&] { return server->send(to_second, scenario) == SendStatus::Sent; }))
+      << "when the first is there";
+  EXPECT_EQ(server->refusals().total(), 0U);
+}
+
+TEST_F(Budgets, AHostHasSoManyConnections) {
+  listen({.max_connections_of_host = 3});
+  std::vector<std::unique_ptr<RawPeer>> peers;
+  for (int i = 0; i < 5; ++i)
+    peers.push_back(std::make_unique<RawPeer>(server->endpoint()));
+  EXPECT_TRUE(eventually([&] { return refused("too many connections of one host") == 2; }));
+  peers.clear();
+  // Those that have gone leave room.
+  ClientSocket client(server->endpoint());
+  EXPECT_TRUE(eventually([&] {
+    client.connect();
+    client.send("there");
+    server->wait(wakeup, milliseconds(100));
+    ServerSocket::Received received;
+    return server->receive(received);
+  }));
+}
+
+TEST(Network, OfAnAddress) {
+  EXPECT_EQ(network_of("127.0.0.1"), network_of("::1"));
+  EXPECT_EQ(network_of("::ffff:10.0.0.5"), "10.0.0.5");
+  EXPECT_EQ(network_of("2001:db8::1"), network_of("2001:db8::ff:2"));
+  EXPECT_EQ(network_of("fe80::1%eth0"), "fe80::/64");
+}
+
+}  // namespace
+}  // namespace swarmsmith
