@@ -13,7 +13,7 @@ PRELOAD = str(BIN / "faulty_calls.so")
 
 
 class Kill(Beside):
-    budget = 20000 if LONG else 6000
+    budget = 20000 if LONG else 3000
 
     def test_workers_at_random(self):
         """Each dead one is replaced at once, as a batch system would."""
