@@ -42,7 +42,7 @@ Again evaluate_here(const StoredRun& run, const EvaluateRun& evaluate) {
                              std::bit_cast<std::uint64_t>(again.result.score),
                              again.result.state_digest};
     // Shorter than PIPE_BUF: all of it or nothing.
-    if (write(to, message.data(), sizeof message) != sizeof message) _exit(1);
+    if (::write(to, message.data(), sizeof message) != sizeof message) _exit(1);
   }
   _exit(0);
 }
@@ -53,7 +53,7 @@ std::optional<Again> hear(int from) {
   std::size_t got = 0;
   while (got < sizeof message) {
     const ssize_t size =
-        read(from, reinterpret_cast<char*>(message.data()) + got, sizeof message - got);
+        ::read(from, reinterpret_cast<char*>(message.data()) + got, sizeof message - got);
     if (size < 0 && errno == EINTR) continue;
     if (size <= 0) return std::nullopt;
     got += static_cast<std::size_t>(size);

@@ -37,9 +37,9 @@ struct Crossing {
   const Patch* patch = nullptr;
 };
 
-class Ray {
+class LineOfSight {
  public:
-  Ray(Point origin, Point direction) : origin_(origin), direction_(direction) {}
+  LineOfSight(Point origin, Point direction) : origin_(origin), direction_(direction) {}
 
   Point at(double distance_m) const {
     return {origin_.x + distance_m * direction_.x, origin_.y + distance_m * direction_.y};
@@ -117,7 +117,7 @@ std::vector<Point> directions_from(Point point, const Arena& arena) {
 }
 
 /// Where along the ray the share changes first, if nearer than `best`.
-void look_along(const Ray& ray, const ScoreRule& rule, const Arena& arena, double here,
+void look_along(const LineOfSight& ray, const ScoreRule& rule, const Arena& arena, double here,
                 std::optional<NearestBorder>& best) {
   std::vector<Crossing> crossings;
   for (const Patch& patch : arena.patches)
@@ -151,7 +151,7 @@ std::optional<NearestBorder> nearest_border(const ScoreRule& rule, const Arena& 
   const double here = share_at(rule, arena, point);
   std::optional<NearestBorder> best;
   for (const Point direction : directions_from(point, arena))
-    look_along(Ray(point, direction), rule, arena, here, best);
+    look_along(LineOfSight(point, direction), rule, arena, here, best);
   return best;
 }
 

@@ -1,5 +1,5 @@
-"""alone.py FILE...: which of the sources of a target cannot be compiled in one unit with the others,
-a line each: those with a name in an unnamed namespace that a file before them has as well."""
+"""units.py FILE...: which sources of a target are compiled in which unit, a line FILE=UNIT each: at most
+eight in one, and never two with the same name in an unnamed namespace."""
 import re
 import sys
 
@@ -10,10 +10,18 @@ NAME = re.compile(
     r"(?!namespace|using|template|struct|class|enum|static_assert|return|public|private|[A-Z_]+\()\w[^(={;\n]*?[ &*>])(?P<name>\w+)"
     r"(?=[({=\[;]|$| [={:]| final)", re.MULTILINE)
 
-taken = set()
+FILES_IN_A_UNIT = 8
+
+units = []
 for path in sys.argv[1:]:
     with open(path, encoding="utf-8") as file:
         names = {found["name"] for part in UNNAMED.findall(file.read()) for found in NAME.finditer(part)}
-    if names & taken:
-        print(path)
+    for number, (files, taken) in enumerate(units):
+        if len(files) < FILES_IN_A_UNIT and not names & taken:
+            break
+    else:
+        number, files, taken = len(units), [], set()
+        units.append((files, taken))
+    files.append(path)
     taken |= names
+    print(f"{path}={number}")
