@@ -163,7 +163,7 @@ TEST_F(QueryTest, TakesNoMoreMemoryThanItMay) {
 TEST_F(QueryTest, StopsAtTheLimitOfBytes) {
   const std::string many =
       "WITH RECURSIVE n (i) AS (SELECT 1 UNION ALL SELECT i + 1 FROM n LIMIT 1000000) "
-      "SELECT printf('%05000d', i) FROM n";
+      "SELECT printf('%01000d', i) FROM n";
   const auto end = query(many, {.bytes = 1 << 20});
   ASSERT_TRUE(end);
   EXPECT_TRUE(end->truncated);
