@@ -113,8 +113,8 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
   }
   const std::size_t same = ids->size() - different->size();
   if (output.json) {
-    output.out << "{\"replayed\":" << ids->size() << ",\"same_bits\":" << same
-               << ",\"different\":[" << different_json << "]}\n";
+    output.out << "{\"replayed\":" << ids->size() << ",\"same_bits\":" << same << ",\"different\":["
+               << different_json << "]}\n";
   } else {
     output.out << ids->size() << " evaluations replayed, " << same
                << " with the same bits as stored\n";

@@ -95,8 +95,8 @@ TagCorners square_corners(double u, double v, double edge_px, double turned_rad)
 }
 
 PaintedPicture painted(int width, int height, const std::string& family,
-                const std::vector<PaintedTag>& tags, const Shortcomings& shortcomings,
-                std::uint64_t seed) {
+                       const std::vector<PaintedTag>& tags, const Shortcomings& shortcomings,
+                       std::uint64_t seed) {
   cv::Mat finer(height * kFiner, width * kFiner, CV_32F, cv::Scalar(shortcomings.floor));
   for (const PaintedTag& each : tags)
     put(official_tag(family, each.tag, shortcomings), each.corners, finer);
@@ -110,7 +110,7 @@ PaintedPicture painted(int width, int height, const std::string& family,
     picture += noise;
   }
   PaintedPicture result{width, height,
-                 std::vector<std::uint8_t>(static_cast<std::size_t>(width * height))};
+                        std::vector<std::uint8_t>(static_cast<std::size_t>(width * height))};
   cv::Mat bytes(height, width, CV_8U, result.pixels.data());
   picture.convertTo(bytes, CV_8U);
   return result;

@@ -38,7 +38,7 @@ TagCorners square_corners(double u, double v, double edge_px, double turned_rad)
 /// Official tag images, as the library draws them, put at their corners with four times the
 /// picture's resolution; the same seed gives the same noise.
 PaintedPicture painted(int width, int height, const std::string& family,
-                const std::vector<PaintedTag>& tags, const Shortcomings& shortcomings = {},
-                std::uint64_t seed = 1);
+                       const std::vector<PaintedTag>& tags, const Shortcomings& shortcomings = {},
+                       std::uint64_t seed = 1);
 
 }  // namespace swarmsmith

@@ -125,7 +125,8 @@ TEST(TagDetectorTest, RowsMayBeFurtherApartThanTheyAreLong) {
 }
 
 TEST(TagDetectorTest, WindowsBeyondTheEdgeAreCutOff) {
-  const PaintedPicture picture = painted(320, 200, "tag36h11", {{5, square_corners(50, 50, 50, 0.7)}});
+  const PaintedPicture picture =
+      painted(320, 200, "tag36h11", {{5, square_corners(50, 50, 50, 0.7)}});
   TagDetector finder = detector();
   EXPECT_EQ(finder.find(picture.gray(), {-40, -40, 100, 100}, 1).size(), 1U);
   EXPECT_TRUE(finder.find(picture.gray(), {-40, -40, 3, 3}, 1).empty());

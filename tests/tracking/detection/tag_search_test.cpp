@@ -21,7 +21,7 @@ TagSearch search_for(std::set<int> expected, std::set<int> still = {}) {
 }
 
 PaintedPicture picture_of(const std::vector<PaintedTag>& tags, const Shortcomings& look = {},
-                   std::uint64_t seed = 1) {
+                          std::uint64_t seed = 1) {
   return painted(kWidth, kHeight, "tag36h11", tags, look, seed);
 }
 
