@@ -166,8 +166,8 @@ class Scheduler {
   void hold_back(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result, TimePoint now);
   void try_waiting(Principal& principal, TimePoint now);
   void take_waiting(Principal& principal, TimePoint now);
-  /// Opens a case when the result is one of those that are made again.
   bool is_drawn(PackedKey key, double share) const;
+  /// Opens a case when the result is one of those that are made again.
   void audit(const TaskRecord& record, const WorkerEntry& entry, const WorkerResult& result);
   /// What its workers may hold now.
   void update_room(Principal& principal);
