@@ -95,7 +95,11 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
           },
           [&](const WorkerChanged& a) { put_worker(a.row, now); },
           [&](FailureKept& a) {
-            if (!may_name(a.row.worker, "failure", bytes_of(a.row), now)) return;
+            // Why a program failed is never left out: its worker is believed, and people look
+            // there.
+            const bool is_due = options_.scheduler.evaluates_programs;
+            if (!is_due && !may_name(a.row.worker, "failure", bytes_of(a.row), now)) return;
+            name_worker(a.row.worker);
             campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row));
           },
           [&](AttemptEnded& a) {
