@@ -1,5 +1,6 @@
 """units.py FILE...: which sources of a target are compiled in which unit, a line FILE=UNIT each: at most
-eight in one, and never two with the same name in an unnamed namespace."""
+eight in one, and never two with the same name in an unnamed namespace. A file with all names of an enumeration
+(`using enum`) is alone."""
 import re
 import sys
 
@@ -11,11 +12,17 @@ NAME = re.compile(
     r"(?=[({=\[;]|$| [={:]| final)", re.MULTILINE)
 
 FILES_IN_A_UNIT = 8
+FULL = [None] * FILES_IN_A_UNIT
 
 units = []
 for path in sys.argv[1:]:
     with open(path, encoding="utf-8") as file:
-        names = {found["name"] for part in UNNAMED.findall(file.read()) for found in NAME.finditer(part)}
+        text = file.read()
+    if "\nusing enum " in text:
+        units.append((FULL, set()))
+        print(f"{path}={len(units) - 1}")
+        continue
+    names = {found["name"] for part in UNNAMED.findall(text) for found in NAME.finditer(part)}
     for number, (files, taken) in enumerate(units):
         if len(files) < FILES_IN_A_UNIT and not names & taken:
             break

@@ -10,14 +10,14 @@ namespace swarmsmith {
 namespace {
 
 /// The parser counts lines and columns from 1, as editors do.
-Place place_of(const toml::source_region& region) {
+FilePlace place_of(const toml::source_region& region) {
   return {static_cast<std::uint32_t>(region.begin.line),
           static_cast<std::uint32_t>(region.begin.column)};
 }
 
 /// Copies the parser's tree.
 Node converted(const toml::node& node) {
-  const Place place = place_of(node.source());
+  const FilePlace place = place_of(node.source());
   if (const auto* flag = node.as_boolean()) return {flag->get(), place};
   if (const auto* integer = node.as_integer()) return {integer->get(), place};
   if (const auto* real = node.as_floating_point()) return {real->get(), place};
@@ -140,7 +140,7 @@ class Depth {
 
 /// Where something is, and why it cannot be read.
 struct Fault {
-  Place place;
+  FilePlace place;
   std::string reason;
 };
 
@@ -189,7 +189,7 @@ std::string_view type_name(const Node& node) {
   return kNames[node.value.index()];
 }
 
-std::string to_string(std::string_view file, Place place) {
+std::string to_string(std::string_view file, FilePlace place) {
   std::string text(file);
   if (place.line > 0) {
     text += ":" + std::to_string(place.line) + ":" + std::to_string(place.column);

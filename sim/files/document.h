@@ -16,7 +16,7 @@ namespace swarmsmith {
 /// A TOML text as plain values with places, so that one file includes the parser's headers.
 
 /// Line and column in the text, both from 1; 0 for what is not in it.
-struct Place {
+struct FilePlace {
   std::uint32_t line = 0;
   std::uint32_t column = 0;
 };
@@ -40,12 +40,12 @@ struct DateOrTime {
 
 struct Node {
   std::variant<bool, std::int64_t, double, std::string, Array, Table, DateOrTime> value;
-  Place place;
+  FilePlace place;
 };
 
 struct Table::Entry {
   std::string key;
-  Place place;  ///< of the key
+  FilePlace place;  ///< of the key
   Node node;
 };
 
@@ -53,7 +53,7 @@ struct Table::Entry {
 std::string_view type_name(const Node& node);
 
 /// Where `place` is, as people and editors write it: file:line:column.
-std::string to_string(std::string_view file, Place place);
+std::string to_string(std::string_view file, FilePlace place);
 
 /// Parses the text; `file` is its name in errors.
 Expected<Node> parse_document(std::string_view text, std::string_view file);

@@ -66,17 +66,17 @@ std::optional<double> parse_seconds(std::string_view text) {
   return std::nullopt;
 }
 
-void Complaints::add(Place place, std::string message) {
+void Complaints::add(FilePlace place, std::string message) {
   add_foreign(place, Error{ErrorKind::BadInput, std::move(message), to_string(file_, place)});
 }
 
-void Complaints::add_foreign(Place place, Error error) {
+void Complaints::add_foreign(FilePlace place, Error error) {
   complaints_.emplace_back(place, std::move(error));
 }
 
 std::vector<Error> Complaints::take() {
   std::ranges::stable_sort(complaints_, {}, [](const auto& complaint) {
-    const Place place = complaint.first;
+    const FilePlace place = complaint.first;
     return std::tuple(place.line == 0, place.line, place.column);
   });
   std::vector<Error> errors;
@@ -105,7 +105,7 @@ const Table::Entry* TableReader::find(std::string_view key) const {
   return nullptr;
 }
 
-Place TableReader::place_of(std::string_view key) const {
+FilePlace TableReader::place_of(std::string_view key) const {
   const Table::Entry* entry = find(key);
   return entry != nullptr ? entry->node.place : table_->place;
 }

@@ -21,9 +21,9 @@ class Complaints {
  public:
   explicit Complaints(std::string file) : file_(std::move(file)) {}
 
-  void add(Place place, std::string message);
+  void add(FilePlace place, std::string message);
   /// Something wrong in another file, which `place` names.
-  void add_foreign(Place place, Error error);
+  void add_foreign(FilePlace place, Error error);
   bool empty() const { return complaints_.empty(); }
   std::size_t count() const { return complaints_.size(); }
   /// Sorted by place; those without one come last.
@@ -31,7 +31,7 @@ class Complaints {
 
  private:
   std::string file_;
-  std::vector<std::pair<Place, Error>> complaints_;
+  std::vector<std::pair<FilePlace, Error>> complaints_;
 };
 
 /// "2 min" or "2min" as 120; units are ms, s, min and h.
@@ -56,9 +56,9 @@ class TableReader {
   bool has(std::string_view key) const { return find(key) != nullptr; }
   /// What sentences call the table: [campaign], [[mission]], or "the file".
   std::string name() const;
-  Place place() const { return table_->place; }
+  FilePlace place() const { return table_->place; }
   /// Where the key's value is, else where the table is.
-  Place place_of(std::string_view key) const;
+  FilePlace place_of(std::string_view key) const;
   void complain(std::string_view key, std::string message);
   /// How much was wrong so far, in all tables of the file.
   std::size_t complaints() const { return complaints_->count(); }

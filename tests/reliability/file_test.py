@@ -28,7 +28,7 @@ def has_lock(pid, store):
 
 class Locks(FaultTest):
     """The coordinator is known to be there, after every kind of start and whatever it is asked."""
-    budget = 4000
+    budget = 100000  # never done while it is asked, however fast the machine
 
     def assert_known(self, program, what):
         self.assertTrue(program.alive(), program.tail())
@@ -57,7 +57,7 @@ class Locks(FaultTest):
 
     def test_whatever_it_is_asked(self):
         serve = self.serve("--http", "127.0.0.1:0")
-        worker = self.worker(serve.address())
+        self.worker(serve.address())
         self.wait_stored(300)
         out = self.folder / "out"
         out.mkdir()
@@ -69,8 +69,8 @@ class Locks(FaultTest):
                       ("run", self.file, "--store", self.store)):
             call(*words)
             self.assert_known(serve, f"after `{words[0]}`")
-        self.assertEqual(serve.wait(), 0, serve.tail())
-        self.assertEqual(worker.wait(30), 0, worker.tail())
+        serve.send(signal.SIGINT)
+        self.assertEqual(serve.wait(), 130, serve.tail())
 
 
 class OpenedBeside(FaultTest):

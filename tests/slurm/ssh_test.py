@@ -62,7 +62,8 @@ class Ssh(ProgramTest):
         self.addCleanup(self._end, process)
         return process
 
-    def workers(self):
+    def started(self):
+        """The workers' program: the workers, and the coordinator's own referee."""
         found = []
         for pid in processes(str(self.worker)):
             with contextlib.suppress(FileNotFoundError):  # it ended meanwhile
@@ -70,12 +71,19 @@ class Ssh(ProgramTest):
                     found.append(pid)
         return found
 
+    def workers(self):
+        referees = processes("--referee")
+        return [pid for pid in self.started() if pid not in referees]
+
     def wait_for_workers(self, count):
         wait_for(lambda: len(self.workers()) == count, f"{count} workers\n", 30)
 
+    def wait_for_nobody(self):
+        wait_for(lambda: not self.started(), "the end of all workers and the referee\n", 30)
+
     def finish(self, process):
         self.assertEqual(process.wait(timeout=200), 0, self.said.read_text())
-        self.wait_for_workers(0)
+        self.wait_for_nobody()
         self.assert_clean(self.store)
         local = self.folder / "local.db"
         done = self.run_campaign(local, "--workers", "2")
@@ -112,12 +120,12 @@ class Ssh(ProgramTest):
         self.wait_for_workers(2)
         send(process.pid, signal.SIGKILL)
         process.wait()
-        self.wait_for_workers(0)
+        self.wait_for_nobody()
         process = self.run_by_ssh()
         self.wait_for_workers(2)
         process.send_signal(signal.SIGINT)
         self.assertEqual(process.wait(timeout=60), 130, self.said.read_text())
-        self.wait_for_workers(0)
+        self.wait_for_nobody()
 
     def test_mistakes_are_named(self):
         self.campaign("node1 slot=1\n")

@@ -16,7 +16,8 @@
 namespace swarmsmith {
 namespace {
 
-constexpr StoreOptions kHasty{.retry = std::chrono::milliseconds(1)};
+constexpr StoreOptions kHasty{.retry = std::chrono::milliseconds(1),
+                              .gather = std::chrono::milliseconds(1)};
 
 /// Batches that carry a mark each, so that it can be seen which of them are in a store.
 std::vector<std::vector<Row>> marked(std::vector<std::vector<Row>> batches) {

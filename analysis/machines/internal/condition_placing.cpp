@@ -60,7 +60,7 @@ class Placer {
     chosen_.assign(places_.size(), kNone);
     for (std::size_t edge = 0; edge < places_.size(); ++edge) {
       const auto found = std::ranges::find_if(
-          places_[edge], [&](const Place& place) { return place.box.centre == boxes[edge]; });
+          places_[edge], [&](const EdgePlace& place) { return place.box.centre == boxes[edge]; });
       chosen_[edge] = static_cast<std::size_t>(found - places_[edge].begin());
     }
   }
@@ -101,7 +101,7 @@ class Placer {
     }
   }
 
-  const Place& place_of(std::size_t edge) const { return places_[edge][chosen_[edge]]; }
+  const EdgePlace& place_of(std::size_t edge) const { return places_[edge][chosen_[edge]]; }
 
   bool share_a_state(std::size_t a, std::size_t b) const {
     const PlacingTask::Edge& first = task_.edges[a];
@@ -111,8 +111,8 @@ class Placer {
   }
 
   /// Two ends of curves that come too near to each other at a state that they share.
-  double crowding(std::size_t a, const Place& at, std::size_t b, const Place& other) const {
-    const auto ends = [](const PlacingTask::Edge& edge, const Place& place) {
+  double crowding(std::size_t a, const EdgePlace& at, std::size_t b, const EdgePlace& other) const {
+    const auto ends = [](const PlacingTask::Edge& edge, const EdgePlace& place) {
       return std::array{std::pair(edge.source, place.line.front()),
                         std::pair(edge.target, place.line.back())};
     };
@@ -127,7 +127,7 @@ class Placer {
   }
 
   /// What the place costs beside the others, as far as they have one; gives up beyond `most`.
-  double cost_of(std::size_t edge, const Place& place, double most) const {
+  double cost_of(std::size_t edge, const EdgePlace& place, double most) const {
     double cost = place.alone;
     // What is quickly known and costs most comes first.
     for (std::size_t other = 0; other < places_.size(); ++other) {
@@ -137,7 +137,7 @@ class Placer {
     }
     for (std::size_t other = 0; other < places_.size() && cost < most; ++other) {
       if (other == edge || chosen_[other] == kNone) continue;
-      const Place& there = place_of(other);
+      const EdgePlace& there = place_of(other);
       cost += under_cost(length_under(place, there)) + under_cost(length_under(there, place));
       if (cost >= most) break;
       cost += kCrossing * crossings(place, there);
@@ -169,7 +169,7 @@ class Placer {
   Placing result() const {
     Placing placing{.apart = true, .clear = true};
     for (std::size_t a = 0; a < places_.size(); ++a) {
-      const Place& place = place_of(a);
+      const EdgePlace& place = place_of(a);
       placing.boxes.push_back(place.box.centre);
       placing.apart = placing.apart && place.apart;
       placing.clear = placing.clear && place.clear;
@@ -186,7 +186,7 @@ class Placer {
   }
 
   const PlacingTask& task_;
-  std::vector<std::vector<Place>> places_;
+  std::vector<std::vector<EdgePlace>> places_;
   std::vector<std::size_t> chosen_;
 };
 

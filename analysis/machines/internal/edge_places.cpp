@@ -44,7 +44,7 @@ bool lies_beside(PagePoint point, PagePoint from, PagePoint to) {
 }
 
 /// Adds what the box and the curve do to the states.
-void meet_states(const PlacingTask& task, const PlacingTask::Edge& edge, Place& place) {
+void meet_states(const PlacingTask& task, const PlacingTask::Edge& edge, EdgePlace& place) {
   for (std::size_t state = 0; state < task.states.size(); ++state) {
     const bool own = state == edge.source || state == edge.target;
     const double room = distance_to(place.box, task.states[state]) - task.radius;
@@ -68,8 +68,8 @@ void meet_states(const PlacingTask& task, const PlacingTask::Edge& edge, Place& 
   }
 }
 
-Place make_place(const PlacingTask& task, const PlacingTask::Edge& edge, PagePoint at) {
-  Place place{.box = {at, edge.width / 2, edge.height / 2}, .line = {}, .around = {}};
+EdgePlace make_place(const PlacingTask& task, const PlacingTask::Edge& edge, PagePoint at) {
+  EdgePlace place{.box = {at, edge.width / 2, edge.height / 2}, .line = {}, .around = {}};
   const EdgeCurve curve = edge_curve(task, edge, at);
   for (std::size_t i = 0; i <= kSegments; ++i)
     place.line[i] = point_on(curve, static_cast<double>(i) / kSegments);
@@ -92,7 +92,7 @@ EdgeCurve edge_curve(const PlacingTask& task, const PlacingTask::Edge& edge, Pag
                        {task.states[edge.target], task.radius + kArrowLength}, box);
 }
 
-std::vector<Place> places_of(const PlacingTask& task, const PlacingTask::Edge& edge) {
+std::vector<EdgePlace> places_of(const PlacingTask& task, const PlacingTask::Edge& edge) {
   const PagePoint source = task.states[edge.source];
   const PagePoint chord = task.states[edge.target] - source;
   const double length = std::max(1e-9, length_of(chord));
@@ -101,23 +101,23 @@ std::vector<Place> places_of(const PlacingTask& task, const PlacingTask::Edge& e
   const bool stacked = std::fabs(normal.y) > 0.6;
   const double step = stacked ? (edge.height + kBoxGap) / 2 : (edge.width + kBoxGap) / 5;
   const auto rows = static_cast<int>(task.edges.size()) + 4;
-  std::vector<Place> places;
+  std::vector<EdgePlace> places;
   for (const double part : kParts) {
     for (int row = -rows; row <= rows; ++row) {
       const PagePoint at = source + part * chord + row * step * normal;
-      Place place = make_place(task, edge, at);
+      EdgePlace place = make_place(task, edge, at);
       const double away = std::abs(row) * step / (4 * part * (1 - part));
       place.alone += kSideways * away + kBent * (away / length) * (away / length) +
                      kAlong * std::fabs(part - 0.5) * length + (row < 0 ? kWrongSide : 0);
       places.push_back(place);
     }
   }
-  std::ranges::stable_sort(places, {}, &Place::alone);
+  std::ranges::stable_sort(places, {}, &EdgePlace::alone);
   if (places.size() > kMostPlaces) places.resize(kMostPlaces);
   return places;
 }
 
-double length_under(const Place& curve, const Place& other) {
+double length_under(const EdgePlace& curve, const EdgePlace& other) {
   PageBox box = other.box;
   box.half_width += kCurveGap;
   box.half_height += kCurveGap;
@@ -128,7 +128,7 @@ double length_under(const Place& curve, const Place& other) {
   return length;
 }
 
-int crossings(const Place& a, const Place& b) {
+int crossings(const EdgePlace& a, const EdgePlace& b) {
   if (overlap_of(a.around, b.around, 0) <= 0) return 0;
   int count = 0;
   for (std::size_t i = 0; i < kSegments; ++i) {
@@ -138,7 +138,7 @@ int crossings(const Place& a, const Place& b) {
   return count;
 }
 
-int points_alongside(const Place& a, const Place& b) {
+int points_alongside(const EdgePlace& a, const EdgePlace& b) {
   if (overlap_of(a.around, b.around, kLineDistance) <= 0) return 0;
   int count = 0;
   for (const PagePoint& point : a.line) {

@@ -40,7 +40,7 @@ inline constexpr double kOverlap = 2000;
 inline constexpr std::size_t kSegments = 10;
 
 /// A place of an edge's box, and what follows from it.
-struct Place {
+struct EdgePlace {
   PageBox box;
   std::array<PagePoint, kSegments + 1> line;  ///< the curve as a polyline
   PageBox around;                             ///< the curve
@@ -50,14 +50,14 @@ struct Place {
 };
 
 /// The places of one edge, the best ones first, in a grid round the middle of its chord.
-std::vector<Place> places_of(const PlacingTask& task, const PlacingTask::Edge& edge);
+std::vector<EdgePlace> places_of(const PlacingTask& task, const PlacingTask::Edge& edge);
 
 /// How much of a curve passes under another one's box, mm.
-double length_under(const Place& curve, const Place& other);
+double length_under(const EdgePlace& curve, const EdgePlace& other);
 
-int crossings(const Place& a, const Place& b);
+int crossings(const EdgePlace& a, const EdgePlace& b);
 
 /// How many points of a curve lie beside another one.
-int points_alongside(const Place& a, const Place& b);
+int points_alongside(const EdgePlace& a, const EdgePlace& b);
 
 }  // namespace swarmsmith

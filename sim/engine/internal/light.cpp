@@ -11,8 +11,8 @@ namespace {
 
 /// A segment of space, its points at t in [0, 1].
 struct Segment {
-  Place from;
-  Place to;
+  SpacePoint from;
+  SpacePoint to;
 
   Point origin() const { return {from.x, from.y}; }
   Point along() const { return {to.x - from.x, to.y - from.y}; }
@@ -46,7 +46,7 @@ bool meets_solid(const Segment& segment, const Form& form, const Body& at) {
 
 /// Where a sensor of the ring is, and the direction it looks into.
 struct LightSensor {
-  Place place;
+  SpacePoint place;
   Point direction;
 };
 
@@ -60,7 +60,7 @@ LightSensor sensor_towards(const Body& body, Vector2 direction) {
 }
 
 /// I / d^2.
-double illuminance(const Light& light, const Place& at) {
+double illuminance(const Light& light, const SpacePoint& at) {
   const double dx = light.x_m - at.x;
   const double dy = light.y_m - at.y;
   const double dz = light.z_m - at.z;
@@ -76,8 +76,8 @@ double cosine_to(const Light& light, const LightSensor& sensor) {
 
 }  // namespace
 
-bool is_occluded(const World& world, double wall_height_m, int robot, const Place& sensor,
-                 const Place& light) {
+bool is_occluded(const World& world, double wall_height_m, int robot, const SpacePoint& sensor,
+                 const SpacePoint& light) {
   const Segment segment = {sensor, light};
   for (const WallPlane& wall : world.walls().planes) {
     if (meets_wall(segment, wall, wall_height_m)) return true;
@@ -96,7 +96,7 @@ double front_light(const World& world, const Arena& arena, int robot) {
   double lux = 0;
   for (const Light& light : arena.lights) {
     if (light.intensity_cd == 0) continue;
-    const Place place = {light.x_m, light.y_m, light.z_m};
+    const SpacePoint place = {light.x_m, light.y_m, light.z_m};
     if (is_occluded(world, arena.wall_height_m, robot, sensor.place, place)) continue;
     lux += illuminance(light, sensor.place);
   }
@@ -111,7 +111,7 @@ LightReadings light_ring(const World& world, const Arena& arena, int robot) {
     for (const Light& light : arena.lights) {
       const double cosine = cosine_to(light, sensor);
       if (light.intensity_cd == 0 || !(cosine > 0)) continue;
-      const Place place = {light.x_m, light.y_m, light.z_m};
+      const SpacePoint place = {light.x_m, light.y_m, light.z_m};
       if (is_occluded(world, arena.wall_height_m, robot, sensor.place, place)) continue;
       lux += illuminance(light, sensor.place) * cosine;
     }

@@ -13,7 +13,7 @@ inline constexpr double kLightSensorsOut_m = 0.143;
 inline constexpr double kLightSensorsHeight_m = 0.114;
 
 /// A point of space, metres; z above the floor.
-struct Place {
+struct SpacePoint {
   double x = 0;
   double y = 0;
   double z = 0;
@@ -21,8 +21,8 @@ struct Place {
 
 /// Whether the segment from a robot's sensor to a light meets a wall, an obstacle, an object or
 /// another robot, each as high as it is; a touch is enough.
-bool is_occluded(const World& world, double wall_height_m, int robot, const Place& sensor,
-                 const Place& light);
+bool is_occluded(const World& world, double wall_height_m, int robot, const SpacePoint& sensor,
+                 const SpacePoint& light);
 
 /// The front sensor, at (0.143, 0, 0.114) in the robot's frame, as sensitive in all directions:
 /// E = sum of I / d^2 over the lights that are not occluded, I in candela, d the distance in space;

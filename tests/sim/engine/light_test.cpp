@@ -28,7 +28,7 @@ struct Scene {
   }
   double front() const { return front_light(world(), arena, 0); }
   LightReadings ring() const { return light_ring(world(), arena, 0); }
-  bool occluded(const Place& sensor, const Place& light) const {
+  bool occluded(const SpacePoint& sensor, const SpacePoint& light) const {
     return is_occluded(world(), arena.wall_height_m, 0, sensor, light);
   }
 };
