@@ -55,11 +55,14 @@ gate_tidy() {
   echo "${#units[@]} units" >&3
 }
 
+# Tests wait for processes much of their time: half as many again as there are cores.
+test_jobs() { echo $((jobs + (jobs + 1) / 2)); }
+
 # ctest_gate FOLDER [CTEST-ARGUMENT...]
 ctest_gate() {
   local folder=$1 status=0
   shift
-  ctest --test-dir "$folder" --output-on-failure -j "$jobs" --output-junit "$PWD/build-gate/tests.xml" "$@" ||
+  ctest --test-dir "$folder" --output-on-failure -j "$(test_jobs)" --output-junit "$PWD/build-gate/tests.xml" "$@" ||
     status=$?
   tr '\n\t' '  ' <build-gate/tests.xml | sed -n \
     's/.* tests="\([0-9]*\)" *failures="\([0-9]*\)" *disabled="[0-9]*" *skipped="\([0-9]*\)".*/\1 tests, \2 failed, \3 skipped/p' >&3
@@ -71,6 +74,7 @@ ctest_gate() {
 write_into_memory() {
   if [ -w /dev/shm ] && [ "$(df --output=avail -B 1M /dev/shm | tail -n 1)" -ge 4096 ]; then
     TMPDIR=$(mktemp -d /dev/shm/swarmsmith-tests.XXXXXX)
+    chmod 755 "$TMPDIR"  # some tests become somebody else
     export TMPDIR
     trap 'rm -rf "$TMPDIR"' EXIT
   fi

@@ -206,7 +206,7 @@ CampaignOrErrors read_campaign(const std::filesystem::path& file,
   if (text) return parse_campaign(*text, file, budget);
   Error error = std::move(text.error());
   if (error.kind == ErrorKind::NotFound) error.message += "; `swarmsmith init` writes one";
-  if (std::filesystem::is_directory(file)) {
+  if (std::error_code none; std::filesystem::is_directory(file, none)) {
     error.message = "this is a folder; name the campaign file in it, such as " +
                     (file / "campaign.toml").string();
   }

@@ -137,7 +137,8 @@ class Control {
   std::string file_of_runner(const Error& in_use) {
     const std::filesystem::path beside = coordinator_file_of(real_store(wish_.store));
     const std::string named = environment("SWARMSMITH_COORDINATOR");
-    const bool elsewhere = !named.empty() && !std::filesystem::exists(beside);
+    std::error_code none;
+    const bool elsewhere = !named.empty() && !std::filesystem::exists(beside, none);
     if (!elsewhere && stands(beside)) return beside.string();
     if (named.empty()) print_error(output_, in_use);
     return named.empty() ? beside.string() : named;

@@ -14,7 +14,7 @@ Expected<void> write(const std::filesystem::path& folder, const std::vector<Name
   std::error_code trouble;
   fs::create_directories(folder, trouble);
   for (const NamedText& file : files) {
-    if (!fs::exists(folder / file.name)) continue;
+    if (!fs::exists(folder / file.name, trouble)) continue;
     return bad_input("is there already; name another folder with -o",
                      (folder / file.name).string());
   }

@@ -120,7 +120,7 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& can
   std::error_code trouble;
   const bool folder = several || fs::is_directory(what.place, trouble);
   if (several) fs::create_directories(what.place, trouble);
-  if (several && !fs::is_directory(what.place)) {
+  if (several && !fs::is_directory(what.place, trouble)) {
     return fail(output, ExitCode::Failed, cannot_write(what.place));
   }
   std::vector<std::string> files;

@@ -20,7 +20,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
   const auto file = std::filesystem::path(arguments.folder) / "campaign.toml";
   std::error_code trouble;
   std::filesystem::create_directories(arguments.folder, trouble);
-  if (std::filesystem::exists(file)) {
+  if (std::error_code none; std::filesystem::exists(file, none)) {
     return fail(output, ExitCode::Usage,
                 Error{ErrorKind::BadInput, "is there already; name another folder", file.string()});
   }

@@ -23,7 +23,7 @@ void list(Output& output) {
 }
 
 ExitCode write(const Arguments& arguments, std::string_view text, Output& output) {
-  if (std::filesystem::exists(arguments.file)) {
+  if (std::error_code none; std::filesystem::exists(arguments.file, none)) {
     return fail(output, ExitCode::Usage,
                 Error{ErrorKind::BadInput, "is there already; name another file", arguments.file});
   }

@@ -5,6 +5,7 @@
 #include "coordinator/coordinator.h"
 #include "proto/wire.h"
 #include "tests/coordinator/synthetic_campaign.h"
+#include "tests/support/flat_campaign.h"
 
 namespace swarmsmith {
 namespace {
@@ -55,9 +56,25 @@ TEST(Budget, ALargeScenarioIsSentAllTheSame) {
   EXPECT_TRUE(budgets.may_be_sent(2, 30U << 20U, at(1)));
 }
 
+constexpr std::int64_t kPrograms = 500;
+
+std::vector<Task> programs_of(std::int64_t count) {
+  std::vector<Task> tasks;
+  for (std::int64_t i = 1; i <= count; ++i)
+    tasks.push_back({.key = {{i}, Purpose::Race, 1}, .instance = 1, .seed = i, .machine = "-n 1"});
+  return tasks;
+}
+
 /// A coordinator and guests played by hand.
 class Guests : public ::testing::Test {
  protected:
+  explicit Guests(bool programs = false)
+      : options{.scheduler = {.evaluates_programs = programs},
+                .scenario = std::string(1 << 20, 's')},
+        coordinator(options, {{.digest = "d",
+                               .source = programs ? static_cast<WorkSource*>(&flat) : &campaign}}) {
+  }
+
   void say(const pb::ToCoordinator& message, PeerId peer) {
     coordinator.on_frame({.id = peer, .address = address}, encode(message), now);
   }
@@ -87,6 +104,7 @@ class Guests : public ::testing::Test {
       if (auto* send = std::get_if<SendFrame>(&action)) {
         ++sent;
         bytes_sent += send->frame.size();
+        frames.push_back(std::move(send->frame));
       }
       auto* append = std::get_if<AppendRows>(&action);
       if (append == nullptr) continue;
@@ -97,6 +115,8 @@ class Guests : public ::testing::Test {
         } else if (const auto* event = std::get_if<EventRow>(&row)) {
           ++events[event->kind];
           bytes_written += bytes_of(*event);
+        } else if (std::holds_alternative<FailureRow>(row)) {
+          ++failures;
         }
       }
       coordinator.on_appended(0, ++ticket);
@@ -105,12 +125,15 @@ class Guests : public ::testing::Test {
 
   cluster::CampaignShape shape;
   SyntheticCampaign campaign{shape};
-  CoordinatorOptions options{.scheduler = {}, .scenario = std::string(1 << 20, 's')};
-  Coordinator coordinator{options, {{.digest = "d", .source = &campaign}}};
+  FlatCampaign flat{programs_of(kPrograms)};
+  CoordinatorOptions options;
+  Coordinator coordinator;
   std::string address = "10.0.0.7";
   TimePoint now{std::chrono::seconds(50)};
   std::map<WorkerNumber, WorkerRow> workers;
   std::map<std::string, int> events;
+  std::vector<std::string> frames;
+  std::size_t failures = 0;
   std::size_t bytes_written = 0;
   std::size_t bytes_sent = 0;
   std::size_t sent = 0;
@@ -186,6 +209,52 @@ TEST_F(Guests, AHelloThatWasNotHeardIsHeardLater) {
   move(std::chrono::seconds(1));
   hello(5001);
   EXPECT_EQ(coordinator.scheduler().workers().connected(), before + 1);
+}
+
+class GuestsWithPrograms : public Guests {
+ protected:
+  GuestsWithPrograms() : Guests(true) {}
+
+  /// Says of all that it was given why it failed.
+  void fail(PeerId peer) {
+    pb::ToCoordinator answer;
+    answer.set_incarnation(1);
+    for (const std::string& frame : std::exchange(frames, {})) {
+      google::protobuf::Arena arena;
+      const auto message = decode_to_worker(frame, arena);
+      ASSERT_TRUE(message);
+      if (!(*message)->has_tasks()) continue;
+      answer.mutable_results()->set_scenario((*message)->tasks().scenario());
+      for (const pb::Task& task : (*message)->tasks().tasks()) {
+        pb::Result& result = *answer.mutable_results()->add_results();
+        *result.mutable_key() = task.key();
+        result.set_attempt(task.attempt());
+        result.set_signature(task.signature());
+        result.set_failure("exit code 1");
+        result.set_errors(std::string(3000, 'e'));
+      }
+    }
+    if (answer.has_results()) say(answer, peer);
+  }
+};
+
+/// Three times what a stranger may have written, and its hello besides.
+TEST_F(GuestsWithPrograms, WhyAProgramFailedIsAlwaysWritten) {
+  hello(1);
+  move();
+  for (int turn = 0; turn < 1000 && !flat.finished(); ++turn) {
+    pb::ToCoordinator more;
+    more.set_incarnation(1);
+    more.mutable_credit()->set_tasks(50);
+    more.set_sequence(static_cast<std::uint64_t>(turn) + 1);
+    say(more, 1);
+    move();
+    fail(1);
+    move();
+  }
+  EXPECT_TRUE(flat.finished());
+  EXPECT_EQ(failures, static_cast<std::size_t>(kPrograms));
+  EXPECT_EQ(coordinator.status().over_budget.count("failure"), 0U);
 }
 
 }  // namespace

@@ -296,6 +296,27 @@ class BadStore(BadInput):
         self.assertEqual(done.returncode, 3, done.stderr)
         self.assertIn("may not be written", done.stderr)
 
+    def test_a_folder_that_may_not_be_entered(self):
+        store = self.store()
+        self.folder.chmod(0o700)
+        if os.geteuid() != 0:
+            self.skipTest("skipped: only root can become somebody else")
+        for words in (("check", self.file), ("run", self.file, "--store", store), ("status", store),
+                      ("init", self.folder / "new.toml"), ("profile", "rvr", "-o", self.folder / "p.toml"),
+                      ("pause", store), ("report", store, "-o", self.folder / "r.html"),
+                      ("backup", store, self.folder / "b.db"), ("figure", "scores", store),
+                      ("export", store, "-o", self.folder / "machine.fsm"),
+                      ("track", "check", self.folder / "arena.toml")):
+            with self.subTest(words[0]):
+                try:
+                    done = subprocess.run([SWARMSMITH, *map(str, words)], capture_output=True, user=65534,
+                                          text=True, timeout=DEADLINE_S, cwd="/")
+                except PermissionError:
+                    return  # the program lies where only root may go
+                self.assertIn(done.returncode, (1, 2, 3, 4), done.stderr)
+                self.assertIn(str(self.folder), done.stderr)
+                self.assertNotIn("filesystem error", done.stderr)
+
     def test_verify_finds_what_was_changed_by_hand(self):
         one = "purpose = 0 AND candidate = 5 AND pair = 1"
         changes = [f"UPDATE evaluation SET score = score + 1 WHERE {one}",

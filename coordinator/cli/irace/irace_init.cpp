@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 ExitCode write_templates(Output& output) {
   for (const IraceTemplate& file : irace_templates()) {
     const fs::path path = file.name;
-    if (fs::exists(path)) {
+    if (std::error_code none; fs::exists(path, none)) {
       print_note(output, file.name + " is there already, and stays as it is");
       continue;
     }
