@@ -1,5 +1,5 @@
 # swarmsmith_share_units(TARGET SOURCE...): where files are compiled in units of several (CMAKE_UNITY_BUILD, as ./dev
-# does: a quarter of the time), which ones are in one.
+# does), which ones are in one.
 function(swarmsmith_share_units target)
   if(CMAKE_UNITY_BUILD)
     if(NOT SWARMSMITH_PYTHON)  # the interpreter itself: what stands in front of it takes 0.2 s a call

@@ -60,6 +60,7 @@ Expected<Backup> copy_store(const fs::path& store, const fs::path& to, const OnC
     copy_pages(original, copy, on_copied);
     configure_writer(copy);
     upgrade(copy, migrations());
+    forget_secret(copy);  // copies are given away while the campaign goes on
     if (const auto faults = faults_of(copy); !faults.empty()) return damaged(store, faults.front());
     const Snapshot of_copy(copy);
     made.digest = digest_of_store(copy);

@@ -107,6 +107,21 @@ TEST_F(CopiesTest, ABackupIsTheWholeStoreAlsoWhileItIsWritten) {
   EXPECT_FALSE(fs::exists(out.string() + "-wal") && fs::file_size(out.string() + "-wal") > 0);
 }
 
+TEST_F(CopiesTest, ABackupHasNoSecretOfACampaignThatGoesOn) {
+  const SyntheticCampaign campaign = campaign_of_all_kinds(1, 1);
+  const std::string secret = "the quick brown fox jumps over it";
+  const auto store = open_store(a, campaign);
+  store->append(campaign.batches[0]);
+  store->flush();
+  EXPECT_EQ(store->keep_secret(secret), secret);
+  const auto made = back_up(a, out, kNobodyWatches);
+  ASSERT_TRUE(made) << to_string(made.error());
+  std::ifstream file(out, std::ios::binary);
+  const std::string bytes((std::istreambuf_iterator<char>(file)), {});
+  EXPECT_EQ(bytes.find(secret), std::string::npos);
+  EXPECT_EQ(store->keep_secret("another"), secret) << "the campaign keeps its own";
+}
+
 TEST_F(CopiesTest, ABackupOverwritesNothingAndLeavesNothingBehind) {
   write_store(a, campaign_of_all_kinds(1, 1));
   std::ofstream(out) << "mine";
