@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <functional>
 #include <string_view>
 #include <utility>
 
@@ -124,7 +125,8 @@ void draw_markers(Svg& svg, const RacePlot& plot, const Layout& at) {
   const bool each = fitting >= kLeast;
   const double size = each ? std::min(fitting, kTextSize) : kOfStretch;
   std::vector<MarkerStretch> stretches = marker_stretches(plot, each);
-  std::ranges::stable_partition(stretches, &MarkerStretch::dropped_some);
+  std::stable_partition(stretches.begin(), stretches.end(),
+                        std::mem_fn(&MarkerStretch::dropped_some));
   std::vector<ValueRange> taken;
   for (const MarkerStretch& stretch : stretches) {
     const double middle = (at.column_left(stretch.first) + at.column_left(stretch.end)) / 2;

@@ -71,7 +71,7 @@ std::string tikz_lines(const std::vector<LabelLine>& lines) {
 std::string tikz_edge(const ConditionShape& shape) {
   const auto [begin, control, end] = shape.curve;
   // The cubic curve that is the quadratic one.
-  const auto towards = [&](PagePoint from) {
+  const auto towards = [control = control](PagePoint from) {
     return PagePoint{from.x + (control.x - from.x) * 2 / 3, from.y + (control.y - from.y) * 2 / 3};
   };
   const std::string color = tikz_color(state_color(shape.source));

@@ -26,8 +26,7 @@ std::optional<Error> unknown_name(const std::string& given, const char* option,
                                   std::vector<std::string> known) {
   if (given.empty() || std::ranges::find(known, given) != known.end()) return std::nullopt;
   std::ranges::sort(known);
-  const auto same = std::ranges::unique(known);
-  known.erase(same.begin(), same.end());
+  known.erase(std::unique(known.begin(), known.end()), known.end());
   return Error{ErrorKind::BadInput,
                "the store has no \"" + given + "\"" + did_you_mean(given, known) +
                    "; it has: " + joined(known),

@@ -180,8 +180,9 @@ TEST_F(TargetEvaluators, RunTheFileThatWasCheckedWhateverALinkMeansThen) {
     scenario.target->runner = (folder / link).string() + rest;
     const auto evaluator = make();
     ASSERT_TRUE(evaluator);
-    std::jthread swapper(
-        [&](const std::stop_token& over) { swap_until(over, folder / link, good, bad); });
+    std::jthread swapper([&, &link = link](const std::stop_token& over) {
+      swap_until(over, folder / link, good, bad);
+    });
     int ran = 0;
     int refused = 0;
     while (ran < 100 || refused < 100) {

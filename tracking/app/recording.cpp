@@ -126,9 +126,9 @@ Expected<void> Recording::keep(double time, double clock) {
 void Recording::wait_until(double time) const {
   const auto due =
       started_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(time));
-  constexpr std::chrono::milliseconds kPatience{20};
+  constexpr std::chrono::milliseconds kLookAgain{20};
   while (!stop_was_asked_for() && Clock::now() < due)
-    std::this_thread::sleep_until(std::min(due, Clock::now() + kPatience));
+    std::this_thread::sleep_until(std::min(due, Clock::now() + kLookAgain));
 }
 
 void Recording::tell(Output& output) {

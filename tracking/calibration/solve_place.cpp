@@ -205,7 +205,7 @@ Expected<PlaceCalibration> solve_place(const PlaceQuestion& question) {
   // What does not fit must be told first: the coverage of a wrong place means nothing.
   std::vector<Error> faults = faults_of(calibration, question.limits);
   const auto is_fit = [](const Error& e) { return e.message.starts_with("E_EXTRINSICS"); };
-  std::ranges::stable_partition(faults, is_fit);
+  std::stable_partition(faults.begin(), faults.end(), is_fit);
   if (!faults.empty()) {
     faults.front().message += seen_and_missing(question);
     return Unexpected(faults.front());

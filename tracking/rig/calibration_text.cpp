@@ -89,7 +89,7 @@ std::string calibration_text(const PlaceCalibration& calibration) {
 }
 
 std::string calibration_text(const OffsetCalibration& calibration) {
-  constexpr double kDegree = kPi / 180;
+  constexpr double kOneDegree = kPi / 180;
   return head(
              "Where a robot's tag sits on it, made by `swarmsmith track calibrate robot`. It "
              "holds until the\n# tag is moved. Lengths in metres, in the tag's own axes.",
@@ -103,13 +103,13 @@ std::string calibration_text(const OffsetCalibration& calibration) {
          line("has_yaw", flag_text(calibration.has_yaw), "a straight run was filmed") +
          line("yaw_rad", number_text(calibration.offset.yaw_rad),
               fmt::format("the tag's heading minus the robot's: {:.2f} degrees",
-                          calibration.offset.yaw_rad / kDegree)) +
+                          calibration.offset.yaw_rad / kOneDegree)) +
          line("rms_m", number_text(calibration.rms_m), "at most 0.002") +
          line("sigma_x_m", number_text(calibration.sigma_x_m), "at most 0.0005") +
          line("sigma_y_m", number_text(calibration.sigma_y_m)) +
          line("drift_m_s", number_text(calibration.drift_m_s), "of the centre; at most 0.005") +
          line("turned_rad", number_text(calibration.turned_rad),
-              fmt::format("{:.0f} degrees; at least 300", calibration.turned_rad / kDegree)) +
+              fmt::format("{:.0f} degrees; at least 300", calibration.turned_rad / kOneDegree)) +
          line("samples", std::to_string(calibration.samples), "at least 60");
 }
 

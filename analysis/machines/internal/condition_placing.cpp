@@ -202,7 +202,8 @@ Placing place_conditions(const PlacingTask& task) {
     if (turn % 2 == 1) {
       std::ranges::reverse(order);
     } else {
-      std::ranges::rotate(order, order.begin() + static_cast<std::ptrdiff_t>(order.size() / 3));
+      std::rotate(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(order.size() / 3),
+                  order.end());
     }
     Placing other = placer.place(order);
     if (other.cost < best.cost) best = std::move(other);

@@ -69,8 +69,7 @@ struct Memory {
     }
     add_stepped_pairs(texts);
     std::ranges::sort(texts);
-    const auto [first, last] = std::ranges::unique(texts);
-    texts.erase(first, last);
+    texts.erase(std::unique(texts.begin(), texts.end()), texts.end());
     return texts;
   }
   /// As they stand after all rows: the first outcome, and the iteration that used it last.

@@ -209,7 +209,7 @@ TEST(TrackRunTest, DropsHeadingsThatARobotCannotTurnTo) {
   SeenRun seen = seen_run(on_circle, short_run());
   for (Sighting& sighting : seen.observations.sightings) {
     if (sighting.tag == 1 && sighting.frame == 100) {
-      std::ranges::rotate(sighting.corners, sighting.corners.begin() + 1);
+      std::rotate(sighting.corners.begin(), sighting.corners.begin() + 1, sighting.corners.end());
     }
   }
   const TrackedRun run = seen.track().value();
