@@ -280,7 +280,7 @@ TEST(ModelGolden, FindsTheSimilarConfigurationsThatIraceFinds) {
 }
 
 TEST(ModelGolden, RoundsAsRDoes) {
-  for (const auto& json : golden("model.json")["round4"]) {
+  for (const auto& json : golden("model.json", "round4")) {
     const double value = json["value"];
     EXPECT_EQ(round_to_digits(value, 4), json["d4"]) << value;
     EXPECT_EQ(round_to_digits(value, 2), json["d2"]) << value;
