@@ -48,7 +48,8 @@ endfunction()
 
 # swarmsmith_test(NAME LABEL unit|golden|cluster|end_to_end SOURCES ... USES ...)
 #
-# One test program a folder; each of its tests is a ctest of its own, so that they run in parallel.
+# One test program a folder; each of its tests is a ctest of its own, so that they run in parallel (not under a
+# sanitizer).
 function(swarmsmith_test name)
   cmake_parse_arguments(PARSE_ARGV 1 arg "" "LABEL;TIMEOUT" "SOURCES;USES")
   if(NOT arg_TIMEOUT)
@@ -68,6 +69,10 @@ function(swarmsmith_test name)
     SWARMSMITH_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   if(SWARMSMITH_SANITIZE)
     target_compile_definitions(${target} PRIVATE SWARMSMITH_SANITIZED)
+    # All of a program at once: to start it takes longer than most of its tests.
+    add_test(NAME ${name} COMMAND ${target})
+    set_tests_properties(${name} PROPERTIES LABELS ${arg_LABEL} TIMEOUT 3600)
+    return()
   endif()
   gtest_discover_tests(${target} DISCOVERY_MODE PRE_TEST TEST_PREFIX "${name}."
     PROPERTIES LABELS ${arg_LABEL} TIMEOUT ${limit})
