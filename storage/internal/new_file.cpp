@@ -90,7 +90,7 @@ Expected<void> NewFile::publish() {
     if (errno == EEXIST) return taken(wanted_);
     // Some file systems do not know the flag.
     const bool knows_not = errno == EINVAL || errno == ENOSYS;
-    if (knows_not && fs::exists(wanted_)) return taken(wanted_);
+    if (std::error_code none; knows_not && fs::exists(wanted_, none)) return taken(wanted_);
     if (!knows_not || ::rename(part_.c_str(), wanted_.c_str()) != 0) {
       return unexpected(ErrorKind::Unavailable,
                         fmt::format("cannot be made: {}", std::strerror(errno)), wanted_.string());

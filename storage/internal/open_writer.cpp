@@ -54,7 +54,8 @@ Expected<void> prepare(Connection& connection, const fs::path& path, bool unclea
 Expected<Writer> open_writer(const fs::path& path, std::chrono::milliseconds patience) {
   auto lock = LockFile::acquire(path, patience);
   if (!lock) return Unexpected(lock.error());
-  const bool unclean = fs::exists(path) && (lock->left_behind() || has_pending_log(path));
+  std::error_code none;
+  const bool unclean = fs::exists(path, none) && (lock->left_behind() || has_pending_log(path));
   lock->set_suspect(unclean);
   Connection connection(path.string(), SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE);
   auto file = HeldFile::hold(connection, path);

@@ -135,7 +135,8 @@ void migrate(sqlite::Connection& connection, const std::filesystem::path& path,
   if (steps.empty() || steps.back().to <= from) return;
   // A copy of that name can only be an earlier, interrupted try: the store has not moved since.
   const std::string copy = fmt::format("{}.before-v{}", path.string(), steps.back().to);
-  std::filesystem::remove(copy);
+  std::error_code stays;  // then SQLite says why
+  std::filesystem::remove(copy, stays);
   sqlite::Statement(connection, "VACUUM INTO ?").run(copy);
   upgrade(connection, steps);
 }

@@ -173,7 +173,10 @@ class Sink {
   std::int64_t count() const { return count_; }
 
  private:
-  bool is_folder() const { return out_.ends_with('/') || fs::is_directory(out_); }
+  bool is_folder() const {
+    std::error_code none;
+    return out_.ends_with('/') || fs::is_directory(out_, none);
+  }
 
   std::string out_;
   bool one_;
