@@ -81,7 +81,7 @@ class Kill(Beside):
         rng = random.Random(2)
         step = self.budget // (25 if LONG else 8)
         before = 0
-        while before < self.budget - 2 * step:
+        while before < self.budget - 3 * step:
             self.wait_stored(before + rng.randrange(1, step))
             serve.kill()
             self.count("coordinator killed")
@@ -90,6 +90,10 @@ class Kill(Beside):
             self.assertGreaterEqual(now, before, "a stored result was lost")
             before = now
             serve = self.serve(bind=address)
+        # Who is away at the end looks on for ten minutes: nothing ends before both are back.
+        self.assertEqual(self.ask("pause", "d1").returncode, 0)
+        wait_for(lambda: serve.progress().get("workers") == 2, "both workers", 30)
+        self.assertEqual(self.ask("resume", "d1").returncode, 0)
         self.finish(serve, workers)
         self.assert_promises_are_kept()
         self.assertEqual({row[0] for row in rows(self.store, "select pid from worker")},

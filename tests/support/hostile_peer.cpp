@@ -309,8 +309,9 @@ void HostilePeer::on_tick() {
     case Misdeed::Guesses:
       return guess_results();
     case Misdeed::ClaimsLeases:
-      // A connection that claims what it heard of, and one that answers it.
-      if (rng_.bernoulli(0.3)) return hang_up();
+      // It claims what it heard of, on this connection or the next, and answers it.
+      if (rng_.bernoulli(0.05)) return hang_up();
+      if (rng_.bernoulli(0.3)) return say_hello(true);
       return guess_results();
     case Misdeed::Replays:
       return replay();
