@@ -7,7 +7,7 @@ import time
 import unittest
 
 from beside import Beside, Onlookers
-from rig import BIN, LONG, FaultTest, calls_in, children_of, events, rows, send, stored, wait_for
+from rig import BIN, LONG, PATIENCE, FaultTest, calls_in, children_of, events, rows, send, stored, wait_for
 
 PRELOAD = str(BIN / "faulty_calls.so")
 
@@ -23,7 +23,7 @@ class Kill(Beside):
         killed = 0
         while serve.alive():
             try:
-                serve.process.wait(timeout=rng.uniform(0.05, 0.3 if LONG else 0.6))
+                serve.process.wait(timeout=PATIENCE * rng.uniform(0.05, 0.3 if LONG else 0.6))
             except subprocess.TimeoutExpired:
                 one = rng.randrange(len(workers))
                 workers[one].kill()
@@ -41,7 +41,7 @@ class Kill(Beside):
         killed = 0
         while run.alive():
             try:
-                run.process.wait(timeout=rng.uniform(0.3, 1.5))
+                run.process.wait(timeout=PATIENCE * rng.uniform(0.3, 1.5))
             except subprocess.TimeoutExpired:
                 workers = children_of(run.pid)
                 if workers:
