@@ -309,9 +309,8 @@ void HostilePeer::on_tick() {
     case Misdeed::Guesses:
       return guess_results();
     case Misdeed::ClaimsLeases:
-      // It claims what it heard of, on this connection or the next, and answers it.
-      if (rng_.bernoulli(0.05)) return hang_up();
-      if (rng_.bernoulli(0.3)) return say_hello(true);
+      // A connection that claims what it heard of, and one that answers it.
+      if (rng_.bernoulli(0.3)) return hang_up();
       return guess_results();
     case Misdeed::Replays:
       return replay();
