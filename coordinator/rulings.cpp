@@ -156,6 +156,7 @@ void Scheduler::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint 
   let_go(said);
   Principal* principal = principals_.find(said.principal);
   const bool is_decided = ruling.kind != Ruling::Kind::TimedOut;
+  if (said.taken && is_decided && is_right(said, ruling)) note_audited(said, principal, ruling);
   if (principal == nullptr || said.what == Said::What::Died) return;
   if (said.what == Said::What::NoScore) {
     if (ruling.kind == Ruling::Kind::Score) strike(*principal, now);
@@ -169,15 +170,15 @@ void Scheduler::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint 
             now);
   } else if (is_decided) {
     ++principal->confirmed;
-    if (said.taken) note_audited(said, *principal, ruling);
   }
   if (said.on_trial) try_waiting(*principal, now);
 }
 
-/// It is made again by no later process.
-void Scheduler::note_audited(const Said& said, Principal& principal, const Ruling& ruling) {
+/// It is made again by no later process, and whoever gave other bits was wrong. Who gave the kept
+/// one of a dispute is not known.
+void Scheduler::note_audited(const Said& said, Principal* principal, const Ruling& ruling) {
   const std::uint32_t campaign = campaign_of(ruling.key);
-  --principal.unchecked_of(campaign);
+  if (principal != nullptr) --principal->unchecked_of(campaign);
   actions_.emplace_back(AttemptEnded{campaign,
                                      {.key = unpack(ruling.key),
                                       .attempt = said.attempt,

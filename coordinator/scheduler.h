@@ -181,7 +181,7 @@ class Scheduler {
   void claim(WorkerEntry& entry, TaskRecord& record, Said::What what, TimePoint now);
   void ask_referee();
   void note_conflict(PackedKey key, const Dispute& dispute);
-  void note_audited(const Said& said, Principal& principal, const Ruling& ruling);
+  void note_audited(const Said& said, Principal* principal, const Ruling& ruling);
   void on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now);
   void carry_out(const Case& ruled, const Ruling& ruling, TimePoint now);
   void compare_with_stored(const Case& ruled, const Ruling& ruling);

@@ -1,6 +1,7 @@
 #include "analysis/comparison/comparison.h"
 
 #include <algorithm>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -17,7 +18,7 @@ void add_groups(const ScoreTable& table, Comparison& comparison) {
                         .method = key.method,
                         .source = key.source,
                         .designs = designs.size(),
-                        .values = values_of(designs, comparison.options.unit)};
+                        .values = values_of(designs, comparison.unit)};
     for (const auto& [id, design] : designs)
       group.runs += design.scores.size();
     group.summary = summary_of(group.values);
@@ -40,15 +41,24 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
   const bool by_source = comparison.options.by == CompareBy::Source;
   const auto names = names_in(table, by_source ? &GroupKey::source : &GroupKey::method);
   if (names.size() != 1) return;
-  comparison.notes.push_back(fmt::format("all scores are of the {} {}: there is nothing to compare",
-                                         by_source ? "source" : "method", *names.begin()));
+  const bool has_methods = by_source && names_in(table, &GroupKey::method).size() > 1;
+  comparison.notes.push_back(fmt::format(
+      "all scores are of the {} {}: there is nothing to compare{}", by_source ? "source" : "method",
+      *names.begin(), has_methods ? "; `--by method` compares the methods" : ""));
 }
 
 void note_runs(Comparison& comparison) {
-  if (comparison.options.unit != CompareUnit::Run || comparison.pairs.empty()) return;
-  const bool several = std::ranges::any_of(
-      comparison.groups, [](const ComparedGroup& group) { return group.runs > group.designs; });
-  if (several) {
+  if (comparison.unit != ScoreUnit::Run || comparison.pairs.empty()) return;
+  const auto& groups = comparison.groups;
+  const bool several_runs = std::ranges::any_of(
+      groups, [](const ComparedGroup& group) { return group.runs > group.designs; });
+  const bool several_designs =
+      std::ranges::any_of(groups, [](const ComparedGroup& group) { return group.designs > 1; });
+  if (!several_designs) {
+    comparison.notes.emplace_back(
+        "each group is one design: these tests tell machines apart, and say nothing about the "
+        "methods that made them");
+  } else if (several_runs) {
     comparison.notes.emplace_back(
         "runs of one design are not independent of each other: these tests see more certainty than "
         "there is");
@@ -94,8 +104,11 @@ std::optional<Error> missing(const std::vector<DesignScore>& scores,
   }
   if (auto found = lacks("method", &DesignScore::method, options.method)) return found;
   if (auto found = lacks("source", &DesignScore::source, options.source)) return found;
-  if (auto found = lacks("purpose", &DesignScore::purpose, options.purpose)) return found;
-  if (score_table(scores, options).empty())
+  const std::string& purpose = options.choice.purpose;
+  if (purpose != "all") {
+    if (auto found = lacks("purpose", &DesignScore::purpose, purpose)) return found;
+  }
+  if (wanted(scores, options).scores.empty())
     return error("no score has all of the mission, method, source and purpose asked for", "");
   return std::nullopt;
 }
@@ -103,8 +116,9 @@ std::optional<Error> missing(const std::vector<DesignScore>& scores,
 }  // namespace
 
 Comparison compare(const std::vector<DesignScore>& scores, const ComparisonOptions& options) {
-  const ScoreTable table = score_table(scores, options);
-  Comparison comparison{.options = options};
+  ChosenScores taken = wanted(scores, options);
+  const ScoreTable table = score_table(taken.scores);
+  Comparison comparison{.options = options, .unit = taken.unit, .said = std::move(taken.said)};
   add_groups(table, comparison);
   switch (options.by) {
     case CompareBy::Source:

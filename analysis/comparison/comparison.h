@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "analysis/records/chosen_scores.h"
 #include "analysis/records/records.h"
 #include "analysis/statistics/bootstrap.h"
 #include "analysis/statistics/friedman.h"
@@ -21,18 +22,13 @@ namespace swarmsmith {
 
 enum class CompareBy { Source, Method, Mission };
 
-/// What one value of a test is. Runs of a design are not independent of each other, so that tests
-/// over runs of several designs see more certainty than there is.
-enum class CompareUnit { Design, Run };
-
 /// What is compared; what is empty takes all.
 struct ComparisonOptions {
   CompareBy by = CompareBy::Source;
   std::vector<std::string> missions;
   std::string method;
   std::string source;
-  std::string purpose;  ///< `test` or `score`
-  CompareUnit unit = CompareUnit::Design;
+  ScoreChoice choice;
 };
 
 /// Designs of a mission and method in a source.
@@ -63,8 +59,9 @@ struct ComparedPair {
   std::vector<std::string> notes;  ///< what one should know before believing it
 };
 
-/// Friedman's test over all missions: its blocks are (mission, repetition) by method, designs by
-/// source, and its values the designs' means.
+/// Friedman's test. By method its blocks are missions, at least two, and its values the means of a
+/// method's designs: within a mission the methods' designs have nothing in common, and the rank-sum
+/// tests compare them. By source its blocks are designs.
 struct ComparedRanks {
   std::string source;              ///< of all; empty by source
   std::vector<std::string> names;  ///< of the methods or sources, as in `test.mean_ranks`
@@ -75,7 +72,9 @@ struct ComparedRanks {
 
 struct Comparison {
   ComparisonOptions options;
-  std::vector<ComparedGroup> groups;  ///< by mission, method, source
+  ScoreUnit unit = ScoreUnit::Design;  ///< what one value is
+  std::string said;                    ///< the same as a sentence
+  std::vector<ComparedGroup> groups;   ///< by mission, method, source
   std::vector<ComparedPair> pairs;
   std::vector<ComparedRanks> ranks;
   std::vector<std::string> notes;  ///< what was left out, and why

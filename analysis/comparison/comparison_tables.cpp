@@ -75,15 +75,14 @@ std::string ranks_csv(const std::vector<ComparedRanks>& ranks) {
       "source,name,mean_rank,low,high,blocks,incomplete,chi_squared,degrees,p,missions\n";
   for (const ComparedRanks& ranking : ranks) {
     const FriedmanTest& test = ranking.test;
-    const double half = test.half_width.value_or(NAN);
     for (std::size_t i = 0; i < ranking.names.size(); ++i) {
-      const double mean = test.mean_ranks[i];
-      csv +=
-          csv_row({csv_field(ranking.source), csv_field(ranking.names[i]), csv_number(mean),
-                   csv_number(mean - half), csv_number(mean + half), fmt::format("{}", test.blocks),
-                   fmt::format("{}", ranking.incomplete), csv_number(test.statistic),
-                   fmt::format("{}", test.degrees), csv_number(test.p_value),
-                   csv_field(fmt::format("{}", fmt::join(ranking.missions, " ")))});
+      const auto interval = test.interval(i).value_or(FriedmanTest::Interval{NAN, NAN});
+      csv += csv_row({csv_field(ranking.source), csv_field(ranking.names[i]),
+                      csv_number(test.mean_ranks[i]), csv_number(interval.low),
+                      csv_number(interval.high), fmt::format("{}", test.blocks),
+                      fmt::format("{}", ranking.incomplete), csv_number(test.statistic),
+                      fmt::format("{}", test.degrees), csv_number(test.p_value),
+                      csv_field(fmt::format("{}", fmt::join(ranking.missions, " ")))});
     }
   }
   return csv;
@@ -101,8 +100,8 @@ std::string_view name_of(CompareBy by) {
   return "mission";
 }
 
-std::string_view name_of(CompareUnit unit) {
-  return unit == CompareUnit::Design ? "design" : "run";
+std::string_view name_of(ScoreUnit unit) {
+  return unit == ScoreUnit::Design ? "design" : "run";
 }
 
 }  // namespace swarmsmith

@@ -16,6 +16,6 @@ std::string ranks_csv(const std::vector<ComparedRanks>& ranks);
 
 /// The words of the command line: "source", "method", "mission"; "design", "run".
 std::string_view name_of(CompareBy by);
-std::string_view name_of(CompareUnit unit);
+std::string_view name_of(ScoreUnit unit);
 
 }  // namespace swarmsmith

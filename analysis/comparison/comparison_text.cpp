@@ -123,12 +123,13 @@ std::string ranks_text(const ComparedRanks& ranks) {
   TextTable table{.left = 1, .rows = {{"", "mean rank", "95 % interval"}}};
   for (std::size_t i = 0; i < ranks.names.size(); ++i) {
     const double mean = test.mean_ranks[i];
-    const double half = test.half_width.value_or(NAN);
-    table.rows.push_back({ranks.names[i], fmt::format("{:.3f}", mean),
-                          fmt::format("[{:.3f}, {:.3f}]", mean - half, mean + half)});
+    const auto interval = test.interval(i);
+    table.rows.push_back(
+        {ranks.names[i], fmt::format("{:.3f}", mean),
+         interval ? fmt::format("[{:.3f}, {:.3f}]", interval->low, interval->high) : "-"});
   }
   std::string text = fmt::format(
-      "Ranks of designs' means{} over {} ({} blocks{}): Friedman chi-squared {}, {} degree{} of "
+      "Ranks of mean scores{} over {} ({} blocks{}): Friedman chi-squared {}, {} degree{} of "
       "freedom, p {}\n",
       ranks.source.empty() ? "" : " in " + ranks.source, fmt::join(ranks.missions, ", "),
       test.blocks,
@@ -161,11 +162,8 @@ std::string how_it_was_tested(const Comparison& comparison) {
 }  // namespace
 
 std::string comparison_text(const Comparison& comparison) {
-  const ComparisonOptions& options = comparison.options;
   std::string text =
-      fmt::format("Scores of the designs' winners{}, larger is better; a value is {}.\n\n",
-                  options.purpose.empty() ? "" : fmt::format(" (purpose {})", options.purpose),
-                  options.unit == CompareUnit::Design ? "a design's mean" : "a run");
+      fmt::format("Scores of the designs' winners, larger is better; {}.\n\n", comparison.said);
   text += groups_text(comparison);
   if (!comparison.pairs.empty()) text += "\n" + pairs_text(comparison);
   for (const ComparedRanks& ranks : comparison.ranks)

@@ -6,22 +6,29 @@
 
 #include "analysis/figures/convergence_plot.h"
 #include "analysis/figures/design_choice.h"
+#include "analysis/figures/internal/store_names.h"
 #include "analysis/figures/makers.h"
 #include "base/csv.h"
 
 namespace swarmsmith {
 namespace {
 
-/// Designs in panels by mission and colours by method, both in the order of the designs. One design
-/// alone is a colour of its own name.
+/// Designs in panels by mission and colours by method, which are the store's. One design alone has
+/// its method's.
 class PlotOfDesigns {
  public:
-  PlotOfDesigns(const std::vector<DesignRecord>& designs, double width_mm) {
+  PlotOfDesigns(const std::vector<DesignRecord>& designs, const StoreNames& names,
+                double width_mm) {
+    plot_.groups = names.methods;
     plot_.title = "Convergence";
     plot_.width_mm = width_mm;
     if (!designs.empty()) plot_.details.push_back(details_of(designs));
     for (const DesignRecord& design : designs)
-      add(design, designs.size() == 1);
+      add(design);
+    if (designs.size() != 1) return;
+    const DesignRecord& alone = designs.front();
+    plot_.groups[place_of(names.methods, alone.method)] =
+        to_string(alone.design) + ", best machine";
   }
 
   /// The elites of a design come one after the other, those of an iteration by rank.
@@ -47,21 +54,17 @@ class PlotOfDesigns {
                        title_of(designs.front()));
   }
 
-  void add(const DesignRecord& design, bool is_alone) {
-    const std::string group =
-        is_alone ? to_string(design.design) + ", best machine" : design.method;
+  void add(const DesignRecord& design) {
     const auto [panel, is_new_panel] = panels_.try_emplace(design.mission, panels_.size());
     if (is_new_panel) plot_.panels.push_back({.name = design.mission, .lines = {}});
-    const auto [color, is_new_group] = groups_.try_emplace(group, groups_.size());
-    if (is_new_group) plot_.groups.push_back(group);
+    const std::size_t color = place_of(plot_.groups, design.method);
     auto& lines = plot_.panels[panel->second].lines;
     places_[design.design] = {panel->second, lines.size()};
-    lines.push_back({.name = to_string(design.design), .group = color->second, .points = {}});
+    lines.push_back({.name = to_string(design.design), .group = color, .points = {}});
   }
 
   ConvergencePlot plot_;
   std::map<std::string, std::size_t> panels_;
-  std::map<std::string, std::size_t> groups_;
   std::map<DesignId, std::pair<std::size_t, std::size_t>> places_;  ///< panel and line
 };
 
@@ -77,7 +80,9 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
                       "no iteration of these designs has ended yet; `swarmsmith ls designs` shows "
                       "what the store has");
   }
-  PlotOfDesigns made(*known, options.width_mm);
+  const auto names = names_of(store);
+  if (!names) return Unexpected(names.error());
+  PlotOfDesigns made(*known, *names, options.width_mm);
   std::map<DesignId, const DesignRecord*> by_id;
   for (const DesignRecord& design : *known)
     by_id.emplace(design.design, &design);

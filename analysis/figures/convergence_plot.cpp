@@ -59,8 +59,12 @@ double last_experiment(const ConvergencePlot& plot) {
 Legend legend_of(const ConvergencePlot& plot) {
   std::vector<LegendEntry> entries;
   for (std::size_t group = 0; group < plot.groups.size(); ++group) {
-    const bool is_crowd = std::ranges::any_of(
-        plot.panels, [&](const Panel& panel) { return lines_of(panel, group) >= kCrowd; });
+    const auto has_lines = [&](std::size_t least) {
+      return std::ranges::any_of(
+          plot.panels, [&](const Panel& panel) { return lines_of(panel, group) >= least; });
+    };
+    if (!has_lines(1)) continue;
+    const bool is_crowd = has_lines(kCrowd);
     entries.push_back(
         {distinct_color(group), plot.groups[group] + (is_crowd ? " (bold: median)" : "")});
   }

@@ -27,7 +27,8 @@ struct ConvergencePlot {
 
   std::string title;
   std::vector<std::string> details;
-  std::vector<std::string> groups;  ///< what each colour stands for: a method, or one design
+  /// What each colour stands for: a method, or one design; those without a line are not told.
+  std::vector<std::string> groups;
   std::vector<Panel> panels;
   double width_mm = 84;
 };

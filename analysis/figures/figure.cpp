@@ -31,9 +31,9 @@ bool has_word(std::string_view words, std::string_view word) {
 std::span<const FigureKind> figure_kinds() {
   static constexpr std::array kKinds = {
       FigureKind{"box", "Box plots with points of the winners' scores, a panel a mission",
-                 box_figure, "mission method design by source purpose"},
+                 box_figure, "mission method design by source purpose per"},
       FigureKind{"scores", "How often each score occurred, bars of groups side by side",
-                 scores_figure, "mission method design by source purpose"},
+                 scores_figure, "mission method design by source purpose per"},
       FigureKind{"modules", "How often the winners have each module, as bars and numbers",
                  modules_figure, "mission method"},
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
@@ -59,13 +59,14 @@ const FigureKind* find_figure_kind(std::string_view name) {
 }
 
 std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions& options) {
-  const std::array<std::pair<std::string_view, bool>, 9> given = {{
+  const std::array<std::pair<std::string_view, bool>, 10> given = {{
       {"mission", !options.filter.mission.empty()},
       {"method", !options.filter.method.empty()},
       {"design", options.filter.design.has_value()},
       {"by", !options.by.empty()},
       {"source", !options.source.empty()},
-      {"purpose", !options.purpose.empty()},
+      {"purpose", !options.choice.purpose.empty()},
+      {"per", options.choice.unit.has_value()},
       {"candidate", options.candidate.has_value()},
       {"iteration", options.iteration.has_value()},
       {"parameter", !options.parameter.empty()},

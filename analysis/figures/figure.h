@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "analysis/records/chosen_scores.h"
 #include "analysis/records/records.h"
 #include "base/expected.h"
 #include "storage/store.h"
@@ -29,7 +30,7 @@ struct FigureOptions {
   double width_mm = 84;  ///< a column of a paper; the height follows
   std::string by;        ///< groups of a comparison: source, method or mission
   std::string source;    ///< only scores of this source; empty: of all
-  std::string purpose;   ///< only `test` or only `score`; empty: both
+  ScoreChoice choice;    ///< which scores, and what a value is
   std::optional<CandidateId> candidate;
   std::optional<std::int64_t> iteration;
   std::string parameter;  ///< names, with commas between; empty: the most telling ones

@@ -36,8 +36,8 @@ std::vector<RankPlot::Row> by_rank(std::vector<RankPlot::Row> rows) {
 ValueRange range_of(const RankPlot::Panel& panel) {
   std::vector<double> ends = {1, static_cast<double>(panel.rows.size())};
   for (const RankPlot::Row& row : panel.rows) {
-    ends.push_back(row.mean - row.half_width);
-    ends.push_back(row.mean + row.half_width);
+    ends.push_back(row.low);
+    ends.push_back(row.high);
   }
   return rounded(range_over(ends), kMostTicks);
 }
@@ -68,8 +68,8 @@ void draw_segment(Svg& svg, PagePoint from, PagePoint to, std::string_view color
 }
 
 void draw_row(Svg& svg, const RankPlot::Row& row, double y, const Axis& x) {
-  const double low = x.at(row.mean - row.half_width);
-  const double high = x.at(row.mean + row.half_width);
+  const double low = x.at(row.low);
+  const double high = x.at(row.high);
   draw_segment(svg, {low, y}, {high, y}, kInk, 0.4);
   for (const double end : {low, high})
     draw_segment(svg, {end, y - kCap}, {end, y + kCap}, kInk, 0.4);
@@ -117,8 +117,8 @@ double draw_panel(Svg& svg, const RankPlot::Panel& panel, double top, double nam
                       .height = kRowHeight * static_cast<double>(panel.rows.size())};
   const Axis x(range_of(panel), area.left, area.right());
   const std::vector<RankPlot::Row> rows = by_rank(panel.rows);
-  const double low = x.at(rows.front().mean - rows.front().half_width);
-  const double high = x.at(rows.front().mean + rows.front().half_width);
+  const double low = x.at(rows.front().low);
+  const double high = x.at(rows.front().high);
   const std::array<PagePoint, 4> band = {PagePoint{low, area.top}, PagePoint{high, area.top},
                                          PagePoint{high, area.bottom()},
                                          PagePoint{low, area.bottom()}};
@@ -146,7 +146,7 @@ RankPlot::Panel panel_of(const ComparedRanks& ranks, CompareBy by, bool alone) {
   const FriedmanTest& test = ranks.test;
   RankPlot::Panel panel{.title = alone ? "" : ranks.source};
   panel.details.push_back(
-      fmt::format("{} {}{}: {}", test.blocks, by == CompareBy::Method ? "repetitions" : "designs",
+      fmt::format("{} {}{}: {}", test.blocks, by == CompareBy::Method ? "missions" : "designs",
                   alone && !ranks.source.empty() ? " in " + ranks.source : "", missions_of(ranks)));
   panel.details.push_back(
       test.p_value
@@ -154,8 +154,11 @@ RankPlot::Panel panel_of(const ComparedRanks& ranks, CompareBy by, bool alone) {
                 "Friedman: \u03c7\u00b2\u00a0=\u00a0{:.4g}, df\u00a0{}, p\u00a0=\u00a0{:.3g}",
                 test.statistic, test.degrees, *test.p_value)
           : "All values are tied: there is no test");
-  for (std::size_t i = 0; i < ranks.names.size(); ++i)
-    panel.rows.push_back({ranks.names[i], test.mean_ranks[i], test.half_width.value_or(0)});
+  for (std::size_t i = 0; i < ranks.names.size(); ++i) {
+    const double mean = test.mean_ranks[i];
+    const auto interval = test.interval(i).value_or(FriedmanTest::Interval{mean, mean});
+    panel.rows.push_back({ranks.names[i], mean, interval.low, interval.high});
+  }
   return panel;
 }
 
@@ -164,7 +167,7 @@ Expected<Comparison> ranked(StoreReader& store, const FigureOptions& options) {
   ComparisonOptions asked{.by = CompareBy::Method,
                           .method = options.filter.method,
                           .source = options.source,
-                          .purpose = options.purpose};
+                          .choice = options.choice};
   if (!options.filter.mission.empty()) asked.missions = {options.filter.mission};
   if (options.by == "mission")
     return bad_input("missions are not ranked: their scores have different units", "--by");

@@ -10,7 +10,8 @@ struct RankPlot {
   struct Row {
     std::string name;
     double mean = 1;  ///< 1 is best
-    double half_width = 0;
+    double low = 1;   ///< ends of its interval
+    double high = 1;
   };
   struct Panel {
     std::string title;                 ///< empty for none

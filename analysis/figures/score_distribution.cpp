@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -153,10 +155,36 @@ void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
            {.size = kTextSize, .anchor = TextStyle::Anchor::Middle, .fill = std::string(kInk)});
 }
 
+/// Keeps the store's colours, if no two groups share one; the number of groups.
+std::size_t give_each_a_color(ScoreDistribution& plot) {
+  std::map<std::string, std::size_t> colors;
+  std::set<std::size_t> taken;
+  for (const ScorePanel& panel : plot.panels) {
+    for (const ScoreGroup& group : panel.groups) {
+      if (colors.try_emplace(group.name, group.color).second) taken.insert(group.color);
+    }
+  }
+  if (taken.size() < colors.size()) {
+    std::size_t next = 0;
+    for (auto& color : colors)
+      color.second = next++;
+  }
+  for (ScorePanel& panel : plot.panels) {
+    for (ScoreGroup& group : panel.groups)
+      group.color = colors.at(group.name);
+  }
+  for (const auto& [name, color] : colors) {
+    plot.groups.resize(std::max(plot.groups.size(), color + 1));
+    plot.groups[color] = name;
+  }
+  return colors.size();
+}
+
 Legend legend_of(const ScoreDistribution& plot) {
   std::vector<LegendEntry> entries;
-  for (std::size_t color = 0; color < plot.groups.size(); ++color)
-    entries.push_back({distinct_color(color), plot.groups[color]});
+  for (std::size_t color = 0; color < plot.groups.size(); ++color) {
+    if (!plot.groups[color].empty()) entries.push_back({distinct_color(color), plot.groups[color]});
+  }
   return {std::move(entries), plot.width_mm - 2 * kMargin};
 }
 
@@ -214,17 +242,11 @@ Expected<Figure> scores_figure(StoreReader& store, const FigureOptions& options)
                          .panels = std::move(scores->panels),
                          .width_mm = options.width_mm};
   plot.details.front() += "; higher is better";
-  for (ScorePanel& panel : plot.panels) {
-    for (ScoreGroup& group : panel.groups) {
-      const auto known = std::ranges::find(plot.groups, group.name);
-      group.color = static_cast<std::size_t>(known - plot.groups.begin());
-      if (known == plot.groups.end()) plot.groups.push_back(group.name);
-    }
-  }
-  if (plot.groups.size() > kDistinctColors) {
+  const std::size_t groups = give_each_a_color(plot);
+  if (groups > kDistinctColors) {
     return bad_input(fmt::format("{} groups have no {} colours that can be told apart; choose a "
                                  "--method or a --source",
-                                 plot.groups.size(), plot.groups.size()),
+                                 groups, groups),
                      "figure scores");
   }
   return Figure{.svg = draw(plot), .csv = std::move(scores->csv), .tex = {}};

@@ -13,7 +13,7 @@ struct ScoreDistribution {
   std::string title;
   std::vector<std::string> details;
   std::vector<ScorePanel> panels;   ///< at most kDistinctColors groups, each with its own colour
-  std::vector<std::string> groups;  ///< what each colour stands for
+  std::vector<std::string> groups;  ///< what each colour stands for; empty for nothing here
   double width_mm = 84;
 };
 

@@ -32,12 +32,12 @@ std::string dot_of(const MachineLayout& layout, std::string_view title) {
   for (std::size_t i = 0; i < layout.states.size(); ++i) {
     text +=
         fmt::format("  s{} [shape={}, style=filled, color=\"{}\", fillcolor=\"{}\", label={}];\n",
-                    i, layout.states[i].initial ? "doublecircle" : "circle", state_color(i),
-                    state_fill(i), dot_label(layout.states[i].lines));
+                    i, layout.states[i].initial ? "doublecircle" : "circle", color_of(layout, i),
+                    fill_of(layout, i), dot_label(layout.states[i].lines));
   }
   for (std::size_t i = 0; i < layout.conditions.size(); ++i) {
     const ConditionShape& shape = layout.conditions[i];
-    const std::string color = state_color(shape.source);
+    const std::string color = color_of(layout, shape.source);
     text += fmt::format("  c{} [shape=hexagon, margin=0, color=\"{}\", label={}];\n", i, color,
                         dot_label(shape.lines));
     text += fmt::format("  s{} -> c{} [color=\"{}\", arrowhead=none];\n", shape.source, i, color);

@@ -74,9 +74,11 @@ void refuse_wrong(const Machine& machine, double width_mm) {
 /// Shapes with their labels and sizes, without their places.
 MachineLayout without_places(const Machine& machine, const Flavour& flavour, const Sizes& sizes) {
   MachineLayout layout;
+  const std::vector<bool> reachable = reachable_states(machine);
   double radius = 0;
   for (const State& state : machine.states) {
     StateShape shape{.initial = layout.states.empty(),
+                     .reachable = reachable[layout.states.size()],
                      .lines = lines_of(label_of(state.behaviour, flavour), sizes.state)};
     radius = std::max(radius, radius_round(shape.lines) + kInitialRing + 0.5);
     for (const Transition& transition : state.transitions) {
@@ -152,6 +154,12 @@ void fit_page(MachineLayout& layout, double width_mm) {
   }
   layout.width = width_mm;
   layout.height = high.y + by.y + kMargin;
+  if (std::ranges::all_of(layout.states, &StateShape::reachable)) return;
+  constexpr double kNoteSize = 2.5;
+  layout.notes.push_back({.at = {width_mm / 2, layout.height + kNoteSize},
+                          .text = "grey: no transition leads there",
+                          .size = kNoteSize});
+  layout.height += kNoteSize + kMargin;
 }
 
 }  // namespace

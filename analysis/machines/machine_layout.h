@@ -28,6 +28,7 @@ struct StateShape {
   PagePoint centre;
   double radius = 0;
   bool initial = false;
+  bool reachable = true;  ///< else it is grey, with all that leaves it
   std::vector<LabelLine> lines;
 };
 
@@ -48,6 +49,7 @@ struct MachineLayout {
   double height = 0;
   std::vector<StateShape> states;          ///< in the machine's order
   std::vector<ConditionShape> conditions;  ///< by source, then in the order of its transitions
+  std::vector<LabelLine> notes;            ///< at the foot: what grey means, where there is some
 };
 
 /// How far the points of a condition's box reach beyond its text.

@@ -5,12 +5,13 @@
 namespace swarmsmith {
 namespace {
 
-void draw_lines(Svg& svg, const std::vector<LabelLine>& lines) {
+void draw_lines(Svg& svg, const std::vector<LabelLine>& lines, bool grey) {
   for (const LabelLine& line : lines) {
+    const std::string_view ink = line.is_name ? "#000000" : "#333333";
     svg.text(line.at, line.text,
              {.size = line.size,
               .anchor = TextStyle::Anchor::Middle,
-              .fill = std::string(line.is_name ? "#000000" : "#333333")});
+              .fill = std::string(grey ? kGreyText : ink)});
   }
 }
 
@@ -23,25 +24,26 @@ std::string svg_of(const MachineLayout& layout, std::string_view title) {
       "state; pointed boxes are conditions");
   // All curves below all boxes, so that a box hides a curve and never a text.
   for (const ConditionShape& shape : layout.conditions) {
-    Paint paint = stroked(state_color(shape.source), kEdgeWidth);
+    Paint paint = stroked(color_of(layout, shape.source), kEdgeWidth);
     paint.dashes = state_dashes(shape.source);
     svg.curve(shape.curve[0], shape.curve[1], shape.curve[2], paint);
-    svg.polygon(shape.head, filled(state_color(shape.source)));
+    svg.polygon(shape.head, filled(color_of(layout, shape.source)));
   }
   for (std::size_t i = 0; i < layout.states.size(); ++i) {
     const StateShape& shape = layout.states[i];
-    Paint paint = stroked(state_color(i), kStateWidth);
-    paint.fill = state_fill(i);
+    Paint paint = stroked(color_of(layout, i), kStateWidth);
+    paint.fill = fill_of(layout, i);
     svg.circle(shape.centre, shape.radius, paint);
     if (shape.initial) svg.circle(shape.centre, shape.radius - kInitialRing, paint);
-    draw_lines(svg, shape.lines);
+    draw_lines(svg, shape.lines, !shape.reachable);
   }
   for (const ConditionShape& shape : layout.conditions) {
-    Paint paint = stroked(state_color(shape.source), kEdgeWidth);
+    Paint paint = stroked(color_of(layout, shape.source), kEdgeWidth);
     paint.fill = kPaper;
     svg.polygon(corners_of(shape), paint);
-    draw_lines(svg, shape.lines);
+    draw_lines(svg, shape.lines, !layout.states[shape.source].reachable);
   }
+  draw_lines(svg, layout.notes, true);
   return svg.finish();
 }
 

@@ -55,26 +55,27 @@ std::string tex_text(std::string text) {
   return text;
 }
 
-std::string tikz_lines(const std::vector<LabelLine>& lines) {
+std::string tikz_lines(const std::vector<LabelLine>& lines, bool grey) {
   std::string text;
   for (const LabelLine& line : lines) {
     // Ten points, scaled: every font of LaTeX has them, while other sizes may be replaced by near
     // ones.
     text += fmt::format(
-        "\\node[anchor=base,inner sep=0pt,outer sep=0pt,scale={:.3f},"
+        "\\node[anchor=base,inner sep=0pt,outer sep=0pt,scale={:.3f},{}"
         "font=\\sffamily\\fontsize{{10}}{{12}}\\selectfont] at {} {{{}}};\n",
-        line.size * kPointsPerMm / kFontSize_pt, tikz_point(line.at), tex_text(line.text));
+        line.size * kPointsPerMm / kFontSize_pt, grey ? "text=" + tikz_color(kGreyText) + "," : "",
+        tikz_point(line.at), tex_text(line.text));
   }
   return text;
 }
 
-std::string tikz_edge(const ConditionShape& shape) {
+std::string tikz_edge(const MachineLayout& layout, const ConditionShape& shape) {
   const auto [begin, control, end] = shape.curve;
   // The cubic curve that is the quadratic one.
   const auto towards = [control = control](PagePoint from) {
     return PagePoint{from.x + (control.x - from.x) * 2 / 3, from.y + (control.y - from.y) * 2 / 3};
   };
-  const std::string color = tikz_color(state_color(shape.source));
+  const std::string color = tikz_color(color_of(layout, shape.source));
   return fmt::format("\\draw[draw={},line width={}mm{}] {} .. controls {} and {} .. {};\n", color,
                      kEdgeWidth, tikz_dashes(state_dashes(shape.source)), tikz_point(begin),
                      tikz_point(towards(begin)), tikz_point(towards(end)), tikz_point(end)) +
@@ -82,24 +83,25 @@ std::string tikz_edge(const ConditionShape& shape) {
                      tikz_point(shape.head[1]), tikz_point(shape.head[2]));
 }
 
-std::string tikz_state(const StateShape& shape, std::size_t number) {
+std::string tikz_state(const MachineLayout& layout, std::size_t number) {
+  const StateShape& shape = layout.states[number];
   const auto circle = [&](double radius) {
     return fmt::format("\\draw[draw={},fill={},line width={}mm] {} circle[radius={:.2f}mm];\n",
-                       tikz_color(state_color(number)), tikz_color(state_fill(number)), kStateWidth,
-                       tikz_point(shape.centre), radius);
+                       tikz_color(color_of(layout, number)), tikz_color(fill_of(layout, number)),
+                       kStateWidth, tikz_point(shape.centre), radius);
   };
   std::string text = circle(shape.radius);
   if (shape.initial) text += circle(shape.radius - kInitialRing);
-  return text + tikz_lines(shape.lines);
+  return text + tikz_lines(shape.lines, !shape.reachable);
 }
 
-std::string tikz_condition(const ConditionShape& shape) {
+std::string tikz_condition(const MachineLayout& layout, const ConditionShape& shape) {
   std::string text =
-      fmt::format("\\draw[draw={},fill={},line width={}mm]", tikz_color(state_color(shape.source)),
-                  tikz_color(kPaper), kEdgeWidth);
+      fmt::format("\\draw[draw={},fill={},line width={}mm]",
+                  tikz_color(color_of(layout, shape.source)), tikz_color(kPaper), kEdgeWidth);
   for (const PagePoint corner : corners_of(shape))
     text += " " + tikz_point(corner) + " --";
-  return text + " cycle;\n" + tikz_lines(shape.lines);
+  return text + " cycle;\n" + tikz_lines(shape.lines, !layout.states[shape.source].reachable);
 }
 
 }  // namespace
@@ -110,12 +112,12 @@ std::string tikz_of(const MachineLayout& layout) {
   text += fmt::format("\\useasboundingbox (0,0) rectangle ({:.2f},{:.2f});\n", layout.width,
                       layout.height);
   for (const ConditionShape& shape : layout.conditions)
-    text += tikz_edge(shape);
+    text += tikz_edge(layout, shape);
   for (std::size_t i = 0; i < layout.states.size(); ++i)
-    text += tikz_state(layout.states[i], i);
+    text += tikz_state(layout, i);
   for (const ConditionShape& shape : layout.conditions)
-    text += tikz_condition(shape);
-  return text + "\\end{tikzpicture}\n";
+    text += tikz_condition(layout, shape);
+  return text + tikz_lines(layout.notes, true) + "\\end{tikzpicture}\n";
 }
 
 }  // namespace swarmsmith

@@ -58,17 +58,6 @@ Expected<std::string> machine_json(StoreReader& store, const DesignRecord& desig
   return text + "\n";
 }
 
-/// The text that `evaluate` reads, below a line that says whose it is.
-std::string machine_text(const DesignRecord& design) {
-  std::string text =
-      fmt::format("# {} {} {} repetition {}: {}", to_string(design.design), design.mission,
-                  design.method, design.repetition, to_string(*design.best));
-  if (!design.flavour.empty()) text += ", flavour " + design.flavour;
-  if (design.best_mean) text += fmt::format(", mean {} in the race", *design.best_mean);
-  const bool is_machine = !design.flavour.empty();
-  return text + (is_machine ? "\n--fsm-config " : "\n") + design.machine + "\n";
-}
-
 /// Adds the figure, with its numbers, when the store has something to draw.
 Expected<void> add_figure(Files& files, StoreReader& store, const FigureKind& kind,
                           const FigureOptions& options, const std::string& path) {
@@ -84,12 +73,14 @@ Expected<void> add_figure(Files& files, StoreReader& store, const FigureKind& ki
   return {};
 }
 
-Expected<void> add_controllers(Files& files, StoreReader& store,
+Expected<void> add_controllers(Files& files, StoreReader& store, const SupplementOptions& asked,
                                const std::vector<DesignRecord>& all) {
   const FigureKind* drawn = find_figure_kind(kMachineKind);
   for (const DesignRecord& design : all) {
     const std::string path = "controllers/" + file_name_of(design);
-    files.push_back({path + ".txt", machine_text(design)});
+    auto text = asked.machine_file(*design.best);
+    if (!text) return Unexpected(text.error());
+    files.push_back({path + ".txt", std::move(*text)});
     auto json = machine_json(store, design);
     if (!json) return Unexpected(json.error());
     files.push_back({path + ".json", std::move(*json)});
@@ -182,7 +173,8 @@ Expected<std::vector<SupplementFile>> supplement(StoreReader& store,
     files.push_back({table.path, std::move(*text)});
   }
   if (auto added = add_comparisons(files, store); !added) return Unexpected(added.error());
-  if (auto added = add_controllers(files, store, *all); !added) return Unexpected(added.error());
+  if (auto added = add_controllers(files, store, options, *all); !added)
+    return Unexpected(added.error());
   if (auto added = add_figures(files, store, *all); !added) return Unexpected(added.error());
   auto report = html_report(store, {.program = options.program});
   if (!report) return Unexpected(report.error());

@@ -1,9 +1,11 @@
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
 #include "base/expected.h"
+#include "base/id.h"
 #include "storage/store.h"
 
 namespace swarmsmith {
@@ -15,6 +17,8 @@ struct SupplementFile {
 };
 
 struct SupplementOptions {
+  /// A candidate as a file that `evaluate` reads.
+  std::function<Expected<std::string>(CandidateId)> machine_file;
   std::string program;     ///< what made it: "swarmsmith 0.1.0"
   bool with_pdfs = false;  ///< a PDF will be put beside every SVG, as README.md then says
 };

@@ -64,4 +64,11 @@ FriedmanTest friedman_test(const std::vector<std::vector<double>>& values) {
   return test;
 }
 
+std::optional<FriedmanTest::Interval> FriedmanTest::interval(std::size_t number) const {
+  if (!half_width) return std::nullopt;
+  const double mean = mean_ranks[number];
+  return Interval{std::max(1.0, mean - *half_width),
+                  std::min(static_cast<double>(treatments), mean + *half_width)};
+}
+
 }  // namespace swarmsmith

@@ -27,6 +27,13 @@ struct FriedmanTest {
   /// comparisons; the form of the intervals as in the rank plots of AutoMoDe papers. None with
   /// fewer than two blocks.
   std::optional<double> half_width;
+
+  struct Interval {
+    double low = 1;
+    double high = 1;
+  };
+  /// Of the mean rank of treatment `number`, from 1 to k at most; none without a half width.
+  std::optional<Interval> interval(std::size_t number) const;
 };
 
 /// `values` has a row a block and a column a treatment, larger is better; at least one row, at

@@ -109,9 +109,9 @@ Examples:
   swarmsmith evaluate best --store demo.db
   swarmsmith evaluate best --store demo.db --profile pseudo-reality
   swarmsmith evaluate c812 --store demo.db --seeds 1-100 --no-store
-  swarmsmith evaluate best.fsm --mission aggregation
+  swarmsmith evaluate best.fsm
   swarmsmith evaluate best.fsm --mission my_mission.toml --profile my_rvr.toml
-  swarmsmith evaluate --nstates 1 --s0 0 --rwm0 10 --mission grid_exploration --json
+  swarmsmith evaluate --nstates 1 --s0 0 --rwm0 10 --flavour watermelon --mission grid_exploration
   swarmsmith evaluate --flavour watermelon-argos3 --profile argos3 --mission color_selection \
       --seeds 1-100 --starts starts.csv --patches patches.csv machine.fsm)";
 

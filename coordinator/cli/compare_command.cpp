@@ -5,6 +5,7 @@
 #include "console/terminal.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/comparison_json.h"
+#include "coordinator/cli/score_words.h"
 #include "coordinator/cli/store_argument.h"
 
 namespace swarmsmith::cli {
@@ -13,7 +14,8 @@ namespace {
 struct Arguments {
   StoreArgument store;
   std::string by = "source";
-  std::string per = "design";
+  std::string purpose;
+  std::string per;
   std::string table;
   bool csv = false;
   ComparisonOptions options;
@@ -36,7 +38,7 @@ ExitCode run(Arguments& arguments, Output& output) {
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   arguments.options.by = by_of(arguments.by);
-  arguments.options.unit = arguments.per == "run" ? CompareUnit::Run : CompareUnit::Design;
+  arguments.options.choice = score_choice(arguments.purpose, arguments.per);
   const auto comparison = compare(**store, arguments.options);
   if (!comparison) {
     const bool not_there = comparison.error().kind == ErrorKind::NotFound;
@@ -65,10 +67,8 @@ Run declare_compare(Options& options) {
   options.texts("--mission", arguments->options.missions, "Only this mission; several times");
   options.text("--method", arguments->options.method, "Only this method");
   options.text("--source", arguments->options.source, "Only scores of this source");
-  options.choice("--purpose", arguments->options.purpose, {"test", "score"},
-                 "Only scores of the campaign's tests, or of later evaluations (default both)");
-  options.choice("--per", arguments->per, {"run", "design"},
-                 "What one value is (default design: the mean of its runs)");
+  options.choice("--purpose", arguments->purpose, {"test", "score", "all"}, kPurposeHelp);
+  options.choice("--per", arguments->per, {"run", "design"}, kPerHelp);
   options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
   options.choice("--table", arguments->table, {"groups", "pairs", "ranks"},
                  "Which table as CSV (default pairs; groups by mission)");

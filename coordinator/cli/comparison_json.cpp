@@ -65,10 +65,11 @@ std::string ranks_json(const ComparedRanks& ranks) {
 std::string comparison_json(const Comparison& comparison) {
   return fmt::format(R"({{"by":"{}","per":"{}","purpose":{},"groups":{},"pairs":{},"ranks":{},)"
                      R"("bootstrap":{{"resamples":{},"seed":{}}},"notes":{}}})",
-                     name_of(comparison.options.by), name_of(comparison.options.unit),
-                     json_text(comparison.options.purpose), list(comparison.groups, group_json),
-                     list(comparison.pairs, pair_json), list(comparison.ranks, ranks_json),
-                     kResamples, kBootstrapSeed, list(comparison.notes, json_text));
+                     name_of(comparison.options.by), name_of(comparison.unit),
+                     json_text(comparison.options.choice.purpose),
+                     list(comparison.groups, group_json), list(comparison.pairs, pair_json),
+                     list(comparison.ranks, ranks_json), kResamples, kBootstrapSeed,
+                     list(comparison.notes, json_text));
 }
 
 }  // namespace swarmsmith::cli

@@ -73,6 +73,8 @@ std::string as_json(const Told& told) {
     text += "\"design\":" + json_text(to_string(design_of(candidate))) +
             ",\"candidate\":" + json_text(to_string(candidate)) +
             ",\"source\":" + json_text(told.job->profile.name) + ",";
+  } else if (!told.job->name.empty()) {
+    text += "\"machine\":" + json_text(told.job->name) + ",";
   }
   text += "\"seed\":" + std::to_string(told.seed) + ",\"score\":" + json_number(told.score);
   if (told.kept) {
@@ -88,6 +90,8 @@ std::string as_line(const Told& told) {
   if (const CandidateId candidate = told.job->candidate) {
     text = to_string(design_of(candidate)) + "  " + to_string(candidate) + "  " +
            told.job->profile.name + "  ";
+  } else if (!told.job->name.empty()) {
+    text += told.job->name + "  ";
   }
   text += "seed " + std::to_string(told.seed) + "  score " + json_number(told.score);
   if (told.kept && told.kept->how == How::New) text += "  stored as " + to_string(told.kept->key);
@@ -106,6 +110,13 @@ Error conflict_of(const Told& told) {
           to_string(told.kept->key)};
 }
 
+std::int64_t runs_of(const EvaluationPlan& plan) {
+  std::size_t runs = 0;
+  for (const EvaluationJob& job : plan.jobs)
+    runs += job.seeds.size();
+  return static_cast<std::int64_t>(runs);
+}
+
 /// Runs the jobs one after the other, and tells of each run.
 class Evaluation {
  public:
@@ -115,7 +126,7 @@ class Evaluation {
         output_(output),
         answer_(arguments.recording.takes_standard_output() ? output.err : output.out),
         counter_(output, "simulated", "runs"),
-        of_(static_cast<std::int64_t>(plan.jobs.size() * plan.seeds.size())) {}
+        of_(runs_of(plan)) {}
 
   ExitCode run() {
     if (plan_.stores) {
@@ -129,7 +140,7 @@ class Evaluation {
       return fail(output_, exit_code_of_recording(recording.error()), recording.error());
     }
     for (const EvaluationJob& job : plan_.jobs) {
-      for (std::size_t i = 0; i < plan_.seeds.size(); ++i)
+      for (std::size_t i = 0; i < job.seeds.size(); ++i)
         run_one(job, i, recording->recorder());
       // A design at a time, so that little is lost when this is ended.
       if (!keeper_) continue;
@@ -139,7 +150,7 @@ class Evaluation {
     }
     counter_.tell(of_, of_);
     const auto written =
-        recording->finish(details_of(arguments_, plan_.seeds.front(), scores_.front()),
+        recording->finish(details_of(arguments_, plan_.jobs.front().seeds.front(), scores_.front()),
                           plan_.jobs.front().instances.front());
     if (!written) return fail(output_, ExitCode::Failed, written.error());
     if (!output_.json && plan_.jobs.size() == 1) write_summary(answer_, scores_);
@@ -148,19 +159,19 @@ class Evaluation {
 
  private:
   void run_one(const EvaluationJob& job, std::size_t i, Recorder recorder) {
-    Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(plan_.seeds[i]));
+    Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(job.seeds[i]));
     const auto begin = std::chrono::steady_clock::now();
     const SimulationResult result = simulate({.machine = job.machine,
                                               .flavour = job.flavour,
                                               .profile = job.profile,
                                               .mission = job.mission,
                                               .instance = job.instances[i],
-                                              .seed = plan_.seeds[i]},
+                                              .seed = job.seeds[i]},
                                              counted(std::move(recorder), job.mission, cycles));
     const auto wall = std::chrono::duration_cast<std::chrono::microseconds>(
         std::chrono::steady_clock::now() - begin);
     scores_.push_back(result.score);
-    Told told{.job = &job, .seed = plan_.seeds[i], .score = result.score, .kept = {}};
+    Told told{.job = &job, .seed = job.seeds[i], .score = result.score, .kept = {}};
     if (keeper_) {
       const ScorePlace place{.candidate = job.candidate,
                              .source = job.profile.name,
@@ -200,7 +211,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
     if (no_store && !of_files) return fail(output, ExitCode::Store, error);
     return fail(output, no_candidate ? ExitCode::NoSuchId : ExitCode::Usage, error);
   }
-  if (arguments.recording.any() && plan->seeds.size() * plan->jobs.size() > 1) {
+  if (arguments.recording.any() && runs_of(*plan) > 1) {
     return fail(output, ExitCode::Usage,
                 "--seeds: tables and pictures are of one run; name one seed");
   }
@@ -211,29 +222,31 @@ ExitCode run(const Arguments& arguments, Output& output) {
 
 Run declare_evaluate(Options& options) {
   auto arguments = std::make_shared<Arguments>();
-  options.text(
-      "MACHINE", arguments->machine,
-      "Text that begins with --nstates or --fsm-config, a file, a candidate (c812), or best: "
-      "the winner of each finished design",
-      Options::Need::Required);
+  options.text("MACHINE", arguments->machine,
+               "Text that begins with --nstates or --fsm-config, a file of machines, a candidate "
+               "(c812), or best: "
+               "the winner of each finished design",
+               Options::Need::Required);
   options.text("--flavour", arguments->flavour,
                "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
-               "candidate's, else watermelon)");
+               "candidate's or the file's)");
   options.text(
       "--profile", arguments->profile,
-      "Simulator profile: rvr, argos3, pseudo-reality or a file (default: the candidate's, "
-      "else rvr)");
+      "Simulator profile: rvr, argos3, pseudo-reality or a file (default: the candidate's or the "
+      "file's, else rvr)");
   options.text(
       "--mission", arguments->mission,
-      "aggregation, grid_exploration, color_selection or a file (default: the candidate's)");
+      "aggregation, grid_exploration, color_selection or a file (default: the candidate's or the "
+      "file's)");
   options.text("--campaign", arguments->campaign,
                "Campaign file or store that says flavour, profile and mission");
   options.texts("--design", arguments->designs,
                 "Which of the campaign's designs (default: d1, when they differ in repetition "
                 "alone); with best as often as you like (default: all)");
-  options.text("--seeds", arguments->seeds,
-               "Seeds of the runs: 1-10 or 1,4,7-9 (default 1-10; for candidates one that no race "
-               "or test of the store had)");
+  options.text(
+      "--seeds", arguments->seeds,
+      "Seeds of the runs: 1-10 or 1,4,7-9 (default: those of the tests that the file names, else "
+      "1-10; for candidates one that no race or test of the store had)");
   options.text("--starts", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
   options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");
   options.flag("--no-store", arguments->no_store,

@@ -21,15 +21,19 @@ namespace {
 
 constexpr std::int64_t kLargestSeed = 2'147'483'647;
 
-/// The first text that is not empty.
-std::string first_of(const std::string& a, const std::string& b, const std::string& c) {
-  if (!a.empty()) return a;
-  return b.empty() ? c : b;
-}
-
-/// A candidate's method has a say in its flavour's constants; another flavour has its own.
+/// The same text is another machine under another flavour: nobody guesses which one is meant. A
+/// candidate's method has a say in its flavour's constants; another flavour has its own.
 Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMachine& named) {
-  const std::string name = first_of(arguments.flavour, named.flavour, "watermelon");
+  const std::string name = arguments.flavour.empty() ? named.flavour : arguments.flavour;
+  if (name.empty()) {
+    return bad_input(
+        "in which flavour is the machine written? Add --flavour watermelon, watermelon-argos3 or "
+        "chocolate; files that `swarmsmith export` writes say it themselves");
+  }
+  if (!named.candidate && !named.flavour.empty() && name != named.flavour) {
+    return bad_input("the machine is of the flavour " + named.flavour + " (" + named.place +
+                     "), not " + name + "; leave the flag out, or change the file's head");
+  }
   const auto known = find_flavour(name);
   if (!known) return Unexpected(known.error());
   if (name != named.flavour || !named.turn_clock) return **known;
@@ -129,8 +133,8 @@ Expected<std::vector<NamedMachine>> machines_of(const EvaluateArguments& argumen
     if (arguments.campaign.empty()) return winners_of(arguments);
     return bad_input("the winners have campaigns of their own", "--campaign");
   }
-  auto named = find_machine(arguments.machine, arguments.store);
-  if (!named) return Unexpected(named.error());
+  auto machines = find_machines(arguments.machine, arguments.store, output);
+  if (!machines) return Unexpected(machines.error());
   if (arguments.designs.size() > 1) {
     return bad_input("is one design here; with `best` it may be there more than once", "--design");
   }
@@ -140,15 +144,23 @@ Expected<std::vector<NamedMachine>> machines_of(const EvaluateArguments& argumen
     const auto design =
         find_design(*source, arguments.designs.empty() ? "" : arguments.designs.front());
     if (!design) return Unexpected(design.error());
-    put_into_world(*named, *source, *design);
+    for (NamedMachine& named : *machines) {
+      const std::string said = named.candidate ? "" : named.flavour;
+      put_into_world(named, *source, *design);
+      if (said.empty() || said == named.flavour) continue;
+      return bad_input(
+          "the machine is of the flavour " + said + ", the campaign's design of " + named.flavour,
+          named.place);
+    }
   }
-  return std::vector{std::move(*named)};
+  return machines;
 }
 
 Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArguments& arguments,
                                Output& output) {
-  EvaluationJob job{.candidate = named.candidate};
-  const std::string where = named.candidate ? to_string(named.candidate) : "MACHINE";
+  EvaluationJob job{.candidate = named.candidate, .name = named.name};
+  std::string where = named.candidate ? to_string(named.candidate) : named.place;
+  if (where.empty()) where = "MACHINE";
   auto flavour = flavour_of(arguments, named);
   if (!flavour) return bad_input(flavour.error().message, "--flavour");
   job.flavour = std::move(*flavour);
@@ -191,11 +203,17 @@ std::optional<std::string> complaint_about(const EvaluationJob& job, const Named
   return std::nullopt;
 }
 
-/// The seeds that are named, or the default: 1-10, for a store's candidates a fresh one.
-Expected<std::vector<std::int64_t>> seeds_of(const EvaluateArguments& arguments, bool of_store) {
-  if (!arguments.seeds.empty() || !of_store) {
-    return parse_seeds(arguments.seeds.empty() ? "1-10" : arguments.seeds);
+/// The seeds that are named, or the default: for a store's candidates a fresh one, for a file those
+/// that its head names, else 1-10.
+Expected<std::vector<std::int64_t>> seeds_of(const EvaluateArguments& arguments,
+                                             const NamedMachine& named) {
+  if (!arguments.seeds.empty()) return parse_seeds(arguments.seeds);
+  if (!named.seeds.empty()) {
+    auto seeds = parse_seeds(named.seeds);
+    if (!seeds) return bad_input(seeds.error().message, named.place + ", `seeds` of its head");
+    return seeds;
   }
+  if (!named.candidate) return parse_seeds("1-10");
   const auto store = arguments.store.open();
   if (!store) return Unexpected(store.error());
   const auto seed = fresh_seed(**store, static_cast<std::uint64_t>((*store)->campaign().seed));
@@ -206,7 +224,7 @@ Expected<std::vector<std::int64_t>> seeds_of(const EvaluateArguments& arguments,
 /// All instances, so that a missing row stops everything and not the second half.
 Expected<void> add_instances(EvaluationPlan& plan, const ExplicitInstances& given) {
   for (EvaluationJob& job : plan.jobs) {
-    for (const std::int64_t seed : plan.seeds) {
+    for (const std::int64_t seed : job.seeds) {
       auto instance = instance_of(job.mission, seed, given);
       if (!instance) return bad_input(instance.error().message, instance.error().where);
       job.instances.push_back(std::move(*instance));
@@ -231,11 +249,14 @@ Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Ou
         return bad_input(*complaint + "; --no-store prints them only", to_string(named.candidate));
       }
     }
+    // One fresh seed for all candidates: their scores are compared.
+    auto seeds = named.candidate && !plan.jobs.empty()
+                     ? Expected<std::vector<std::int64_t>>(plan.jobs.front().seeds)
+                     : seeds_of(arguments, named);
+    if (!seeds) return Unexpected(seeds.error());
+    job->seeds = std::move(*seeds);
     plan.jobs.push_back(std::move(*job));
   }
-  auto seeds = seeds_of(arguments, plan.of_store);
-  if (!seeds) return Unexpected(seeds.error());
-  plan.seeds = std::move(*seeds);
   ExplicitInstances given;
   if (auto read = read_instances(arguments, plan, given, output); !read) {
     return Unexpected(read.error());

@@ -37,15 +37,16 @@ struct EvaluationJob {
   Flavour flavour;
   Profile profile;
   Mission mission;
-  std::vector<Instance> instances;  ///< by the plan's seeds
+  std::string name;                 ///< of a machine of a file; may be empty
+  std::vector<std::int64_t> seeds;  ///< at least one
+  std::vector<Instance> instances;  ///< by seed
 };
 
 /// Everything that the command line says, read and checked.
 struct EvaluationPlan {
   std::vector<EvaluationJob> jobs;  ///< at least one; by design
-  std::vector<std::int64_t> seeds;
-  bool of_store = false;  ///< the machines are candidates of a store
-  bool stores = false;    ///< and their scores go there
+  bool of_store = false;            ///< the machines are candidates of a store
+  bool stores = false;              ///< and their scores go there
 };
 
 /// Reads the store, files and words. NotFound without a place: there is no such candidate or

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <filesystem>
 #include <limits>
 #include <memory>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/export_irace.h"
 #include "coordinator/cli/export_machines.h"
+#include "coordinator/cli/machine_filer.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/cli/thing_id.h"
@@ -80,24 +82,12 @@ enum Column {
   kModules
 };
 
-/// A comment line with where the machine comes from, then its text; of a configuration of a
-/// parameter file its switches and values.
-std::string as_fsm_config(const Rows& rows) {
-  std::string text;
-  for (const auto& cells : rows.cells) {
-    text += "# " + cells[kDesign].text + " " + cells[kMission].text + " " + cells[kMethod].text +
-            " repetition " + cells[kRepetition].text + ": " + cells[kCandidate].text;
-    if (!cells[kMean].text.empty()) {
-      text += ", mean " + cells[kMean].text + " over " + cells[kRuns].text + " runs";
-    }
-    const bool is_machine = cells[kModules].text != "{}";
-    text += std::string("\n") + (is_machine ? "--fsm-config " : "") + cells[kText].text + "\n";
-  }
-  return text;
+CandidateId candidate_of(const std::vector<StoreReader::Cell>& cells) {
+  return {std::stoll(cells[kCandidate].text)};
 }
 
 /// With parameters and modules, which are JSON already.
-std::string as_json(const Rows& rows) {
+Expected<std::string> as_json(const Rows& rows, MachineFiler& filer) {
   std::string text = "{\"machines\":[";
   for (std::size_t i = 0; i < rows.cells.size(); ++i) {
     const auto& cells = rows.cells[i];
@@ -105,14 +95,30 @@ std::string as_json(const Rows& rows) {
     Rows plain{.columns = {rows.columns.begin(), rows.columns.begin() + kParameters},
                .cells = {{cells.begin(), cells.begin() + kParameters}},
                .truncated = false};
+    letter_ids(plain);
     std::string object = row_as_json(plain, 0);
     object.pop_back();
     // These two are JSON objects in the store.
     const auto object_or_empty = [](const std::string& json) { return json.empty() ? "{}" : json; };
+    const auto head = filer.head_of(candidate_of(cells));
+    if (!head) return Unexpected(head.error());
+    if (!head->flavour.empty()) object += ",\"flavour\":" + json_text(head->flavour);
+    if (head->turn_clock) object += ",\"turn_clock\":" + json_text(name_of(*head->turn_clock));
+    if (head->profile) object += ",\"profile\":" + json_text(head->profile->name);
+    if (!head->seeds.empty()) object += ",\"seeds\":" + json_text(head->seeds);
     text += object + ",\"parameters\":" + object_or_empty(cells[kParameters].text) +
             ",\"modules\":" + object_or_empty(cells[kModules].text) + "}";
   }
   return text + "]}\n";
+}
+
+ExitCode write_text(const Arguments& arguments, const std::string& text, Output& output) {
+  if (arguments.file.empty()) {
+    write_data(output, text);
+    return ExitCode::Done;
+  }
+  const auto done = write_whole_file(arguments.file, text);
+  return done ? ExitCode::Done : fail(output, ExitCode::Failed, done.error());
 }
 
 bool is_picture(const std::string& format) {
@@ -133,7 +139,7 @@ std::optional<Error> misplaced_option(const Arguments& arguments) {
 std::vector<CandidateId> candidates_of(const Rows& rows) {
   std::vector<CandidateId> candidates;
   for (const auto& cells : rows.cells)
-    candidates.push_back({std::stoll(cells[kCandidate].text)});
+    candidates.push_back(candidate_of(cells));
   return candidates;
 }
 
@@ -148,6 +154,28 @@ ExitCode nothing_found(const Arguments& arguments, Output& output) {
               named ? "the store has no candidate " + arguments.candidate +
                           (arguments.design.empty() ? "" : " in " + arguments.design)
                     : "the store has no such machine of " + arguments.design);
+}
+
+/// Comments, heads and texts; to a folder a file each: d3-c812.fsm.
+ExitCode write_machines(const Arguments& arguments, const Rows& rows, MachineFiler& filer,
+                        Output& output) {
+  std::error_code not_there;
+  const bool folder = std::filesystem::is_directory(arguments.file, not_there);
+  std::string all;
+  for (const auto& cells : rows.cells) {
+    const CandidateId candidate = candidate_of(cells);
+    auto text = filer.text_of(candidate);
+    if (!text) return fail(output, ExitCode::Store, text.error());
+    if (!folder) {
+      all += *text;
+      continue;
+    }
+    const auto file = std::filesystem::path(arguments.file) /
+                      (to_string(design_of(candidate)) + "-" + to_string(candidate) + ".fsm");
+    const auto done = write_whole_file(file, *text);
+    if (!done) return fail(output, ExitCode::Failed, done.error());
+  }
+  return folder ? ExitCode::Done : write_text(arguments, all, output);
 }
 
 ExitCode run(const Arguments& arguments, Output& output) {
@@ -183,15 +211,13 @@ ExitCode run(const Arguments& arguments, Output& output) {
                             .place = arguments.file},
                            output);
   }
-  letter_ids(*rows);
+  auto filer = MachineFiler::open(**store);
+  if (!filer) return fail(output, ExitCode::Store, filer.error());
   const bool json = output.json || arguments.format == "json";
-  const std::string text = json ? as_json(*rows) : as_fsm_config(*rows);
-  if (arguments.file.empty()) {
-    write_data(output, text);
-    return ExitCode::Done;
-  }
-  const auto done = write_whole_file(arguments.file, text);
-  return done ? ExitCode::Done : fail(output, ExitCode::Failed, done.error());
+  if (!json) return write_machines(arguments, *rows, *filer, output);
+  const auto text = as_json(*rows, *filer);
+  if (!text) return fail(output, ExitCode::Store, text.error());
+  return write_text(arguments, *text, output);
 }
 
 }  // namespace
@@ -201,13 +227,13 @@ Run declare_export(Options& options) {
   arguments->store.declare(options);
   options.choice("--what", arguments->what, {"best", "elites", "all"},
                  "Each design's best machine, its last elites, or every candidate");
-  options.choice(
-      "--format", arguments->format,
-      {"fsm-config", "json", "svg", "pdf", "dot", "tikz", "argos", "irace"},
-      "Text of the grammar with comment lines, JSON, a picture, an experiment file of the "
-      "original simulator, or a folder in which R's irace does the same design");
+  options.choice("--format", arguments->format,
+                 {"fsm-config", "json", "svg", "pdf", "dot", "tikz", "argos", "irace"},
+                 "Text of the grammar with lines that say what it was designed for, JSON, a "
+                 "picture, an experiment file of the "
+                 "original simulator, or a folder in which R's irace does the same design");
   options.text("-o,--output", arguments->file,
-               "Write to this file; to this folder, a file a machine, where there are several");
+               "Write to this file; to this folder, a file a machine");
   options.text("--design", arguments->design, "Only this design's, such as d3");
   options.text("--candidate", arguments->candidate, "This one, such as c812");
   options.text("--width", arguments->width, "Of a picture: 84mm (default), 8.4cm, 3.3in");

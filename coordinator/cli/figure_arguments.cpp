@@ -7,6 +7,7 @@
 #include "analysis/drawing/svg.h"
 #include "base/suggestion.h"
 #include "coordinator/cli/query_output.h"
+#include "coordinator/cli/score_words.h"
 #include "coordinator/cli/thing_id.h"
 #include "coordinator/cli/trajectories_figure.h"
 
@@ -52,8 +53,8 @@ void FigureArguments::declare(Options& words) {
   words.integer("--iteration", options.iteration, {1, kLargest}, "Of this iteration of the race");
   words.choice("--by", options.by, {"source", "method", "mission"}, "What is compared");
   words.text("--source", options.source, "Only scores of this source: a profile, real, ...");
-  words.choice("--purpose", options.purpose, {"test", "score"},
-               "Only the campaign's own tests, or only what was scored later");
+  words.choice("--purpose", purpose, {"test", "score", "all"}, kPurposeHelp);
+  words.choice("--per", per, {"run", "design"}, kPerHelp);
   words.text("--parameter", options.parameter, "Of this parameter: rwm0");
   words.texts("--seed", seeds, "Of runs of this seed; once for each");
 }
@@ -68,6 +69,7 @@ std::vector<FigureKind> all_figure_kinds() {
 
 Expected<FigureOptions> read_options(const FigureArguments& arguments) {
   FigureOptions options = arguments.options;
+  options.choice = score_choice(arguments.purpose, arguments.per);
   if (!arguments.design.empty()) {
     const auto design = number_of(arguments.design, 'd', "--design");
     if (!design) return Unexpected(design.error());

@@ -21,6 +21,8 @@ struct FigureArguments {
   std::string design;
   std::string candidate;
   std::vector<std::string> seeds;
+  std::string purpose;
+  std::string per;
   FigureOptions options;  ///< what needs no reading
 
   void declare(Options& words);

@@ -118,8 +118,8 @@ Run declare_import(Options& options) {
   options.text("--into", arguments->into,
                "The store; a new one is made for machines and logs, scores need their designs");
   options.text("--flavour", arguments->flavour,
-               "Flavour of the machines, or of a log's configurations: watermelon, "
-               "watermelon-argos3, chocolate");
+               "Flavour of machines whose file does not say it, or of a log's configurations: "
+               "watermelon, watermelon-argos3, chocolate");
   options.texts("--mission", arguments->missions,
                 "Mission of rows that name none; OLD=NEW renames one; may be repeated");
   options.text("--method", arguments->method,

@@ -109,29 +109,24 @@ std::string campaign_name(const ImportArguments& arguments) {
 
 ExitCode import_machines_into(const ImportArguments& arguments,
                               OrErrors<std::vector<MachineText>> machines, Output& output) {
-  if (arguments.flavour.empty()) {
-    return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput,
-                      "in which flavour are the machines written? Add --flavour watermelon, "
-                      "watermelon-argos3 or chocolate",
-                      "--flavour"});
-  }
-  const auto flavour = find_flavour(arguments.flavour);
+  if (!machines) return fail_all(output, machines.error());
+  const auto named = flavour_of(*machines, arguments.flavour);
+  if (!named) return fail(output, ExitCode::Usage, named.error());
+  const auto flavour = find_flavour(*named);
   if (!flavour) {
     return fail(output, ExitCode::Usage,
                 Error{ErrorKind::BadInput, flavour.error().message, "--flavour"});
   }
   const auto missions = read_mission_words(arguments.missions);
   if (!missions) return fail(output, ExitCode::Usage, missions.error());
-  if (!machines) return fail_all(output, machines.error());
   auto target = open_target(arguments.into, StoreAtRest::IfMissing::Make);
   if (!target) return fail(output, ExitCode::Store, target.error());
-  auto addition = import_machines(
-      *machines, {.campaign = campaign_name(arguments),
-                  .flavour = **flavour,
-                  .missions = *missions,
-                  .method = arguments.method.empty() ? arguments.flavour : arguments.method,
-                  .designs = target->designs});
+  auto addition =
+      import_machines(*machines, {.campaign = campaign_name(arguments),
+                                  .flavour = **flavour,
+                                  .missions = *missions,
+                                  .method = arguments.method.empty() ? *named : arguments.method,
+                                  .designs = target->designs});
   if (!addition) return fail_all(output, addition.error());
   return add_campaign(arguments, std::move(*target), std::move(*addition), "machines", output);
 }

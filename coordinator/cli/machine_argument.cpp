@@ -1,15 +1,15 @@
 #include "coordinator/cli/machine_argument.h"
 
 #include <fstream>
-#include <sstream>
+#include <utility>
 
+#include "console/terminal.h"
 #include "coordinator/cli/query_output.h"
 #include "sim/files/file_text.h"
+#include "sim/files/machine_file.h"
 
 namespace swarmsmith::cli {
 namespace {
-
-constexpr std::size_t kMostBytes = 1U << 20U;
 
 /// Without blanks at both ends.
 std::string trimmed(const std::string& text) {
@@ -18,8 +18,14 @@ std::string trimmed(const std::string& text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
 }
 
-/// Comments and line breaks are what `export` and people put in.
-Expected<NamedMachine> machine_of_file(const std::string& file) {
+/// What the head says of where the machine comes from.
+std::string name_of(const FiledMachine& machine) {
+  const MachineHead& head = machine.head;
+  if (!machine.name.empty() || head.candidate.empty()) return machine.name;
+  return (head.design.empty() ? "" : head.design + "-") + head.candidate;
+}
+
+Expected<std::vector<NamedMachine>> machines_of_file(const std::string& file, Output& output) {
   if (is_database(file)) {
     return bad_input("this is a store; name one of its candidates, c812, with --store", file);
   }
@@ -29,22 +35,26 @@ Expected<NamedMachine> machine_of_file(const std::string& file) {
         "nor a candidate such as c812",
         file);
   }
-  const auto text = read_file(file, "machine", kMostBytes);
+  const auto text = read_file(file, "machine");
   if (!text) return Unexpected(text.error());
-  std::istringstream lines(*text);
-  std::string machine;
-  std::string line;
-  for (int number = 1; std::getline(lines, line); ++number) {
-    line = trimmed(line);
-    if (line.empty() || line.front() == '#') continue;
-    const bool begins = line.starts_with("--nstates") || line.starts_with("--fsm-config");
-    if (begins && !machine.empty()) {
-      return bad_input("the file holds more than one machine", file + ":" + std::to_string(number));
-    }
-    machine += (machine.empty() ? "" : " ") + line;
+  auto filed = parse_machine_file(*text, file);
+  if (!filed) {
+    for (std::size_t i = 0; i + 1 < filed.error().size(); ++i)
+      print_error(output, filed.error()[i]);
+    return Unexpected(filed.error().back());
   }
-  if (machine.empty()) return bad_input("the file holds no machine", file);
-  return NamedMachine{.text = machine};
+  std::vector<NamedMachine> machines;
+  for (FiledMachine& from : *filed) {
+    NamedMachine machine{.text = std::move(from.text), .name = name_of(from), .place = from.place};
+    MachineHead& head = from.head;
+    if (head.mission) machine.mission = CampaignMission{std::move(*head.mission), {}};
+    machine.flavour = std::move(head.flavour);
+    machine.turn_clock = head.turn_clock;
+    machine.profile = std::move(head.profile);
+    machine.seeds = std::move(head.seeds);
+    machines.push_back(std::move(machine));
+  }
+  return machines;
 }
 
 }  // namespace
@@ -77,15 +87,18 @@ Expected<NamedMachine> machine_of_candidate(StoreReader& store, const DesignWorl
   return machine;
 }
 
-Expected<NamedMachine> find_machine(const std::string& word, const StoreArgument& store) {
+Expected<std::vector<NamedMachine>> find_machines(const std::string& word,
+                                                  const StoreArgument& store, Output& output) {
   const std::string text = trimmed(word);
-  if (text.starts_with("--")) return NamedMachine{.text = text};
-  if (!is_candidate(text)) return machine_of_file(text);
+  if (text.starts_with("--")) return std::vector{NamedMachine{.text = text}};
+  if (!is_candidate(text)) return machines_of_file(text, output);
   const auto reader = store.open();
   if (!reader) return Unexpected(reader.error());
   const auto worlds = DesignWorlds::read(**reader);
   if (!worlds) return Unexpected(worlds.error());
-  return machine_of_candidate(**reader, *worlds, {std::stoll(text.substr(1))});
+  auto machine = machine_of_candidate(**reader, *worlds, {std::stoll(text.substr(1))});
+  if (!machine) return Unexpected(machine.error());
+  return std::vector{std::move(*machine)};
 }
 
 }  // namespace swarmsmith::cli

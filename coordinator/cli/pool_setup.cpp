@@ -76,7 +76,10 @@ LaunchOptions launch_of(const Campaign& campaign, const RunOptions& options) {
   LaunchOptions launch = options.launch.value_or(campaign.launch);
   if (options.launch) return launch;
   if (options.workers) launch.kind = LaunchOptions::Kind::Local;
-  launch.processes = options.workers.value_or(campaign.local_workers.value_or(1));
+  const std::optional<std::int64_t> named =
+      options.workers ? options.workers : campaign.local_workers;
+  launch.processes = named.value_or(1);
+  launch.slots = named.value_or(0);
   return launch;
 }
 

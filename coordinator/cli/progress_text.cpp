@@ -102,6 +102,12 @@ std::string second_half(std::span<const ProgressModel> models, const Totals& tot
   return text;
 }
 
+/// How irace says that it ends as it should reads like a fault.
+std::string reason_text(const DesignStateRow& state) {
+  const bool used_up = state.best && state.reason.starts_with("not enough");
+  return used_up ? "budget used up: the rest is too little for another race" : state.reason;
+}
+
 }  // namespace
 
 std::string score_text(double score) {
@@ -172,7 +178,7 @@ std::string state_line(const DesignStateRow& state, const DesignProgress& progre
   if (state.best) {
     text += "  best " + to_string(state.best) + " " + score_text(state.best_mean);
   }
-  if (!state.reason.empty()) text += "  (" + state.reason + ")";
+  if (!state.reason.empty()) text += "  (" + reason_text(state) + ")";
   return text;
 }
 

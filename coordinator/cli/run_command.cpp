@@ -1,9 +1,11 @@
 #include <memory>
+#include <optional>
 
 #include "coordinator/cli/campaign_flags.h"
 #include "coordinator/cli/campaign_run.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/http_flags.h"
+#include "coordinator/cli/pool_setup.h"
 #include "coordinator/launchers/launch_text.h"
 
 namespace swarmsmith::cli {
@@ -13,6 +15,7 @@ Run declare_run(Options& options) {
     CampaignFlags campaign;
     AccessFlags access;
     std::string workers;
+    std::optional<std::int64_t> slots;
     bool no_dashboard = false;
     HttpFlags http;
   };
@@ -20,7 +23,10 @@ Run declare_run(Options& options) {
   arguments->campaign.declare(options, Options::Need::Optional);
   options.text("--workers", arguments->workers,
                "Who evaluates: auto (this host, all cores), N or local:N (that many processes "
-               "here, which share the cores), ssh:HOSTFILE, slurm or slurm:JOBSxCPUS");
+               "here, a core each), ssh:HOSTFILE, slurm or slurm:JOBSxCPUS");
+  options.integer(
+      "--slots", arguments->slots, {1, 10'000},
+      "Evaluations at a time on this host (default: one a worker; with auto one a core)");
   options.flag("--no-dashboard", arguments->no_dashboard,
                "Accepted; this version has no dashboard to leave out");
   arguments->access.declare(options);
@@ -37,6 +43,18 @@ Run declare_run(Options& options) {
                     Error{launch.error().kind, launch.error().message, "--workers"});
       }
       run.launch = *launch;
+    }
+    if (arguments->slots) {
+      LaunchOptions launch = launch_of(campaigns->front(), run);
+      if (launch.kind != LaunchOptions::Kind::Local) {
+        return fail(output, ExitCode::Usage,
+                    Error{ErrorKind::BadInput,
+                          "is of workers on this host; of jobs write slurm:JOBSxCPUS, and hosts of "
+                          "a file say it themselves",
+                          "--slots"});
+      }
+      launch.slots = *arguments->slots;
+      run.launch = launch;
     }
     return run_campaigns(output, *campaigns, run);
   };

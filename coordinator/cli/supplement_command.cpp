@@ -10,6 +10,7 @@
 #include "console/sha256.h"
 #include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/machine_filer.h"
 #include "coordinator/cli/program_name.h"
 #include "coordinator/cli/store_argument.h"
 #include "target/process.h"
@@ -81,7 +82,13 @@ ExitCode run(const Arguments& arguments, Output& output) {
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const bool with_pdfs = find_program("rsvg-convert").has_value();
-  auto files = supplement(**store, {.program = program_name(), .with_pdfs = with_pdfs});
+  auto filer = MachineFiler::open(**store);
+  if (!filer) return fail(output, ExitCode::Store, filer.error());
+  auto files = supplement(
+      **store,
+      {.machine_file = [&filer](CandidateId candidate) { return filer->text_of(candidate); },
+       .program = program_name(),
+       .with_pdfs = with_pdfs});
   if (!files) {
     const bool nothing = files.error().kind == ErrorKind::NotFound;
     return fail(output, nothing ? ExitCode::NoSuchId : ExitCode::Store, files.error());

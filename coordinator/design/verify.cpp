@@ -200,13 +200,21 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   if (finished) compare_finished(stored, replayed, name, complaints);
 }
 
-/// Evaluations of which two workers gave different bits: a sentence each, the first few.
+/// Evaluations of which two workers gave different bits: a sentence each, the first few. Where the
+/// coordinator made the evaluation again, and the kept score has its bits, the other worker was
+/// wrong.
 void complain_of_conflicts(StoreReader& store, std::vector<std::string>& complaints) {
   constexpr const char* kConflicts =
       "SELECT 'e' || (candidate * 100000 + pair), kept_score, other_score, other_worker"
-      " FROM conflict ORDER BY candidate, purpose, pair";
+      " FROM conflict AS c ";
+  constexpr const char* kUnsettled =
+      "WHERE NOT EXISTS (SELECT 1 FROM attempt AS a WHERE a.candidate = c.candidate AND a.purpose "
+      "= "
+      "c.purpose AND a.pair = c.pair AND a.outcome = 'audited') ";
+  constexpr std::int64_t kWithAttempts = 3;
+  const std::string which = store.schema() < kWithAttempts ? "" : kUnsettled;
   const auto found = store.query(
-      kConflicts, {.rows = 20}, [](const auto&) {},
+      kConflicts + which + "ORDER BY candidate, purpose, pair", {.rows = 20}, [](const auto&) {},
       [&](const std::vector<StoreReader::Cell>& cells) {
         complaints.push_back(fmt::format(
             "evaluation {}: the score {} is kept, and worker {} gave {}; a worker is wrong, or the "

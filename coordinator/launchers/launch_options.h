@@ -31,6 +31,7 @@ struct LaunchOptions {
   enum class Kind { Local, Ssh, Slurm };
   Kind kind = Kind::Local;
   std::int64_t processes = 1;  ///< of this host; 0: none
+  std::int64_t slots = 0;      ///< of this host, in all its processes; 0: a core each
   SshOptions ssh;
   SlurmOptions slurm;
 

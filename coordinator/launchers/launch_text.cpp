@@ -36,6 +36,7 @@ Expected<LaunchOptions> local(std::string_view text, std::string_view number,
   }
   options.kind = LaunchOptions::Kind::Local;
   options.processes = *processes;
+  options.slots = *processes;
   return options;
 }
 
@@ -46,6 +47,7 @@ Expected<LaunchOptions> parse_workers(std::string_view text, const LaunchOptions
   if (text == "auto" || text == "local") {
     options.kind = LaunchOptions::Kind::Local;
     options.processes = 1;
+    options.slots = 0;
     return options;
   }
   const std::size_t colon = text.find(':');

@@ -1,5 +1,6 @@
 #include "coordinator/launchers/start_workers.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "coordinator/launchers/host_file.h"
@@ -24,9 +25,13 @@ Started start_local(const WorkersSetup& setup) {
     arguments.emplace_back("--key");
     arguments.push_back(setup.address.key.string());
   }
+  // Never more slots in all than were asked for.
+  std::int64_t processes = setup.launch.processes;
+  if (setup.launch.slots > 0) processes = std::min(processes, setup.launch.slots);
+  const int each = static_cast<int>(setup.launch.slots / processes);
   return boxed(LocalWorkers::start({.endpoint = setup.address.endpoint,
-                                    .processes = static_cast<int>(setup.launch.processes),
-                                    .slots = setup.local_slots,
+                                    .processes = static_cast<int>(processes),
+                                    .slots = setup.local_slots > 0 ? setup.local_slots : each,
                                     .arguments = std::move(arguments),
                                     .secret = setup.local_secret}));
 }

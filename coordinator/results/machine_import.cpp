@@ -10,6 +10,7 @@
 #include "base/hash.h"
 #include "coordinator/campaign/machine_space.h"
 #include "sim/control/machine_text.h"
+#include "sim/files/machine_file.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith {
@@ -26,14 +27,6 @@ std::optional<std::string> first_column(const CsvTable& table,
 
 std::optional<std::string> machine_column(const CsvTable& table) {
   return first_column(table, {"fsm", "fsm_config", "machine"});
-}
-
-/// Without blanks, and without a colon or comma between name and machine.
-std::string trimmed(std::string_view text) {
-  constexpr std::string_view kBlanks = " \t\r:,";
-  const std::size_t first = text.find_first_not_of(kBlanks);
-  if (first == std::string_view::npos) return "";
-  return std::string(text.substr(first, text.find_last_not_of(kBlanks) - first + 1));
 }
 
 /// The next repetition of a mission and method.
@@ -95,28 +88,26 @@ void add_design(Addition& addition, DesignRow design, const MachineText& from,
 
 OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
                                                       const std::string& file) {
+  auto filed = parse_machine_file(text, file);
+  if (!filed) return tl::unexpected(std::move(filed.error()));
   std::vector<MachineText> machines;
   std::vector<Error> errors;
-  for (std::size_t number = 1; !text.empty(); ++number) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    const std::string line = trimmed(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-    if (line.empty() || line.front() == '#') continue;
-    const std::string place = file + ":" + std::to_string(number);
-    const std::size_t at = std::min(line.find("--nstates"), line.find("--fsm-config"));
-    if (at == std::string::npos) {
-      errors.push_back({ErrorKind::BadInput,
-                        "a machine begins with --nstates or --fsm-config, one a line", place});
-      continue;
+  for (FiledMachine& from : *filed) {
+    MachineHead& head = from.head;
+    const auto flavour = find_flavour(head.flavour);
+    if (flavour && head.turn_clock && *head.turn_clock != (*flavour)->exploration.turn_clock) {
+      errors.push_back(
+          {ErrorKind::BadInput,
+           "its turn clock is not that of its flavour, and a store of imported machines "
+           "keeps flavours only; `swarmsmith evaluate` takes the file",
+           from.place});
     }
-    machines.push_back({.name = trimmed(std::string_view(line).substr(0, at)),
-                        .mission = {},
-                        .method = {},
-                        .text = line.substr(at),
-                        .place = place});
-  }
-  if (machines.empty() && errors.empty()) {
-    errors.push_back({ErrorKind::BadInput, "the file holds no machine", file});
+    machines.push_back({.name = std::move(from.name),
+                        .mission = head.mission ? std::move(head.mission->mission.name) : "",
+                        .method = std::move(head.method),
+                        .flavour = std::move(head.flavour),
+                        .text = std::move(from.text),
+                        .place = std::move(from.place)});
   }
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   return machines;
@@ -140,10 +131,38 @@ OrErrors<std::vector<MachineText>> read_machine_table(const CsvTable& table) {
     machines.push_back({.name = cell_of(table, row, name),
                         .mission = cell_of(table, row, "mission"),
                         .method = cell_of(table, row, "method"),
+                        .flavour = cell_of(table, row, "flavour"),
                         .text = cell_of(table, row, *machine),
                         .place = table.place(row)});
   }
   return machines;
+}
+
+Expected<std::string> flavour_of(const std::vector<MachineText>& machines,
+                                 const std::string& said) {
+  std::string flavour = said;
+  for (const MachineText& machine : machines) {
+    if (machine.flavour.empty() || machine.flavour == flavour) continue;
+    if (!said.empty()) {
+      return bad_input("the machine is of the flavour " + machine.flavour + ", not " + said +
+                           "; leave --flavour out",
+                       machine.place);
+    }
+    if (!flavour.empty()) {
+      return bad_input("the machine is of the flavour " + machine.flavour + ", one before it of " +
+                           flavour + "; import a file for each",
+                       machine.place);
+    }
+    flavour = machine.flavour;
+  }
+  const auto silent = std::ranges::find(machines, "", &MachineText::flavour);
+  if (said.empty() && silent != machines.end()) {
+    return bad_input(
+        "in which flavour is the machine written? Add --flavour watermelon, watermelon-argos3 or "
+        "chocolate",
+        silent->place);
+  }
+  return flavour;
 }
 
 OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,

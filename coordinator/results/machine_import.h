@@ -20,18 +20,22 @@ struct MachineText {
   std::string name;     ///< may be empty
   std::string mission;  ///< as the file calls it; may be empty
   std::string method;   ///< may be empty
+  std::string flavour;  ///< as its head says; may be empty
   std::string text;     ///< of the grammar
   std::string place;    ///< file:line
 };
 
-/// A text a line, from `--nstates` or `--fsm-config` on, a name before it or none; blank lines and
-/// lines that begin with # say nothing.
+/// The machines of a file as sim/files/machine_file.h reads it.
 OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
                                                       const std::string& file);
 
-/// Columns `fsm`, `fsm_config` or `machine`; `fsm_id` or `name`, `mission` and `method` may be
-/// missing or empty.
+/// Columns `fsm`, `fsm_config` or `machine`; `fsm_id` or `name`, `mission`, `method` and `flavour`
+/// may be missing or empty.
 OrErrors<std::vector<MachineText>> read_machine_table(const CsvTable& table);
+
+/// The flavour of all of them: what their heads say, and `said` of those without one; `said` may be
+/// empty. BadInput when they do not agree, or when nobody says it.
+Expected<std::string> flavour_of(const std::vector<MachineText>& machines, const std::string& said);
 
 /// Whether a table's columns are those of machines.
 bool has_machines(const CsvTable& table);

@@ -158,7 +158,7 @@ constexpr IraceOption kOptions[] = {
     {"debugLevel", "", "--debug-level", Natural, "0", "", G::Here, Supported,
      "how much more is printed, 0 to 3", ""},
     {"", "", "--workers", Natural, "", "", G::Here, Supported,
-     "local worker processes, which share the cores", "not an option of irace"},
+     "local worker processes, a core each", "not an option of irace"},
     {"", "", "--store", File, "", "", G::Here, Supported, "the store, in place of logFile",
      "not an option of irace"},
     {"", "", "--json", Flag, "", "", G::Here, Supported, "print one JSON object a line",

@@ -52,6 +52,20 @@ std::optional<Error> check_state(const Machine& machine, std::size_t index,
 
 }  // namespace
 
+std::vector<bool> reachable_states(const Machine& machine) {
+  std::vector<bool> reached(machine.states.size());
+  std::vector<std::size_t> next = {0};
+  while (!next.empty()) {
+    const std::size_t state = next.back();
+    next.pop_back();
+    if (reached[state]) continue;
+    reached[state] = true;
+    for (const Transition& transition : machine.states[state].transitions)
+      next.push_back(static_cast<std::size_t>(transition.target));
+  }
+  return reached;
+}
+
 std::optional<Error> check(const Machine& machine, const Flavour& flavour) {
   if (machine.states.empty() || machine.states.size() > kMaxStates) {
     return Error{ErrorKind::BadInput, "a machine has 1 to 4 states", ""};

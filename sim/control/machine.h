@@ -38,6 +38,10 @@ struct Machine {
   friend bool operator==(const Machine&, const Machine&) = default;
 };
 
+/// Whether transitions lead to each state from the initial one. Search often leaves states to which
+/// none does: they are part of the text, and of no behaviour.
+std::vector<bool> reachable_states(const Machine& machine);
+
 /// What is wrong with the machine, if anything: number of states and transitions, targets, modules
 /// that the flavour lacks, parameters out of their limits. `where` names the state and transition.
 std::optional<Error> check(const Machine& machine, const Flavour& flavour);

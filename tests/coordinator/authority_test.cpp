@@ -434,6 +434,9 @@ TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
   EXPECT_TRUE(scheduler.principals().all().at("10.0.0.1").quarantined);
   EXPECT_FALSE(scheduler.principals().all().at("10.0.0.2").quarantined);
   EXPECT_TRUE(all<StopCampaign>().empty()) << "all that it said before was made again";
+  EXPECT_TRUE(std::ranges::any_of(all<AttemptEnded>(), [](const AttemptEnded& ended) {
+    return pack(ended.row.key) == key(10) && ended.row.outcome == "audited";
+  })) << "what was kept was made again: the store is sound";
 }
 
 TEST_F(Authority, StopsWhenAStoredScoreIsWrong) {

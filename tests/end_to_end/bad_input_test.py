@@ -120,7 +120,7 @@ class CampaignFile(BadInput):
              'file = "none.png" }]\n', "none.png: there is no such image file"),
         ]
         profile.write_text('format = 1\nbase = "rvr"\n')
-        evaluate = ["evaluate", *EXPLORE, "--mission", mission.name, "--profile", profile.name]
+        evaluate = ["evaluate", *EXPLORE, "--flavour", "watermelon", "--mission", mission.name, "--profile", profile.name]
         for keys, sentence in missions:
             with self.subTest(sentence):
                 mission.write_text(good + keys)
@@ -568,6 +568,8 @@ class Endings(BadInput):
 
 class Evaluate(BadInput):
     def refused(self, sentence, *arguments):
+        if "--flavour" not in arguments:
+            arguments = (*arguments, "--flavour", "watermelon")
         self.assert_refused(2, sentence, "evaluate", *arguments)
 
     def test_machines_that_are_none(self):

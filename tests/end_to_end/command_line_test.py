@@ -66,12 +66,24 @@ class CommandLine(ProgramTest):
                                   "WHERE modules LIKE '%phototaxis%'")
         self.assertGreater(tried[0]["n"], 0)
 
+    def test_workers_take_no_more_cores_than_was_said(self):
+        for number, (words, slots) in enumerate([(["--workers", "1"], [1]), (["--workers", "2"], [1, 1]),
+                                                 (["--slots", "3"], [3]), (["--workers", "2", "--slots", "4"], [2, 2]),
+                                                 (["--workers", "3", "--slots", "1"], [1])]):
+            store = self.folder / f"slots{number}.db"
+            self.assertEqual(self.run_campaign(store, *words).returncode, 0)
+            rows = self.query(store, "SELECT slots FROM v_workers ORDER BY worker")
+            self.assertEqual([row["slots"] for row in rows], slots, words)
+        done = self.run_campaign(self.folder / "far.db", "--workers", "slurm:2x4", "--slots", "2")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("--slots: is of workers on this host", done.stderr)
+
     def test_evaluate_takes_the_words_of_a_machine_as_they_are(self):
-        done = call("evaluate", *EXPLORE, "--mission", "aggregation", "--seeds", "1-3", "--json")
+        done = call("evaluate", *EXPLORE, "--flavour", "watermelon", "--mission", "aggregation", "--seeds", "1-3", "--json")
         self.assertEqual(done.returncode, 0, done.stderr)
         runs = [json.loads(line) for line in done.stdout.splitlines()]
         self.assertEqual([run["seed"] for run in runs], [1, 2, 3])
-        again = call("evaluate", "--mission", "aggregation", "--seeds", "1-3", "--json", "--",
+        again = call("evaluate", "--flavour", "watermelon", "--mission", "aggregation", "--seeds", "1-3", "--json", "--",
                      *EXPLORE)
         self.assertEqual(again.stdout, done.stdout)
 

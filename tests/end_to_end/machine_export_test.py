@@ -27,7 +27,7 @@ class MachineExport(ProgramTest):
         return done.stdout
 
     def machine(self):
-        return self.export("fsm-config").splitlines()[1].removeprefix("--fsm-config ")
+        return self.export("fsm-config").splitlines()[-1].removeprefix("--fsm-config ")
 
     def test_pictures_show_every_state_and_transition(self):
         words = self.machine().split()

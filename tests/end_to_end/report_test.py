@@ -150,9 +150,17 @@ class Report(ProgramTest):
         done = call("run", "campaign.toml", "--workers", "2", "-q", cwd=folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         self.assertEqual(self.digest(folder / "campaign.db"), self.digest(self.store))
-        machine = sorted((folder / "controllers").glob("d1-*.txt"))[0]
-        self.answer("evaluate", machine, "--campaign", folder / "campaign.toml", "--design", "d1",
-                    "--seeds", "1-2")
+        machines = sorted((folder / "controllers").glob("*.txt"))
+        self.assertGreater(len(machines), 1)
+        for machine in machines:
+            design = re.match(r"d(\d+)-", machine.name).group(1)
+            stored = [row["score"] for row in self.query(
+                self.store, f"SELECT score FROM v_design_scores WHERE design = {design} AND purpose = 'test' "
+                            "ORDER BY pair")]
+            self.assertGreater(len(stored), 0)
+            again = call("evaluate", machine, "--json")
+            self.assertEqual(again.returncode, 0, again.stderr)
+            self.assertEqual([json.loads(line)["score"] for line in again.stdout.splitlines()], stored)
 
     def test_nothing_is_overwritten(self):
         there = self.folder / "there"

@@ -151,7 +151,7 @@ class Target(ProgramTest):
                                  "WHERE e.score <> 0 LIMIT 5")
         self.assertEqual(len(rows), 5)
         for row in rows:
-            alone = call("evaluate", row["fsm_config"], "--mission", "aggregation", "--seeds",
+            alone = call("evaluate", row["fsm_config"], "--flavour", "watermelon", "--mission", "aggregation", "--seeds",
                          f"{row['seed']}-{row['seed']}", "--json")
             self.assertEqual(json.loads(alone.stdout.splitlines()[0])["score"], row["score"])
 

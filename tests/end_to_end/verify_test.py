@@ -85,6 +85,17 @@ class Verify(ProgramTest):
         self.assertIn("e500001", self.different("--sample", 1))
         self.assertIn("the store holds a rejection", call("verify", self.store).stdout)
 
+    def test_two_results_of_one_evaluation(self):
+        """A complaint, as long as nobody knows which one is right."""
+        self.change("INSERT INTO conflict (candidate, purpose, pair, kept_score, other_score, other_state_digest, "
+                    "other_worker) SELECT candidate, purpose, pair, score, score + 1, 7, 1 FROM evaluation "
+                    "WHERE candidate = 3 AND purpose = 0 AND pair = 1")
+        [complaint] = self.verify()["complaints"]
+        self.assertRegex(complaint, "^evaluation e300001: the score .* is kept, and worker 1 gave ")
+        self.change("INSERT INTO attempt (candidate, purpose, pair, attempt, worker, held_ms, outcome) "
+                    "VALUES (3, 0, 1, 1, 0, 1, 'audited')")
+        self.assertTrue(self.verify()["clean"])
+
     def test_a_seed_names_the_sample(self):
         self.change("UPDATE evaluation SET state_digest = state_digest + 1 WHERE purpose = 0")
         one = self.different("--sample", 50, "--seed", 3)

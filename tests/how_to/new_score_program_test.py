@@ -1,4 +1,4 @@
-"""The programs, built from a copy of the sources that has the new kind of score of docs/missions.md:
+"""The programs and new_score_test, built from a copy of the sources that has the new kind of score of docs/missions.md:
 its pair of files and its line, and nothing else. Long: it compiles them all."""
 import os
 import pathlib
@@ -13,7 +13,7 @@ from page_files import files_of
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 PAGE = SOURCE / "docs/missions.md"
 LIST = "sim/mission/CMakeLists.txt"
-FOLDERS = ("base", "cmake", "coordinator", "irace_core", "proto", "sim", "storage", "worker")
+FOLDERS = ["cmake", *re.findall(r"^ *add_subdirectory\((\w+)\)", (SOURCE / "CMakeLists.txt").read_text(), re.M)]
 
 CAMPAIGN = """\
 format = 1
@@ -37,7 +37,7 @@ class Programs(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def call(self, *command):
-        done = subprocess.run(list(map(str, command)), cwd=self.folder, capture_output=True,
+        done = subprocess.run([str(word) for word in command], cwd=self.folder, capture_output=True,
                               text=True)
         self.assertEqual(done.returncode, 0, done.stdout[-3000:] + done.stderr[-3000:])
         return done.stdout
@@ -57,8 +57,10 @@ class Programs(unittest.TestCase):
     def test_know_the_kind(self):
         self.follow_the_page()
         launcher = ["-DCMAKE_CXX_COMPILER_LAUNCHER=ccache"] if shutil.which("ccache") else []
-        self.call("cmake", "-S", ".", "-B", "build", "-G", "Ninja", *launcher)
-        self.call("cmake", "--build", "build", "--target", "programs")
+        self.call("cmake", "-S", ".", "-B", "build", "-G", "Ninja", "-DSWARMSMITH_TESTS=ON",
+                  "-DCMAKE_UNITY_BUILD=ON", *launcher)
+        self.call("cmake", "--build", "build", "--target", "programs", "new_score_test")
+        self.call("build/bin/new_score_test")
         score = re.search(r"```toml\n(.*?kind = \"spread\".*?)```", PAGE.read_text(), re.S).group(1)
         (self.folder / "campaign.toml").write_text(CAMPAIGN.format(score=score))
         swarmsmith = self.folder / "build/bin/swarmsmith"

@@ -47,7 +47,7 @@ class EmptyParts(Visited):
         self.count("message of empty parts", said)
         most = memory(self.coordinator.pid)
         print(f"\n  memory {most / MB:.0f} MB", end="")
-        self.assertLess(most, MOST_MEMORY)
+        self.assert_memory(most, MOST_MEMORY)
         self.assertTrue(self.coordinator.alive(), self.coordinator.tail())
         self.assertGreater(self.rate(), 0)
 
@@ -59,7 +59,7 @@ class Memory(Visited):
     def assert_bounded(self):
         most = memory(self.coordinator.pid)
         print(f"\n  memory {most / MB:.0f} MB", end="")
-        self.assertLess(most, MOST_MEMORY)
+        self.assert_memory(most, MOST_MEMORY)
         self.assertTrue(self.coordinator.alive(), self.coordinator.tail())
         self.assertGreater(self.rate(), 0)
 
@@ -133,7 +133,7 @@ class LargeScenario(Visited):
         self.count("scenario asked for", 60 * 40)
         most = memory(self.coordinator.pid)
         print(f"\n  memory {most / MB:.0f} MB", end="")
-        self.assertLess(most, MOST_MEMORY)
+        self.assert_memory(most, MOST_MEMORY)
         # Who reads still gets it.
         late = self.worker(self.address)
         self.workers.append(late)
@@ -163,7 +163,7 @@ class ManyEvaluations(FaultTest):
             marks[mark] = memory(run.pid, "VmRSS")
         print(f"\n  memory {marks[100000] / MB:.0f} MB at 100,000 evaluations, "
               f"{marks[300000] / MB:.0f} MB at 300,000", end="")
-        self.assertLess(marks[300000] - marks[100000], 20 * MB)
+        self.assert_memory(marks[300000] - marks[100000], 20 * MB)
 
 
 if __name__ == "__main__":

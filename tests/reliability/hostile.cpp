@@ -2,11 +2,11 @@
 //
 //   hostile ADDRESS SEED MESSAGES CONNECTIONS RATE MISDEEDS [KEY_FILE]
 //
-// Says MESSAGES in all, RATE a second at most, over CONNECTIONS or, where peers hang up early,
-// more; ten are open at a time. MISDEEDS are names with commas between them, as
-// tests/support/hostile_peer.h has them; the connections take them in turn. With a key file it is
-// who the key says. Ends when all is said, or when nobody lets it in any more; prints a line of
-// JSON: what it did.
+// Says MESSAGES in all, RATE a second at most, over CONNECTIONS at most, which come evenly in that
+// time; ten are open at a time. Peers that hang up early say less. MISDEEDS are names with commas
+// between them, as tests/support/hostile_peer.h has them; the connections take them in turn. With a
+// key file it is who the key says. Ends when all is said, when the connections are used up, or when
+// nobody lets it in any more; prints a line of JSON: what it did.
 
 #include <charconv>
 #include <chrono>
@@ -132,17 +132,26 @@ Totals talk(const Job& job, std::vector<std::unique_ptr<Visitor>>& visitors) {
   const TimePoint begun = clock.now();
   Totals totals;
   int turned_away = 0;
-  while (totals.messages < job.messages && turned_away < kTurnedAway) {
+  const double whole_s = static_cast<double>(job.messages) / static_cast<double>(job.rate);
+  bool more = true;
+  while (totals.messages < job.messages && turned_away < kTurnedAway && more) {
+    const double share = std::chrono::duration<double>(clock.now() - begun).count() / whole_s;
+    const auto due =
+        std::min(job.connections,
+                 kOpen + static_cast<std::uint64_t>(share * static_cast<double>(job.connections)));
+    more = totals.connections < job.connections;
     for (const auto& visitor : visitors) {
       if (!visitor->connected()) {
+        if (totals.connections >= due) continue;
         if (totals.connections > 0) turned_away = visitor->heard() ? 0 : turned_away + 1;
         visitor->come();
         ++totals.connections;
       }
       totals.messages += visitor->step();
+      more = more || visitor->connected();
     }
-    const auto due = std::chrono::microseconds(totals.messages * 1'000'000 / job.rate);
-    const Duration early = due - (clock.now() - begun);
+    const auto said = std::chrono::microseconds(totals.messages * 1'000'000 / job.rate);
+    const Duration early = said - (clock.now() - begun);
     std::this_thread::sleep_for(std::max<Duration>(early, milliseconds(1)));
   }
   return totals;

@@ -32,7 +32,7 @@ MIXES = {
 
 class Hostile(FaultTest):
     budget = 60000 if LONG else 8000
-    messages = 10000 if LONG else 1500
+    messages = 12000 if LONG else 1500
     connections = 200 if LONG else 30
     per_second = 2500 if LONG else 1500
 
@@ -113,7 +113,7 @@ class Hostile(FaultTest):
               f"{memory} kB; store and log grew by {growth[0]} and {growth[1]} bytes", end="")
         self.count("hostile message", done["messages"])
         self.count("hostile connection", done["connections"])
-        self.assertLess(memory, 200_000, "the coordinator's memory")
+        self.assert_memory(memory, 200_000)
         self.assertLess(sum(growth), 1_000_000, "store and log")
         if LONG and meanwhile:
             self.assertGreater(meanwhile, rate / 2, "honest workers starve")

@@ -23,6 +23,8 @@ from programs import BIN, CAMPAIGN, PATIENCE, SWARMSMITH, call, children_of, sen
 
 WORKER = str(BIN / "swarmsmith-worker")
 LONG = os.environ.get("SWARMSMITH_LONG") == "1"
+#: Memory is several times as much then, and says nothing.
+SANITIZED = "SWARMSMITH_SANITIZER" in os.environ
 #: Every process that a test starts has this in its environment, its own children too.
 MARK = "SWARMSMITH_TEST_MARK"
 
@@ -145,6 +147,11 @@ class FaultTest(unittest.TestCase):
     tests = 20
     #: Further lines of the campaign file.
     more = ""
+
+    def assert_memory(self, used, most):
+        """Of a process, in any unit."""
+        if not SANITIZED:
+            self.assertLess(used, most, "memory")
 
     def setUp(self):
         folder = tempfile.TemporaryDirectory(prefix="swarmsmith-faults-")

@@ -228,7 +228,7 @@ class Crowd(FaultTest):
         self.count("worker in a crowd", self.size)
         self.assertEqual((numbers["failed"], numbers["lost_workers"]), (0, 0))
         # 30 kB of buffers a connection, and room for a busy machine.
-        self.assertLess(memory - alone, 150 * self.size)
+        self.assert_memory(memory - alone, 150 * self.size)
 
 
 if __name__ == "__main__":

@@ -9,7 +9,7 @@ sys.dont_write_bytecode = True
 
 import one_host
 from one_host import OneHostSlurm, wait_for
-from programs import SWARMSMITH, ProgramTest, call, send
+from programs import PATIENCE, SWARMSMITH, ProgramTest, call, send
 
 CAMPAIGN = """\
 format = 1
@@ -110,7 +110,7 @@ class SlurmTest(ProgramTest):
 
     def finish(self, process, limit_s=240):
         """To the end: the answer of a laptop, and no job left."""
-        self.assertEqual(process.wait(timeout=limit_s), 0, self.said.read_text())
+        self.assertEqual(process.wait(timeout=limit_s * PATIENCE), 0, self.said.read_text())
         self.assert_clean(self.store)
         self.assertEqual(self.digest(self.store), self.expected())
         wait_for(lambda: not self.live(), "the end of all jobs", 20)

@@ -3,7 +3,7 @@ import signal
 import subprocess
 import unittest
 
-from campaigns import SWARMSMITH, SlurmTest, send, wait_for
+from campaigns import PATIENCE, SWARMSMITH, SlurmTest, send, wait_for
 
 
 class Campaign(SlurmTest):
@@ -47,7 +47,7 @@ class Campaign(SlurmTest):
         wait_for(lambda: self.workers_by_state().get("left") == 2, "two goodbyes", 20)
         self.assertNotIn("lost", self.workers_by_state())
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=60), 130, self.said.read_text())
+        self.assertEqual(process.wait(timeout=60 * PATIENCE), 130, self.said.read_text())
         wait_for(lambda: not self.live(), "the end of all jobs", 20)
 
     def workers_by_state(self):
@@ -79,7 +79,7 @@ class Refusals(SlurmTest):
         wait_for(lambda: "Slurm holds jobs back (PartitionConfig)" in self.said.read_text(),
                  "the reason")
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=60), 130, self.said.read_text())
+        self.assertEqual(process.wait(timeout=60 * PATIENCE), 130, self.said.read_text())
         wait_for(lambda: not self.live(), "the end of all jobs", 20)
 
     def test_a_full_cluster_is_waited_for(self):
@@ -92,7 +92,7 @@ class Refusals(SlurmTest):
         self.slurm.call("scancel", blocker)
         self.wait_for_stored(100, process)
         process.send_signal(signal.SIGTERM)
-        self.assertEqual(process.wait(timeout=60), 143, self.said.read_text())
+        self.assertEqual(process.wait(timeout=60 * PATIENCE), 143, self.said.read_text())
         wait_for(lambda: not self.live(), "the end of all jobs", 20)
 
 

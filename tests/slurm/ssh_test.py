@@ -7,7 +7,7 @@ import subprocess
 import unittest
 
 import campaigns
-from campaigns import SWARMSMITH, ProgramTest, call, send, wait_for
+from campaigns import PATIENCE, SWARMSMITH, ProgramTest, call, send, wait_for
 import one_host_ssh
 
 
@@ -82,7 +82,7 @@ class Ssh(ProgramTest):
         wait_for(lambda: not self.started(), "the end of all workers and the referee\n", 30)
 
     def finish(self, process):
-        self.assertEqual(process.wait(timeout=200), 0, self.said.read_text())
+        self.assertEqual(process.wait(timeout=200 * PATIENCE), 0, self.said.read_text())
         self.wait_for_nobody()
         self.assert_clean(self.store)
         local = self.folder / "local.db"
@@ -124,7 +124,7 @@ class Ssh(ProgramTest):
         process = self.run_by_ssh()
         self.wait_for_workers(2)
         process.send_signal(signal.SIGINT)
-        self.assertEqual(process.wait(timeout=60), 130, self.said.read_text())
+        self.assertEqual(process.wait(timeout=60 * PATIENCE), 130, self.said.read_text())
         self.wait_for_nobody()
 
     def test_mistakes_are_named(self):
@@ -143,7 +143,7 @@ class Ssh(ProgramTest):
 
     def run_to_its_end(self, *words):
         return subprocess.run([SWARMSMITH, "run", self.file, "--store", self.store, *words],
-                              env=self.environment, capture_output=True, text=True, timeout=60)
+                              env=self.environment, capture_output=True, text=True, timeout=60 * PATIENCE)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 
 #include "storage/internal/sqlite.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/peak_memory.h"
 
 namespace swarmsmith {
 namespace {
@@ -114,18 +115,6 @@ TEST_F(QueryTest, StopsAtTheLimitOfTimeAlsoBeforeTheFirstRow) {
   EXPECT_EQ(end->rows, 0);
   EXPECT_TRUE(end->truncated);
   EXPECT_TRUE(query("SELECT 1")) << "the limit outlived its query";
-}
-
-/// Of this process, in MB, at its highest.
-double peak_memory() {
-  std::ifstream file("/proc/self/status");
-  for (std::string word; file >> word;) {
-    if (word != "VmHWM:") continue;
-    double kilobytes = 0;
-    file >> kilobytes;
-    return kilobytes / 1024;
-  }
-  return 0;
 }
 
 /// Whatever makes much of little: long values, long rows, many rows, what is sorted, grouped, or

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <iterator>
 
 #include <fmt/format.h>
@@ -10,6 +11,8 @@ namespace {
 
 /// What a test has to be able to say for anything to be found.
 constexpr double kLevel = 0.05;
+/// Percentiles of the bootstrap miss more than 5 % of the truth with fewer.
+constexpr std::size_t kFewValues = 10;
 
 /// Two samples of the same length, value by value.
 struct PairedValues {
@@ -60,6 +63,9 @@ void add_notes(ComparedPair& pair) {
   }
   if (pair.n_first < 2 || pair.n_second < 2)
     pair.notes.emplace_back("of one value an interval has no width");
+  else if (pair.test.least_p <= kLevel && std::min(pair.n_first, pair.n_second) < kFewValues)
+    pair.notes.push_back(
+        fmt::format("n is small: an interval of fewer than {} values is too narrow", kFewValues));
   if (pair.test.zeros > 0 && pair.test.p_value)
     pair.notes.push_back(fmt::format("differences of zero, which say nothing to the test: {} of {}",
                                      pair.test.zeros, pair.n_first));
@@ -84,7 +90,7 @@ ComparedPair tested(ComparedPair pair, const std::vector<double>& first,
 
 void compare_sources(const ScoreTable::value_type& one, const ScoreTable::value_type& other,
                      Comparison& comparison) {
-  const bool by_run = comparison.options.unit == CompareUnit::Run;
+  const bool by_run = comparison.unit == ScoreUnit::Run;
   const PairedValues values =
       by_run ? pair_runs(one.second, other.second) : pair_designs(one.second, other.second);
   const GroupKey& key = one.first;
@@ -121,7 +127,7 @@ void add_source_pairs(const ScoreTable& table, Comparison& comparison) {
 }
 
 void add_method_pairs(const ScoreTable& table, Comparison& comparison) {
-  const CompareUnit unit = comparison.options.unit;
+  const ScoreUnit unit = comparison.unit;
   for (auto one = table.begin(); one != table.end(); ++one) {
     for (auto other = std::next(one); other != table.end(); ++other) {
       const GroupKey& first = one->first;

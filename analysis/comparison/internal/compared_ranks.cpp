@@ -43,41 +43,28 @@ std::vector<Block> in_order(const std::map<Key, Block>& blocks) {
   return result;
 }
 
-/// Designs of a mission and method by their repetition. Merged campaigns may have one repetition
-/// several times: the second one has occurrence 1.
-struct Repetition {
-  std::string mission;
-  std::int64_t number = 0;
-  std::size_t occurrence = 0;
-
-  friend auto operator<=>(const Repetition&, const Repetition&) = default;
-};
-
 }  // namespace
 
 void add_method_ranks(const ScoreTable& table, Comparison& comparison) {
   for (const std::string& source : names_in(table, &GroupKey::source)) {
     Names methods;
-    std::map<Repetition, Block> blocks;
+    std::map<std::string, Block> blocks;
     for (const auto& [key, designs] : table) {
       if (key.source != source) continue;
       methods.insert(key.method);
-      std::map<std::int64_t, std::size_t> seen;
-      for (const auto& [id, design] : designs) {
-        Block& block = blocks[{key.mission, design.repetition, seen[design.repetition]++}];
-        block.mission = key.mission;
-        block.values[key.method] = mean_of(design.scores);
-      }
+      Block& block = blocks[key.mission];
+      block.mission = key.mission;
+      block.values[key.method] = mean_of(values_of(designs, ScoreUnit::Design));
     }
     if (methods.size() < 2) continue;
     if (auto ranks = ranked(methods, in_order(blocks))) {
       ranks->source = source;
       comparison.ranks.push_back(std::move(*ranks));
     } else {
-      comparison.notes.push_back(
-          fmt::format("{}: no ranks, since less than two pairs of mission and repetition have a "
-                      "design of every method",
-                      source));
+      comparison.notes.push_back(fmt::format(
+          "{}: no ranks, since fewer than two missions have designs of every method; within "
+          "a mission the tests above compare them",
+          source));
     }
   }
 }

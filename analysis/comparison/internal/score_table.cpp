@@ -11,7 +11,6 @@ bool is_wanted(const DesignScore& score, const ComparisonOptions& options) {
     return wanted.empty() || wanted == value;
   };
   return fits(options.method, score.method) && fits(options.source, score.source) &&
-         fits(options.purpose, score.purpose) &&
          (options.missions.empty() ||
           std::ranges::find(options.missions, score.mission) != options.missions.end());
 }
@@ -29,10 +28,14 @@ bool operator<(const GroupKey& a, const GroupKey& b) {
   return NameOrder()(a.source, b.source);
 }
 
-ScoreTable score_table(const std::vector<DesignScore>& scores, const ComparisonOptions& options) {
+ChosenScores wanted(std::vector<DesignScore> scores, const ComparisonOptions& options) {
+  std::erase_if(scores, [&](const DesignScore& score) { return !is_wanted(score, options); });
+  return chosen(std::move(scores), options.choice);
+}
+
+ScoreTable score_table(const std::vector<DesignScore>& scores) {
   ScoreTable table;
   for (const DesignScore& score : scores) {
-    if (!is_wanted(score, options)) continue;
     ScoredDesign& design = table[{score.mission, score.method, score.source}][score.design];
     design.repetition = score.repetition;
     design.scores.push_back(score.score);
@@ -48,10 +51,10 @@ Names names_in(const ScoreTable& table, std::string GroupKey::*part) {
   return names;
 }
 
-std::vector<double> values_of(const ScoredDesigns& designs, CompareUnit unit) {
+std::vector<double> values_of(const ScoredDesigns& designs, ScoreUnit unit) {
   std::vector<double> values;
   for (const auto& [id, design] : designs) {
-    if (unit == CompareUnit::Design) {
+    if (unit == ScoreUnit::Design) {
       values.push_back(mean_of(design.scores));
     } else {
       values.insert(values.end(), design.scores.begin(), design.scores.end());

@@ -44,15 +44,17 @@ struct GroupKey {
 };
 using ScoreTable = std::map<GroupKey, ScoredDesigns>;
 
-/// Of the scores that the options ask for.
-ScoreTable score_table(const std::vector<DesignScore>& scores, const ComparisonOptions& options);
+/// The scores that the options ask for.
+ChosenScores wanted(std::vector<DesignScore> scores, const ComparisonOptions& options);
+
+ScoreTable score_table(const std::vector<DesignScore>& scores);
 
 /// The different texts of one part of the keys.
 using Names = std::set<std::string, NameOrder>;
 Names names_in(const ScoreTable& table, std::string GroupKey::*part);
 
 /// One value a design, or one a run.
-std::vector<double> values_of(const ScoredDesigns& designs, CompareUnit unit);
+std::vector<double> values_of(const ScoredDesigns& designs, ScoreUnit unit);
 
 /// Appends the pairs that make sense, each tested; without Holm's correction. `notes` get what was
 /// left out.

@@ -8,105 +8,126 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/internal/panel_grid.h"
+#include "analysis/statistics/summary.h"
 #include "base/csv.h"
 #include "base/suggestion.h"
 
 namespace swarmsmith {
 namespace {
 
-/// Simulations first, robots last, as papers have it.
-struct SourceOrder {
-  bool operator()(const std::string& a, const std::string& b) const {
-    return std::pair(a == "real", a) < std::pair(b == "real", b);
-  }
-};
-
-/// The names that occur, each with its place.
-struct Names {
-  std::map<std::string, std::size_t, SourceOrder> sources;
-  std::map<std::string, std::size_t> methods;
-  std::map<std::string, std::size_t> missions;
-  std::set<std::int64_t> designs;
-
-  explicit Names(const std::vector<DesignScore>& scores) {
-    for (const DesignScore& score : scores) {
-      sources[score.source];
-      methods[score.method];
-      missions[score.mission];
-      designs.insert(score.design.value);
-    }
-    number(sources);
-    number(methods);
-    number(missions);
-  }
-
-  template <class Map>
-  static void number(Map& places) {
-    std::size_t next = 0;
-    for (auto& place : places)
-      place.second = next++;
-  }
-};
-
 /// What tells groups of a panel apart, outer factor first, so that what is compared is side by
 /// side.
-std::pair<std::size_t, std::size_t> place_of(const DesignScore& score, const Names& names,
-                                             std::string_view by) {
-  const std::size_t source = names.sources.at(score.source);
-  const std::size_t method = names.methods.at(score.method);
+std::pair<std::size_t, std::size_t> band_of(const DesignScore& score, const StoreNames& names,
+                                            std::string_view by) {
+  const std::size_t source = place_of(names.sources, score.source);
+  const std::size_t method = place_of(names.methods, score.method);
   return by == "method" ? std::pair(source, method) : std::pair(method, source);
 }
 
-ScoreGroup group_of(const DesignScore& score, const Names& names, std::string_view by) {
+/// Whether what is drawn has more than one method, or source.
+struct Several {
+  bool methods = false;
+  bool sources = false;
+};
+
+Several several_of(const std::vector<DesignScore>& scores) {
+  Several several;
+  for (const DesignScore& score : scores) {
+    several.methods = several.methods || score.method != scores.front().method;
+    several.sources = several.sources || score.source != scores.front().source;
+  }
+  return several;
+}
+
+ScoreGroup group_of(const DesignScore& score, const StoreNames& names, std::string_view by,
+                    const Several& several) {
   ScoreGroup group;
-  const bool several_methods = names.methods.size() > 1;
-  const bool several_sources = names.sources.size() > 1;
   if (by == "mission") {
-    group.color = names.missions.at(score.mission);
+    group.color = place_of(names.missions, score.mission);
     group.name = score.mission;
   } else {
-    group.color = by == "source" ? names.sources.at(score.source) : names.methods.at(score.method);
+    group.color = by == "source" ? place_of(names.sources, score.source)
+                                 : place_of(names.methods, score.method);
     group.name = by == "source" ? score.source : score.method;
   }
-  if (several_methods && several_sources) group.name = score.method + " " + score.source;
-  if (several_methods && !several_sources) group.name = score.method;
-  if (several_sources && !several_methods) group.name = score.source;
+  if (several.methods && several.sources) group.name = score.method + " " + score.source;
+  if (several.methods && !several.sources) group.name = score.method;
+  if (several.sources && !several.methods) group.name = score.source;
   return group;
 }
 
-std::string csv_of(const std::vector<DesignScore>& scores) {
+std::size_t designs_in(const std::vector<DesignScore>& scores) {
+  std::set<DesignId> designs;
+  for (const DesignScore& score : scores)
+    designs.insert(score.design);
+  return designs.size();
+}
+
+/// A value of a figure: a run's score, or that of a design's first run with the mean as its score.
+struct Value {
+  DesignScore score;
+  std::vector<double> runs;
+};
+
+/// In the order of the scores.
+std::vector<Value> values_of(const ChosenScores& taken) {
+  std::vector<Value> values;
+  std::map<std::pair<DesignId, std::string>, std::size_t> places;
+  for (const DesignScore& score : taken.scores) {
+    const auto [place, is_new] = places.try_emplace({score.design, score.source}, values.size());
+    if (is_new || taken.unit == ScoreUnit::Run) {
+      values.push_back({.score = score, .runs = {score.score}});
+      continue;
+    }
+    Value& value = values[place->second];
+    value.runs.push_back(score.score);
+    if (value.score.purpose != score.purpose) value.score.purpose = "all";
+  }
+  for (Value& value : values)
+    value.score.score = mean_of(value.runs);
+  return values;
+}
+
+std::string csv_of(const std::vector<Value>& values, ScoreUnit unit) {
+  const bool by_run = unit == ScoreUnit::Run;
   std::string csv =
-      "design,mission,method,repetition,candidate,source,purpose,pair,instance,seed,score\n";
-  for (const DesignScore& score : scores) {
-    csv += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", score.design.value,
-                       csv_field(score.mission), csv_field(score.method), score.repetition,
-                       score.candidate.value, csv_field(score.source), score.purpose, score.pair,
-                       score.instance, score.seed, score.score);
+      fmt::format("design,mission,method,repetition,candidate,source,purpose,{},score\n",
+                  by_run ? "pair,instance,seed" : "runs");
+  for (const auto& [score, runs] : values) {
+    csv += fmt::format("{},{},{},{},{},{},{},{},{}\n", score.design.value, csv_field(score.mission),
+                       csv_field(score.method), score.repetition, score.candidate.value,
+                       csv_field(score.source), score.purpose,
+                       by_run ? fmt::format("{},{},{}", score.pair, score.instance, score.seed)
+                              : fmt::format("{}", runs.size()),
+                       score.score);
   }
   return csv;
 }
 
 }  // namespace
 
-GroupedScores grouped(const std::vector<DesignScore>& scores, std::string_view by) {
-  const Names names(scores);
-  GroupedScores result{.by = std::string(by), .csv = csv_of(scores)};
-  if (by.empty()) result.by = names.sources.size() > 1 ? "source" : "method";
+GroupedScores grouped(const ChosenScores& taken, const StoreNames& names, std::string_view by) {
+  const std::vector<Value> values = values_of(taken);
+  const Several several = several_of(taken.scores);
+  GroupedScores result{.by = std::string(by), .csv = csv_of(values, taken.unit)};
+  if (by.empty()) result.by = several.sources ? "source" : "method";
   std::map<std::string, std::map<std::pair<std::size_t, std::size_t>, ScoreGroup>> panels;
-  for (const DesignScore& score : scores) {
-    const auto place = place_of(score, names, result.by);
-    const auto [found, is_new] = panels[score.mission].try_emplace(place);
-    if (is_new) found->second = group_of(score, names, result.by);
-    found->second.values.push_back(score.score);
+  for (const Value& value : values) {
+    const auto place = band_of(value.score, names, result.by);
+    const auto [found, is_new] = panels[value.score.mission].try_emplace(place);
+    if (is_new) found->second = group_of(value.score, names, result.by, several);
+    found->second.values.push_back(value.score.score);
   }
   for (auto& [mission, groups] : panels) {
     result.panels.push_back({.title = as_words(mission)});
     for (auto& place_and_group : groups)
       result.panels.back().groups.push_back(std::move(place_and_group.second));
   }
-  result.details = {fmt::format("{} score{} of {} design{}", scores.size(),
-                                scores.size() == 1 ? "" : "s", names.designs.size(),
-                                names.designs.size() == 1 ? "" : "s")};
+  const std::size_t designs = designs_in(taken.scores);
+  result.details = {
+      fmt::format("{} score{} of {} design{}", taken.scores.size(),
+                  taken.scores.size() == 1 ? "" : "s", designs, designs == 1 ? "" : "s"),
+      taken.said};
   return result;
 }
 
@@ -117,16 +138,6 @@ Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& 
     return unexpected(ErrorKind::NotFound,
                       "no finished design of these has a score outside of its race yet; "
                       "`swarmsmith ls designs` shows how far they are");
-  }
-  if (!options.purpose.empty()) {
-    std::erase_if(*scores, [&](const DesignScore& s) { return s.purpose != options.purpose; });
-    if (scores->empty()) {
-      return unexpected(ErrorKind::NotFound,
-                        options.purpose == "test"
-                            ? "the winners were not tested by their campaign"
-                            : "nobody has scored the winners after their races; `swarmsmith "
-                              "evaluate best --store STORE` does");
-    }
   }
   if (!options.source.empty()) {
     std::set<std::string> sources;
@@ -140,7 +151,17 @@ Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& 
                        "--source");
     }
   }
-  return grouped(*scores, options.by);
+  ChosenScores taken = chosen(std::move(*scores), options.choice);
+  if (taken.scores.empty()) {
+    return unexpected(ErrorKind::NotFound,
+                      options.choice.purpose == "test"
+                          ? "the winners were not tested by their campaign"
+                          : "nobody has scored the winners after their races; `swarmsmith "
+                            "evaluate best --store STORE` does");
+  }
+  const auto names = names_of(store);
+  if (!names) return Unexpected(names.error());
+  return grouped(taken, *names, options.by);
 }
 
 }  // namespace swarmsmith

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "analysis/figures/figure.h"
+#include "analysis/figures/internal/store_names.h"
 #include "analysis/figures/score_panels.h"
 #include "analysis/records/records.h"
 
@@ -15,13 +16,13 @@ struct GroupedScores {
   std::string by;  ///< what the colours stand for: source, method or mission
   std::vector<ScorePanel> panels;
   std::vector<std::string> details;  ///< how many scores of what
-  std::string csv;                   ///< a row a score
+  std::string csv;                   ///< a row a value
 };
 
 /// Groups scores by `by`; without one by source where there are several, else by method. Neither
 /// several methods nor several sources ever get into one group: those of the other kind make groups
-/// of their own. Sources are in the order of their names, `real` last.
-GroupedScores grouped(const std::vector<DesignScore>& scores, std::string_view by);
+/// of their own. Colours and order are the store's.
+GroupedScores grouped(const ChosenScores& taken, const StoreNames& names, std::string_view by);
 
 /// Of a store. Errors: NotFound when no finished design has such a score.
 Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& options);

@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "analysis/drawing/svg.h"
+#include "analysis/machines/machine_layout.h"
 
 namespace swarmsmith {
 
@@ -21,6 +22,17 @@ inline std::string state_color(std::size_t state) {
 inline std::string state_fill(std::size_t state) {
   return lightened(state_color(state), 0.88);
 }
+
+/// A state that nothing leads to, and what leaves it, is grey.
+inline std::string color_of(const MachineLayout& layout, std::size_t state) {
+  return layout.states[state].reachable ? state_color(state) : "#b4b4b4";
+}
+
+inline std::string fill_of(const MachineLayout& layout, std::size_t state) {
+  return layout.states[state].reachable ? state_fill(state) : "#f6f6f6";
+}
+
+inline constexpr std::string_view kGreyText = "#8c8c8c";
 
 /// Lengths of strokes and gaps, mm; empty for a full line.
 inline std::string_view state_dashes(std::size_t state) {

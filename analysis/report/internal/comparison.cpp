@@ -22,13 +22,13 @@ HtmlTable pairs_table(const Comparison& comparison) {
   const bool by_source = comparison.options.by == CompareBy::Source;
   HtmlTable table{
       .caption = fmt::format(
-          "{}. A value is a design's mean. Holm's correction is over the {} rows; A12 is the "
+          "{}; {}. Holm's correction is over the {} rows; A12 is the "
           "chance "
           "that the first is larger; the difference is of means, first - second, with the 95 % "
           "interval of {} bootstrap resamples.",
           by_source ? "The same winners in two sources: Wilcoxon's signed-rank test, two-sided"
                     : "Two methods in the same source: Wilcoxon's rank-sum test, two-sided",
-          comparison.pairs.size(), kResamples),
+          comparison.said, comparison.pairs.size(), kResamples),
       .columns = {{"mission"},
                   {by_source ? "method" : "source"},
                   {"first"},
@@ -68,11 +68,11 @@ HtmlTable ranks_table(const ComparedRanks& ranks) {
       .columns = {{"name"}, {"mean rank", true}, {"95 % interval", true}}};
   for (std::size_t i = 0; i < ranks.names.size(); ++i) {
     const double mean = test.mean_ranks[i];
-    const std::string interval =
-        test.half_width ? fmt::format("[{}, {}]", shown_number(mean - *test.half_width),
-                                      shown_number(mean + *test.half_width))
-                        : "-";
-    table.rows.push_back({ranks.names[i], shown_number(mean), interval});
+    const auto interval = test.interval(i);
+    table.rows.push_back({ranks.names[i], shown_number(mean),
+                          interval ? fmt::format("[{}, {}]", shown_number(interval->low),
+                                                 shown_number(interval->high))
+                                   : "-"});
   }
   return table;
 }

@@ -81,14 +81,18 @@ void write_results(ReportDraft& draft) {
       "race_mean FROM v_leaderboard ORDER BY mission, rank, design",
       1000);
   const auto scores = draft.take(design_scores(draft.store(), {}));
+  const ChosenScores taken = chosen(scores, {});
   draft.page().heading(3, "Scores after the race");
   if (scores.empty()) draft.page().paragraph("No winner was evaluated outside of its race.");
   draft.page().table(score_table(
       "Scores of the winners by mission, method, source and purpose (v_design_scores): \"test\" on "
-      "the campaign's own seeds, \"score\" asked for later. Higher is better.",
-      scores, ScoreGroups::OfMethods));
-  draft.figure("box", {.width_mm = kWholeWidth}, "Scores of the winners. Higher is better.");
-  draft.figure("scores", {.width_mm = kWholeWidth}, "How often the winners had each score.");
+      "the campaign's own seeds, \"score\" asked for later; " +
+          taken.said + ". Higher is better.",
+      taken));
+  draft.figure("box", {.width_mm = kWholeWidth},
+               "Scores of the winners; " + taken.said + ". Higher is better.");
+  draft.figure("scores", {.width_mm = kWholeWidth},
+               "How often the winners had each score; " + taken.said + ".");
   write_real_runs(draft);
   draft.figure("convergence", {.width_mm = kMiddleWidth},
                "Mean score of each design's best machine over the experiments used.");

@@ -1,7 +1,6 @@
 #include "analysis/report/internal/score_table.h"
 
 #include <map>
-#include <set>
 #include <tuple>
 #include <vector>
 
@@ -13,45 +12,49 @@ namespace swarmsmith {
 namespace {
 
 struct Group {
-  std::set<DesignId> designs;
-  std::vector<double> scores;
+  std::map<DesignId, std::vector<double>> designs;
+
+  std::vector<double> values(ScoreUnit unit) const {
+    std::vector<double> values;
+    for (const auto& [design, scores] : designs) {
+      if (unit == ScoreUnit::Design) {
+        values.push_back(mean_of(scores));
+      } else {
+        values.insert(values.end(), scores.begin(), scores.end());
+      }
+    }
+    return values;
+  }
 };
 
-/// Mission, method, design (0 when designs are one group), source, purpose.
-using Key = std::tuple<std::string, std::string, DesignId, std::string, std::string>;
+/// Mission, method, source, purpose.
+using Key = std::tuple<std::string, std::string, std::string, std::string>;
 
 }  // namespace
 
-HtmlTable score_table(const std::string& caption, std::span<const DesignScore> scores,
-                      ScoreGroups groups) {
-  const bool by_design = groups == ScoreGroups::OfDesigns;
-  HtmlTable table{.caption = caption};
-  if (by_design) {
-    table.columns = {{"design"}, {"mission"}, {"method"}, {"source"}, {"purpose"}};
-  } else {
-    table.columns = {{"mission"}, {"method"}, {"source"}, {"purpose"}, {"designs", true}};
-  }
+HtmlTable score_table(const std::string& caption, const ChosenScores& taken) {
+  HtmlTable table{.caption = caption,
+                  .columns = {{"mission"}, {"method"}, {"source"}, {"purpose"}, {"designs", true}}};
   for (const char* number :
        {"n", "mean", "sd", "least", "1st quartile", "median", "3rd quartile", "most"}) {
     table.columns.push_back({number, true});
   }
   std::map<Key, Group> found;
-  for (const DesignScore& score : scores) {
-    Group& group = found[{score.mission, score.method, by_design ? score.design : DesignId{},
-                          score.source, score.purpose}];
-    group.designs.insert(score.design);
-    group.scores.push_back(score.score);
+  for (const DesignScore& score : taken.scores) {
+    Group& group = found[{score.mission, score.method, score.source, score.purpose}];
+    group.designs[score.design].push_back(score.score);
   }
-  for (auto& [key, group] : found) {
-    const auto& [mission, method, design, source, purpose] = key;
-    std::vector<std::string> row;
-    if (by_design) row.push_back(to_string(design));
-    row.insert(row.end(), {mission, method, source, purpose});
-    if (!by_design) row.push_back(fmt::format("{}", group.designs.size()));
-    const Summary summary = summary_of(group.scores);
-    row.push_back(fmt::format("{}", summary.n));
-    row.push_back(shown_number(summary.mean));
-    row.push_back(summary.n < 2 ? "-" : shown_number(summary.sd));
+  for (const auto& [key, group] : found) {
+    const auto& [mission, method, source, purpose] = key;
+    const Summary summary = summary_of(group.values(taken.unit));
+    std::vector<std::string> row = {mission,
+                                    method,
+                                    source,
+                                    purpose,
+                                    fmt::format("{}", group.designs.size()),
+                                    fmt::format("{}", summary.n),
+                                    shown_number(summary.mean),
+                                    summary.n < 2 ? "-" : shown_number(summary.sd)};
     for (const double value : {summary.least, summary.lower_quartile, summary.median,
                                summary.upper_quartile, summary.most}) {
       row.push_back(shown_number(value));

@@ -100,9 +100,8 @@ std::string supplement_readme(const std::vector<SupplementFile>& files,
   if (again.empty()) return text;
   text += fmt::format(
       "## Again\n\n{}\nruns it again, with any number of workers, on any machine, to the same "
-      "races and scores. `swarmsmith evaluate controllers/NAME.txt --campaign CAMPAIGN.toml "
-      "--design "
-      "dN --seeds 1-10` simulates a controller on other seeds.\n",
+      "races and scores. `swarmsmith evaluate controllers/NAME.txt` gives a controller's scores of "
+      "the tests again, with `--seeds 1-10` those on other seeds.\n",
       again);
   return text;
 }

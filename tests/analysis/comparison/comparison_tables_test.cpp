@@ -18,6 +18,17 @@ std::vector<DesignScore> scores() {
                      {.design = 4, .method = "c", .repetition = 2, .scores = {2}}});
 }
 
+/// Of two missions, in which the same one is better.
+std::vector<DesignScore> of_two_missions() {
+  std::vector<DesignScore> both = scores();
+  for (DesignScore score : scores()) {
+    score.mission = "grid";
+    score.design.value += 10;
+    both.push_back(score);
+  }
+  return both;
+}
+
 TEST(ComparisonTables, AreRfc4180) {
   const Comparison comparison = compare(scores(), {.by = CompareBy::Method});
   EXPECT_EQ(groups_csv(comparison),
@@ -28,7 +39,7 @@ TEST(ComparisonTables, AreRfc4180) {
   EXPECT_THAT(pairs_csv(comparison),
               HasSubstr("\naggregation,,rvr,\"a, b\",c,2,2,rank-sum,4,0.3333333333333333,"
                         "0.3333333333333333,exact,0,0.3333333333333333,1,large,2,"));
-  EXPECT_THAT(ranks_csv(comparison.ranks),
+  EXPECT_THAT(ranks_csv(compare(of_two_missions(), {.by = CompareBy::Method}).ranks),
               HasSubstr("\nrvr,\"a, b\",1,1,1,2,0,2,1,0.15729920705028"));
 }
 
@@ -46,7 +57,8 @@ TEST(ComparisonText, HasGroupsPairsRanksAndHow) {
   EXPECT_THAT(text, HasSubstr("2+2  4  0.3333    0.3333  exact  1.000   large"));
   EXPECT_THAT(text, HasSubstr("  1) n is too small: even the clearest difference would have an "
                               "exact p of 0.333\n"));
-  EXPECT_THAT(text, HasSubstr("Ranks of designs' means in rvr over aggregation (2 blocks): "));
+  EXPECT_THAT(comparison_text(compare(of_two_missions(), {.by = CompareBy::Method})),
+              HasSubstr("Ranks of mean scores in rvr over aggregation, grid (2 blocks): "));
   EXPECT_THAT(text, HasSubstr("Wilcoxon rank-sum test, two-sided; exact without ties; Holm's over "
                               "1 pair."));
   EXPECT_THAT(text, HasSubstr("seed 1"));

@@ -50,7 +50,7 @@ TEST(Comparison, PairsTheSameDesignsBySource) {
   EXPECT_EQ(pair.test.statistic, 21);
   EXPECT_DOUBLE_EQ(*pair.test.p_value, 2.0 / 64);
   EXPECT_DOUBLE_EQ(pair.difference.value, 1.5 + 0.25 * 3.5);
-  EXPECT_THAT(pair.notes, IsEmpty());
+  EXPECT_THAT(pair.notes, ElementsAre(HasSubstr("n is small")));
 }
 
 TEST(Comparison, AValueIsADesignsMeanOrARun) {
@@ -61,14 +61,16 @@ TEST(Comparison, AValueIsADesignsMeanOrARun) {
   EXPECT_EQ(by_design.groups[0].summary.n, 6U);
   EXPECT_EQ(by_design.groups[0].values.front(), 2.75);
   const Comparison by_run =
-      compare(in_two_sources(), {.by = CompareBy::Mission, .unit = CompareUnit::Run});
+      compare(in_two_sources(),
+              {.by = CompareBy::Mission, .choice = {.purpose = "", .unit = ScoreUnit::Run}});
   EXPECT_EQ(by_run.groups[0].summary.n, 12U);
   EXPECT_EQ(by_run.groups[0].values.front(), 2.25);
 }
 
 TEST(Comparison, RunsArePairedBySeed) {
   const Comparison comparison =
-      compare(in_two_sources(), {.by = CompareBy::Source, .unit = CompareUnit::Run});
+      compare(in_two_sources(),
+              {.by = CompareBy::Source, .choice = {.purpose = "", .unit = ScoreUnit::Run}});
   ASSERT_EQ(comparison.pairs.size(), 1U);
   EXPECT_EQ(comparison.pairs.front().n_first, 6U);
   EXPECT_THAT(comparison.pairs.front().notes,
@@ -93,7 +95,7 @@ TEST(Comparison, SourcesWithoutACommonDesignAreNotCompared) {
                           {.design = 2, .repetition = 2, .source = "real", .scores = {2}}}),
               {.by = CompareBy::Source});
   EXPECT_THAT(comparison.pairs, IsEmpty());
-  EXPECT_THAT(comparison.notes, Contains(HasSubstr("no design in common")));
+  EXPECT_THAT(comparison.notes, Contains(HasSubstr(" in common")));
 }
 
 TEST(Comparison, MethodsMeetWithinAMissionAndSourceAlone) {
@@ -131,7 +133,7 @@ TEST(Comparison, HolmsCorrectionIsOverAllPairs) {
     EXPECT_DOUBLE_EQ(*pair.p_holm, 4.0 / 252);
 }
 
-TEST(Comparison, MethodsAreRankedOverMissionsAndRepetitions) {
+TEST(Comparison, MethodsAreRankedOverMissions) {
   auto designs = of_two_methods();
   designs.push_back({.design = 20, .mission = "grid", .method = "better", .scores = {-9}});
   designs.push_back({.design = 21, .mission = "grid", .method = "worse", .scores = {-3}});
@@ -142,9 +144,9 @@ TEST(Comparison, MethodsAreRankedOverMissionsAndRepetitions) {
   const ComparedRanks& ranks = comparison.ranks.front();
   EXPECT_THAT(ranks.names, ElementsAre("better", "worse"));
   EXPECT_THAT(ranks.missions, ElementsAre("aggregation", "grid"));
-  EXPECT_EQ(ranks.test.blocks, 6U);
-  EXPECT_EQ(ranks.incomplete, 1U);
-  EXPECT_DOUBLE_EQ(ranks.test.mean_ranks[0], 7.0 / 6);
+  EXPECT_EQ(ranks.test.blocks, 2U);
+  EXPECT_EQ(ranks.incomplete, 0U);
+  EXPECT_DOUBLE_EQ(ranks.test.mean_ranks[0], 1.5);
 }
 
 TEST(Comparison, MergedCampaignsMayHaveARepetitionTwice) {
@@ -155,7 +157,9 @@ TEST(Comparison, MergedCampaignsMayHaveARepetitionTwice) {
   }
   const Comparison comparison = compare(records_of(designs), {.by = CompareBy::Method});
   EXPECT_EQ(comparison.pairs.front().n_first, 10U);
-  EXPECT_EQ(comparison.ranks.front().test.blocks, 10U);
+  EXPECT_THAT(comparison.ranks, IsEmpty());
+  EXPECT_THAT(comparison.notes,
+              Contains(HasSubstr("rvr: no ranks, since fewer than two missions")));
 }
 
 TEST(Comparison, SourcesAreRankedOverDesigns) {
@@ -165,6 +169,36 @@ TEST(Comparison, SourcesAreRankedOverDesigns) {
   EXPECT_EQ(comparison.ranks.front().test.blocks, 6U);
   EXPECT_EQ(comparison.ranks.front().incomplete, 6U);
   EXPECT_EQ(comparison.ranks.front().test.mean_ranks[0], 1);
+}
+
+TEST(Comparison, OfOneDesignAGroupARunIsAValueAndSaysNothingOfMethods) {
+  const Comparison comparison =
+      compare(records_of({{.method = "a", .scores = {1, 2, 3}},
+                          {.design = 2, .method = "b", .scores = {2, 3, 4}}}),
+              {.by = CompareBy::Method});
+  EXPECT_EQ(comparison.unit, ScoreUnit::Run);
+  EXPECT_EQ(comparison.pairs.front().n_first, 3U);
+  EXPECT_THAT(comparison.notes, Contains(HasSubstr("each group is one design")));
+  EXPECT_EQ(comparison.said, "a value is a run, out of the designs' tests");
+}
+
+TEST(Comparison, IntervalsOfRanksEndWhereRanksEnd) {
+  auto designs = of_two_methods();
+  for (int i = 1; i <= 3; ++i) {
+    for (Scored design : of_two_methods()) {
+      design.mission = "m" + std::to_string(i);
+      design.design += 100 * i;
+      if (i == 3) design.method = design.method == "better" ? "worse" : "better";
+      designs.push_back(design);
+    }
+  }
+  const Comparison comparison = compare(records_of(designs), {.by = CompareBy::Method});
+  const FriedmanTest& test = comparison.ranks.front().test;
+  ASSERT_GT(*test.half_width, 0.75);
+  for (const std::size_t i : {0U, 1U}) {
+    EXPECT_EQ(test.interval(i)->low, 1);
+    EXPECT_EQ(test.interval(i)->high, 2);
+  }
 }
 
 TEST(Comparison, WhatHasNothingBesideItIsSaid) {
@@ -188,9 +222,11 @@ TEST(Comparison, TakesWhatTheOptionsAskFor) {
   auto designs = of_two_methods();
   designs.push_back({.design = 1, .method = "better", .scores = {99}, .purpose = "score"});
   const auto records = records_of(designs);
-  EXPECT_EQ(compare(records, {.purpose = "score"}).groups.front().runs, 1U);
-  EXPECT_EQ(compare(records, {.purpose = "test"}).groups.front().runs, 5U);
-  EXPECT_EQ(compare(records, {}).groups.front().runs, 6U);
+  EXPECT_EQ(compare(records, {.choice = {.purpose = "score", .unit = {}}}).groups.front().runs, 1U);
+  EXPECT_EQ(compare(records, {.choice = {.purpose = "test", .unit = {}}}).groups.front().runs, 5U);
+  EXPECT_EQ(compare(records, {.choice = {.purpose = "all", .unit = {}}}).groups.front().runs, 6U);
+  EXPECT_EQ(compare(records, {}).groups.front().runs, 5U) << "tests, where there are some";
+  EXPECT_EQ(compare(records, {}).said, "a value is a design: the mean of its tests");
   EXPECT_EQ(compare(records, {.method = "worse"}).groups.size(), 1U);
   EXPECT_THAT(compare(records, {.missions = {"grid"}}).groups, IsEmpty());
   EXPECT_THAT(compare(records, {.source = "real"}).groups, IsEmpty());

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "analysis/drawing/svg.h"
 #include "analysis/figures/figure.h"
 #include "tests/analysis/support/svg_texts.h"
 #include "tests/storage/fixture.h"
@@ -71,28 +72,41 @@ TEST_F(FigureKinds, AreDrawnWithoutTextOverTextAtEveryWidth) {
   }
 }
 
+const ScoreChoice kRuns{.purpose = "", .unit = ScoreUnit::Run};
+
 TEST_F(FigureKinds, BoxHasAPointForEachRowOfItsTable) {
+  // A design in each of its two sources.
   const Figure figure = made("box");
-  EXPECT_EQ(rows_of(figure), 4 * (4 + 1));
-  EXPECT_EQ(dots_in(figure.svg), 20U);
+  EXPECT_EQ(rows_of(figure), 4 * 2);
+  EXPECT_EQ(dots_in(figure.svg), 8U);
+  const Figure runs = made("box", {.choice = kRuns});
+  EXPECT_EQ(rows_of(runs), 4 * (4 + 1));
+  EXPECT_EQ(dots_in(runs.svg), 20U);
   const Figure real = made("box", {.source = "real"});
   EXPECT_EQ(rows_of(real), 4);
   EXPECT_THAT(real.csv, Not(HasSubstr(",rvr,")));
   EXPECT_EQ(rows_of(made("box", {.filter = {.design = DesignId{2}}})), 5);
-  const Figure tests = made("box", {.purpose = "test"});
-  const Figure later = made("box", {.purpose = "score"});
+  const Figure tests = made("box", {.choice = {.purpose = "test", .unit = ScoreUnit::Run}});
+  const Figure later = made("box", {.choice = {.purpose = "score", .unit = ScoreUnit::Run}});
   EXPECT_EQ(rows_of(tests), 4 * 4);
   EXPECT_EQ(rows_of(later), 4);
 }
 
 TEST_F(FigureKinds, GroupsNeverMixSources) {
   for (const char* by : {"source", "method", "mission"}) {
-    const auto texts = texts_of(made("box", {.by = by}).svg);
+    const auto texts = texts_of(made("box", {.by = by, .choice = kRuns}).svg);
     // Two missions, each with a box a source.
     EXPECT_EQ(std::ranges::count(texts, "rvr", &TextBox::text), 2) << by;
     EXPECT_EQ(std::ranges::count(texts, "real", &TextBox::text), 2) << by;
     EXPECT_EQ(std::ranges::count(texts, "8", &TextBox::text), 2) << by;
   }
+}
+
+TEST_F(FigureKinds, ASourceHasItsColourWhateverElseIsDrawn) {
+  // In alphabetical order with `real` last: rvr has the first colour, real the second.
+  EXPECT_THAT(made("box", {.by = "source", .source = "rvr"}).svg, HasSubstr(distinct_color(0)));
+  EXPECT_THAT(made("box", {.by = "source", .source = "real"}).svg, HasSubstr(distinct_color(1)));
+  EXPECT_THAT(made("scores", {.by = "source", .source = "real"}).svg, HasSubstr(distinct_color(1)));
 }
 
 TEST_F(FigureKinds, ModulesAreThoseOfTheView) {

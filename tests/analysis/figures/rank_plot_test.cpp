@@ -20,7 +20,8 @@ RankPlot plot_of(std::size_t rows) {
                   "Friedman: \u03c7\u00b2 = 8.373, df 2, p = 0.0152"}};
   for (std::size_t i = 0; i < rows; ++i) {
     const auto rank = static_cast<double>(i + 1);
-    panel.rows.push_back({"a method with a long name " + std::to_string(i), rank, 0.6});
+    panel.rows.push_back(
+        {"a method with a long name " + std::to_string(i), rank, rank - 0.6, rank + 0.6});
   }
   plot.panels = {panel, panel};
   return plot;
@@ -39,19 +40,20 @@ TEST(RankPlot, TextsStandClearOfEachOtherAtEveryWidth) {
 }
 
 TEST(RankPlot, TheBestStandsOnTop) {
-  RankPlot plot{.title = "t", .panels = {{.rows = {{"worse", 1.8, 0.1}, {"better", 1.2, 0.1}}}}};
+  RankPlot plot{.title = "t",
+                .panels = {{.rows = {{"worse", 1.8, 1.7, 1.9}, {"better", 1.2, 1.1, 1.3}}}}};
   const std::string svg = draw(plot);
   EXPECT_LT(svg.find("better"), svg.find("worse"));
 }
 
-/// Six designs of one mission: three of each of two methods.
+/// Eight designs: two of each of two methods in each of two missions.
 struct RanksFigureTest : testing::Test {
   TemporaryFolder folder;
 
   std::unique_ptr<StoreReader> store_with(const std::string& first, const std::string& second) {
-    SyntheticCampaign campaign = synthetic_campaign({.designs = 6});
+    SyntheticCampaign campaign = synthetic_campaign({.designs = 8});
     for (DesignRow& design : campaign.designs) {
-      design.mission = "aggregation";
+      design.mission = design.id.value <= 4 ? "aggregation" : "grid_exploration";
       design.method = design.id.value % 2 == 1 ? first : second;
     }
     auto store = open_store(folder / "s.db", campaign);
@@ -71,7 +73,7 @@ TEST_F(RanksFigureTest, RanksMethodsWhereThereAreSeveral) {
   const auto figure = make(*store, {});
   ASSERT_TRUE(figure) << to_string(figure.error());
   EXPECT_THAT(figure->svg, HasSubstr("Ranks by method"));
-  EXPECT_THAT(figure->svg, HasSubstr("3 repetitions in rvr: aggregation"));
+  EXPECT_THAT(figure->svg, HasSubstr("2 missions in rvr: aggregation"));
   EXPECT_THAT(figure->svg, HasSubstr("chocolate"));
   EXPECT_THAT(figure->csv, HasSubstr("\nrvr,chocolate,"));
   EXPECT_THAT(text_problems(figure->svg), IsEmpty());

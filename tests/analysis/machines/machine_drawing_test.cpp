@@ -56,7 +56,7 @@ bool is_tikz_line(const std::string& line) {
   const std::string point = "\\(" + number + "," + number + "\\)";
   const std::string color = R"(\{rgb,255:red,[0-9]+;green,[0-9]+;blue,[0-9]+\})";
   const std::string dashes = "(,dash pattern=(on " + number + "mm off " + number + "mm ?)+)?";
-  const std::string text = R"(([A-Za-z0-9 =.,+-]|\$\\(tau|alpha|beta|xi|eta)\$)+)";
+  const std::string text = R"(([A-Za-z0-9 =.,:+-]|\$\\(tau|alpha|beta|xi|eta)\$)+)";
   for (const std::string& form :
        {std::string(R"(\\begin\{tikzpicture\}\[x=1mm,y=-1mm\])"),
         std::string(R"(\\end\{tikzpicture\})"),
@@ -69,9 +69,9 @@ bool is_tikz_line(const std::string& line) {
             " circle\\[radius=" + number + "mm\\];",
         R"(\\draw\[draw=)" + color + ",fill=" + color + ",line width=" + number + "mm\\]( " +
             point + " --){6} cycle;",
-        R"(\\node\[anchor=base,inner sep=0pt,outer sep=0pt,scale=)" + number +
-            R"(,font=\\sffamily\\fontsize\{10\}\{12\}\\selectfont\] at )" + point + " \\{" + text +
-            "\\};"}) {
+        R"(\\node\[anchor=base,inner sep=0pt,outer sep=0pt,scale=)" + number + "(,text=" + color +
+            ")?" + R"(,font=\\sffamily\\fontsize\{10\}\{12\}\\selectfont\] at )" + point + " \\{" +
+            text + "\\};"}) {
     if (std::regex_match(line, std::regex(form))) return true;
   }
   return false;
@@ -100,6 +100,28 @@ TEST(MachineTikz, HasThePlacesOfTheSvg) {
   centre << std::fixed << "(" << layout.states[1].centre.x << "," << layout.states[1].centre.y
          << ") circle";
   EXPECT_THAT(tikz, HasSubstr(centre.str()));
+}
+
+/// The second state is one that nothing leads to.
+MachineLayout with_an_unreachable_state() {
+  Machine machine = small_machine();
+  machine.states[0].transitions.clear();
+  return lay_out(machine, watermelon(), 84);
+}
+
+TEST(MachineSvg, IsGreyWhereNoTransitionLeads) {
+  const std::string whole = svg_of(small_layout(), "");
+  EXPECT_THAT(whole, testing::Not(HasSubstr("grey: ")));
+  EXPECT_THAT(whole, HasSubstr(distinct_color(1)));
+  const MachineLayout layout = with_an_unreachable_state();
+  EXPECT_TRUE(layout.states[0].reachable);
+  EXPECT_FALSE(layout.states[1].reachable);
+  const std::string svg = svg_of(layout, "");
+  EXPECT_THAT(svg, HasSubstr(">grey: no transition leads there<"));
+  EXPECT_THAT(svg, testing::Not(HasSubstr(distinct_color(1))));
+  std::istringstream tikz(tikz_of(layout));
+  for (std::string line; std::getline(tikz, line);)
+    EXPECT_TRUE(is_tikz_line(line)) << line;
 }
 
 TEST(MachineDot, LeadsFromStatesThroughConditionsToStates) {

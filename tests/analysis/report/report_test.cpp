@@ -17,6 +17,10 @@ using testing::Field;
 using testing::HasSubstr;
 using testing::Not;
 
+Expected<std::string> as_is(CandidateId candidate) {
+  return to_string(candidate) + "\n";
+}
+
 /// Two designs whose names mean something in HTML, which only an import could bring.
 SyntheticCampaign hostile_campaign() {
   SyntheticCampaign campaign = synthetic_campaign({.designs = 2, .iterations = 3});
@@ -114,7 +118,7 @@ TEST(Report, OfACampaignThatHasJustBegunSaysSo) {
   ASSERT_TRUE(text) << to_string(text.error());
   EXPECT_EQ(xml_trouble(*text), "");
   EXPECT_THAT(*text, HasSubstr("No winner was evaluated outside of its race."));
-  const auto files = supplement(*reader, {});
+  const auto files = supplement(*reader, {.machine_file = as_is});
   ASSERT_FALSE(files);
   EXPECT_EQ(files.error().kind, ErrorKind::NotFound);
 }
@@ -127,7 +131,8 @@ std::vector<std::string> paths_of(const std::vector<SupplementFile>& files) {
 }
 
 TEST_F(ReportTest, ASupplementHasSafeNamesInOrder) {
-  const auto files = supplement(*reader, {.program = "p", .with_pdfs = true});
+  const auto files =
+      supplement(*reader, {.machine_file = as_is, .program = "p", .with_pdfs = true});
   ASSERT_TRUE(files) << to_string(files.error());
   const std::vector<std::string> paths = paths_of(*files);
   EXPECT_TRUE(std::ranges::is_sorted(paths));
@@ -139,14 +144,17 @@ TEST_F(ReportTest, ASupplementHasSafeNamesInOrder) {
   EXPECT_THAT(paths, Contains("results.csv"));
   EXPECT_THAT(paths, Contains("report.html"));
   EXPECT_THAT(paths, Contains("figures/convergence.csv"));
-  const auto again = supplement(*reader, {.program = "p", .with_pdfs = true});
+  const auto again =
+      supplement(*reader, {.machine_file = as_is, .program = "p", .with_pdfs = true});
   for (std::size_t i = 0; i < files->size(); ++i)
     EXPECT_EQ((*files)[i].text, (*again)[i].text) << paths[i];
 }
 
 TEST_F(ReportTest, ASupplementSaysWhatItsFilesAre) {
-  const auto with = supplement(*reader, {.program = "p 1", .with_pdfs = true});
-  const auto without = supplement(*reader, {.program = "p 1", .with_pdfs = false});
+  const auto with =
+      supplement(*reader, {.machine_file = as_is, .program = "p 1", .with_pdfs = true});
+  const auto without =
+      supplement(*reader, {.machine_file = as_is, .program = "p 1", .with_pdfs = false});
   ASSERT_TRUE(with && without);
   const auto readme_of = [](const auto& files) {
     return std::ranges::find(files, "README.md", &SupplementFile::path)->text;

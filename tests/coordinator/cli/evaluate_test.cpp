@@ -1,5 +1,6 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "coordinator/cli/machine_words.h"
@@ -51,9 +52,11 @@ TEST(Evaluate, GivesOneJsonLineARunWithSeedAndScore) {
 }
 
 TEST(Evaluate, TakesAMachineAsSeveralWordsBeforeAfterAndBehindDashes) {
-  const std::string wanted =
-      run({"evaluate", kExploreText, "--mission", "aggregation", "--seeds", "1-3"}).out;
-  const std::vector<std::string> rest = {"--mission", "aggregation", "--seeds", "1-3"};
+  const std::string wanted = run({"evaluate", kExploreText, "--flavour", "watermelon", "--mission",
+                                  "aggregation", "--seeds", "1-3"})
+                                 .out;
+  const std::vector<std::string> rest = {"--flavour",   "watermelon", "--mission",
+                                         "aggregation", "--seeds",    "1-3"};
   const std::vector<std::string> machine = {"--nstates", "1", "--s0", "0", "--rwm0", "10"};
   const auto in_order = [](std::vector<std::string> first, const std::vector<std::string>& then) {
     first.insert(first.begin(), "evaluate");
@@ -73,28 +76,53 @@ TEST(Evaluate, TakesAMachineAsSeveralWordsBeforeAfterAndBehindDashes) {
 TEST(Evaluate, TakesAMachineFromAFileWithComments) {
   const TemporaryFolder folder;
   write_file(folder / "best.fsm", "# d1 c1\n\n--fsm-config " + kExploreText + "\n");
-  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--mission", "aggregation"});
+  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--flavour", "watermelon",
+                       "--mission", "aggregation"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, HasSubstr("seed 10  score "));
   EXPECT_THAT(ran.out, HasSubstr("95 % interval"));
 }
 
-TEST(Evaluate, RefusesAFileWithSeveralMachines) {
+TEST(Evaluate, TakesTheWorldThatAFileSays) {
   const TemporaryFolder folder;
-  write_file(folder / "two.fsm", kExploreText + "\n" + kStopText + "\n");
-  const Ran ran = run({"evaluate", (folder / "two.fsm").string(), "--mission", "aggregation"});
-  EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("two.fsm:2: the file holds more than one machine"));
+  const std::string file = (folder / "machines.fsm").string();
+  const std::string head =
+      "#: format = 1\n#: flavour = \"watermelon\"\n#: profile = \"rvr\"\n"
+      "#: mission = \"grid_exploration\"\n#: candidate = \"c7\"\n#: seeds = \"4,5\"\n";
+  write_file(file, head + kExploreText + "\n" + head + kStopText + "\n");
+  const Ran ran = run({"evaluate", file, "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto lines = lines_of(ran.out);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0],
+            (json{{"machine", "c7"}, {"seed", 4}, {"score", score_of("grid_exploration", 4)}}));
+  EXPECT_EQ(lines[1]["score"], score_of("grid_exploration", 5));
+  const Ran other = run({"evaluate", file, "--flavour", "chocolate"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr("the machine is of the flavour watermelon (" + file +
+                                   ":7), not chocolate"));
+  // Another mission or profile is a question that people have.
+  EXPECT_EQ(run({"evaluate", file, "--mission", "aggregation", "--profile", "argos3"}).code, 0);
+}
+
+TEST(Evaluate, AsksForAFlavourThatNobodySays) {
+  const TemporaryFolder folder;
+  write_file(folder / "best.fsm", kExploreText + "\n");
+  for (const std::string& machine : {kExploreText, (folder / "best.fsm").string()}) {
+    const Ran ran = run({"evaluate", machine, "--mission", "aggregation"});
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("--flavour: in which flavour is the machine written? Add"));
+  }
 }
 
 TEST(Evaluate, TakesStartsFromATable) {
   const TemporaryFolder folder;
   write_file(folder / "starts.csv",
              "seed,robot,x,y,theta\n5,0,0.1,0.2,0\n5,1,-0.6,0,1\n5,2,0.6,0.6,7\n");
-  const std::vector<std::string> command = {"evaluate",  kStopText,
-                                            "--mission", "aggregation",
-                                            "--starts",  (folder / "starts.csv").string(),
-                                            "--json",    "--seeds"};
+  const std::vector<std::string> command = {
+      "evaluate",  kStopText,     "--flavour", "watermelon",
+      "--mission", "aggregation", "--starts",  (folder / "starts.csv").string(),
+      "--json",    "--seeds"};
   auto seeds = command;
   seeds.emplace_back("5");
   EXPECT_EQ(run(seeds).out, "{\"seed\":5,\"score\":1}\n");
@@ -112,6 +140,7 @@ TEST(Evaluate, TakesPatchesFromATable) {
   write_file(folder / "patches.csv",
              "seed,x,y,color\n1,0.75,0.25,yellow\n1,-0.25,-0.25,red\n1,0.25,0.75,green\n");
   std::vector<std::string> command = {"evaluate",  kStopText,
+                                      "--flavour", "watermelon",
                                       "--mission", "color_selection",
                                       "--starts",  (folder / "starts.csv").string(),
                                       "--patches", (folder / "patches.csv").string(),
@@ -129,6 +158,7 @@ TEST(Evaluate, TakesMissionAndProfileFromFiles) {
   write_file(folder / "mine.toml", "format = 1\npreset = \"grid_exploration\"\n");
   ASSERT_EQ(run({"profile", "rvr", "-o", (folder / "my_rvr.toml").string()}).code, 0);
   const std::vector<std::string> command = {"evaluate",  kExploreText,
+                                            "--flavour", "watermelon",
                                             "--mission", (folder / "mine.toml").string(),
                                             "--profile", (folder / "my_rvr.toml").string(),
                                             "--seeds",   "4",
@@ -158,8 +188,8 @@ TEST(Evaluate, WritesARunDown) {
   const TemporaryFolder folder;
   write_file(folder / "best.fsm", kExploreText + "\n");
   const std::string svg = (folder / "run.svg").string();
-  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--mission", "aggregation",
-                       "--seeds", "7", "--csv", "-", "--svg", svg});
+  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--flavour", "watermelon",
+                       "--mission", "aggregation", "--seeds", "7", "--csv", "-", "--svg", svg});
   ASSERT_EQ(ran.code, 0) << ran.err;
   EXPECT_THAT(ran.out, testing::StartsWith("cycle,time_s,robot,x,y,theta,cmd_left,"));
   EXPECT_THAT(ran.err, HasSubstr("seed 7  score "));
@@ -189,6 +219,9 @@ TEST(Evaluate, ExplainsWhatIsWrongWithItsArguments) {
   for (const Misuse& misuse : misuses) {
     std::vector<std::string> words = misuse.words;
     words.insert(words.begin(), "evaluate");
+    if (!words[1].starts_with("c") && std::ranges::find(words, "--flavour") == words.end()) {
+      words.insert(words.end(), {"--flavour", "watermelon"});
+    }
     const Ran ran = run(words);
     EXPECT_EQ(ran.code, 2) << misuse.sentence;
     EXPECT_THAT(ran.err, HasSubstr(misuse.sentence));

@@ -47,7 +47,8 @@ Mission example_mission(const std::string& name) {
     ADD_FAILURE() << to_string(entry.error().front());
     return {};
   }
-  const Ran ran = run({"evaluate", kExploreText, "--mission", file.string(), "--seeds", "1-3"});
+  const Ran ran = run({"evaluate", kExploreText, "--flavour", "watermelon", "--mission",
+                       file.string(), "--seeds", "1-3"});
   EXPECT_EQ(ran.code, 0) << ran.err;
   return std::move(entry->mission);
 }

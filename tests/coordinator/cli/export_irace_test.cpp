@@ -66,8 +66,8 @@ TEST_F(ExportIrace, SaysWhatIsWrong) {
 TEST_F(ExportIrace, EvaluateTakesItsWorldFromACampaign) {
   const std::string file = (folder_ / "two.toml").string();
   write_file(file, kTwoMissions);
-  const Ran named =
-      run({"evaluate", kExploreText, "--mission", "grid_exploration", "--seeds", "7-9", "--json"});
+  const Ran named = run({"evaluate", kExploreText, "--flavour", "watermelon", "--mission",
+                         "grid_exploration", "--seeds", "7-9", "--json"});
   const Ran taken = run(
       {"evaluate", kExploreText, "--campaign", file, "--design", "d2", "--seeds", "7-9", "--json"});
   EXPECT_EQ(taken.code, 0) << taken.err;

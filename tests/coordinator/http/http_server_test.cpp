@@ -5,10 +5,11 @@
 #include <sys/socket.h>
 #include <unistd.h>
 #include <array>
-#include <fstream>
 #include <memory>
 #include <utility>
 #include <vector>
+
+#include "tests/support/peak_memory.h"
 
 namespace swarmsmith {
 namespace {
@@ -79,19 +80,6 @@ LiveStatus large_status() {
   LiveStatus status;
   status.fleet = std::make_shared<const std::vector<WorkerStatus>>(std::move(fleet));
   return status;
-}
-
-/// Of this process, in MB, at its highest.
-double peak_memory() {
-  std::ifstream file("/proc/self/status");
-  std::string word;
-  while (file >> word) {
-    if (word != "VmHWM:") continue;
-    double kilobytes = 0;
-    file >> kilobytes;
-    return kilobytes / 1024;
-  }
-  return 0;
 }
 
 TEST(HttpServerTest, TwoServersNeverShareAPort) {

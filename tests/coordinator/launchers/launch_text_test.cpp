@@ -21,7 +21,9 @@ TEST(WorkersOption, NamesALauncher) {
   const LaunchOptions file{.kind = Kind::Slurm, .slurm = {.jobs = 9, .cpus_per_task = 8}};
   EXPECT_EQ(parse_workers("auto", file)->kind, Kind::Local);
   EXPECT_EQ(parse_workers("auto", file)->processes, 1);
+  EXPECT_EQ(parse_workers("auto", file)->slots, 0) << "all cores";
   EXPECT_EQ(parse_workers("3", file)->processes, 3);
+  EXPECT_EQ(parse_workers("3", file)->slots, 3) << "and no more";
   EXPECT_EQ(parse_workers("local:1_0", file)->processes, 10);
   EXPECT_EQ(parse_workers("ssh:a b/hosts", file)->ssh.hosts, "a b/hosts");
   EXPECT_EQ(parse_workers("slurm", {}).value().kind, Kind::Slurm);

@@ -35,8 +35,36 @@ TEST(MachineImport, ReadsATextALineWithNamesOrWithout) {
   EXPECT_EQ(machines->at(1).name, "hA1");
   EXPECT_EQ(machines->at(1).place, "m.txt:4");
   EXPECT_EQ(to_string(read_machine_lines("stop\n", "m.txt").error().front()),
-            "m.txt:1: a machine begins with --nstates or --fsm-config, one a line");
+            "m.txt:1: a machine begins with --nstates or --fsm-config");
   EXPECT_FALSE(read_machine_lines("# nothing\n", "m.txt"));
+}
+
+TEST(MachineImport, TakesTheFlavourThatFilesSay) {
+  const std::string argos3 = "#: format = 1\n#: flavour = \"watermelon-argos3\"\n";
+  const std::string machine = "--nstates 1 --s0 1\n";
+  const auto all = read_machine_lines(argos3 + machine + argos3 + machine, "m.fsm");
+  ASSERT_TRUE(all);
+  EXPECT_EQ(flavour_of(*all, "").value(), "watermelon-argos3");
+  EXPECT_EQ(flavour_of(*all, "watermelon-argos3").value(), "watermelon-argos3");
+  EXPECT_EQ(to_string(flavour_of(*all, "watermelon").error()),
+            "m.fsm:3: the machine is of the flavour watermelon-argos3, not watermelon; leave "
+            "--flavour out");
+  const auto some = read_machine_lines(argos3 + machine + machine, "m.fsm");
+  EXPECT_THAT(to_string(flavour_of(*some, "").error()),
+              HasSubstr("m.fsm:4: in which flavour is the machine written?"));
+  EXPECT_EQ(flavour_of(*some, "watermelon-argos3").value(), "watermelon-argos3");
+  const auto two = read_machine_lines(
+      argos3 + machine + "#: format = 1\n#: flavour = \"chocolate\"\n" + machine, "m.fsm");
+  EXPECT_THAT(to_string(flavour_of(*two, "").error()), HasSubstr("m.fsm:6: "));
+}
+
+TEST(MachineImport, RefusesATurnClockThatAStoreWouldForget) {
+  const auto machines = read_machine_lines(
+      "#: format = 1\n#: flavour = \"watermelon\"\n#: turn_clock = \"seconds\"\n--nstates 1 --s0 "
+      "1\n",
+      "m.fsm");
+  ASSERT_FALSE(machines);
+  EXPECT_THAT(to_string(machines.error().front()), HasSubstr("m.fsm:4: its turn clock"));
 }
 
 TEST(MachineImport, MakesAFinishedDesignOfEachMachine) {

@@ -33,8 +33,11 @@ inline BoardView held_board(const CameraModel& camera, const Board& board, Rng r
   const Ray ray = rays_of(camera, std::vector<ImagePoint>{aim}).front();
   CameraPlace place;
   // Half a turn about x, since the board's y is turned as well below.
-  place.rotation = rotation_about(std::numbers::pi + rng.uniform(-tilt, tilt),
-                                  rng.uniform(-tilt, tilt), rng.uniform(-0.5, 0.5));
+  // Compilers evaluate arguments in orders of their own.
+  const double turn = rng.uniform(-0.5, 0.5);
+  const double roll = rng.uniform(-tilt, tilt);
+  const double pitch = rng.uniform(-tilt, tilt);
+  place.rotation = rotation_about(std::numbers::pi + pitch, roll, turn);
   const Point3 middle = place.seen_from_camera({board.width_m() / 2, board.height_m() / 2, 0});
   place.translation = {ray.x * depth - middle.x, ray.y * depth - middle.y, depth - middle.z};
   BoardView view;

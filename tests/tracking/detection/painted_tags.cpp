@@ -1,22 +1,14 @@
 #include "tests/tracking/detection/painted_tags.h"
 
 #include <apriltag/apriltag.h>
-#include <apriltag/tag16h5.h>
-#include <apriltag/tag25h9.h>
-#include <apriltag/tag36h10.h>
-#include <apriltag/tag36h11.h>
-#include <apriltag/tagCircle21h7.h>
-#include <apriltag/tagCircle49h12.h>
-#include <apriltag/tagCustom48h12.h>
-#include <apriltag/tagStandard41h12.h>
-#include <apriltag/tagStandard52h13.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <map>
 #include <opencv2/imgproc.hpp>
 #include <stdexcept>
+
+#include "tracking/detection/internal/family_library.h"
 
 namespace swarmsmith {
 namespace {
@@ -30,23 +22,10 @@ struct OfficialTag {
   double edge = 0;    ///< of the border, pixels
 };
 
-apriltag_family_t* family_of(const std::string& name) {
-  static const std::map<std::string, apriltag_family_t*> families = {
-      {"tag36h11", tag36h11_create()},
-      {"tag36h10", tag36h10_create()},
-      {"tag25h9", tag25h9_create()},
-      {"tag16h5", tag16h5_create()},
-      {"tagStandard41h12", tagStandard41h12_create()},
-      {"tagStandard52h13", tagStandard52h13_create()},
-      {"tagCircle21h7", tagCircle21h7_create()},
-      {"tagCircle49h12", tagCircle49h12_create()},
-      {"tagCustom48h12", tagCustom48h12_create()}};
-  return families.at(name);
-}
-
 OfficialTag official_tag(const std::string& family, int tag, const Shortcomings& look) {
-  apriltag_family_t* const of = family_of(family);
-  image_u8_t* const drawn = apriltag_to_image(of, tag);
+  const FamilyPointer of = tag_family_of(family);
+  if (of == nullptr) throw std::out_of_range("no such family");
+  image_u8_t* const drawn = apriltag_to_image(of.get(), tag);
   if (drawn == nullptr) throw std::out_of_range("no such tag");
   const cv::Mat cells(drawn->height, drawn->width, CV_8U, drawn->buf,
                       static_cast<std::size_t>(drawn->stride));

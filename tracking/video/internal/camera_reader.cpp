@@ -57,7 +57,8 @@ class Reader {
 
   bool open() {
     if (!word_.index) return camera_.open(word_.address);
-    if (!camera_.open(*word_.index)) return false;
+    // Without a backend OpenCV asks all of them in turn, also those of photo and FireWire cameras.
+    if (!camera_.open(*word_.index, cv::CAP_V4L2)) return false;
     if (word_.size.width > 0) {
       // Raw pictures of this size seldom fit through USB.
       camera_.set(cv::CAP_PROP_FOURCC, cv::VideoWriter::fourcc('M', 'J', 'P', 'G'));

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expected.h"
+#include "storage/store.h"
+
+namespace swarmsmith {
+
+/// What a store has names for, each in a fixed order: that of the letters, the source `real` last.
+/// A thing's place is its colour in every figure of the store, whatever a figure leaves out.
+struct StoreNames {
+  std::vector<std::string> methods;   ///< of all designs
+  std::vector<std::string> missions;  ///< of all designs
+  std::vector<std::string> sources;   ///< of all scores of winners
+};
+
+Expected<StoreNames> names_of(StoreReader& store);
+
+/// The number of names when it is none of them.
+std::size_t place_of(const std::vector<std::string>& names, std::string_view name);
+
+}  // namespace swarmsmith

@@ -1,0 +1,55 @@
+#include "analysis/records/chosen_scores.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+#include <tuple>
+#include <utility>
+
+namespace swarmsmith {
+namespace {
+
+using Place = std::pair<std::string, std::string>;  // mission, source
+
+void keep(std::vector<DesignScore>& scores, const std::string& purpose) {
+  if (purpose == "all") return;
+  std::set<Place> tested;
+  for (const DesignScore& score : scores) {
+    if (score.purpose == "test") tested.insert({score.mission, score.source});
+  }
+  std::erase_if(scores, [&](const DesignScore& score) {
+    if (!purpose.empty()) return score.purpose != purpose;
+    return score.purpose != "test" && tested.contains({score.mission, score.source});
+  });
+}
+
+bool has_designs_to_compare(const std::vector<DesignScore>& scores) {
+  std::map<std::tuple<std::string, std::string, std::string>, DesignId> first;
+  return std::ranges::any_of(scores, [&](const DesignScore& score) {
+    const auto known =
+        first.try_emplace({score.mission, score.method, score.source}, score.design).first;
+    return known->second != score.design;
+  });
+}
+
+/// What the scores are of, in words.
+std::string purposes_of(const std::vector<DesignScore>& scores) {
+  const auto is_test = [](const DesignScore& score) { return score.purpose == "test"; };
+  if (std::ranges::all_of(scores, is_test)) return "tests";
+  return std::ranges::any_of(scores, is_test) ? "tests or later runs" : "later runs";
+}
+
+}  // namespace
+
+ChosenScores chosen(std::vector<DesignScore> scores, const ScoreChoice& choice) {
+  keep(scores, choice.purpose);
+  ChosenScores result{.scores = std::move(scores)};
+  result.unit = choice.unit.value_or(has_designs_to_compare(result.scores) ? ScoreUnit::Design
+                                                                           : ScoreUnit::Run);
+  const std::string runs = purposes_of(result.scores);
+  result.said = result.unit == ScoreUnit::Design ? "a value is a design: the mean of its " + runs
+                                                 : "a value is a run, out of the designs' " + runs;
+  return result;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "analysis/records/records.h"
+
+namespace swarmsmith {
+
+/// Which scores stand for the designs, and what one value is: the same in figures, tables, tests
+/// and sentences, so that their n are the same.
+
+/// What one value is. Runs of a design are not independent of each other, so that tests over runs
+/// of several designs see more certainty than there is.
+enum class ScoreUnit {
+  Design,  ///< the mean of its runs
+  Run,
+};
+
+struct ScoreChoice {
+  /// `test`: of the campaign's own tests; `score`: asked for later; `all`. Empty: of each mission
+  /// and source the tests, and where there are none what was asked for later. So nothing that
+  /// somebody evaluates afterwards changes the numbers of a campaign that tests its winners.
+  std::string purpose;
+  /// None: a design, but a run where no mission, method and source has more than one design.
+  std::optional<ScoreUnit> unit;
+
+  friend bool operator==(const ScoreChoice&, const ScoreChoice&) = default;
+};
+
+struct ChosenScores {
+  std::vector<DesignScore> scores;  ///< in their order
+  ScoreUnit unit = ScoreUnit::Design;
+  std::string said;  ///< for captions: "a value is a design: the mean of its tests"
+};
+
+ChosenScores chosen(std::vector<DesignScore> scores, const ScoreChoice& choice);
+
+}  // namespace swarmsmith

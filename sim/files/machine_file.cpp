@@ -1,0 +1,205 @@
+#include "sim/files/machine_file.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "sim/files/document.h"
+#include "sim/files/file_text.h"
+#include "sim/files/profile_file.h"
+#include "sim/files/toml_text.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::string_view kHeadSign = "#:";
+
+/// Without blanks, and without a colon or comma between name and machine.
+std::string_view trimmed(std::string_view text) {
+  constexpr std::string_view kBlanks = " \t\r:,";
+  const std::size_t first = text.find_first_not_of(kBlanks);
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(kBlanks) - first + 1);
+}
+
+TurnClock read_turn_clock(TableReader& root) {
+  static const std::vector<std::string> kNames = {std::string(name_of(TurnClock::Cycles)),
+                                                  std::string(name_of(TurnClock::Seconds))};
+  return root.choice("turn_clock", kNames) == kNames.back() ? TurnClock::Seconds
+                                                            : TurnClock::Cycles;
+}
+
+/// Whether the key names something that is built in, rather than say all of it in a table.
+bool is_name_there(TableReader& root, std::string_view key) {
+  const Node* node = root.take(key);
+  return node != nullptr && std::holds_alternative<std::string>(node->value);
+}
+
+std::optional<Profile> read_profile(TableReader& root) {
+  if (!root.has("profile")) return std::nullopt;
+  if (is_name_there(root, "profile")) {
+    auto profile = built_in_profile(root.text("profile").value_or(""));
+    if (profile) return std::move(*profile);
+    root.complain("profile", profile.error().message);
+    return std::nullopt;
+  }
+  auto table = root.table("profile");
+  if (!table) return std::nullopt;
+  return read_profile_table(*table);
+}
+
+std::optional<MissionEntry> read_mission(TableReader& root) {
+  if (!root.has("mission")) return std::nullopt;
+  if (is_name_there(root, "mission")) {
+    auto mission = built_in_mission(root.text("mission").value_or(""));
+    if (mission) return MissionEntry{std::move(*mission)};
+    root.complain("mission", mission.error().message);
+    return std::nullopt;
+  }
+  auto missions = read_missions(root, {});
+  if (missions.size() == 1) return std::move(missions.front());
+  root.complain("mission", "a machine is of one mission");
+  return std::nullopt;
+}
+
+/// `toml` has the head's lines at their places in the file.
+MachineHead read_head(std::string_view toml, const std::string& file, std::vector<Error>& errors) {
+  MachineHead head;
+  const auto document = parse_document(toml, file);
+  if (!document) {
+    errors.push_back(document.error());
+    return head;
+  }
+  Complaints complaints(file);
+  TableReader root(*document, "", complaints);
+  read_format(root);
+  head.flavour = root.text("flavour").value_or("");
+  if (const auto known = find_flavour(head.flavour); !known && root.has("flavour")) {
+    root.complain("flavour", known.error().message);
+  }
+  if (root.has("turn_clock")) head.turn_clock = read_turn_clock(root);
+  head.profile = read_profile(root);
+  head.mission = read_mission(root);
+  head.seeds = root.text("seeds").value_or("");
+  head.method = root.text("method").value_or("");
+  head.design = root.text("design").value_or("");
+  head.candidate = root.text("candidate").value_or("");
+  head.campaign = root.text("campaign").value_or("");
+  root.finish();
+  for (Error& error : complaints.take())
+    errors.push_back(std::move(error));
+  return head;
+}
+
+/// Takes a file apart, line by line.
+class Reader {
+ public:
+  explicit Reader(std::string file) : file_(std::move(file)) {}
+
+  void take(std::string_view line) {
+    ++number_;
+    const std::string_view text = trimmed(line);
+    const bool is_head = line.starts_with(kHeadSign);
+    // Blank where the head does not stand, so that its errors have the file's lines and columns.
+    toml_ += is_head ? "  " + std::string(line.substr(kHeadSign.size())) : "";
+    toml_ += '\n';
+    has_head_ = has_head_ || is_head;
+    if (is_head || text.empty() || text.front() == '#') return;
+    const std::size_t at = std::min(text.find("--nstates"), text.find("--fsm-config"));
+    if (at != std::string_view::npos) {
+      begin(text, at);
+    } else if (text.starts_with("--") && !machines_.empty() && !has_head_) {
+      machines_.back().text += " " + std::string(text);
+    } else {
+      errors_.push_back({ErrorKind::BadInput, "a machine begins with --nstates or --fsm-config",
+                         file_ + ":" + std::to_string(number_)});
+    }
+  }
+
+  tl::expected<std::vector<FiledMachine>, std::vector<Error>> finish() {
+    if (machines_.empty() && errors_.empty()) {
+      errors_.push_back({ErrorKind::BadInput, "the file holds no machine", file_});
+    }
+    if (!errors_.empty()) return tl::unexpected(std::move(errors_));
+    return std::move(machines_);
+  }
+
+ private:
+  void begin(std::string_view text, std::size_t at) {
+    FiledMachine machine{.head = {},
+                         .name = std::string(trimmed(text.substr(0, at))),
+                         .text = std::string(text.substr(at)),
+                         .place = file_ + ":" + std::to_string(number_)};
+    if (has_head_) machine.head = read_head(toml_, file_, errors_);
+    machines_.push_back(std::move(machine));
+    toml_.assign(number_, '\n');
+    has_head_ = false;
+  }
+
+  std::string file_;
+  std::size_t number_ = 0;
+  std::string toml_;  ///< head of the next machine
+  bool has_head_ = false;
+  std::vector<FiledMachine> machines_;
+  std::vector<Error> errors_;
+};
+
+/// The lines of what is not built in.
+std::vector<Section> tables_of(const MachineHead& head, Section& top) {
+  std::vector<Section> tables;
+  if (head.profile) {
+    const auto built_in = built_in_profile(head.profile->name);
+    if (built_in && *built_in == *head.profile) {
+      top.lines.push_back({"profile", quoted_text(head.profile->name)});
+    } else {
+      tables = profile_sections(*head.profile, "profile");
+    }
+  }
+  if (!head.mission) return tables;
+  const auto built_in = built_in_mission(head.mission->mission.name);
+  if (built_in && *built_in == head.mission->mission) {
+    top.lines.push_back({"mission", quoted_text(head.mission->mission.name)});
+    return tables;
+  }
+  for (Section& section : mission_sections(*head.mission))
+    tables.push_back(std::move(section));
+  return tables;
+}
+
+}  // namespace
+
+tl::expected<std::vector<FiledMachine>, std::vector<Error>> parse_machine_file(
+    std::string_view text, const std::filesystem::path& file) {
+  Reader reader(file.string());
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    reader.take(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return reader.finish();
+}
+
+std::string head_text(const MachineHead& head) {
+  Section top{.header = "", .prefix = "", .lines = {{"format", "1"}}};
+  const auto say = [&top](const char* key, const std::string& value) {
+    if (!value.empty()) top.lines.push_back({key, quoted_text(value)});
+  };
+  say("flavour", head.flavour);
+  if (head.turn_clock) say("turn_clock", std::string(name_of(*head.turn_clock)));
+  std::vector<Section> sections = tables_of(head, top);
+  say("method", head.method);
+  say("design", head.design);
+  say("candidate", head.candidate);
+  say("campaign", head.campaign);
+  say("seeds", head.seeds);
+  sections.insert(sections.begin(), std::move(top));
+  std::string lines;
+  const std::string toml = text_of(sections);
+  for (std::string_view rest = toml; !rest.empty();) {
+    const std::size_t end = rest.find('\n');
+    lines += end == 0 ? "#:\n" : "#: " + std::string(rest.substr(0, end + 1));
+    rest.remove_prefix(end + 1);
+  }
+  return lines;
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "base/expected.h"
+#include "sim/control/flavour.h"
+#include "sim/engine/profile.h"
+#include "sim/files/mission_file.h"
+
+namespace swarmsmith {
+
+/// What a machine was designed for. A text of the grammar does not say it, and means something else
+/// under another flavour; so a file has it before the text, as TOML in lines that begin with `#:`
+/// (docs/machines.md). What is not said is empty.
+struct MachineHead {
+  std::string flavour;
+  std::optional<TurnClock> turn_clock;
+  std::optional<Profile> profile;
+  std::optional<MissionEntry> mission;
+  std::string seeds;  ///< of its tests, as in `--seeds`: 1,4,7-9
+  std::string method;
+  std::string design;     ///< d3
+  std::string candidate;  ///< c812
+  std::string campaign;   ///< digest of the campaign that made it
+
+  friend bool operator==(const MachineHead&, const MachineHead&) = default;
+};
+
+/// A machine of a file.
+struct FiledMachine {
+  MachineHead head;
+  std::string name;   ///< what stands before the text on its line; may be empty
+  std::string text;   ///< of the grammar
+  std::string place;  ///< file:line
+};
+
+/// The machines of a file, at least one, or everything that is wrong with it. A machine begins with
+/// `--nstates` or `--fsm-config`, after a name or none, and goes on in lines that begin with `--`.
+/// A head is of the next machine. Other lines that begin with # say nothing. `file` gives the name
+/// for errors, and is not read.
+tl::expected<std::vector<FiledMachine>, std::vector<Error>> parse_machine_file(
+    std::string_view text, const std::filesystem::path& file);
+
+/// The head's lines, which parse_machine_file reads back. Missions and profiles that are built in
+/// are named, others are there with all their keys.
+std::string head_text(const MachineHead& head);
+
+}  // namespace swarmsmith
