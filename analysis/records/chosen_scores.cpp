@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "analysis/statistics/summary.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -50,6 +52,29 @@ ChosenScores chosen(std::vector<DesignScore> scores, const ScoreChoice& choice) 
   result.said = result.unit == ScoreUnit::Design ? "a value is a design: the mean of its " + runs
                                                  : "a value is a run, out of the designs' " + runs;
   return result;
+}
+
+std::vector<ScoreValue> values_of(const ChosenScores& taken) {
+  std::vector<ScoreValue> values;
+  std::map<std::pair<DesignId, std::string>, std::size_t> places;
+  for (const DesignScore& score : taken.scores) {
+    const auto [place, is_new] = places.try_emplace({score.design, score.source}, values.size());
+    if (is_new || taken.unit == ScoreUnit::Run) {
+      values.push_back({.score = score, .runs = {score.score}});
+      continue;
+    }
+    ScoreValue& value = values[place->second];
+    value.runs.push_back(score.score);
+    if (value.score.purpose != score.purpose) value.score.purpose = "all";
+  }
+  for (ScoreValue& value : values)
+    value.score.score = mean_of(value.runs);
+  return values;
+}
+
+bool NameOrder::operator()(std::string_view a, std::string_view b) const {
+  constexpr std::string_view kLast = "real";
+  return std::pair(a == kLast, a) < std::pair(b == kLast, b);
 }
 
 }  // namespace swarmsmith

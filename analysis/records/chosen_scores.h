@@ -2,6 +2,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "analysis/records/records.h"
@@ -36,5 +37,22 @@ struct ChosenScores {
 };
 
 ChosenScores chosen(std::vector<DesignScore> scores, const ScoreChoice& choice);
+
+/// A value of a figure, a table or a test.
+struct ScoreValue {
+  /// That of the run; for a design that of its first run, with the mean as its score, and purpose
+  /// `all` where its runs have several.
+  DesignScore score;
+  std::vector<double> runs;
+};
+
+/// In the order of the scores.
+std::vector<ScoreValue> values_of(const ChosenScores& taken);
+
+/// The order of methods, missions and sources everywhere: by the letters, the source `real` last,
+/// since differences are those of simulation to reality.
+struct NameOrder {
+  bool operator()(std::string_view a, std::string_view b) const;
+};
 
 }  // namespace swarmsmith

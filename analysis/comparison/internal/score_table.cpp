@@ -1,7 +1,6 @@
 #include "analysis/comparison/internal/score_table.h"
 
 #include <algorithm>
-#include <string_view>
 
 namespace swarmsmith {
 namespace {
@@ -16,11 +15,6 @@ bool is_wanted(const DesignScore& score, const ComparisonOptions& options) {
 }
 
 }  // namespace
-
-bool NameOrder::operator()(const std::string& a, const std::string& b) const {
-  constexpr std::string_view kLast = "real";
-  return std::pair(a == kLast, std::string_view(a)) < std::pair(b == kLast, std::string_view(b));
-}
 
 bool operator<(const GroupKey& a, const GroupKey& b) {
   if (a.mission != b.mission) return a.mission < b.mission;

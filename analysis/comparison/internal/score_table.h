@@ -30,11 +30,6 @@ struct ScoredDesign {
 };
 using ScoredDesigns = std::map<DesignId, ScoredDesign>;
 
-/// By the letters, the source `real` last: differences are those of simulation to reality.
-struct NameOrder {
-  bool operator()(const std::string& a, const std::string& b) const;
-};
-
 struct GroupKey {
   std::string mission;
   std::string method;

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/internal/panel_grid.h"
-#include "analysis/statistics/summary.h"
 #include "base/csv.h"
 #include "base/suggestion.h"
 
@@ -63,32 +62,7 @@ std::size_t designs_in(const std::vector<DesignScore>& scores) {
   return designs.size();
 }
 
-/// A value of a figure: a run's score, or that of a design's first run with the mean as its score.
-struct Value {
-  DesignScore score;
-  std::vector<double> runs;
-};
-
-/// In the order of the scores.
-std::vector<Value> values_of(const ChosenScores& taken) {
-  std::vector<Value> values;
-  std::map<std::pair<DesignId, std::string>, std::size_t> places;
-  for (const DesignScore& score : taken.scores) {
-    const auto [place, is_new] = places.try_emplace({score.design, score.source}, values.size());
-    if (is_new || taken.unit == ScoreUnit::Run) {
-      values.push_back({.score = score, .runs = {score.score}});
-      continue;
-    }
-    Value& value = values[place->second];
-    value.runs.push_back(score.score);
-    if (value.score.purpose != score.purpose) value.score.purpose = "all";
-  }
-  for (Value& value : values)
-    value.score.score = mean_of(value.runs);
-  return values;
-}
-
-std::string csv_of(const std::vector<Value>& values, ScoreUnit unit) {
+std::string csv_of(const std::vector<ScoreValue>& values, ScoreUnit unit) {
   const bool by_run = unit == ScoreUnit::Run;
   std::string csv =
       fmt::format("design,mission,method,repetition,candidate,source,purpose,{},score\n",
@@ -107,12 +81,12 @@ std::string csv_of(const std::vector<Value>& values, ScoreUnit unit) {
 }  // namespace
 
 GroupedScores grouped(const ChosenScores& taken, const StoreNames& names, std::string_view by) {
-  const std::vector<Value> values = values_of(taken);
+  const std::vector<ScoreValue> values = values_of(taken);
   const Several several = several_of(taken.scores);
   GroupedScores result{.by = std::string(by), .csv = csv_of(values, taken.unit)};
   if (by.empty()) result.by = several.sources ? "source" : "method";
   std::map<std::string, std::map<std::pair<std::size_t, std::size_t>, ScoreGroup>> panels;
-  for (const Value& value : values) {
+  for (const ScoreValue& value : values) {
     const auto place = band_of(value.score, names, result.by);
     const auto [found, is_new] = panels[value.score.mission].try_emplace(place);
     if (is_new) found->second = group_of(value.score, names, result.by, several);

@@ -1,18 +1,14 @@
 #include "analysis/figures/internal/store_names.h"
 
 #include <algorithm>
-#include <utility>
 
-#include "analysis/records/records.h"
+#include "analysis/records/chosen_scores.h"
 
 namespace swarmsmith {
 namespace {
 
 void sort(std::vector<std::string>& names) {
-  std::ranges::sort(names, [](const std::string& a, const std::string& b) {
-    return std::pair(a == "real", std::string_view(a)) <
-           std::pair(b == "real", std::string_view(b));
-  });
+  std::ranges::sort(names, NameOrder());
   names.erase(std::unique(names.begin(), names.end()), names.end());
 }
 

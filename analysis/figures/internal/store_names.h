@@ -10,7 +10,7 @@
 
 namespace swarmsmith {
 
-/// What a store has names for, each in a fixed order: that of the letters, the source `real` last.
+/// What a store has names for, each in a fixed order (`NameOrder`).
 /// A thing's place is its colour in every figure of the store, whatever a figure leaves out.
 struct StoreNames {
   std::vector<std::string> methods;   ///< of all designs

@@ -1,6 +1,7 @@
 #include "analysis/report/internal/score_table.h"
 
 #include <map>
+#include <set>
 #include <tuple>
 #include <vector>
 
@@ -12,19 +13,8 @@ namespace swarmsmith {
 namespace {
 
 struct Group {
-  std::map<DesignId, std::vector<double>> designs;
-
-  std::vector<double> values(ScoreUnit unit) const {
-    std::vector<double> values;
-    for (const auto& [design, scores] : designs) {
-      if (unit == ScoreUnit::Design) {
-        values.push_back(mean_of(scores));
-      } else {
-        values.insert(values.end(), scores.begin(), scores.end());
-      }
-    }
-    return values;
-  }
+  std::set<DesignId> designs;
+  std::vector<double> values;
 };
 
 /// Mission, method, source, purpose.
@@ -40,13 +30,14 @@ HtmlTable score_table(const std::string& caption, const ChosenScores& taken) {
     table.columns.push_back({number, true});
   }
   std::map<Key, Group> found;
-  for (const DesignScore& score : taken.scores) {
+  for (const auto& [score, runs] : values_of(taken)) {
     Group& group = found[{score.mission, score.method, score.source, score.purpose}];
-    group.designs[score.design].push_back(score.score);
+    group.designs.insert(score.design);
+    group.values.push_back(score.score);
   }
   for (const auto& [key, group] : found) {
     const auto& [mission, method, source, purpose] = key;
-    const Summary summary = summary_of(group.values(taken.unit));
+    const Summary summary = summary_of(group.values);
     std::vector<std::string> row = {mission,
                                     method,
                                     source,

@@ -1,5 +1,7 @@
 #include "tracking/video/internal/camera_reader.h"
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <exception>
 #include <opencv2/core/utils/logger.hpp>
@@ -55,9 +57,14 @@ class Reader {
     }
   }
 
+  /// Each backend is named: without that OpenCV asks all of them in turn, also those of photo and
+  /// FireWire cameras, which look through all USB devices.
   bool open() {
-    if (!word_.index) return camera_.open(word_.address);
-    // Without a backend OpenCV asks all of them in turn, also those of photo and FireWire cameras.
+    if (!word_.index) {
+      return std::ranges::any_of(
+          std::array{cv::CAP_FFMPEG, cv::CAP_GSTREAMER, cv::CAP_V4L2, cv::CAP_IMAGES},
+          [&](int backend) { return camera_.open(word_.address, backend); });
+    }
     if (!camera_.open(*word_.index, cv::CAP_V4L2)) return false;
     if (word_.size.width > 0) {
       // Raw pictures of this size seldom fit through USB.

@@ -1,0 +1,71 @@
+#include "analysis/records/chosen_scores.h"
+
+#include <gmock/gmock.h>
+
+namespace swarmsmith {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+DesignScore score_of(std::int64_t design, const std::string& purpose, double score,
+                     const std::string& source = "rvr") {
+  return {.design = DesignId{design},
+          .mission = "aggregation",
+          .method = "watermelon",
+          .source = source,
+          .purpose = purpose,
+          .score = score};
+}
+
+std::vector<double> numbers(const ChosenScores& taken) {
+  std::vector<double> numbers;
+  for (const ScoreValue& value : values_of(taken))
+    numbers.push_back(value.score.score);
+  return numbers;
+}
+
+TEST(ChosenScores, LaterScoresChangeNothingWhereThereAreTests) {
+  const std::vector<DesignScore> scores = {score_of(1, "test", 1), score_of(1, "test", 3),
+                                           score_of(1, "score", 90), score_of(2, "test", 7)};
+  EXPECT_THAT(numbers(chosen(scores, {})), ElementsAre(2, 7));
+  EXPECT_THAT(numbers(chosen(scores, {.purpose = "score"})), ElementsAre(90));
+  EXPECT_THAT(numbers(chosen(scores, {.purpose = "all", .unit = ScoreUnit::Run})),
+              ElementsAre(1, 3, 90, 7));
+}
+
+TEST(ChosenScores, ASourceWithoutTestsTakesWhatWasScoredLater) {
+  const ChosenScores taken = chosen({score_of(1, "test", 1), score_of(2, "test", 2),
+                                     score_of(1, "score", 5, "real"), score_of(1, "score", 9)},
+                                    {});
+  EXPECT_THAT(numbers(taken), ElementsAre(1, 2, 5));
+  EXPECT_EQ(taken.said, "a value is a design: the mean of its tests or later runs");
+}
+
+TEST(ChosenScores, OneDesignAGroupIsShownByItsRuns) {
+  const ChosenScores taken = chosen({score_of(1, "test", 1), score_of(1, "test", 3)}, {});
+  EXPECT_EQ(taken.unit, ScoreUnit::Run);
+  EXPECT_THAT(numbers(taken), ElementsAre(1, 3));
+  EXPECT_THAT(taken.said, HasSubstr("a value is a run"));
+}
+
+TEST(ChosenScores, ADesignOfSeveralPurposesSaysSo) {
+  const ChosenScores taken =
+      chosen({score_of(1, "test", 1), score_of(1, "score", 3), score_of(2, "test", 4)},
+             {.purpose = "all"});
+  const std::vector<ScoreValue> values = values_of(taken);
+  ASSERT_EQ(values.size(), 2U);
+  EXPECT_EQ(values[0].score.purpose, "all");
+  EXPECT_THAT(values[0].runs, ElementsAre(1, 3));
+  EXPECT_EQ(values[1].score.purpose, "test");
+}
+
+TEST(NameOrder, RealIsLast) {
+  EXPECT_TRUE(NameOrder()("rvr", "real"));
+  EXPECT_FALSE(NameOrder()("real", "zebra"));
+  EXPECT_TRUE(NameOrder()("argos3", "rvr"));
+  EXPECT_FALSE(NameOrder()("real", "real"));
+}
+
+}  // namespace
+}  // namespace swarmsmith
