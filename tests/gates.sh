@@ -70,10 +70,15 @@ ctest_gate() {
 }
 
 # Tests write into memory where there is room: on a disk, they wait for it most of their time. Not the
-# long ones.
+# long ones. What a run left that was killed goes first: a folder's name has the process.
 write_into_memory() {
+  local left process
+  for left in /dev/shm/swarmsmith-tests.*.*; do
+    process=${left#*swarmsmith-tests.}
+    [ -O "$left" ] && ! kill -0 "${process%%.*}" 2>/dev/null && rm -rf "$left"
+  done
   if [ -w /dev/shm ] && [ "$(df --output=avail -B 1M /dev/shm | tail -n 1)" -ge 4096 ]; then
-    TMPDIR=$(mktemp -d /dev/shm/swarmsmith-tests.XXXXXX)
+    TMPDIR=$(mktemp -d "/dev/shm/swarmsmith-tests.$BASHPID.XXXXXX")
     chmod 755 "$TMPDIR"  # some tests become somebody else
     export TMPDIR
     trap 'rm -rf "$TMPDIR"' EXIT

@@ -67,7 +67,7 @@ ChartLayout layout_of(const ModuleChart& chart) {
     most = std::max(most, block.columns.size());
     for (const auto& column : block.columns)
       for (const auto& cell : column.cells)
-        layout.largest = std::max(layout.largest, cell.average);
+        if (cell) layout.largest = std::max(layout.largest, cell->average_occurrences);
   }
   layout.columns = static_cast<std::size_t>((room - layout.label) / (kLeastColumn + kGap));
   layout.columns = std::clamp<std::size_t>(layout.columns, 1, most);
@@ -84,11 +84,22 @@ ChartLayout layout_of(const ModuleChart& chart) {
 
 /// What the numbers and bars are, on lines.
 std::vector<std::string> explanation_of(const ModuleChart& chart, const ChartLayout& layout) {
-  return broken_text(
-      fmt::format("mean: occurrences in a machine, on average, bars to {:.1f}; share: of the "
-                  "machines that have the module; n: machines, the winners of finished designs",
-                  layout.largest),
-      kTextSize, chart.width_mm - 2 * kMargin, 6);
+  std::string text = fmt::format(
+      "mean: occurrences in a machine, on average, bars to {:.1f}; share: of the machines that "
+      "have "
+      "the module; n: machines, the winners of finished designs",
+      layout.largest);
+  const auto any = [&](auto is_such) {
+    return std::ranges::any_of(chart.blocks, [&](const auto& block) {
+      return std::ranges::any_of(block.columns, [&](const auto& column) {
+        return std::ranges::any_of(column.cells, is_such);
+      });
+    });
+  };
+  if (any([](const auto& c) { return c && c->average_reachable < c->average_occurrences; }))
+    text += "; pale: in states that cannot be reached";
+  if (any([](const auto& c) { return !c; })) text += "; -: the flavour has no such module";
+  return broken_text(text, kTextSize, chart.width_mm - 2 * kMargin, 8);
 }
 
 std::vector<Stripe> stripes_of(const ModuleChart& chart, const ChartLayout& layout) {
@@ -102,22 +113,32 @@ std::vector<Stripe> stripes_of(const ModuleChart& chart, const ChartLayout& layo
   return stripes;
 }
 
-void draw_bar(Svg& svg, PagePoint at, double width, double part, const std::string& color) {
+/// `all` of a bar is pale, and `reachable` of it is not.
+void draw_bar(Svg& svg, PagePoint at, double width, double all, double reachable,
+              const std::string& color) {
   const auto box = [&](double right) {
     return std::array<PagePoint, 4>{{at, {right, at.y}, {right, at.y + kBar}, {at.x, at.y + kBar}}};
   };
+  constexpr double kPale = 0.6;
   svg.polygon(box(at.x + width), filled(kTrack));
-  if (part > 0) svg.polygon(box(at.x + width * part), filled(color));
+  if (all > reachable) svg.polygon(box(at.x + width * all), filled(lightened(color, kPale)));
+  if (reachable > 0) svg.polygon(box(at.x + width * reachable), filled(color));
 }
 
-void draw_cell(Svg& svg, PagePoint at, const ChartLayout& layout, const ModuleChart::Cell& cell) {
+void draw_cell(Svg& svg, PagePoint at, const ChartLayout& layout,
+               const std::optional<ModuleCounts>& cell) {
   const double half = (layout.column - kGap) / 2;
   const double second = at.x + half + kGap;
-  svg.text({at.x, at.y + kTextSize}, fmt::format("{:.1f}", cell.average), ink(kNumberSize));
-  svg.text({second, at.y + kTextSize}, fmt::format("{:.0f} %", 100 * cell.rate), ink(kNumberSize));
+  const std::string mean = cell ? fmt::format("{:.1f}", cell->average_occurrences) : "-";
+  const std::string share = cell ? fmt::format("{:.0f} %", 100 * cell->occurrence_rate) : "-";
+  svg.text({at.x, at.y + kTextSize}, mean, ink(kNumberSize));
+  svg.text({second, at.y + kTextSize}, share, ink(kNumberSize));
+  if (!cell) return;
   const double bar = at.y + kTextSize + 0.8;
-  draw_bar(svg, {at.x, bar}, half, cell.average / layout.largest, distinct_color(0));
-  draw_bar(svg, {second, bar}, half, cell.rate, distinct_color(4));
+  draw_bar(svg, {at.x, bar}, half, cell->average_occurrences / layout.largest,
+           cell->average_reachable / layout.largest, distinct_color(0));
+  draw_bar(svg, {second, bar}, half, cell->occurrence_rate, cell->reachable_rate,
+           distinct_color(4));
 }
 
 /// Mission, number of designs, and what the numbers below are.

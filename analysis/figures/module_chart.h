@@ -1,22 +1,21 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "analysis/records/records.h"
 
 namespace swarmsmith {
 
 /// How often winners have each module: a table with bars, rows of modules and columns of missions,
 /// the columns of a method below those of the other.
 struct ModuleChart {
-  struct Cell {
-    double average = 0;  ///< occurrences a machine
-    double rate = 0;     ///< part of the machines that have it
-  };
   struct Column {
     std::string mission;
     std::size_t designs = 0;
-    std::vector<Cell> cells;  ///< one a module
+    std::vector<std::optional<ModuleCounts>> cells;  ///< one a module; none: a dash
   };
   struct Block {
     std::string method;

@@ -5,9 +5,9 @@
 
 #include <fmt/format.h>
 
-#include "analysis/figures/internal/panel_grid.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/module_chart.h"
+#include "analysis/records/names.h"
 #include "base/csv.h"
 #include "sim/control/module.h"
 
@@ -61,10 +61,9 @@ void add(ModuleChart& chart, const ModuleFrequency& frequency, std::size_t desig
   auto& columns = chart.blocks.back().columns;
   const std::string mission = as_words(frequency.mission);
   if (columns.empty() || columns.back().mission != mission)
-    columns.push_back({mission, designs, std::vector<ModuleChart::Cell>(ids.size())});
+    columns.push_back({mission, designs, std::vector<std::optional<ModuleCounts>>(ids.size())});
   const auto place = std::ranges::find(ids, frequency.module) - ids.begin();
-  columns.back().cells[static_cast<std::size_t>(place)] = {frequency.average_occurrences,
-                                                           frequency.occurrence_rate};
+  columns.back().cells[static_cast<std::size_t>(place)] = frequency.counts;
 }
 
 }  // namespace
@@ -83,13 +82,19 @@ Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options
   sort_as_drawn(*frequencies);
   const std::vector<std::string> ids = ids_of(*frequencies);
   ModuleChart chart{.title = "Modules of the winners", .width_mm = options.width_mm};
-  Figure figure{.csv = "mission,method,module,designs,avg_occurrences,occurrence_rate\n"};
+  Figure figure{.csv =
+                    "mission,method,module,designs,avg_occurrences,occurrence_rate,"
+                    "avg_reachable,reachable_rate\n"};
   for (const ModuleFrequency& frequency : *frequencies) {
     const std::size_t designs = counts->at({frequency.method, frequency.mission});
     add(chart, frequency, designs, ids);
-    figure.csv += fmt::format("{},{},{},{},{},{}\n", csv_field(frequency.mission),
-                              csv_field(frequency.method), csv_field(frequency.module), designs,
-                              frequency.average_occurrences, frequency.occurrence_rate);
+    figure.csv += fmt::format("{},{},{},{},", csv_field(frequency.mission),
+                              csv_field(frequency.method), csv_field(frequency.module), designs);
+    const auto& often = frequency.counts;
+    figure.csv +=
+        often ? fmt::format("{},{},{},{}\n", often->average_occurrences, often->occurrence_rate,
+                            often->average_reachable, often->reachable_rate)
+              : ",,,\n";
   }
   std::ranges::transform(ids, std::back_inserter(chart.modules), as_words);
   figure.svg = draw(chart);

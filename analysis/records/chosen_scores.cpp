@@ -72,9 +72,4 @@ std::vector<ScoreValue> values_of(const ChosenScores& taken) {
   return values;
 }
 
-bool NameOrder::operator()(std::string_view a, std::string_view b) const {
-  constexpr std::string_view kLast = "real";
-  return std::pair(a == kLast, a) < std::pair(b == kLast, b);
-}
-
 }  // namespace swarmsmith

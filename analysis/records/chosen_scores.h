@@ -2,7 +2,6 @@
 
 #include <optional>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "analysis/records/records.h"
@@ -48,11 +47,5 @@ struct ScoreValue {
 
 /// In the order of the scores.
 std::vector<ScoreValue> values_of(const ChosenScores& taken);
-
-/// The order of methods, missions and sources everywhere: by the letters, the source `real` last,
-/// since differences are those of simulation to reality.
-struct NameOrder {
-  bool operator()(std::string_view a, std::string_view b) const;
-};
 
 }  // namespace swarmsmith

@@ -125,11 +125,10 @@ Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilt
   return read<DesignRecord>(
       store,
       "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.budget, d.used, d.iteration,"
-      " d.best_candidate, d.best_mean, coalesce(c.fsm_config, ''), " +
-          *flavour +
-          " FROM v_designs AS d"
-          " LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate" +
-          where(filter, "d.") + " ORDER BY d.design",
+      " d.best_candidate, d.best_mean, "  // a LEFT JOIN would make all rows of v_candidates
+      "coalesce((SELECT c.fsm_config FROM v_candidates AS c WHERE c.candidate = d.best_candidate),"
+      " ''), " +
+          *flavour + " FROM v_designs AS d" + where(filter, "d.") + " ORDER BY d.design",
       [](const Cells& row) {
         return DesignRecord{.design = {integer(row[0])},
                             .mission = row[1].text,
@@ -194,14 +193,19 @@ Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
   const RecordFilter of_group{.mission = filter.mission, .method = filter.method};
   return read<ModuleFrequency>(
       store,
-      "SELECT mission, method, module, avg_occurrences, occurrence_rate FROM v_module_frequency" +
+      "SELECT mission, method, module, avg_occurrences, occurrence_rate, avg_reachable,"
+      " reachable_rate FROM v_module_frequency" +
           where(of_group) + " ORDER BY mission, method, module",
       [](const Cells& row) {
-        return ModuleFrequency{.mission = row[0].text,
-                               .method = row[1].text,
-                               .module = row[2].text,
-                               .average_occurrences = real(row[3]),
-                               .occurrence_rate = real(row[4])};
+        ModuleFrequency frequency{
+            .mission = row[0].text, .method = row[1].text, .module = row[2].text, .counts = {}};
+        if (!is_null(row[3])) {
+          frequency.counts = ModuleCounts{.average_occurrences = real(row[3]),
+                                          .occurrence_rate = real(row[4]),
+                                          .average_reachable = real(row[5]),
+                                          .reachable_rate = real(row[6])};
+        }
+        return frequency;
       });
 }
 

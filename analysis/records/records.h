@@ -129,13 +129,21 @@ struct SampledRecord {
   std::optional<double> mean;
 };
 
+/// How often machines have a module, everywhere and in the states that can be reached from the
+/// first one: the others do nothing.
+struct ModuleCounts {
+  double average_occurrences = 0;  ///< in a machine
+  double occurrence_rate = 0;      ///< part of the machines that have it
+  double average_reachable = 0;
+  double reachable_rate = 0;
+};
+
 /// How often the winners of a mission and method have a module.
 struct ModuleFrequency {
   std::string mission;
   std::string method;
   std::string module;
-  double average_occurrences = 0;
-  double occurrence_rate = 0;
+  std::optional<ModuleCounts> counts;  ///< none: the method's flavour has no such module
 };
 
 /// A parameter of a candidate.

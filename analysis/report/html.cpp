@@ -121,7 +121,8 @@ void HtmlPage::picture(std::string_view svg, std::string_view caption) {
 }
 
 void HtmlPage::verbatim(std::string_view label, std::string_view text) {
-  text_ += fmt::format("<p>{}</p>\n<pre>{}</pre>\n", html_escaped(label), html_escaped(text));
+  if (!label.empty()) paragraph(label);
+  text_ += fmt::format("<pre>{}</pre>\n", html_escaped(text));
 }
 
 void HtmlPage::begin_chapter() {
@@ -130,6 +131,40 @@ void HtmlPage::begin_chapter() {
 
 void HtmlPage::end_chapter() {
   text_ += "</section>\n";
+}
+
+void HtmlPage::begin_folded(std::string_view text, bool listed) {
+  if (!listed) {
+    text_ += fmt::format("<details class=\"small\">\n<summary>{}</summary>\n", html_escaped(text));
+    return;
+  }
+  const std::string anchor = next_id();
+  text_ += fmt::format("<details>\n<summary><h2 id=\"{}\">{}</h2></summary>\n", anchor,
+                       html_escaped(text));
+  entries_.push_back({2, anchor, std::string(text)});
+}
+
+void HtmlPage::end_folded() {
+  text_ += "</details>\n";
+}
+
+void HtmlPage::begin_grid() {
+  text_ += "<div class=\"grid\">\n";
+}
+
+void HtmlPage::end_grid() {
+  text_ += "</div>\n";
+}
+
+void HtmlPage::links(std::string_view caption,
+                     const std::vector<std::pair<std::string, std::string>>& texts_and_paths) {
+  if (texts_and_paths.empty()) return;
+  text_ += fmt::format("<p>{}</p>\n<ul class=\"links\">\n", html_escaped(caption));
+  for (const auto& [text, path] : texts_and_paths) {
+    text_ +=
+        fmt::format("<li><a href=\"{}\">{}</a></li>\n", html_escaped(path), html_escaped(text));
+  }
+  text_ += "</ul>\n";
 }
 
 std::string HtmlPage::next_id() {

@@ -43,11 +43,21 @@ class HtmlPage {
   void table(const HtmlTable& table);
   /// An SVG file, in the page, with a caption below it.
   void picture(std::string_view svg, std::string_view caption);
-  /// Text as it is, lines broken where they are too long.
+  /// Text as it is, lines broken where they are too long, below a label when there is one.
   void verbatim(std::string_view label, std::string_view text);
   /// What follows begins a page on paper, up to the next chapter.
   void begin_chapter();
   void end_chapter();
+  /// What follows is folded away below the text until the reader opens it; it stays so on paper. A
+  /// listed text is a heading of level 2.
+  void begin_folded(std::string_view text, bool listed = true);
+  void end_folded();
+  /// Pictures that follow stand side by side where there is room.
+  void begin_grid();
+  void end_grid();
+  /// Links to files beside the page; nothing without any.
+  void links(std::string_view caption,
+             const std::vector<std::pair<std::string, std::string>>& texts_and_paths);
 
   /// The file. `title` heads the page, `summary` stands below it.
   std::string finish(std::string_view title, std::string_view summary) const;

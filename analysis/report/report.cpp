@@ -1,11 +1,14 @@
 #include "analysis/report/report.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/records/names.h"
 #include "analysis/report/internal/sections.h"
 
 namespace swarmsmith {
@@ -18,23 +21,55 @@ std::string title_of(const std::vector<CampaignRecord>& campaigns) {
   return fmt::format("Report of {}", fmt::join(names, ", "));
 }
 
+/// "3", or "2 to 3".
+std::string range_of(const std::vector<std::int64_t>& numbers) {
+  const auto [least, most] = std::ranges::minmax(numbers);
+  return least == most ? fmt::format("{}", least) : fmt::format("{} to {}", least, most);
+}
+
+std::string plural(std::size_t number, std::string_view word) {
+  return fmt::format("{}{}", word, number == 1 ? "" : "s");
+}
+
+/// What was asked, in a sentence, and how far it is.
 std::string summary_of(const std::vector<DesignRecord>& designs) {
-  std::set<std::string> missions;
-  std::set<std::string> methods;
-  std::int64_t used = 0;
+  if (designs.empty()) return "The store has no designs.";
+  std::set<std::string, NameOrder> missions;
+  std::set<std::string, NameOrder> methods;
+  std::map<std::pair<std::string, std::string>, std::int64_t> groups;
+  std::vector<std::int64_t> budgets;
   std::ptrdiff_t finished = 0;
   for (const DesignRecord& design : designs) {
-    missions.insert(design.mission);
+    missions.insert(as_words(design.mission));
     methods.insert(design.method);
-    used += design.used;
+    ++groups[{design.mission, design.method}];
+    budgets.push_back(design.budget);
     if (design.state == "finished") ++finished;
   }
+  std::vector<std::int64_t> repetitions;
+  for (const auto& group : groups)
+    repetitions.push_back(group.second);
   return fmt::format(
-      "{} design{}, {} finished: missions {}; methods {}; {} experiments. In every table and "
-      "figure "
-      "a higher score is better. Captions name the views of the store that have the numbers.",
-      designs.size(), designs.size() == 1 ? "" : "s", finished, fmt::join(missions, ", "),
-      fmt::join(methods, ", "), used);
+      "Asked: which machines do best on the {} {}? {} {} each by the {} {}, {} experiments a "
+      "design. "
+      "{} of {} designs {} finished. Higher scores are better.",
+      plural(missions.size(), "mission"), fmt::join(missions, ", "), range_of(repetitions),
+      plural(repetitions == std::vector<std::int64_t>{1} ? 1 : 2, "design"),
+      plural(methods.size(), "method"), fmt::join(methods, ", "), range_of(budgets), finished,
+      designs.size(), designs.size() == 1 ? "is" : "are");
+}
+
+/// Up to so many designs have chapters without being asked.
+constexpr std::size_t kMostChapters = 3;
+
+void write_chapters(ReportDraft& draft, const std::vector<DesignRecord>& known) {
+  const ReportOptions& options = draft.options();
+  const bool few = known.size() <= kMostChapters && !options.page_of_design;
+  const bool all = options.all_designs || (options.designs.empty() && few);
+  for (const DesignRecord& design : known) {
+    if (all || std::ranges::find(options.designs, design.design) != options.designs.end())
+      write_design(draft, design);
+  }
 }
 
 }  // namespace
@@ -49,17 +84,29 @@ Expected<std::string> html_report(StoreReader& store, const ReportOptions& optio
       return unexpected(ErrorKind::NotFound, "the store has no design " + to_string(design));
   }
   ReportDraft draft(store, options);
+  const auto scores = draft.take(design_scores(store, {}));
+  write_findings(draft, scores);
+  write_scores(draft, scores);
+  write_comparison(draft, scores);
+  write_modules(draft);
+  write_machines(draft, *known);
+  write_races(draft, *known);
+  write_chapters(draft, *known);
   write_question(draft);
-  write_results(draft);
-  for (const DesignRecord& design : *known) {
-    const bool wanted = options.designs.empty() ||
-                        std::ranges::find(options.designs, design.design) != options.designs.end();
-    if (wanted) write_design(draft, design);
-  }
-  write_provenance(draft);
   write_settings(draft);
+  write_provenance(draft);
   if (draft.trouble()) return Unexpected(*draft.trouble());
   return draft.page().finish(title_of(*asked), summary_of(*known));
+}
+
+Expected<std::string> design_page(StoreReader& store, const DesignRecord& design,
+                                  const ReportOptions& options) {
+  ReportDraft draft(store, options);
+  write_design(draft, design);
+  if (draft.trouble()) return Unexpected(*draft.trouble());
+  return draft.page().finish(fmt::format("Design {}", to_string(design.design)),
+                             fmt::format("{}, {}, repetition {}", as_words(design.mission),
+                                         design.method, design.repetition));
 }
 
 }  // namespace swarmsmith

@@ -60,7 +60,9 @@ Expected<std::string> machine_json(StoreReader& store, const DesignRecord& desig
 
 /// Adds the figure, with its numbers, when the store has something to draw.
 Expected<void> add_figure(Files& files, StoreReader& store, const FigureKind& kind,
-                          const FigureOptions& options, const std::string& path) {
+                          const FigureOptions& options, const std::string& path,
+                          const SupplementOptions& asked) {
+  if (asked.progress) asked.progress(files.size());
   const auto figure = kind.make(store, options);
   if (!figure) {
     const ErrorKind error = figure.error().kind;
@@ -86,7 +88,7 @@ Expected<void> add_controllers(Files& files, StoreReader& store, const Supplemen
     files.push_back({path + ".json", std::move(*json)});
     if (drawn == nullptr || design.flavour.empty()) continue;
     const FigureOptions options{.width_mm = kWholeWidth, .candidate = design.best};
-    if (auto added = add_figure(files, store, *drawn, options, path); !added) return added;
+    if (auto added = add_figure(files, store, *drawn, options, path, asked); !added) return added;
     if (!design.best) continue;
     const auto record = candidate(store, *design.best);
     if (!record) return Unexpected(record.error());
@@ -98,7 +100,8 @@ Expected<void> add_controllers(Files& files, StoreReader& store, const Supplemen
   return {};
 }
 
-Expected<void> add_figures(Files& files, StoreReader& store, const std::vector<DesignRecord>& all) {
+Expected<void> add_figures(Files& files, StoreReader& store, const SupplementOptions& asked,
+                           const std::vector<DesignRecord>& all) {
   std::set<std::string> missions;
   for (const DesignRecord& design : all)
     missions.insert(design.mission);
@@ -109,17 +112,17 @@ Expected<void> add_figures(Files& files, StoreReader& store, const std::vector<D
       for (const DesignRecord& design : all) {
         const FigureOptions options{.filter = {.design = design.design}, .width_mm = kWholeWidth};
         const std::string name = path + "-" + file_name_of(design);
-        if (auto added = add_figure(files, store, kind, options, name); !added) return added;
+        if (auto added = add_figure(files, store, kind, options, name, asked); !added) return added;
       }
       continue;
     }
-    if (auto added = add_figure(files, store, kind, {.width_mm = kWholeWidth}, path); !added)
+    if (auto added = add_figure(files, store, kind, {.width_mm = kWholeWidth}, path, asked); !added)
       return added;
     if (missions.size() < 2) continue;
     for (const std::string& mission : missions) {
       const FigureOptions options{.filter = {.mission = mission}, .width_mm = kColumnWidth};
       if (refused_option(kind, options)) continue;
-      if (auto added = add_figure(files, store, kind, options, path + "-" + mission); !added)
+      if (auto added = add_figure(files, store, kind, options, path + "-" + mission, asked); !added)
         return added;
     }
   }
@@ -138,6 +141,29 @@ Expected<void> add_comparisons(Files& files, StoreReader& store) {
   files.push_back(
       {"p-values.csv", pairs_csv(sources) + of_methods.substr(of_methods.find('\n') + 1)});
   files.push_back({"ranks.csv", ranks_csv(ranks)});
+  return {};
+}
+
+std::string page_of(const DesignRecord& design) {
+  return "designs/" + file_name_of(design) + ".html";
+}
+
+/// The report, and the page of each design that it links to.
+Expected<void> add_report(Files& files, StoreReader& store, const SupplementOptions& asked,
+                          const std::vector<DesignRecord>& all) {
+  const ReportOptions options{.program = asked.program,
+                              .runs_from_above = asked.runs_from_above,
+                              .progress = {},
+                              .page_of_design = page_of};
+  auto report = html_report(store, options);
+  if (!report) return Unexpected(report.error());
+  files.push_back({"report.html", std::move(*report)});
+  for (const DesignRecord& design : all) {
+    if (asked.progress) asked.progress(files.size());
+    auto page = design_page(store, design, options);
+    if (!page) return Unexpected(page.error());
+    files.push_back({page_of(design), std::move(*page)});
+  }
   return {};
 }
 
@@ -175,10 +201,10 @@ Expected<std::vector<SupplementFile>> supplement(StoreReader& store,
   if (auto added = add_comparisons(files, store); !added) return Unexpected(added.error());
   if (auto added = add_controllers(files, store, options, *all); !added)
     return Unexpected(added.error());
-  if (auto added = add_figures(files, store, *all); !added) return Unexpected(added.error());
-  auto report = html_report(store, {.program = options.program});
-  if (!report) return Unexpected(report.error());
-  files.push_back({"report.html", std::move(*report)});
+  if (auto added = add_figures(files, store, options, *all); !added)
+    return Unexpected(added.error());
+  if (auto added = add_report(files, store, options, *all); !added)
+    return Unexpected(added.error());
   const auto asked = campaigns(store);
   if (!asked) return Unexpected(asked.error());
   for (const CampaignRecord& campaign : *asked) {

@@ -17,9 +17,9 @@ using Cell = StoreReader::Cell;
 
 constexpr const char* kResult =
     "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.used, "
-    "d.best_candidate AS candidate, d.best_mean AS race_mean, c.fsm_config "
-    "FROM v_designs AS d LEFT JOIN v_candidates AS c ON c.candidate = d.best_candidate "
-    "ORDER BY d.design";
+    "d.best_candidate AS candidate, d.best_mean AS race_mean, (SELECT c.fsm_config "
+    "FROM v_candidates AS c WHERE c.candidate = d.best_candidate) AS fsm_config "
+    "FROM v_designs AS d ORDER BY d.design";
 constexpr const char* kTests = "SELECT design, score FROM v_design_scores WHERE purpose = 'test'";
 
 Expected<std::map<std::string, std::vector<double>>> tests_by_design(StoreReader& store) {

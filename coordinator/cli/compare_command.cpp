@@ -2,6 +2,7 @@
 
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/comparison/comparison_text.h"
+#include "analysis/comparison/paper_text.h"
 #include "console/terminal.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/comparison_json.h"
@@ -17,6 +18,7 @@ struct Arguments {
   std::string purpose;
   std::string per;
   std::string table;
+  std::string paper;
   bool csv = false;
   ComparisonOptions options;
 };
@@ -35,6 +37,8 @@ std::string csv_of(const Comparison& comparison, const std::string& table) {
 ExitCode run(Arguments& arguments, Output& output) {
   if (!arguments.table.empty() && !arguments.csv)
     return fail(output, ExitCode::Usage, "--table says which table --csv writes: give both");
+  if (!arguments.paper.empty() && (arguments.csv || output.json))
+    return fail(output, ExitCode::Usage, "--paper writes sentences: leave --csv and --json out");
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   arguments.options.by = by_of(arguments.by);
@@ -44,7 +48,10 @@ ExitCode run(Arguments& arguments, Output& output) {
     const bool not_there = comparison.error().kind == ErrorKind::NotFound;
     return fail(output, not_there ? ExitCode::NoSuchId : ExitCode::Usage, comparison.error());
   }
-  if (arguments.csv) {
+  if (!arguments.paper.empty()) {
+    for (const PaperSentence& sentence : paper_sentences(*comparison))
+      output.out << (arguments.paper == "latex" ? sentence.latex : sentence.text) << "\n";
+  } else if (arguments.csv) {
     // By mission there are no pairs.
     const bool groups = arguments.table.empty() && comparison->options.by == CompareBy::Mission;
     write_data(output, csv_of(*comparison, groups ? "groups" : arguments.table));
@@ -72,6 +79,8 @@ Run declare_compare(Options& options) {
   options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
   options.choice("--table", arguments->table, {"groups", "pairs", "ranks"},
                  "Which table as CSV (default pairs; groups by mission)");
+  options.choice("--paper", arguments->paper, {"text", "latex"},
+                 "Write sentences for a paper: n, means, test, p, effect, interval");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

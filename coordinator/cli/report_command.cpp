@@ -1,12 +1,14 @@
 #include <memory>
 
 #include "analysis/report/report.h"
+#include "console/counter.h"
 #include "console/terminal.h"
 #include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/program_name.h"
 #include "coordinator/cli/store_argument.h"
 #include "coordinator/cli/thing_id.h"
+#include "coordinator/cli/trajectories_figure.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -20,11 +22,15 @@ struct Arguments {
 ExitCode run(const Arguments& arguments, Output& output) {
   ReportOptions options{.program = program_name()};
   for (const std::string& text : arguments.designs) {
+    if (text == "all") {
+      options.all_designs = true;
+      continue;
+    }
     const auto id = parse_thing_id(text);
     if (!id || id->letter != 'd') {
       return fail(output, ExitCode::Usage,
-                  Error{ErrorKind::BadInput, "wants a design such as d3, not \"" + text + "\"",
-                        "--design"});
+                  Error{ErrorKind::BadInput,
+                        "wants a design such as d3, or \"all\", not \"" + text + "\"", "--design"});
     }
     options.designs.push_back({std::stoll(id->digits)});
   }
@@ -37,7 +43,17 @@ ExitCode run(const Arguments& arguments, Output& output) {
   }
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  Counter counter(output, "wrote", "parts of the report");
+  std::int64_t parts = 0;
+  options.progress = [&](std::size_t written) {
+    parts = static_cast<std::int64_t>(written);
+    counter.tell(parts, 0);
+  };
+  options.runs_from_above = [&](DesignId design) {
+    return runs_from_above(arguments.store, design);
+  };
   const auto report = html_report(**store, options);
+  counter.tell(parts, parts);
   if (!report) {
     const bool no_design = report.error().kind == ErrorKind::NotFound;
     return fail(output, no_design ? ExitCode::NoSuchId : ExitCode::Store, report.error());
@@ -65,8 +81,9 @@ Run declare_report(Options& options) {
   options.text("-o,--output", arguments->file,
                "Write to this file (default report.html; - for "
                "standard output)");
-  options.texts("--design", arguments->designs,
-                "A design with a chapter of its own, such as d3 (default: all)");
+  options.texts(
+      "--design", arguments->designs,
+      "A design with a chapter of its own, such as d3, or all (default: all of up to three)");
   return [arguments](Output& output) { return run(*arguments, output); };
 }
 

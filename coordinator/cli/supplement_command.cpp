@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "analysis/report/supplement.h"
+#include "console/counter.h"
 #include "console/pdf.h"
 #include "console/sha256.h"
 #include "console/whole_file.h"
@@ -13,6 +14,7 @@
 #include "coordinator/cli/machine_filer.h"
 #include "coordinator/cli/program_name.h"
 #include "coordinator/cli/store_argument.h"
+#include "coordinator/cli/trajectories_figure.h"
 #include "target/process.h"
 
 namespace swarmsmith::cli {
@@ -27,14 +29,19 @@ struct Arguments {
 };
 
 /// A PDF beside every SVG.
-Expected<void> add_pdfs(Files& files) {
+Expected<void> add_pdfs(Files& files, Output& output) {
+  Counter counter(output, "made", "PDFs");
+  const auto of = std::ranges::count_if(
+      files, [](const SupplementFile& file) { return file.path.ends_with(".svg"); });
   Files pdfs;
   for (const SupplementFile& file : files) {
     if (!file.path.ends_with(".svg")) continue;
+    counter.tell(std::ssize(pdfs), of);
     auto pdf = pdf_of_svg(file.text);
     if (!pdf) return Unexpected(pdf.error());
     pdfs.push_back({file.path.substr(0, file.path.size() - 3) + "pdf", std::move(*pdf)});
   }
+  counter.tell(of, of);
   std::ranges::move(pdfs, std::back_inserter(files));
   std::ranges::sort(files, {}, &SupplementFile::path);
   return {};
@@ -84,17 +91,24 @@ ExitCode run(const Arguments& arguments, Output& output) {
   const bool with_pdfs = find_program("rsvg-convert").has_value();
   auto filer = MachineFiler::open(**store);
   if (!filer) return fail(output, ExitCode::Store, filer.error());
+  Counter counter(output, "made", "files");
   auto files = supplement(
       **store,
       {.machine_file = [&filer](CandidateId candidate) { return filer->text_of(candidate); },
        .program = program_name(),
-       .with_pdfs = with_pdfs});
+       .with_pdfs = with_pdfs,
+       .runs_from_above = [&](DesignId design) { return runs_from_above(arguments.store, design); },
+       .progress = [&](std::size_t made) { counter.tell(static_cast<std::int64_t>(made), 0); }});
+  if (files) {
+    const auto made = static_cast<std::int64_t>(files->size());
+    counter.tell(made, made);
+  }
   if (!files) {
     const bool nothing = files.error().kind == ErrorKind::NotFound;
     return fail(output, nothing ? ExitCode::NoSuchId : ExitCode::Store, files.error());
   }
   if (with_pdfs) {
-    if (const auto added = add_pdfs(*files); !added)
+    if (const auto added = add_pdfs(*files, output); !added)
       return fail(output, ExitCode::Failed, added.error());
   } else {
     print_note(output,

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "analysis/arena/arena_panels.h"
+#include "analysis/records/names.h"
 #include "coordinator/cli/progress_text.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/stored_runs.h"
@@ -12,7 +13,7 @@
 namespace swarmsmith::cli {
 namespace {
 
-constexpr std::int64_t kShownTests = 4;
+constexpr std::int64_t kTestsOfReport = 2;
 
 /// The candidate that is meant: itself, or the best of a design.
 Expected<CandidateId> candidate_of(StoreReader& store, const FigureOptions& options) {
@@ -28,12 +29,13 @@ Expected<CandidateId> candidate_of(StoreReader& store, const FigureOptions& opti
 }
 
 /// Seeds of the first stored tests that were simulated.
-Expected<std::vector<std::int64_t>> seeds_of_tests(StoreReader& store, CandidateId candidate) {
+Expected<std::vector<std::int64_t>> seeds_of_tests(StoreReader& store, CandidateId candidate,
+                                                   std::int64_t most) {
   const auto rows = select(store,
                            "SELECT seed FROM v_evaluations WHERE purpose = 'test' AND "
                            "seed IS NOT NULL AND score IS NOT NULL AND candidate = " +
                                std::to_string(candidate.value) + " ORDER BY pair",
-                           {.rows = kShownTests});
+                           {.rows = most});
   if (!rows) return Unexpected(rows.error());
   std::vector<std::int64_t> seeds;
   for (const auto& cells : rows->cells)
@@ -85,12 +87,13 @@ Expected<void> film(const StoredRun& run, ArenaPanels& panels, std::string& csv)
 
 Expected<Figure> trajectories_figure(std::unique_ptr<StoreReader> store,
                                      const FigureOptions& options,
-                                     const std::vector<std::int64_t>& seeds) {
+                                     const std::vector<std::int64_t>& seeds,
+                                     std::int64_t most_tests) {
   const auto candidate = candidate_of(*store, options);
   if (!candidate) return Unexpected(candidate.error());
   auto wanted = seeds;
   if (seeds.empty()) {
-    auto stored = seeds_of_tests(*store, *candidate);
+    auto stored = seeds_of_tests(*store, *candidate, most_tests);
     if (!stored) return Unexpected(stored.error());
     wanted = std::move(*stored);
   }
@@ -108,12 +111,21 @@ Expected<Figure> trajectories_figure(std::unique_ptr<StoreReader> store,
   for (const std::int64_t seed : wanted) {
     const auto run = runs->candidate(id, seed);
     if (!run) return Unexpected(run.error());
-    panels.title = run->mission.name;
+    panels.title = as_words(run->mission.name);
     if (const auto filmed = film(*run, panels, figure.csv); !filmed)
       return Unexpected(filmed.error());
   }
   figure.svg = draw(panels);
   return figure;
+}
+
+Expected<std::string> runs_from_above(const StoreArgument& argument, DesignId design) {
+  auto store = argument.open();
+  if (!store) return Unexpected(store.error());
+  auto figure =
+      trajectories_figure(std::move(*store), {.filter = {.design = design}}, {}, kTestsOfReport);
+  if (!figure) return Unexpected(figure.error());
+  return std::move(figure->svg);
 }
 
 }  // namespace swarmsmith::cli

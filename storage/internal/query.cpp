@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "storage/internal/schema.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -226,6 +228,7 @@ Expected<StoreReader::QueryEnd> run_query(
     const std::function<void(const std::vector<StoreReader::Cell>&)>& on_row) {
   // In memory there is a limit, on the disk there would be none.
   connection.execute(limits.spill ? "PRAGMA temp_store = DEFAULT" : "PRAGMA temp_store = MEMORY");
+  lend_views(connection);
   const Rules rules(connection, limits);
   auto statement = prepare(connection, sql, limits);
   if (!statement) return Unexpected(statement.error());

@@ -3,6 +3,7 @@
 #include <unistd.h>
 #include <array>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/format.h>
@@ -34,12 +35,13 @@ void set_version(sqlite::Connection& connection, std::int64_t version) {
 }  // namespace
 
 std::span<const Migration> migrations() {
-  static const std::array<Migration, 5> kMigrations = {
+  static const std::array<Migration, 6> kMigrations = {
       Migration{2, [](sqlite::Connection& connection) { connection.execute(kTargetsSchema); }},
       Migration{3, [](sqlite::Connection& connection) { connection.execute(kClusterSchema); }},
       Migration{4, [](sqlite::Connection& connection) { connection.execute(kResultsSchema); }},
       Migration{5, [](sqlite::Connection& connection) { connection.execute(kTrackingSchema); }},
       Migration{6, [](sqlite::Connection& connection) { connection.execute(kAuthoritySchema); }},
+      Migration{7, [](sqlite::Connection&) {}},  // views alone
   };
   return kMigrations;
 }
@@ -57,6 +59,17 @@ void configure_reader(sqlite::Connection& connection) {
   sqlite3_busy_timeout(connection.handle(), 5000);
   connection.execute(
       "PRAGMA query_only = ON; PRAGMA trusted_schema = OFF; PRAGMA cache_size = -65536");
+}
+
+void lend_views(sqlite::Connection& connection) {
+  const std::int64_t version = sqlite::integer_of(connection, "PRAGMA user_version");
+  if (version < kTablesVersion || version >= kSchemaVersion) return;
+  constexpr std::string_view kCreate = "CREATE VIEW ";
+  constexpr std::string_view kLend = "CREATE TEMP VIEW IF NOT EXISTS ";
+  std::string views = kViews;
+  for (std::size_t at = 0; (at = views.find(kCreate, at)) != std::string::npos; at += kLend.size())
+    views.replace(at, kCreate.size(), kLend);
+  connection.execute("PRAGMA query_only = OFF; " + views + "; PRAGMA query_only = ON");
 }
 
 void create_tables(sqlite::Connection& connection, std::int64_t schema) {

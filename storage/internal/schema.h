@@ -15,7 +15,9 @@ namespace swarmsmith {
 /// "SwSm": marks a SQLite file as one of ours (PRAGMA application_id).
 inline constexpr std::int64_t kApplicationId = 0x5377536d;
 /// Version of tables and views (PRAGMA user_version). A change of either is a new version.
-inline constexpr std::int64_t kSchemaVersion = 6;
+inline constexpr std::int64_t kSchemaVersion = 7;
+/// The version that changed tables last: what came later are other views of the same tables.
+inline constexpr std::int64_t kTablesVersion = 6;
 
 /// The step from one version to the next; runs in a transaction of its own. Views need no step:
 /// they are made anew.
@@ -31,6 +33,9 @@ std::span<const Migration> migrations();
 /// journal mode are kept in the file.
 void configure_writer(sqlite::Connection& connection);
 void configure_reader(sqlite::Connection& connection);
+/// Of a store that lacks nothing but the newest views: gives them to a reader's connection, until
+/// its temp_store changes.
+void lend_views(sqlite::Connection& connection);
 
 /// Makes tables and views in an empty database; the caller holds a transaction.
 void create_schema(sqlite::Connection& connection);

@@ -214,23 +214,122 @@ CREATE VIEW v_parameters AS
 SELECT c.id AS candidate, c.design, c.iteration, j.key AS parameter, j.value
 FROM candidate_text AS c, json_each(nullif(c.parameters, '')) AS j;
 
--- Over the winners of finished designs; a module that another winner of the store has counts as 0.
+-- Not public: what the numbers in a machine's text mean. tests/storage/views_test.cpp compares it with
+-- sim/control/flavours.cpp.
+CREATE VIEW flavour_name(flavour, kind, number, name) AS
+WITH same(flavour) AS (VALUES ('watermelon'), ('watermelon-argos3'))
+SELECT s.flavour, v.column1, v.column2, v.column3
+FROM same AS s CROSS JOIN (VALUES
+  ('s', 0, 'exploration'), ('s', 1, 'stop'), ('s', 2, 'attraction'), ('s', 3, 'repulsion'),
+  ('c', 0, 'black_floor'), ('c', 1, 'gray_floor'), ('c', 2, 'white_floor'),
+  ('c', 3, 'neighbour_count'), ('c', 4, 'inverted_neighbour_count'), ('c', 5, 'fixed_probability'),
+  ('c', 6, 'color_detection'),
+  ('l', 0, 'green'), ('l', 1, 'blue'), ('l', 2, 'red'), ('l', 3, 'yellow')) AS v
+UNION ALL VALUES
+  ('chocolate', 's', 0, 'exploration'), ('chocolate', 's', 1, 'stop'),
+  ('chocolate', 's', 2, 'phototaxis'), ('chocolate', 's', 3, 'anti_phototaxis'),
+  ('chocolate', 's', 4, 'attraction'), ('chocolate', 's', 5, 'repulsion'),
+  ('chocolate', 'c', 0, 'black_floor'), ('chocolate', 'c', 1, 'gray_floor'),
+  ('chocolate', 'c', 2, 'white_floor'), ('chocolate', 'c', 3, 'neighbour_count'),
+  ('chocolate', 'c', 4, 'inverted_neighbour_count'), ('chocolate', 'c', 5, 'fixed_probability');
+
+-- Not public: the text of a machine, and its words as a JSON array: "--a 1 --b 2" is ["a 1","b 2"].
+-- Parameters of programs, which have no flavour, are no machine. json_each of one element gives what
+-- costs time to make a name, so that it is made once.
+CREATE VIEW machine_text AS
+SELECT c.id AS candidate, c.design, d.flavour, t.value AS text,
+       '["' || replace(substr(t.value, 3), ' --', '","') || '"]' AS words
+FROM candidate_text AS c
+JOIN design AS d ON d.id = c.design
+JOIN json_each(CASE WHEN d.flavour <> '' THEN '["' || c.machine || '"]' ELSE '[]' END) AS t
+  ON t.value GLOB '--nstates [0-9]*';
+
+-- Not public: the states to which transitions lead from the first one, between blanks. Targets are
+-- numbered without the state that is left: "n1x0 1" leads from state 1 to state 2.
+CREATE VIEW machine_reach AS
+SELECT m.candidate, m.design, m.flavour, m.text, m.words, s.value AS reached
+FROM machine_text AS m
+JOIN json_each((
+  WITH RECURSIVE reached(state) AS (
+    SELECT 0
+    UNION
+    SELECT 0 + substr(j.value, instr(j.value, ' ')) +
+           (0 + substr(j.value, instr(j.value, ' ')) >= r.state)
+    FROM reached AS r JOIN json_each(m.words) AS j
+      ON j.value GLOB 'n' || r.state || 'x[0-9]*')
+  SELECT '[" ' || group_concat(state, ' ') || ' "]' FROM reached)) AS s;
+
+-- A value is read off the text behind its word: 0 + '3.67 --n0 4' is 3.67.
+CREATE VIEW v_states AS
+SELECT m.candidate, m.design, 0 + substr(j.value, 2) AS state, n.name AS behaviour,
+       (SELECT 0 + substr(p.value, instr(p.value, ' '))
+        FROM json_each(m.words) AS p
+        WHERE p.value GLOB '[a-z][a-z]*' || (0 + substr(j.value, 2)) || ' *') AS parameter,
+       instr(m.reached, ' ' || (0 + substr(j.value, 2)) || ' ') > 0 AS reachable
+FROM machine_reach AS m
+JOIN json_each(m.words) AS j ON j.value GLOB 's[0-9]*'
+LEFT JOIN flavour_name AS n ON n.flavour = m.flavour AND n.kind = 's'
+  AND n.number = 0 + substr(j.value, instr(j.value, ' '));
+
+CREATE VIEW v_transitions AS
+SELECT t.candidate, t.design, t.state, t.transition, t.jump + (t.jump >= t.state) AS target,
+       n.name AS condition,
+       CASE WHEN instr(t.text, ' --p' || t.place) > 0
+            THEN 0 + substr(t.text, instr(t.text, ' --p' || t.place) + 4 + length(t.place)) END AS p,
+       CASE WHEN instr(t.text, ' --w' || t.place) > 0
+            THEN 0 + substr(t.text, instr(t.text, ' --w' || t.place) + 4 + length(t.place)) END AS w,
+       l.name AS label,
+       instr(t.reached, ' ' || t.state || ' ') > 0 AS reachable
+FROM (SELECT m.candidate, m.design, m.flavour, m.text, m.reached,
+             0 + substr(j.value, 2) AS state,
+             0 + substr(j.value, instr(j.value, 'x') + 1) AS transition,
+             substr(j.value, 2, instr(j.value, ' ') - 1) AS place,
+             0 + substr(j.value, instr(j.value, ' ')) AS jump
+      FROM machine_reach AS m JOIN json_each(m.words) AS j ON j.value GLOB 'n[0-9]*x[0-9]*') AS t
+LEFT JOIN flavour_name AS n ON n.flavour = t.flavour AND n.kind = 'c'
+  AND n.number = 0 + substr(t.text, instr(t.text, ' --c' || t.place) + 4 + length(t.place))
+LEFT JOIN flavour_name AS l ON l.flavour = t.flavour AND l.kind = 'l'
+  AND instr(t.text, ' --l' || t.place) > 0
+  AND l.number = 0 + substr(t.text, instr(t.text, ' --l' || t.place) + 4 + length(t.place));
+
+-- Not public: one row for each place of a machine that has a module.
+CREATE VIEW machine_module AS
+SELECT m.candidate, m.design, n.name AS module,
+       instr(m.reached, ' ' || (0 + substr(j.value, 2)) || ' ') > 0 AS reachable
+FROM machine_reach AS m
+JOIN json_each(m.words) AS j ON j.value GLOB 's[0-9]*' OR j.value GLOB 'c[0-9]*x[0-9]*'
+LEFT JOIN flavour_name AS n ON n.flavour = m.flavour AND n.kind = substr(j.value, 1, 1)
+  AND n.number = 0 + substr(j.value, instr(j.value, ' '));
+
+CREATE VIEW v_modules AS
+SELECT candidate, design, module, count(*) AS occurrences, sum(reachable) AS reachable
+FROM machine_module
+GROUP BY candidate, design, module;
+
+-- Over the winners of finished designs; a module that another winner of the store has counts as 0,
+-- and as NULL where the flavour has no such module.
 CREATE VIEW v_module_frequency AS
 WITH winner AS (
-  SELECT d.id AS design, d.mission, d.method, c.modules
-  FROM design AS d JOIN candidate_text AS c ON c.id = d.best
-  WHERE d.state = 3
-), held AS (
-  SELECT w.design, j.key AS module, j.value AS occurrences
-  FROM winner AS w, json_each(nullif(w.modules, '')) AS j
+  SELECT id AS design, mission, method, flavour, best AS candidate
+  FROM design WHERE state = 3 AND best IS NOT NULL AND flavour <> ''
+), held AS MATERIALIZED (
+  SELECT w.design, m.module, count(*) AS occurrences, sum(m.reachable) AS reachable
+  FROM winner AS w CROSS JOIN machine_module AS m ON m.candidate = w.candidate
+  GROUP BY w.design, m.module
 )
-SELECT w.mission, w.method, m.module,
-       avg(coalesce(h.occurrences, 0)) AS avg_occurrences,
-       avg(coalesce(h.occurrences, 0) > 0) AS occurrence_rate
-FROM winner AS w
-CROSS JOIN (SELECT DISTINCT module FROM held) AS m
-LEFT JOIN held AS h ON h.design = w.design AND h.module = m.module
-GROUP BY w.mission, w.method, m.module;
+SELECT mission, method, module,
+       avg(occurrences) AS avg_occurrences, avg(occurrences > 0) AS occurrence_rate,
+       avg(reachable) AS avg_reachable, avg(reachable > 0) AS reachable_rate
+FROM (
+  SELECT w.mission, w.method, m.module,
+         CASE WHEN n.name IS NOT NULL THEN coalesce(h.occurrences, 0) END AS occurrences,
+         CASE WHEN n.name IS NOT NULL THEN coalesce(h.reachable, 0) END AS reachable
+  FROM winner AS w
+  CROSS JOIN (SELECT DISTINCT module FROM held) AS m
+  LEFT JOIN flavour_name AS n
+    ON n.flavour = w.flavour AND n.kind IN ('s', 'c') AND n.name = m.module
+  LEFT JOIN held AS h ON h.design = w.design AND h.module = m.module)
+GROUP BY mission, method, module;
 
 CREATE VIEW v_eliminations AS
 SELECT d.id AS design, x.candidate, x.iteration, x.step, s.pair, x.rank_sum, x.reason

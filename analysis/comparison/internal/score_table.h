@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "analysis/comparison/comparison.h"
+#include "analysis/records/names.h"
 
 namespace swarmsmith {
 

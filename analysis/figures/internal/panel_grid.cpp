@@ -9,9 +9,4 @@ void draw_panel_title(Svg& svg, const std::string& title, double left, double ar
            {.size = kTextSize, .bold = true, .fill = std::string(kInk)});
 }
 
-std::string as_words(std::string name) {
-  std::ranges::replace(name, '_', ' ');
-  return name;
-}
-
 }  // namespace swarmsmith

@@ -44,8 +44,4 @@ void draw_panel_title(Svg& svg, const std::string& title, double left, double ar
 /// The room that it needs above the area.
 inline constexpr double kPanelTitleRoom = kLineHeight + 2;
 
-/// A name of a mission or a module as words of a sentence: "grid_exploration" as "grid
-/// exploration".
-std::string as_words(std::string name);
-
 }  // namespace swarmsmith

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/figures/internal/panel_grid.h"
+#include "analysis/records/names.h"
 #include "base/csv.h"
 #include "base/suggestion.h"
 

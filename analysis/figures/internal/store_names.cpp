@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "analysis/records/chosen_scores.h"
+#include "analysis/records/names.h"
+#include "analysis/records/records.h"
 
 namespace swarmsmith {
 namespace {

@@ -1,11 +1,13 @@
 #include "analysis/comparison/comparison.h"
 
 #include <algorithm>
+#include <set>
 #include <string>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "analysis/records/names.h"
 #include "analysis/report/internal/sections.h"
 #include "analysis/statistics/effect_size.h"
 
@@ -46,7 +48,7 @@ HtmlTable pairs_table(const Comparison& comparison) {
                               ? fmt::format("{}", pair.n_first)
                               : fmt::format("{}, {}", pair.n_first, pair.n_second);
     table.rows.push_back(
-        {pair.mission, by_source ? pair.method : pair.source, pair.first, pair.second, n,
+        {as_words(pair.mission), by_source ? pair.method : pair.source, pair.first, pair.second, n,
          shown_number(pair.test.statistic), shown_p(pair.test.p_value), shown_p(pair.p_holm),
          fmt::format("{:.2f}, {}", pair.a12, magnitude_of(pair.a12)),
          fmt::format("{} [{}, {}]", shown_number(pair.difference.value),
@@ -63,8 +65,8 @@ HtmlTable ranks_table(const ComparedRanks& ranks) {
           "Mean ranks{} over {} blocks of {}, 1 is best. Friedman's chi-squared {}, degrees of "
           "freedom {}, p {}. Intervals of two that do not overlap differ at 5 %.",
           ranks.source.empty() ? "" : " in " + ranks.source, test.blocks,
-          fmt::join(ranks.missions, ", "), shown_number(test.statistic), test.degrees,
-          shown_p(test.p_value)),
+          as_words(fmt::format("{}", fmt::join(ranks.missions, ", "))),
+          shown_number(test.statistic), test.degrees, shown_p(test.p_value)),
       .columns = {{"name"}, {"mean rank", true}, {"95 % interval", true}}};
   for (std::size_t i = 0; i < ranks.names.size(); ++i) {
     const double mean = test.mean_ranks[i];
@@ -80,9 +82,17 @@ HtmlTable ranks_table(const ComparedRanks& ranks) {
 }  // namespace
 
 void write_comparison(ReportDraft& draft, const std::vector<DesignScore>& scores) {
+  const auto is_other = [&](const DesignScore& score) {
+    return score.source != scores.front().source || score.method != scores.front().method;
+  };
+  if (std::ranges::none_of(scores, is_other)) return;
   HtmlPage& page = draft.page();
-  page.heading(3, "Comparison");
+  page.heading(2, "Comparison");
   for (const CompareBy by : {CompareBy::Source, CompareBy::Method}) {
+    std::set<std::string> names;
+    for (const DesignScore& score : scores)
+      names.insert(by == CompareBy::Source ? score.source : score.method);
+    if (names.size() < 2) continue;
     const Comparison comparison = compare(scores, {.by = by});
     page.table(pairs_table(comparison));
     for (const ComparedRanks& ranks : comparison.ranks)
@@ -90,6 +100,7 @@ void write_comparison(ReportDraft& draft, const std::vector<DesignScore>& scores
     for (const std::string& note : comparison.notes)
       page.paragraph(note);
   }
+  draft.figure("ranks", {.width_mm = 84}, "Mean ranks with the interval of Friedman's test.");
 }
 
 }  // namespace swarmsmith

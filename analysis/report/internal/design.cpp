@@ -2,7 +2,7 @@
 
 #include <fmt/format.h>
 
-#include "analysis/report/internal/score_table.h"
+#include "analysis/records/names.h"
 #include "analysis/report/internal/sections.h"
 
 namespace swarmsmith {
@@ -150,7 +150,7 @@ void write_design(ReportDraft& draft, const DesignRecord& design) {
   HtmlPage& page = draft.page();
   page.begin_chapter();
   page.heading(2, fmt::format("Design {}: {}, {}, repetition {}", to_string(design.design),
-                              design.mission, design.method, design.repetition));
+                              as_words(design.mission), design.method, design.repetition));
   std::vector<std::pair<std::string, std::string>> facts{
       {"state", design.state},
       {"experiments", fmt::format("{} of {}", design.used, design.budget)},

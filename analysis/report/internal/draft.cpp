@@ -21,17 +21,20 @@ std::string command_of(std::string_view kind, const FigureOptions& options) {
 void ReportDraft::table(const std::string& caption, const std::vector<ViewColumn>& columns,
                         const std::string& sql, std::size_t most) {
   if (trouble_) return;
+  count();
   page_.table(take(view_table(*store_, caption, columns, sql, most)));
 }
 
 void ReportDraft::facts(std::string_view caption, const std::string& sql) {
   if (trouble_) return;
+  count();
   page_.facts(caption, take(view_facts(*store_, sql)));
 }
 
 void ReportDraft::figure(std::string_view kind, const FigureOptions& options,
                          std::string_view caption) {
   if (trouble_) return;
+  count();
   const FigureKind* known = find_figure_kind(kind);
   if (known == nullptr) return;
   const auto figure = known->make(*store_, options);

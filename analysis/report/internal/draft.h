@@ -43,10 +43,17 @@ class ReportDraft {
   void figure(std::string_view kind, const FigureOptions& options, std::string_view caption);
 
  private:
+  /// One more part is begun.
+  void count() {
+    ++parts_;
+    if (options_->progress) options_->progress(parts_);
+  }
+
   StoreReader* store_;
   const ReportOptions* options_;
   HtmlPage page_;
   std::optional<Error> trouble_;
+  std::size_t parts_ = 0;
 };
 
 }  // namespace swarmsmith

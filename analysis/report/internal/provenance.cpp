@@ -71,8 +71,7 @@ void write_faults(ReportDraft& draft) {
 
 void write_provenance(ReportDraft& draft) {
   HtmlPage& page = draft.page();
-  page.begin_chapter();
-  page.heading(2, "Where it comes from");
+  page.begin_folded("Where it comes from");
   write_campaigns(draft);
   std::vector<std::pair<std::string, std::string>> facts{
       {"report by", draft.options().program}, {"digest of the answer", draft.store().digest()}};
@@ -93,7 +92,7 @@ void write_provenance(ReportDraft& draft) {
               "SELECT design, seed, flavour FROM v_designs ORDER BY design", 1000);
   write_work(draft);
   write_faults(draft);
-  page.end_chapter();
+  page.end_folded();
 }
 
 }  // namespace swarmsmith

@@ -34,7 +34,7 @@ std::vector<std::string> names_of(ReportDraft& draft, std::int64_t campaign,
 
 void write_campaign(ReportDraft& draft, const CampaignRecord& campaign) {
   const auto id = campaign.campaign;
-  draft.page().heading(3, "Campaign " + campaign.name);
+  draft.page().heading(3, "Campaign " + campaign.name, false);
   for (const std::string& mission : names_of(draft, id, "mission"))
     write_keys(draft, id, "Mission " + mission, "mission." + mission + ".");
   for (const std::string& method : names_of(draft, id, "method"))
@@ -44,28 +44,16 @@ void write_campaign(ReportDraft& draft, const CampaignRecord& campaign) {
 }  // namespace
 
 void write_question(ReportDraft& draft) {
-  draft.page().heading(2, "What was asked");
-  draft.table("Designs: one iterated race each (v_designs).",
-              {{"design", Show::Design},
-               {"mission"},
-               {"method"},
-               {"repetition", Show::Count},
-               {"budget (experiments)", Show::Count},
-               {"used", Show::Count},
-               {"state"},
-               {"why it ended"}},
-              "SELECT design, mission, method, repetition, budget, used, state, reason "
-              "FROM v_designs ORDER BY design",
-              1000);
+  draft.page().begin_folded("What was asked");
   const auto all = draft.take(campaigns(draft.store()));
   for (const CampaignRecord& campaign : all)
     write_campaign(draft, campaign);
+  draft.page().end_folded();
 }
 
 void write_settings(ReportDraft& draft) {
   HtmlPage& page = draft.page();
-  page.begin_chapter();
-  page.heading(2, "All settings");
+  page.begin_folded("All settings");
   page.paragraph(
       "What else decides the answer, with the names of the campaign file; defaults are written "
       "out.");
@@ -74,7 +62,7 @@ void write_settings(ReportDraft& draft) {
     write_keys(draft, campaign.campaign, "Simulator of " + campaign.name + ".", "simulator.");
     write_keys(draft, campaign.campaign, "Engine of " + campaign.name + ".", "engine.");
   }
-  page.end_chapter();
+  page.end_folded();
 }
 
 }  // namespace swarmsmith

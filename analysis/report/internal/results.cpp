@@ -1,10 +1,12 @@
 #include <algorithm>
 #include <map>
 #include <string>
-#include <tuple>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "analysis/records/names.h"
 #include "analysis/report/internal/score_table.h"
 #include "analysis/report/internal/sections.h"
 
@@ -16,38 +18,15 @@ constexpr double kWholeWidth = 174;
 constexpr double kColumnWidth = 84;
 constexpr double kMiddleWidth = 120;
 
-void write_modules(ReportDraft& draft) {
-  const auto all = draft.take(module_frequencies(draft.store(), {}));
-  if (all.empty()) return;
-  draft.page().heading(3, "Modules of the winners");
-  draft.figure("modules", {.width_mm = kWholeWidth},
-               "Modules of the winners: mean occurrences, and the part of the winners that have "
-               "them.");
-  std::map<std::pair<std::string, std::string>, HtmlTable> tables;
-  for (const ModuleFrequency& module : all) {
-    HtmlTable& table = tables[{module.mission, module.method}];
-    if (table.rows.empty()) {
-      table.caption = fmt::format("Modules of the winners of {} by {} (v_module_frequency).",
-                                  module.mission, module.method);
-      table.columns = {{"module"}, {"mean occurrences", true}, {"occurrence rate", true}};
-    }
-    table.rows.push_back({module.module, fmt::format("{:.2f}", module.average_occurrences),
-                          fmt::format("{:.0f} %", 100 * module.occurrence_rate)});
-  }
-  for (const auto& entry : tables)
-    draft.page().table(entry.second);
-}
-
 /// Filmed runs, those that do not count included; stores before schema 5 have no view of them.
 void write_real_runs(ReportDraft& draft) {
   if (draft.store().schema() < 5) return;
   draft.table(
       "Real runs (v_real_runs). Those that count are among the scores above; the others are "
-      "INVALID, "
-      "or biased since a tag was taken for its robot's centre.",
+      "INVALID, or biased since a tag was taken for its robot's centre.",
       {{"run"},
        {"name"},
-       {"mission"},
+       {"mission", Show::Name},
        {"machine", Show::Candidate},
        {"recorded"},
        {"score", Show::Number},
@@ -56,19 +35,18 @@ void write_real_runs(ReportDraft& draft) {
        {"reason"},
        {"counts", Show::YesNo}},
       "SELECT id, name, mission, candidate, recorded, score, verdict, overridden_by, reason, "
-      "counts "
-      "FROM v_real_runs ORDER BY run",
+      "counts FROM v_real_runs ORDER BY run",
       1000);
 }
 
 }  // namespace
 
-void write_results(ReportDraft& draft) {
-  draft.page().heading(2, "Results");
+void write_scores(ReportDraft& draft, const std::vector<DesignScore>& scores) {
+  draft.page().heading(2, "Scores");
   draft.table(
       "Winners by mission, by their mean score in the test, else in the race "
       "(v_leaderboard). Higher is better.",
-      {{"mission"},
+      {{"mission", Show::Name},
        {"rank", Show::Count},
        {"design", Show::Design},
        {"method"},
@@ -80,26 +58,104 @@ void write_results(ReportDraft& draft) {
       "SELECT mission, rank, design, method, repetition, candidate, test_mean, test_runs, "
       "race_mean FROM v_leaderboard ORDER BY mission, rank, design",
       1000);
-  const auto scores = draft.take(design_scores(draft.store(), {}));
-  const ChosenScores taken = chosen(scores, {});
-  draft.page().heading(3, "Scores after the race");
-  if (scores.empty()) draft.page().paragraph("No winner was evaluated outside of its race.");
-  draft.page().table(score_table(
-      "Scores of the winners by mission, method, source and purpose (v_design_scores): \"test\" on "
-      "the campaign's own seeds, \"score\" asked for later; " +
-          taken.said + ". Higher is better.",
-      taken));
-  draft.figure("box", {.width_mm = kWholeWidth},
-               "Scores of the winners; " + taken.said + ". Higher is better.");
-  draft.figure("scores", {.width_mm = kWholeWidth},
-               "How often the winners had each score; " + taken.said + ".");
+  if (!scores.empty()) {
+    const ChosenScores taken = chosen(scores, {});
+    draft.page().table(score_table(
+        "Scores of the winners by mission, method, source and purpose (v_design_scores): \"test\" "
+        "on the campaign's own seeds, \"score\" asked for later; " +
+            taken.said + ". Higher is better.",
+        taken));
+    draft.figure("scores", {.width_mm = kWholeWidth},
+                 "How often the winners had each score; " + taken.said + ".");
+  }
   write_real_runs(draft);
+}
+
+void write_modules(ReportDraft& draft) {
+  const auto all = draft.take(module_frequencies(draft.store(), {}));
+  if (all.empty()) return;
+  draft.page().heading(2, "Modules of the winners");
+  draft.figure("modules", {.width_mm = kWholeWidth},
+               "Modules of the winners: mean occurrences, and the part of the winners that have "
+               "them.");
+  std::map<std::pair<std::string, std::string>, HtmlTable> tables;
+  for (const ModuleFrequency& module : all) {
+    HtmlTable& table = tables[{module.mission, module.method}];
+    if (table.rows.empty()) {
+      table.caption = fmt::format("Modules of the winners of {} by {} (v_module_frequency).",
+                                  as_words(module.mission), module.method);
+      table.columns = {{"module"},
+                       {"mean occurrences", true},
+                       {"occurrence rate", true},
+                       {"mean, reachable states", true},
+                       {"rate, reachable states", true}};
+    }
+    const auto& counts = module.counts;
+    table.rows.push_back(
+        counts ? std::vector<std::string>{as_words(module.module),
+                                          fmt::format("{:.2f}", counts->average_occurrences),
+                                          fmt::format("{:.0f} %", 100 * counts->occurrence_rate),
+                                          fmt::format("{:.2f}", counts->average_reachable),
+                                          fmt::format("{:.0f} %", 100 * counts->reachable_rate)}
+               : std::vector<std::string>{as_words(module.module), "-", "-", "-", "-"});
+  }
+  draft.page().begin_folded("The same as tables", false);
+  for (const auto& entry : tables)
+    draft.page().table(entry.second);
+  draft.page().end_folded();
+}
+
+void write_machines(ReportDraft& draft, const std::vector<DesignRecord>& designs) {
+  const auto has_machine = [](const DesignRecord& design) {
+    return design.best && !design.flavour.empty();
+  };
+  if (std::ranges::none_of(designs, has_machine)) return;
+  HtmlPage& page = draft.page();
+  page.heading(2, "Machines of the winners");
+  page.paragraph(
+      "A circle is a state with its behaviour, a double one the initial state; between them the "
+      "conditions with their parameters. Grey states cannot be reached.");
+  page.begin_grid();
+  for (const DesignRecord& design : designs) {
+    if (!has_machine(design)) continue;
+    draft.figure("machine", {.width_mm = kColumnWidth, .candidate = design.best},
+                 fmt::format("{}: {}, {}, repetition {}.", to_string(design.design),
+                             as_words(design.mission), design.method, design.repetition));
+  }
+  page.end_grid();
+}
+
+void write_races(ReportDraft& draft, const std::vector<DesignRecord>& designs) {
+  HtmlPage& page = draft.page();
+  page.heading(2, "Races");
   draft.figure("convergence", {.width_mm = kMiddleWidth},
                "Mean score of each design's best machine over the experiments used.");
-  if (!scores.empty()) write_comparison(draft, scores);
-  draft.figure("ranks", {.width_mm = kColumnWidth},
-               "Mean ranks with the interval of Friedman's test.");
-  write_modules(draft);
+  draft.table("Designs: one iterated race each (v_designs).",
+              {{"design", Show::Design},
+               {"mission", Show::Name},
+               {"method"},
+               {"repetition", Show::Count},
+               {"budget (experiments)", Show::Count},
+               {"used", Show::Count},
+               {"iterations", Show::Count},
+               {"mean of the best", Show::Number},
+               {"state"},
+               {"why it ended"}},
+              "SELECT design, mission, method, repetition, budget, used, iteration, best_mean, "
+              "state, reason FROM v_designs ORDER BY design",
+              1000);
+  if (!draft.options().page_of_design) {
+    page.paragraph(
+        "Each design has a chapter with its race, elites and parameters: `swarmsmith report STORE "
+        "--design d1`, or `--design all`; `swarmsmith supplement` writes a page of each.");
+    return;
+  }
+  std::vector<std::pair<std::string, std::string>> pages;
+  for (const DesignRecord& design : designs) {
+    if (design.best)
+      pages.emplace_back(to_string(design.design), draft.options().page_of_design(design));
+  }
+  page.links("Race, elites and parameters of each design:", pages);
 }
 
 }  // namespace swarmsmith

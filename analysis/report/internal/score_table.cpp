@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/records/names.h"
 #include "analysis/statistics/summary.h"
 
 namespace swarmsmith {
@@ -38,7 +39,7 @@ HtmlTable score_table(const std::string& caption, const ChosenScores& taken) {
   for (const auto& [key, group] : found) {
     const auto& [mission, method, source, purpose] = key;
     const Summary summary = summary_of(group.values);
-    std::vector<std::string> row = {mission,
+    std::vector<std::string> row = {as_words(mission),
                                     method,
                                     source,
                                     purpose,

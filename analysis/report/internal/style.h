@@ -45,6 +45,16 @@ figure .wide { display: inline-block; margin: 0; background: #ffffff; border: 1p
   border-radius: 4px; }
 figure svg { display: block; }
 figcaption { color: var(--faint); font-size: .875rem; max-width: 45rem; }
+.grid { display: grid; gap: 0 1rem;
+  grid-template-columns: repeat(auto-fill, minmax(min(21rem, 100%), 1fr)); }
+.grid figure { margin: .5rem 0; min-width: 0; }
+.grid figure .wide { display: block; width: fit-content; }
+ul.links { columns: 3 16rem; }
+summary { cursor: pointer; }
+summary h2 { display: inline-block; border: 0; margin: 1rem 0 .3rem; padding: 0; }
+details { border-top: 2px solid var(--line); margin-top: 1rem; }
+details.small { border: 0; margin: .5rem 0; }
+details pre, details p, details table { font-size: .875rem; }
 pre { background: var(--soft); padding: .6rem; margin: .5rem 0; font-size: .8rem; line-height: 1.4;
   white-space: pre-wrap; overflow-wrap: anywhere; border-radius: 4px; }
 @page { margin: 15mm; }
@@ -57,6 +67,7 @@ pre { background: var(--soft); padding: .6rem; margin: .5rem 0; font-size: .8rem
   h2, h3, p.caption { break-after: avoid; }
   tr, pre { break-inside: avoid; }
   thead { display: table-header-group; }
+  .grid { grid-template-columns: 1fr 1fr; }
   .wide { overflow: visible; }
   figure .wide { border: 0; }
   figure svg { max-width: 100%; height: auto; }

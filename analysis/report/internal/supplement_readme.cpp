@@ -21,8 +21,10 @@ struct Kind {
 
 constexpr Kind kKinds[] = {
     {"report.html", "report.html", "",
-     "what was asked, results, statistics, a chapter a design, provenance; opens in any browser, "
-     "offline"},
+     "results, statistics, modules, machines, races, what was asked, provenance; opens in any "
+     "browser, offline"},
+    {"designs/*.html", "designs/", ".html",
+     "a page a design: its machine, race, elites, parameters"},
     {"results.csv", "results.csv", "",
      "a row a score that a winner got after its race: design, mission, method, repetition, "
      "candidate, source (the simulator's profile, `real`, ...), purpose, instance, seed, score"},
@@ -35,7 +37,8 @@ constexpr Kind kKinds[] = {
     {"designs.csv", "designs.csv", "", "a row a design: budget, seed, winner, why it ended"},
     {"leaderboard.csv", "leaderboard.csv", "", "the winners, ranked by mission"},
     {"modules.csv", "modules.csv", "",
-     "how often the winners of a mission and method have each module"},
+     "how often the winners of a mission and method have each module, in all states and in those "
+     "that can be reached"},
     {"campaign*.toml", "campaign", ".toml", "what was asked: the campaign file, all keys written"},
     {"controllers/*.txt", "controllers/", ".txt",
      "each design's best machine as text of AutoMoDe's grammar, or the switches of a program"},

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include "analysis/records/names.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -25,6 +27,8 @@ double real(const Cell& cell) {
 std::string shown(const Cell& cell, Show show) {
   if (cell.type == Cell::Type::Null) return "-";
   switch (show) {
+    case Show::Name:
+      return as_words(cell.text);
     case Show::Text:
     case Show::Count:
       return cell.text;

@@ -12,6 +12,7 @@ namespace swarmsmith {
 /// How the cells of a column are shown.
 enum class Show {
   Text,
+  Name,       ///< with blanks: "color selection"
   Count,      ///< an integer as it is
   Number,     ///< four significant digits
   Percent,    ///< a part of one

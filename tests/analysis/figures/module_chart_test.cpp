@@ -3,13 +3,18 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
+#include "analysis/drawing/svg.h"
 #include "tests/analysis/support/svg_texts.h"
 
 namespace swarmsmith {
 namespace {
 
+using testing::HasSubstr;
 using testing::IsEmpty;
+using testing::Not;
 
 /// Tables 7.1 to 7.3 of the thesis.
 ModuleChart thesis_tables() {
@@ -25,18 +30,33 @@ ModuleChart thesis_tables() {
                    "inverted neighbour count",
                    "fixed probability",
                    "color detection"};
-  using Cells = std::vector<ModuleChart::Cell>;
-  const Cells aggregation = {{1.5, 0.8}, {1.2, 1.0}, {0.2, 0.2}, {0.4, 0.4}, {2.5, 1.0}, {1.3, 0.8},
-                             {0.7, 0.5}, {0.6, 0.4}, {0.4, 0.3}, {0.8, 0.6}, {1.2, 0.5}};
-  const Cells grid = {{2.4, 1.0}, {0.0, 0.0}, {0.0, 0.0}, {0.1, 0.1}, {0.5, 0.5}, {0.7, 0.6},
-                      {0.4, 0.4}, {1.0, 0.7}, {2.1, 0.9}, {1.9, 0.9}, {0.7, 0.4}};
-  const Cells color = {{1.6, 1.0}, {1.1, 1.0}, {0.2, 0.2}, {0.5, 0.4}, {0.9, 0.7}, {1.9, 1.0},
-                       {1.6, 1.0}, {1.2, 0.8}, {1.0, 0.7}, {0.7, 0.7}, {0.9, 0.8}};
+  using Numbers = std::vector<std::pair<double, double>>;
+  const Numbers aggregation = {{1.5, 0.8}, {1.2, 1.0}, {0.2, 0.2}, {0.4, 0.4},
+                               {2.5, 1.0}, {1.3, 0.8}, {0.7, 0.5}, {0.6, 0.4},
+                               {0.4, 0.3}, {0.8, 0.6}, {1.2, 0.5}};
+  const Numbers grid = {{2.4, 1.0}, {0.0, 0.0}, {0.0, 0.0}, {0.1, 0.1}, {0.5, 0.5}, {0.7, 0.6},
+                        {0.4, 0.4}, {1.0, 0.7}, {2.1, 0.9}, {1.9, 0.9}, {0.7, 0.4}};
+  const Numbers color = {{1.6, 1.0}, {1.1, 1.0}, {0.2, 0.2}, {0.5, 0.4}, {0.9, 0.7}, {1.9, 1.0},
+                         {1.6, 1.0}, {1.2, 0.8}, {1.0, 0.7}, {0.7, 0.7}, {0.9, 0.8}};
+  const auto cells = [](const Numbers& numbers) {
+    std::vector<std::optional<ModuleCounts>> counts;
+    for (const auto& [mean, rate] : numbers)
+      counts.push_back(ModuleCounts{mean, rate, mean, rate});
+    return counts;
+  };
   chart.blocks = {{"watermelon",
-                   {{"aggregation", 10, aggregation},
-                    {"color selection", 10, color},
-                    {"grid exploration", 10, grid}}}};
+                   {{"aggregation", 10, cells(aggregation)},
+                    {"color selection", 10, cells(color)},
+                    {"grid exploration", 10, cells(grid)}}}};
   return chart;
+}
+
+/// All texts behind each other, blanks between.
+std::string words_of(const std::string& svg) {
+  std::string words;
+  for (const TextBox& box : texts_of(svg))
+    words += box.text + " ";
+  return words;
 }
 
 std::ptrdiff_t times(const std::string& svg, const std::string& word) {
@@ -54,6 +74,20 @@ TEST(ModuleChart, WritesEveryNumberOfTheTable) {
   for (const TextBox& box : texts_of(svg))
     if (box.text.ends_with(" %")) ++numbers;
   EXPECT_EQ(numbers, 33U);
+}
+
+TEST(ModuleChart, WhatCannotBeReachedIsPaleAndWhatCannotBeIsADash) {
+  ModuleChart chart = thesis_tables();
+  EXPECT_THAT(draw(chart), Not(HasSubstr("pale")));
+  auto& cells = chart.blocks.front().columns.front().cells;
+  cells[4]->average_reachable = 2;
+  cells[10] = std::nullopt;
+  const std::string svg = draw(chart);
+  EXPECT_EQ(times(svg, "-"), 2);
+  EXPECT_THAT(svg, HasSubstr(lightened(distinct_color(0), 0.6)));
+  EXPECT_THAT(words_of(svg), HasSubstr("pale: in states that cannot be reached"));
+  EXPECT_THAT(words_of(svg), HasSubstr("-: the flavour has no such module"));
+  EXPECT_THAT(text_problems(svg), IsEmpty());
 }
 
 TEST(ModuleChart, HasNoTextOverAnother) {

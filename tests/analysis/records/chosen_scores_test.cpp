@@ -60,12 +60,5 @@ TEST(ChosenScores, ADesignOfSeveralPurposesSaysSo) {
   EXPECT_EQ(values[1].score.purpose, "test");
 }
 
-TEST(NameOrder, RealIsLast) {
-  EXPECT_TRUE(NameOrder()("rvr", "real"));
-  EXPECT_FALSE(NameOrder()("real", "zebra"));
-  EXPECT_TRUE(NameOrder()("argos3", "rvr"));
-  EXPECT_FALSE(NameOrder()("real", "real"));
-}
-
 }  // namespace
 }  // namespace swarmsmith

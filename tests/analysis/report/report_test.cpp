@@ -83,12 +83,50 @@ TEST_F(ReportTest, ListsWhatItsContentsPromise) {
   for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it, ++links)
     EXPECT_THAT(text, HasSubstr(" id=\"" + (*it)[1].str() + "\""));
   EXPECT_GT(links, 5U);
-  for (const char* part :
-       {"What was asked", "Results", "Design d1:", "Design d2:", "The race of d1",
-        "Parameters of d1", "Where it comes from", "All settings"}) {
+  for (const char* part : {"Result", "Scores", "Machines of the winners", "Races", "What was asked",
+                           "Design d1:", "Design d2:", "The race of d1", "Parameters of d1",
+                           "Where it comes from", "All settings"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_THAT(text, HasSubstr(reader->digest()));
+}
+
+TEST_F(ReportTest, BeginsWithTheResultAndEndsWithSettingsFoldedAway) {
+  const std::string text = report();
+  std::size_t at = 0;
+  for (const char* part : {"Asked: which machines", ">Result<", "<title>Scores", " scored ",
+                           "The same for LaTeX", ">Scores<", ">Races<", "<details>"}) {
+    const std::size_t next = text.find(part, at);
+    ASSERT_NE(next, std::string::npos) << part;
+    at = next;
+  }
+  const std::string_view folded = std::string_view(text).substr(text.find("<details>\n"));
+  for (const char* part : {"What was asked", "All settings", "Where it comes from"})
+    EXPECT_THAT(folded, HasSubstr(part));
+}
+
+TEST_F(ReportTest, DrawsRunsWhereItIsGivenThem) {
+  const std::string text = report({.runs_from_above = [](DesignId design) -> Expected<std::string> {
+    return "<svg xmlns=\"http://www.w3.org/2000/svg\"><title>runs of " + to_string(design) +
+           "</title></svg>";
+  }});
+  EXPECT_THAT(text, HasSubstr("<title>runs of d"));
+  EXPECT_EQ(xml_trouble(text), "");
+}
+
+TEST_F(ReportTest, ManyDesignsHaveChaptersWhenTheyAreAsked) {
+  const auto many = stored(folder / "many.db", synthetic_campaign({.designs = 4, .iterations = 2}));
+  EXPECT_THAT(html_report(*many, {}).value_or(""), Not(HasSubstr("Design d1:")));
+  const std::string all = html_report(*many, {.all_designs = true}).value_or("");
+  EXPECT_THAT(all, HasSubstr("Design d1:"));
+  EXPECT_THAT(all, HasSubstr("Design d4:"));
+}
+
+TEST_F(ReportTest, TellsHowFarItIs) {
+  std::vector<std::size_t> told;
+  report({.progress = [&](std::size_t parts) { told.push_back(parts); }});
+  EXPECT_GT(told.size(), 10U);
+  EXPECT_TRUE(std::ranges::is_sorted(told));
 }
 
 TEST_F(ReportTest, DrawsEachKindThatTheStoreHasSomethingOf) {
@@ -117,7 +155,7 @@ TEST(Report, OfACampaignThatHasJustBegunSaysSo) {
   const auto text = html_report(*reader, {});
   ASSERT_TRUE(text) << to_string(text.error());
   EXPECT_EQ(xml_trouble(*text), "");
-  EXPECT_THAT(*text, HasSubstr("No winner was evaluated outside of its race."));
+  EXPECT_THAT(*text, HasSubstr("No winner was evaluated outside of its race yet."));
   const auto files = supplement(*reader, {.machine_file = as_is});
   ASSERT_FALSE(files);
   EXPECT_EQ(files.error().kind, ErrorKind::NotFound);
@@ -143,6 +181,9 @@ TEST_F(ReportTest, ASupplementHasSafeNamesInOrder) {
   EXPECT_THAT(paths, Contains("controllers/d1-_i_m__i_-it_s___x__-1.txt"));
   EXPECT_THAT(paths, Contains("results.csv"));
   EXPECT_THAT(paths, Contains("report.html"));
+  EXPECT_THAT(paths, Contains("designs/d1-_i_m__i_-it_s___x__-1.html"));
+  const auto page = std::ranges::find(*files, "report.html", &SupplementFile::path)->text;
+  EXPECT_THAT(page, HasSubstr("<a href=\"designs/d1-_i_m__i_-it_s___x__-1.html\">d1</a>"));
   EXPECT_THAT(paths, Contains("figures/convergence.csv"));
   const auto again =
       supplement(*reader, {.machine_file = as_is, .program = "p", .with_pdfs = true});

@@ -1,0 +1,165 @@
+#include "analysis/comparison/paper_text.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include "analysis/records/names.h"
+#include "analysis/statistics/effect_size.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kLevel = 0.05;
+
+std::string latex_escaped(std::string_view text) {
+  std::string escaped;
+  for (const char letter : text) {
+    if (letter == '\\') {
+      escaped += "\\textbackslash{}";
+    } else if (letter == '~' || letter == '^') {
+      escaped += fmt::format("\\{}{{}}", letter);
+    } else {
+      if (std::string_view("#$%&_{}").find(letter) != std::string_view::npos) escaped += '\\';
+      escaped += letter;
+    }
+  }
+  return escaped;
+}
+
+/// Four digits, as a paper has them; no exponent where people would write none.
+std::string shown(double value) {
+  constexpr double kNoDecimalsFrom = 1000;
+  constexpr double kExponentFrom = 1e7;
+  const double size = std::abs(value);
+  return size < kNoDecimalsFrom || size >= kExponentFrom ? fmt::format("{:.4g}", value)
+                                                         : fmt::format("{:.0f}", value);
+}
+
+/// Grows in both forms at once.
+class Writer {
+ public:
+  Writer& words(std::string_view words) {
+    sentence_.text += words;
+    sentence_.latex += latex_escaped(words);
+    return *this;
+  }
+  /// "n = 10", or "$n = 10$"; `symbol` as LaTeX where that is another.
+  Writer& value(std::string_view name, std::string_view value, std::string_view symbol = "") {
+    const bool is_less = value.starts_with('<');
+    const std::string rest = fmt::format("{}{}", is_less ? " " : " = ", value);
+    sentence_.text += std::string(name) + rest;
+    sentence_.latex += fmt::format("${}{}$", symbol.empty() ? name : symbol, rest);
+    return *this;
+  }
+  Writer& interval(double low, double high) {
+    sentence_.text += fmt::format("95 % interval [{}, {}]", shown(low), shown(high));
+    sentence_.latex += fmt::format("95\\,\\% interval $[{}, {}]$", shown(low), shown(high));
+    return *this;
+  }
+  PaperSentence sentence() const { return sentence_; }
+
+ private:
+  PaperSentence sentence_;
+};
+
+std::string shown_p(double p) {
+  constexpr double kLeastShown = 0.0001;
+  return p < kLeastShown ? "< 0.0001" : fmt::format("{:.2g}", p);
+}
+
+std::string_view units_of(ScoreUnit unit) {
+  return unit == ScoreUnit::Design ? "designs" : "runs";
+}
+
+const ComparedGroup* group_of(const Comparison& comparison, const std::string& mission,
+                              const std::string& method, const std::string& source) {
+  const auto found = std::ranges::find_if(comparison.groups, [&](const ComparedGroup& group) {
+    return group.mission == mission && group.method == method && group.source == source;
+  });
+  return found == comparison.groups.end() ? nullptr : &*found;
+}
+
+/// "no difference was found between a and b", or which of them scored higher.
+std::string finding_of(const ComparedPair& pair) {
+  const auto p = pair.p_holm ? pair.p_holm : pair.test.p_value;
+  if (!p || *p >= kLevel)
+    return fmt::format("no difference was found between {} and {}", pair.first, pair.second);
+  return fmt::format("{} scored {} than {}", pair.first,
+                     pair.difference.value > 0 ? "higher" : "lower", pair.second);
+}
+
+PaperSentence sentence_of(const Comparison& comparison, const ComparedPair& pair) {
+  const std::string_view units = units_of(comparison.unit);
+  Writer writer;
+  writer.words(fmt::format("On {}, ", as_words(pair.mission)));
+  if (pair.paired) {
+    writer.words(fmt::format("{} of the same {} by {} (", finding_of(pair), units, pair.method));
+    writer.value("n", fmt::format("{}", pair.n_first));
+  } else {
+    writer.words(fmt::format("{} in {} (", finding_of(pair), pair.source));
+    writer.value("n", fmt::format("{}", pair.n_first)).words(" and ");
+    writer.words(fmt::format("{} {}", pair.n_second, units));
+  }
+  const ComparedGroup* first =
+      group_of(comparison, pair.mission, pair.paired ? pair.method : pair.first,
+               pair.paired ? pair.first : pair.source);
+  const ComparedGroup* second =
+      group_of(comparison, pair.mission, pair.paired ? pair.method : pair.second,
+               pair.paired ? pair.second : pair.source);
+  if (first != nullptr && second != nullptr) {
+    writer.words(fmt::format("; mean scores {} and {}", shown(first->summary.mean),
+                             shown(second->summary.mean)));
+  }
+  writer.words(
+      fmt::format("; Wilcoxon {} test, two-sided, ", pair.paired ? "signed-rank" : "rank-sum"));
+  writer.value(pair.paired ? "V" : "W", shown(pair.test.statistic)).words(", ");
+  if (pair.test.p_value) {
+    writer.value("p", shown_p(*pair.test.p_value));
+    if (pair.p_holm && comparison.pairs.size() > 1) {
+      writer.words(fmt::format(", by Holm over {} comparisons ", comparison.pairs.size()));
+      writer.value("p", shown_p(*pair.p_holm));
+    }
+  } else {
+    writer.words("no p");
+  }
+  writer.words("; ").value("A12", fmt::format("{:.2f}", pair.a12), "\\hat{A}_{12}");
+  writer.words(fmt::format(" ({}), difference of the means {}, ", magnitude_of(pair.a12),
+                           shown(pair.difference.value)));
+  writer.interval(pair.difference.low, pair.difference.high).words(").");
+  if (!pair.notes.empty()) writer.words(fmt::format(" Note: {}.", fmt::join(pair.notes, "; ")));
+  return writer.sentence();
+}
+
+PaperSentence sentence_of(const Comparison& comparison, const ComparedGroup& group) {
+  const Summary& summary = group.summary;
+  Writer writer;
+  writer.words(fmt::format("On {}, {} scored {} on average in {} (", as_words(group.mission),
+                           group.method, shown(summary.mean), group.source));
+  if (summary.n > 1) writer.words(fmt::format("standard deviation {}, ", shown(summary.sd)));
+  writer.words(fmt::format("median {}, from {} to {}; ", shown(summary.median),
+                           shown(summary.least), shown(summary.most)));
+  const std::string_view units = units_of(comparison.unit);
+  writer.value("n", fmt::format("{}", summary.n));
+  writer.words(fmt::format(" {}", summary.n == 1 ? units.substr(0, units.size() - 1) : units));
+  if (comparison.unit == ScoreUnit::Design)
+    writer.words(fmt::format(", each the mean of its runs, {} in all", group.runs));
+  return writer.words(").").sentence();
+}
+
+}  // namespace
+
+std::vector<PaperSentence> paper_sentences(const Comparison& comparison) {
+  std::vector<PaperSentence> sentences;
+  for (const ComparedPair& pair : comparison.pairs)
+    sentences.push_back(sentence_of(comparison, pair));
+  if (!sentences.empty()) return sentences;
+  for (const ComparedGroup& group : comparison.groups)
+    sentences.push_back(sentence_of(comparison, group));
+  return sentences;
+}
+
+}  // namespace swarmsmith

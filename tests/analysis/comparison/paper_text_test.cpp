@@ -1,0 +1,94 @@
+#include "analysis/comparison/paper_text.h"
+
+#include <gmock/gmock.h>
+
+#include "tests/analysis/comparison/scores.h"
+
+namespace swarmsmith {
+namespace {
+
+/// Ten designs of each of two methods, the first of which is clearly better.
+std::vector<Scored> of_two_methods(double lead) {
+  std::vector<Scored> designs;
+  for (int i = 1; i <= 10; ++i) {
+    designs.push_back({.design = i,
+                       .mission = "color_selection",
+                       .method = "new_one",
+                       .repetition = i,
+                       .scores = {lead + i}});
+    designs.push_back({.design = i + 10,
+                       .mission = "color_selection",
+                       .method = "old",
+                       .repetition = i,
+                       .scores = {i + 0.5}});
+  }
+  return designs;
+}
+
+TEST(PaperSentences, SayWhoIsBetterWithTestEffectAndInterval) {
+  const Comparison comparison = compare(records_of(of_two_methods(20)), {.by = CompareBy::Method});
+  const auto sentences = paper_sentences(comparison);
+  ASSERT_EQ(sentences.size(), 1U);
+  // p: R 4.2, wilcox.test(21:30, 1:10 + 0.5): 1.083e-05.
+  EXPECT_EQ(
+      sentences.front().text,
+      "On color selection, new_one scored higher than old in rvr (n = 10 and 10 designs; mean "
+      "scores 25.5 and 6; Wilcoxon rank-sum test, two-sided, W = 100, p < 0.0001; A12 = 1.00 "
+      "(large), difference of the means 19.5, " +
+          sentences.front().text.substr(sentences.front().text.find("95 % interval")));
+  EXPECT_THAT(
+      sentences.front().latex,
+      testing::HasSubstr("new\\_one scored higher than old in rvr ($n = 10$ and 10 designs"));
+  EXPECT_THAT(sentences.front().latex, testing::HasSubstr("$p < 0.0001$; $\\hat{A}_{12} = 1.00$"));
+  EXPECT_THAT(sentences.front().latex, testing::HasSubstr("95\\,\\% interval $["));
+}
+
+TEST(PaperSentences, NeverCallNoiseADifference) {
+  const Comparison comparison = compare(records_of(of_two_methods(0.9)), {.by = CompareBy::Method});
+  EXPECT_THAT(paper_sentences(comparison).front().text,
+              testing::HasSubstr("no difference was found between new_one and old in rvr"));
+}
+
+TEST(PaperSentences, GoByHolmWhereThereAreSeveral) {
+  std::vector<Scored> designs = of_two_methods(4.2);
+  const Comparison alone = compare(records_of(designs), {.by = CompareBy::Method});
+  for (int i = 1; i <= 10; ++i)
+    designs.push_back({.design = i + 20,
+                       .mission = "color_selection",
+                       .method = "third",
+                       .repetition = i,
+                       .scores = {i + 0.6}});
+  const Comparison three = compare(records_of(designs), {.by = CompareBy::Method});
+  EXPECT_THAT(paper_sentences(alone).front().text, testing::HasSubstr("new_one scored higher"));
+  EXPECT_THAT(paper_sentences(three).front().text,
+              testing::AllOf(testing::HasSubstr("by Holm over 3 comparisons p = "),
+                             testing::HasSubstr("no difference was found")));
+}
+
+TEST(PaperSentences, OfTheSameDesignsInTwoSourcesArePaired) {
+  std::vector<Scored> designs;
+  for (int i = 1; i <= 10; ++i) {
+    designs.push_back({.design = i, .repetition = i, .source = "rvr", .scores = {2.0 * i}});
+    designs.push_back({.design = i, .repetition = i, .source = "real", .scores = {1.0 * i}});
+  }
+  const auto sentences = paper_sentences(compare(records_of(designs), {}));
+  ASSERT_EQ(sentences.size(), 1U);
+  EXPECT_THAT(sentences.front().text,
+              testing::StartsWith("On aggregation, rvr scored higher than real of the same designs "
+                                  "by watermelon (n = 10; mean scores 11 and 5.5; Wilcoxon "
+                                  "signed-rank test, two-sided, V = 55, p = 0.002; "));
+}
+
+TEST(PaperSentences, WithoutPairsSayHowEachGroupDid) {
+  const Comparison comparison =
+      compare(records_of({{.design = 1, .repetition = 1, .scores = {1, 2, 3}}}), {});
+  const auto sentences = paper_sentences(comparison);
+  ASSERT_EQ(sentences.size(), 1U);
+  EXPECT_EQ(
+      sentences.front().text,
+      "On aggregation, watermelon scored 2 on average in rvr (standard deviation 1, median 2, "
+      "from 1 to 3; n = 3 runs).");
+}
+
+}  // namespace
+}  // namespace swarmsmith
