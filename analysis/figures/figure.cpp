@@ -38,7 +38,7 @@ std::span<const FigureKind> figure_kinds() {
                  modules_figure, "mission method"},
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
                  "mission method design"},
-      FigureKind{"machine", "A state machine: states, conditions and their parameters",
+      FigureKind{"machine", "State machines: of a design or candidate, else a sheet of all winners",
                  machine_figure, "mission method design candidate"},
       FigureKind{"race", "Who raced in an iteration, with ranks and eliminations", race_figure,
                  "mission method design iteration"},

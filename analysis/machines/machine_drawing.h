@@ -3,6 +3,7 @@
 #include <string>
 #include <string_view>
 
+#include "analysis/drawing/svg.h"
 #include "analysis/machines/machine_layout.h"
 
 namespace swarmsmith {
@@ -10,7 +11,9 @@ namespace swarmsmith {
 /// A laid out machine as text, the same words and, but for DOT, the same places in each form.
 /// Colours and, for prints without them, dashes go by the transition's source.
 
-/// A file of SVG; `title` is what a screen reader says and nothing visible.
+/// A picture; `title` is what a screen reader says and nothing visible.
+Svg drawing_of(const MachineLayout& layout, std::string_view title);
+/// The same as a file of SVG.
 std::string svg_of(const MachineLayout& layout, std::string_view title);
 
 /// A `tikzpicture` for a document that has loaded TikZ, without further libraries; 1 mm is 1 mm.

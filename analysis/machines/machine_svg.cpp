@@ -17,7 +17,7 @@ void draw_lines(Svg& svg, const std::vector<LabelLine>& lines, bool grey) {
 
 }  // namespace
 
-std::string svg_of(const MachineLayout& layout, std::string_view title) {
+Svg drawing_of(const MachineLayout& layout, std::string_view title) {
   Svg svg(
       layout.width, layout.height, title,
       "Probabilistic finite state machine: circles are behaviours, the double one is the initial "
@@ -44,7 +44,11 @@ std::string svg_of(const MachineLayout& layout, std::string_view title) {
     draw_lines(svg, shape.lines, !layout.states[shape.source].reachable);
   }
   draw_lines(svg, layout.notes, true);
-  return svg.finish();
+  return svg;
+}
+
+std::string svg_of(const MachineLayout& layout, std::string_view title) {
+  return drawing_of(layout, title).finish();
 }
 
 }  // namespace swarmsmith

@@ -130,20 +130,22 @@ void write_races(ReportDraft& draft, const std::vector<DesignRecord>& designs) {
   page.heading(2, "Races");
   draft.figure("convergence", {.width_mm = kMiddleWidth},
                "Mean score of each design's best machine over the experiments used.");
-  draft.table("Designs: one iterated race each (v_designs).",
-              {{"design", Show::Design},
-               {"mission", Show::Name},
-               {"method"},
-               {"repetition", Show::Count},
-               {"budget (experiments)", Show::Count},
-               {"used", Show::Count},
-               {"iterations", Show::Count},
-               {"mean of the best", Show::Number},
-               {"state"},
-               {"why it ended"}},
-              "SELECT design, mission, method, repetition, budget, used, iteration, best_mean, "
-              "state, reason FROM v_designs ORDER BY design",
-              1000);
+  draft.table(
+      "Designs: one iterated race each (v_designs).",
+      {{"design", Show::Design},
+       {"mission", Show::Name},
+       {"method"},
+       {"repetition", Show::Count},
+       {"budget (experiments)", Show::Count},
+       {"used", Show::Count},
+       {"iterations", Show::Count},
+       {"mean of the best", Show::Number},
+       {"state"},
+       {"why it ended"}},
+      "SELECT design, mission, method, repetition, budget, used, iteration, best_mean, state, "
+      "iif(reason LIKE 'not enough budget%', 'budget used up', reason) "
+      "FROM v_designs ORDER BY design",
+      1000);
   if (!draft.options().page_of_design) {
     page.paragraph(
         "Each design has a chapter with its race, elites and parameters: `swarmsmith report STORE "

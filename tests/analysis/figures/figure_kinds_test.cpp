@@ -123,6 +123,21 @@ TEST_F(FigureKinds, ModulesAreThoseOfTheView) {
                                                   fmt::join(row.begin() + 2, row.end(), ","))));
 }
 
+TEST_F(FigureKinds, MachinesWithoutANameAreASheetOfAllWinners) {
+  const Figure sheet = made("machine", {.width_mm = 174});
+  const auto winners =
+      cells_of(*reader, "SELECT design, best_candidate FROM v_designs ORDER BY design");
+  ASSERT_GT(winners.size(), 1U);
+  for (const auto& row : winners) {
+    EXPECT_THAT(sheet.csv, HasSubstr(fmt::format("\n{},{},0,", row[0], row[1])));
+    EXPECT_THAT(sheet.svg, HasSubstr(fmt::format(">d{} c{}<", row[0], row[1])));
+    EXPECT_THAT(sheet.tex, HasSubstr(fmt::format("% d{} c{}: ", row[0], row[1])));
+    const Figure alone = made("machine", {.filter = {.design = DesignId{std::stoll(row[0])}}});
+    EXPECT_THAT(alone.csv, testing::StartsWith("state,behaviour"));
+  }
+  EXPECT_THAT(text_problems(sheet.svg), testing::IsEmpty());
+}
+
 TEST_F(FigureKinds, WhatTheStoreDoesNotHaveIsSaid) {
   const Error source = refusal("scores", {.source = "rael"});
   EXPECT_EQ(source.kind, ErrorKind::BadInput);
