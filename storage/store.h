@@ -201,6 +201,10 @@ class StoreReader {
 /// lock and the coordinator's file lie beside it.
 std::filesystem::path real_store(const std::filesystem::path& named);
 
+/// Whether somebody writes the store now, as far as its lock file tells: false without one, and
+/// when it names a process of this host that is gone. A process of another host is believed.
+bool has_writer(const std::filesystem::path& named);
+
 /// Whether a file begins as SQLite's do; false when it cannot be read. Looks at it through SQLite,
 /// as everybody must who may be looking at a store (decision 18).
 bool is_database(const std::filesystem::path& path);

@@ -1,5 +1,6 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
+#include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <limits>
@@ -63,6 +64,22 @@ struct Status {
   }
 };
 
+/// The store says what its last writer said. When nobody writes it any more, who was at work is
+/// not: a campaign and its designs are "interrupted", and workers are gone.
+void correct_states(Status& status) {
+  bool interrupted = false;
+  for (Rows* rows : {&status.campaign, &status.designs}) {
+    const auto state = std::ranges::find(rows->columns, "state") - rows->columns.begin();
+    for (auto& cells : rows->cells) {
+      std::string& text = cells[static_cast<std::size_t>(state)].text;
+      if (text != "running" && text != "racing" && text != "testing") continue;
+      text = "interrupted";
+      interrupted = true;
+    }
+  }
+  if (interrupted) status.workers.cells.clear();
+}
+
 /// Stores of schemas before 3 have none.
 Expected<void> read_commands(StoreReader& store, Status& status) {
   const auto known = select(store, "SELECT 1 FROM sqlite_master WHERE name = 'v_commands'");
@@ -110,6 +127,8 @@ void write_text(Output& output, const Status& status) {
     output.out << "\n";
   }
   if (campaigns > 1) output.out << "failed " << failures << "\n";
+  if (status.of_campaign(0, "state") == "interrupted")
+    output.out << "nobody works at it now; the command that began it goes on from here\n";
   output.out << "\n" << rows_as_text(status.designs);
   for (std::size_t i = 0; i < status.paused.cells.size(); ++i)
     output.out << (i == 0 ? "\npaused: " : ", ") << status.paused.cells[i].front().text;
@@ -203,8 +222,9 @@ Expected<void> show_live(const Arguments& arguments, Output& output) {
 ExitCode show_stored(const Arguments& arguments, Output& output, bool& running) {
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
-  const auto status = read_status(**store);
+  auto status = read_status(**store);
   if (!status) return fail(output, ExitCode::Store, status.error());
+  if (!has_writer(*arguments.store.path())) correct_states(*status);
   if (arguments.watch && output.out_is_terminal) output.out << Verbatim{"\x1b[H\x1b[2J"};
   output.json ? write_json(output, *status) : write_text(output, *status);
   running = status->campaign.cells.size() == 1 && status->of_campaign(0, "state") == "running";

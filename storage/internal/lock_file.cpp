@@ -1,17 +1,22 @@
 #include "storage/internal/lock_file.h"
 
 #include <fcntl.h>
+#include <signal.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 #include <array>
 #include <cerrno>
+#include <cstdlib>
 #include <cstring>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "storage/store.h"
 
 namespace swarmsmith {
 namespace {
@@ -103,6 +108,20 @@ LockFile::~LockFile() {
   if (descriptor_ < 0) return;
   if (!suspect_) ::unlink(path_.c_str());
   ::close(descriptor_);
+}
+
+bool has_writer(const std::filesystem::path& named) {
+  const int descriptor =
+      ::open((real_store(named).string() + ".lock").c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const std::string holder = read_holder(descriptor);
+  ::close(descriptor);
+  constexpr std::string_view kProcess = "pid=";
+  if (!holder.starts_with(kProcess)) return false;
+  const std::string pid = holder.substr(kProcess.size(), holder.find(' ') - kProcess.size());
+  if (holder != holder_text(pid)) return true;
+  const auto number = static_cast<pid_t>(std::strtol(pid.c_str(), nullptr, 10));
+  return number > 0 && (::kill(number, 0) == 0 || errno == EPERM);
 }
 
 }  // namespace swarmsmith

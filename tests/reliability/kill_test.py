@@ -1,5 +1,6 @@
 """kill -9 of workers and coordinator, at any moment and beside an ordinary client of the store: the
 same answer, and every promise is kept."""
+import json
 import random
 import signal
 import subprocess
@@ -7,7 +8,8 @@ import time
 import unittest
 
 from beside import Beside, Onlookers
-from rig import BIN, LONG, PATIENCE, FaultTest, calls_in, children_of, events, rows, send, stored, wait_for
+from rig import (BIN, LONG, PATIENCE, SWARMSMITH, FaultTest, calls_in, children_of, events, rows, send,
+                 stored, wait_for)
 
 PRELOAD = str(BIN / "faulty_calls.so")
 
@@ -119,6 +121,12 @@ class Kill(Beside):
         run.send(signal.SIGINT)
         self.assertEqual(run.wait(60), 130)
         self.count("interrupted", 1)
+        done = subprocess.run([str(SWARMSMITH), "status", str(self.store), "--json"], text=True,
+                              capture_output=True, timeout=60, check=True)
+        status = json.loads(done.stdout)
+        self.assertEqual(status["campaign"]["state"], "interrupted")
+        self.assertEqual(status["workers"], [])
+        self.assertFalse({"racing", "testing"} & {d["state"] for d in status["designs"]})
         self.finish(self.run_local("--workers", "3"))
         again = self.run_local()
         self.assertEqual(again.wait(60), 0)

@@ -3,6 +3,7 @@
 #include <sys/sysmacros.h>
 #include <unistd.h>
 
+#include <array>
 #include <fstream>
 #include <functional>
 #include <sstream>
@@ -98,6 +99,29 @@ TEST_F(LocksTest, NothingThatIsDoneWithAStoreTakesTheLockOfItsWriterAway) {
     EXPECT_FALSE(Store::open(path, campaign.campaign, campaign.designs));
     EXPECT_FALSE(StoreAtRest::open(path, StoreAtRest::IfMissing::Refuse));
   });
+}
+
+TEST(HasWriter, GoesByTheProcessThatTheLockFileNames) {
+  const TemporaryFolder folder;
+  const SyntheticCampaign campaign = synthetic_campaign({.designs = 1, .iterations = 1});
+  const std::filesystem::path path = folder / "s.db";
+  EXPECT_FALSE(has_writer(path));
+  auto store = open_store(path, campaign);
+  EXPECT_TRUE(has_writer(path));
+  std::filesystem::create_symlink(path, folder / "link.db");
+  EXPECT_TRUE(has_writer(folder / "link.db"));
+  store.reset();
+  EXPECT_FALSE(has_writer(path));
+  const auto left_by = [&](const std::string& holder) {
+    std::ofstream(path.string() + ".lock") << holder;
+    return has_writer(path);
+  };
+  EXPECT_TRUE(left_by("pid=1 host=another-host\n")) << "who knows";
+  std::array<char, 256> host{};
+  ASSERT_EQ(::gethostname(host.data(), host.size() - 1), 0);
+  EXPECT_TRUE(left_by(fmt::format("pid={} host={}\n", ::getpid(), host.data())));
+  EXPECT_FALSE(left_by(fmt::format("pid=99999999 host={}\n", host.data())));
+  EXPECT_FALSE(left_by(""));
 }
 
 }  // namespace
