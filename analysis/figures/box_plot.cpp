@@ -27,7 +27,8 @@ constexpr std::string_view kExplanation =
     "Box: quartiles; line: median; diamond: mean; whiskers: last values within 1.5 box heights; "
     "n: values, each a point";
 
-/// The room that counts need at the right of a box; 0 without any.
+/// The room that counts need at the right of a box, which stands over its name and so needs as much
+/// at its left; 0 without any.
 double counts_beside(const ScorePanel& panel) {
   double room = 0;
   for (const ScoreGroup& group : panel.groups)
@@ -51,7 +52,7 @@ std::vector<std::string> names_of(const ScorePanel& panel) {
 
 /// The width that each group of a panel needs.
 double least_band(const ScorePanel& panel) {
-  double least = kLeastBand + counts_beside(panel);
+  double least = kLeastBand + 2 * counts_beside(panel);
   for (const std::string& name : names_of(panel)) {
     for (const std::string& word : broken_text(name, kTextSize, 1000, 1000))
       least = std::max(least, std::min(text_width(word, kTextSize) + 1, kLongestName));
@@ -84,11 +85,10 @@ void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
   draw_vertical_axis(svg, area, y, "");
   const Bands bands = bands_of(panel, area);
   const double counts = counts_beside(panel);
-  const double half = std::clamp((bands.width() - counts - 1) / 2 * 0.8, 0.8, 4.0);
+  const double half = std::clamp((bands.width() / 2 - counts - 0.5) * 0.8, 0.8, 4.0);
   for (std::size_t i = 0; i < panel.groups.size(); ++i) {
-    const BoxPlace place{.x = bands.centre(i) - counts / 2,
-                         .half = half,
-                         .right = bands.centre(i) + bands.width() / 2};
+    const BoxPlace place{
+        .x = bands.centre(i), .half = half, .right = bands.centre(i) + bands.width() / 2};
     draw_marks(svg, panel.groups[i], place, y);
   }
   draw_band_axis(svg, area, bands, names_of(panel));

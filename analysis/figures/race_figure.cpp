@@ -27,13 +27,19 @@ struct Race {
   std::map<CandidateId, std::int64_t> elites_after;  ///< to their rank
 };
 
+/// The one that is asked for, else the last; the race of what was left, after that, only when
+/// asked.
 Expected<std::int64_t> chosen_iteration(const std::vector<StepRecord>& steps,
+                                        const std::vector<IterationRecord>& all,
                                         const FigureOptions& options, DesignId design) {
   if (steps.empty()) {
     return unexpected(ErrorKind::NotFound, fmt::format("{} has not raced yet", to_string(design)));
   }
   const std::int64_t last = steps.back().iteration;
-  const std::int64_t wanted = options.iteration.value_or(last);
+  std::int64_t wanted = options.iteration.value_or(last);
+  const auto record = std::ranges::find(all, last, &IterationRecord::iteration);
+  const bool is_extra = record != all.end() && record->postselection;
+  if (!options.iteration && is_extra && last > 1) wanted = last - 1;
   if (std::ranges::find(steps, wanted, &StepRecord::iteration) == steps.end()) {
     return bad_input(fmt::format("--iteration {}: {} has raced the iterations 1 to {}", wanted,
                                  to_string(design), last));
@@ -47,7 +53,9 @@ Expected<Race> read_race(StoreReader& store, const FigureOptions& options) {
   const DesignId id = design->design;
   const auto steps = race_steps(store, id);
   if (!steps) return Unexpected(steps.error());
-  const auto number = chosen_iteration(*steps, options, id);
+  const auto all = iterations(store, id);
+  if (!all) return Unexpected(all.error());
+  const auto number = chosen_iteration(*steps, *all, options, id);
   if (!number) return Unexpected(number.error());
   auto cells = race_cells(store, id, *number);
   if (!cells) return Unexpected(cells.error());
@@ -55,8 +63,6 @@ Expected<Race> read_race(StoreReader& store, const FigureOptions& options) {
   if (!dropped) return Unexpected(dropped.error());
   const auto kept = elites(store, {.design = id});
   if (!kept) return Unexpected(kept.error());
-  const auto all = iterations(store, id);
-  if (!all) return Unexpected(all.error());
 
   Race race{.design = std::move(*design), .cells = std::move(*cells)};
   for (const StepRecord& step : *steps)

@@ -1,22 +1,23 @@
 #include "coordinator/cli/run_signals.h"
 
 #include <unistd.h>
+#include <atomic>
 #include <csignal>
 
 namespace swarmsmith::cli {
 namespace {
 
-// Set by the handlers, read by the loop.
-volatile std::sig_atomic_t g_ending = 0;
-volatile std::sig_atomic_t g_hangup = 0;
+// Set by the handlers, in whatever thread the signal finds; read by the loop.
+std::atomic<int> g_ending = 0;
+std::atomic<bool> g_hangup = false;
+static_assert(std::atomic<int>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
 
 void on_ending(int signal) {
-  if (g_ending != 0) _exit(128 + signal);
-  g_ending = signal;
+  if (g_ending.exchange(signal) != 0) _exit(128 + signal);
 }
 
 void on_hangup(int) {
-  g_hangup = 1;
+  g_hangup = true;
 }
 
 }  // namespace
@@ -42,9 +43,7 @@ void catch_hangup() {
 }
 
 bool take_hangup() {
-  if (g_hangup == 0) return false;
-  g_hangup = 0;
-  return true;
+  return g_hangup.exchange(false);
 }
 
 }  // namespace swarmsmith::cli

@@ -101,7 +101,8 @@ Expected<Figure> trajectories_figure(std::unique_ptr<StoreReader> store,
   if (!runs) return Unexpected(runs.error());
   const ThingId id{.letter = 'c', .digits = std::to_string(candidate->value), .purpose = {}};
   ArenaPanels panels{.title = {},
-                     .details = {to_string(*candidate) + "; hollow: start, solid: end"},
+                     .details = {to_string(*candidate) +
+                                 "; hollow: start, solid: end; the floor is paler than it is"},
                      .pictures = {},
                      .width_mm = options.width_mm};
   Figure figure;

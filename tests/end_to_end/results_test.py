@@ -101,6 +101,60 @@ class Results(ProgramTest):
         self.assertEqual(sorted((row["name"], row["seed"], row["score"]) for row in rows),
                          sorted(given))
 
+    def test_figure_table_and_test_have_the_same_values_and_one_colour_a_thing(self):
+        store = self.thesis()
+        self.imported(ARGOS / "argos-thesis-designs.csv", "--flavour", "watermelon-argos3",
+                      "--method", "again", *RENAMED, "--into", store)
+        for source, method in (("original", "thesis"), ("original", "again"), ("real", "thesis")):
+            scores = self.folder / f"{source}-{method}.csv"
+            with open(ARGOS / "argos-thesis-scores.csv", newline="") as stream:
+                rows = [row for row in csv.DictReader(stream) if source != "real" or row["seed"] == "1"]
+            self.assertTrue(rows)
+            with open(scores, "w", newline="") as stream:
+                writer = csv.writer(stream)
+                writer.writerow(["mission", "method", "repetition", "score"] +
+                                (["seed"] if source != "real" else []))
+                for row in rows:
+                    writer.writerow([row["mission"], method, row["fsm_id"][2:], row["score"]] +
+                                    ([row["seed"]] if source != "real" else []))
+            self.imported(scores, *RENAMED, "--cost-of", "grid_exploration", "--source", source,
+                          "--into", store)
+        counts = set()
+        for by in ("source", "method"):
+            for per in ("design", "run"):
+                words = ("--by", by, "--per", per)
+                groups = {(row["mission"], row["method"], row["source"]): int(row["n"])
+                          for row in self.csv("compare", store, *words, "--csv", "--table", "groups")}
+                drawn = {}
+                for row in self.csv("figure", "box", store, *words, "-o", self.folder / "box.csv"):
+                    key = (row["mission"], row["method"], row["source"])
+                    drawn[key] = drawn.get(key, 0) + 1
+                self.assertEqual(drawn, groups)
+                counts |= set(groups.values())
+                for row in self.csv("compare", store, *words, "--csv"):
+                    for side in ("first", "second"):
+                        key = ((row["mission"], row["method"], row[side]) if by == "source" else
+                               (row["mission"], row[side], row["source"]))
+                        # Of two sources only what both have is compared.
+                        at_most = self.assertLessEqual if by == "source" else self.assertEqual
+                        at_most(int(row[f"n_{side}"]), groups[key])
+        self.assertEqual(counts, {10, 300})
+        colours = {}
+        for kind in ("box", "scores"):
+            for mission in ("aggregation", "grid_exploration"):
+                for source in ("original", "real"):
+                    text = self.done("figure", kind, store, "--mission", mission, "--source", source,
+                                     "--by", "source", "--method", "thesis")
+                    found = {colour for colour in ("#0072b2", "#d55e00") if colour in text}
+                    colours.setdefault(source, set()).update(found)
+        self.assertEqual(colours, {"original": {"#0072b2"}, "real": {"#d55e00"}})
+
+    def csv(self, *words):
+        """Rows of what the command writes, to standard output or to the file after -o."""
+        out = self.done(*words)
+        text = pathlib.Path(words[words.index("-o") + 1]).read_text() if "-o" in words else out
+        return list(csv.DictReader(text.splitlines()))
+
     def test_imported_machines_are_simulated_and_replayed(self):
         store = self.thesis()
         lines = [json.loads(line) for line in

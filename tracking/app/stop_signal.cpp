@@ -1,14 +1,17 @@
 #include "tracking/app/stop_signal.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace swarmsmith::cli {
 namespace {
 
-volatile std::sig_atomic_t asked = 0;
+/// A handler runs in whatever thread the signal finds.
+std::atomic<bool> asked = false;
+static_assert(std::atomic<bool>::is_always_lock_free);
 
 void ask(int /*signal*/) {
-  asked = 1;
+  asked = true;
 }
 
 }  // namespace
@@ -21,7 +24,7 @@ void catch_stop_signals() {
 }
 
 bool stop_was_asked_for() {
-  return asked != 0;
+  return asked;
 }
 
 }  // namespace swarmsmith::cli

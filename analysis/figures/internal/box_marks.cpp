@@ -37,8 +37,24 @@ void draw_segment(Svg& svg, PagePoint a, PagePoint b, std::string_view color, do
   svg.line(ends, stroked(color, width));
 }
 
-void draw_box(Svg& svg, const BoxNumbers& box, const BoxPlace& place, const Axis& y,
-              const std::string& color) {
+std::array<PagePoint, 4> corners_of(const BoxNumbers& box, const BoxPlace& place, const Axis& y) {
+  const double top = y.at(box.upper_quartile);
+  const double bottom = y.at(box.lower_quartile);
+  return {{{place.x - place.half, top},
+           {place.x + place.half, top},
+           {place.x + place.half, bottom},
+           {place.x - place.half, bottom}}};
+}
+
+/// What points may lie over.
+void draw_ground(Svg& svg, const BoxNumbers& box, const BoxPlace& place, const Axis& y,
+                 const std::string& color) {
+  svg.polygon(corners_of(box, place, y), filled(lightened(color, 0.75)));
+}
+
+/// What no point may hide.
+void draw_lines(Svg& svg, const BoxNumbers& box, const BoxPlace& place, const Axis& y,
+                const std::string& color) {
   const auto [x, half, right] = place;
   for (const auto& [from, to] : {std::pair(box.lower_quartile, box.lower_whisker),
                                  std::pair(box.upper_quartile, box.upper_whisker)}) {
@@ -46,12 +62,7 @@ void draw_box(Svg& svg, const BoxNumbers& box, const BoxPlace& place, const Axis
     if (from != to)
       draw_segment(svg, {x - half / 2, y.at(to)}, {x + half / 2, y.at(to)}, color, 0.3);
   }
-  const double top = y.at(box.upper_quartile);
-  const double bottom = y.at(box.lower_quartile);
-  const std::array<PagePoint, 4> corners = {
-      {{x - half, top}, {x + half, top}, {x + half, bottom}, {x - half, bottom}}};
-  svg.polygon(corners,
-              {.fill = lightened(color, 0.75), .stroke = color, .width = 0.3, .dashes = {}});
+  svg.polygon(corners_of(box, place, y), stroked(color, 0.3));
   draw_segment(svg, {x - half, y.at(box.median)}, {x + half, y.at(box.median)}, kInk, 0.6);
 }
 
@@ -69,7 +80,8 @@ void draw_mean(Svg& svg, double mean, const BoxPlace& place, const Axis& y) {
 void draw_points(Svg& svg, const std::vector<double>& sorted, const BoxPlace& place, const Axis& y,
                  const std::string& color) {
   constexpr double kGolden = 0.6180339887498949;
-  const double radius = sorted.size() > 60 ? 0.3 : 0.45;
+  constexpr std::size_t kMany = 60;
+  const double radius = sorted.size() > kMany ? 0.3 : 0.45;
   std::vector<PagePoint> points;
   double part = 0.5;
   for (const double value : sorted) {
@@ -77,7 +89,7 @@ void draw_points(Svg& svg, const std::vector<double>& sorted, const BoxPlace& pl
     part += kGolden;
     part -= std::floor(part);
   }
-  svg.dots(points, radius, color);
+  svg.dots(points, radius, sorted.size() > kMany ? lightened(color, 0.35) : color);
 }
 
 /// "x12" at the right of each value, unless they are too near to each other to be read.
@@ -113,8 +125,9 @@ void draw_marks(Svg& svg, const ScoreGroup& group, const BoxPlace& place, const 
   std::vector<double> sorted = group.values;
   std::ranges::sort(sorted);
   const BoxNumbers box = box_numbers(sorted);
-  draw_box(svg, box, place, y, color);
+  draw_ground(svg, box, place, y, color);
   draw_points(svg, sorted, place, y, color);
+  draw_lines(svg, box, place, y, color);
   draw_mean(svg, box.mean, place, y);
   draw_counts(svg, sorted, place, y);
 }
