@@ -221,7 +221,6 @@ std::string Recording::picture(const std::vector<std::string>& details,
   picture.details.push_back(first_ == last_
                                 ? "at " + seconds_text(last_)
                                 : seconds_text(first_) + " (hollow) to " + seconds_text(last_));
-  picture.details.back() += "; the floor is paler than it is";
   for (std::size_t i = 0; i < robots_.size(); ++i)
     picture.robots.push_back({robots_[i], behaviour_of(states_[i])});
   return draw(picture);
