@@ -42,11 +42,14 @@ TEST_F(MachineFigureTest, DrawsTheBestOfTheOneDesignThatIsNamed) {
   EXPECT_EQ(named->svg, figure->svg);
 }
 
-TEST_F(MachineFigureTest, AsksWhichOneOfSeveral) {
-  const auto figure = make({});
-  ASSERT_FALSE(figure);
-  EXPECT_EQ(figure.error().kind, ErrorKind::BadInput);
-  EXPECT_THAT(figure.error().message, HasSubstr("name one, for instance d1"));
+TEST_F(MachineFigureTest, OfSeveralDesignsIsASheetInTheirOrder) {
+  const auto sheet = make({});
+  ASSERT_TRUE(sheet) << to_string(sheet.error());
+  const std::size_t first = sheet->svg.find(">d1 c");
+  const std::size_t second = sheet->svg.find(">d2 c");
+  ASSERT_NE(second, std::string::npos);
+  EXPECT_LT(first, second);
+  EXPECT_THAT(sheet->csv, testing::StartsWith("design,candidate,state,behaviour,"));
 }
 
 TEST_F(MachineFigureTest, SaysWhatIsMissingOrOutOfPlace) {
