@@ -52,6 +52,7 @@ void Options::integer(const std::string& names, std::optional<std::int64_t>& val
   };
   // Checks run in reverse: the range sees what the transformation has made.
   app_->add_option(names, value, help)
+      ->option_text("N")
       ->check(CLI::Range(range.least, range.most))
       ->transform(without_underscores, "", "underscores");
 }

@@ -7,13 +7,14 @@
 #include <cstring>
 #include <deque>
 #include <utility>
+#include <vector>
 
 #include "target/process.h"
 
 namespace swarmsmith::cli {
 namespace {
 
-constexpr std::size_t kLargestPdf = std::size_t{256} << 20U;
+constexpr std::size_t kLargestFile = std::size_t{256} << 20U;
 
 /// A text that another process can read as a file, without one on any disk.
 class TextInMemory {
@@ -44,14 +45,52 @@ class TextInMemory {
   int descriptor_;
 };
 
-Unexpected no_pdf(const std::string& why) {
-  return unexpected(ErrorKind::Unavailable, why, "PDF");
+/// What rsvg-convert makes.
+struct Format {
+  const char* name;
+  const char* begin;  ///< its first bytes
+  std::vector<std::string> words;
+};
+
+Unexpected not_made(const Format& format, const std::string& why) {
+  return unexpected(ErrorKind::Unavailable, why, format.name);
 }
 
 /// The first line of what a program said, for a sentence.
 std::string first_line(const std::string& text) {
   const std::string line = text.substr(0, text.find('\n'));
   return line.empty() ? "it does not say why" : line;
+}
+
+Expected<std::string> converted(const Format& format, std::span<const std::string> pages) {
+  const auto program = find_program("rsvg-convert");
+  if (!program) {
+    return not_made(
+        format,
+        "the program rsvg-convert, which makes it, is not there; install the Debian package "
+        "librsvg2-bin, or write an .svg");
+  }
+  // With a date of its own, PDFs of one drawing would differ.
+  ProcessCall call{.words = {"env", "SOURCE_DATE_EPOCH=0", *program},
+                   .limit = std::chrono::minutes(1),
+                   .keep = kLargestFile};
+  call.words.insert(call.words.end(), format.words.begin(), format.words.end());
+  std::deque<TextInMemory> drawings;
+  for (const std::string& page : pages) {
+    drawings.emplace_back(page);
+    if (!drawings.back().is_there())
+      return not_made(format, std::string("no memory: ") + std::strerror(errno));
+    call.words.push_back(drawings.back().name());
+  }
+  const Interrupt never;
+  const auto end = run_process(call, never);
+  if (!end) return not_made(format, to_string(end.error()));
+  if (end->why == ProcessEnd::Why::Limit)
+    return not_made(format, "rsvg-convert took over a minute");
+  const bool is_made = end->output.text.starts_with(format.begin) && end->output.complete();
+  if (end->exit_code != 0 || end->signal != 0 || !is_made)
+    return not_made(format, "rsvg-convert failed: " + first_line(end->errors.text));
+  return end->output.text;
 }
 
 }  // namespace
@@ -61,32 +100,15 @@ Expected<std::string> pdf_of_svg(std::string_view svg) {
   return pdf_of_svgs({&page, 1});
 }
 
+Expected<std::string> png_of_svg(std::string_view svg) {
+  const std::string page(svg);
+  // The size that the picture says is in mm, of which it takes 90 to the inch unless told.
+  return converted({"PNG", "\x89PNG", {"-f", "png", "-d", "300", "-p", "300", "-b", "white"}},
+                   {&page, 1});
+}
+
 Expected<std::string> pdf_of_svgs(std::span<const std::string> pages) {
-  const auto program = find_program("rsvg-convert");
-  if (!program) {
-    return no_pdf(
-        "the program rsvg-convert, which makes it, is not there; install the Debian package "
-        "librsvg2-bin, or write an .svg");
-  }
-  // With a date of its own, PDFs of one drawing would differ.
-  ProcessCall call{.words = {"env", "SOURCE_DATE_EPOCH=0", *program, "-f", "pdf"},
-                   .limit = std::chrono::minutes(1),
-                   .keep = kLargestPdf};
-  std::deque<TextInMemory> drawings;
-  for (const std::string& page : pages) {
-    drawings.emplace_back(page);
-    if (!drawings.back().is_there())
-      return no_pdf(std::string("no memory: ") + std::strerror(errno));
-    call.words.push_back(drawings.back().name());
-  }
-  const Interrupt never;
-  const auto end = run_process(call, never);
-  if (!end) return no_pdf(to_string(end.error()));
-  if (end->why == ProcessEnd::Why::Limit) return no_pdf("rsvg-convert took over a minute");
-  const bool is_pdf = end->output.text.starts_with("%PDF") && end->output.complete();
-  if (end->exit_code != 0 || end->signal != 0 || !is_pdf)
-    return no_pdf("rsvg-convert failed: " + first_line(end->errors.text));
-  return end->output.text;
+  return converted({"PDF", "%PDF", {"-f", "pdf"}}, pages);
 }
 
 }  // namespace swarmsmith::cli

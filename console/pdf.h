@@ -15,6 +15,9 @@ namespace swarmsmith::cli {
 /// when it fails or takes over a minute.
 Expected<std::string> pdf_of_svg(std::string_view svg);
 
+/// A drawing as PNG, 300 pixels an inch, on white; the same way, with the same errors.
+Expected<std::string> png_of_svg(std::string_view svg);
+
 /// Several drawings, a page each.
 Expected<std::string> pdf_of_svgs(std::span<const std::string> pages);
 

@@ -5,6 +5,7 @@
 
 #include "base/log.h"
 #include "base/suggestion.h"
+#include "console/wrapped.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -88,6 +89,25 @@ ExitCode complain_about_extras(const CLI::App& app, const Program& program, cons
                   did_you_mean(word, option_names(app)) + help);
 }
 
+/// Help that fits a page: names in a column of their own, what they mean beside, filled.
+class PageFormatter : public CLI::Formatter {
+ public:
+  std::string make_option(const CLI::Option* option, bool is_positional) const override {
+    constexpr std::size_t kNames = 26;
+    std::string names = "  " + make_option_name(option, is_positional) + make_option_opts(option);
+    if (names.size() + 2 > kNames) {
+      names += "\n" + std::string(kNames, ' ');
+    } else {
+      names.resize(kNames, ' ');
+    }
+    std::string meaning = wrapped(make_option_desc(option), kPageWidth - kNames);
+    for (std::size_t at = meaning.find('\n'); at != std::string::npos;
+         at = meaning.find('\n', at + 1))
+      meaning.insert(at + 1, kNames, ' ');
+    return names + meaning + "\n";
+  }
+};
+
 /// Flags that every command has.
 void declare_common(CLI::App& app, Output& output, bool& no_color) {
   app.add_flag("--json", output.json, "Write the answer as JSON");
@@ -102,9 +122,11 @@ ExitCode run_command(const Program& program, const Command& command,
   CLI::App app{std::string(command.summary),
                std::string(program.name) + " " + std::string(command.name)};
   app.allow_extras();
+  app.formatter(std::make_shared<PageFormatter>());
   app.footer("\n" + std::string(command.details));
   Options options(app);
   const Run run = command.declare(options);
+  app.footer(wrapped(app.get_footer()));
   bool no_color = false;
   declare_common(app, output, no_color);
   // The library takes the words from the back.

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "base/rng.h"
 #include "irace_core/configuration.h"
 #include "irace_core/expression.h"
 
@@ -170,5 +171,9 @@ class Assignment {
   Configuration configuration_;
   std::vector<Scalar> scalars_;
 };
+
+/// A configuration with every active parameter uniform in its domain. Fails when a domain that
+/// depends on other parameters is empty.
+Expected<Configuration> sample_uniform(const ParameterSpace& space, Rng& rng);
 
 }  // namespace swarmsmith

@@ -47,6 +47,12 @@ class Writer {
     sentence_.latex += latex_escaped(words);
     return *this;
   }
+  /// A number alone, between dollar signs in LaTeX, so that a minus is one.
+  Writer& number(double value) {
+    sentence_.text += shown(value);
+    sentence_.latex += "$" + shown(value) + "$";
+    return *this;
+  }
   /// "n = 10", or "$n = 10$"; `symbol` as LaTeX where that is another.
   Writer& value(std::string_view name, std::string_view value, std::string_view symbol = "") {
     const bool is_less = value.starts_with('<');
@@ -111,8 +117,8 @@ PaperSentence sentence_of(const Comparison& comparison, const ComparedPair& pair
       group_of(comparison, pair.mission, pair.paired ? pair.method : pair.second,
                pair.paired ? pair.second : pair.source);
   if (first != nullptr && second != nullptr) {
-    writer.words(fmt::format("; mean scores {} and {}", shown(first->summary.mean),
-                             shown(second->summary.mean)));
+    writer.words("; mean scores ").number(first->summary.mean).words(" and ");
+    writer.number(second->summary.mean);
   }
   writer.words(
       fmt::format("; Wilcoxon {} test, two-sided, ", pair.paired ? "signed-rank" : "rank-sum"));
@@ -127,9 +133,19 @@ PaperSentence sentence_of(const Comparison& comparison, const ComparedPair& pair
     writer.words("no p");
   }
   writer.words("; ").value("A12", fmt::format("{:.2f}", pair.a12), "\\hat{A}_{12}");
-  writer.words(fmt::format(" ({}), difference of the means {}, ", magnitude_of(pair.a12),
-                           shown(pair.difference.value)));
+  writer.words(fmt::format(" ({}), difference of the means ", magnitude_of(pair.a12)));
+  writer.number(pair.difference.value).words(", ");
   writer.interval(pair.difference.low, pair.difference.high).words(").");
+  if (comparison.unit == ScoreUnit::Run && !pair.paired) {
+    const auto one_design = [](const ComparedGroup* group) {
+      return group != nullptr && group->designs == 1;
+    };
+    if (one_design(first) && one_design(second)) {
+      writer.words(
+          " Each group is one machine: the test tells machines apart, and says nothing about the "
+          "methods.");
+    }
+  }
   if (!pair.notes.empty()) writer.words(fmt::format(" Note: {}.", fmt::join(pair.notes, "; ")));
   return writer.sentence();
 }
@@ -137,11 +153,11 @@ PaperSentence sentence_of(const Comparison& comparison, const ComparedPair& pair
 PaperSentence sentence_of(const Comparison& comparison, const ComparedGroup& group) {
   const Summary& summary = group.summary;
   Writer writer;
-  writer.words(fmt::format("On {}, {} scored {} on average in {} (", as_words(group.mission),
-                           group.method, shown(summary.mean), group.source));
-  if (summary.n > 1) writer.words(fmt::format("standard deviation {}, ", shown(summary.sd)));
-  writer.words(fmt::format("median {}, from {} to {}; ", shown(summary.median),
-                           shown(summary.least), shown(summary.most)));
+  writer.words(fmt::format("On {}, {} scored ", as_words(group.mission), group.method));
+  writer.number(summary.mean).words(fmt::format(" on average in {} (", group.source));
+  if (summary.n > 1) writer.words("standard deviation ").number(summary.sd).words(", ");
+  writer.words("median ").number(summary.median).words(", from ").number(summary.least);
+  writer.words(" to ").number(summary.most).words("; ");
   const std::string_view units = units_of(comparison.unit);
   writer.value("n", fmt::format("{}", summary.n));
   writer.words(fmt::format(" {}", summary.n == 1 ? units.substr(0, units.size() - 1) : units));

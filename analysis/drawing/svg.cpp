@@ -124,13 +124,29 @@ std::string lightened(const std::string& color, double towards_white) {
   return result;
 }
 
+Expected<std::string> with_font(std::string svg, std::string_view font) {
+  const bool is_name = !font.empty() && std::ranges::all_of(font, [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == ' ' ||
+           c == '-' || c == '_';
+  });
+  if (!is_name) {
+    return bad_input(
+        "a font's name has letters, digits, blanks and - alone, as in \"Linux Libertine\"",
+        "--font");
+  }
+  const std::string fonts(kFigureFonts);
+  const std::size_t at = svg.find(fonts);
+  if (at != std::string::npos) svg.insert(at, "'" + std::string(font) + "', ");
+  return svg;
+}
+
 Svg::Svg(double width_mm, double height_mm, std::string_view title, std::string_view description)
     : width_(width_mm), height_(height_mm) {
   const std::string w = number(width_mm);
   const std::string h = number(height_mm);
   head_ = "<svg xmlns=\"http://www.w3.org/2000/svg\"" + attribute("width", w + "mm") +
           attribute("height", h + "mm") + attribute("viewBox", "0 0 " + w + " " + h) +
-          " role=\"img\" font-family=\"Helvetica, Arial, 'DejaVu Sans', sans-serif\">\n<title>" +
+          " role=\"img\" font-family=\"" + std::string(kFigureFonts) + "\">\n<title>" +
           escaped(title) + "</title>\n<desc>" + escaped(description) + "</desc>\n";
 }
 

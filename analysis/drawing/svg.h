@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "base/expected.h"
+
 namespace swarmsmith {
 
 /// A small writer of SVG for figures on paper: millimetres, text as text, no scripts, no style
@@ -53,6 +55,13 @@ std::string distinct_color(std::size_t number);
 
 /// The colour part of the way to white: 0 gives itself, 1 white. `color` is "#rrggbb".
 std::string lightened(const std::string& color, double towards_white);
+
+/// The fonts that every picture asks for, first choice first.
+inline constexpr std::string_view kFigureFonts = "Helvetica, Arial, 'DejaVu Sans', sans-serif";
+
+/// The picture with a font of one's own before these. Widths were measured in DejaVu Sans; a wider
+/// font may run over. Errors: BadInput for what is no font's name.
+Expected<std::string> with_font(std::string svg, std::string_view font);
 
 /// Characters of a UTF-8 text.
 std::size_t characters_in(std::string_view text);

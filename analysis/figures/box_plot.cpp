@@ -9,6 +9,7 @@
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
 #include "analysis/figures/internal/box_marks.h"
+#include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/internal/panel_grid.h"
 #include "analysis/figures/internal/score_groups.h"
 #include "analysis/figures/makers.h"
@@ -23,6 +24,7 @@ constexpr double kMostBand = 24;     ///< boxes that are further apart are hard 
 constexpr double kLongestName = 19;  ///< longer words are cut
 constexpr double kAboveLine = 1.5;   ///< the lowest values
 constexpr double kRatio = 0.62;      ///< height of the area by its width, within limits
+constexpr std::string_view kLink = "#888888";
 constexpr std::string_view kExplanation =
     "Box: quartiles; line: median; diamond: mean; whiskers: last values within 1.5 box heights; "
     "n: values, each a point";
@@ -86,6 +88,12 @@ void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
   const Bands bands = bands_of(panel, area);
   const double counts = counts_beside(panel);
   const double half = std::clamp((bands.width() / 2 - counts - 0.5) * 0.8, 0.8, 4.0);
+  for (const ScoreLink& link : panel.links) {
+    const std::vector<PagePoint> line = {
+        {bands.centre(link.from) + half + 0.6, y.at(link.from_value)},
+        {bands.centre(link.to) - half - 0.6, y.at(link.to_value)}};
+    svg.line(line, stroked(kLink, 0.15));
+  }
   for (std::size_t i = 0; i < panel.groups.size(); ++i) {
     const BoxPlace place{
         .x = bands.centre(i), .half = half, .right = bands.centre(i) + bands.width() / 2};
@@ -150,7 +158,8 @@ std::string draw(const BoxPlot& plot) {
   const double heading = kMargin + (plot.title.empty() ? 0 : kTitleSize) +
                          kLineHeight * static_cast<double>(plot.details.size()) + 2;
   const BoxLayout layout = layout_of(plot, grid, heading + kLineHeight);
-  const auto explanation = broken_text(kExplanation, kTextSize, plot.width_mm - 2 * kMargin, 6);
+  const auto explanation = broken_text(plot.explained ? kExplanation : std::string_view(),
+                                       kTextSize, plot.width_mm - 2 * kMargin, 6);
   const double bottom = layout.bottom + kLineHeight * static_cast<double>(explanation.size());
   Svg svg(plot.width_mm, bottom + kMargin, plot.title,
           fmt::format("Box plots with points in {} panels; {}", plot.panels.size(), plot.axis));
@@ -171,11 +180,16 @@ std::string draw(const BoxPlot& plot) {
 Expected<Figure> box_figure(StoreReader& store, const FigureOptions& options) {
   auto scores = grouped_scores(store, options);
   if (!scores) return Unexpected(scores.error());
+  std::vector<std::string> details;
+  for (const std::string& detail : scores->details) {
+    for (std::string& line : broken_text(detail, kTextSize, options.width_mm - 2 * kMargin, 3))
+      details.push_back(std::move(line));
+  }
   const BoxPlot plot{.title = "Scores by " + scores->by,
-                     .details = std::move(scores->details),
+                     .details = std::move(details),
                      .panels = std::move(scores->panels),
                      .width_mm = options.width_mm};
-  return Figure{.svg = draw(plot), .csv = std::move(scores->csv), .tex = {}};
+  return Figure{.svg = draw(for_paper(plot, options)), .csv = std::move(scores->csv), .tex = {}};
 }
 
 }  // namespace swarmsmith

@@ -14,6 +14,7 @@ struct BoxPlot {
   std::string axis = "score (higher is better)";
   std::vector<ScorePanel> panels;  ///< no group is empty
   double width_mm = 84;
+  bool explained = true;  ///< says below how to read it
 };
 
 /// What a box shows: quartiles (R's type 7), and how far the whiskers go: to the last values within

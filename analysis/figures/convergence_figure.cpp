@@ -6,6 +6,7 @@
 
 #include "analysis/figures/convergence_plot.h"
 #include "analysis/figures/design_choice.h"
+#include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/internal/store_names.h"
 #include "analysis/figures/makers.h"
 #include "base/csv.h"
@@ -19,6 +20,7 @@ class PlotOfDesigns {
  public:
   PlotOfDesigns(const std::vector<DesignRecord>& designs, const StoreNames& names,
                 double width_mm) {
+    names_ = names;
     plot_.groups = names.methods;
     plot_.title = "Convergence";
     plot_.width_mm = width_mm;
@@ -56,13 +58,15 @@ class PlotOfDesigns {
 
   void add(const DesignRecord& design) {
     const auto [panel, is_new_panel] = panels_.try_emplace(design.mission, panels_.size());
-    if (is_new_panel) plot_.panels.push_back({.name = design.mission, .lines = {}});
+    if (is_new_panel)
+      plot_.panels.push_back({.name = names_.title_of(design.mission), .lines = {}});
     const std::size_t color = place_of(plot_.groups, design.method);
     auto& lines = plot_.panels[panel->second].lines;
     places_[design.design] = {panel->second, lines.size()};
     lines.push_back({.name = to_string(design.design), .group = color, .points = {}});
   }
 
+  StoreNames names_;
   ConvergencePlot plot_;
   std::map<std::string, std::size_t> panels_;
   std::map<DesignId, std::pair<std::size_t, std::size_t>> places_;  ///< panel and line
@@ -82,7 +86,13 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
   }
   const auto names = names_of(store);
   if (!names) return Unexpected(names.error());
-  PlotOfDesigns made(*known, *names, options.width_mm);
+  // Baselines have no race.
+  std::vector<DesignRecord> raced;
+  for (const DesignRecord& design : *known) {
+    if (std::ranges::find(*all, design.design, &EliteRecord::design) != all->end())
+      raced.push_back(design);
+  }
+  PlotOfDesigns made(raced, *names, options.width_mm);
   std::map<DesignId, const DesignRecord*> by_id;
   for (const DesignRecord& design : *known)
     by_id.emplace(design.design, &design);
@@ -97,7 +107,7 @@ Expected<Figure> convergence_figure(StoreReader& store, const FigureOptions& opt
                               elite.iteration, elite.experiments_used, elite.rank,
                               elite.candidate.value, elite.mean, elite.runs);
   }
-  figure.svg = draw(made.plot());
+  figure.svg = draw(for_paper(made.plot(), options));
   return figure;
 }
 

@@ -34,6 +34,10 @@ std::span<const FigureKind> figure_kinds() {
                  box_figure, "mission method design by source purpose per"},
       FigureKind{"scores", "How often each score occurred, bars of groups side by side",
                  scores_figure, "mission method design by source purpose per"},
+      FigureKind{"gap", "What winners lose from their simulator to other sources, a line a design",
+                 gap_figure, "mission method design"},
+      FigureKind{"training", "Winners' mean scores in their race beside those in their tests",
+                 training_figure, "mission method design"},
       FigureKind{"modules", "How often the winners have each module, as bars and numbers",
                  modules_figure, "mission method"},
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
@@ -46,6 +50,8 @@ std::span<const FigureKind> figure_kinds() {
                  "mission method design parameter"},
       FigureKind{"parallel", "Parameters of the elites among all candidates", parallel_figure,
                  "mission method design parameter"},
+      FigureKind{"importance", "How much of the candidates' scores goes with each parameter",
+                 importance_figure, "mission method design"},
       FigureKind{"ranks", "Mean ranks of methods or sources with Friedman's 95 % intervals",
                  ranks_figure, "mission method by source purpose"},
   };
@@ -73,7 +79,7 @@ std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions&
   }};
   for (const auto& [name, is_given] : given) {
     if (!is_given || has_word(kind.options, name)) continue;
-    std::string takes = "--width";
+    std::string takes = "--width, --paper";
     for (std::string_view rest = kind.options; !rest.empty();)
       takes += ", --" + std::string(next_word(rest));
     return Error{ErrorKind::BadInput,

@@ -28,6 +28,7 @@ inline constexpr double kMostFigureWidth_mm = 1000;
 struct FigureOptions {
   RecordFilter filter;
   double width_mm = 84;  ///< a column of a paper; the height follows
+  bool paper = false;    ///< without title, details and explanations: a paper's caption has them
   std::string by;        ///< groups of a comparison: source, method or mission
   std::string source;    ///< only scores of this source; empty: of all
   ScoreChoice choice;    ///< which scores, and what a value is

@@ -15,6 +15,9 @@ Expected<Figure> machine_figure(StoreReader& store, const FigureOptions& options
 Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> sampling_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> gap_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> training_figure(StoreReader& store, const FigureOptions& options);
+Expected<Figure> importance_figure(StoreReader& store, const FigureOptions& options);
 Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options);
 
 }  // namespace swarmsmith

@@ -99,6 +99,7 @@ std::vector<std::string> explanation_of(const ModuleChart& chart, const ChartLay
   if (any([](const auto& c) { return c && c->average_reachable < c->average_occurrences; }))
     text += "; pale: in states that cannot be reached";
   if (any([](const auto& c) { return !c; })) text += "; -: the flavour has no such module";
+  if (!chart.explained) return {};
   return broken_text(text, kTextSize, chart.width_mm - 2 * kMargin, 8);
 }
 

@@ -27,6 +27,7 @@ struct ModuleChart {
   std::vector<std::string> modules;
   std::vector<Block> blocks;
   double width_mm = 84;
+  bool explained = true;  ///< says below how to read it
 };
 
 /// As SVG. Columns that do not fit side by side continue below.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/module_chart.h"
 #include "analysis/records/names.h"
@@ -97,7 +98,7 @@ Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options
               : ",,,\n";
   }
   std::ranges::transform(ids, std::back_inserter(chart.modules), as_words);
-  figure.svg = draw(chart);
+  figure.svg = draw(for_paper(chart, options));
   return figure;
 }
 

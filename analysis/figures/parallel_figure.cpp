@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/design_choice.h"
+#include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/parallel_plot.h"
@@ -147,7 +148,8 @@ Expected<Figure> parallel_figure(StoreReader& store, const FigureOptions& option
     plot.lines.push_back(line_of(*table, *chosen, row, false));
   for (const std::size_t row : drawn.elites)
     plot.lines.push_back(line_of(*table, *chosen, row, true));
-  return Figure{.svg = draw(plot), .csv = csv_of(plot, design->design), .tex = {}};
+  return Figure{
+      .svg = draw(for_paper(plot, options)), .csv = csv_of(plot, design->design), .tex = {}};
 }
 
 }  // namespace swarmsmith

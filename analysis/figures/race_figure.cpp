@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/design_choice.h"
+#include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/race_plot.h"
 #include "base/csv.h"
@@ -215,7 +216,7 @@ Expected<Figure> race_figure(StoreReader& store, const FigureOptions& options) {
     plot.steps.push_back({step.step, step.marker, step.alive_before});
   for (const Ranked& row : rows)
     plot.rows.push_back(row.row);
-  return Figure{.svg = draw(plot), .csv = csv_of(*race), .tex = {}};
+  return Figure{.svg = draw(for_paper(plot, options)), .csv = csv_of(*race), .tex = {}};
 }
 
 }  // namespace swarmsmith

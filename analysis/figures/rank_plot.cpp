@@ -10,6 +10,7 @@
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
+#include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/makers.h"
 
 namespace swarmsmith {
@@ -182,7 +183,8 @@ Expected<Comparison> ranked(StoreReader& store, const FigureOptions& options) {
 
 std::string draw(const RankPlot& plot) {
   const double width = plot.width_mm - 2 * kMargin;
-  const auto footer = broken_text(kHowToRead, kTextSize, width, 3);
+  const auto footer =
+      broken_text(plot.explained ? kHowToRead : std::string_view(), kTextSize, width, 3);
   double height = kMargin + kTitleSize + 2 + kLineHeight * static_cast<double>(footer.size());
   for (const RankPlot::Panel& panel : plot.panels)
     height += height_of(panel, width);
@@ -210,7 +212,7 @@ Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options) 
   const bool alone = comparison->ranks.size() == 1;
   for (const ComparedRanks& ranks : comparison->ranks)
     plot.panels.push_back(panel_of(ranks, comparison->options.by, alone));
-  return Figure{.svg = draw(plot), .csv = ranks_csv(comparison->ranks)};
+  return Figure{.svg = draw(for_paper(plot, options)), .csv = ranks_csv(comparison->ranks)};
 }
 
 }  // namespace swarmsmith

@@ -22,6 +22,7 @@ struct RankPlot {
   std::string title;
   std::vector<Panel> panels;
   double width_mm = 84;
+  bool explained = true;  ///< says below how to read it
 };
 
 /// As SVG, best rows on top. A band shows the best one's interval.

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/design_choice.h"
+#include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/sampling_plot.h"
@@ -155,7 +156,8 @@ Expected<Figure> sampling_figure(StoreReader& store, const FigureOptions& option
         "candidates (total variation).",
         plot.panels.size(), table->columns.size());
   }
-  return Figure{.svg = draw(plot), .csv = csv_of(plot, design->design), .tex = {}};
+  return Figure{
+      .svg = draw(for_paper(plot, options)), .csv = csv_of(plot, design->design), .tex = {}};
 }
 
 }  // namespace swarmsmith

@@ -12,6 +12,7 @@
 #include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
 #include "analysis/drawing/legend.h"
+#include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/internal/panel_grid.h"
 #include "analysis/figures/internal/score_groups.h"
 #include "analysis/figures/makers.h"
@@ -249,7 +250,7 @@ Expected<Figure> scores_figure(StoreReader& store, const FigureOptions& options)
                                  groups, groups),
                      "figure scores");
   }
-  return Figure{.svg = draw(plot), .csv = std::move(scores->csv), .tex = {}};
+  return Figure{.svg = draw(for_paper(plot, options)), .csv = std::move(scores->csv), .tex = {}};
 }
 
 }  // namespace swarmsmith

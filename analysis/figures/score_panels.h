@@ -13,10 +13,19 @@ struct ScoreGroup {
   std::vector<double> values;
 };
 
+/// Two values of one thing, in two groups.
+struct ScoreLink {
+  std::size_t from = 0;  ///< places of the groups
+  std::size_t to = 0;
+  double from_value = 0;
+  double to_value = 0;
+};
+
 /// Groups on one axis: of one mission, since the scores of others have other units.
 struct ScorePanel {
   std::string title;  ///< the mission
   std::vector<ScoreGroup> groups;
+  std::vector<ScoreLink> links{};  ///< lines between the boxes
 };
 
 }  // namespace swarmsmith

@@ -38,25 +38,32 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
   std::set<std::string, NameOrder> methods;
   std::map<std::pair<std::string, std::string>, std::int64_t> groups;
   std::vector<std::int64_t> budgets;
+  std::set<std::string, NameOrder> baselines;
   std::ptrdiff_t finished = 0;
   for (const DesignRecord& design : designs) {
     missions.insert(as_words(design.mission));
     methods.insert(design.method);
     ++groups[{design.mission, design.method}];
-    budgets.push_back(design.budget);
+    // Machines to compare with have no race; programs may have a time as their budget.
+    const bool has_race = design.budget > 0 || design.flavour.empty();
+    if (has_race) budgets.push_back(design.budget);
+    if (!has_race) baselines.insert(design.method);
     if (design.state == "finished") ++finished;
   }
   std::vector<std::int64_t> repetitions;
   for (const auto& group : groups)
     repetitions.push_back(group.second);
-  return fmt::format(
-      "Asked: which machines do best on the {} {}? {} {} each by the {} {}, {} experiments a "
-      "design. "
-      "{} of {} designs {} finished. Higher scores are better.",
+  const bool is_one = *std::ranges::max_element(repetitions) == 1;
+  std::string text = fmt::format(
+      "Asked: which machines do best on the {} {}? {} {} each by the {} {}",
       plural(missions.size(), "mission"), fmt::join(missions, ", "), range_of(repetitions),
-      plural(repetitions == std::vector<std::int64_t>{1} ? 1 : 2, "design"),
-      plural(methods.size(), "method"), fmt::join(methods, ", "), range_of(budgets), finished,
-      designs.size(), designs.size() == 1 ? "is" : "are");
+      plural(is_one ? 1 : 2, "design"), plural(methods.size(), "method"), fmt::join(methods, ", "));
+  if (!budgets.empty()) text += fmt::format(", {} experiments a design", range_of(budgets));
+  if (!baselines.empty()) {
+    text += fmt::format("; without a race, to compare with: {}", fmt::join(baselines, ", "));
+  }
+  return text + fmt::format(". {} of {} designs {} finished. Higher scores are better.", finished,
+                            designs.size(), designs.size() == 1 ? "is" : "are");
 }
 
 /// Up to so many designs have chapters without being asked.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -211,6 +212,11 @@ Expected<std::vector<SupplementFile>> supplement(StoreReader& store,
     const std::string number = asked->size() == 1 ? "" : fmt::format("-{}", campaign.campaign);
     // Imported results have no file.
     if (!campaign.file.empty()) files.push_back({"campaign" + number + ".toml", campaign.file});
+  }
+  if (options.instance_tables) {
+    auto tables = options.instance_tables();
+    if (!tables) return Unexpected(tables.error());
+    std::ranges::move(*tables, std::back_inserter(files));
   }
   files.push_back({"README.md", supplement_readme(files, *asked, store.digest(), options)});
   std::ranges::sort(files, {}, &SupplementFile::path);

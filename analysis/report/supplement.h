@@ -21,6 +21,8 @@ struct SupplementOptions {
   std::function<Expected<std::string>(CandidateId)> machine_file;
   std::string program;     ///< what made it: "swarmsmith 0.1.0"
   bool with_pdfs = false;  ///< a PDF will be put beside every SVG, as README.md then says
+  /// Files below `instances/`; may be empty.
+  std::function<Expected<std::vector<SupplementFile>>()> instance_tables;
   /// As in ReportOptions.
   std::function<Expected<std::string>(DesignId)> runs_from_above;
   /// Is told now and then how many files are made.

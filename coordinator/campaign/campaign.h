@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -34,6 +35,15 @@ struct RangeOverride {
   friend bool operator==(const RangeOverride&, const RangeOverride&) = default;
 };
 
+/// As a baseline: a machine drawn from the method's space, another one in each repetition.
+inline constexpr std::string_view kRandomMachine = "random";
+
+struct Method;
+struct Campaign;
+/// Designs of the method on each mission: one of a machine that is given, whatever the campaign's
+/// repetitions are, since all would be the same.
+std::int64_t repetitions_of(const Campaign& campaign, const Method& method);
+
 /// A way to design: the flavour's modules that may be used, and how large machines may grow.
 struct Method {
   std::string name;
@@ -44,6 +54,9 @@ struct Method {
   std::vector<std::string> behaviours;  ///< names; all of the flavour's when the file has none
   std::vector<std::string> conditions;
   std::vector<RangeOverride> ranges;
+  /// No race, but a machine to compare with, tested as the winners of races are: a text of the
+  /// grammar, or kRandomMachine; empty: a race.
+  std::string baseline;
   /// Text of an irace parameter file; empty for a flavour's machines. Only with a target.
   std::string parameters;
   /// Text of an irace configurations file: the first configurations; empty for none.

@@ -31,8 +31,9 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
 /// methods for which they don't. `read_campaign` has done it, unless it was given a budget.
 std::vector<Error> check_budget(const Campaign& campaign);
 
-/// The campaign that `run` runs without a file: aggregation, watermelon, a few thousand
-/// experiments, store demo.db in the current folder.
+/// The campaign that `run` runs without a file: color_selection, a watermelon design of a few
+/// thousand experiments beside a machine by hand and a random one, store demo.db in the current
+/// folder.
 Campaign demo_campaign();
 
 }  // namespace swarmsmith

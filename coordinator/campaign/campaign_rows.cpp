@@ -18,9 +18,10 @@ std::int64_t design_seed(std::uint64_t campaign_seed, std::int64_t id) {
   return std::max<std::int64_t>(1, static_cast<std::int64_t>(rng.next() >> 1U));
 }
 
-/// What each design of the method may use; 0 when a time is its budget.
+/// What each design of the method may use; 0 when a time is its budget, and without a race.
 std::int64_t design_budget(const Campaign& campaign, const CampaignMission& mission,
                            const Method& method) {
+  if (!method.baseline.empty()) return 0;
   if (!campaign.race.min_experiments) return campaign.race.max_experiments;
   const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
   if (!space) return campaign.race.max_experiments;
@@ -56,12 +57,18 @@ CampaignRow campaign_row(const Campaign& campaign) {
           .seed = static_cast<std::int64_t>(campaign.seed)};
 }
 
+std::int64_t repetitions_of(const Campaign& campaign, const Method& method) {
+  const bool is_given = !method.baseline.empty() && method.baseline != kRandomMachine;
+  return is_given ? 1 : campaign.repetitions;
+}
+
 std::vector<DesignRow> design_rows(const Campaign& campaign) {
   std::vector<DesignRow> rows;
   for (const CampaignMission& mission : campaign.missions) {
     for (const Method& method : campaign.methods) {
       const std::int64_t budget = design_budget(campaign, mission, method);
-      for (std::int64_t repetition = 1; repetition <= campaign.repetitions; ++repetition) {
+      for (std::int64_t repetition = 1; repetition <= repetitions_of(campaign, method);
+           ++repetition) {
         const auto id = static_cast<std::int64_t>(rows.size()) + 1;
         rows.push_back({.id = {id},
                         .mission = mission.mission.name,

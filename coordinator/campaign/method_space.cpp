@@ -10,6 +10,14 @@
 
 namespace swarmsmith {
 
+CandidateText text_of(const Machine& machine, const Flavour& flavour) {
+  return {.parameters = "{}",
+          .machine = print_machine(machine, flavour),
+          .modules = modules_json(machine),
+          .states = static_cast<std::int64_t>(machine.states.size()),
+          .transitions = transition_count(machine)};
+}
+
 Expected<MethodSpace> MethodSpace::make(const Method& method, int digits) {
   MethodSpace made;
   if (method.parameters.empty()) {
@@ -38,17 +46,13 @@ const ParameterSpace& MethodSpace::parameters() const {
 
 CandidateText MethodSpace::text_of(const Configuration& configuration) const {
   CandidateText text;
-  text.parameters = parameters_json(parameters(), configuration);
-  if (!machines_) {
+  if (machines_) {
+    text = swarmsmith::text_of(machines_->to_machine(configuration), *flavour_);
+  } else {
     text.machine = command_line_text(*parameters_, configuration);
     text.modules = "{}";
-    return text;
   }
-  const Machine machine = machines_->to_machine(configuration);
-  text.machine = print_machine(machine, *flavour_);
-  text.modules = modules_json(machine);
-  text.states = static_cast<std::int64_t>(machine.states.size());
-  text.transitions = transition_count(machine);
+  text.parameters = parameters_json(parameters(), configuration);
   return text;
 }
 

@@ -37,6 +37,9 @@ class MethodSpace {
   std::vector<Configuration> initial_;
 };
 
+/// What the store says of a machine that is no configuration of a space: without parameters.
+CandidateText text_of(const Machine& machine, const Flavour& flavour);
+
 /// The race options of a design on this mission, without its seed: its number of instances, and
 /// what follows from who evaluates.
 Scenario race_on(const Campaign& campaign, const CampaignMission& mission);

@@ -18,8 +18,9 @@ struct CampaignPlan {
   std::int64_t slots = 1;
   /// Mean over machines and missions, measured here on one core; nothing where programs evaluate.
   std::optional<double> evaluation_s;
-  double time_s = 0;  ///< only with evaluation_s
-  double disk_bytes = 0;
+  double time_s = 0;                  ///< only with evaluation_s
+  double disk_bytes = 0;              ///< of the store in the end
+  double log_bytes = 0;               ///< at most beside it while the campaign runs
   std::vector<std::string> warnings;  ///< what runs, but hardly as wanted
 };
 

@@ -1,5 +1,6 @@
 #include "coordinator/cli/campaign_result.h"
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 #include <vector>
@@ -18,7 +19,7 @@ using Cell = StoreReader::Cell;
 constexpr const char* kResult =
     "SELECT d.design, d.mission, d.method, d.repetition, d.state, d.used, "
     "d.best_candidate AS candidate, d.best_mean AS race_mean, (SELECT c.fsm_config "
-    "FROM v_candidates AS c WHERE c.candidate = d.best_candidate) AS fsm_config "
+    "FROM v_candidates AS c WHERE c.candidate = d.best_candidate) AS fsm_config, d.reason "
     "FROM v_designs AS d ORDER BY d.design";
 constexpr const char* kTests = "SELECT design, score FROM v_design_scores WHERE purpose = 'test'";
 
@@ -36,10 +37,10 @@ Cell number_cell(double value) {
   return {Cell::Type::Real, json_number(value)};
 }
 
-/// Puts test_mean, test_95 (half-width of the interval) and test_runs before the last column.
+/// Puts test_mean, test_95 (half-width of the interval) and test_runs before the last two columns.
 void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tests) {
   for (const char* name : {"test_mean", "test_95", "test_runs"}) {
-    rows.columns.insert(rows.columns.end() - 1, name);
+    rows.columns.insert(rows.columns.end() - 2, name);
   }
   for (auto& cells : rows.cells) {
     std::vector<Cell> added(3);
@@ -51,7 +52,7 @@ void add_tests(Rows& rows, const std::map<std::string, std::vector<double>>& tes
                several ? number_cell(interval.half_width) : Cell{},
                {Cell::Type::Integer, std::to_string(found->second.size())}};
     }
-    cells.insert(cells.end() - 1, added.begin(), added.end());
+    cells.insert(cells.end() - 2, added.begin(), added.end());
   }
 }
 
@@ -75,13 +76,18 @@ void write_text(Output& output, const Rows& rows, bool costs) {
     const auto text = [&](std::size_t column) {
       return as_shown(cells[column].text, Layout::Escaped);
     };
+    const bool has_race = text(5) != "0";
     output.out << text(0) << "  " << text(1) << ", " << text(2) << ", repetition " << text(3)
-               << ": " << text(4) << " after " << text(5) << " experiments\n";
+               << ": " << text(4)
+               << (has_race ? " after " + text(5) + " experiments" : ", without a race");
+    if (text(4) == "stopped" && !text(12).empty()) output.out << ": " << text(12);
+    output.out << "\n";
     if (cells[6].type == Cell::Type::Null) continue;
-    output.out << "  best " << text(6) << ", mean " << (costs ? "cost " : "score ")
-               << shown(cells[7].text, costs) << " in the race";
+    const std::string mean = costs ? "mean cost " : "mean score ";
+    output.out << (has_race ? "  best " : "  ") << text(6);
+    if (has_race) output.out << ", " << mean << shown(cells[7].text, costs) << " in the race";
     if (cells[8].type != Cell::Type::Null) {
-      output.out << ", " << shown(cells[8].text, costs);
+      output.out << ", " << (has_race ? "" : mean) << shown(cells[8].text, costs);
       if (cells[9].type != Cell::Type::Null) {
         output.out << " +- " << shown(cells[9].text) << " (95 %)";
       }
@@ -110,14 +116,18 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
     if (!name.empty()) output.out << "campaign " << as_shown(name, Layout::Escaped) << "\n";
     write_text(output, *rows, *costs);
   }
-  return ExitCode::Done;
+  // A design that somebody cancelled has failed nobody.
+  const bool failed = std::ranges::any_of(rows->cells, [](const auto& cells) {
+    return cells[4].text == "stopped" && cells[12].text != "cancelled";
+  });
+  return failed ? ExitCode::Failed : ExitCode::Done;
 }
 
 void print_next_steps(Output& output, const std::string& store) {
   if (output.quiet) return;
   output.err << "\nEverything is in " << store << ". How to go on:\n"
              << "  swarmsmith ls elites " << store << "\n"
-             << "  swarmsmith export " << store << " -o best.fsm\n"
+             << "  swarmsmith export " << store << " --design d1 -o best.fsm\n"
              << "  swarmsmith query " << store << "\n"
              << "  swarmsmith init mine, to design for a mission of your own\n";
 }

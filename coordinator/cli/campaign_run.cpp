@@ -208,8 +208,9 @@ std::vector<ToldCampaign> told(const std::vector<Campaign>& campaigns) {
   std::vector<ToldCampaign> told;
   told.reserve(campaigns.size());
   for (const Campaign& campaign : campaigns) {
-    told.push_back(
-        {campaigns.size() > 1 ? name_among(campaigns, campaign) : "", design_rows(campaign)});
+    told.push_back({.name = campaigns.size() > 1 ? name_among(campaigns, campaign) : "",
+                    .designs = design_rows(campaign),
+                    .costs = campaign.target.has_value()});
   }
   return told;
 }

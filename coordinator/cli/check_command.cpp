@@ -59,7 +59,8 @@ void write_text(Output& output, const Campaign& campaign, const CampaignPlan& pl
     output.out << "time         about " << duration_text(plan.time_s) << " on " << plan.slots
                << (plan.slots == 1 ? " slot\n" : " slots\n");
   }
-  output.out << "disk         about " << megabytes << " MB\n"
+  output.out << "disk         about " << megabytes << " MB, and "
+             << decimals(plan.log_bytes / 1e6, "%.1f") << " MB of log while it runs\n"
              << "digest       " << campaign_digest(campaign) << "\n";
 }
 
@@ -76,7 +77,8 @@ void write_json(Output& output, const Campaign& campaign, const CampaignPlan& pl
              << ",\"tests\":" << plan.tests << ",\"slots\":" << plan.slots << ",\"evaluation_ms\":"
              << (plan.evaluation_s ? json_number(*plan.evaluation_s * 1e3) : "null")
              << ",\"time_s\":" << (plan.evaluation_s ? json_number(plan.time_s) : "null")
-             << ",\"disk_bytes\":" << json_number(plan.disk_bytes) << ",\"warnings\":[" << warnings
+             << ",\"disk_bytes\":" << json_number(plan.disk_bytes)
+             << ",\"log_bytes\":" << json_number(plan.log_bytes) << ",\"warnings\":[" << warnings
              << "]}\n";
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 constexpr std::string_view kRunDetails =
     R"(Designs control software as the campaign file says, with workers of its own, and prints the result.
-Without a file it runs a demo: aggregation, 2,000 experiments, store demo.db. Every score is in the
+Without a file it runs a demo: color_selection, 2,000 experiments, beside a machine by hand and a random one, store demo.db. Every score is in the
 store as soon as it counts; Ctrl-C, kill -9, a power cut: the same command goes on where it was, and
 comes to the same answer. On a finished store it prints the result again. Several campaigns share the
 workers; each has the store that its file names, and the answer that it would have alone.
@@ -58,18 +58,18 @@ when the coordinator is started again, until somebody resumes them. The answer d
 
 Examples:
   swarmsmith pause demo.db
-  swarmsmith pause demo.db d2 d3)";
+  swarmsmith pause d2 d3 demo.db)";
 
 constexpr std::string_view kResumeDetails = R"(Examples:
   swarmsmith resume demo.db
-  swarmsmith resume demo.db d2)";
+  swarmsmith resume d2 demo.db)";
 
 constexpr std::string_view kCancelDetails =
     R"(The design stops after the step of its race that it has come to, with the best candidate so far; the
 others go on. The step is in the store: a campaign that is run again stops there, too. For good.
 
 Example:
-  swarmsmith cancel demo.db d2)";
+  swarmsmith cancel d2 demo.db)";
 
 constexpr std::string_view kExtendDetails =
     R"(A design whose race is over, or will be, goes on from its end with further iterations. That is another
@@ -77,7 +77,7 @@ race than one that had the larger budget from the start (docs/irace.md). The des
 nobody runs go on when it is run again.
 
 Example:
-  swarmsmith extend demo.db d1 --budget 5_000 && swarmsmith run)";
+  swarmsmith extend d1 demo.db --budget 5_000 && swarmsmith run)";
 
 constexpr std::string_view kVerifyDetails =
     R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
@@ -106,9 +106,9 @@ Scores of a store's candidates are stored there, with the profile as their sourc
 of the finished designs. With --json one line a run: {"seed":1,"score":2}.
 
 Examples:
-  swarmsmith evaluate best --store demo.db
-  swarmsmith evaluate best --store demo.db --profile pseudo-reality
-  swarmsmith evaluate c812 --store demo.db --seeds 1-100 --no-store
+  swarmsmith evaluate best demo.db
+  swarmsmith evaluate best demo.db --profile pseudo-reality
+  swarmsmith evaluate c812 demo.db --seeds 1-100 --no-store
   swarmsmith evaluate best.fsm
   swarmsmith evaluate best.fsm --mission my_mission.toml --profile my_rvr.toml
   swarmsmith evaluate --nstates 1 --s0 0 --rwm0 10 --flavour watermelon --mission grid_exploration
@@ -183,11 +183,11 @@ Statements may only read. Ids are numbers here: design 3, candidate 812.
 
 Examples:
   swarmsmith query demo.db
-  swarmsmith query demo.db "SELECT * FROM v_leaderboard"
-  swarmsmith query demo.db "SELECT seed, score FROM v_design_scores" --csv > scores.csv)";
+  swarmsmith query "SELECT * FROM v_leaderboard" demo.db
+  swarmsmith query "SELECT seed, score FROM v_design_scores" demo.db --csv > scores.csv)";
 
 constexpr std::string_view kFigureDetails =
-    R"(The ending of the file says what is written: the picture (.svg; .pdf with librsvg2-bin), or the
+    R"(The ending of the file says what is written: the picture (.svg; .pdf and .png with librsvg2-bin; .tex of machines), or the
 numbers in it (.csv). docs/figures.md shows what each kind tells.
 
 Examples:
@@ -308,8 +308,8 @@ constexpr std::array kCommands = {
             declare_profile},
     Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
     Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
-    Command{"pause", "Let a design, or all of a campaign, rest", kPauseDetails, declare_pause},
-    Command{"resume", "Let what was paused go on", kResumeDetails, declare_resume},
+    Command{"pause", "Pause a design, or all of a campaign", kPauseDetails, declare_pause},
+    Command{"resume", "Resume what was paused", kResumeDetails, declare_resume},
     Command{"cancel", "End a design as it stands", kCancelDetails, declare_cancel},
     Command{"extend", "Give a design more budget", kExtendDetails, declare_extend},
     Command{"keygen", "Make keys for coordinator, workers and people", kKeygenDetails,
@@ -330,7 +330,7 @@ constexpr std::array kCommands = {
             declare_assess},
     Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
             declare_replay},
-    Command{"figure", "Draw a figure of a store, as SVG, PDF or CSV", kFigureDetails,
+    Command{"figure", "Draw a figure of a store, as SVG, PDF, PNG, CSV or TeX", kFigureDetails,
             declare_figure},
     Command{"export", "Write machines out of a store", kExportDetails, declare_export},
     Command{"import", "Take in scenarios, scores, machines and logs from elsewhere", kImportDetails,

@@ -1,4 +1,5 @@
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -149,12 +150,13 @@ class Evaluation {
       }
     }
     counter_.tell(of_, of_);
-    const auto written =
-        recording->finish(details_of(arguments_, plan_.jobs.front().seeds.front(), scores_.front()),
-                          plan_.jobs.front().instances.front());
+    const auto written = recording->finish(details_of(arguments_, plan_.jobs.front().seeds.front(),
+                                                      scores_.empty() ? 0 : scores_.front()),
+                                           plan_.jobs.front().instances.front());
     if (!written) return fail(output_, ExitCode::Failed, written.error());
-    if (!output_.json && plan_.jobs.size() == 1) write_summary(answer_, scores_);
-    return output_.out.good() && !conflicts_ ? ExitCode::Done : ExitCode::Failed;
+    if (!output_.json && plan_.jobs.size() == 1 && !scores_.empty())
+      write_summary(answer_, scores_);
+    return output_.out.good() && !conflicts_ && !rejected_ ? ExitCode::Done : ExitCode::Failed;
   }
 
  private:
@@ -170,6 +172,7 @@ class Evaluation {
                                              counted(std::move(recorder), job.mission, cycles));
     const auto wall = std::chrono::duration_cast<std::chrono::microseconds>(
         std::chrono::steady_clock::now() - begin);
+    if (!std::isfinite(result.score)) return reject(job, job.seeds[i], result.score);
     scores_.push_back(result.score);
     Told told{.job = &job, .seed = job.seeds[i], .score = result.score, .kept = {}};
     if (keeper_) {
@@ -190,6 +193,18 @@ class Evaluation {
     print_error(output_, conflict_of(told));
   }
 
+  /// A campaign would reject it, so it is neither counted nor stored.
+  void reject(const EvaluationJob& job, std::int64_t seed, double score) {
+    rejected_ = true;
+    if (output_.json)
+      output_.out << as_json({.job = &job, .seed = seed, .score = score, .kept = {}});
+    print_error(output_,
+                {ErrorKind::BadInput,
+                 std::string("the score is ") + (std::isnan(score) ? "no number" : "infinite") +
+                     ", and a campaign rejects such an evaluation",
+                 "seed " + std::to_string(seed)});
+  }
+
   const Arguments& arguments_;
   const EvaluationPlan& plan_;
   Output& output_;
@@ -199,6 +214,7 @@ class Evaluation {
   std::optional<ScoreKeeper> keeper_;
   std::vector<double> scores_;
   bool conflicts_ = false;
+  bool rejected_ = false;
 };
 
 ExitCode run(const Arguments& arguments, Output& output) {
@@ -251,7 +267,7 @@ Run declare_evaluate(Options& options) {
   options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");
   options.flag("--no-store", arguments->no_store,
                "Only print the scores of candidates, and do not store them");
-  arguments->store.declare(options, false);
+  arguments->store.declare(options, true);
   arguments->recording.declare(options);
   return [arguments](Output& output) { return run(*arguments, output); };
 }

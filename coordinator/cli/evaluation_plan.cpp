@@ -129,6 +129,12 @@ Expected<std::vector<NamedMachine>> winners_of(const EvaluateArguments& argument
 /// The machines that the word MACHINE names, in their worlds.
 Expected<std::vector<NamedMachine>> machines_of(const EvaluateArguments& arguments,
                                                 Output& output) {
+  const auto id = parse_thing_id(arguments.machine);
+  const bool of_store = arguments.machine == "best" || (id && id->letter == 'c');
+  if (!of_store && !arguments.store.word.empty()) {
+    return bad_input("`" + arguments.store.word +
+                     "` is one word too many: a store goes with a candidate of it, or with `best`");
+  }
   if (arguments.machine == "best") {
     if (arguments.campaign.empty()) return winners_of(arguments);
     return bad_input("the winners have campaigns of their own", "--campaign");

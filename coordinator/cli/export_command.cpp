@@ -12,6 +12,7 @@
 #include "coordinator/cli/machine_filer.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
+#include "coordinator/cli/stored_instances.h"
 #include "coordinator/cli/thing_id.h"
 
 namespace swarmsmith::cli {
@@ -24,6 +25,7 @@ struct Arguments {
   std::string file;
   std::string design;
   std::string candidate;
+  std::string mission;
   std::string width;
   std::optional<std::int64_t> seed;
   std::string irace_version = "4";
@@ -121,6 +123,11 @@ ExitCode write_text(const Arguments& arguments, const std::string& text, Output&
   return done ? ExitCode::Done : fail(output, ExitCode::Failed, done.error());
 }
 
+/// Not machines, but what they were scored in.
+bool asks_for_table(const Arguments& arguments) {
+  return arguments.what == "starts" || arguments.what == "patches";
+}
+
 bool is_picture(const std::string& format) {
   return format == "svg" || format == "pdf" || format == "dot" || format == "tikz";
 }
@@ -133,6 +140,14 @@ std::optional<Error> misplaced_option(const Arguments& arguments) {
   }
   const bool sized = is_picture(arguments.format) && arguments.format != "dot";
   if (!arguments.width.empty() && !sized) return Error{ErrorKind::BadInput, "it" + with, "--width"};
+  if (!arguments.mission.empty() && !asks_for_table(arguments)) {
+    return Error{ErrorKind::BadInput, "it means nothing with --what " + arguments.what,
+                 "--mission"};
+  }
+  if (!arguments.candidate.empty() && asks_for_table(arguments)) {
+    return Error{ErrorKind::BadInput, "it means nothing with --what " + arguments.what,
+                 "--candidate"};
+  }
   return std::nullopt;
 }
 
@@ -178,6 +193,53 @@ ExitCode write_machines(const Arguments& arguments, const Rows& rows, MachineFil
   return folder ? ExitCode::Done : write_text(arguments, all, output);
 }
 
+std::string names_of(const std::vector<ScoredMission>& missions) {
+  std::string names;
+  for (const ScoredMission& scored : missions)
+    names += (names.empty() ? "" : ", ") + scored.name;
+  return names;
+}
+
+/// Starts or patches of one mission, as `evaluate` reads them.
+ExitCode write_table(const Arguments& arguments, StoreReader& store, Output& output) {
+  MissionFilter filter{.mission = arguments.mission, .design = {}};
+  if (!arguments.design.empty()) {
+    const auto digits = digits_of(arguments.design, 'd', "--design");
+    if (!digits) return fail(output, ExitCode::Usage, digits.error());
+    filter.design = DesignId{std::stoll(*digits)};
+  }
+  auto missions = scored_missions(store, filter);
+  if (!missions) return fail(output, ExitCode::Store, missions.error());
+  const bool patches = arguments.what == "patches";
+  if (patches) {
+    std::erase_if(*missions, [](const ScoredMission& scored) {
+      return scored.mission.shuffled.places.empty();
+    });
+  }
+  if (missions->empty() && !arguments.mission.empty()) {
+    const auto known = scored_missions(store);
+    if (!known) return fail(output, ExitCode::Store, known.error());
+    return fail(output, ExitCode::NoSuchId,
+                "no winner of a mission \"" + arguments.mission +
+                    (patches ? "\" with patches that change with the seed" : "\"") +
+                    " was scored after its race; there are: " + names_of(*known));
+  }
+  if (missions->empty()) {
+    return fail(output, ExitCode::NoSuchId,
+                patches ? "no such mission has patches that change with the seed, and scores of a "
+                          "winner"
+                        : "no winner of such a mission was scored after its race");
+  }
+  if (missions->size() > 1) {
+    return fail(output, ExitCode::Usage,
+                "a table is of one mission; name it with --mission, or a --design of it: " +
+                    names_of(*missions));
+  }
+  const auto text = patches ? patches_table(missions->front()) : starts_table(missions->front());
+  if (!text) return fail(output, ExitCode::Failed, text.error());
+  return write_text(arguments, *text, output);
+}
+
 ExitCode run(const Arguments& arguments, Output& output) {
   if (const auto misplaced = misplaced_option(arguments)) {
     return fail(output, ExitCode::Usage, *misplaced);
@@ -187,6 +249,11 @@ ExitCode run(const Arguments& arguments, Output& output) {
     if (!source) return fail(output, ExitCode::Usage, source.error());
     return export_irace(*source, {.design = arguments.design, .version = arguments.irace_version},
                         arguments.file, output);
+  }
+  if (asks_for_table(arguments)) {
+    const auto store = arguments.store.open();
+    if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+    return write_table(arguments, **store, output);
   }
   const auto sql = statement(arguments);
   if (!sql) return fail(output, ExitCode::Usage, sql.error());
@@ -225,8 +292,11 @@ ExitCode run(const Arguments& arguments, Output& output) {
 Run declare_export(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->store.declare(options);
-  options.choice("--what", arguments->what, {"best", "elites", "all"},
-                 "Each design's best machine, its last elites, or every candidate");
+  options.choice(
+      "--what", arguments->what, {"best", "elites", "all", "starts", "patches"},
+      "Each design's best machine, its last elites, every candidate; or a table that "
+      "`evaluate` reads: where the robots started, or where the patches lay, in the runs "
+      "that scored a mission's winners");
   options.choice("--format", arguments->format,
                  {"fsm-config", "json", "svg", "pdf", "dot", "tikz", "argos", "irace"},
                  "Text of the grammar with lines that say what it was designed for, JSON, a "
@@ -236,6 +306,7 @@ Run declare_export(Options& options) {
                "Write to this file; to this folder, a file a machine");
   options.text("--design", arguments->design, "Only this design's, such as d3");
   options.text("--candidate", arguments->candidate, "This one, such as c812");
+  options.text("--mission", arguments->mission, "With --what starts or patches: of this mission");
   options.text("--width", arguments->width, "Of a picture: 84mm (default), 8.4cm, 3.3in");
   options.integer("--seed", arguments->seed, {1, 4'294'967'295},
                   "With --format argos: the experiment's seed (default 1)");

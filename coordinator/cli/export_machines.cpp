@@ -118,6 +118,15 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& can
                         : "name a file with -o FILE");
   }
   std::error_code trouble;
+  if (several && fs::path(what.place).extension() == "." + ending_of(what.format) &&
+      !fs::is_directory(what.place, trouble)) {
+    return fail(output, ExitCode::Usage,
+                {ErrorKind::BadInput,
+                 std::to_string(candidates.size()) +
+                     " machines are as many files; name a folder, or one machine with --design or "
+                     "--candidate",
+                 what.place});
+  }
   const bool folder = several || fs::is_directory(what.place, trouble);
   if (several) fs::create_directories(what.place, trouble);
   if (several && !fs::is_directory(what.place, trouble)) {

@@ -44,8 +44,11 @@ void FigureArguments::declare(Options& words) {
   words.choice("KIND", kind, kinds, "What to draw; without it all kinds are told");
   store.declare(words);
   words.text("-o,--output", file,
-             "Write to this .svg, .pdf, .csv or .tex file (else SVG to standard output)");
+             "Write to this .svg, .pdf, .png, .csv or .tex file (else SVG to standard output)");
   words.text("--width", width, "Such as 84mm, 17.5cm or 3.3in (default 84mm)");
+  words.flag("--paper", options.paper,
+             "Without title, details and explanations, which a paper has in the caption");
+  words.text("--font", font, "Of the texts, where it is installed, such as \"Linux Libertine\"");
   words.text("--mission", options.filter.mission, "Only of this mission");
   words.text("--method", options.filter.method, "Only of this method");
   words.text("--design", design, "Only of this design: d3");

@@ -18,6 +18,7 @@ struct FigureArguments {
   StoreArgument store;
   std::string file;
   std::string width;
+  std::string font;
   std::string design;
   std::string candidate;
   std::vector<std::string> seeds;

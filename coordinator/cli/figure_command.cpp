@@ -2,6 +2,7 @@
 #include <memory>
 #include <utility>
 
+#include "analysis/drawing/svg.h"
 #include "analysis/figures/figure.h"
 #include "console/pdf.h"
 #include "console/terminal.h"
@@ -55,9 +56,9 @@ Expected<std::string> ending_of(const FigureArguments& arguments, const Output& 
     return bad_input("standard output has the answer of --json; name a file for the figure", "-o");
   }
   std::string ending = std::filesystem::path(arguments.file).extension().string();
-  for (const char* known : {".svg", ".pdf", ".csv", ".tex"})
+  for (const char* known : {".svg", ".pdf", ".png", ".csv", ".tex"})
     if (ending == known) return ending;
-  return bad_input("the file's ending says what is written: .svg, .pdf, .csv or .tex",
+  return bad_input("the file's ending says what is written: .svg, .pdf, .png, .csv or .tex",
                    arguments.file);
 }
 
@@ -71,9 +72,11 @@ ExitCode exit_code_of(const Error& error) {
 Expected<std::string> bytes_of(Figure figure, const std::string& ending, const std::string& kind) {
   if (ending == ".csv") return std::move(figure.csv);
   if (ending == ".pdf") return pdf_of_svg(figure.svg);
+  if (ending == ".png") return png_of_svg(figure.svg);
   if (ending == ".svg") return std::move(figure.svg);
   if (!figure.tex.empty()) return std::move(figure.tex);
-  return bad_input("the figure `" + kind + "` has no TeX form; write an .svg, .pdf or .csv", "-o");
+  return bad_input("the figure `" + kind + "` has no TeX form; write an .svg, .pdf, .png or .csv",
+                   "-o");
 }
 
 ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, Output& output) {
@@ -85,6 +88,11 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   if (!seeds) return fail(output, ExitCode::Usage, seeds.error());
   const auto ending = ending_of(arguments, output);
   if (!ending) return fail(output, ExitCode::Usage, ending.error());
+  if ((*ending == ".csv" || *ending == ".tex") && (options->paper || !arguments.font.empty())) {
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput, "means nothing to a " + *ending + " file",
+                      options->paper ? "--paper" : "--font"});
+  }
   auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   if (const auto missing = missing_in(**store, *options))
@@ -92,6 +100,11 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   auto figure = kind.make != nullptr ? kind.make(**store, *options)
                                      : trajectories_figure(std::move(*store), *options, *seeds);
   if (!figure) return fail(output, exit_code_of(figure.error()), figure.error());
+  if (!arguments.font.empty()) {
+    auto dressed = with_font(std::move(figure->svg), arguments.font);
+    if (!dressed) return fail(output, ExitCode::Usage, dressed.error());
+    figure->svg = std::move(*dressed);
+  }
   const std::size_t points = rows_of_csv(figure->csv);
   const auto bytes = bytes_of(std::move(*figure), *ending, arguments.kind);
   if (!bytes) {

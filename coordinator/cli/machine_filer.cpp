@@ -1,5 +1,6 @@
 #include "coordinator/cli/machine_filer.h"
 
+#include <tuple>
 #include <utility>
 
 #include "coordinator/cli/query_output.h"
@@ -66,17 +67,17 @@ Expected<std::string> MachineFiler::text_of(CandidateId candidate) {
   }
   const auto head = head_of(candidate);
   if (!head) return Unexpected(head.error());
-  enum { kMission, kMethod, kRepetition, kMean, kRuns, kText, kModules };
+  // In the order of the statement.
   const auto& cells = rows->cells.front();
-  std::string text = "# " + to_string(design_of(candidate)) + " " + cells[kMission].text + " " +
-                     cells[kMethod].text + " repetition " + cells[kRepetition].text + ": " +
-                     to_string(candidate);
-  if (!cells[kMean].text.empty()) {
-    text += ", mean " + cells[kMean].text + " over " + cells[kRuns].text + " runs";
-  }
-  const bool is_machine = cells[kModules].text != "{}";
+  const auto& [mission, method, repetition, mean, runs, machine, modules] =
+      std::tie(cells[0].text, cells[1].text, cells[2].text, cells[3].text, cells[4].text,
+               cells[5].text, cells[6].text);
+  std::string text = "# " + to_string(design_of(candidate)) + " " + mission + " " + method +
+                     " repetition " + repetition + ": " + to_string(candidate);
+  if (!mean.empty()) text += ", mean " + mean + " over " + runs + " runs";
+  const bool is_machine = modules != "{}";
   return text + "\n" + (head->flavour.empty() ? "" : head_text(*head)) +
-         (is_machine ? "--fsm-config " : "") + cells[kText].text + "\n";
+         (is_machine ? "--fsm-config " : "") + machine + "\n";
 }
 
 }  // namespace swarmsmith::cli

@@ -30,7 +30,7 @@ Progress::Progress(Output& output, const std::vector<ToldCampaign>& campaigns, T
     : output_(output), begin_(begin), width_(std::move(width)) {
   for (const ToldCampaign& campaign : campaigns) {
     names_.push_back(campaign.name);
-    models_.emplace_back(campaign.designs);
+    models_.emplace_back(campaign.designs, campaign.costs);
   }
   form_ = output.err_is_terminal ? Form::Terminal : Form::Plain;
   if (output.quiet) form_ = Form::Silent;
@@ -68,7 +68,8 @@ void Progress::write_row(std::size_t campaign, const std::string& name, const Ro
                          TimePoint now) {
   const ProgressModel& model = models_[campaign];
   if (const auto* state = std::get_if<DesignStateRow>(&row)) {
-    add_line(name + state_line(*state, model.design(state->design)));
+    add_line(name +
+             state_line(*state, model.design(state->design), model.mean_text(state->best_mean)));
   } else if (const auto* command = std::get_if<CommandRow>(&row)) {
     add_line(name + command_line(*command));
   } else if (const auto* event = std::get_if<EventRow>(&row)) {
@@ -76,12 +77,13 @@ void Progress::write_row(std::size_t campaign, const std::string& name, const Ro
   }
   if (!race_lines_) return;
   if (const auto* iteration = std::get_if<IterationRow>(&row)) {
-    add_line(name + iteration_line(*iteration, model.design(iteration->design)));
+    add_line(name + iteration_line(*iteration));
   } else if (const auto* elite = std::get_if<EliteRow>(&row)) {
-    add_line(name + elite_line(*elite));
+    add_line(name + elite_line(*elite, model.mean_text(elite->mean)));
   } else if (const auto* step = std::get_if<RaceStepRow>(&row)) {
     if (lines_since_headline_++ % kHeadlineEvery == 0) add_line(race_headline());
-    add_line(name + race_line(*step, std::chrono::duration<double>(now - begin_).count()));
+    add_line(name + race_line(*step, model.mean_text(step->mean_best),
+                              std::chrono::duration<double>(now - begin_).count()));
   }
 }
 

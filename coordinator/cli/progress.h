@@ -17,6 +17,7 @@ namespace swarmsmith::cli {
 struct ToldCampaign {
   std::string name;  ///< in front of its lines; empty when it is the only one
   std::vector<DesignRow> designs;
+  bool costs = false;  ///< programs evaluate: people want to see the costs that they print
 };
 
 /// Tells a person or a program how campaigns go, from the rows that they make.

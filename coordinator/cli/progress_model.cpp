@@ -1,6 +1,10 @@
 #include "coordinator/cli/progress_model.h"
 
+#include <algorithm>
 #include <variant>
+
+#include "coordinator/cli/progress_text.h"
+#include "target/cost.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -12,14 +16,20 @@ bool has_ended(const DesignProgress& progress) {
 /// A design that is over has used what it will use; what its budget had left does not count.
 std::int64_t share_of(const DesignProgress& progress) {
   const bool raced = has_ended(progress) || progress.state == DesignState::Testing;
-  return raced ? progress.design.budget : progress.used;
+  return raced ? progress.design.budget
+               : std::min(progress.used + progress.in_step,
+                          std::max(progress.used, progress.design.budget));
 }
 
 }  // namespace
 
-ProgressModel::ProgressModel(std::span<const DesignRow> designs) {
+ProgressModel::ProgressModel(std::span<const DesignRow> designs, bool costs) : costs_(costs) {
   for (const DesignRow& row : designs)
     designs_[row.id].design = row;
+}
+
+std::string ProgressModel::mean_text(double score) const {
+  return score_text(costs_ ? to_cost(score) : score);
 }
 
 void ProgressModel::add(const Row& row) {
@@ -34,8 +44,13 @@ void ProgressModel::add(const Row& row) {
     progress.state = DesignState::Racing;
     progress.alive = step->alive_after;
     progress.used = step->used;
+    progress.in_step = 0;
     progress.best = step->best;
     progress.best_mean = step->mean_best;
+  } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
+    // What was evaluated ahead has no iteration until a step asks for it.
+    if (evaluation->key.purpose == Purpose::Race && evaluation->iteration > 0)
+      ++designs_.at(design_of(evaluation->key.candidate)).in_step;
   } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
     add_state(*state);
   } else if (const auto* command = std::get_if<CommandRow>(&row)) {
@@ -55,8 +70,9 @@ void ProgressModel::add_state(const DesignStateRow& row) {
   DesignProgress& progress = designs_.at(row.design);
   progress.state = row.state;
   progress.used = row.used;
+  progress.in_step = 0;
   progress.iteration = row.iteration;
-  if (!row.best) return;
+  if (!row.best || row.used == 0) return;  // no race has said how good it is
   progress.best = row.best;
   progress.best_mean = row.best_mean;
 }

@@ -21,6 +21,7 @@ struct DesignProgress {
   std::int64_t configurations = 0;
   std::int64_t alive = 0;
   std::int64_t used = 0;
+  std::int64_t in_step = 0;  ///< evaluations since the race's last step, which counts them as used
   CandidateId best;
   double best_mean = 0;
   bool paused = false;  ///< by a person
@@ -29,10 +30,14 @@ struct DesignProgress {
 /// How far a campaign is, kept up from its rows. Pure.
 class ProgressModel {
  public:
-  explicit ProgressModel(std::span<const DesignRow> designs);
+  /// With `costs` a mean is told as the cost that programs print: the negative of the score.
+  explicit ProgressModel(std::span<const DesignRow> designs, bool costs = false);
 
   void add(const Row& row);
 
+  /// The score, or its cost.
+  std::string mean_text(double score) const;
+  bool shows_costs() const { return costs_; }
   const DesignProgress& design(DesignId id) const { return designs_.at(id); }
   std::int64_t designs() const { return static_cast<std::int64_t>(designs_.size()); }
   /// Designs that need nothing more.
@@ -41,7 +46,8 @@ class ProgressModel {
   std::int64_t paused() const;
   /// Nothing is left to be done.
   bool is_over() const;
-  /// Of `budget`; a design whose race is over counts with all of its own.
+  /// Of `budget`, with what a step has evaluated so far; a design whose race is over counts with
+  /// all of its own.
   std::int64_t used() const;
   /// With what was given to designs later.
   std::int64_t budget() const;
@@ -53,6 +59,7 @@ class ProgressModel {
   void add_command(const CommandRow& row);
 
   std::map<DesignId, DesignProgress> designs_;
+  bool costs_;
   std::set<std::int64_t> extensions_;  ///< numbers of those that have acted
 };
 

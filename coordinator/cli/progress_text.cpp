@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <optional>
+#include <vector>
 
 #include "coordinator/cli/campaign_plan.h"
 
@@ -57,55 +58,59 @@ struct Totals {
   std::int64_t over = 0, designs = 0, finished = 0, paused = 0, used = 0, budget = 0;
 };
 
-/// What both status lines say before and after the bar.
-std::string first_half(std::span<const ProgressModel> models, const Totals& totals) {
-  const std::string designs =
-      "designs " + std::to_string(totals.finished) + "/" + std::to_string(totals.designs);
-  if (models.size() > 1) {
-    return "campaigns " + std::to_string(totals.over) + "/" + std::to_string(models.size()) + "  " +
-           designs;
-  }
-  const DesignProgress* current = models.front().current();
-  if (current == nullptr || current->iteration == 0) return designs;
-  return designs + "  " + to_string(current->design.id) + " iteration " +
-         std::to_string(current->iteration) + "/~" +
-         std::to_string(std::max(current->iterations, current->iteration));
-}
-
-/// Of the design that a campaign is at.
-std::string race_text(const DesignProgress* current) {
+/// A piece of a status line. Where a line is too narrow, the least needed pieces are left out.
+struct Piece {
+  int rank;  ///< 1: needed most
   std::string text;
-  if (current != nullptr && current->configurations > 0) {
-    text +=
-        "  alive " + std::to_string(current->alive) + "/" + std::to_string(current->configurations);
-  }
-  if (current != nullptr && current->best) text += "  best " + score_text(current->best_mean);
-  return text;
-}
+};
 
-/// Numbers, the most important first.
-std::string second_half(std::span<const ProgressModel> models, const Totals& totals,
-                        const LiveStatus& live) {
-  std::string text = grouped(totals.used) + "/" + grouped(totals.budget);
-  if (models.size() == 1) text += race_text(models.front().current());
-  text += "  " + std::to_string(std::llround(live.evaluations_per_s)) + " sim/s";
+/// In the order in which they stand.
+std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveStatus& live) {
+  const Totals totals(models);
+  std::vector<Piece> pieces;
+  const bool several = models.size() > 1;
+  const DesignProgress* current = several ? nullptr : models.front().current();
+  if (several) {
+    pieces.push_back(
+        {5, "campaigns " + std::to_string(totals.over) + "/" + std::to_string(models.size())});
+  }
+  pieces.push_back(
+      {6, "designs " + std::to_string(totals.finished) + "/" + std::to_string(totals.designs)});
+  if (current != nullptr && current->iteration > 0) {
+    pieces.push_back({8, to_string(current->design.id) + " iteration " +
+                             std::to_string(current->iteration) + "/~" +
+                             std::to_string(std::max(current->iterations, current->iteration))});
+  }
+  pieces.push_back({9, bar(totals.used, totals.budget)});
+  pieces.push_back({2, grouped(totals.used) + "/" + grouped(totals.budget)});
+  if (current != nullptr && current->best) {
+    pieces.push_back({4, (models.front().shows_costs() ? "best cost " : "best ") +
+                             models.front().mean_text(current->best_mean)});
+  }
   const auto left = static_cast<double>(totals.budget - totals.used);
   if (live.evaluations_per_s > 0 && left > 0) {
-    text += "  ETA " + duration_text(left / live.evaluations_per_s);
+    pieces.push_back({3, "ETA " + duration_text(left / live.evaluations_per_s)});
   }
-  if (totals.paused > 0) text += "  paused " + std::to_string(totals.paused);
-  if (live.failed > 0) text += "  failed " + std::to_string(live.failed);
-  if (live.workers > 0) return text;
+  pieces.push_back({7, std::to_string(std::llround(live.evaluations_per_s)) + " sim/s"});
+  if (current != nullptr && current->configurations > 0) {
+    pieces.push_back({10, "alive " + std::to_string(current->alive) + "/" +
+                              std::to_string(current->configurations)});
+  }
+  if (totals.paused > 0) pieces.push_back({1, "paused " + std::to_string(totals.paused)});
+  if (live.failed > 0) pieces.push_back({1, "failed " + std::to_string(live.failed)});
+  if (live.workers > 0 || totals.over == static_cast<std::int64_t>(models.size())) return pieces;
   // Only local workers are there at once.
   const bool waits = !live.launcher.name.empty() && live.launcher.name != "local";
-  text += waits ? "  no workers yet (" + to_text(live.launcher) + ")" : "  no workers";
-  return text;
+  pieces.push_back(
+      {1, waits ? "no workers yet (" + to_text(live.launcher) + ")" : std::string("no workers")});
+  return pieces;
 }
 
-/// How irace says that it ends as it should reads like a fault.
-std::string reason_text(const DesignStateRow& state) {
-  const bool used_up = state.best && state.reason.starts_with("not enough");
-  return used_up ? "budget used up: the rest is too little for another race" : state.reason;
+std::string joined(const std::vector<Piece>& pieces) {
+  std::string line;
+  for (const Piece& piece : pieces)
+    line += (line.empty() ? "" : "  ") + piece.text;
+  return line;
 }
 
 }  // namespace
@@ -125,60 +130,68 @@ std::string_view name_of(DesignState state) {
 
 std::string status_line(std::span<const ProgressModel> models, const LiveStatus& live,
                         std::size_t width) {
-  const Totals totals(models);
-  std::string line = first_half(models, totals) + "  " + bar(totals.used, totals.budget) + "  " +
-                     second_half(models, totals, live);
-  // Whatever is least needed stands last.
+  std::vector<Piece> pieces = pieces_of(models, live);
+  std::string line = joined(pieces);
+  while (line.size() > width && pieces.size() > 1) {
+    pieces.erase(std::ranges::max_element(pieces, {}, &Piece::rank));
+    line = joined(pieces);
+  }
   if (line.size() > width) line.resize(width);
   return line;
 }
 
 std::string plain_status(std::span<const ProgressModel> models, const LiveStatus& live) {
-  const Totals totals(models);
-  return first_half(models, totals) + "  " + second_half(models, totals, live) + "  workers " +
-         std::to_string(live.workers) + "  slots " + std::to_string(live.leased) + "/" +
-         std::to_string(live.slots);
+  std::vector<Piece> pieces = pieces_of(models, live);
+  std::erase_if(pieces, [](const Piece& piece) { return piece.text.starts_with("["); });
+  const std::string line = joined(pieces);
+  if (Totals(models).over == static_cast<std::int64_t>(models.size())) return line;
+  // What waits at a worker for a slot is leased as well.
+  return line + "  workers " + std::to_string(live.workers) + "  slots " +
+         std::to_string(std::min(live.leased, live.slots)) + "/" + std::to_string(live.slots);
 }
 
 std::string race_headline() {
-  return "design | |       pair|      alive|       best|       mean best| exp so far|  W time|  rho"
-         "|KenW|  Qvar|";
+  return "design| |  pair|alive|      best|mean best|exp used| W time |  rho|KenW|  Qvar|";
 }
 
-std::string race_line(const RaceStepRow& step, double elapsed_s) {
-  return right(to_string(step.design), 6) + " |" + step.marker + "|" +
-         right(std::to_string(step.pair), 11) + "|" + right(std::to_string(step.alive_after), 11) +
-         "|" + right(to_string(step.best), 11) + "|" + right(score_text(step.mean_best), 16) + "|" +
-         right(std::to_string(step.used), 11) + "|" + clock_text(elapsed_s) + "|" +
+std::string race_line(const RaceStepRow& step, const std::string& mean_best, double elapsed_s) {
+  return right(to_string(step.design), 6) + "|" + step.marker + "|" +
+         right(std::to_string(step.pair), 6) + "|" + right(std::to_string(step.alive_after), 5) +
+         "|" + right(to_string(step.best), 10) + "|" + right(mean_best, 9) + "|" +
+         right(std::to_string(step.used), 8) + "|" + clock_text(elapsed_s) + "|" +
          right(optional_text(step.spearman_rho, "%+.2f"), 5) + "|" +
          right(optional_text(step.kendall_w, "%.2f"), 4) + "|" +
          right(optional_text(step.qvar, "%.4f"), 6) + "|";
 }
 
-std::string iteration_line(const IterationRow& iteration, const DesignProgress& progress) {
-  return to_string(iteration.design) + " " + progress.design.mission + " " +
-         progress.design.method + " iteration " + std::to_string(iteration.number) + " of about " +
-         std::to_string(iteration.of) + ": " + std::to_string(iteration.configurations) +
-         " configurations (" + std::to_string(iteration.elites) + " elites), budget " +
-         grouped(iteration.budget) + (iteration.soft_restart ? ", soft restart" : "");
+std::string iteration_line(const IterationRow& iteration) {
+  return to_string(iteration.design) + " iteration " + std::to_string(iteration.number) + "/~" +
+         std::to_string(std::max(iteration.of, iteration.number)) + ": " +
+         std::to_string(iteration.configurations) + " configurations (" +
+         std::to_string(iteration.elites) + (iteration.elites == 1 ? " elite" : " elites") +
+         "), budget " + grouped(iteration.budget) +
+         (iteration.soft_restart ? ", soft restart" : "");
 }
 
-std::string elite_line(const EliteRow& elite) {
+std::string elite_line(const EliteRow& elite, const std::string& mean) {
   return to_string(elite.design) + " elite " + std::to_string(elite.rank) + ": " +
-         to_string(elite.candidate) + "  mean " + score_text(elite.mean) + " over " +
-         std::to_string(elite.runs) + " runs";
+         to_string(elite.candidate) + "  mean " + mean + " over " + std::to_string(elite.runs) +
+         " runs";
 }
 
-std::string state_line(const DesignStateRow& state, const DesignProgress& progress) {
-  std::string text = to_string(state.design) + " " + progress.design.mission + " " +
-                     progress.design.method + " repetition " +
-                     std::to_string(progress.design.repetition) + " " +
-                     std::string(name_of(state.state)) + "  used " + grouped(state.used) + "/" +
-                     grouped(progress.design.budget);
-  if (state.best) {
-    text += "  best " + to_string(state.best) + " " + score_text(state.best_mean);
+std::string state_line(const DesignStateRow& state, const DesignProgress& progress,
+                       const std::string& best_mean) {
+  std::string text = to_string(state.design) + " " + std::string(name_of(state.state)) + "  " +
+                     progress.design.mission + " " + progress.design.method + " " +
+                     std::to_string(progress.design.repetition);
+  // Without a budget there is no race.
+  if (progress.design.budget > 0 || state.used > 0) {
+    text += "  " + grouped(state.used) + "/" + grouped(progress.design.budget);
   }
-  if (!state.reason.empty()) text += "  (" + reason_text(state) + ")";
+  if (state.best && state.used > 0) text += "  best " + to_string(state.best) + " " + best_mean;
+  // That its budget is used up is how a race ends as it should.
+  const bool as_it_should = state.best && state.reason.starts_with("not enough");
+  if (!state.reason.empty() && !as_it_should) text += "  (" + state.reason + ")";
   return text;
 }
 

@@ -20,16 +20,20 @@ struct Arguments {
 constexpr const char* kViews =
     "SELECT v.name AS view, group_concat(c.name, ' ') AS columns "
     "FROM sqlite_master AS v JOIN pragma_table_info(v.name) AS c "
-    "WHERE v.type = 'view' GROUP BY v.name ORDER BY v.name";
+    "WHERE v.type = 'view' AND v.name GLOB 'v_*' GROUP BY v.name ORDER BY v.name";
 
-/// `query STORE SQL`, `query SQL` (the store from option or environment), `query STORE`. A
-/// statement has blanks; a store's name that has them must be given with --store.
+/// `query SQL STORE`, `query SQL` (the store from option or environment), `query STORE`; also
+/// `query STORE SQL`. A statement has blanks; a store's name that has them must be given with
+/// --store.
 std::string take_sql(Arguments& arguments) {
   std::vector<std::string>& words = arguments.words;
   const bool named = !arguments.store.option.empty();
   if (!words.empty() && !named && words.front().find(' ') == std::string::npos) {
     arguments.store.word = words.front();
     words.erase(words.begin());
+  } else if (words.size() == 2 && !named && words.back().find(' ') == std::string::npos) {
+    arguments.store.word = words.back();
+    words.pop_back();
   }
   std::string sql;
   for (const std::string& word : words)
@@ -66,7 +70,7 @@ ExitCode run(Arguments& arguments, Output& output) {
 
 Run declare_query(Options& options) {
   auto arguments = std::make_shared<Arguments>();
-  options.words("STORE_AND_SQL", arguments->words, "The store's file, then the statement");
+  options.words("SQL_AND_STORE", arguments->words, "The statement, then the store's file");
   arguments->store.declare(options, false);
   options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
   return [arguments](Output& output) { return run(*arguments, output); };

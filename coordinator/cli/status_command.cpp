@@ -65,19 +65,17 @@ struct Status {
 };
 
 /// The store says what its last writer said. When nobody writes it any more, who was at work is
-/// not: a campaign and its designs are "interrupted", and workers are gone.
+/// not: a campaign and its designs that are not over are "interrupted", and workers are gone.
 void correct_states(Status& status) {
-  bool interrupted = false;
+  status.workers.cells.clear();
   for (Rows* rows : {&status.campaign, &status.designs}) {
     const auto state = std::ranges::find(rows->columns, "state") - rows->columns.begin();
     for (auto& cells : rows->cells) {
       std::string& text = cells[static_cast<std::size_t>(state)].text;
       if (text != "running" && text != "racing" && text != "testing") continue;
       text = "interrupted";
-      interrupted = true;
     }
   }
-  if (interrupted) status.workers.cells.clear();
 }
 
 /// Stores of schemas before 3 have none.

@@ -31,12 +31,17 @@ std::int64_t sum(const LiveStatus& status, std::int64_t CampaignStatus::*field) 
       [&](std::int64_t total, const CampaignStatus& one) { return total + one.*field; });
 }
 
-/// "busy 91 %  barrier 6 %  network 3 %": the largest first, nothing below half a percent.
+/// As people read it. On one host nothing crosses a network.
+std::string_view shown_name(IdleCause cause) {
+  return cause == IdleCause::Network ? "on the way" : name_of(cause);
+}
+
+/// "busy 91 %  barrier 6 %  on the way 3 %": the largest first, nothing below half a percent.
 std::string shares(const SlotTimes& times) {
   if (times.slots <= 0) return "no heartbeats yet";
   std::vector<std::pair<double, std::string_view>> causes;
   for (std::size_t i = 0; i < kIdleCauses; ++i)
-    causes.emplace_back(times.idle[i], name_of(static_cast<IdleCause>(i)));
+    causes.emplace_back(times.idle[i], shown_name(static_cast<IdleCause>(i)));
   std::ranges::stable_sort(causes, std::greater<>(), [](const auto& one) { return one.first; });
   std::string text = "busy " + percent(times.busy, times.slots);
   for (const auto& [time, name] : causes) {
@@ -58,7 +63,7 @@ std::string share_bar(const SlotTimes& times) {
   fill(upto, '#');
   for (std::size_t i = 0; i < kIdleCauses; ++i) {
     upto += times.idle[i];
-    fill(upto, name_of(static_cast<IdleCause>(i)).front());
+    fill(upto, shown_name(static_cast<IdleCause>(i)).front());
   }
   bar.resize(kBar, '.');
   return "[" + bar + "]";

@@ -14,6 +14,7 @@
 #include "coordinator/cli/machine_filer.h"
 #include "coordinator/cli/program_name.h"
 #include "coordinator/cli/store_argument.h"
+#include "coordinator/cli/stored_instances.h"
 #include "coordinator/cli/trajectories_figure.h"
 #include "target/process.h"
 
@@ -45,6 +46,23 @@ Expected<void> add_pdfs(Files& files, Output& output) {
   std::ranges::move(pdfs, std::back_inserter(files));
   std::ranges::sort(files, {}, &SupplementFile::path);
   return {};
+}
+
+/// Where robots and patches were in the runs that scored the winners.
+Expected<Files> instance_tables(StoreReader& store) {
+  const auto missions = scored_missions(store);
+  if (!missions) return Unexpected(missions.error());
+  Files files;
+  for (const ScoredMission& scored : *missions) {
+    for (const bool patches : {false, true}) {
+      auto text = patches ? patches_table(scored) : starts_table(scored);
+      if (!text) return Unexpected(text.error());
+      if (text->empty()) continue;
+      files.push_back({"instances/" + scored.name + (patches ? "-patches" : "-starts") + ".csv",
+                       std::move(*text)});
+    }
+  }
+  return files;
 }
 
 /// As `sha256sum -c` reads it: all files but itself.
@@ -97,6 +115,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
       {.machine_file = [&filer](CandidateId candidate) { return filer->text_of(candidate); },
        .program = program_name(),
        .with_pdfs = with_pdfs,
+       .instance_tables = [&store] { return instance_tables(**store); },
        .runs_from_above = [&](DesignId design) { return runs_from_above(arguments.store, design); },
        .progress = [&](std::size_t made) { counter.tell(static_cast<std::int64_t>(made), 0); }});
   if (files) {

@@ -116,6 +116,7 @@ Expected<Figure> trajectories_figure(std::unique_ptr<StoreReader> store,
     if (const auto filmed = film(*run, panels, figure.csv); !filmed)
       return Unexpected(filmed.error());
   }
+  if (options.paper) panels.details.clear();
   figure.svg = draw(panels);
   return figure;
 }

@@ -7,6 +7,7 @@
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/method_space.h"
 #include "coordinator/design/repair.h"
+#include "sim/control/machine_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -14,8 +15,29 @@ namespace {
 /// Shared by the plans of one method, which may outlive each other.
 using SharedSpace = std::shared_ptr<const MethodSpace>;
 
-DesignPlan plan_of(const Campaign& campaign, const DesignRow& row, std::size_t mission,
-                   std::size_t method, const SharedSpace& space) {
+/// A machine that nobody searched for, in place of a race.
+Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
+  if (method.baseline.empty()) return {};
+  plan.only_test = true;
+  if (method.baseline == kRandomMachine) {
+    Rng rng = Rng(plan.scenario.seed).split("random machine");
+    auto drawn = sample_uniform(plan.space, rng);
+    if (!drawn) return Unexpected(drawn.error());
+    plan.initial = {std::move(*drawn)};
+    return {};
+  }
+  // It may be no point of the space, whose ranges a person need not keep to.
+  const auto flavour = find_flavour(method.flavour);
+  if (!flavour) return Unexpected(flavour.error());
+  const auto machine = parse_machine(method.baseline, **flavour);
+  if (!machine) return Unexpected(machine.error());
+  plan.initial = {Configuration(plan.space.size())};
+  plan.describe = [text = text_of(*machine, **flavour)](const Configuration&) { return text; };
+  return {};
+}
+
+Expected<DesignPlan> plan_of(const Campaign& campaign, const DesignRow& row, std::size_t mission,
+                             std::size_t method, const SharedSpace& space) {
   const CampaignMission& on = campaign.missions[mission];
   Scenario scenario = race_on(campaign, on);
   scenario.seed = static_cast<std::uint64_t>(row.seed);
@@ -36,6 +58,9 @@ DesignPlan plan_of(const Campaign& campaign, const DesignRow& row, std::size_t m
     const std::string folder = campaign.target ? campaign.target->folder : "";
     plan.repair = repair_by(campaign.repair, folder, space);
   }
+  if (auto put = put_baseline(plan, campaign.methods[method]); !put) {
+    return Unexpected(put.error());
+  }
   return plan;
 }
 
@@ -52,13 +77,16 @@ Expected<std::vector<DesignPlan>> plans_of(const Campaign& campaign) {
   const std::vector<DesignRow> rows = design_rows(campaign);
   for (std::size_t mission = 0; mission < campaign.missions.size(); ++mission) {
     for (std::size_t method = 0; method < campaign.methods.size(); ++method) {
-      for (std::int64_t repetition = 1; repetition <= campaign.repetitions; ++repetition) {
+      const std::int64_t repetitions = repetitions_of(campaign, campaign.methods[method]);
+      for (std::int64_t repetition = 1; repetition <= repetitions; ++repetition) {
         const DesignRow& row = rows[plans.size()];
         SWARMSMITH_ASSERT(row.mission == campaign.missions[mission].mission.name &&
                               row.method == campaign.methods[method].name &&
                               row.repetition == repetition,
                           "designs are in the order of missions, methods, repetitions");
-        plans.push_back(plan_of(campaign, row, mission, method, spaces[method]));
+        auto plan = plan_of(campaign, row, mission, method, spaces[method]);
+        if (!plan) return Unexpected(plan.error());
+        plans.push_back(std::move(*plan));
       }
     }
   }

@@ -61,12 +61,6 @@ double quantile_value(const ParameterSpace& space, std::size_t parameter, const 
   return to_domain(space, parameter, domain, value);
 }
 
-Expected<Configuration> sample_uniform(const ParameterSpace& space, Rng& rng) {
-  return sample_configuration(space, [&](std::size_t parameter, const Interval& domain) {
-    return quantile_value(space, parameter, domain, rng.uniform());
-  });
-}
-
 bool ForbiddenList::contains(const Configuration& configuration) const {
   for (const Configuration& rejected : rejected_) {
     bool same = true;
@@ -141,3 +135,13 @@ Expected<std::vector<Configuration>> InitialSampler::sample(std::int64_t wanted,
 }
 
 }  // namespace swarmsmith::irace
+
+namespace swarmsmith {
+
+Expected<Configuration> sample_uniform(const ParameterSpace& space, Rng& rng) {
+  return irace::sample_configuration(space, [&](std::size_t parameter, const Interval& domain) {
+    return irace::quantile_value(space, parameter, domain, rng.uniform());
+  });
+}
+
+}  // namespace swarmsmith

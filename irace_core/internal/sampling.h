@@ -47,9 +47,6 @@ Expected<Configuration> sample_configuration(const ParameterSpace& space, Draw d
   return values.configuration();
 }
 
-/// Every parameter uniform in its domain.
-Expected<Configuration> sample_uniform(const ParameterSpace& space, Rng& rng);
-
 /// Decides which configurations must not be tried: those of the space's forbidden clauses, and
 /// those that contain all values of one that was rejected.
 class ForbiddenList {

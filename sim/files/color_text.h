@@ -1,18 +1,10 @@
 #pragma once
 
-#include <optional>
 #include <string>
-#include <string_view>
 
-#include "sim/control/reference_model.h"
+#include "sim/mission/colors.h"
 
 namespace swarmsmith {
-
-/// A colour's name, `grey` for `gray`, or "#rrggbb".
-std::optional<Rgb> parse_color(std::string_view text);
-
-/// The name when the colour has one, else "#rrggbb".
-std::string color_text(Rgb color);
 
 /// The colour as a TOML key: names are bare, numbers need quotes.
 std::string color_key(Rgb color);

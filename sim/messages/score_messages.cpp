@@ -27,6 +27,7 @@ class FieldWriter {
   void operator()(const ScoreField& field, When value) {
     add(field).set_choice(std::string(name_of(value)));
   }
+  void operator()(const ScoreField& field, const std::string& value) { add(field).set_text(value); }
   void operator()(const ScoreField& field, const std::vector<Reward>& value) {
     pb::ScoreRule::Rewards& rewards = *add(field).mutable_rewards();
     for (const Reward& reward : value) {
@@ -71,6 +72,9 @@ class FieldReader {
     const auto when = when_from_name(found->choice());
     if (!when) complain(std::string(field.key), "\"" + found->choice() + "\" is no time");
     value = when.value_or(value);
+  }
+  void operator()(const ScoreField& field, std::string& value) {
+    if (const Field* found = find(field, Field::kText)) value = found->text();
   }
   void operator()(const ScoreField& field, std::vector<Reward>& value) {
     const Field* found = find(field, Field::kRewards);

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 
 #include "sim/control/reference_model.h"
@@ -25,5 +26,11 @@ inline constexpr std::array<NamedColor, 7> kNamedColors = {{{"black", {0, 0, 0}}
 
 /// The colour of that name, if it has one.
 std::optional<Rgb> color_from_name(std::string_view name);
+
+/// A colour's name, `grey` for `gray`, or "#rrggbb".
+std::optional<Rgb> parse_color(std::string_view text);
+
+/// The name when the colour has one, else "#rrggbb".
+std::string color_text(Rgb color);
 
 }  // namespace swarmsmith

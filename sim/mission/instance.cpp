@@ -115,7 +115,9 @@ Expected<std::vector<Patch>> draw_patches(const ShuffledPatches& shuffled, Rng r
     for (int i = 0; i < share.count; ++i) {
       if (free.empty()) return bad_input("there are more coloured patches than places for them");
       const auto chosen = static_cast<std::ptrdiff_t>(rng.below(free.size()));
-      patches.push_back({free[static_cast<std::size_t>(chosen)], share.color});
+      Patch& patch = patches.emplace_back();
+      patch.shape = free[static_cast<std::size_t>(chosen)];
+      patch.color = share.color;
       free.erase(free.begin() + chosen);
     }
   }

@@ -8,6 +8,8 @@
 #include <string>
 #include <system_error>
 
+#include <fmt/format.h>
+
 #include "base/math.h"
 #include "sim/mission/colors.h"
 
@@ -196,11 +198,33 @@ Expected<PatchesBySeed> parse_patches_csv(std::string_view text) {
     if (!x) return Unexpected(x.error());
     const Expected<double> y = row.real(2);
     if (!y) return Unexpected(y.error());
-    const std::optional<Rgb> color = color_from_name(row.cells[3]);
-    if (!color) return row.wrong(3, "the name of a colour");
+    const std::optional<Rgb> color = parse_color(row.cells[3]);
+    if (!color) return row.wrong(3, "the name of a colour, or #rrggbb");
     patches[*seed].push_back({{*x, *y}, *color});
   }
   return patches;
+}
+
+std::string starts_csv(const std::map<std::int64_t, Instance>& instances) {
+  std::string text = "seed,robot,x,y,theta\n";
+  for (const auto& [seed, instance] : instances) {
+    for (std::size_t robot = 0; robot < instance.starts.size(); ++robot) {
+      const Pose& pose = instance.starts[robot];
+      text += fmt::format("{},{},{},{},{}\n", seed, robot, pose.x, pose.y, pose.theta);
+    }
+  }
+  return text;
+}
+
+std::string patches_csv(const std::map<std::int64_t, Instance>& instances) {
+  std::string text = "seed,x,y,color\n";
+  for (const auto& [seed, instance] : instances) {
+    for (const Patch& patch : instance.patches) {
+      const Point centre = std::get<Rectangle>(patch.shape).centre;
+      text += fmt::format("{},{},{},{}\n", seed, centre.x, centre.y, color_text(patch.color));
+    }
+  }
+  return text;
 }
 
 Expected<Instance> instance_of(const Mission& mission, std::int64_t seed,

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -31,6 +32,10 @@ Expected<StartsBySeed> parse_starts_csv(std::string_view text);
 
 /// Reads `seed,x,y,color` (metres; colours as in sim/mission/colors.h), one row a patch.
 Expected<PatchesBySeed> parse_patches_csv(std::string_view text);
+
+/// The tables that these two read, of instances by their seeds; numbers read back to the same bits.
+std::string starts_csv(const std::map<std::int64_t, Instance>& instances);
+std::string patches_csv(const std::map<std::int64_t, Instance>& instances);
 
 /// What is given explicitly; the rest is drawn from the seed.
 struct ExplicitInstances {

@@ -1,5 +1,6 @@
 #include "sim/mission/score.h"
 
+#include <algorithm>
 #include <cstddef>
 #include <stdexcept>
 #include <utility>
@@ -26,6 +27,11 @@ std::optional<ScoreRule> of_kind(std::string_view kind, std::index_sequence<I...
   return found;
 }
 
+Error error_of(const ScoreFault& fault) {
+  const std::string key(fault.key);
+  return {ErrorKind::BadInput, "the score's `" + key + "` " + fault.what, key};
+}
+
 /// Keeps the first fault.
 class FaultFinder {
  public:
@@ -40,6 +46,12 @@ class FaultFinder {
   void operator()(const ScoreField& /*field*/, bool /*value*/) {}
   void operator()(const ScoreField& /*field*/, Rgb /*value*/) {}
   void operator()(const ScoreField& /*field*/, When /*value*/) {}
+  void operator()(const ScoreField& field, const std::string& value) {
+    if (field.choices.empty() || std::ranges::find(field.choices, value) != field.choices.end()) {
+      return;
+    }
+    complain(field, "is none of its choices");
+  }
   void operator()(const ScoreField& field, const std::vector<Reward>& rewards) {
     if (rewards.empty()) complain(field, "names no colour");
     for (std::size_t i = 0; i < rewards.size(); ++i) {
@@ -52,9 +64,7 @@ class FaultFinder {
 
  private:
   void complain(const ScoreField& field, const std::string& what) {
-    if (fault) return;
-    const std::string key(field.key);
-    fault = Error{ErrorKind::BadInput, "the score's `" + key + "` " + what, key};
+    if (!fault) fault = error_of({field.key, what});
   }
 };
 
@@ -82,10 +92,22 @@ std::string_view kind_of(const ScoreRule& rule) {
   return std::visit([](const auto& kind) { return kind.kKind; }, rule);
 }
 
+std::string unit_of(const ScoreRule& rule) {
+  return std::visit([](const auto& kind) { return kind.unit(); }, rule);
+}
+
 std::optional<Error> fault_of(const ScoreRule& rule) {
   FaultFinder finder;
   visit_fields(rule, finder);
-  return finder.fault;
+  if (finder.fault) return finder.fault;
+  return std::visit(
+      [](const auto& kind) -> std::optional<Error> {
+        if constexpr (requires { kind.fault(); }) {
+          if (const auto fault = kind.fault()) return error_of(*fault);
+        }
+        return std::nullopt;
+      },
+      rule);
 }
 
 Scorer::Scorer(const ScoreRule& rule, const Arena& arena) : scorer_(scorer_of(rule, arena)) {}

@@ -26,6 +26,9 @@ std::optional<ScoreRule> score_of_kind(std::string_view kind);
 
 std::string_view kind_of(const ScoreRule& rule);
 
+/// What the score counts, such as "robots"; empty when nobody can say.
+std::string unit_of(const ScoreRule& rule);
+
 /// Calls `visitor(ScoreField, member)` for each parameter of the rule; `Rule` is ScoreRule or
 /// const.
 template <class Rule, class Visitor>

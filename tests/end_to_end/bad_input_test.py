@@ -601,7 +601,7 @@ class Evaluate(BadInput):
         self.refused("starts.csv:1: there is no column `seed`", *EXPLORE, "--mission",
                      "aggregation", "--starts", table)
         for line, sentence in (("1,5,5,red", "there is no free place for a patch at (5"),
-                               ("1,5,5,rd", "column color wants the name of a colour, not `rd`")):
+                               ("1,5,5,rd", "column color wants the name of a colour, or #rrggbb, not `rd`")):
             table.write_text("seed,x,y,color\n" + line + "\n")
             self.refused(sentence, *EXPLORE, "--mission", "color_selection", "--patches", table)
 

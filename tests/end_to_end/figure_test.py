@@ -144,10 +144,51 @@ class Figure(unittest.TestCase):
         self.assertEqual(done.returncode, 0)
         kinds = json.loads(call("figure", "--json").stdout)["kinds"]
         self.assertTrue(set(KINDS) <= {kind["kind"] for kind in kinds})
-        usage = call("figure", "--help").stdout
+        usage = " ".join(call("figure", "--help").stdout.split())
         for kind in kinds:
             self.assertIn(kind["summary"], done.stdout)
             self.assertIn(kind["summary"], usage)
+
+    def test_gap_is_the_change_from_the_tests_to_another_source(self):
+        own = self.folder / "gap.db"
+        shutil.copy(self.store, own)
+        self.assertEqual(call("evaluate", "best", own, "--profile", "pseudo-reality", "--seeds", "1-3", "-q").returncode, 0)
+        rows = json.loads(call("query", "SELECT source, avg(score) AS mean, count(*) AS runs FROM v_design_scores "
+                               "GROUP BY source", own, "--json").stdout)["rows"]
+        views = {row["source"]: row for row in rows}
+        table = self.folder / "gap.csv"
+        done = call("figure", "gap", own, "-o", table)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with open(table, newline="") as stream:
+            drawn = {row["source"]: row for row in csv.DictReader(stream)}
+        self.assertEqual(set(drawn), {"argos3", "pseudo-reality"})
+        for source, row in drawn.items():
+            self.assertEqual(float(row["mean"]), views[source]["mean"])
+            self.assertEqual(int(row["runs"]), views[source]["runs"])
+            self.assertEqual(row["reference_source"], "argos3")
+            self.assertEqual(float(row["change"]), views[source]["mean"] - views["argos3"]["mean"])
+        texts = " ".join(t.text for t in xml.fromstring(call("figure", "gap", own).stdout).iter(SVG + "text"))
+        self.assertIn("runs a design: argos3 20, pseudo-reality 3", texts)
+        self.assertIn("too few for a test", texts)
+        table.unlink()
+        for file in self.folder.glob("gap.db*"):
+            file.unlink()
+
+    def test_a_paper_has_its_font_and_pixels(self):
+        svg = self.figure("box", "--paper", "--font", "Linux Libertine")
+        self.assertIn("font-family=\"'Linux Libertine', Helvetica", svg)
+        self.assertNotIn("Scores by", svg)
+        for font in ("x'><script>", "a;b"):
+            self.assertIn("a font's name", self.refused(2, "box", self.store, "--font", font))
+        self.assertIn("means nothing", self.refused(2, "box", self.store, "--paper", "-o", self.folder / "a.csv"))
+        if shutil.which("rsvg-convert") is None:
+            self.skipTest("rsvg-convert (package librsvg2-bin) is not there")
+        file = self.folder / "a.png"
+        self.figure("box", "--width", "84mm", "-o", file)
+        data = file.read_bytes()
+        self.assertEqual(data[:8], b"\x89PNG\r\n\x1a\n")
+        self.assertAlmostEqual(int.from_bytes(data[16:20], "big"), 84 / 25.4 * 300, delta=2)
+        file.unlink()
 
     def test_what_cannot_be_meant_is_refused(self):
         for words, sentence in (
@@ -160,7 +201,7 @@ class Figure(unittest.TestCase):
                 (("box", self.store, "--mission", "agregation"), 'did you mean "aggregation"?'),
                 (("box", self.store, "--method", "x"), "it has: argos3"),
                 (("box", self.store, "--design", "3"), "an id such as d3"),
-                (("box", self.store, "-o", self.folder / "a.png"), ".svg, .pdf, .csv or .tex"),
+                (("box", self.store, "-o", self.folder / "a.gif"), ".svg, .pdf, .png, .csv or .tex"),
                 (("box", self.store, "-o", self.folder / "a.tex"), "has no TeX form"),
                 (("box", self.store, "--json"), "name a file"),
                 (("box", self.store, "--seed", "7"), "--seed"),

@@ -106,5 +106,156 @@ class MachineExport(ProgramTest):
         self.assertEqual(*scores)
 
 
+class WholeCampaign(ProgramTest):
+    """Everything that a score needs can be taken out of a store."""
+
+    made = None  # the store, as the first test has made it
+
+    def setUp(self):
+        super().setUp()
+        self.file.write_text("""format = 1
+[campaign]
+seed = 5
+repetitions = 2
+[[mission]]
+name = "aggregation"
+  [mission.instances]
+  test = { count = 4 }
+[[mission]]
+name = "color_selection"
+  [mission.instances]
+  test = { count = 4 }
+[[method]]
+name = "watermelon"
+[[method]]
+name = "by_hand"
+flavour = "watermelon-argos3"
+turn_clock = "seconds"
+baseline = "--nstates 2 --s0 0 --rwm0 5 --n0 1 --n0x0 0 --c0x0 6 --p0x0 1 --l0x0 3 --s1 1"
+[[method]]
+name = "chance"
+flavour = "chocolate"
+baseline = "random"
+[race]
+max_experiments = 1400
+""")
+        self.store = self.folder / "a.db"
+        if WholeCampaign.made is None:
+            done = self.run_campaign(self.store, "--workers", "2", "--quiet")
+            self.assertEqual(done.returncode, 0, done.stderr)
+            WholeCampaign.made = self.store.read_bytes()
+        else:
+            self.store.write_bytes(WholeCampaign.made)
+
+    def stored(self, design):
+        return {row["seed"]: row["score"] for row in self.query(
+            self.store, f"SELECT seed, score FROM v_design_scores WHERE design = {design}")}
+
+    def scores(self, *words):
+        done = call("evaluate", *words, "--json")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return {run["seed"]: run["score"] for run in map(json.loads, done.stdout.splitlines())}
+
+    def test_each_winner_of_a_file_scores_as_stored_without_a_flag(self):
+        folder = self.folder / "machines"
+        folder.mkdir()
+        self.assertEqual(call("export", self.store, "-o", folder).returncode, 0)
+        files = sorted(folder.iterdir())
+        self.assertEqual(len(files), 10)  # 2 missions; 2 designs, 2 random machines, and the one by hand
+        for file in files:
+            design = int(re.match(r"d(\d+)-", file.name)[1])
+            stored = self.stored(design)
+            self.assertEqual(len(stored), 4)
+            self.assertEqual(self.scores(file), stored, file.name)
+
+    def test_tables_of_starts_and_patches_are_what_was_scored(self):
+        for what, columns in (("starts", "seed,robot,x,y,theta"), ("patches", "seed,x,y,color")):
+            table = self.folder / f"{what}.csv"
+            done = call("export", self.store, "--what", what, "--mission", "color_selection", "-o", table)
+            self.assertEqual(done.returncode, 0, done.stderr)
+            self.assertEqual(table.read_text().splitlines()[0], columns)
+        machine = self.folder / "machine.fsm"
+        design = self.query(self.store, "SELECT design FROM v_designs WHERE mission = 'color_selection' "
+                                        "AND method = 'watermelon'")[0]["design"]
+        self.assertEqual(call("export", self.store, "--design", f"d{design}", "-o", machine).returncode, 0)
+        given = ("--starts", self.folder / "starts.csv", "--patches", self.folder / "patches.csv")
+        self.assertEqual(self.scores(machine, *given), self.stored(design))
+        # Other patches, other scores: the table is what counts.
+        lines = (self.folder / "patches.csv").read_text().replace("yellow", "green")
+        (self.folder / "patches.csv").write_text(lines)
+        self.assertNotEqual(self.scores(machine, *given), self.stored(design))
+
+    def test_a_table_is_of_one_mission(self):
+        done = call("export", self.store, "--what", "starts")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("aggregation, color_selection", done.stderr)
+        self.assertEqual(call("export", self.store, "--what", "patches").returncode, 0)  # one has some
+        done = call("export", self.store, "--what", "patches", "--design", "d1")
+        self.assertEqual(done.returncode, 4, done.stderr)
+        self.assertEqual(call("export", self.store, "--mission", "aggregation").returncode, 2)
+
+    def test_the_supplement_has_them(self):
+        folder = self.folder / "supplement"
+        self.assertEqual(call("supplement", self.store, "-o", folder).returncode, 0)
+        self.assertEqual(sorted(file.name for file in (folder / "instances").iterdir()),
+                         ["aggregation-starts.csv", "color_selection-patches.csv",
+                          "color_selection-starts.csv"])
+        self.assertIn("instances/*-patches.csv", (folder / "README.md").read_text())
+
+    def test_words_stand_in_one_order_and_the_old_one_is_understood(self):
+        sql = "SELECT count(*) AS n FROM v_designs"
+        self.assertEqual(call("query", sql, self.store).stdout, call("query", self.store, sql).stdout)
+        done = call("evaluate", "best", self.store, "--design", "d1", "--seeds", "1", "--no-store")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        done = call("evaluate", "--nstates 1 --s0 1", self.store, "--flavour", "watermelon", "--mission", "aggregation")
+        self.assertEqual(done.returncode, 2)
+        self.assertIn("one word too many", done.stderr)
+
+    def test_numbers_of_latex_are_mathematics(self):
+        done = call("compare", self.store, "--by", "method", "--paper", "latex")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("difference of the means $", done.stdout)
+        self.assertNotRegex(re.sub(r"\$[^$]*\$", "", done.stdout), r"-[0-9]")
+
+    def test_a_finished_store_has_no_worker_at_work(self):
+        self.assertNotIn("connected", call("status", self.store).stdout)
+
+    def test_many_pictures_are_no_file(self):
+        done = call("export", self.store, "--format", "svg", "-o", self.folder / "all.svg")
+        self.assertEqual(done.returncode, 2)
+        self.assertFalse((self.folder / "all.svg").exists())
+
+    def test_baselines_are_methods_in_tables_and_report(self):
+        self.assert_clean(self.store)
+        rows = self.query(self.store, "SELECT method, used, budget, state FROM v_designs "
+                                      "WHERE mission = 'aggregation' AND repetition = 1")
+        self.assertEqual([(row["method"], row["state"]) for row in rows],
+                         [("watermelon", "finished"), ("by_hand", "finished"), ("chance", "finished")])
+        self.assertEqual([row["used"] > 0 for row in rows], [True, False, False])
+        compared = call("compare", self.store, "--by", "method", "--csv").stdout
+        self.assertIn("by_hand", compared)
+        report = self.folder / "report.html"
+        self.assertEqual(call("report", self.store, "-o", report).returncode, 0)
+        self.assertIn("by_hand", report.read_text())
+
+
+class NoNumber(ProgramTest):
+    """A score that is no finite number is told, whoever works it out."""
+
+    def test_is_told_by_each_command(self):
+        mission = self.folder / "nan.toml"
+        mission.write_text('format = 1\nduration = "5 s"\n[score]\nkind = "formula"\nvalue = "0 / (x - x)"\n')
+        done = call("evaluate", "--nstates", "1", "--s0", "1", "--flavour", "watermelon", "--mission", mission)
+        self.assertEqual(done.returncode, 1)
+        self.assertIn("seed 1: the score is no number", done.stderr)
+        self.assertNotIn("mean", done.stdout)
+        self.file.write_text('format = 1\n[[mission]]\npreset = "nan.toml"\n[[method]]\nname = "watermelon"\n'
+                             "[race]\nmax_experiments = 1400\n")
+        self.assertIn("no finite number", call("check", self.file).stderr)
+        done = self.run_campaign(self.folder / "a.db", "--workers", "1", "-q")
+        self.assertEqual(done.returncode, 1)
+        self.assertRegex(done.stdout, "stopped after .*: every configuration was rejected")
+
+
 if __name__ == "__main__":
     unittest.main()

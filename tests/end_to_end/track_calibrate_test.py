@@ -8,14 +8,14 @@ import subprocess
 import tempfile
 import unittest
 
-from programs import BIN
+from programs import BIN, PATIENCE
 
 BOARD = "charuco:9x6:0.04:0.03:4x4_50"
 
 
 def track(*words, cwd=None):
     return subprocess.run([BIN / "swarmsmith-track", *map(str, words)], capture_output=True,
-                          text=True, timeout=120, cwd=cwd)
+                          text=True, timeout=120 * PATIENCE, cwd=cwd)
 
 
 class Rendered:
@@ -34,7 +34,7 @@ def setUpModule():
     Rendered.folder = tempfile.TemporaryDirectory()
     Rendered.root = pathlib.Path(Rendered.folder.name) / "lab"
     subprocess.run([BIN / "film", "lab", Rendered.root, "--robots", "1", "--size", "960x540",
-                    "--form", "mjpg"], check=True, timeout=300)
+                    "--form", "mjpg"], check=True, timeout=300 * PATIENCE)
     Rendered.truth = json.loads((Rendered.root / "truth.json").read_text())
     Rendered.camera = answer("calibrate", "camera", "ceiling.board", "--board", BOARD, "--map",
                              "map.svg", "--arena", "arena.toml")

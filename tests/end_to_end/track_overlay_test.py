@@ -14,6 +14,7 @@ import urllib.error
 import urllib.request
 
 BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
+PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))  # see programs.py
 TRACK, FILM = str(BIN / "swarmsmith-track"), str(BIN / "film")
 MACHINE = "--nstates 1 --s0 0 --rwm0 20"
 PNG = b"\x89PNG\r\n\x1a\n"
@@ -71,7 +72,7 @@ def write_calibrations(lab):
 
 def track(*words, cwd, timeout=200):
     return subprocess.run([TRACK, *map(str, words)], capture_output=True, text=True,
-                          errors="replace", timeout=timeout, cwd=cwd)
+                          errors="replace", timeout=timeout * PATIENCE, cwd=cwd)
 
 
 class OverlayAndLive(unittest.TestCase):
@@ -84,7 +85,7 @@ class OverlayAndLive(unittest.TestCase):
                        MACHINE, "--seconds", "2", "--fps", "10", "--before", "0.5", "--after", "0.5",
                        "--form", "h264", "--seed", "3"]):
             done = subprocess.run([FILM, *map(str, words)], capture_output=True, text=True,
-                                  timeout=300)
+                                  timeout=300 * PATIENCE)
             assert done.returncode == 0, done.stderr
         write_calibrations(cls.lab)
         placed = track("calibrate", "arena", "ceiling.arena.mkv", "--arena", "arena.toml",
@@ -154,7 +155,7 @@ class OverlayAndLive(unittest.TestCase):
             self.assertEqual(state["references"], 6)
             for robot in state["robots"]:
                 self.assertLess(abs(robot["x"]), 1.3)
-            said, _ = live.communicate(timeout=120)
+            said, _ = live.communicate(timeout=120 * PATIENCE)
         finally:
             live.kill()
             live.wait()
@@ -187,7 +188,7 @@ class OverlayAndLive(unittest.TestCase):
         try:
             live.stderr.readline()
             live.send_signal(signal.SIGINT)
-            said, _ = live.communicate(timeout=60)
+            said, _ = live.communicate(timeout=60 * PATIENCE)
         finally:
             live.kill()
             live.wait()

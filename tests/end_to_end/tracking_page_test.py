@@ -11,13 +11,14 @@ import unittest
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
 BIN = pathlib.Path(os.environ["SWARMSMITH_BIN"])
+PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))  # see programs.py
 PAGE = (SOURCE / "docs" / "tracking.md").read_text()
 ENVIRONMENT = {**os.environ, "PATH": f"{BIN}:{os.environ['PATH']}"}
 ENVIRONMENT.pop("SWARMSMITH_STORE", None)
 
 
 def run(words, folder=None, check=True):
-    done = subprocess.run(words, cwd=folder, text=True, capture_output=True, timeout=500, env=ENVIRONMENT)
+    done = subprocess.run(words, cwd=folder, text=True, capture_output=True, timeout=500 * PATIENCE, env=ENVIRONMENT)
     if check and done.returncode != 0:
         raise AssertionError(f"{words}\n{done.stdout}{done.stderr}")
     return done

@@ -10,6 +10,7 @@ namespace swarmsmith {
 /// Gives each parameter of a kind, whatever it is, a value that is not its default.
 struct OddParameters {
   When when;
+  int colors = 0;
 
   void operator()(const ScoreField& field, double& value) const {
     value = field.allows(value + 0.1) ? value + 0.1 : field.least;
@@ -18,8 +19,14 @@ struct OddParameters {
     value = field.allows(value + 1) ? value + 1 : static_cast<int>(field.least);
   }
   void operator()(const ScoreField& /*field*/, bool& value) const { value = !value; }
-  void operator()(const ScoreField& /*field*/, Rgb& value) const { value = {127, 127, 127}; }
+  /// Grey, then black.
+  void operator()(const ScoreField& /*field*/, Rgb& value) {
+    value = colors++ == 0 ? Rgb{127, 127, 127} : Rgb{0, 0, 0};
+  }
   void operator()(const ScoreField& /*field*/, When& value) const { value = when; }
+  void operator()(const ScoreField& field, std::string& value) const {
+    value = field.choices.empty() ? "x * (1 + gray) + t" : std::string(field.choices.back());
+  }
   void operator()(const ScoreField& /*field*/, std::vector<Reward>& value) const {
     value = {{{1, 2, 3}, -0.3}, {{0, 0, 0}, 0.7}, {{127, 127, 127}, 0.1}};
   }

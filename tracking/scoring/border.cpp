@@ -15,9 +15,15 @@ namespace {
 
 constexpr int kDirections = 1000;
 
-/// Looks for a parameter that says when the score looks.
+/// Looks for a parameter that says when the score looks. A formula may see more than the floor, so
+/// that it has no borders.
 struct EndFinder {
   bool found = false;
+  bool has_formula = false;
+
+  void operator()(const ScoreField& field, const std::string& /*value*/) {
+    has_formula = has_formula || field.choices.empty();
+  }
 
   void operator()(const ScoreField& /*field*/, When when) { found = found || when == When::End; }
   template <class Value>
@@ -142,7 +148,7 @@ void look_along(const LineOfSight& ray, const ScoreRule& rule, const Arena& aren
 bool is_scored_at_the_end(const ScoreRule& rule) {
   EndFinder finder;
   visit_fields(rule, finder);
-  return finder.found;
+  return finder.found && !finder.has_formula;
 }
 
 std::optional<NearestBorder> nearest_border(const ScoreRule& rule, const Arena& arena,

@@ -4,6 +4,7 @@
 #include <array>
 #include <charconv>
 #include <cstddef>
+#include <optional>
 #include <set>
 #include <string_view>
 
@@ -25,16 +26,30 @@ bool before(const std::string& a, const std::string& b) {
   return a < b;
 }
 
-/// Okabe and Ito's colours, dark and pale by turns: parts that are stacked in this order have a
+/// What is a colour by its name looks like it.
+std::optional<std::string> natural_color(std::string_view word) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> kNatural = {
+      {{"black_floor", "#000000"},
+       {"gray_floor", "#969696"},
+       {"white_floor", "#eeeeee"},
+       {"green", "#009e73"},
+       {"blue", "#0072b2"},
+       {"red", "#d55e00"},
+       {"yellow", "#f0e442"}}};
+  for (const auto& [name, color] : kNatural)
+    if (word == name) return std::string(color);
+  return std::nullopt;
+}
+
+/// Okabe and Ito's colours, pale and dark by turns: parts that are stacked in this order have a
 /// border in a print in black and white, too.
 std::string stacked_color(std::size_t number) {
-  constexpr std::array<std::pair<std::string_view, double>, 7> kColors = {{{"#0072b2", 0},
-                                                                           {"#e69f00", 0.35},
-                                                                           {"#009e73", 0},
+  constexpr std::array<std::pair<std::string_view, double>, 6> kColors = {{{"#e69f00", 0.35},
+                                                                           {"#0072b2", 0},
                                                                            {"#56b4e9", 0.5},
-                                                                           {"#d55e00", 0},
+                                                                           {"#009e73", 0},
                                                                            {"#cc79a7", 0.45},
-                                                                           {"#000000", 0}}};
+                                                                           {"#d55e00", 0}}};
   const auto& [color, paleness] = kColors[number % kColors.size()];
   std::string result = lightened(std::string(color), paleness);
   // Beyond them they begin again, paler.
@@ -68,10 +83,14 @@ CategoryColors::CategoryColors(const std::vector<std::vector<std::string>>& list
         values, [&](const std::string& value) { return is_number(value, number); });
     const auto last = static_cast<double>(std::max<std::size_t>(2, values.size()) - 1);
     Family& family = families_.emplace_back();
+    std::size_t words = 0;
     for (std::size_t i = 0; i < values.size(); ++i) {
-      std::string color =
-          are_numbers ? sequential_color(static_cast<double>(i) / last) : stacked_color(i);
-      family.emplace_back(values[i], std::move(color));
+      if (are_numbers) {
+        family.emplace_back(values[i], sequential_color(static_cast<double>(i) / last));
+        continue;
+      }
+      const auto natural = natural_color(values[i]);
+      family.emplace_back(values[i], natural ? *natural : stacked_color(words++));
     }
   }
 }

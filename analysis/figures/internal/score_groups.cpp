@@ -7,7 +7,6 @@
 
 #include <fmt/format.h>
 
-#include "analysis/records/names.h"
 #include "base/csv.h"
 #include "base/suggestion.h"
 
@@ -93,7 +92,7 @@ GroupedScores grouped(const ChosenScores& taken, const StoreNames& names, std::s
     found->second.values.push_back(value.score.score);
   }
   for (auto& [mission, groups] : panels) {
-    result.panels.push_back({.title = as_words(mission)});
+    result.panels.push_back({.title = names.title_of(mission)});
     for (auto& place_and_group : groups)
       result.panels.back().groups.push_back(std::move(place_and_group.second));
   }

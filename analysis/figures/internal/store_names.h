@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,9 +14,13 @@ namespace swarmsmith {
 /// What a store has names for, each in a fixed order (`NameOrder`).
 /// A thing's place is its colour in every figure of the store, whatever a figure leaves out.
 struct StoreNames {
-  std::vector<std::string> methods;   ///< of all designs
-  std::vector<std::string> missions;  ///< of all designs
-  std::vector<std::string> sources;   ///< of all scores of winners
+  std::vector<std::string> methods;          ///< of all designs
+  std::vector<std::string> missions;         ///< of all designs
+  std::vector<std::string> sources;          ///< of all scores of winners
+  std::map<std::string, std::string> units;  ///< by mission: what its scores count, where known
+
+  /// The mission in words, with its unit in brackets: "aggregation (robots)".
+  std::string title_of(const std::string& mission) const;
 };
 
 Expected<StoreNames> names_of(StoreReader& store);

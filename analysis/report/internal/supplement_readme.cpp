@@ -40,6 +40,11 @@ constexpr Kind kKinds[] = {
      "how often the winners of a mission and method have each module, in all states and in those "
      "that can be reached"},
     {"campaign*.toml", "campaign", ".toml", "what was asked: the campaign file, all keys written"},
+    {"instances/*-starts.csv", "instances/", "-starts.csv",
+     "where each robot started in each seed of a mission: metres, radians; `evaluate --starts` "
+     "reads it"},
+    {"instances/*-patches.csv", "instances/", "-patches.csv",
+     "where the coloured patches lay in each seed: metres; `evaluate --patches` reads it"},
     {"controllers/*.txt", "controllers/", ".txt",
      "each design's best machine as text of AutoMoDe's grammar, or the switches of a program"},
     {"controllers/*.json", "controllers/", ".json", "the same with parameters, modules and scores"},

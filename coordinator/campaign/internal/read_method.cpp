@@ -8,7 +8,9 @@
 #include "irace_core/files/parameter_file.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
+#include "sim/control/machine_text.h"
 #include "sim/files/file_text.h"
+#include "sim/files/machine_file.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith {
@@ -199,6 +201,86 @@ bool has_parameter_file(TableReader& table) {
   return std::holds_alternative<std::string>(table.take("parameters")->value);
 }
 
+/// The only machine of the file that the key names; complains when there is none.
+std::optional<FiledMachine> read_filed_machine(TableReader& table, const std::string& name,
+                                               const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / name;
+  const auto text = read_file(file, "machine");
+  if (!text) {
+    table.complain_foreign("baseline", text.error());
+    return std::nullopt;
+  }
+  auto machines = parse_machine_file(*text, file);
+  if (!machines) {
+    table.complain_foreign("baseline", machines.error().front());
+    return std::nullopt;
+  }
+  if (machines->size() > 1) {
+    table.complain("baseline", "`baseline` is one machine, and " + file.string() + " has " +
+                                   std::to_string(machines->size()));
+    return std::nullopt;
+  }
+  return std::move(machines->front());
+}
+
+/// Takes over what the head says, where the method says nothing.
+void follow_head(TableReader& table, const MachineHead& head, Method& method) {
+  if (head.flavour.empty()) return;
+  if (!table.has("flavour")) {
+    method.flavour = head.flavour;
+  } else if (method.flavour != head.flavour) {
+    table.complain("baseline", "the machine was designed for the flavour " + head.flavour +
+                                   ", the method has " + method.flavour);
+  }
+}
+
+std::string lower_case(std::string text) {
+  for (char& letter : text)
+    if (letter >= 'A' && letter <= 'Z') letter = static_cast<char>(letter - 'A' + 'a');
+  return text;
+}
+
+/// A machine by hand or of a file as `baseline`; nothing for a race, or a random machine.
+void read_baseline(TableReader& table, const std::filesystem::path& folder, Method& method) {
+  const auto baseline = table.text("baseline");
+  if (!baseline) return;
+  method.baseline = *baseline;
+  if (method.baseline == kRandomMachine) return;
+  if (!baseline->starts_with("--") && (baseline->empty() || baseline->starts_with('-') ||
+                                       lower_case(*baseline) == kRandomMachine)) {
+    table.complain("baseline",
+                   "`baseline` is a text that begins with --nstates, a file with one machine, or "
+                   "\"random\", not \"" +
+                       *baseline + "\"");
+    return;
+  }
+  std::optional<TurnClock> turn_clock;
+  if (!baseline->starts_with("--")) {
+    const auto filed = read_filed_machine(table, *baseline, folder);
+    if (!filed) return;
+    method.baseline = filed->text;
+    follow_head(table, filed->head, method);
+    turn_clock = filed->head.turn_clock;
+  }
+  for (const std::string_view key :
+       {"max_states", "max_transitions", "behaviours", "conditions", "parameters"}) {
+    if (table.has(key)) {
+      table.complain(key,
+                     "`" + std::string(key) +
+                         "` says what a race may try, and the method's `baseline` is a machine");
+    }
+  }
+  const auto flavour = find_flavour(method.flavour);
+  if (!flavour) return;  // complained about
+  method.turn_clock = turn_clock.value_or((*flavour)->exploration.turn_clock);
+  const auto machine = parse_machine(method.baseline, **flavour);
+  if (machine) {
+    method.baseline = print_machine(*machine, **flavour);
+  } else {
+    table.complain("baseline", machine.error().where + ": " + machine.error().message);
+  }
+}
+
 /// One [[method]]; `taken` are the names of those before it.
 Method read_method(TableReader& table, const std::vector<std::string>& taken,
                    const std::filesystem::path& folder, bool has_target) {
@@ -217,11 +299,19 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
     return method;
   }
   const Flavour* flavour = read_flavour(table, method);
+  if (flavour != nullptr) {
+    read_baseline(table, folder, method);
+    flavour = *find_flavour(method.flavour);
+  } else {
+    table.take("baseline");
+  }
   method.max_states = table.integer("max_states", {1, kMaxStates}).value_or(kMaxStates);
   method.max_transitions =
       table.integer("max_transitions", {1, kMaxTransitions}).value_or(kMaxTransitions);
   if (flavour != nullptr) {
-    method.turn_clock = read_turn_clock(table, *flavour);
+    if (method.baseline.empty() || table.has("turn_clock")) {
+      method.turn_clock = read_turn_clock(table, *flavour);
+    }
     method.behaviours = read_modules(table, "behaviours", flavour->behaviours, flavour->name);
     method.conditions = read_modules(table, "conditions", flavour->conditions, flavour->name);
     if (auto ranges = table.table("parameters")) read_ranges(*ranges, *flavour, method);

@@ -23,15 +23,20 @@ void add_method(const Method& method, std::vector<Section>& sections) {
     sections.push_back(parameter_file_section(method));
     return;
   }
-  sections.push_back({"[[method]]",
-                      prefix,
-                      {{"name", quoted_text(method.name)},
-                       {"flavour", quoted_text(method.flavour)},
-                       {"turn_clock", quoted_text(name_of(method.turn_clock))},
-                       {"max_states", std::to_string(method.max_states)},
-                       {"max_transitions", std::to_string(method.max_transitions)},
-                       {"behaviours", array_of(method.behaviours)},
-                       {"conditions", array_of(method.conditions)}}});
+  Section section{"[[method]]",
+                  prefix,
+                  {{"name", quoted_text(method.name)},
+                   {"flavour", quoted_text(method.flavour)},
+                   {"turn_clock", quoted_text(name_of(method.turn_clock))}}};
+  if (!method.baseline.empty()) section.lines.push_back({"baseline", quoted_text(method.baseline)});
+  if (method.baseline.empty() || method.baseline == kRandomMachine) {
+    section.lines.insert(section.lines.end(),
+                         {{"max_states", std::to_string(method.max_states)},
+                          {"max_transitions", std::to_string(method.max_transitions)},
+                          {"behaviours", array_of(method.behaviours)},
+                          {"conditions", array_of(method.conditions)}});
+  }
+  sections.push_back(std::move(section));
   if (method.ranges.empty()) return;
   Section parameters{"[method.parameters]", prefix + "parameters.", {}};
   const auto flavour = find_flavour(method.flavour);

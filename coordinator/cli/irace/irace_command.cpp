@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/log.h"
+#include "console/wrapped.h"
 #include "coordinator/campaign/irace_campaign.h"
 #include "coordinator/campaign/programs.h"
 #include "coordinator/cli/commands.h"
@@ -50,7 +51,7 @@ void print_help(Output& output) {
   const Command& command = this_command();
   output.out << command.summary << "\nUsage: swarmsmith irace [OPTIONS]\n\n"
              << irace_option_help() << '\n'
-             << command.details << '\n';
+             << wrapped(command.details) << '\n';
 }
 
 /// R's files and the store are no copies of each other: .Rdata becomes .db.

@@ -48,6 +48,16 @@ class FieldReader {
     if (name) value = when_from_name(*name).value_or(value);
   }
 
+  void operator()(const ScoreField& field, std::string& value) {
+    need(field, "\"x\"");
+    if (field.choices.empty()) {
+      value = table_.text(field.key).value_or(value);
+    } else {
+      const std::vector<std::string> choices(field.choices.begin(), field.choices.end());
+      value = table_.choice(field.key, choices).value_or(value);
+    }
+  }
+
   void operator()(const ScoreField& field, std::vector<Reward>& value) {
     need(field, "{ red = 1, yellow = 2 }");
     auto rewards = table_.table(field.key);
@@ -88,8 +98,12 @@ std::optional<ScoreRule> read_score(TableReader& score) {
     return std::nullopt;
   }
   std::optional<ScoreRule> rule = score_of_kind(*kind);
+  const std::size_t complaints = score.complaints();
   FieldReader reader(score, *kind);
   visit_fields(*rule, reader);
+  if (score.complaints() == complaints) {
+    if (const auto fault = fault_of(*rule)) score.complain(fault->where, fault->message);
+  }
   // For people coming from the examples of the literature; it has one value.
   if (score.boolean("maximize") == false) {
     score.complain("maximize",

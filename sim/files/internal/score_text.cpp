@@ -15,6 +15,7 @@ struct ValueText {
   std::string operator()(bool value) const { return value ? "true" : "false"; }
   std::string operator()(Rgb value) const { return quoted_text(color_text(value)); }
   std::string operator()(When value) const { return quoted_text(name_of(value)); }
+  std::string operator()(const std::string& value) const { return quoted_text(value); }
 
   /// An inline table, in the rule's own order.
   std::string operator()(const std::vector<Reward>& value) const {

@@ -26,6 +26,7 @@ struct ColorReward {
           rule.rewards);
     field(kAtField, rule.at);
   }
+  std::string unit() const { return summed_unit("reward", at); }
   friend bool operator==(const ColorReward&, const ColorReward&) = default;
 };
 

@@ -22,6 +22,7 @@ struct ObjectsOn {
           rule.color);
     field(kAtField, rule.at);
   }
+  std::string unit() const { return summed_unit("objects", at); }
   friend bool operator==(const ObjectsOn&, const ObjectsOn&) = default;
 };
 

@@ -22,6 +22,7 @@ struct RobotsOn {
           rule.color);
     field(kAtField, rule.at);
   }
+  std::string unit() const { return summed_unit("robots", at); }
   friend bool operator==(const RobotsOn&, const RobotsOn&) = default;
 };
 

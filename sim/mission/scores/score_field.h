@@ -3,6 +3,7 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -14,8 +15,10 @@ namespace swarmsmith {
 /// What kinds of score are made of. Each is a struct that lists its parameters with a function
 /// template `fields(rule, visitor)`, which calls `visitor(ScoreField, member)` for each of them, in
 /// a fixed order. Campaign files, stored texts and messages are read and written by visitors, so
-/// that they know no kind by name. A parameter is a double, int, bool, Rgb, When or
-/// std::vector<Reward>.
+/// that they know no kind by name. A parameter is a double, int, bool, Rgb, When, std::string
+/// or std::vector<Reward>. `unit()` says what its score counts, for axes. A kind may have
+/// `std::optional<ScoreFault> fault() const` besides, for what the limits of a parameter cannot
+/// say.
 
 /// One parameter of a kind of score, as a key of [mission.score].
 struct ScoreField {
@@ -26,9 +29,17 @@ struct ScoreField {
   double most = 1e9;
   /// A file must say it; else it is what the struct says.
   bool required = false;
+  /// What a text may be; empty: anything.
+  std::span<const std::string_view> choices{};
 
   /// Not for NaN.
   bool allows(double value) const { return value >= least && value <= most; }
+};
+
+/// What is wrong with a rule.
+struct ScoreFault {
+  std::string_view key;
+  std::string what;  ///< goes on after "the score's `key`"
 };
 
 /// When a score looks at the swarm.
@@ -48,6 +59,11 @@ constexpr std::optional<When> when_from_name(std::string_view name) {
     if (name == name_of(when)) return when;
   }
   return std::nullopt;
+}
+
+/// What a score counts that looks at the swarm so: "robots", "robots, summed over instants".
+inline std::string summed_unit(std::string_view counted, When at) {
+  return std::string(counted) + (at == When::Sum ? ", summed over instants" : "");
 }
 
 /// The parameter `at` of the kinds that have it.

@@ -153,7 +153,7 @@ TEST(FigureOptionsOfKinds, ThatMeanNothingAreRefused) {
   const auto refused = refused_option(*modules, {.by = "source"});
   ASSERT_TRUE(refused);
   EXPECT_EQ(refused->where, "--by");
-  EXPECT_THAT(refused->message, HasSubstr("--width, --mission, --method"));
+  EXPECT_THAT(refused->message, HasSubstr("--width, --paper, --mission, --method"));
   EXPECT_TRUE(refused_option(*modules, {.iteration = 3}));
   EXPECT_TRUE(refused_option(*modules, {.candidate = CandidateId{3}}));
 }

@@ -71,10 +71,7 @@ TEST(ParameterTable, NamesThatAreNotThereAreToldWithWhatIs) {
   EXPECT_TRUE(named_columns(table, "", 2)->empty());
 }
 
-TEST(CategoryColors, NeighboursDifferInLightness) {
-  std::vector<std::string> values;
-  for (char letter = 'a'; letter < 'h'; ++letter)
-    values.emplace_back(1, letter);
+void expect_neighbours_to_differ(const std::vector<std::string>& values) {
   const CategoryColors colors({values});
   const auto grey = [&](std::size_t i) {
     const std::string color = colors.color(values[i]);
@@ -84,7 +81,20 @@ TEST(CategoryColors, NeighboursDifferInLightness) {
     return 0.2126 * channel(1) + 0.7152 * channel(3) + 0.0722 * channel(5);
   };
   for (std::size_t i = 1; i < values.size(); ++i)
-    EXPECT_GT(std::abs(grey(i) - grey(i - 1)), 50) << i;
+    EXPECT_GT(std::abs(grey(i) - grey(i - 1)), 50) << values[i];
+}
+
+TEST(CategoryColors, NeighboursDifferInLightness) {
+  expect_neighbours_to_differ({"a", "b", "c", "d", "e", "f", "g"});
+  expect_neighbours_to_differ({"black_floor", "color_detection", "fixed_probability", "gray_floor",
+                               "inverted_neighbour_count", "neighbour_count", "white_floor"});
+}
+
+TEST(CategoryColors, OfAColorAreLikeIt) {
+  const CategoryColors colors({{"black_floor", "gray_floor", "stop", "white_floor"}});
+  EXPECT_EQ(colors.color("black_floor"), "#000000");
+  EXPECT_EQ(colors.color("gray_floor"), "#969696");
+  EXPECT_EQ(colors.color("white_floor"), "#eeeeee");
 }
 
 TEST(CategoryColors, ListsThatShareAValueShareAPalette) {

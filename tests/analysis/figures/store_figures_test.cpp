@@ -180,10 +180,48 @@ TEST_F(StoreFigures, ParallelHasEveryEliteAndNamedParametersInTheirOrder) {
   EXPECT_LT(figure.csv.find("RWM0"), figure.csv.find("NumStates"));
 }
 
+TEST_F(StoreFigures, ImportanceRatesEachParameterOfEnoughCandidates) {
+  const Figure figure = made("importance");
+  // 24 candidates: what all of them have can be rated.
+  EXPECT_THAT(figure.csv, HasSubstr("\n1,NumStates,24,"));
+  EXPECT_THAT(drawn_page(figure.svg).collisions(), IsEmpty());
+  EXPECT_THAT(refusal("importance", {}), HasSubstr("--design d1"));
+}
+
+TEST_F(StoreFigures, TrainingHasAPointAWinner) {
+  const Figure figure = made("training", {});
+  EXPECT_EQ(rows_of(figure.csv), 2U);
+  EXPECT_THAT(drawn_page(figure.svg).collisions(), IsEmpty());
+  const auto all = designs(*reader, {});
+  EXPECT_THAT(figure.csv, HasSubstr(fmt::format("{},rvr,4,", *all->front().best_mean)));
+}
+
+TEST_F(StoreFigures, GapSaysWhatIsMissing) {
+  const auto none = make("gap", {});
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().kind, ErrorKind::NotFound);
+  EXPECT_THAT(none.error().message, HasSubstr("one source alone (rvr)"));
+}
+
+TEST_F(StoreFigures, OfAPaperHaveNoTitleNorDetails) {
+  for (const FigureKind& kind : figure_kinds()) {
+    if (kind.name == "machine" || kind.name == "gap" || kind.name == "ranks") continue;
+    FigureOptions options{.filter = {.design = {{1}}}};
+    if (refused_option(kind, options)) options.filter.design.reset();
+    const Figure plain = made(kind.name, options);
+    options.paper = true;
+    const Figure paper = made(kind.name, options);
+    EXPECT_EQ(paper.csv, plain.csv) << kind.name;
+    EXPECT_THAT(paper.svg, HasSubstr("<title></title>")) << kind.name;
+    EXPECT_LT(drawn_page(paper.svg).texts.size(), drawn_page(plain.svg).texts.size()) << kind.name;
+    EXPECT_THAT(drawn_page(paper.svg).collisions(), IsEmpty()) << kind.name;
+  }
+}
+
 TEST_F(StoreFigures, ConvergenceHasAPanelAMission) {
   const DrawnPage page = drawn_page(made("convergence", {}).svg);
-  EXPECT_TRUE(page.has_text("aggregation"));
-  EXPECT_TRUE(page.has_text("color_selection"));
+  EXPECT_TRUE(page.has_text("aggregation (robots)"));
+  EXPECT_TRUE(page.has_text("color selection (reward)"));
   EXPECT_EQ(rows_of(made("convergence", {}).csv), 2U * 3 * 3);
 }
 

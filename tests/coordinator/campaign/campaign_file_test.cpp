@@ -1,5 +1,7 @@
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/campaign_text.h"
+#include "sim/files/machine_file.h"
 
 #include <gmock/gmock.h>
 
@@ -227,7 +229,76 @@ TEST(CampaignFile, OfTheDemoIsShort) {
   EXPECT_EQ(demo.name, "demo");
   EXPECT_EQ(demo.store, "demo.db");
   EXPECT_EQ(demo.race.max_experiments, 2000);
-  EXPECT_EQ(demo.missions[0].mission.name, "aggregation");
+  EXPECT_EQ(demo.missions[0].mission.name, "color_selection");
+  ASSERT_THAT(demo.methods, SizeIs(3));
+  EXPECT_EQ(demo.methods[0].baseline, "");
+  EXPECT_THAT(demo.methods[1].baseline, testing::StartsWith("--nstates 2 --s0 0"));
+  EXPECT_EQ(demo.methods[2].baseline, kRandomMachine);
+}
+
+// --- Baselines -----------------------------------------------------------------------------------
+
+constexpr const char* kStop = "--nstates 1 --s0 1";
+
+std::string with_method(const std::string& keys) {
+  return FileText{}.text() + "[[method]]\nname = \"other\"\n" + keys;
+}
+
+TEST(Baseline, IsATextOrTheWordRandom) {
+  const Campaign campaign =
+      parsed(with_method("baseline = \"--nstates   1 --s0 1\"\n[[method]]\nname = \"chance\"\n"
+                         "baseline = \"random\"\nmax_states = 2\n"));
+  EXPECT_EQ(campaign.methods[1].baseline, kStop);
+  EXPECT_EQ(campaign.methods[2].baseline, "random");
+  EXPECT_EQ(campaign.methods[2].max_states, 2);
+  const Campaign again = parsed(normalised_text(campaign));
+  EXPECT_EQ(again.methods, campaign.methods);
+}
+
+TEST(Baseline, ChangesTheDigestAndOtherCampaignsKeepTheirs) {
+  const Campaign one = parsed(with_method("baseline = \"random\"\n"));
+  const Campaign other = parsed(with_method(""));
+  EXPECT_NE(campaign_digest(one), campaign_digest(other));
+  EXPECT_THAT(normalised_text(other), testing::Not(testing::HasSubstr("baseline")));
+}
+
+TEST(Baseline, HasNoBudget) {
+  const auto rows = design_rows(parsed(with_method("baseline = \"random\"\n")));
+  ASSERT_THAT(rows, SizeIs(2));
+  EXPECT_GT(rows[0].budget, 0);
+  EXPECT_EQ(rows[1].budget, 0);
+}
+
+TEST(Baseline, OfAFileFollowsItsHead) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "hand.fsm")
+      << head_text({.flavour = "watermelon-argos3"}) << kStop << "\n";
+  const auto read = [&](const std::string& keys) {
+    return parse_campaign(with_method(keys), folder / "campaign.toml");
+  };
+  const auto campaign = read("baseline = \"hand.fsm\"\n");
+  ASSERT_TRUE(campaign) << to_string(campaign.error().front());
+  EXPECT_EQ(campaign->methods[1].flavour, "watermelon-argos3");
+  EXPECT_EQ(campaign->methods[1].baseline, kStop);
+  const auto other = read("baseline = \"hand.fsm\"\nflavour = \"chocolate\"\n");
+  ASSERT_FALSE(other);
+  EXPECT_THAT(other.error().front().message,
+              testing::HasSubstr("designed for the flavour watermelon-argos3"));
+}
+
+TEST(Baseline, ThatIsWrongIsComplainedOf) {
+  const auto message = [](const std::string& keys) {
+    const auto campaign = parse_campaign(with_method(keys), "/nowhere/campaign.toml");
+    return campaign ? std::string("nothing") : to_string(campaign.error().front());
+  };
+  EXPECT_THAT(message("baseline = \"--nstates 1 --s0 9\"\n"), testing::HasSubstr("token 4"));
+  EXPECT_THAT(message("baseline = \"hand.fsm\"\n"), testing::HasSubstr("hand.fsm"));
+  for (const std::string wrong : {"", "Random", "-nstates 1 --s0 1"}) {
+    EXPECT_THAT(message("baseline = \"" + wrong + "\"\n"),
+                testing::HasSubstr("or \"random\", not \"" + wrong + "\""));
+  }
+  EXPECT_THAT(message("baseline = \"--nstates 1 --s0 1\"\nmax_states = 2\n"),
+              testing::HasSubstr("the method's `baseline` is a machine"));
 }
 
 }  // namespace

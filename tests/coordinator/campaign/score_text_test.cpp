@@ -52,6 +52,10 @@ TEST(ScoreKeys, OfEachKindAreRead) {
   EXPECT_EQ(read("kind = \"coverage\""), ScoreRule(Coverage{}));
   EXPECT_EQ(read("kind = \"color_reward\", at = \"sum\", rewards = { red = -0.5 }"),
             ScoreRule(ColorReward{.rewards = {{{255, 0, 0}, -0.5}}, .at = When::Sum}));
+  EXPECT_EQ(read("kind = \"foraging\", source = \"red\""),
+            ScoreRule(Foraging{.source = {255, 0, 0}}));
+  EXPECT_EQ(read("kind = \"formula\", value = \"min(red, blue)\", of = \"swarm\", at = \"sum\""),
+            ScoreRule(Formula{.value = "min(red, blue)", .of = "swarm", .at = When::Sum}));
   EXPECT_EQ(read("kind = \"objects_on\", color = \"white\""),
             ScoreRule(ObjectsOn{.color = {255, 255, 255}, .at = When::End}));
 }
@@ -76,6 +80,12 @@ struct Documented {
   }
   void operator()(const ScoreField& field, When value) {
     add(field, "`\"end\"`, `\"sum\"`", "`\"" + std::string(name_of(value)) + "\"`");
+  }
+  void operator()(const ScoreField& field, const std::string& value) {
+    std::string choices;
+    for (const std::string_view choice : field.choices)
+      choices += (choices.empty() ? "`\"" : ", `\"") + std::string(choice) + "\"`";
+    add(field, choices.empty() ? "text" : choices, "`\"" + value + "\"`");
   }
   void operator()(const ScoreField& field, const std::vector<Reward>& /*value*/) {
     add(field, "table such as `{ red = 1, yellow = -2 }`", "");

@@ -12,6 +12,7 @@
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/cli/commands.h"
 #include "storage/store.h"
+#include "tests/support/one_design.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith::cli {
@@ -41,7 +42,7 @@ inline void write_file(const std::filesystem::path& file, const std::string& tex
 
 /// A store with one finished design of two candidates, c1 (the winner, child of c2) and c2.
 inline void write_store(const std::filesystem::path& file,
-                        const Campaign& campaign = demo_campaign()) {
+                        const Campaign& campaign = one_design_campaign()) {
   auto store = Store::open(file, campaign_row(campaign), design_rows(campaign));
   ASSERT_TRUE(store) << to_string(store.error());
   const DesignId design{1};

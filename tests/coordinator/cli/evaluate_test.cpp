@@ -10,6 +10,7 @@
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
 #include "tests/coordinator/cli/cli_support.h"
+#include "tests/support/one_design.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -268,7 +269,8 @@ TEST_F(EvaluateFromStore, TakesASeedThatNoRaceAndNoTestHadAlwaysTheSame) {
 
 TEST_F(EvaluateFromStore, ShoutsWhenTheBitsDifferFromWhatIsStored) {
   {
-    auto store = Store::open(store_, campaign_row(demo_campaign()), design_rows(demo_campaign()));
+    auto store = Store::open(store_, campaign_row(one_design_campaign()),
+                             design_rows(one_design_campaign()));
     (*store)->append(
         {PairRow{.design = {1}, .purpose = Purpose::Score, .number = 1, .instance = 1, .seed = 2},
          EvaluationRow{
@@ -306,7 +308,7 @@ TEST_F(EvaluateFromStore, StoresNothingThatIsNoScoreOfTheDesign) {
 
 TEST_F(EvaluateFromStore, StaysOutWhileACampaignWrites) {
   const auto writer =
-      Store::open(store_, campaign_row(demo_campaign()), design_rows(demo_campaign()));
+      Store::open(store_, campaign_row(one_design_campaign()), design_rows(one_design_campaign()));
   const Ran ran = run({"evaluate", "best", "--store", store_});
   EXPECT_EQ(ran.code, 3);
   EXPECT_THAT(ran.err, HasSubstr("--no-store"));
@@ -329,7 +331,7 @@ double hasty_score(const Flavour& flavour, std::int64_t seed) {
 TEST(EvaluateFromAStoreOfTimedTurns, TakesTheTurnClockOfTheCandidatesMethod) {
   const TemporaryFolder folder;
   const std::string store = (folder / "timed.db").string();
-  Campaign campaign = demo_campaign();
+  Campaign campaign = one_design_campaign();
   campaign.methods[0].turn_clock = TurnClock::Seconds;
   write_store(store, campaign);
   const auto score = [&](const std::vector<std::string>& more) {

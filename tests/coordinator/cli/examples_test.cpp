@@ -60,6 +60,46 @@ TEST(Examples, OfPhototaxisHaveALightBeyondTheWall) {
       is_inside(mission.arena, {mission.arena.lights[0].x_m, mission.arena.lights[0].y_m}));
 }
 
+TEST(Examples, OfForagingHaveANestTwoSourcesAndALight) {
+  const Mission mission = example_mission("foraging");
+  EXPECT_EQ(mission.rule, ScoreRule(Foraging{}));
+  EXPECT_EQ(floor_at(mission.arena, {0, -0.8}), (Rgb{255, 255, 255}));
+  EXPECT_EQ(floor_at(mission.arena, {0.65, 0.4}), (Rgb{0, 0, 0}));
+  EXPECT_EQ(floor_at(mission.arena, {-0.65, 0.4}), (Rgb{0, 0, 0}));
+  EXPECT_EQ(mission.arena.lights.size(), 1U);
+}
+
+/// What the formula means, worked out from the trajectory.
+TEST(Examples, OfDispersionAreScoredByTheirFormula) {
+  const Mission mission = example_mission("dispersion");
+  const Machine straight = parse_machine("--nstates 1 --s0 0 --rwm0 1", watermelon()).value();
+  const Profile profile = built_in_profile("rvr").value();
+  const Instance instance = instance_of(mission, 1).value();
+  std::vector<std::vector<Pose>> instants;
+  const auto keep = [&](const Snapshot& snapshot) {
+    auto& poses = instants.emplace_back();
+    for (const RobotRecord& robot : snapshot.robots)
+      poses.push_back(robot.pose);
+  };
+  const double score =
+      simulate({straight, watermelon(), profile, mission, instance, 1}, Recorder(keep)).score;
+  double sum = 0;
+  for (std::size_t cycle = 401; cycle <= 600; ++cycle) {
+    for (std::size_t a = 0; a < 5; ++a) {
+      double nearest = 1e9;
+      for (std::size_t b = 0; b < 5; ++b) {
+        if (a == b) continue;
+        const Pose& p = instants[cycle][a];
+        const Pose& q = instants[cycle][b];
+        nearest = std::min(nearest, std::hypot(p.x - q.x, p.y - q.y));
+      }
+      sum += nearest / 5 / 200;
+    }
+  }
+  EXPECT_NEAR(score, sum, 1e-9);
+  EXPECT_GT(score, 0);
+}
+
 TEST(Examples, OfBoxPushingHaveABoxThatThreeRobotsMoveAndTwoDoNot) {
   constexpr double kPush_N = 1.5;  // of a robot: rvr-automode facts, section 2
   const Mission mission = example_mission("box_pushing");

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "tests/coordinator/cli/cli_support.h"
+#include "tests/support/one_design.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -31,7 +32,7 @@ TEST_F(ExportIrace, WritesAFolderFromAStore) {
   EXPECT_NE(permissions & fs::perms::owner_exec, fs::perms::none);
   // The campaign in it is the store's.
   const Ran check = run({"check", folder() + "/campaign.toml", "--json"});
-  EXPECT_THAT(check.out, HasSubstr(campaign_digest(demo_campaign())));
+  EXPECT_THAT(check.out, HasSubstr(campaign_digest(one_design_campaign())));
 }
 
 TEST_F(ExportIrace, NeverOverwrites) {

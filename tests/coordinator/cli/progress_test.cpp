@@ -63,12 +63,30 @@ std::vector<ProgressModel> models_after(const std::vector<Row>& rows) {
 
 TEST(StatusLine, TellsHowFarTheCampaignIs) {
   EXPECT_EQ(status_line(models_after({kIteration, kStep}), fleet(), 200),
-            "designs 0/2  d1 iteration 5/~10  [#####---------------]  26 209/100 000  alive 17/58  "
-            "best 2.712  412 sim/s  ETA 2m59s  failed 3");
+            "designs 0/2  d1 iteration 5/~10  [#####---------------]  26 209/100 000  best 2.712  "
+            "ETA 2m59s  412 sim/s  alive 17/58  failed 3");
 }
 
-TEST(StatusLine, IsCutToTheTerminal) {
-  EXPECT_EQ(status_line(models_after({kIteration}), fleet(), 20), "designs 0/2  d1 iter");
+TEST(StatusLine, LeavesOutWhatIsNeededLeast) {
+  const auto models = models_after({kIteration, kStep});
+  EXPECT_EQ(status_line(models, fleet(), 79),
+            "designs 0/2  26 209/100 000  best 2.712  ETA 2m59s  412 sim/s  failed 3");
+  EXPECT_EQ(status_line(models, fleet(), 40), "26 209/100 000  ETA 2m59s  failed 3");
+  EXPECT_EQ(status_line(models, fleet(), 5), "faile");
+  for (std::size_t width = 1; width < 150; ++width)
+    EXPECT_LE(status_line(models, fleet(), width).size(), width);
+}
+
+/// A step of many candidates, or of slow ones, may take minutes.
+TEST(StatusLine, CountsWithinAStep) {
+  EvaluationRow evaluation{.key = {.candidate = candidate_id({1}, 7), .purpose = Purpose::Race}};
+  evaluation.iteration = 5;
+  EvaluationRow ahead = evaluation;
+  ahead.iteration = 0;
+  EXPECT_EQ(model_after({kIteration, kStep, evaluation, evaluation, ahead}).used(),
+            model_after({kIteration, kStep}).used() + 2);
+  EXPECT_EQ(model_after({kIteration, evaluation, kStep}).used(),
+            model_after({kIteration, kStep}).used());
 }
 
 TEST(StatusLine, CountsTheWholeBudgetOfAFinishedDesign) {
@@ -83,15 +101,25 @@ TEST(StatusLine, SaysWhenNobodyWorks) {
   EXPECT_THAT(plain_status(models_after({}), LiveStatus{}), HasSubstr("no workers"));
 }
 
+/// What programs print are costs, from the first line to the last.
+TEST(StatusLine, ShowsTheCostsOfPrograms) {
+  std::vector<ProgressModel> models;
+  models.emplace_back(kDesigns, true);
+  models.front().add(kIteration);
+  models.front().add(kStep);
+  EXPECT_THAT(status_line(models, fleet(), 200), HasSubstr("  best cost -2.712  "));
+  EXPECT_EQ(models.front().mean_text(-3.5), "3.5");
+}
+
 TEST(RaceLine, HasTheColumnsOfItsHeadline) {
-  const std::string line = race_line(kStep, 3725);
+  const std::string line = race_line(kStep, "2.712", 3725);
   EXPECT_EQ(line,
-            "    d1 |-|         17|         17|       c812|           2.712|      26209|01:02:05|"
-            "+0.50|0.25|0.0625|");
+            "    d1|-|    17|   17|      c812|    2.712|   26209|01:02:05|+0.50|0.25|0.0625|");
   EXPECT_EQ(line.size(), race_headline().size());
+  EXPECT_LT(line.size(), 80U);
   RaceStepRow untested = kStep;
   untested.spearman_rho.reset();
-  EXPECT_THAT(race_line(untested, 0), HasSubstr("|   NA|0.25|"));
+  EXPECT_THAT(race_line(untested, "2.712", 0), HasSubstr("|   NA|0.25|"));
 }
 
 TEST(Times, AreShort) {
@@ -158,7 +186,7 @@ TEST(ProgressOnATerminal, RedrawsOneLineBelowThoseOfTheRace) {
   printer.add(kStep);
   const std::string step = printer.err();
   EXPECT_THAT(step, HasSubstr(race_headline() + "\n"));
-  EXPECT_THAT(step, HasSubstr(race_line(kStep, 0) + "\ndesigns 0/2"));
+  EXPECT_THAT(step, HasSubstr(race_line(kStep, "2.712", 0) + "\ndesigns 0/2"));
   EXPECT_EQ(printer.out(), "");
 }
 
@@ -183,8 +211,7 @@ TEST(ProgressInALog, TellsEveryHalfMinuteAndWhenADesignEnds) {
   EXPECT_EQ(printer.err(), "");
   printer.add(kFinished);
   EXPECT_EQ(printer.err(),
-            "d1 aggregation m repetition 1 finished  used 50 000/50 000  best c812 "
-            "2.75  (budget exhausted)\n");
+            "d1 finished  aggregation m 1  50 000/50 000  best c812 2.75  (budget exhausted)\n");
   printer.pass(seconds(31));
   printer.update();
   EXPECT_THAT(printer.err(), HasSubstr("workers 2  slots 3/4\n"));
@@ -205,9 +232,7 @@ TEST(ProgressInALog, TellsOfTheRaceWhenItShallSayMore) {
   output.verbose = true;
   Printer printer(output);
   printer.add(kIteration);
-  EXPECT_EQ(printer.err(),
-            "d1 aggregation m iteration 5 of about 10: 58 configurations (4 "
-            "elites), budget 9 000\n");
+  EXPECT_EQ(printer.err(), "d1 iteration 5/~10: 58 configurations (4 elites), budget 9 000\n");
   printer.add(EliteRow{
       .design = {1}, .iteration = 5, .rank = 1, .candidate = {812}, .mean = 2.5, .runs = 20});
   EXPECT_EQ(printer.err(), "d1 elite 1: c812  mean 2.5 over 20 runs\n");
@@ -270,9 +295,9 @@ TEST(Progress, OfSeveralCampaignsNamesThemAndAddsThemUp) {
   Output output{.out = out, .err = err};
   Progress progress(output, {{"first", kDesigns}, {"second", kDesigns}}, TimePoint{});
   progress.add(1, kFinished, TimePoint{});
-  EXPECT_EQ(err.str(),
-            "second: d1 aggregation m repetition 1 finished  used 50 000/50 000  best c812 2.75  "
-            "(budget exhausted)\n");
+  EXPECT_EQ(
+      err.str(),
+      "second: d1 finished  aggregation m 1  50 000/50 000  best c812 2.75  (budget exhausted)\n");
   progress.restore(0, CommandRow{.number = 1, .kind = "pause", .design = {1}});
   err.str("");
   progress.finish(fleet());

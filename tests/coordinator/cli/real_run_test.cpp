@@ -13,6 +13,7 @@
 #include "storage/internal/sqlite.h"
 #include "storage/store_at_rest.h"
 #include "tests/coordinator/cli/cli_support.h"
+#include "tests/support/one_design.h"
 #include "tests/support/synthetic_real_run.h"
 
 namespace swarmsmith::cli {
@@ -25,7 +26,7 @@ using testing::StartsWith;
 
 /// A filmed run of the demo's winner that a simulator made up: its trajectory, and its score.
 RealRunRows filmed(std::uint64_t number, CandidateId candidate) {
-  MissionEntry entry{.mission = demo_campaign().missions.front().mission};
+  MissionEntry entry{.mission = one_design_campaign().missions.front().mission};
   entry.mission.cycles = 100;
   const Machine machine = *parse_machine(kExploreText, watermelon());
   const auto seed = static_cast<std::int64_t>(number);

@@ -8,6 +8,7 @@
 #include "sim/files/profile_file.h"
 #include "sim/mission/trajectory_csv.h"
 #include "tests/coordinator/cli/cli_support.h"
+#include "tests/support/one_design.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -22,7 +23,7 @@ const std::string kTwoStatesText =
     "--nstates 2 --s0 0 --rwm0 10 --n0 1 --n0x0 0 --c0x0 0 --p0x0 0.5 --s1 1";
 
 SimulationResult result_of(const std::string& machine_text, std::int64_t seed) {
-  const CampaignMission mission = demo_campaign().missions.front();
+  const CampaignMission mission = one_design_campaign().missions.front();
   const Machine machine = *parse_machine(machine_text, watermelon());
   const Instance instance = *instance_of(mission.mission, seed);
   return simulate({.machine = machine,
@@ -37,7 +38,7 @@ SimulationResult result_of(const std::string& machine_text, std::int64_t seed) {
 /// evaluation (e100006), a filmed one (e100001s), one without a pair (e100007), and one that was
 /// changed by hand (e100001a). `campaign` may be changed before it is written.
 void write_true_store(const std::filesystem::path& file, const CampaignRow& campaign) {
-  auto store = Store::open(file, campaign, design_rows(demo_campaign()));
+  auto store = Store::open(file, campaign, design_rows(one_design_campaign()));
   ASSERT_TRUE(store) << to_string(store.error());
   const DesignId design{1};
   const CandidateId candidate = candidate_id(design, 1);
@@ -79,7 +80,7 @@ void write_true_store(const std::filesystem::path& file, const CampaignRow& camp
 
 class Replay : public testing::Test {
  protected:
-  void SetUp() override { write_true_store(store_, campaign_row(demo_campaign())); }
+  void SetUp() override { write_true_store(store_, campaign_row(one_design_campaign())); }
 
   TemporaryFolder folder_;
   std::string store_ = (folder_ / "demo.db").string();
@@ -118,7 +119,7 @@ TEST_F(Replay, ADifferenceIsAnErrorThatShowsBoth) {
 }
 
 TEST_F(Replay, ExplainsADifferenceOfAnotherEngine) {
-  CampaignRow campaign = campaign_row(demo_campaign());
+  CampaignRow campaign = campaign_row(one_design_campaign());
   const std::string ours = "\"engine.version\":\"" + std::to_string(kEngineVersion) + "\"";
   const std::size_t at = campaign.deciding.find(ours);
   ASSERT_NE(at, std::string::npos);
@@ -181,7 +182,7 @@ TEST_F(Replay, WritesATableThatGivesTheScoreAgain) {
     text << stream.rdbuf();
     const auto read = parse_trajectory_csv(text.str());
     ASSERT_TRUE(read) << to_string(read.error());
-    const Mission mission = demo_campaign().missions.front().mission;
+    const Mission mission = one_design_campaign().missions.front().mission;
     const Instance instance = *instance_of(mission, seed);
     EXPECT_EQ(read->starts, instance.starts);
     EXPECT_EQ(read->trajectory.instants(), mission.cycles);

@@ -66,8 +66,8 @@ TEST(StatusText, FitsAScreenWithTheWorstHostFirst) {
 
 TEST(StatusText, SaysWhereTheTimeGoesAndWhenItEnds) {
   const std::string text = joined(status_lines(cluster(), {200, 100}));
-  EXPECT_THAT(text, HasSubstr("last minute  busy 75 %  barrier 20 %  network 5 %\n"));
-  EXPECT_THAT(text, HasSubstr("[##############################bbbbbbbbnn]"));
+  EXPECT_THAT(text, HasSubstr("last minute  busy 75 %  barrier 20 %  on the way 5 %\n"));
+  EXPECT_THAT(text, HasSubstr("[##############################bbbbbbbboo]"));
   EXPECT_THAT(text, HasSubstr("designs 20/30  experiments 1000/37000 (3 %)"));
   EXPECT_THAT(text, HasSubstr("ETA 6m00s"));
 }

@@ -1,9 +1,10 @@
 #include "coordinator/design/campaign_runner.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/plans.h"
 #include "tests/coordinator/design/memory.h"
+#include "tests/support/one_design.h"
 
 namespace swarmsmith {
 namespace {
@@ -30,7 +32,7 @@ Outcome outcome_of(const Task& task) {
 }
 
 std::vector<DesignPlan> small_plans(std::int64_t repetitions) {
-  Campaign campaign = demo_campaign();
+  Campaign campaign = one_design_campaign();
   campaign.repetitions = repetitions;
   campaign.race.max_experiments = 1500;
   campaign.missions.front().test_count = 5;
@@ -133,6 +135,40 @@ TEST(CampaignRunner, KeepsTheBudgetAndTestsTheWinnerOnFreshSeeds) {
       EXPECT_EQ(e->key.candidate, winner);
     }
   }
+}
+
+TEST(CampaignRunner, TestsABaselineAsItTestsWinners) {
+  Campaign campaign = one_design_campaign();
+  campaign.repetitions = 2;
+  campaign.missions.front().test_count = 5;
+  campaign.methods.front().baseline = "--nstates 1 --s0 1";
+  campaign.methods.push_back(campaign.methods.front());
+  campaign.methods.back().name = "random";
+  campaign.methods.back().baseline = kRandomMachine;
+  Memory memory;
+  CampaignRunner runner(*plans_of(campaign), {}, {});
+  run(runner, memory, Rng(1));
+  EXPECT_TRUE(runner.finished());
+  std::map<DesignId, std::set<std::string>> machines;
+  std::map<DesignId, std::set<std::int64_t>> tests;
+  for (const Row& row : memory.rows) {
+    if (const auto* c = std::get_if<CandidateRow>(&row))
+      machines[design_of(c->id)].insert(c->machine);
+    if (const auto* e = std::get_if<EvaluationRow>(&row)) {
+      EXPECT_EQ(e->key.purpose, Purpose::Test);
+      tests[design_of(e->key.candidate)].insert(e->key.pair);
+    }
+    const auto* state = std::get_if<DesignStateRow>(&row);
+    if (state == nullptr || state->state != DesignState::Finished) continue;
+    EXPECT_EQ(state->used, 0);
+    EXPECT_EQ(state->best, candidate_id(state->design, 1));
+  }
+  for (const auto& [design, pairs] : tests)
+    EXPECT_EQ(pairs.size(), 5U);
+  EXPECT_EQ(tests.size(), 3U);
+  EXPECT_THAT(machines[{1}], testing::ElementsAre("--nstates 1 --s0 1"));
+  EXPECT_EQ(machines[{2}].size(), 1U);
+  EXPECT_NE(machines[{2}], machines[{3}]);
 }
 
 TEST(CampaignRunner, TellsTheTaskOfAnEvaluationAgain) {

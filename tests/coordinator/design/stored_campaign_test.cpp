@@ -6,6 +6,7 @@
 #include "coordinator/design/verify.h"
 #include "storage/store.h"
 #include "tests/coordinator/design/idle_pool.h"
+#include "tests/support/one_design.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
@@ -16,7 +17,7 @@ using ::testing::Gt;
 using ::testing::IsEmpty;
 
 Campaign two_designs() {
-  Campaign campaign = demo_campaign();
+  Campaign campaign = one_design_campaign();
   campaign.repetitions = 2;
   campaign.race.max_experiments = 1400;
   campaign.missions.front().test_count = 3;

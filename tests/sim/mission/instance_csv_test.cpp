@@ -67,7 +67,21 @@ TEST(PatchesCsv, ErrorsNameTheLine) {
   EXPECT_EQ(patches_error("seed,x,y,colour\n"),
             "1: there is no column `color`; wanted are: seed, x, y, color");
   EXPECT_EQ(patches_error("seed,x,y,color\n1,0,0,pink\n"),
-            "2: column color wants the name of a colour, not `pink`");
+            "2: column color wants the name of a colour, or #rrggbb, not `pink`");
+}
+
+/// What was drawn reads back to the same instance, also colours without a name.
+TEST(InstanceTables, ReadBackToTheSameBits) {
+  Mission mission = built_in_mission("color_selection").value();
+  mission.shuffled.shares.front().color = {1, 2, 254};
+  std::map<std::int64_t, Instance> drawn;
+  for (const std::int64_t seed : {1, 7, 2147483647})
+    drawn.emplace(seed, instance_of(mission, seed).value());
+  ExplicitInstances given;
+  given.starts = parse_starts_csv(starts_csv(drawn)).value();
+  given.patches = parse_patches_csv(patches_csv(drawn)).value();
+  for (const auto& [seed, instance] : drawn)
+    EXPECT_EQ(instance_of(mission, seed, given).value(), instance);
 }
 
 class ExplicitInstance : public ::testing::Test {

@@ -1,6 +1,6 @@
 #include "sim/mission/score.h"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <algorithm>
 #include <cmath>
@@ -182,6 +182,130 @@ TEST(ColorReward, NeedsEachColorOnceAndFiniteRewards) {
   const double infinity = std::numeric_limits<double>::infinity();
   EXPECT_THROW(Scorer(ColorReward{.rewards = {{{1, 1, 1}, infinity}}}, arena),
                std::invalid_argument);
+}
+
+// --- Foraging ------------------------------------------------------------------------------------
+
+/// A black source on the left, a white nest on the right, grey between.
+Arena source_and_nest() {
+  return {.walls = {},
+          .patches = {{Disc{{-1, 0}, 0.3}, {0, 0, 0}}, {Disc{{1, 0}, 0.3}, {255, 255, 255}}}};
+}
+
+constexpr Point kSource{-1, 0};
+constexpr Point kBetween{0, 0};
+constexpr Point kNest{1, 0};
+
+TEST(Foraging, CountsWhatIsBroughtToTheNest) {
+  const Scorer scorer(Foraging{}, source_and_nest());
+  EXPECT_EQ(score_after(scorer, {{kSource}, {kBetween}, {kNest}}), 1);
+  EXPECT_EQ(score_after(scorer, {{kSource}, {kNest}, {kSource}, {kNest}}), 2);
+}
+
+TEST(Foraging, CarriesOneItemAtATime) {
+  const Scorer scorer(Foraging{}, source_and_nest());
+  EXPECT_EQ(score_after(scorer, {{kSource}, {kSource}, {kBetween}, {kSource}, {kNest}, {kNest}}),
+            1);
+}
+
+TEST(Foraging, NeedsASourceFirst) {
+  const Scorer scorer(Foraging{}, source_and_nest());
+  EXPECT_EQ(score_after(scorer, {{kNest}, {kBetween}, {kNest}, {kSource}}), 0);
+}
+
+TEST(Foraging, LetsNoRobotDeliverForAnother) {
+  const Scorer scorer(Foraging{}, source_and_nest());
+  EXPECT_EQ(score_after(scorer, {{kSource, kNest}, {kBetween, kNest}}), 0);
+  EXPECT_EQ(score_after(scorer, {{kSource, kNest}, {kNest, kSource}, {kNest, kNest}}), 2);
+}
+
+TEST(Foraging, NeedsTwoColors) {
+  const auto fault = fault_of(Foraging{.nest = {1, 2, 3}, .source = {1, 2, 3}});
+  ASSERT_TRUE(fault);
+  EXPECT_EQ(fault->where, "source");
+}
+
+// --- Formulas ---------------------------------------------------------------------------------
+
+double formula_score(const Formula& rule, const std::vector<std::vector<Point>>& instants) {
+  return score_after(Scorer(rule, source_and_nest()), instants);
+}
+
+TEST(FormulaScore, SaysTheSameAsTheKindsThatAreBuiltIn) {
+  const auto walks = random_walks(200);
+  for (const When at : {When::End, When::Sum}) {
+    EXPECT_EQ(score_after(Scorer(Formula{.value = "black", .at = at}, some_arena()), walks),
+              score_after(Scorer(RobotsOn{.color = {0, 0, 0}, .at = at}, some_arena()), walks));
+  }
+  Scorer objects(Formula{.value = "black", .of = "objects"}, some_arena());
+  objects.observe({}, std::vector<Point>{{0, 0}, {0.1, 0}, {3, 3}});
+  EXPECT_EQ(objects.score(), 2);
+}
+
+TEST(FormulaScore, PutsTheRobotsTogether) {
+  const std::vector<std::vector<Point>> robots = {{{-2, 0}, {1, 0}, {4, 0}}};
+  EXPECT_EQ(formula_score({.value = "x", .over = "sum"}, robots), 3);
+  EXPECT_EQ(formula_score({.value = "x", .over = "mean"}, robots), 1);
+  EXPECT_EQ(formula_score({.value = "x", .over = "min"}, robots), -2);
+  EXPECT_EQ(formula_score({.value = "x", .over = "max"}, robots), 4);
+}
+
+TEST(FormulaScore, KnowsTimeSpeedAndDistances) {
+  const std::vector<std::vector<Point>> robots = {{{0, 0}, {0, 4}}, {{0.3, 0}, {0.3, 4}}};
+  EXPECT_EQ(formula_score({.value = "t", .over = "max"}, robots), 0.2);
+  EXPECT_EQ(formula_score({.value = "t", .over = "max", .at = When::Sum}, robots), 0.1 + 0.2);
+  EXPECT_DOUBLE_EQ(formula_score({.value = "speed", .over = "max"}, robots), 3);
+  EXPECT_DOUBLE_EQ(formula_score({.value = "speed", .at = When::Sum}, robots), 6);
+  EXPECT_EQ(formula_score({.value = "nearest", .over = "max"}, robots), 4);
+  EXPECT_EQ(formula_score({.value = "from_centre", .over = "max"}, robots), 2);
+  EXPECT_EQ(formula_score({.value = "nearest"}, {{{1, 1}}}), 0) << "a robot alone";
+}
+
+TEST(FormulaScore, OfTheSwarmSeesItAsAWhole) {
+  const std::vector<std::vector<Point>> robots = {{kSource, {-1.1, 0}, kNest}};
+  EXPECT_EQ(formula_score({.value = "min(black, white)", .of = "swarm"}, robots), 1);
+  EXPECT_EQ(formula_score({.value = "black == 2 && robots == 3 ? 7 : 0", .of = "swarm"}, robots),
+            7);
+  EXPECT_EQ(formula_score({.value = "!green + !(black != 2)", .of = "swarm"}, robots), 2);
+  EXPECT_DOUBLE_EQ(formula_score({.value = "-spread", .of = "swarm"}, robots), -2.1);
+  EXPECT_EQ(formula_score({.value = "x", .of = "swarm"}, {{{1, 0}, {3, 0}}}), 2);
+}
+
+TEST(FormulaScore, SaysWhatIsWrongAndWhere) {
+  const auto message = [](const std::string& value, const std::string& of = "robots") {
+    const auto fault = fault_of(Formula{.value = value, .of = of});
+    return fault ? fault->message : "nothing";
+  };
+  EXPECT_EQ(
+      message("2 * distance"),
+      "the score's `value` cannot be worked out: at character 5: there is no `distance`; "
+      "names are x, y, t, speed, nearest, from_centre, black, gray, white, red, green, blue, "
+      "yellow; functions are abs, sqrt, min, max, floor, hypot, exp, log, pow, sin, cos, atan2");
+  EXPECT_THAT(message("blak"), testing::HasSubstr("did you mean \"black\"?"));
+  EXPECT_THAT(message("-spread"), testing::EndsWith("; with of = \"swarm\" it could be"));
+  EXPECT_THAT(message("nearest", "swarm"), testing::EndsWith("with of = \"robots\" it could be"));
+  EXPECT_THAT(message("x)"), testing::EndsWith("at character 2: `)` has no place here"));
+  EXPECT_THAT(message("atan2(x)"), testing::EndsWith("`atan2` wants more values"));
+  EXPECT_THAT(message(""), testing::EndsWith("it is empty"));
+  EXPECT_EQ(
+      message("x ^ 2"),
+      "the score's `value` cannot be worked out: at character 3: there is no `^`; write x * x, "
+      "or pow(x, 3)");
+  for (const std::string wrong :
+       {"",       " ",          "(x",  "x)",       "x +",     "x = 3", "x, y",   "\"x\"",
+        "sqrt()", "sqrt(x, y)", "x y", "nearest(", "rint(x)", "_pi",   "x +* y", "min()",
+        "sum(x)", "0x",         "x;y", "x\ny",     "x ? y",   "é"}) {
+    EXPECT_NE(message(wrong), "nothing") << wrong;
+  }
+  EXPECT_NE(message(std::string(1001, '-') + "x"), "nothing");
+  EXPECT_NE(message("nearest", "swarm"), "nothing");
+  EXPECT_NE(message("x", "all"), "nothing");
+  EXPECT_EQ(message(std::string(400, '(') + "x" + std::string(400, ')')), "nothing");
+}
+
+TEST(FormulaScore, ThatIsNoNumberStaysNoNumber) {
+  EXPECT_TRUE(std::isnan(formula_score({.value = "0 / (x - x)"}, {{kNest, kSource}})));
+  EXPECT_TRUE(std::isnan(formula_score({.value = "sqrt(x)", .over = "max"}, {{kNest, kSource}})));
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "coordinator/cli/irace/irace_report.h"
 #include "coordinator/cli/irace/race_table.h"
 #include "tests/coordinator/cli/irace/irace_rows.h"
+#include "tests/support/one_design.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith::cli {
@@ -123,7 +124,7 @@ TEST_F(Console, SaysWhyTheRunEnded) {
 class ConsoleOfAStore : public Console {
  protected:
   void SetUp() override {
-    const Campaign campaign = demo_campaign();
+    const Campaign campaign = one_design_campaign();
     auto store = Store::open(file_, campaign_row(campaign), design_rows(campaign));
     ASSERT_TRUE(store);
     (*store)->append(rows_);

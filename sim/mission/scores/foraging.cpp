@@ -1,0 +1,29 @@
+#include "sim/mission/scores/foraging.h"
+
+namespace swarmsmith {
+
+std::optional<ScoreFault> Foraging::fault() const {
+  if (nest != source) return std::nullopt;
+  return ScoreFault{"source", "is the nest's colour: nothing could be brought anywhere"};
+}
+
+ForagingScorer::ForagingScorer(const Foraging& rule, const Arena& arena)
+    : rule_(rule), arena_(arena) {}
+
+void ForagingScorer::observe(const Positions& seen) {
+  if (carries_.size() < seen.robots.size()) carries_.resize(seen.robots.size());
+  for (std::size_t i = 0; i < seen.robots.size(); ++i) {
+    const Rgb floor = floor_at(arena_, seen.robots[i]);
+    if (floor == rule_.source) carries_[i] = 1;
+    if (floor == rule_.nest && carries_[i] != 0) {
+      carries_[i] = 0;
+      ++items_;
+    }
+  }
+}
+
+double ForagingScorer::score() const {
+  return static_cast<double>(items_);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "sim/mission/arena.h"
+#include "sim/mission/scores/score_field.h"
+
+namespace swarmsmith {
+
+class ForagingScorer;
+
+/// Number of items that the robots brought from a source to the nest (Francesca et al., AutoMoDe,
+/// Swarm Intelligence 8, 2014, section 4: foraging). Items are not simulated: a robot takes one
+/// when its centre is on floor of the colour `source`, and leaves it when it is on floor of the
+/// colour `nest`. It carries one at a time; sources are never empty.
+struct Foraging {
+  static constexpr std::string_view kKind = "foraging";
+  using Scorer = ForagingScorer;
+
+  Rgb nest{255, 255, 255};
+  Rgb source{0, 0, 0};
+
+  template <class Rule, class Visitor>
+  static void fields(Rule& rule, Visitor& field) {
+    field({.key = "nest", .meaning = "of the floor where a robot leaves its item"}, rule.nest);
+    field({.key = "source", .meaning = "of the floor where a robot takes an item"}, rule.source);
+  }
+  std::string unit() const { return "items"; }
+  std::optional<ScoreFault> fault() const;
+  friend bool operator==(const Foraging&, const Foraging&) = default;
+};
+
+class ForagingScorer {
+ public:
+  ForagingScorer(const Foraging& rule, const Arena& arena);
+
+  /// A robot keeps its place in `seen.robots` for a whole run.
+  void observe(const Positions& seen);
+  double score() const;
+
+ private:
+  Foraging rule_;
+  Arena arena_;
+  std::vector<char> carries_;  ///< one a robot
+  std::int64_t items_ = 0;
+};
+
+}  // namespace swarmsmith

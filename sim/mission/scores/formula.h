@@ -1,0 +1,76 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "sim/mission/arena.h"
+#include "sim/mission/scores/compiled_formula.h"
+#include "sim/mission/scores/score_field.h"
+
+namespace swarmsmith {
+
+class FormulaScorer;
+
+inline constexpr std::array<std::string_view, 3> kFormulaSubjects = {"robots", "objects", "swarm"};
+inline constexpr std::array<std::string_view, 4> kFormulaFolds = {"sum", "mean", "min", "max"};
+
+/// What a formula of the campaign file says, so that a score of one's own needs no compiler:
+/// `value` is worked out for each robot, each movable object or once for the swarm at an instant,
+/// and put together by `over`. docs/missions.md lists the names that it may use.
+struct Formula {
+  static constexpr std::string_view kKind = "formula";
+  using Scorer = FormulaScorer;
+
+  std::string value = "0";
+  std::string of = "robots";
+  std::string over = "sum";
+  When at = When::End;
+  std::string unit_text;
+
+  template <class Rule, class Visitor>
+  static void fields(Rule& rule, Visitor& field) {
+    field({.key = "value",
+           .meaning = "the formula, such as `\"black - 0.1 * nearest\"`",
+           .required = true},
+          rule.value);
+    field({.key = "of",
+           .meaning = "for whom it is worked out: for each robot, each movable object, or once",
+           .choices = kFormulaSubjects},
+          rule.of);
+    field({.key = "over",
+           .meaning = "how the values of one instant become one",
+           .choices = kFormulaFolds},
+          rule.over);
+    field(kAtField, rule.at);
+    field({.key = "unit", .meaning = "what the score counts, for the axes of figures"},
+          rule.unit_text);
+  }
+  std::string unit() const { return unit_text; }
+  std::optional<ScoreFault> fault() const;
+  friend bool operator==(const Formula&, const Formula&) = default;
+};
+
+class FormulaScorer {
+ public:
+  FormulaScorer(const Formula& rule, const Arena& arena);
+
+  /// A robot or object keeps its place in `seen` for a whole run.
+  void observe(const Positions& seen);
+  double score() const;
+
+ private:
+  double value_of_instant() const;
+
+  Formula rule_;
+  Arena arena_;
+  CompiledFormula formula_;
+  bool needs_floor_;
+  int instant_ = 0;
+  std::vector<Point> robots_;
+  std::vector<Point> objects_;
+  std::vector<Point> robots_before_;  ///< as they were at the instant before, for speeds
+  std::vector<Point> objects_before_;
+  double sum_ = 0;
+};
+
+}  // namespace swarmsmith
