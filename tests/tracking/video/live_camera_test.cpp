@@ -92,5 +92,21 @@ TEST(LiveCamera, DoesNotWaitForEver) {
   EXPECT_THAT(to_string(camera.error()), HasSubstr("no picture came within 0.2 s"));
 }
 
+/// The host hangs up while the process ends: the thread that waited for it goes on just then.
+[[noreturn]] void give_up_and_exit() {
+  {
+    const SilentHost host;
+    const std::string word = "http://127.0.0.1:" + std::to_string(host.port()) + "/video";
+    static_cast<void>(open_camera(word, {.opening = milliseconds(50), .frame = milliseconds(50)}));
+  }
+  std::exit(3);
+}
+
+TEST(LiveCamera, OneThatWasGivenUpDoesNotSpoilTheEndOfTheProcess) {
+  GTEST_FLAG_SET(death_test_style, "threadsafe");
+  for (int i = 0; i < 10; ++i)
+    EXPECT_EXIT(give_up_and_exit(), testing::ExitedWithCode(3), "");
+}
+
 }  // namespace
 }  // namespace swarmsmith

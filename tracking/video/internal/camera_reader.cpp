@@ -1,12 +1,14 @@
 #include "tracking/video/internal/camera_reader.h"
 
+#include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <opencv2/core/utils/logger.hpp>
 #include <opencv2/videoio.hpp>
-#include <thread>
 #include <utility>
 
 #include "tracking/video/internal/picture.h"
@@ -16,9 +18,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-class Reader {
+class Reading {
  public:
-  Reader(CameraWord word, std::shared_ptr<CameraQueue> shared)
+  Reading(CameraWord word, std::shared_ptr<CameraQueue> shared)
       : word_(std::move(word)), shared_(std::move(shared)) {}
 
   void run() {
@@ -63,7 +65,7 @@ class Reader {
     if (!word_.index) {
       return std::ranges::any_of(
           std::array{cv::CAP_FFMPEG, cv::CAP_GSTREAMER, cv::CAP_V4L2, cv::CAP_IMAGES},
-          [&](int backend) { return camera_.open(word_.address, backend); });
+          [&](int backend) { return is_wanted() && camera_.open(word_.address, backend); });
     }
     if (!camera_.open(*word_.index, cv::CAP_V4L2)) return false;
     if (word_.size.width > 0) {
@@ -74,6 +76,11 @@ class Reader {
     }
     if (word_.frame_rate > 0) camera_.set(cv::CAP_PROP_FPS, word_.frame_rate);
     return true;
+  }
+
+  bool is_wanted() {
+    const std::scoped_lock lock(shared_->mutex);
+    return !shared_->stop;
   }
 
   double time_of_picture() {
@@ -113,13 +120,38 @@ class Reader {
   double rate_ = 0;
 };
 
+/// From now on: what is registered last at the process's end runs first.
+void end_without_destructors() {
+  on_exit(
+      [](int status, void*) {
+        std::fflush(nullptr);
+        _exit(status);
+      },
+      nullptr);
+}
+
 }  // namespace
 
-void start_reading(CameraWord word, std::shared_ptr<CameraQueue> queue) {
+CameraReader::CameraReader(CameraWord word, std::shared_ptr<CameraQueue> queue)
+    : queue_(std::move(queue)) {
   cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
-  std::thread([reader = std::make_shared<Reader>(std::move(word), std::move(queue))] {
-    reader->run();
-  }).detach();
+  thread_ = std::thread(
+      [reading = std::make_unique<Reading>(std::move(word), queue_)] { reading->run(); });
+}
+
+CameraReader::~CameraReader() {
+  constexpr std::chrono::milliseconds kPatience{500};
+  std::unique_lock lock(queue_->mutex);
+  queue_->stop = true;
+  const bool has_ended =
+      queue_->changed.wait_for(lock, kPatience, [&] { return queue_->has_ended; });
+  lock.unlock();
+  if (has_ended) {
+    thread_.join();
+    return;
+  }
+  thread_.detach();
+  end_without_destructors();
 }
 
 }  // namespace swarmsmith

@@ -7,6 +7,7 @@
 #include <mutex>
 #include <opencv2/core/mat.hpp>
 #include <string>
+#include <thread>
 
 #include "tracking/video/internal/camera_word.h"
 
@@ -33,8 +34,19 @@ struct CameraQueue {
   std::int64_t dropped = 0;  ///< that were not fetched in time
 };
 
-/// Starts a thread that opens a camera and fills the queue. A driver or a network can hold it for
-/// ever, so that nobody waits for its end.
-void start_reading(CameraWord word, std::shared_ptr<CameraQueue> queue);
+/// A thread that opens a camera and fills the queue, until this is destroyed. A driver or a network
+/// can hold the thread for ever. It is then left behind, and the process ends without destructors:
+/// those of the globals of OpenCV and FFmpeg must not run beside it.
+class CameraReader {
+ public:
+  CameraReader(CameraWord word, std::shared_ptr<CameraQueue> queue);
+  CameraReader(const CameraReader&) = delete;
+  CameraReader& operator=(const CameraReader&) = delete;
+  ~CameraReader();
+
+ private:
+  std::shared_ptr<CameraQueue> queue_;
+  std::thread thread_;
+};
 
 }  // namespace swarmsmith

@@ -17,15 +17,12 @@ Unexpected unreadable(const std::string& text, const std::string& name) {
 
 class LiveCamera final : public FrameSource {
  public:
-  LiveCamera(SourceInfo info, std::shared_ptr<CameraQueue> shared,
-             std::chrono::milliseconds patience)
-      : info_(std::move(info)), shared_(std::move(shared)), patience_(patience) {}
-  LiveCamera(const LiveCamera&) = delete;
-  LiveCamera& operator=(const LiveCamera&) = delete;
-  ~LiveCamera() override {
-    const std::scoped_lock lock(shared_->mutex);
-    shared_->stop = true;
-  }
+  LiveCamera(SourceInfo info, std::unique_ptr<CameraReader> reader,
+             std::shared_ptr<CameraQueue> shared, std::chrono::milliseconds patience)
+      : info_(std::move(info)),
+        shared_(std::move(shared)),
+        reader_(std::move(reader)),
+        patience_(patience) {}
 
   const SourceInfo& info() const override { return info_; }
   const Frame& frame() const override { return frame_; }
@@ -85,8 +82,8 @@ class LiveCamera final : public FrameSource {
 
  private:
   SourceInfo info_;
-  std::shared_ptr<CameraQueue>
-      shared_;  // shared with the thread that reads, which may outlive this
+  std::shared_ptr<CameraQueue> shared_;  // with the thread that reads, which may outlive this
+  std::unique_ptr<CameraReader> reader_;
   std::chrono::milliseconds patience_;
   Arrived arrived_;
   cv::Mat gray_;
@@ -102,7 +99,7 @@ Expected<std::unique_ptr<FrameSource>> open_camera(const std::string& word,
   if (!camera) return Unexpected(camera.error());
   const ImageSize wanted = camera->size;
   auto shared = std::make_shared<CameraQueue>();
-  start_reading(std::move(*camera), shared);
+  auto reader = std::make_unique<CameraReader>(std::move(*camera), shared);
   SourceInfo info;
   info.name = word;
   info.is_live = true;
@@ -112,7 +109,6 @@ Expected<std::unique_ptr<FrameSource>> open_camera(const std::string& word,
     shared->changed.wait_for(lock, patience.opening,
                              [&] { return shared->is_open || shared->has_ended; });
     if (!shared->is_open) {
-      shared->stop = true;
       if (!shared->complaint.empty()) return unreadable(shared->complaint, word);
       if (shared->has_ended) return unreadable("it opens, but gives no picture", word);
       return unreadable(fmt::format("no picture came within {} s of opening it",
@@ -122,7 +118,7 @@ Expected<std::unique_ptr<FrameSource>> open_camera(const std::string& word,
     info.size = shared->size;
     info.frame_rate = shared->frame_rate;
   }
-  auto source = std::make_unique<LiveCamera>(info, shared, patience.frame);
+  auto source = std::make_unique<LiveCamera>(info, std::move(reader), shared, patience.frame);
   if (wanted.width > 0 && !(wanted == info.size)) {
     return unreadable(fmt::format("it gives {} x {} pixels, not {} x {}", info.size.width,
                                   info.size.height, wanted.width, wanted.height),
