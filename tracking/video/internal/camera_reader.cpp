@@ -140,7 +140,7 @@ CameraReader::CameraReader(CameraWord word, std::shared_ptr<CameraQueue> queue)
 }
 
 CameraReader::~CameraReader() {
-  constexpr std::chrono::milliseconds kPatience{500};
+  constexpr std::chrono::milliseconds kPatience{200};
   std::unique_lock lock(queue_->mutex);
   queue_->stop = true;
   const bool has_ended =
