@@ -81,7 +81,7 @@ ExitCode fail(Output& output, ExitCode code, const Error& error) {
   return code;
 }
 
-Error cannot_write(const std::string& file) {
+Error cannot_write(const std::string& file, int reason) {
   Error error{ErrorKind::Unavailable, "cannot be written", file};
   std::error_code trouble;
   const std::filesystem::path folder = std::filesystem::path(file).parent_path();
@@ -89,6 +89,8 @@ Error cannot_write(const std::string& file) {
     error.message += ": this is a folder; name a file";
   } else if (!folder.empty() && !std::filesystem::exists(folder, trouble) && !trouble) {
     error.message += ": there is no folder " + folder.string();
+  } else if (reason != 0) {
+    error.message += ": " + std::generic_category().message(reason);
   }
   return error;
 }

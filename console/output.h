@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cerrno>
 #include <ostream>
 #include <span>
 #include <string>
@@ -36,8 +37,8 @@ void print_note(Output& output, std::string_view text);
 ExitCode fail(Output& output, ExitCode code, const std::string& message);
 ExitCode fail(Output& output, ExitCode code, const Error& error);
 
-/// Unavailable: the file cannot be written, and why, as far as can be seen.
-Error cannot_write(const std::string& file);
+/// Unavailable: the file cannot be written, and why: what can be seen, else the system's `reason`.
+Error cannot_write(const std::string& file, int reason = errno);
 
 /// A text as a JSON string, in quotes.
 std::string json_text(std::string_view text);

@@ -11,6 +11,8 @@
 #include <system_error>
 #include <vector>
 
+#include "base/output_file.h"
+
 namespace swarmsmith::cli {
 namespace {
 
@@ -34,6 +36,7 @@ Expected<std::string> sha256_of_one(const std::string& path) {
   const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"),
                                                              std::fclose);
   if (file == nullptr) return cannot_read(path, errno);
+  note_input(path);
   crypto_hash_sha256_state state{};
   crypto_hash_sha256_init(&state);
   std::vector<unsigned char> block(kBlock);

@@ -2,9 +2,11 @@
 
 #include <unistd.h>
 
+#include <cerrno>
 #include <filesystem>
 #include <fstream>
 
+#include "base/output_file.h"
 #include "console/output.h"
 
 namespace swarmsmith::cli {
@@ -12,35 +14,39 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool write_bytes(const fs::path& file, std::string_view bytes) {
+/// 0, or the system's number of what failed.
+int write_bytes(const fs::path& file, std::string_view bytes) {
+  errno = 0;
   std::ofstream stream(file, std::ios::binary);
   stream.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   stream.close();
-  return stream.good();
+  if (stream.good()) return 0;
+  return errno == 0 ? EIO : errno;
 }
 
 }  // namespace
 
 Expected<void> write_whole_file(const std::string& file, std::string_view bytes) {
+  const auto found = output_place(file, kind_of(bytes));
+  if (!found) return Unexpected(found.error());
+  const fs::path& place = *found;
   std::error_code failed;
-  // A link keeps pointing to what is written.
-  fs::path place = fs::weakly_canonical(file, failed);
-  if (failed) place = file;
   const fs::file_status status = fs::status(place, failed);
   if (fs::exists(status) && !fs::is_regular_file(status)) {
-    if (!fs::is_directory(status) && write_bytes(place, bytes)) return {};
-    return Unexpected(cannot_write(file));
+    const int trouble = fs::is_directory(status) ? EISDIR : write_bytes(place, bytes);
+    if (trouble == 0) return {};
+    return Unexpected(cannot_write(file, trouble));
   }
   fs::path beside = place;
   beside += ".part" + std::to_string(getpid());
-  bool is_written = write_bytes(beside, bytes);
-  if (is_written) {
+  int trouble = write_bytes(beside, bytes);
+  if (trouble == 0) {
     fs::rename(beside, place, failed);
-    is_written = !failed;
+    if (!failed) return {};
+    trouble = failed.value();
   }
-  if (is_written) return {};
   fs::remove(beside, failed);
-  return Unexpected(cannot_write(file));
+  return Unexpected(cannot_write(file, trouble));
 }
 
 }  // namespace swarmsmith::cli

@@ -8,6 +8,7 @@
 
 #include "analysis/arena/arena_picture.h"
 #include "analysis/drawing/svg.h"
+#include "base/output_file.h"
 #include "sim/control/module.h"
 #include "sim/mission/trajectory_csv.h"
 
@@ -72,6 +73,9 @@ Expected<Recording::Sink> Recording::open(const std::string& name, Output& outpu
   if (name == "-") {
     sink.stream = &output.out;
     return sink;
+  }
+  if (const auto place = output_place(name, FileKind::Table); !place) {
+    return Unexpected(place.error());
   }
   sink.file = std::make_unique<std::ofstream>(name, std::ios::binary);
   if (!*sink.file) return Unexpected(cannot_write(name));

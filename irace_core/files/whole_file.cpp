@@ -3,6 +3,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "base/output_file.h"
+
 namespace swarmsmith {
 
 Expected<std::string> read_whole_file(const std::filesystem::path& file) {
@@ -16,6 +18,7 @@ Expected<std::string> read_whole_file(const std::filesystem::path& file) {
   }
   std::ifstream stream(file, std::ios::binary);
   if (!stream.is_open()) return bad_input("cannot be read", file.string());
+  note_input(file);
   // Piece by piece: a pipe or a device has no length, and perhaps no end.
   constexpr std::size_t kMost = 64U << 20U;
   constexpr std::size_t kPiece = 64U << 10U;

@@ -6,6 +6,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "base/output_file.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -28,6 +30,7 @@ Expected<std::string> read_file(const std::filesystem::path& file, const std::st
     return bad_input("the " + what + " file cannot be read: " + std::strerror(errno),
                      file.string());
   }
+  note_input(file);
   // Piece by piece: the whole of `most` would cost more than the rest of a short command.
   constexpr std::size_t kPiece = 64U << 10U;
   std::string bytes;

@@ -184,8 +184,8 @@ class Arenas(Laboratory):
         self.refused(1, self.calibrate(), "E_CALIB_SIZE", "calibration 1280x720, video 960x540")
 
     def test_a_camera_out_of_its_range(self):
-        self.replace("arena.toml", "height = [2.0, 3.5]", "height = [3.0, 3.5]")
-        self.refused(1, self.calibrate(), "E_EXTRINSICS", "allowed is 3 to 3.5 m")
+        self.replace("arena.toml", "height = [1.5, 4.5]", "height = [3.0, 4.5]")
+        self.refused(1, self.calibrate(), "E_EXTRINSICS", "allowed is 3 to 4.5 m")
 
     def test_without_a_lens_or_a_place(self):
         (self.copy / "ceiling.place.toml").unlink()

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <memory>
+#include <optional>
+#include <span>
 
+#include "base/output_file.h"
 #include "console/whole_file.h"
 #include "sim/files/mission_file.h"
 #include "tracking/app/calibrate_sources.h"
@@ -48,6 +51,9 @@ Expected<std::vector<std::vector<TagLook>>> looks_of(const Arguments& arguments,
     const std::int64_t known = std::min(frames.info().expected_frames, kFrames);
     const std::int64_t every = source.is_video ? std::max<std::int64_t>(1, known / kLooks) : 1;
     if (frames.frame().number % every != 0) return true;
+    if (looks.empty() && is_mirrored(*detector, frames.frame().gray)) {
+      return Unexpected(error_of(IssueCode::ReferenceTags, kMirroredAdvice, source.word));
+    }
     auto& seen = looks.emplace_back();
     for (const Detection& tag : detector->find(frames.frame().gray, 1)) {
       if (tag.hamming == 0) seen.push_back({tag.tag, tag.corners});
@@ -57,6 +63,27 @@ Expected<std::vector<std::vector<TagLook>>> looks_of(const Arguments& arguments,
   if (const auto looked = for_each_picture(arguments.words, look, output); !looked)
     return Unexpected(looked.error());
   return looks;
+}
+
+/// A floor tag that most looks show more than once: one sheet printed again and again.
+std::optional<Error> repeated(const std::vector<std::vector<TagLook>>& looks,
+                              std::span<const ReferenceTag> survey) {
+  for (const ReferenceTag& tag : survey) {
+    std::size_t times = 0;
+    std::ptrdiff_t most = 0;
+    for (const std::vector<TagLook>& look : looks) {
+      const auto count = std::ranges::count(look, tag.tag, &TagLook::tag);
+      most = std::max(most, count);
+      if (count > 1) ++times;
+    }
+    if (2 * times <= looks.size()) continue;
+    return error_of(IssueCode::DuplicateId,
+                    fmt::format("tag {} is in the picture {} times: each floor tag has a number of "
+                                "its own; print them with `swarmsmith track print tags --ids`",
+                                tag.tag, most),
+                    "");
+  }
+  return std::nullopt;
 }
 
 std::string json_of(const PlaceCalibration& calibration, const std::string& file) {
@@ -95,6 +122,7 @@ Expected<PlaceQuestion> question_of(const Arguments& arguments, const Rig& rig,
   }
   const auto looks = looks_of(arguments, rig, question.camera, output);
   if (!looks) return Unexpected(looks.error());
+  if (auto twice = repeated(*looks, rig.references)) return Unexpected(std::move(*twice));
   question.seen = median_of_looks(*looks, rig.references);
   return question;
 }
@@ -115,8 +143,9 @@ ExitCode solve(const Arguments& arguments, const Rig& rig, const CameraSetup& ca
   if (!calibration) return fail_all(output, {calibration.error()});
   calibration->camera_sha256 = model->second.sha256;
   calibration->made = utc_now();
-  const std::string file =
-      arguments.file.empty() ? beside(arguments.arena, camera.place_file) : arguments.file;
+  const std::string made = beside(arguments.arena, camera.place_file);
+  forget_input(made);
+  const std::string file = arguments.file.empty() ? made : arguments.file;
   if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
   output.out << (output.json ? json_of(*calibration, file) : report_text(*calibration));

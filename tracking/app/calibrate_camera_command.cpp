@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "base/output_file.h"
 #include "console/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
@@ -44,7 +45,9 @@ tl::expected<Target, std::vector<Error>> target_of(const Arguments& arguments) {
     if (!rig) return tl::unexpected(rig.error());
     const auto camera = camera_of(*rig, arguments.camera);
     if (!camera) return tl::unexpected(std::vector<Error>{camera.error()});
-    target = {beside(rig->file, camera->model_file), rig->places.contains(camera->place_file)};
+    target = {beside(arguments.arena, camera->model_file),
+              rig->places.contains(camera->place_file)};
+    forget_input(target.file);
   }
   if (!arguments.file.empty()) target.file = arguments.file;
   return target;

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "base/suggestion.h"
+#include "base/output_file.h"
 #include "console/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
@@ -102,8 +103,9 @@ ExitCode run(const Arguments& arguments, Output& output) {
   for (Error& fault : faults)
     fault.where = arguments.spin;
   if (!faults.empty()) return fail_all(output, faults);
-  const std::string file =
-      arguments.file.empty() ? beside(arguments.arena, robot->offset_file) : arguments.file;
+  const std::string made = beside(arguments.arena, robot->offset_file);
+  forget_input(made);
+  const std::string file = arguments.file.empty() ? made : arguments.file;
   if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
   if (output.json) output.out << json_of(*calibration, file);

@@ -132,7 +132,11 @@ ExitCode run(const std::string& file, Output& output) {
   const auto rig = read_rig(file);
   if (!rig) return fail_all(output, rig.error());
   const Inventory all = inventory_of(*rig);
-  const std::vector<Error> wrong = misfits(*rig);
+  std::vector<Error> wrong = misfits(*rig);
+  for (const CameraSetup& camera : rig->cameras) {
+    for (const Issue& doubt : doubts_of_place(*rig, camera))
+      wrong.push_back(error_of(doubt.code, doubt.text, camera.place_file));
+  }
   const std::string next =
       wrong.empty() ? next_step(all.missing, *rig, file) : "mend what is wrong, as said above";
   if (output.json) {

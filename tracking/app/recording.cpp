@@ -14,21 +14,28 @@
 #include "tracking/rig/issue.h"
 
 namespace swarmsmith::cli {
-namespace {}  // namespace
+namespace {
+
+std::string sidecar_name(const std::string& video) {
+  return video.substr(0, video.rfind('.')) + ".times.csv";
+}
+
+}  // namespace
 
 Expected<void> check_recording_name(const std::string& file) {
   if (!file.ends_with(".mkv")) {
     return bad_input("a recording is a .mkv, which stays readable when it is cut off", file);
   }
   std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) {
-    return bad_input("is there already; a recording never overwrites one", file);
+  for (const std::string& name : {file, sidecar_name(file)}) {
+    if (!std::filesystem::exists(name, ignored)) continue;
+    return bad_input("is there already; a recording never overwrites one", name);
   }
   return {};
 }
 
 Sidecar::Sidecar(const std::string& video, bool has_clock)
-    : file_(video.substr(0, video.rfind('.')) + ".times.csv"), has_clock_(has_clock) {
+    : file_(sidecar_name(video)), has_clock_(has_clock) {
   out_.open(file_ + ".part", std::ios::binary | std::ios::trunc);
   out_ << (has_clock ? "frame,time_s,clock_s\n" : "frame,time_s\n") << std::flush;
 }

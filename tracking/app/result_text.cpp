@@ -52,7 +52,7 @@ Result result_of(const RunLog& log, const RunAnalysis& analysis) {
                     static_cast<double>(std::max<std::int64_t>(line.cycles, 1));
     line.missing = std::ranges::count(robot.cycles, CycleKind::Missing);
     line.longest_gap_s = robot.longest_gap_s;
-    line.sigma_m = robot.sigma_m;
+    line.sigma_m = robot.sigma.sigma_m;
     if (i < scored.borders.size() && scored.borders[i]) {
       line.border_m = scored.borders[i]->signed_m;
       line.too_close = scored.borders[i]->too_close;
@@ -164,10 +164,17 @@ std::string result_json(const RealRunRows& rows) {
 
 std::string trajectory_csv(const TrackedRun& tracked) {
   std::string text(kTrajectoryColumns);
+  text += ",kind,sigma_m,sigma_rad";
   text += kCsvLineEnd;
   const auto add = [&](int cycle, std::span<const Pose> poses) {
-    for (std::size_t robot = 0; robot < poses.size(); ++robot) {
-      append_pose_cells(text, cycle, static_cast<int>(robot), poses[robot]);
+    const auto at = static_cast<std::size_t>(std::max(cycle, 1) - 1);
+    for (std::size_t i = 0; i < poses.size(); ++i) {
+      const TrackedRobot& robot = tracked.robots[i];
+      append_pose_cells(text, cycle, static_cast<int>(i), poses[i]);
+      text += fmt::format(",{},", name_of(robot.cycles[at]));
+      append_number(text, robot.sigmas[at].sigma_m);
+      text += ',';
+      append_number(text, robot.sigmas[at].sigma_rad);
       text += kCsvLineEnd;
     }
   };

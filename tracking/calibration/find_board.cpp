@@ -17,35 +17,35 @@ struct Found {
   std::vector<cv::Point2f> corners;
 };
 
-/// Pixels a metre of the board around each corner, at the least: from its neighbours in the row and
-/// in the column.
-double least_scale(const Board& board, const Found& found) {
-  const int columns = board.columns - 1;
+/// Pixels between each corner and its neighbours in the row and in the column, at the least.
+double least_square_px(int columns, const Found& found) {
   double least = 0;
   for (std::size_t i = 0; i < found.ids.size(); ++i) {
     for (std::size_t k = i + 1; k < found.ids.size(); ++k) {
       const int apart = found.ids[k] - found.ids[i];
       const bool in_row = apart == 1 && found.ids[k] % columns != 0;
       if (!in_row && apart != columns) continue;
-      const double scale = cv::norm(found.corners[k] - found.corners[i]) / board.square_m;
-      if (least == 0 || scale < least) least = scale;
+      const double square = cv::norm(found.corners[k] - found.corners[i]);
+      if (least == 0 || square < least) least = square;
     }
   }
   return least;
 }
 
-/// OpenCV's own refinement stops at a tenth of a pixel; this goes on, in windows that keep out of
-/// the markers beside the corner.
-void refine(const cv::Mat& image, const Board& board, Found& found) {
-  const double free = (board.square_m - board.marker_m) / 2 * least_scale(board, found);
-  const int half = std::clamp(static_cast<int>(free * 0.9), 2, 8);
+/// OpenCV's own refinement stops at a tenth of a pixel, and that of chessboards is off by up to a
+/// pixel where the lens bends; this goes on, in windows that keep out of what is printed beside the
+/// corner. `free` is the share of a square that is so on each side.
+void refine(const cv::Mat& image, int columns, double free, Found& found) {
+  const double free_px = free * least_square_px(columns, found);
+  const int half = std::clamp(static_cast<int>(free_px * 0.9), 2, 8);
   const cv::TermCriteria converged(cv::TermCriteria::COUNT | cv::TermCriteria::EPS, 100, 0.001);
   const std::vector<cv::Point2f> before = found.corners;
   cv::cornerSubPix(image, found.corners, {half, half}, {-1, -1}, converged);
   // What runs away has found another edge.
+  const double most = std::max(1.5, free_px / 2);
   Found kept;
   for (std::size_t i = 0; i < before.size(); ++i) {
-    if (cv::norm(found.corners[i] - before[i]) > 1.5) continue;
+    if (cv::norm(found.corners[i] - before[i]) > most) continue;
     kept.ids.push_back(found.ids[i]);
     kept.corners.push_back(found.corners[i]);
   }
@@ -60,7 +60,9 @@ Found find_charuco(const cv::Mat& image, const Board& board) {
   Found found;
   if (markers.empty()) return found;
   cv::aruco::interpolateCornersCharuco(borders, markers, image, printed, found.corners, found.ids);
-  if (!found.ids.empty()) refine(image, board, found);
+  if (found.ids.empty()) return found;
+  const double beside_marker = (board.square_m - board.marker_m) / 2 / board.square_m;
+  refine(image, board.columns - 1, beside_marker, found);
   return found;
 }
 
@@ -72,6 +74,7 @@ Found find_chessboard(const cv::Mat& image, const Board& board) {
   }
   for (std::size_t i = 0; i < found.corners.size(); ++i)
     found.ids.push_back(static_cast<int>(i));
+  refine(image, board.columns, 0.5, found);
   return found;
 }
 

@@ -144,18 +144,6 @@ std::vector<Vector6> starts_of(const Corners& corners, const CameraModel& camera
 
 }  // namespace
 
-std::array<Point, 4> corners_of(const ReferenceTag& tag) {
-  constexpr std::array<Point, 4> kSquare{{{-0.5, -0.5}, {0.5, -0.5}, {0.5, 0.5}, {-0.5, 0.5}}};
-  const double c = std::cos(tag.pose.theta) * tag.edge_m;
-  const double s = std::sin(tag.pose.theta) * tag.edge_m;
-  std::array<Point, 4> corners;
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    corners[i] = {tag.pose.x + c * kSquare[i].x - s * kSquare[i].y,
-                  tag.pose.y + s * kSquare[i].x + c * kSquare[i].y};
-  }
-  return corners;
-}
-
 std::optional<PlaceFit> fit_place(std::span<const SeenTag> seen, const CameraModel& camera) {
   if (seen.size() < 2) return std::nullopt;
   Corners corners;

@@ -108,17 +108,6 @@ double floor_error(const SeenTag& seen, const View& view) {
   return std::sqrt(squares / 4);
 }
 
-double tag_rms(const SeenTag& seen, const View& view) {
-  const std::array<Point, 4> wanted = corners_of(seen.tag);
-  double squares = 0;
-  for (std::size_t i = 0; i < wanted.size(); ++i) {
-    const ImagePoint expected = image_of(view, Point3{wanted[i].x, wanted[i].y, 0});
-    squares +=
-        std::pow(seen.corners[i].u - expected.u, 2) + std::pow(seen.corners[i].v - expected.v, 2);
-  }
-  return std::sqrt(squares / 4);
-}
-
 /// Leaves each tag out in turn.
 void leave_out(const PlaceQuestion& question, PlaceCalibration& calibration) {
   std::size_t farthest = 0;
@@ -199,7 +188,8 @@ Expected<PlaceCalibration> solve_place(const PlaceQuestion& question) {
   calibration.place = fit->place;
   calibration.rms_px = fit->rms_px;
   for (const SeenTag& seen : question.seen)
-    calibration.tags.push_back({seen.tag, seen.corners, tag_rms(seen, view), 0});
+    calibration.tags.push_back(
+        {seen.tag, seen.corners, std::sqrt(squares_off(view, seen.tag, seen.corners) / 4), 0});
   calibration.coverage = coverage_of(question, view);
   leave_out(question, calibration);
   // What does not fit must be told first: the coverage of a wrong place means nothing.

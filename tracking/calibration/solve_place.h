@@ -31,9 +31,6 @@ struct TagLook {
 std::vector<SeenTag> median_of_looks(const std::vector<std::vector<TagLook>>& looks,
                                      std::span<const ReferenceTag> survey);
 
-/// The tag's corners on the floor, in the order of TagCorners.
-std::array<Point, 4> corners_of(const ReferenceTag& tag);
-
 /// A place that fits, without a judgement.
 struct PlaceFit {
   CameraPlace place;

@@ -108,4 +108,19 @@ std::vector<Detection> TagDetector::find(const GrayImage& image, int decimate) {
   return find(image, {0, 0, image.width, image.height}, decimate);
 }
 
+bool is_mirrored(TagDetector& detector, const GrayImage& image) {
+  std::vector<std::uint8_t> mirrored;
+  mirrored.reserve(static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height));
+  for (int row = 0; row < image.height; ++row) {
+    const std::uint8_t* const first =
+        image.pixels + static_cast<std::ptrdiff_t>(row) * image.stride;
+    mirrored.insert(mirrored.end(), std::reverse_iterator(first + image.width),
+                    std::reverse_iterator(first));
+  }
+  const auto is_whole = [](const Detection& tag) { return tag.hamming == 0; };
+  return std::ranges::none_of(detector.find(image, 1), is_whole) &&
+         std::ranges::any_of(
+             detector.find({mirrored.data(), image.width, image.height, image.width}, 1), is_whole);
+}
+
 }  // namespace swarmsmith

@@ -50,4 +50,11 @@ class TagDetector {
   std::unique_ptr<Library> library_;
 };
 
+/// Whether an image shows tags as a mirror does: then none is found in it, whatever the light.
+bool is_mirrored(TagDetector& detector, const GrayImage& image);
+/// What to do about it.
+inline constexpr const char* kMirroredAdvice =
+    "the pictures are mirrored: tags are found in their mirror image alone; turn mirroring off in "
+    "the camera's settings, and calibrate from pictures that are not mirrored";
+
 }  // namespace swarmsmith

@@ -1,7 +1,11 @@
 #include "tracking/motion/resampling.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
 
 #include "base/assert.h"
 #include "base/math.h"
@@ -9,22 +13,77 @@
 namespace swarmsmith {
 namespace {
 
+using Eigen::Matrix2d;
+
 constexpr double kNoise_m = 0.003;
 constexpr double kNoise_rad = 0.02;
-
-Pose between(const TimedPose& from, const TimedPose& to, double time_s) {
-  const double share = (time_s - from.time_s) / (to.time_s - from.time_s);
-  const double turn = wrap_angle(to.pose.theta - from.pose.theta);
-  return {from.pose.x + share * (to.pose.x - from.pose.x),
-          from.pose.y + share * (to.pose.y - from.pose.y),
-          wrap_angle(from.pose.theta + share * turn)};
-}
 
 CycleKind kind_of(double gap_s, const TrackLimits& limits) {
   if (gap_s <= limits.measured_gap_s + kSameInstant_s) return CycleKind::Measured;
   if (gap_s <= limits.bridged_gap_s + kSameInstant_s) return CycleKind::Interpolated;
   if (gap_s <= limits.degraded_gap_s + kSameInstant_s) return CycleKind::Degraded;
   return CycleKind::Missing;
+}
+
+double squared(double value) {
+  return value * value;
+}
+
+/// A position and its velocity after a time without noise.
+Matrix2d coasting(double time_s) {
+  return Matrix2d{{1, time_s}, {0, 1}};
+}
+
+/// What white noise of the velocity, of one unit, adds to the covariance meanwhile.
+Matrix2d wandering(double time_s) {
+  const double square = squared(time_s);
+  return Matrix2d{{square * time_s / 3, square / 2}, {square / 2, time_s}};
+}
+
+/// A sample's variance: none is free of noise, and the recursion divides by it.
+double variance(double sigma) {
+  constexpr double kLeast = 1e-6;
+  return squared(std::max(sigma, kLeast));
+}
+
+/// Of a position and its velocity, when the position was seen with this variance. Returns the gain.
+Eigen::Vector2d see(Matrix2d& covariance, double variance) {
+  const Eigen::Vector2d gain = covariance.col(0) / (covariance(0, 0) + variance);
+  // The position's part is written as a product, which no rounding makes negative.
+  const double left = variance / (covariance(0, 0) + variance);
+  covariance(1, 1) -= gain(1) * covariance(0, 1);
+  covariance(0, 0) *= left;
+  covariance(0, 1) *= left;
+  covariance(1, 0) = covariance(0, 1);
+  return gain;
+}
+
+/// One coordinate between two states, at shares of a time that they are apart: how much of each of
+/// the states it is, and what noise of one unit leaves open.
+struct Bridge {
+  Matrix2d from;
+  Matrix2d to;
+  Matrix2d open;
+};
+
+Bridge bridge(double since_s, double until_s) {
+  const Matrix2d wandered = wandering(since_s);
+  const Matrix2d onward = coasting(until_s);
+  const Matrix2d at_end = onward * wandered * onward.transpose() + wandering(until_s);
+  const Matrix2d to = wandered * onward.transpose() * at_end.inverse();
+  return {.from = coasting(since_s) - to * coasting(since_s + until_s),
+          .to = to,
+          .open = wandered - to * at_end * to.transpose()};
+}
+
+/// Standard deviation of the position.
+double sigma_of(const Bridge& bridge, const Matrix2d& from, const Matrix2d& to,
+                const Matrix2d& both, double diffusion) {
+  const Matrix2d cross = bridge.from * both * bridge.to.transpose();
+  const Matrix2d covariance = bridge.from * from * bridge.from.transpose() +
+                              bridge.to * to * bridge.to.transpose() + cross + cross.transpose() +
+                              diffusion * bridge.open;
+  return std::sqrt(std::max(0.0, covariance(0, 0)));
 }
 
 }  // namespace
@@ -37,20 +96,184 @@ bool is_reachable(const TimedPose& from, const TimedPose& to, const TrackLimits&
          turn <= limits.top_turn_rad_s * duration + kNoise_rad;
 }
 
-PoseAt pose_at(std::span<const TimedPose> track, double time_s, const TrackLimits& limits) {
-  SWARMSMITH_ASSERT(!track.empty(), "a robot without samples has no track");
-  const auto next =
-      std::ranges::lower_bound(track, time_s - kSameInstant_s, {}, &TimedPose::time_s);
-  if (next == track.end()) return {track.back().pose, CycleKind::Missing, 0};
-  if (next->time_s <= time_s + kSameInstant_s) return {next->pose, CycleKind::Measured, 0};
-  if (next == track.begin()) return {next->pose, CycleKind::Missing, 0};
-  const TimedPose& before = *std::prev(next);
-  const double gap = next->time_s - before.time_s;
-  const CycleKind kind = kind_of(gap, limits);
-  if (kind == CycleKind::Missing || !is_reachable(before, *next, limits)) {
-    return {before.pose, CycleKind::Missing, gap};
+Motion::Motion(std::vector<TimedPose> track, const TrackLimits& limits)
+    : track_(std::move(track)), limits_(limits), knots_(track_.size()) {
+  SWARMSMITH_ASSERT(!track_.empty(), "a robot without samples has no track");
+  for (std::size_t i = 0; i + 1 < track_.size(); ++i) {
+    const double gap = track_[i + 1].time_s - track_[i].time_s;
+    knots_[i].is_joined = kind_of(gap, limits_) != CycleKind::Missing &&
+                          is_reachable(track_[i], track_[i + 1], limits_);
   }
-  return {between(before, *next, time_s), kind, gap};
+  measure_diffusion();
+  for (std::size_t first = 0; first < track_.size();) {
+    std::size_t last = first;
+    while (knots_[last].is_joined)
+      ++last;
+    smooth(first, last);
+    first = last + 1;
+  }
+}
+
+void Motion::measure_diffusion() {
+  // Cameras that take turns, or nearly coincide, tell nothing of velocities.
+  constexpr double kLeastApart_s = 0.015;
+  const auto neighbour = [&](std::size_t i, std::ptrdiff_t step) -> std::optional<std::size_t> {
+    for (auto k = static_cast<std::ptrdiff_t>(i); k + step >= 0;) {
+      const std::ptrdiff_t joint = step < 0 ? k + step : k;
+      if (!knots_[static_cast<std::size_t>(joint)].is_joined) return std::nullopt;
+      k += step;
+      const auto found = static_cast<std::size_t>(k);
+      if (std::fabs(track_[found].time_s - track_[i].time_s) >= kLeastApart_s) return found;
+    }
+    return std::nullopt;
+  };
+  std::vector<Diffusion> at_knots(track_.size());
+  Diffusion mean;
+  int count = 0;
+  double interval_s = 0;
+  Diffusion noise_squares;
+  for (std::size_t i = 0; i < track_.size(); ++i) {
+    const auto before = neighbour(i, -1);
+    const auto after = neighbour(i, 1);
+    if (!before || !after) continue;
+    const TimedPose& a = track_[*before];
+    const TimedPose& b = track_[i];
+    const TimedPose& c = track_[*after];
+    const double first_s = b.time_s - a.time_s;
+    const double second_s = c.time_s - b.time_s;
+    // The velocities' difference varies by so many units of diffusion, and by the samples' noise.
+    const double units = (first_s + second_s) / 3;
+    const auto beyond_noise = [&](double change, double of_a, double of_b, double of_c) {
+      const double noise = squared(of_a / first_s) + squared(of_b / first_s + of_b / second_s) +
+                           squared(of_c / second_s);
+      return std::max(0.0, squared(change) - noise) / units;
+    };
+    const double along_x = (c.pose.x - b.pose.x) / second_s - (b.pose.x - a.pose.x) / first_s;
+    const double along_y = (c.pose.y - b.pose.y) / second_s - (b.pose.y - a.pose.y) / first_s;
+    const double turning = wrap_angle(c.pose.theta - b.pose.theta) / second_s -
+                           wrap_angle(b.pose.theta - a.pose.theta) / first_s;
+    at_knots[i] = {beyond_noise(hypot(along_x, along_y) / std::numbers::sqrt2, a.sigma.sigma_m,
+                                b.sigma.sigma_m, c.sigma.sigma_m),
+                   beyond_noise(turning, a.sigma.sigma_rad, b.sigma.sigma_rad, c.sigma.sigma_rad)};
+    interval_s += (first_s + second_s) / 2;
+    noise_squares.place += variance(b.sigma.sigma_m);
+    noise_squares.heading += variance(b.sigma.sigma_rad);
+    mean.place += at_knots[i].place;
+    mean.heading += at_knots[i].heading;
+    ++count;
+  }
+  if (count == 0) {
+    // Nothing is known of the velocities but their limits: they may be others a second later.
+    for (Knot& knot : knots_)
+      knot.diffusion = {squared(limits_.top_speed_m_s), squared(limits_.top_turn_rad_s)};
+    return;
+  }
+  // Changes within the noise cannot be told from none. Noise is never averaged over more than the
+  // next few samples, so that the robot's own curves are not rounded.
+  const double units = count * std::pow(interval_s / count, 3);
+  const Diffusion always{mean.place / count + noise_squares.place / units,
+                         mean.heading / count + noise_squares.heading / units};
+  for (std::size_t i = 0; i + 1 < track_.size(); ++i) {
+    const Diffusion& a = at_knots[i];
+    const Diffusion& b = at_knots[i + 1];
+    knots_[i].diffusion = {always.place + std::max(a.place, b.place),
+                           always.heading + std::max(a.heading, b.heading)};
+  }
+}
+
+void Motion::smooth(std::size_t first, std::size_t last) {
+  struct Prediction {
+    State state;
+    Covariance covariance;
+  };
+  std::vector<Prediction> predicted(last - first + 1);
+  for (std::size_t i = first; i <= last; ++i) {
+    Prediction& now = predicted[i - first];
+    if (i == first) {
+      now.state << track_[i].pose.x, track_[i].pose.y, track_[i].pose.theta, 0, 0, 0;
+      // How fast it goes is open, so that the first gap is bridged by a line and not by a brake.
+      constexpr double kOpen = 100;
+      now.covariance = {Eigen::Vector2d(1, squared(kOpen * limits_.top_speed_m_s)).asDiagonal(),
+                        Eigen::Vector2d(1, squared(kOpen * limits_.top_turn_rad_s)).asDiagonal()};
+    } else {
+      const Knot& before = knots_[i - 1];
+      const double gap = track_[i].time_s - track_[i - 1].time_s;
+      const Matrix2d step = coasting(gap);
+      const Matrix2d wandered = wandering(gap);
+      now.state = step * before.state;
+      now.covariance = {
+          step * before.covariance.place * step.transpose() + before.diffusion.place * wandered,
+          step * before.covariance.heading * step.transpose() +
+              before.diffusion.heading * wandered};
+    }
+    Knot& knot = knots_[i];
+    knot.state = now.state;
+    knot.covariance = now.covariance;
+    const TimedPose& seen = track_[i];
+    const Eigen::Vector2d place_gain = see(knot.covariance.place, variance(seen.sigma.sigma_m));
+    const Eigen::Vector2d turn_gain = see(knot.covariance.heading, variance(seen.sigma.sigma_rad));
+    knot.state.col(0) += place_gain * (seen.pose.x - now.state(0, 0));
+    knot.state.col(1) += place_gain * (seen.pose.y - now.state(0, 1));
+    // Turns go on as they went: so headings are unwrapped.
+    knot.state.col(2) += turn_gain * wrap_angle(seen.pose.theta - now.state(0, 2));
+  }
+  for (std::size_t i = last; i-- > first;) {
+    Knot& knot = knots_[i];
+    const Knot& next = knots_[i + 1];
+    const Prediction& there = predicted[i + 1 - first];
+    const Matrix2d step = coasting(track_[i + 1].time_s - track_[i].time_s);
+    const auto go_back = [&](Matrix2d& here, const Matrix2d& foreseen, const Matrix2d& known,
+                             Matrix2d& both) {
+      const Matrix2d gain = here * step.transpose() * foreseen.inverse();
+      here += gain * (known - foreseen) * gain.transpose();
+      both = gain * known;
+      return gain;
+    };
+    const State surprise = next.state - there.state;
+    const Matrix2d place = go_back(knot.covariance.place, there.covariance.place,
+                                   next.covariance.place, knot.with_next.place);
+    const Matrix2d heading = go_back(knot.covariance.heading, there.covariance.heading,
+                                     next.covariance.heading, knot.with_next.heading);
+    knot.state.leftCols<2>() += place * surprise.leftCols<2>();
+    knot.state.col(2) += heading * surprise.col(2);
+  }
+}
+
+PoseAt Motion::between(std::size_t before, double time_s) const {
+  const Knot& from = knots_[before];
+  const Knot& to = knots_[before + 1];
+  const double gap = track_[before + 1].time_s - track_[before].time_s;
+  const Bridge over = bridge(time_s - track_[before].time_s, track_[before + 1].time_s - time_s);
+  const State state = over.from * from.state + over.to * to.state;
+  return {.pose = {state(0, 0), state(0, 1), wrap_angle(state(0, 2))},
+          .sigma = {sigma_of(over, from.covariance.place, to.covariance.place, from.with_next.place,
+                             from.diffusion.place),
+                    sigma_of(over, from.covariance.heading, to.covariance.heading,
+                             from.with_next.heading, from.diffusion.heading)},
+          .kind = kind_of(gap, limits_),
+          .gap_s = gap};
+}
+
+PoseAt Motion::held(const TimedPose& pose, double time_s, double gap_s) const {
+  const double away = std::fabs(time_s - pose.time_s);
+  return {.pose = pose.pose,
+          .sigma = {std::hypot(pose.sigma.sigma_m, limits_.top_speed_m_s * away),
+                    std::min(kPi, std::hypot(pose.sigma.sigma_rad, limits_.top_turn_rad_s * away))},
+          .kind = CycleKind::Missing,
+          .gap_s = gap_s};
+}
+
+PoseAt Motion::at(double time_s) const {
+  const auto next =
+      std::ranges::lower_bound(track_, time_s - kSameInstant_s, {}, &TimedPose::time_s);
+  if (next == track_.end()) return held(track_.back(), time_s, 0);
+  if (next->time_s <= time_s + kSameInstant_s) {
+    return {next->pose, next->sigma, CycleKind::Measured, 0};
+  }
+  if (next == track_.begin()) return held(*next, time_s, 0);
+  const auto before = static_cast<std::size_t>(next - track_.begin()) - 1;
+  if (knots_[before].is_joined) return between(before, time_s);
+  return held(track_[before], time_s, next->time_s - track_[before].time_s);
 }
 
 }  // namespace swarmsmith

@@ -134,17 +134,19 @@ void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOp
 }
 
 /// Why a robot has no sample within the first seconds.
-Error missing(const TaggedRobot& robot, const RobotSamples& samples, const FrameReport& frames) {
+Error missing(const TaggedRobot& robot, const RobotSamples& samples, const FrameReport& frames,
+              const std::string& spans) {
   const auto of = [&](Sample::Use use) {
     return std::ranges::count(samples.samples, use, &Sample::use);
   };
   const std::string who = fmt::format("{} (tag {})", robot.setup.name, robot.setup.tag);
   if (frames.frames == 0 || frames.from_s > kFirstLook_s) {
-    return error_of(IssueCode::VideoTruncated,
-                    fmt::format("covered {:.2f} s of the run, and nothing of its first {:.0f} s; "
-                                "check its start",
-                                frames.covered_s, kFirstLook_s),
-                    robot.setup.name);
+    return error_of(
+        IssueCode::VideoTruncated,
+        fmt::format("covered {:.2f} s of the run, and nothing of its first {:.0f} s: {}; "
+                    "check its start",
+                    frames.covered_s, kFirstLook_s, spans),
+        robot.setup.name);
   }
   if (samples.twice_unresolved > 0 && of(Sample::Use::Used) == 0) {
     return error_of(IssueCode::DuplicateId,
@@ -161,6 +163,20 @@ Error missing(const TaggedRobot& robot, const RobotSamples& samples, const Frame
                   who, kFirstLook_s, samples.samples.size(), of(Sample::Use::BadFit),
                   of(Sample::Use::Outside), of(Sample::Use::Outlier)),
       robot.setup.name);
+}
+
+/// Where the run begins on each camera's clock, and from when to when its video goes there.
+std::string spans_text(const Observations& observations, std::span<const TrackedCamera> cameras) {
+  std::string text;
+  for (std::size_t i = 0; i < cameras.size(); ++i) {
+    const std::vector<double>& times = observations.cameras[i].frame_times;
+    if (times.empty()) continue;
+    text += fmt::format(
+        "{}on the clock of camera {} the video goes from {:.2f} s to {:.2f} s, and "
+        "the run begins at {:.2f} s",
+        text.empty() ? "" : "; ", cameras[i].name, times.front(), times.back(), cameras[i].start_s);
+  }
+  return text.empty() ? "the video has no frame" : text;
 }
 
 bool is_seen_early(const RobotSamples& samples) {
@@ -180,13 +196,39 @@ void join(const std::vector<RobotTrack>& tracks, int cycles, TrackedRun& run) {
   }
 }
 
+/// A frame that was dropped is no gap at 12 frames a second, and five of them are at 30.
+TrackOptions for_rate(TrackOptions options, double frame_rate) {
+  constexpr double kLeast_s = 0.15;
+  constexpr double kJitter = 1.1;
+  if (frame_rate > 0) {
+    double& gap = options.limits.measured_gap_s;
+    gap = std::min(gap, std::max(kLeast_s, kJitter * 2 / frame_rate));
+  }
+  return options;
+}
+
 }  // namespace
 
+std::string_view name_of(CycleKind kind) {
+  switch (kind) {
+    case CycleKind::Measured:
+      return "measured";
+    case CycleKind::Interpolated:
+      return "interpolated";
+    case CycleKind::Degraded:
+      return "degraded";
+    case CycleKind::Missing:
+      return "missing";
+  }
+  return "";
+}
+
 Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig, const Arena& arena,
-                               const TrackOptions& options) {
-  const Expected<std::vector<TrackedCamera>> cameras = cameras_of(observations, rig, options.span);
+                               const TrackOptions& asked) {
+  const Expected<std::vector<TrackedCamera>> cameras = cameras_of(observations, rig, asked.span);
   if (!cameras) return Unexpected(cameras.error());
-  FrameReport frames = frame_report(observations, *cameras, rig, options);
+  FrameReport frames = frame_report(observations, *cameras, rig, asked);
+  const TrackOptions options = for_rate(asked, frames.frame_rate_median);
   TrackedRun run{.covered_s = frames.covered_s,
                  .frame_rate_least = frames.frame_rate_least,
                  .frame_rate_median = frames.frame_rate_median,
@@ -206,7 +248,8 @@ Expected<TrackedRun> track_run(const Observations& observations, const Rig& rig,
         samples_of(*robot, observations.sightings,
                    seen == sightings.end() ? std::vector<std::size_t>{} : seen->second, *cameras,
                    arena, options);
-    if (!is_seen_early(samples)) return Unexpected(missing(*robot, samples, frames));
+    if (!is_seen_early(samples))
+      return Unexpected(missing(*robot, samples, frames, spans_text(observations, *cameras)));
     tracks.push_back(track_of(*robot, samples, *cameras, options));
     run.robots.push_back(
         tracked_robot(*robot, std::move(samples), tracks.back(), frames, options, run.issues));

@@ -25,8 +25,9 @@ struct RunSpan {
 struct TrackLimits {
   double top_speed_m_s = 1.0;
   double top_turn_rad_s = 10;
-  double jump_m = 0.05;          ///< against the median of five samples
-  double measured_gap_s = 0.15;  ///< at most two frames of the slowest useful rate
+  double jump_m = 0.05;  ///< against the median of five samples
+  /// At most; and at most two frames of the video's own rate, but always those of 0.15 s.
+  double measured_gap_s = 0.2;
   double bridged_gap_s = 0.5;
   double degraded_gap_s = 1.0;
   double last_instant_gap_s = 0.2;  ///< at the end of a mission that is scored there

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "sim/mission/trajectory.h"
@@ -24,10 +25,18 @@ struct Sample {
 
 /// How a robot's pose at a control cycle was come by.
 enum class CycleKind : std::int8_t {
-  Measured = 0,      ///< between neighbours at most two frames apart
+  Measured = 0,      ///< between neighbours at most two frames apart, and 0.2 s
   Interpolated = 1,  ///< across a gap of at most 0.5 s
   Degraded = 2,      ///< across a gap of at most 1 s
   Missing = 3        ///< nothing to interpolate between: the pose is the last known one
+};
+
+std::string_view name_of(CycleKind kind);
+
+/// One standard deviation of a coordinate and of the heading.
+struct Scatter {
+  double sigma_m = 0;
+  double sigma_rad = 0;
 };
 
 /// One robot's part of a run.
@@ -36,13 +45,13 @@ struct TrackedRobot {
   int tag = 0;
   std::vector<Sample> samples;    ///< by time
   std::vector<CycleKind> cycles;  ///< one a control cycle, from 0.1 s on
+  std::vector<Scatter> sigmas;    ///< of each cycle's pose: the wider the gap, the larger
   double longest_gap_s = 0;
   double longest_gap_from_s = 0;
   int outliers = 0;
   double mean_scale = 1;
   double mean_residual_m = 0;
-  double sigma_m = 0;    ///< of one coordinate of its centre, estimated
-  double sigma_rad = 0;  ///< of its heading
+  Scatter sigma;  ///< of one camera's sample, estimated
 };
 
 /// A run as the simulator would have recorded it, and how it was come by.

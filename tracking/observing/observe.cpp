@@ -127,6 +127,9 @@ Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& 
   search_options.expected.insert(options.references.begin(), options.references.end());
   search_options.still.insert(options.references.begin(), options.references.end());
   TagSearch search(std::move(*detector), search_options);
+  // For a look at pictures without a tag; the other one is busy with what it follows.
+  auto second = TagDetector::of_family(options.family);
+  if (!second.has_value()) return Unexpected(second.error());
 
   const SourceInfo info = video.source.info();
   CameraObservations result;
@@ -148,6 +151,9 @@ Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& 
     const auto time_s = video.clock.time_of(frame);
     if (!time_s.has_value()) return Unexpected(time_s.error());
     if (!last.is_repeated_by(frame.gray)) seen = search.find(frame.gray, *time_s);
+    if (record.frames == 0 && seen.empty() && is_mirrored(*second, frame.gray)) {
+      return Unexpected(error_of(IssueCode::VideoUnreadable, kMirroredAdvice, info.name));
+    }
     recorder.add(record.frames, *time_s, seen);
     record.frame_times.push_back(*time_s);
     ++record.frames;

@@ -25,7 +25,7 @@ struct ObserveOptions {
   std::string family = "tag36h11";
   TagSearchOptions search;
   std::set<int> references;     ///< floor tags, kept as medians and not as sightings; lie still
-  double reference_span_s = 5;  ///< that a median is taken over
+  double reference_span_s = 1;  ///< that a median is taken over
 };
 
 /// Is called after each frame: how many are done, of how many (0: not known), and what was seen.
@@ -37,9 +37,9 @@ using OnFrame =
 double exposed_at(const CameraSetup& camera, double stamp_s, double v, int rows);
 
 /// What one camera saw from the first frame to the last, with its sightings in order. Fails when
-/// the video cannot be read at all or its times cannot be trusted; a video that breaks off is a
-/// record with E_VIDEO_TRUNCATED. Frames that were dropped are told by their times, not here. A
-/// picture that is bit for bit that of the frame before has that frame's corners again.
+/// the video cannot be read at all, is mirrored, or its times cannot be trusted; a video that
+/// breaks off is a record with E_VIDEO_TRUNCATED. Frames that were dropped are told by their times,
+/// not here. A picture that is bit for bit that of the frame before has that frame's corners again.
 Expected<CameraObservations> observe(ObservedVideo video, const ObserveOptions& options,
                                      const OnFrame& on_frame = {});
 

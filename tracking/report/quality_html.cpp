@@ -159,8 +159,9 @@ void write_robots(HtmlPage& page, const ReportedRun& run) {
                            fmt::format("{:.1f}", robot.longest_gap_from_s), std::to_string(used),
                            std::to_string(static_cast<std::int64_t>(robot.samples.size()) - used)});
     quality.rows.push_back({robot.name, fmt::format("{:.4f}", robot.mean_scale),
-                            in_mm(robot.mean_residual_m, 2), in_mm(robot.sigma_m, 2),
-                            fmt::format("{:.2f}", degrees(robot.sigma_rad)), offset_text(run, i)});
+                            in_mm(robot.mean_residual_m, 2), in_mm(robot.sigma.sigma_m, 2),
+                            fmt::format("{:.2f}", degrees(robot.sigma.sigma_rad)),
+                            offset_text(run, i)});
     if (const std::string border = border_text(run, i); !border.empty())
       borders.rows.push_back({robot.name, border});
   }

@@ -92,8 +92,10 @@ Json offset_json(const ReportedRun& run, std::size_t robot) {
 Json border_json(const ReportedRun& run, std::size_t robot) {
   if (robot >= run.scored.borders.size() || !run.scored.borders[robot]) return nullptr;
   const BorderDistance& border = *run.scored.borders[robot];
-  return {
-      {"border", border.border}, {"signed_m", border.signed_m}, {"too_close", border.too_close}};
+  return {{"border", border.border},
+          {"signed_m", border.signed_m},
+          {"sigma_m", border.sigma_m},
+          {"too_close", border.too_close}};
 }
 
 Json robot_json(const ReportedRun& run, std::size_t number) {
@@ -118,8 +120,8 @@ Json robot_json(const ReportedRun& run, std::size_t number) {
           {"outliers", robot.outliers},
           {"scale", robot.mean_scale},
           {"residual_m", robot.mean_residual_m},
-          {"sigma_m", robot.sigma_m},
-          {"sigma_rad", robot.sigma_rad},
+          {"sigma_m", robot.sigma.sigma_m},
+          {"sigma_rad", robot.sigma.sigma_rad},
           {"offset", offset_json(run, number)},
           {"border", border_json(run, number)}};
 }

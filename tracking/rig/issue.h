@@ -41,6 +41,8 @@ enum class IssueCode {
   CamerasDisagree,  ///< a warning
   TagAsCentre,      ///< a warning: the score is biased
   Duration,         ///< the video's length is not the log's
+  CameraUnchecked,  ///< a warning: too few floor tags were seen to tell whether a camera moved
+  SurveyChanged,    ///< a warning: floor tags were surveyed anew since a place was found
 };
 
 /// "E_GAP".

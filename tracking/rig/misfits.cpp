@@ -1,4 +1,11 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/math.h"
 #include "sim/files/toml_text.h"
+#include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
@@ -55,7 +62,69 @@ void check_offset(const Rig& rig, const RobotSetup& robot, std::vector<Error>& e
                             robot.offset_file));
 }
 
+/// How far the corners that a place was found from are from where it sees them now; RMS, pixels.
+double rms_of_seen(const View& view, const PlaceCalibration& place) {
+  double squares = 0;
+  for (const PlaceCalibration::Seen& seen : place.tags)
+    squares += squares_off(view, seen.tag, seen.corners);
+  return place.tags.empty() ? 0 : std::sqrt(squares / static_cast<double>(4 * place.tags.size()));
+}
+
+/// A floor tag of which the arena file says something else than when the place was found.
+bool was_moved(const ReferenceTag& then, const ReferenceTag& now) {
+  constexpr double kSame_m = 1e-4;
+  constexpr double kSame_rad = 1e-3;
+  return hypot(now.pose.x - then.pose.x, now.pose.y - then.pose.y) > kSame_m ||
+         std::fabs(wrap_angle(now.pose.theta - then.pose.theta)) > kSame_rad ||
+         std::fabs(now.edge_m - then.edge_m) > kSame_m;
+}
+
+std::string moved_tags(const Rig& rig, const PlaceCalibration& place) {
+  std::string list;
+  for (const PlaceCalibration::Seen& seen : place.tags) {
+    const auto now = std::ranges::find(rig.references, seen.tag.tag, &ReferenceTag::tag);
+    if (now == rig.references.end() || !was_moved(seen.tag, *now)) continue;
+    list += fmt::format(
+        "{}{} by {}", list.empty() ? "" : ", ", seen.tag.tag,
+        millimetres(hypot(now->pose.x - seen.tag.pose.x, now->pose.y - seen.tag.pose.y)));
+  }
+  return list;
+}
+
 }  // namespace
+
+std::vector<Issue> doubts_of_place(const Rig& rig, const CameraSetup& camera) {
+  const auto place = rig.places.find(camera.place_file);
+  const std::optional<View> view = rig.view_of(camera);
+  if (place == rig.places.end() || !view) return {};
+  std::vector<Issue> doubts;
+  constexpr const char* kAgain =
+      "`swarmsmith track calibrate arena --again` finds it from the same pictures";
+  // Corners are kept to 1/1000 of a pixel.
+  constexpr double kRounding_px = 0.01;
+  const double rms_px = rms_of_seen(*view, place->second);
+  if (!(rms_px <= place->second.rms_px + kRounding_px)) {
+    doubts.push_back(
+        {IssueCode::Extrinsics,
+         fmt::format("the place of camera {} is not the one that {} was made with: "
+                     "its floor tags are {:.2f} px RMS off, and {:.2f} px were found; "
+                     "was the file edited? {}",
+                     camera.name, camera.place_file, rms_px, place->second.rms_px, kAgain),
+         {},
+         {},
+         {}});
+  }
+  if (const std::string list = moved_tags(rig, place->second); !list.empty()) {
+    doubts.push_back({IssueCode::SurveyChanged,
+                      fmt::format("{} has floor tags elsewhere than when the place of camera {} "
+                                  "was found: {}; {}",
+                                  rig.file, camera.name, list, kAgain),
+                      {},
+                      {},
+                      {}});
+  }
+  return doubts;
+}
 
 std::vector<Error> misfits(const Rig& rig) {
   std::vector<Error> errors;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -23,6 +24,11 @@ struct ReferenceTag {
 
   friend bool operator==(const ReferenceTag&, const ReferenceTag&) = default;
 };
+
+/// The tag's corners on the floor, in the order of TagCorners.
+std::array<Point, 4> corners_of(const ReferenceTag& tag);
+/// How far its corners are from where they should be seen: sum of the squares, pixels.
+double squares_off(const View& view, const ReferenceTag& tag, const TagCorners& seen);
 
 /// What a time stamp of a frame means.
 enum class StampedAt { Start, Middle, End };  ///< of its exposure

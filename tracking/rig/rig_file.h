@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "tracking/rig/issue.h"
 #include "tracking/rig/rig.h"
 #include "tracking/rig/run_log.h"
 
@@ -39,6 +40,11 @@ OrComplaints<Rig> parse_rig(std::string_view text, const std::filesystem::path& 
 /// what to do again: a place that was solved with another camera calibration, an offset of another
 /// robot, tag, edge or height. E_CONFIG: a tag that is not below a camera.
 std::vector<Error> misfits(const Rig& rig);
+
+/// What makes the place of a camera doubtful, though it can be used. E_EXTRINSICS: the floor tags
+/// that its file holds do not lie where it sees them, so that somebody changed the file.
+/// W_SURVEY_CHANGED: the arena file has floor tags elsewhere now.
+std::vector<Issue> doubts_of_place(const Rig& rig, const CameraSetup& camera);
 
 /// The run log (docs/tracking.md); files that it names are relative to its folder.
 OrComplaints<RunLog> read_run_log(const std::filesystem::path& file);

@@ -118,8 +118,8 @@ void add_robots(const RunToStore& run, RealRunRows& rows) {
                      .outliers = robot.outliers,
                      .scale = robot.mean_scale,
                      .residual_m = robot.mean_residual_m,
-                     .sigma_m = robot.sigma_m,
-                     .sigma_rad = robot.sigma_rad};
+                     .sigma_m = robot.sigma.sigma_m,
+                     .sigma_rad = robot.sigma.sigma_rad};
     const auto setup = std::ranges::find(run.rig.robots, robot.name, &RobotSetup::name);
     const bool is_centre = std::ranges::any_of(run.tracked.issues, [&](const Issue& issue) {
       return issue.code == IssueCode::TagAsCentre && issue.robot == robot.name;

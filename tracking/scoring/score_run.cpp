@@ -48,16 +48,17 @@ void measure_borders(const TrackedRun& run, const Mission& mission, const Arena&
       continue;
     }
     const bool is_inside = nearest->here != 0;
-    const bool is_close = nearest->distance_m < kSigmas * robot.sigma_m;
+    const double sigma_m = robot.sigmas.back().sigma_m;
+    const bool is_close = nearest->distance_m < kSigmas * sigma_m;
     scored.borders.push_back(BorderDistance{is_inside ? nearest->distance_m : -nearest->distance_m,
-                                            nearest->name, is_close});
+                                            nearest->name, is_close, sigma_m});
     if (!is_close) continue;
     scored.issues.push_back(
         {IssueCode::TooCloseToCall,
          fmt::format("{} ends {:.1f} mm from the border of the {}, and is known to {:.1f} mm (3 "
                      "sigma): it counts {:g} and may count {:g}; look at the last frame",
                      robot.name, 1000 * nearest->distance_m, nearest->name,
-                     1000 * kSigmas * robot.sigma_m, nearest->here, nearest->beyond),
+                     1000 * kSigmas * sigma_m, nearest->here, nearest->beyond),
          robot.name,
          {},
          {}});

@@ -15,6 +15,7 @@ struct BorderDistance {
   double signed_m = 0;     ///< positive inside of what counts
   std::string border;      ///< "spot at (0, 0.5)", "green patch at (0.3, 0)"
   bool too_close = false;  ///< less than three times its sigma
+  double sigma_m = 0;      ///< of the robot's coordinates at that instant
 };
 
 struct ScoredRun {

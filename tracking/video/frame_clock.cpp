@@ -63,10 +63,14 @@ std::string quoted(std::string_view text) {
   return "`" + shown + "`";
 }
 
+/// Between two frames of one video.
+constexpr double kMostPause_s = 3600;
+
 struct Columns {
   std::size_t frame = 0;
   std::size_t time = 0;
   std::size_t count = 0;
+  double unit_s = 1;  ///< of the times
 };
 
 Expected<Columns> columns_of(std::string_view header) {
@@ -75,14 +79,29 @@ Expected<Columns> columns_of(std::string_view header) {
   std::optional<std::size_t> time;
   for (std::size_t i = 0; i < names.size(); ++i) {
     auto& column = names[i] == "frame" ? frame : time;
-    if (names[i] != "frame" && names[i] != "time_s") continue;
+    if (names[i] != "frame" && names[i] != "time_s" && names[i] != "time_ms") continue;
     if (column) return bad_times("column " + quoted(names[i]) + " is there twice", "line 1");
     column = i;
   }
-  if (frame && time) return Columns{*frame, *time, names.size()};
-  return bad_times("a file of frame times begins with the columns `frame,time_s`, this one with " +
-                       quoted(header),
-                   "line 1");
+  if (frame && time) {
+    return Columns{*frame, *time, names.size(), names[*time] == "time_ms" ? 1e-3 : 1};
+  }
+  return bad_times(
+      "a file of frame times begins with the columns `frame,time_s` (or `time_ms`), "
+      "this one with " +
+          quoted(header),
+      "line 1");
+}
+
+double mean_interval_s(const std::vector<double>& times) {
+  return (times.back() - times.front()) / static_cast<double>(times.size() - 1);
+}
+
+/// Times that are about a thousand times as far apart as the file's own rate says.
+bool is_in_milliseconds(const std::vector<double>& times, double frame_rate) {
+  if (times.size() < 2 || !(frame_rate > 0)) return false;
+  const double ratio = mean_interval_s(times) * frame_rate;
+  return ratio > 300 && ratio < 3000;
 }
 
 }  // namespace
@@ -111,12 +130,19 @@ Expected<std::vector<double>> parse_frame_times(std::string_view text) {
                       times.size(), quoted(cells[columns->frame])),
           where);
     }
-    const auto time = number_of<double>(cells[columns->time]);
+    auto time = number_of<double>(cells[columns->time]);
+    if (time) *time *= columns->unit_s;
     if (!time || !std::isfinite(*time)) {
       return bad_times(quoted(cells[columns->time]) + " is no time in seconds", where);
     }
     if (!times.empty() && *time <= times.back()) {
       return bad_times(fmt::format("frame {} at {} s is not later than the frame before, at {} s",
+                                   times.size(), *time, times.back()),
+                       where);
+    }
+    if (!times.empty() && *time - times.back() > kMostPause_s) {
+      return bad_times(fmt::format("frame {} at {} s is more than an hour later than the frame "
+                                   "before, at {} s",
                                    times.size(), *time, times.back()),
                        where);
     }
@@ -131,6 +157,13 @@ Expected<FrameClock> FrameClock::of(const SourceInfo& source,
   FrameClock clock;
   clock.name_ = source.name;
   if (sidecar) {
+    if (is_in_milliseconds(*sidecar, source.frame_rate)) {
+      return bad_times(fmt::format("its times say {:.3g} s from frame to frame, and the video has "
+                                   "{:.4g} frames/s: are they milliseconds? Name the column "
+                                   "`time_ms` then",
+                                   mean_interval_s(*sidecar), source.frame_rate),
+                       source.name);
+    }
     clock.source_ = TimeSource::Sidecar;
     clock.sidecar_ = std::move(*sidecar);
     return clock;

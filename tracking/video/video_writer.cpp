@@ -12,6 +12,7 @@ extern "C" {
 #include <filesystem>
 #include <system_error>
 
+#include "base/output_file.h"
 #include "tracking/video/internal/byte_stream.h"
 #include "tracking/video/internal/picture.h"
 #include "tracking/video/internal/video_choice.h"
@@ -205,8 +206,10 @@ Expected<VideoWriter> VideoWriter::open(const std::string& path, ImageSize size,
   av::set_up();
   const auto choice = av::video_choice(path, size, options);
   if (!choice) return Unexpected(choice.error());
+  auto place = output_place(path, FileKind::Video);
+  if (!place) return Unexpected(place.error());
   auto state = std::make_unique<State>();
-  state->path = path;
+  state->path = place->string();
   state->options = options;
   state->size = size;
   if (auto opened = state->open(*choice); !opened) return Unexpected(opened.error());

@@ -42,8 +42,9 @@ struct FilmWish {
   bool duplicate = false;      ///< robot 1's tag lies on the floor once more
   bool sync = false;           ///< tag 99 beside the arena is hidden at the start
   bool sidecar = true;
-  bool measured_layout = false;  ///< the log names no patches
-  double second_ahead_s = 0.37;  ///< clock of the second camera minus the first's
+  bool measured_layout = false;        ///< the log names no patches
+  std::vector<int> hidden_references;  ///< floor tags that something lies on
+  double second_ahead_s = 0.37;        ///< clock of the second camera minus the first's
 };
 
 /// As JSON, in truth.json under "wish", and back from that file's text.

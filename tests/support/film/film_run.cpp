@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -21,6 +22,9 @@ Pose sync_place(const Lab& lab) {
 
 Scene scene_of(const Lab& lab, const RecordedRun& run, const FilmWish& wish) {
   Scene scene = empty_scene(lab);
+  std::erase_if(scene.tags, [&](const FilmedTag& tag) {
+    return std::ranges::find(wish.hidden_references, tag.tag) != wish.hidden_references.end();
+  });
   scene.arena = arena_of(run.mission, run.instance);
   for (std::size_t i = 0; i < run.poses.size(); ++i)
     scene.robots.push_back(filmed(lab.robots.at(i), Path(run.poses[i])));

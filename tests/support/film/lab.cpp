@@ -12,21 +12,46 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-CameraModel lens_of(ImageSize size, double focal_share, Rng rng) {
-  const double f = focal_share * size.width * (1 + rng.uniform(-0.01, 0.01));
-  return {size,
-          Lens::Pinhole,
-          f,
-          f * (1 + rng.uniform(-0.002, 0.002)),
-          (size.width - 1) / 2.0 + rng.uniform(-0.006, 0.006) * size.width,
-          (size.height - 1) / 2.0 + rng.uniform(-0.006, 0.006) * size.width,
-          {-0.285 + rng.uniform(-0.01, 0.01), 0.095 + rng.uniform(-0.005, 0.005),
-           rng.uniform(-0.0006, 0.0006), rng.uniform(-0.0006, 0.0006), 0}};
+/// What a camera is made of, and how high it hangs to see the arena.
+struct LensKind {
+  double focal_share;  ///< of the image's width
+  double k1;
+  double k2;
+  double height_m;
+  Lens lens = Lens::Pinhole;
+};
+
+LensKind kind_of(const LabOptions& options) {
+  if (options.cameras > 1) return {0.85, -0.285, 0.095, 2.7};
+  switch (options.lens) {
+    case LabLens::Narrow:
+      return {0.8, -0.12, 0.03, 3.6};
+    case LabLens::Fisheye:
+      return {0.42, -0.012, 0.001, 1.8, Lens::Fisheye};
+    case LabLens::Wide:
+      break;
+  }
+  return {0.583, -0.285, 0.095, 2.7};
+}
+
+CameraModel lens_of(ImageSize size, const LensKind& kind, Rng rng) {
+  const double f = kind.focal_share * size.width * (1 + rng.uniform(-0.01, 0.01));
+  const bool is_fisheye = kind.lens == Lens::Fisheye;
+  const double spread = is_fisheye ? 0.1 : 1;
+  return {
+      size,
+      kind.lens,
+      f,
+      f * (1 + rng.uniform(-0.002, 0.002)),
+      (size.width - 1) / 2.0 + rng.uniform(-0.006, 0.006) * size.width,
+      (size.height - 1) / 2.0 + rng.uniform(-0.006, 0.006) * size.width,
+      {kind.k1 + spread * rng.uniform(-0.01, 0.01), kind.k2 + spread * rng.uniform(-0.005, 0.005),
+       rng.uniform(-0.0006, 0.0006), rng.uniform(-0.0006, 0.0006), 0}};
 }
 
 /// One camera above the middle; of two, each sees a good half.
 std::vector<LabCamera> cameras_of(const LabOptions& options, Rng rng) {
-  constexpr double kHeight_m = 2.7;
+  const LensKind kind = kind_of(options);
   std::vector<LabCamera> cameras;
   for (int i = 0; i < options.cameras; ++i) {
     Rng own = rng.split("camera", static_cast<std::uint64_t>(i));
@@ -37,10 +62,10 @@ std::vector<LabCamera> cameras_of(const LabOptions& options, Rng rng) {
     const double tilt = own.uniform(2, 4) * kDegree;
     const double towards = own.uniform(0, 2 * std::numbers::pi);
     const Point target{side + own.uniform(-0.02, 0.02), own.uniform(-0.02, 0.02)};
-    const Point3 centre{target.x + kHeight_m * std::tan(tilt) * std::cos(towards),
-                        target.y + kHeight_m * std::tan(tilt) * std::sin(towards), kHeight_m};
-    const CameraModel lens =
-        lens_of(options.size, options.cameras == 1 ? 0.583 : 0.85, own.split("lens"));
+    const Point3 centre{target.x + kind.height_m * std::tan(tilt) * std::cos(towards),
+                        target.y + kind.height_m * std::tan(tilt) * std::sin(towards),
+                        kind.height_m};
+    const CameraModel lens = lens_of(options.size, kind, own.split("lens"));
     cameras.push_back({options.cameras == 1 ? "ceiling"
                        : i == 0             ? "west"
                                             : "east",
@@ -59,6 +84,7 @@ Lab lab_of(const LabOptions& options) {
   const Rng rng = Rng(options.seed).split("lab");
   Lab lab;
   lab.size = options.size;
+  lab.board.charuco = !options.chessboard;
   lab.cameras = cameras_of(options, rng);
   Rng survey = rng.split("survey");
   // Each camera must see four at least.
@@ -98,7 +124,7 @@ std::string arena_toml(const Lab& lab, const Shooting& shooting) {
     text += fmt::format(
         "\n[[camera]]\nname = \"{0}\"\nmodel = \"{0}.camera.toml\"\nplace = \"{0}.place.toml\"\n"
         "stamp = \"middle\"\nexposure = \"{1:g} ms\"\nreadout = \"{2:g} ms\"\n"
-        "height = [2.0, 3.5]\n",
+        "height = [1.5, 4.5]\n",
         camera.name, shooting.exposure_s * 1000, shooting.readout_s * 1000);
   }
   for (std::size_t i = 0; i < lab.references.size(); ++i) {
@@ -119,11 +145,18 @@ std::string arena_toml(const Lab& lab, const Shooting& shooting) {
 std::string truth_json(const Lab& lab) {
   nlohmann::json truth;
   truth["size"] = {lab.size.width, lab.size.height};
+  const BoardKind& board = lab.board;
+  const std::string word =
+      board.charuco
+          ? fmt::format("charuco:{}x{}:{:g}:{:g}:4x4_50", board.columns, board.rows, board.square_m,
+                        board.marker_m)
+          : fmt::format("chessboard:{}x{}:{:g}", board.columns - 1, board.rows - 1, board.square_m);
   for (const LabCamera& camera : lab.cameras) {
     const CameraModel& model = camera.view.camera;
     const Point3 centre = camera.view.place.centre();
     const Point3& moved = camera.view.place.translation;
     truth["cameras"].push_back({{"name", camera.name},
+                                {"lens", model.lens == Lens::Fisheye ? "fisheye" : "pinhole"},
                                 {"fx", model.fx},
                                 {"fy", model.fy},
                                 {"cx", model.cx},
@@ -147,11 +180,7 @@ std::string truth_json(const Lab& lab) {
                                {"y", robot.offset.y_m},
                                {"yaw", robot.offset.yaw_rad}});
   }
-  truth["board"] = {{"columns", lab.board.columns},
-                    {"rows", lab.board.rows},
-                    {"square", lab.board.square_m},
-                    {"marker", lab.board.marker_m},
-                    {"dictionary", "DICT_4X4_50"}};
+  truth["board"] = word;
   return truth.dump(1) + "\n";
 }
 

@@ -34,12 +34,17 @@ struct Lab {
   BoardKind board;
 };
 
+/// Lenses that laboratories have: about 90 degrees across, 65, and a fisheye of 140.
+enum class LabLens { Wide, Narrow, Fisheye };
+
 struct LabOptions {
   ImageSize size{960, 540};
   std::uint64_t seed = 1;
   int cameras = 1;
   int robots = 3;
-  double survey_sigma_m = 0;  ///< of each coordinate of a reference tag
+  double survey_sigma_m = 0;     ///< of each coordinate of a reference tag
+  LabLens lens = LabLens::Wide;  ///< of one camera
+  bool chessboard = false;       ///< in place of a board with markers
 };
 
 /// Lens, place, tags and offsets of a seed.

@@ -11,6 +11,9 @@ namespace {
 const std::map<std::string, ClipForm> kForms{
     {"folder", ClipForm::Folder}, {"mjpg", ClipForm::Mjpg}, {"h264", ClipForm::H264}};
 
+const std::map<std::string, LabLens> kLenses{
+    {"wide", LabLens::Wide}, {"narrow", LabLens::Narrow}, {"fisheye", LabLens::Fisheye}};
+
 /// "960x540".
 ImageSize parse_size(const std::string& word) {
   ImageSize size;
@@ -70,6 +73,9 @@ int run(int argc, char** argv) {
   lab_app->add_option("--cameras", lab.lab.cameras)->check(CLI::Range(1, 2));
   lab_app->add_option("--robots", lab.lab.robots)->check(CLI::Range(1, 20));
   lab_app->add_option("--survey-mm", survey_mm, "sigma of the survey's errors");
+  lab_app->add_option("--lens", lab.lab.lens, "wide, narrow or fisheye")
+      ->transform(CLI::CheckedTransformer(kLenses));
+  lab_app->add_flag("--chessboard", lab.lab.chessboard, "in place of a board with markers");
   lab_app->add_option("--fps", lab.rate_hz);
   lab_app->add_option("--views", lab.views, "of the calibration board");
   declare_camera(*lab_app, lab);
@@ -109,6 +115,7 @@ int run(int argc, char** argv) {
   run_app->add_flag("--sync", film.sync, "tag 99 is hidden at the start");
   run_app->add_flag("--no-sidecar", no_sidecar);
   run_app->add_flag("--measured-layout", film.measured_layout, "the log names no patches");
+  run_app->add_option("--hide-floor-tags", film.hidden_references, "numbers");
   LabWish camera;
   const double unset = std::nan("");
   camera.exposure_s = camera.readout_s = camera.blur_px = camera.noise = unset;

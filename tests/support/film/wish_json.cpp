@@ -5,14 +5,22 @@
 namespace swarmsmith::film {
 
 std::string wish_json(const LabWish& wish) {
-  const nlohmann::json json = {
-      {"width", wish.lab.size.width}, {"height", wish.lab.size.height},
-      {"seed", wish.lab.seed},        {"cameras", wish.lab.cameras},
-      {"robots", wish.lab.robots},    {"survey_sigma", wish.lab.survey_sigma_m},
-      {"rate", wish.rate_hz},         {"exposure", wish.exposure_s},
-      {"readout", wish.readout_s},    {"blur", wish.blur_px},
-      {"noise", wish.noise},          {"gain", wish.gain},
-      {"gradient", wish.gradient},    {"form", static_cast<int>(wish.form)}};
+  const nlohmann::json json = {{"width", wish.lab.size.width},
+                               {"height", wish.lab.size.height},
+                               {"seed", wish.lab.seed},
+                               {"cameras", wish.lab.cameras},
+                               {"robots", wish.lab.robots},
+                               {"survey_sigma", wish.lab.survey_sigma_m},
+                               {"lens", static_cast<int>(wish.lab.lens)},
+                               {"chessboard", wish.lab.chessboard},
+                               {"rate", wish.rate_hz},
+                               {"exposure", wish.exposure_s},
+                               {"readout", wish.readout_s},
+                               {"blur", wish.blur_px},
+                               {"noise", wish.noise},
+                               {"gain", wish.gain},
+                               {"gradient", wish.gradient},
+                               {"form", static_cast<int>(wish.form)}};
   return json.dump();
 }
 
@@ -23,7 +31,9 @@ LabWish wish_from_truth(const std::string& truth) {
               json.at("seed"),
               json.at("cameras"),
               json.at("robots"),
-              json.at("survey_sigma")};
+              json.at("survey_sigma"),
+              static_cast<LabLens>(json.at("lens").get<int>()),
+              json.at("chessboard")};
   wish.rate_hz = json.at("rate");
   wish.exposure_s = json.at("exposure");
   wish.readout_s = json.at("readout");

@@ -89,6 +89,66 @@ class BadInput(unittest.TestCase):
 
     # Videos
 
+    def test_outputs_never_destroy_inputs(self):
+        log = LAB.film("good")
+        video = log.parent / "good.mkv"
+        sidecar = log.parent / "good.times.csv"
+        arena = LAB.lab / "arena.toml"
+        before = {file: file.read_bytes() for file in (log, video, sidecar, arena)}
+        notes = self.folder / "notes.txt"
+        notes.write_text("of a person")
+        for words in (("--csv", video), ("--csv", sidecar), ("--report", arena), ("--report", log),
+                      ("--csv", notes), ("--report", notes)):
+            done = call(TRACK, "score", "--run", log, "--arena", arena, *words)
+            self.assertIn(done.returncode, (1, 2), f"{words}: {done.stdout}")
+            self.assertRegex(done.stderr, "would be lost|is there already and is")
+        for command in (("overlay", video, "--arena", arena, "--run", log, "-o", video),
+                        ("calibrate", "arena", LAB.lab / "ceiling.arena.mkv", "--arena", arena,
+                         "-o", arena),
+                        ("calibrate", "arena", "--again", "--arena", arena,
+                         "-o", LAB.lab / "ceiling.camera.toml")):
+            done = call(TRACK, *command)
+            self.assertIn(done.returncode, (1, 2), f"{command}: {done.stdout}")
+            self.assertIn("would be lost", done.stderr)
+        self.assertEqual(before, {file: file.read_bytes() for file in before})
+        self.assertEqual(notes.read_text(), "of a person")
+
+    def test_a_link_that_leads_nowhere_is_followed(self):
+        link = self.folder / "link.csv"
+        link.symlink_to("target.csv")
+        done = call(TRACK, "score", "--run", LAB.film("good"), "--arena", LAB.lab / "arena.toml",
+                    "--csv", link)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertTrue(link.is_symlink())
+        head = (self.folder / "target.csv").read_text().splitlines()[0]
+        self.assertEqual(head, "cycle,time_s,robot,x,y,theta,kind,sigma_m,sigma_rad")
+
+    def test_a_start_beyond_the_end_names_the_files_span(self):
+        log = self.changed_log(LAB.film("good"), ('start = "1.2 s"', 'start = "200 s"'))
+        self.assert_refused(self.score(log), "E_VIDEO_TRUNCATED",
+                            r"the video goes from 0\.00 s to \d\.\d+ s, and the run begins at 200\.00 s")
+
+    def test_hidden_floor_tags_degrade_the_verdict(self):
+        done = self.score(LAB.film("hidden", "--hide-floor-tags", *range(101, 106)))
+        self.assert_stored_as(done, "DEGRADED", "W_CAMERA_UNCHECKED", "only one of its floor tags")
+
+    def test_a_bump_is_seen_by_one_floor_tag_as_well(self):
+        done = self.score(LAB.film("hidden-bump", "--bump", "1", "--hide-floor-tags", *range(101, 106)))
+        self.assert_stored_as(done, "INVALID", "E_CAMERA_MOVED", r"moved between -?0\.\d+ s and [12]\.\d+ s")
+
+    def test_a_survey_that_changed_degrades_the_verdict(self):
+        arena = LAB.copy_of_lab("resurveyed", arena_toml=[("x = 1.0430", "x = 1.0930")])
+        done = self.score(LAB.film("good"), arena=arena)
+        self.assert_stored_as(done, "DEGRADED", "W_SURVEY_CHANGED", "100 by 50.00 mm")
+
+    def test_a_place_that_was_edited_is_no_place(self):
+        text = (LAB.lab / "ceiling.place.toml").read_text()
+        line = re.search(r"translation *= *\[([^,]+),", text)
+        moved = line.group(0).replace(line.group(1), f" {float(line.group(1)) + 0.02}")
+        arena = LAB.copy_of_lab("edited", ceiling_place_toml=[(line.group(0), moved)])
+        done = self.score(LAB.film("good"), arena=arena)
+        self.assert_stored_as(done, "INVALID", "E_EXTRINSICS", "was the file edited")
+
     def test_video_that_is_not_there(self):
         log = self.changed_log(LAB.film("good"), ("good.mkv", "gone.mkv"))
         self.assert_refused(self.score(log), "E_VIDEO_UNREADABLE", r"gone\.mkv")

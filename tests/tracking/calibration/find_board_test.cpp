@@ -128,6 +128,38 @@ TEST(FindBoardTest, AChessboardIsFoundWholeWithoutAShiftOfHalfAPixel) {
   EXPECT_FALSE(found_in(shot_of(board, {40, 270}, 0.45, 0.4), board));
 }
 
+/// From near and far, tilted, to the edges of the picture: where the lens bends most.
+TEST(FindBoardTest, CornersOfChessboardsAreRefinedWhereverTheyAre) {
+  const Board board = *parse_board("chessboard:10x7:0.03");
+  double squares = 0;
+  int count = 0;
+  for (const double distance : {0.45, 0.7, 1.0}) {
+    for (const ImagePoint middle : {ImagePoint{480, 270}, {300, 200}, {700, 350}}) {
+      for (const double tilt : {0.1, 0.6}) {
+        const Shot shot = shot_of(board, middle, distance, tilt);
+        const auto sight = found_in(shot, board);
+        if (!sight) continue;
+        double of_view = 0;
+        for (const ImagePoint& seen : sight->view.seen) {
+          double nearest = 1e9;
+          for (const Point& corner : corners_of(board)) {
+            const ImagePoint truth = film::image_of_board(shot.board, half_camera(), corner);
+            nearest = std::min(nearest, std::hypot(seen.u - truth.u, seen.v - truth.v));
+          }
+          of_view += nearest * nearest;
+        }
+        const double corners = static_cast<double>(sight->view.seen.size());
+        EXPECT_LT(std::sqrt(of_view / corners), 0.12)
+            << distance << " m, tilt " << tilt << ", middle " << middle.u << ", " << middle.v;
+        squares += of_view;
+        count += static_cast<int>(corners);
+      }
+    }
+  }
+  EXPECT_GT(count, 12 * 70);
+  EXPECT_LT(std::sqrt(squares / count), 0.07);
+}
+
 TEST(FindBoardTest, AnotherBoardIsNone) {
   const Shot shot = shot_of(*parse_board("charuco:11x8:0.03:0.022:5x5_100"), {500, 250}, 0.4, 0);
   EXPECT_FALSE(found_in(shot, *parse_board("charuco:11x8:0.03:0.022:4x4_100")));

@@ -29,6 +29,8 @@ LABS = {
     "surveyed to 1 mm, rolling": ("--seed", "2", "--survey-mm", "1", "--readout-ms", "16",
                                   "--exposure-ms", "8"),
     "two cameras": ("--seed", "3", "--cameras", "2"),
+    "narrow lens, chessboard": ("--seed", "4", "--lens", "narrow", "--chessboard"),
+    "fisheye": ("--seed", "5", "--lens", "fisheye"),
 }
 CONDITIONS = (
     ("good", "clean", ()),

@@ -8,7 +8,6 @@ import subprocess
 import time
 import tomllib
 
-BOARD = "charuco:9x6:0.04:0.03:4x4_50"
 SYSTEMATIC_M = 0.001  # of a centre, by survey, height and lens, beside the noise that a run shows
 INVALID_RUN = 6  # exit code of a run that was stored as INVALID
 
@@ -65,7 +64,8 @@ class Lab:
         for camera in self.truth["cameras"]:
             name = camera["name"]
             self.programs.call("calibrate", track, "calibrate", "camera",
-                               self.folder / f"{name}.board", "--board", BOARD, "--camera", name,
+                               self.folder / f"{name}.board", "--board", self.truth["board"], "--camera", name,
+                               "--lens", camera["lens"],
                                "-o", self.folder / f"{name}.camera.toml")
             self.programs.call("calibrate", track, "calibrate", "arena",
                                clip_of(self.folder, f"{name}.arena"), "--arena", self.arena,

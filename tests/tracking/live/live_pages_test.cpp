@@ -1,7 +1,11 @@
 #include "tracking/live/live_pages.h"
 
+#include <arpa/inet.h>
 #include <gmock/gmock.h>
 #include <httplib.h>
+#include <netinet/in.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <nlohmann/json.hpp>
@@ -148,6 +152,28 @@ TEST(LivePagesTest, AnotherProgramsPortIsAnError) {
   ASSERT_FALSE(second.has_value());
   EXPECT_EQ(second.error().kind, ErrorKind::Conflict);
   EXPECT_THAT(second.error().message, HasSubstr("--port"));
+}
+
+/// Connections that say half a sentence keep nobody waiting.
+TEST(LivePagesTest, HalfOpenConnectionsBlockNobody) {
+  const auto pages = LivePages::start(0, {}).value();
+  const Publishing publishing(*pages);
+  std::vector<int> sockets;
+  for (int i = 0; i < 12; ++i) {
+    sockets.push_back(::socket(AF_INET, SOCK_STREAM, 0));
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    address.sin_port = htons(static_cast<std::uint16_t>(port_of(*pages)));
+    ASSERT_EQ(::connect(sockets.back(), reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
+    ASSERT_EQ(::send(sockets.back(), "GET / HT", 8, MSG_NOSIGNAL), 8);
+  }
+  httplib::Client client("127.0.0.1", port_of(*pages));
+  client.set_read_timeout(2);
+  EXPECT_TRUE(client.Get("/"));
+  EXPECT_TRUE(client.Get("/frame.jpg"));
+  for (const int socket : sockets)
+    ::close(socket);
 }
 
 }  // namespace

@@ -93,54 +93,118 @@ TEST(LengthTest, AFileWithoutTimesIsCheckedAgainstTheLog) {
   EXPECT_FALSE(complains(TimeSource::Container, "a.mp4", length + 0.21));
 }
 
-/// Looks at six floor tags, each 5 s; from `moved_from_s` on all are shifted.
-void look_at_references(SeenRun& seen, double moved_from_s, double shift_px, bool calibrated) {
-  for (int tag = 100; tag < 106; ++tag) {
-    TagCorners corners{};
-    for (std::size_t i = 0; i < corners.size(); ++i)
-      corners.at(i) = {300.0 * (tag - 99) + static_cast<double>(i), 500};
-    if (calibrated) {
-      PlaceCalibration::Seen calibration{};
-      calibration.tag.tag = tag;
-      calibration.corners = corners;
-      seen.rig.places.begin()->second.tags.push_back(calibration);
-    }
-    for (double time = 2.5; time < 20; time += 5) {
-      TagCorners now = corners;
-      for (ImagePoint& corner : now)
-        corner.v += time >= moved_from_s ? shift_px : 0;
-      // One tag was kicked, and one is covered half of the time.
-      if (tag == 100 && time > 5) now[0].u += 80;
-      if (tag == 101 && time > 10) continue;
-      seen.observations.cameras[0].references.push_back({time + 12.4, tag, now, 100});
-    }
+/// From `from_s` on all floor tags are seen elsewhere. One was kicked, and one is covered half of
+/// the time.
+void push_camera(SeenRun& seen, double from_s, double shift_px) {
+  CameraRecord& record = seen.observations.cameras[0];
+  const double start = seen.options.span.starts_s[0];
+  for (ReferenceLook& look : record.references) {
+    for (ImagePoint& corner : look.corners)
+      corner.v += look.time_s - start > from_s - 1e-6 ? shift_px : 0;
+    if (look.tag == 100 && look.time_s - start > 5) look.corners[0].u += 80;
   }
+  std::erase_if(record.references, [&](const ReferenceLook& look) {
+    return look.tag == 101 && look.time_s - start > 10;
+  });
+}
+
+/// Floor tags from this number on are not seen after a time of the run.
+void cover_references(SeenRun& seen, int from_tag, double from_s = -10) {
+  std::erase_if(seen.observations.cameras[0].references, [&](const ReferenceLook& look) {
+    return look.tag >= from_tag && look.time_s - seen.options.span.starts_s[0] > from_s;
+  });
+}
+
+/// Calibrations of the time before a place kept its floor tags.
+void forget_calibrated_tags(SeenRun& seen) {
+  seen.rig.places.begin()->second.tags.clear();
 }
 
 TEST(CameraMovedTest, IsSeenByTheFloorTags) {
   for (const bool calibrated : {true, false}) {
     SeenRun seen = seen_run(on_circle, {.cycles = 200});
-    look_at_references(seen, 11, 1.5, calibrated);
+    push_camera(seen, 11, 1.5);
+    if (!calibrated) forget_calibrated_tags(seen);
     const TrackedRun run = seen.track().value();
     const Issue* issue = find_issue(run, IssueCode::CameraMoved);
     ASSERT_NE(issue, nullptr);
-    EXPECT_NEAR(issue->from.value(), 12.5, 1e-9);
-    EXPECT_THAT(issue->text, HasSubstr("most 1.5 px at 12.5 s"));
+    EXPECT_NEAR(issue->from.value(), 11, 1e-9);
+    EXPECT_THAT(issue->text, HasSubstr("moved between 10.0 s and 11.0 s"));
+    EXPECT_THAT(issue->text, HasSubstr("most 1.5 px at 11.0 s"));
   }
 }
 
 TEST(CameraMovedTest, BeforeTheRunOnlyTheCalibrationTells) {
   for (const bool calibrated : {true, false}) {
     SeenRun seen = seen_run(on_circle, {.cycles = 200});
-    look_at_references(seen, 0, 1.5, calibrated);
+    push_camera(seen, -10, 1.5);
+    if (!calibrated) forget_calibrated_tags(seen);
     EXPECT_EQ(find_issue(seen.track().value(), IssueCode::CameraMoved) != nullptr, calibrated);
   }
 }
 
-TEST(CameraMovedTest, LessThanAPixelOrOneTagIsNot) {
+TEST(CameraMovedTest, LessThanAPixelOrOneOfSeveralTagsIsNot) {
   SeenRun seen = seen_run(on_circle, {.cycles = 200});
-  look_at_references(seen, 11, 0.9, true);
-  EXPECT_EQ(find_issue(seen.track().value(), IssueCode::CameraMoved), nullptr);
+  push_camera(seen, 11, 0.9);
+  const TrackedRun run = seen.track().value();
+  EXPECT_TRUE(run.issues.empty()) << run.issues.front().text;
+}
+
+/// A check that cannot be made is said, and is no consent.
+TEST(CameraMovedTest, CannotBeToldWithoutFloorTags) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 200});
+  cover_references(seen, 100);
+  const TrackedRun run = seen.track().value();
+  const Issue* issue = find_issue(run, IssueCode::CameraUnchecked);
+  ASSERT_NE(issue, nullptr);
+  EXPECT_THAT(issue->text, HasSubstr("camera camera0 saw none of its floor tags in the run"));
+  EXPECT_EQ(run.issues.size(), 1U);
+}
+
+TEST(CameraMovedTest, OfOneFloorTagTellsOnlyThatItMoved) {
+  SeenRun still = seen_run(on_circle, {.cycles = 200});
+  cover_references(still, 101);
+  const TrackedRun run = still.track().value();
+  ASSERT_NE(find_issue(run, IssueCode::CameraUnchecked), nullptr);
+  EXPECT_THAT(find_issue(run, IssueCode::CameraUnchecked)->text,
+              HasSubstr("saw only one of its floor tags in the run"));
+  EXPECT_EQ(find_issue(run, IssueCode::CameraMoved), nullptr);
+  SeenRun pushed = seen_run(on_circle, {.cycles = 200});
+  push_camera(pushed, -10, 7);
+  cover_references(pushed, 101);
+  EXPECT_NE(find_issue(pushed.track().value(), IssueCode::CameraMoved), nullptr);
+}
+
+TEST(CameraMovedTest, IsAskedForAtTheEndAsWell) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 300});
+  cover_references(seen, 100, 15);
+  const TrackedRun run = seen.track().value();
+  const Issue* issue = find_issue(run, IssueCode::CameraUnchecked);
+  ASSERT_NE(issue, nullptr);
+  EXPECT_THAT(issue->text, HasSubstr("saw none of its floor tags after 15.0 s"));
+  // Some seconds behind somebody's back are none.
+  SeenRun short_while = seen_run(on_circle, {.cycles = 300});
+  cover_references(short_while, 100, 23);
+  EXPECT_TRUE(short_while.track()->issues.empty());
+}
+
+TEST(PlaceTest, OfAnEditedFileIsNoPlace) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 200});
+  seen.rig.places.begin()->second.place.translation.x += 0.002;
+  const TrackedRun run = seen.track().value();
+  ASSERT_NE(find_issue(run, IssueCode::Extrinsics), nullptr);
+  EXPECT_THAT(find_issue(run, IssueCode::Extrinsics)->text, HasSubstr("was the file edited?"));
+}
+
+TEST(PlaceTest, IsDoubtfulWhenTheSurveyHasChanged) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 200});
+  seen.rig.references[2].pose.x += 0.05;
+  seen.rig.references[4].pose.theta += 0.01;
+  const TrackedRun run = seen.track().value();
+  ASSERT_NE(find_issue(run, IssueCode::SurveyChanged), nullptr);
+  EXPECT_THAT(find_issue(run, IssueCode::SurveyChanged)->text,
+              HasSubstr("102 by 50.00 mm, 104 by 0.00 mm"));
+  EXPECT_EQ(run.issues.size(), 1U);
 }
 
 }  // namespace

@@ -35,6 +35,22 @@ Sighting sighting_of(const View& view, const Pose& robot, const Seeing& seeing, 
   return seen;
 }
 
+/// Floor tags near the walls, as the camera sees them each second.
+void lay_references(SeenRun& run, const Seeing& seeing, const View& view, PlaceCalibration& place,
+                    CameraRecord& record) {
+  run.rig.references.clear();
+  for (int i = 0; i < 6; ++i) {
+    const SinCos at = sin_cos(kPi / 3 * i + 0.4);
+    const ReferenceTag tag{100 + i, {at.cos, at.sin, 0.3 * i}, 0.1};
+    run.rig.references.push_back(tag);
+    const TagCorners corners = seen_corners(view, tag.pose, tag.edge_m, 0);
+    place.tags.push_back({tag, corners, 0, 0});
+    for (double time = seeing.from_s + 0.5; time < instant_s(seeing.cycles) + seeing.past_end_s;
+         time += 1)
+      record.references.push_back({time + seeing.clock_s, tag.tag, corners, 30});
+  }
+}
+
 void film(SeenRun& run, const Truth& truth, const Seeing& seeing, const View& view) {
   const int camera = static_cast<int>(run.observations.cameras.size());
   const std::string name = "camera" + std::to_string(camera);
@@ -45,6 +61,7 @@ void film(SeenRun& run, const Truth& truth, const Seeing& seeing, const View& vi
   run.rig.places[place].place = view.place;
   CameraRecord record{.camera = name, .file = name + ".mp4", .sha256 = name};
   record.size = view.camera.size;
+  lay_references(run, seeing, view, run.rig.places[place], record);
   const Rng rng = Rng(seeing.seed).split("corners");
   const double end = instant_s(seeing.cycles) + seeing.past_end_s;
   for (std::int64_t frame = 0;; ++frame) {

@@ -88,8 +88,8 @@ TEST(TrackRunTest, EstimatesTheNoiseFromTheScatter) {
       turn_squares += turn * turn;
       ++count;
     }
-    EXPECT_NEAR(run.robots[0].sigma_m / std::sqrt(squares / (2 * count)), 1, 0.15);
-    EXPECT_NEAR(run.robots[0].sigma_rad / std::sqrt(turn_squares / count), 1, 0.15);
+    EXPECT_NEAR(run.robots[0].sigma.sigma_m / std::sqrt(squares / (2 * count)), 1, 0.15);
+    EXPECT_NEAR(run.robots[0].sigma.sigma_rad / std::sqrt(turn_squares / count), 1, 0.15);
   }
 }
 
@@ -98,8 +98,8 @@ TEST(TrackRunTest, AddsWhatCalibrationsAreKnownToBeOffBy) {
   seen.rig.offsets.at("rvr1.offset.toml").sigma_y_m = 0.0003;
   seen.rig.places.at("camera0.place.toml").worst_left_out_m = 0.0008;
   const TrackedRun run = seen.track().value();
-  EXPECT_NEAR(run.robots[0].sigma_m, std::sqrt(3e-4 * 3e-4 + 4e-4 * 4e-4 + 1e-8), 1e-6);
-  EXPECT_NEAR(run.robots[1].sigma_m, std::sqrt(4e-4 * 4e-4 + 1e-8), 1e-6);
+  EXPECT_NEAR(run.robots[0].sigma.sigma_m, std::sqrt(3e-4 * 3e-4 + 4e-4 * 4e-4 + 1e-8), 1e-6);
+  EXPECT_NEAR(run.robots[1].sigma.sigma_m, std::sqrt(4e-4 * 4e-4 + 1e-8), 1e-6);
 }
 
 TEST(TrackRunTest, RefusesARobotThatIsNeverSeenEarly) {

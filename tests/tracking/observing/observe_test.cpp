@@ -102,10 +102,24 @@ TEST(ObserveTest, GivesSightingsOfRobotsAndMediansOfFloorTags) {
     EXPECT_NEAR(each.time_s, 12 + 0.1 * i, 1e-12);
     EXPECT_NEAR(middle_of(each.corners).u, 60 + 8.0 * i, 0.2);
   }
-  ASSERT_EQ(seen->record.references.size(), 1U);
+  ASSERT_EQ(seen->record.references.size(), 2U) << "one a second";
   EXPECT_EQ(seen->record.references[0].tag, 100);
   EXPECT_GE(seen->record.references[0].frames, 4);
   EXPECT_NEAR(middle_of(seen->record.references[0].corners).u, 250, 0.05);
+}
+
+TEST(ObserveTest, SaysThatPicturesAreMirrored) {
+  std::vector<MemorySource::Shot> shots = moving(3);
+  for (MemorySource::Shot& shot : shots) {
+    for (int row = 0; row < kHeight; ++row) {
+      const auto first = shot.picture.pixels.begin() + static_cast<std::ptrdiff_t>(row) * kWidth;
+      std::reverse(first, first + kWidth);
+    }
+  }
+  MemorySource source(shots);
+  const auto seen = observed(source);
+  ASSERT_FALSE(seen.has_value());
+  EXPECT_THAT(seen.error().message, HasSubstr("E_VIDEO_UNREADABLE: the pictures are mirrored"));
 }
 
 TEST(ObserveTest, TimesAreTheMiddleOfTheExposureOfTheTagsRows) {

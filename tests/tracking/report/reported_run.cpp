@@ -108,8 +108,9 @@ TrackedRobot robot_of(int number) {
   }
   robot.mean_scale = 1.0025;
   robot.mean_residual_m = 0.0003;
-  robot.sigma_m = 0.0005;
-  robot.sigma_rad = 0.002;
+  robot.sigma.sigma_m = 0.0005;
+  robot.sigma.sigma_rad = 0.002;
+  robot.sigmas.assign(kCycles, robot.sigma);
   return robot;
 }
 

@@ -23,30 +23,32 @@ struct Walk {
   Mission mission;
   Instance instance;
   double score = 0;
-  std::vector<std::vector<TimedPose>> robots;
+  std::vector<Motion> robots;
 
   Pose at(int robot, double time_s) const {
-    TrackLimits limits;
-    limits.top_speed_m_s = 100;  // the simulator's own poses need no doubt
-    limits.top_turn_rad_s = 1000;
-    return pose_at(robots[static_cast<std::size_t>(robot)], time_s, limits).pose;
+    return robots[static_cast<std::size_t>(robot)].at(time_s).pose;
   }
 };
 
 Walk random_walk(std::int64_t seed) {
   Walk walk{.mission = built_in_mission("grid_exploration").value(), .instance = {}, .robots = {}};
   walk.instance = instance_of(walk.mission, seed).value();
-  walk.robots.resize(3);
+  std::vector<std::vector<TimedPose>> robots(3);
   const Flavour& flavour = watermelon_argos3();
   const Machine machine = parse_machine("--nstates 1 --s0 0 --rwm0 30", flavour).value();
   const Profile profile = built_in_profile("rvr").value();
   const auto note = [&](const Snapshot& snapshot) {
     for (std::size_t i = 0; i < 3; ++i)
-      walk.robots[i].push_back({instant_s(snapshot.cycle), snapshot.robots[i].pose});
+      robots[i].push_back({instant_s(snapshot.cycle), snapshot.robots[i].pose});
   };
   walk.score =
       simulate({machine, flavour, profile, walk.mission, walk.instance, seed}, Recorder(note))
           .score;
+  TrackLimits limits;
+  limits.top_speed_m_s = 100;  // the simulator's own poses need no doubt
+  limits.top_turn_rad_s = 1000;
+  for (const std::vector<TimedPose>& robot : robots)
+    walk.robots.emplace_back(robot, limits);
   return walk;
 }
 

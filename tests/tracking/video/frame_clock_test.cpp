@@ -37,6 +37,26 @@ TEST(FrameTimes, NamesTheLineThatIsWrong) {
               HasSubstr("line 4: E_TIMESTAMPS: frame 1 at 1 s is not later"));
 }
 
+TEST(FrameTimes, MayBeMillisecondsOrOfTheEpoch) {
+  const auto times = parse_frame_times("frame,time_ms\n0,500\n1,533.25\n");
+  EXPECT_THAT(*times, ElementsAre(0.5, 0.53325));
+  EXPECT_THAT(*parse_frame_times("frame,time_s\n0,1732391823.25\n1,1732391823.5\n"),
+              ElementsAre(1732391823.25, 1732391823.5));
+  EXPECT_THAT(refusal("frame,time_s\n0,1\n1,1e308\n"),
+              HasSubstr("line 3: E_TIMESTAMPS: frame 1 at 1e+308 s is more than an hour later"));
+}
+
+TEST(FrameClock, SeesMillisecondsThatAreCalledSeconds) {
+  const SourceInfo source{.name = "run.mkv", .frame_rate = 30, .has_times = true};
+  const auto clock = FrameClock::of(source, std::vector<double>{0, 33, 67, 100});
+  ASSERT_FALSE(clock);
+  EXPECT_THAT(to_string(clock.error()),
+              HasSubstr("run.mkv: E_TIMESTAMPS: its times say 33.3 s from frame to frame"));
+  EXPECT_THAT(to_string(clock.error()), HasSubstr("`time_ms`"));
+  // Slow pictures are slow pictures.
+  EXPECT_TRUE(FrameClock::of(source, std::vector<double>{0, 1, 2, 3}));
+}
+
 TEST(FrameClock, TrustsTheSidecarThenTheContainerThenTheCount) {
   SourceInfo source{.name = "run.mkv", .frame_rate = 20, .has_times = true, .has_count = true};
   auto sidecar = FrameClock::of(source, std::vector<double>{10, 11});

@@ -5,6 +5,7 @@
 
 #include "tests/support/temporary_folder.h"
 #include "tests/tracking/video/made_video.h"
+#include "tracking/video/internal/image_folder.h"
 #include "tracking/video/internal/natural_order.h"
 
 namespace swarmsmith {
@@ -27,6 +28,31 @@ TEST(NaturalOrder, CountsAsAPersonDoes) {
   EXPECT_TRUE(comes_before("07.png", "7.png") != comes_before("7.png", "07.png"));
   EXPECT_FALSE(comes_before("a", "a"));
   EXPECT_TRUE(comes_before("99999999999999999999998", "99999999999999999999999"));
+}
+
+TEST(ImageFolder, NamesMayBeTimesSince1970) {
+  EXPECT_EQ(time_in_name("a/1732391823.25.png"), 1732391823.25);
+  EXPECT_EQ(time_in_name("1732391823.png"), 1732391823.0);
+  EXPECT_EQ(time_in_name("left-1732391823250.jpg"), 1732391823.25);
+  EXPECT_EQ(time_in_name("1732391823250000_left.png"), 1732391823.25);
+  EXPECT_EQ(time_in_name("1732391823250000000.png"), 1732391823.25);
+  EXPECT_EQ(time_in_name("cam2/1732391823-250000000.png"), 1732391823.25);
+  EXPECT_EQ(time_in_name("1732391823_12.png"), 1732391823.0) << "a number of something else";
+  for (const char* none : {"shot12.png", "0000000012.png", "20241123.png", "a.png", "1.5.png"})
+    EXPECT_EQ(time_in_name(none), std::nullopt) << none;
+}
+
+TEST(ImageFolder, HasTheTimesOfItsNames) {
+  const TemporaryFolder folder;
+  for (int i = 0; i < 5; ++i)
+    write_image(folder / ("f" + std::to_string(1732391823000 + 40 * i) + ".png"), i);
+  const ReadVideo video = read_video(folder.path());
+  ASSERT_FALSE(video.error) << to_string(*video.error);
+  EXPECT_TRUE(video.info.has_times);
+  ASSERT_EQ(video.frames.size(), 5U);
+  for (int i = 0; i < 5; ++i)
+    EXPECT_NEAR(video.frames[static_cast<std::size_t>(i)].time_s.value(), 1732391823 + 0.04 * i,
+                1e-6);
 }
 
 TEST(ImageFolder, GoesByNumbersAndKnowsNoTimes) {

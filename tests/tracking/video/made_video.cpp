@@ -87,6 +87,7 @@ std::vector<double> uneven_times(int frames) {
 
 void make_video(const std::filesystem::path& path, const std::vector<double>& times,
                 const VideoOptions& options) {
+  std::filesystem::remove(path);  // one that was read is no longer wanted
   auto writer = VideoWriter::open(path.string(), kMadeSize, options);
   if (!writer) throw std::runtime_error(to_string(writer.error()));
   for (std::size_t i = 0; i < times.size(); ++i) {

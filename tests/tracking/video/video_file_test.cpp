@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <sys/stat.h>
 
 #include <cmath>
 
@@ -151,6 +152,15 @@ std::string replaced(std::string bytes, std::string_view from, std::string_view 
   for (std::size_t at = bytes.find(from); at != std::string::npos; at = bytes.find(from, at + 1))
     bytes.replace(at, from.size(), to);
   return bytes;
+}
+
+TEST(VideoFile, APipeIsRefusedAndNotWaitedFor) {
+  const TemporaryFolder folder;
+  const std::string pipe = (folder / "run.mkv").string();
+  ASSERT_EQ(::mkfifo(pipe.c_str(), 0600), 0);
+  const auto source = FrameSource::open(pipe);
+  ASSERT_FALSE(source);
+  EXPECT_THAT(to_string(source.error()), HasSubstr("E_VIDEO_UNREADABLE: is a pipe"));
 }
 
 TEST(VideoFile, RefusesAnUnknownCodecByName) {

@@ -174,6 +174,7 @@ FrameReport frame_report(const Observations& observations, std::span<const Track
   for (std::size_t c = 0; c < cameras.size(); ++c) {
     const CameraRecord& record = observations.cameras[c];
     const FramesOfRun frames = frames_of(record, cameras[c].start_s, duration);
+    report.times.insert(report.times.end(), frames.times.begin(), frames.times.end());
     if (!frames.times.empty()) spans.emplace_back(frames.times.front(), frames.times.back());
     intervals.insert(intervals.end(), frames.intervals.begin(), frames.intervals.end());
     const std::int64_t dropped = dropped_in(frames);
@@ -185,10 +186,10 @@ FrameReport frame_report(const Observations& observations, std::span<const Track
     if (!options.span.lengths_s.empty()) {
       check_length(record, frames, options.span.lengths_s[c], report.issues);
     }
-    if (auto moved = camera_moved(record, cameras[c], rig, options)) {
-      report.issues.push_back(std::move(*moved));
-    }
+    for (Issue& issue : camera_issues(record, cameras[c], rig, options))
+      report.issues.push_back(std::move(issue));
   }
+  std::ranges::sort(report.times);
   measure_coverage(report, std::move(spans), duration);
   check_coverage(report, slack, options);
   if (!intervals.empty()) {

@@ -19,6 +19,7 @@ struct FrameReport {
   std::int64_t frames = 0;  ///< within the run
   std::int64_t dropped = 0;
   std::int64_t twice = 0;
+  std::vector<double> times;  ///< of all frames of all cameras, sorted
   std::vector<Issue> issues;
 };
 

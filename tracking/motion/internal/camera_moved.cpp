@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 #include <vector>
 
 #include "base/math.h"
 #include "tracking/motion/resampling.h"
+#include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -33,10 +35,15 @@ std::map<int, TagCorners> calibrated_corners(const Rig& rig, const std::string& 
   return corners;
 }
 
-}  // namespace
+/// How far the floor tags stand from where they were, by the spans of looks.
+struct Span {
+  double time_s = 0;  ///< of the run, the span's middle
+  int tags = 0;       ///< seen, that were somewhere before
+  double shift_px = 0;
+};
 
-std::optional<Issue> camera_moved(const CameraRecord& record, const TrackedCamera& camera,
-                                  const Rig& rig, const TrackOptions& options) {
+std::vector<Span> spans_of(const CameraRecord& record, const TrackedCamera& camera, const Rig& rig,
+                           double duration_s) {
   std::map<int, TagCorners> was = calibrated_corners(rig, camera.name);
   std::map<double, std::vector<double>> shifts;
   std::vector<ReferenceLook> looks = record.references;
@@ -47,31 +54,70 @@ std::optional<Issue> camera_moved(const CameraRecord& record, const TrackedCamer
     const auto [before, is_first] = was.emplace(look.tag, look.corners);
     if (!is_first) shifts[look.time_s].push_back(shift_of(before->second, look.corners));
   }
-  constexpr double kSpan_s = 5;
-  double worst = 0;
-  double worst_at = 0;
-  std::optional<double> first;
+  constexpr double kMargin_s = 5;
+  std::vector<Span> spans;
   for (auto& [clock, of_tags] : shifts) {
     const double time = clock - camera.start_s;
-    if (of_tags.size() < 2 || time < -kSpan_s || time > instant_s(options.span.cycles) + kSpan_s)
-      continue;
+    if (time < -kMargin_s || time > duration_s + kMargin_s) continue;
     std::ranges::sort(of_tags);
-    const double shift = of_tags[of_tags.size() / 2];
-    if (shift <= options.limits.moved_px) continue;
-    if (!first) first = time;
-    if (shift <= worst) continue;
-    worst = shift;
-    worst_at = time;
+    spans.push_back({time, static_cast<int>(of_tags.size()), of_tags[of_tags.size() / 2]});
   }
-  if (!first) return std::nullopt;
+  return spans;
+}
+
+std::optional<Issue> moved(const std::vector<Span>& spans, const std::string& camera,
+                           double limit_px) {
+  const auto is_off = [&](const Span& span) { return span.shift_px > limit_px; };
+  const auto first = std::ranges::find_if(spans, is_off);
+  if (first == spans.end()) return std::nullopt;
+  const auto worst = std::ranges::max_element(spans, {}, &Span::shift_px);
+  const std::string since =
+      first == spans.begin()
+          ? fmt::format("before {:.1f} s", std::max(0.0, first->time_s))
+          : fmt::format("between {:.1f} s and {:.1f} s", std::prev(first)->time_s, first->time_s);
   return Issue{
       IssueCode::CameraMoved,
-      fmt::format("camera {} moved: from {:.1f} s on its floor tags are elsewhere, most {:.1f} px "
+      fmt::format("camera {} moved {}: from then on its floor tags are elsewhere, most {:.1f} px "
                   "at {:.1f} s (limit {:.1f} px); fix the camera, calibrate its place again",
-                  camera.name, *first, worst, worst_at, options.limits.moved_px),
+                  camera, since, worst->shift_px, worst->time_s, limit_px),
       {},
-      *first,
+      first->time_s,
       {}};
+}
+
+std::optional<Issue> unchecked(const std::vector<Span>& spans, const std::string& camera,
+                               double duration_s) {
+  // A camera that was pushed stays where it is, so that a later look tells of earlier ones.
+  constexpr double kTail_s = 10;
+  constexpr const char* kWhatToDo =
+      "nobody can tell whether the camera moved; keep the floor tags free, lit and in the picture";
+  const auto last =
+      std::ranges::find_if(spans.rbegin(), spans.rend(), [](const Span& s) { return s.tags >= 2; });
+  if (last != spans.rend() && last->time_s >= duration_s - kTail_s) return std::nullopt;
+  const bool is_part = last != spans.rend();
+  const bool sees_one = !spans.empty() && (!is_part || last != spans.rbegin());
+  const std::string seen = sees_one ? "only one of its floor tags" : "none of its floor tags";
+  const std::string when = is_part ? fmt::format("after {:.1f} s", last->time_s) : "in the run";
+  return Issue{IssueCode::CameraUnchecked,
+               fmt::format("camera {} saw {} {}: {}", camera, seen, when, kWhatToDo),
+               {},
+               is_part ? std::optional(last->time_s) : std::nullopt,
+               {}};
+}
+
+}  // namespace
+
+std::vector<Issue> camera_issues(const CameraRecord& record, const TrackedCamera& camera,
+                                 const Rig& rig, const TrackOptions& options) {
+  const double duration = instant_s(options.span.cycles);
+  const std::vector<Span> spans = spans_of(record, camera, rig, duration);
+  std::vector<Issue> issues;
+  const auto setup = std::ranges::find(rig.cameras, camera.name, &CameraSetup::name);
+  if (setup != rig.cameras.end()) issues = doubts_of_place(rig, *setup);
+  if (auto issue = moved(spans, camera.name, options.limits.moved_px))
+    issues.push_back(std::move(*issue));
+  if (auto issue = unchecked(spans, camera.name, duration)) issues.push_back(std::move(*issue));
+  return issues;
 }
 
 }  // namespace swarmsmith

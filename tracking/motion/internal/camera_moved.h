@@ -1,15 +1,16 @@
 #pragma once
 
-#include <optional>
+#include <vector>
 
 #include "tracking/motion/internal/robot_samples.h"
 
 namespace swarmsmith {
 
-/// The first span in which the floor tags, by the median, stand elsewhere than when the place was
-/// found; tags that the calibration does not know, than when first seen. Covered tags have no look,
-/// and one tag alone may have been kicked.
-std::optional<Issue> camera_moved(const CameraRecord& record, const TrackedCamera& camera,
-                                  const Rig& rig, const TrackOptions& options);
+/// What the floor tags tell of one camera. E_CAMERA_MOVED: from when on they stand, by the median,
+/// elsewhere than when the place was found; tags that the calibration does not know, than when
+/// first seen. W_CAMERA_UNCHECKED: fewer than two were seen, of which one may have been kicked, all
+/// the time or at the end. And what makes its place doubtful.
+std::vector<Issue> camera_issues(const CameraRecord& record, const TrackedCamera& camera,
+                                 const Rig& rig, const TrackOptions& options);
 
 }  // namespace swarmsmith

@@ -6,16 +6,10 @@
 
 namespace swarmsmith {
 
-/// How much samples scatter: one sigma of a coordinate and of the heading.
-struct Scatter {
-  double sigma_m = 0;
-  double sigma_rad = 0;
-};
-
-/// From what the middle of five samples in a row differs from the parabola through them by least
-/// squares in time; symmetric, so that steady motion leaves nothing. Medians of the absolute
-/// residuals, so that turns and bumps do not count as noise. At least `kLeastSigma`; that alone
-/// when there are too few samples.
+/// How much samples scatter. From what the middle of five samples in a row differs from the
+/// parabola through them by least squares in time; symmetric, so that steady motion leaves nothing.
+/// Medians of the absolute residuals, so that turns and bumps do not count as noise. At least
+/// `kLeastSigma`; that alone when there are too few samples.
 Scatter scatter_of(const std::vector<TimedPose>& track);
 
 /// The localisation floor of section 6 times ten, as was measured there.

@@ -124,18 +124,46 @@ std::int64_t guessed_cycles(const RobotTrack& track, const FrameReport& frames,
   return guessed;
 }
 
+/// Cycles that were bridged, and those of them across which no camera took a frame.
+struct Bridged {
+  std::int64_t cycles = 0;
+  std::int64_t without_frames = 0;
+};
+
+Bridged bridged_cycles(const RobotTrack& track, const FrameReport& frames) {
+  Bridged bridged;
+  for (std::size_t cycle = 1; cycle < track.kinds.size(); ++cycle) {
+    const CycleKind kind = track.kinds[cycle];
+    if (kind != CycleKind::Interpolated && kind != CycleKind::Degraded) continue;
+    ++bridged.cycles;
+    const auto next = std::ranges::lower_bound(track.merged, instant_s(static_cast<int>(cycle)), {},
+                                               &TimedPose::time_s);
+    if (next == track.merged.begin() || next == track.merged.end()) continue;
+    const auto frame =
+        std::ranges::upper_bound(frames.times, std::prev(next)->time_s + kSameInstant_s);
+    const bool was_looked_at =
+        frame != frames.times.end() && *frame < next->time_s - kSameInstant_s;
+    if (!was_looked_at) ++bridged.without_frames;
+  }
+  return bridged;
+}
+
 void check_bridged(const RobotTrack& track, const std::vector<Gap>& gaps, const FrameReport& frames,
                    const TrackLimits& limits, Complaints& complaints) {
-  const auto cycles = std::span(track.kinds).subspan(1);
-  const auto bridged = std::ranges::count(cycles, CycleKind::Interpolated) +
-                       std::ranges::count(cycles, CycleKind::Degraded);
-  const double share = static_cast<double>(bridged) / static_cast<double>(cycles.size());
+  const Bridged bridged = bridged_cycles(track, frames);
+  const auto cycles = static_cast<std::int64_t>(track.kinds.size()) - 1;
+  const double share = static_cast<double>(bridged.cycles) / static_cast<double>(cycles);
   if (share > limits.interpolated_share) {
+    const bool is_for_want_of_frames = 2 * bridged.without_frames > bridged.cycles;
     complaints.add(
         IssueCode::Gap,
-        fmt::format("was interpolated in {} of {} cycles ({:.1f} %, limit {:.0f} %); "
-                    "more light, larger tags or another place of the camera help",
-                    bridged, cycles.size(), 100 * share, 100 * limits.interpolated_share));
+        fmt::format("was interpolated in {} of {} cycles ({:.1f} %, limit {:.0f} %), in {} of them "
+                    "since frames are missing; {}",
+                    bridged.cycles, cycles, 100 * share, 100 * limits.interpolated_share,
+                    bridged.without_frames,
+                    is_for_want_of_frames
+                        ? "a faster disk, another codec or 15 to 30 frames/s help"
+                        : "more light, larger tags or another place of the camera help"));
   }
   const std::int64_t guessed = guessed_cycles(track, frames, limits);
   if (guessed == 0 || gaps.empty()) return;
@@ -219,9 +247,9 @@ TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const
                            std::vector<Issue>& issues) {
   TrackedRobot made{.name = robot.setup.name, .tag = robot.setup.tag};
   made.cycles.assign(track.kinds.begin() + 1, track.kinds.end());
+  made.sigmas.assign(track.sigmas.begin() + 1, track.sigmas.end());
   made.mean_scale = samples.scale;
-  made.sigma_m = track.sigma.sigma_m;
-  made.sigma_rad = track.sigma.sigma_rad;
+  made.sigma = track.sigma;
   Complaints complaints(robot, issues);
   check_tag(robot, samples, options.limits, complaints);
   made.samples = std::move(samples.samples);

@@ -8,15 +8,12 @@
 namespace swarmsmith {
 namespace {
 
+/// What one camera saw of a robot.
 struct CameraTrack {
-  std::vector<TimedPose> poses;
-  Scatter sigma;
+  std::vector<TimedPose> poses;  ///< with the sigma of their noise
+  Scatter sigma;                 ///< of one of them, systematic parts included
+  double systematic_m = 0;
 };
-
-/// Independent errors add up as squares.
-double root_of_squares(double a, double b, double c) {
-  return std::sqrt(a * a + b * b + c * c);
-}
 
 std::vector<CameraTrack> camera_tracks(const TaggedRobot& robot, const RobotSamples& samples,
                                        std::span<const TrackedCamera> cameras) {
@@ -26,9 +23,12 @@ std::vector<CameraTrack> camera_tracks(const TaggedRobot& robot, const RobotSamp
     tracks[static_cast<std::size_t>(sample.camera)].poses.push_back({sample.time_s, sample.pose});
   }
   for (std::size_t c = 0; c < tracks.size(); ++c) {
-    Scatter& sigma = tracks[c].sigma;
-    sigma = scatter_of(tracks[c].poses);
-    sigma.sigma_m = root_of_squares(sigma.sigma_m, cameras[c].place_error_m, robot.offset_sigma_m);
+    CameraTrack& track = tracks[c];
+    const Scatter noise = scatter_of(track.poses);
+    for (TimedPose& pose : track.poses)
+      pose.sigma = noise;
+    track.systematic_m = std::hypot(cameras[c].place_error_m, robot.offset_sigma_m);
+    track.sigma = {std::hypot(noise.sigma_m, track.systematic_m), noise.sigma_rad};
   }
   return tracks;
 }
@@ -39,8 +39,8 @@ struct Estimate {
 };
 
 /// One estimate keeps its bits.
-Pose fused(const std::vector<Estimate>& estimates) {
-  if (estimates.size() == 1) return estimates.front().pose;
+Estimate fused(const std::vector<Estimate>& estimates) {
+  if (estimates.size() == 1) return estimates.front();
   const Pose& first = estimates.front().pose;
   double weights = 0;
   double turn_weights = 0;
@@ -54,7 +54,8 @@ Pose fused(const std::vector<Estimate>& estimates) {
     sum.y += weight * estimate.pose.y;
     sum.theta += turn_weight * wrap_angle(estimate.pose.theta - first.theta);
   }
-  return {sum.x / weights, sum.y / weights, wrap_angle(first.theta + sum.theta / turn_weights)};
+  return {{sum.x / weights, sum.y / weights, wrap_angle(first.theta + sum.theta / turn_weights)},
+          {1 / std::sqrt(weights), 1 / std::sqrt(turn_weights)}};
 }
 
 void note_disagreement(const std::vector<Estimate>& estimates, double time_s, RobotTrack& track) {
@@ -78,8 +79,10 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
                     std::span<const TrackedCamera> cameras, const TrackOptions& options) {
   const std::vector<CameraTrack> tracks = camera_tracks(robot, samples, cameras);
   RobotTrack made;
+  std::vector<std::pair<const CameraTrack*, Motion>> motions;
   for (const CameraTrack& track : tracks) {
-    made.merged.insert(made.merged.end(), track.poses.begin(), track.poses.end());
+    for (const TimedPose& pose : track.poses)
+      made.merged.push_back({pose.time_s, pose.pose, track.sigma});
     for (std::size_t i = 1; i < track.poses.size(); ++i) {
       if (is_reachable(track.poses[i - 1], track.poses[i], options.limits)) continue;
       made.breaks.emplace_back(track.poses[i - 1], track.poses[i]);
@@ -87,25 +90,32 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
     if (track.poses.empty()) continue;
     made.sigma.sigma_m = std::max(made.sigma.sigma_m, track.sigma.sigma_m);
     made.sigma.sigma_rad = std::max(made.sigma.sigma_rad, track.sigma.sigma_rad);
+    motions.emplace_back(&track, Motion(track.poses, options.limits));
   }
   std::ranges::stable_sort(made.merged, {}, &TimedPose::time_s);
+  const Motion together(made.merged, options.limits);
+  const auto add = [&](const Estimate& estimate, CycleKind kind) {
+    made.poses.push_back(estimate.pose);
+    made.sigmas.push_back(estimate.sigma);
+    made.kinds.push_back(kind);
+  };
   for (int cycle = 0; cycle <= options.span.cycles; ++cycle) {
     const double time = instant_s(cycle);
     std::vector<Estimate> measured;
-    for (const CameraTrack& track : tracks) {
-      if (track.poses.empty()) continue;
-      const PoseAt found = pose_at(track.poses, time, options.limits);
-      if (found.kind == CycleKind::Measured) measured.push_back({found.pose, track.sigma});
+    for (const auto& [track, motion] : motions) {
+      const PoseAt found = motion.at(time);
+      if (found.kind != CycleKind::Measured) continue;
+      measured.push_back(
+          {found.pose,
+           {std::hypot(found.sigma.sigma_m, track->systematic_m), found.sigma.sigma_rad}});
     }
     if (measured.empty()) {
-      const PoseAt found = pose_at(made.merged, time, options.limits);
-      made.poses.push_back(found.pose);
-      made.kinds.push_back(found.kind);
+      const PoseAt found = together.at(time);
+      add({found.pose, found.sigma}, found.kind);
       continue;
     }
     note_disagreement(measured, time, made);
-    made.poses.push_back(fused(measured));
-    made.kinds.push_back(CycleKind::Measured);
+    add(fused(measured), CycleKind::Measured);
   }
   return made;
 }

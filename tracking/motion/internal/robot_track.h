@@ -13,6 +13,7 @@ namespace swarmsmith {
 struct RobotTrack {
   std::vector<Pose> poses;        ///< cycle 0, which is the start, and all cycles
   std::vector<CycleKind> kinds;   ///< the same
+  std::vector<Scatter> sigmas;    ///< the same, systematic parts included
   std::vector<TimedPose> merged;  ///< samples of all cameras that were used, by time
   /// Neighbours in one camera's track of which the second cannot be reached from the first.
   std::vector<std::pair<TimedPose, TimedPose>> breaks;
@@ -26,8 +27,8 @@ struct RobotTrack {
 inline constexpr double kDisagree_m = 0.010;
 
 /// Each camera's samples are brought to the instants on their own; what cameras measured is then
-/// fused, weighted by the inverse squares of their sigmas. Only where none measured, the samples of
-/// all cameras together bridge the gap. There must be a used sample.
+/// fused, weighted by the inverse squares of the sigmas that it has there. Only where none
+/// measured, the samples of all cameras together bridge the gap. There must be a used sample.
 RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
                     std::span<const TrackedCamera> cameras, const TrackOptions& options);
 

@@ -13,6 +13,7 @@ extern "C" {
 #include <cstring>
 #include <system_error>
 
+#include "base/output_file.h"
 #include "tracking/rig/issue.h"
 
 namespace swarmsmith::av {
@@ -99,13 +100,20 @@ ByteStream::~ByteStream() = default;
 
 Expected<ByteStream> ByteStream::reading(const std::string& path) {
   auto state = std::make_unique<State>();
-  state->file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   struct stat about {};
+  if (::stat(path.c_str(), &about) == 0 && !S_ISREG(about.st_mode) && !S_ISDIR(about.st_mode)) {
+    return Unexpected(error_of(IssueCode::VideoUnreadable,
+                               "is a pipe or a device, and a video is read more than once; write "
+                               "it to a file first",
+                               path));
+  }
+  state->file = ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
   if (state->file < 0 || ::fstat(state->file, &about) != 0) {
     return Unexpected(error_of(IssueCode::VideoUnreadable,
                                "cannot be opened: " + std::generic_category().message(errno),
                                path));
   }
+  note_input(path);
   state->size = about.st_size;
   state->make_io(false);
   return ByteStream(std::move(state));

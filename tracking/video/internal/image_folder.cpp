@@ -128,7 +128,10 @@ class ImageFolder final : public FrameSource {
       }
       const auto gray = pictures_.gray(*picture_);
       if (!gray) return unreadable("its pixel format cannot be read", file);
-      frame_ = {.number = number, .time_s = std::nullopt, .gray = *gray, .file = file};
+      frame_ = {.number = number,
+                .time_s = info_.has_times ? time_in_name(file) : std::nullopt,
+                .gray = *gray,
+                .file = file};
       return true;
     }
     return false;
@@ -149,6 +152,8 @@ Expected<std::unique_ptr<FrameSource>> open_files(const std::string& path,
   SourceInfo info;
   info.name = path;
   info.expected_frames = static_cast<std::int64_t>(files.size());
+  info.has_times = std::ranges::all_of(
+      files, [](const std::string& file) { return time_in_name(file).has_value(); });
   // The first one that can be read says how large they are.
   std::optional<Error> first_error;
   for (const std::string& file : files) {
@@ -163,6 +168,27 @@ Expected<std::unique_ptr<FrameSource>> open_files(const std::string& path,
 }
 
 }  // namespace
+
+std::optional<double> time_in_name(const std::string& file) {
+  const std::string stem = fs::path(file).stem().string();
+  constexpr const char* kDigits = "0123456789";
+  for (std::size_t begin = stem.find_first_of(kDigits); begin != std::string::npos;) {
+    const std::size_t end = std::min(stem.find_first_not_of(kDigits, begin), stem.size());
+    const std::string number = stem.substr(begin, end - begin);
+    begin = stem.find_first_of(kDigits, end);
+    // Since 2001; a counter has zeros before it.
+    if (number.front() == '0') continue;
+    if (number.size() == 13) return std::stod(number) * 1e-3;
+    if (number.size() == 16) return std::stod(number) * 1e-6;
+    if (number.size() == 19) return std::stod(number) * 1e-9;
+    if (number.size() != 10) continue;
+    const bool has_more = begin == end + 1;
+    const std::size_t rest = std::min(stem.find_first_not_of(kDigits, end + 1), stem.size());
+    const bool is_part = has_more && (stem[end] == '.' || rest - begin == 9);
+    return std::stod(number) + (is_part ? std::stod("0." + stem.substr(begin, rest - begin)) : 0);
+  }
+  return std::nullopt;
+}
 
 bool is_image_file(const std::string& path) {
   std::error_code ignored;

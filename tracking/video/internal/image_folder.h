@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "tracking/video/frame_source.h"
@@ -15,5 +16,10 @@ Expected<std::unique_ptr<FrameSource>> open_image_folder(const std::string& path
 bool is_image_file(const std::string& path);
 /// A single picture, as a folder of one.
 Expected<std::unique_ptr<FrameSource>> open_image(const std::string& path);
+
+/// The time since 1970, seconds, when a picture's name is one: "1732391823.25.png",
+/// "frame-1732391823250.png" (milliseconds; microseconds and nanoseconds have 16 and 19 digits),
+/// "1732391823-250000000.png" (seconds and nanoseconds, as ROS has them).
+std::optional<double> time_in_name(const std::string& file);
 
 }  // namespace swarmsmith

@@ -1,0 +1,179 @@
+#include "base/output_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <fstream>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <tuple>
+#include <utility>
+
+namespace swarmsmith {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Device, inode and when it was made: an inode's number is given again.
+using Identity = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::int64_t, std::uint32_t>;
+
+struct Inputs {
+  std::mutex mutex;
+  std::set<Identity> files;
+};
+
+Inputs& inputs() {
+  static Inputs known;
+  return known;
+}
+
+/// Of a plain file; links are followed.
+std::optional<Identity> identity_of(const fs::path& file) {
+  struct statx status {};
+  constexpr unsigned kWanted = STATX_TYPE | STATX_INO | STATX_BTIME;
+  if (::statx(AT_FDCWD, file.c_str(), 0, kWanted, &status) != 0 || !S_ISREG(status.stx_mode)) {
+    return std::nullopt;
+  }
+  return Identity{status.stx_dev_major, status.stx_dev_minor, status.stx_ino,
+                  status.stx_btime.tv_sec, status.stx_btime.tv_nsec};
+}
+
+bool is_input(const fs::path& file) {
+  const std::optional<Identity> identity = identity_of(file);
+  if (!identity) return false;
+  const std::scoped_lock lock(inputs().mutex);
+  return inputs().files.contains(*identity);
+}
+
+std::string beginning_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes(4096, '\0');
+  stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+  bytes.resize(static_cast<std::size_t>(stream.gcount()));
+  return bytes;
+}
+
+/// The first line that says something: neither empty nor a comment.
+std::string_view first_line(std::string_view text) {
+  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
+  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
+  while (!text.empty()) {
+    const std::size_t end = text.find('\n');
+    std::string_view line = text.substr(0, end);
+    text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+    while (!line.empty() && (line.back() == '\r' || line.back() == ' ' || line.back() == '\t'))
+      line.remove_suffix(1);
+    if (!line.empty() && line.front() != '#') return line;
+  }
+  return {};
+}
+
+bool is_name(std::string_view text) {
+  return !text.empty() && std::ranges::all_of(text, [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-' || c == '.' || c == '"' || c == ' ';
+  });
+}
+
+bool is_toml(std::string_view line) {
+  if (line.starts_with('[')) {
+    const std::size_t end = line.find(']');
+    const std::size_t begin = line.find_first_not_of('[');
+    return end != std::string_view::npos && begin < end &&
+           is_name(line.substr(begin, end - begin)) &&
+           std::isdigit(static_cast<unsigned char>(line[begin])) == 0;
+  }
+  return is_name(line.substr(0, line.find('='))) && line.find('=') != std::string_view::npos &&
+         !line.starts_with("--");
+}
+
+/// What a link leads to, though nothing is there yet.
+fs::path followed(fs::path file) {
+  constexpr int kMostLinks = 40;
+  std::error_code failed;
+  for (int i = 0; i < kMostLinks && fs::is_symlink(fs::symlink_status(file, failed)); ++i) {
+    const fs::path target = fs::read_symlink(file, failed);
+    if (failed) break;
+    file = target.is_absolute() ? target : file.parent_path() / target;
+  }
+  return file;
+}
+
+}  // namespace
+
+void note_input(const fs::path& file) {
+  const std::optional<Identity> identity = identity_of(file);
+  if (!identity) return;
+  const std::scoped_lock lock(inputs().mutex);
+  inputs().files.insert(*identity);
+}
+
+void forget_input(const fs::path& file) {
+  const std::optional<Identity> identity = identity_of(file);
+  if (!identity) return;
+  const std::scoped_lock lock(inputs().mutex);
+  inputs().files.erase(*identity);
+}
+
+FileKind kind_of(std::string_view beginning) {
+  using namespace std::string_view_literals;
+  constexpr std::array<std::pair<std::string_view, FileKind>, 8> kSignatures{
+      {{"SQLite format 3\0"sv, FileKind::Store},
+       {"\x1a\x45\xdf\xa3"sv, FileKind::Video},
+       {"RIFF"sv, FileKind::Video},
+       {"\x89PNG"sv, FileKind::Picture},
+       {"\xff\xd8\xff"sv, FileKind::Picture},
+       {"%PDF"sv, FileKind::Pdf},
+       {"{"sv, FileKind::Json},
+       {"[{"sv, FileKind::Json}}};
+  for (const auto& [signature, kind] : kSignatures) {
+    if (beginning.starts_with(signature)) return kind;
+  }
+  if (beginning.size() > 8 && beginning.substr(4, 4) == "ftyp") return FileKind::Video;
+  std::string lower(beginning.substr(0, 1000));
+  std::ranges::transform(lower, lower.begin(),
+                         [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (lower.find("<html") != std::string::npos || lower.starts_with("<!doctype html"))
+    return FileKind::WebPage;
+  if (lower.find("<svg") != std::string::npos) return FileKind::Svg;
+  const std::string_view line = first_line(beginning);
+  if (is_toml(line)) return FileKind::Toml;
+  const bool is_table = line.find(',') != std::string_view::npos && !line.starts_with("--") &&
+                        line.find('\\') == std::string_view::npos &&
+                        line.find('(') == std::string_view::npos;
+  return is_table ? FileKind::Table : FileKind::Text;
+}
+
+std::string_view name_of(FileKind kind) {
+  constexpr std::array<std::string_view, 10> kNames{
+      "a store",    "a video", "a picture",   "a PDF file",    "an SVG picture",
+      "a web page", "JSON",    "a TOML file", "a table (CSV)", "a text"};
+  return kNames.at(static_cast<std::size_t>(kind));
+}
+
+Expected<fs::path> output_place(const fs::path& file, FileKind kind) {
+  fs::path place = followed(file);
+  const std::optional<Identity> there = identity_of(place);
+  if (!there) return place;
+  if (is_input(place)) {
+    return bad_input("is what this command reads, and would be lost; name another file to write",
+                     file.string());
+  }
+  const std::string beginning = beginning_of(place);
+  if (beginning.empty()) return place;
+  const FileKind is = kind_of(beginning);
+  if (is != kind) {
+    return bad_input("is there already and is " + std::string(name_of(is)) + ", not " +
+                         std::string(name_of(kind)) +
+                         "; name another file to write, or remove this one first",
+                     file.string());
+  }
+  return place;
+}
+
+}  // namespace swarmsmith
