@@ -95,7 +95,14 @@ Expected<ParameterSpace> ParameterSpace::make(std::vector<Parameter> parameters,
       return Unexpected(bound.error());
     }
     if (auto checked = irace::check_parameter(parameter, digits); !checked) {
-      return Unexpected(checked.error());
+      Error error = checked.error();
+      const std::string all =
+          "digits = " + std::to_string(irace::digits_needed(parameters, digits));
+      const bool is_of_digits = error.message.find("it needs digits") != std::string::npos;
+      if (is_of_digits && !error.message.ends_with(all)) {
+        error.message += ", and another bound " + all;
+      }
+      return Unexpected(std::move(error));
     }
     space.intervals_.push_back(irace::constant_interval(parameter.domain));
     std::vector<Scalar>& choices = space.choices_.emplace_back();

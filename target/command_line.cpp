@@ -39,8 +39,8 @@ std::string bound_of(const RunnerCall& call) {
 
 std::string aclib_arguments(const RunnerCall& call) {
   const std::string bound = bound_of(call);
-  return "--instance " + call.instance + " --seed " + std::to_string(call.seed) +
-         (bound.empty() ? "" : " --cutoff " + bound) + " --config " + call.switches;
+  return (bound.empty() ? "" : "--cutoff " + bound + " ") + "--instance " + call.instance +
+         " --seed " + std::to_string(call.seed) + " --config " + call.switches;
 }
 
 bool has(std::string_view text, std::string_view part) {

@@ -64,7 +64,7 @@ Campaign campaign_of(const IraceSetup& setup, std::uint64_t seed) {
   campaign.test_iteration_elites = setup.test_iteration_elites;
   campaign.store = setup.log_file;
   if (setup.parallel) campaign.local_workers = std::max<std::int64_t>(1, *setup.parallel);
-  campaign.stop_on_failure = true;
+  campaign.stop_on_failure = !setup.rejects_failures;
   return campaign;
 }
 

@@ -13,13 +13,15 @@ namespace swarmsmith {
 CandidateText text_of(const Machine& machine, const Flavour& flavour) {
   return {.parameters = "{}",
           .machine = print_machine(machine, flavour),
+          .call = print_machine(machine, flavour),
           .modules = modules_json(machine),
           .states = static_cast<std::int64_t>(machine.states.size()),
           .transitions = transition_count(machine)};
 }
 
-Expected<MethodSpace> MethodSpace::make(const Method& method, int digits) {
+Expected<MethodSpace> MethodSpace::make(const Method& method, int digits, bool aclib) {
   MethodSpace made;
+  made.aclib_ = aclib;
   if (method.parameters.empty()) {
     auto flavour = find_flavour(method.flavour);
     if (!flavour) return Unexpected(flavour.error());
@@ -50,6 +52,7 @@ CandidateText MethodSpace::text_of(const Configuration& configuration) const {
     text = swarmsmith::text_of(machines_->to_machine(configuration), *flavour_);
   } else {
     text.machine = command_line_text(*parameters_, configuration);
+    text.call = aclib_ ? aclib_text(*parameters_, configuration) : text.machine;
     text.modules = "{}";
   }
   text.parameters = parameters_json(parameters(), configuration);

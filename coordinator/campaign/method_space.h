@@ -16,9 +16,10 @@ namespace swarmsmith {
 /// that is kept as long as its configurations mean something.
 class MethodSpace {
  public:
-  /// `digits`: decimals of the reals of machines; a parameter file has its own. Errors of a
-  /// parameter or configurations file have line and column in `where`.
-  static Expected<MethodSpace> make(const Method& method, int digits);
+  /// `digits`: decimals of the reals of machines; a parameter file has its own. `aclib`: programs
+  /// are called by AClib's convention. Errors of a parameter or configurations file have line and
+  /// column in `where`.
+  static Expected<MethodSpace> make(const Method& method, int digits, bool aclib = false);
 
   const ParameterSpace& parameters() const;
   /// The configurations that the first race begins with.
@@ -34,6 +35,7 @@ class MethodSpace {
   std::optional<MachineSpace> machines_;
   const Flavour* flavour_ = nullptr;
   std::optional<ParameterSpace> parameters_;
+  bool aclib_ = false;
   std::vector<Configuration> initial_;
 };
 

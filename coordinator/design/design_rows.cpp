@@ -66,7 +66,7 @@ void DesignRunner::record_candidate(const ConfigurationSampled& sampled, std::ve
   totals_.resize(static_cast<std::size_t>(sampled.id));
   if (plan_.scenario.target_evaluator) judged_.resize(totals_.size());
   CandidateText text = plan_.describe(sampled.configuration);
-  machines_[sampled.id] = text.machine;
+  calls_of_[sampled.id] = text.call;
   alive_.insert(sampled.id);
   record(CandidateRow{.id = candidate(sampled.id),
                       .iteration = sampled.iteration,
@@ -269,7 +269,7 @@ void DesignRunner::record_iteration_end(const IterationEnded& ended, std::vector
 
 /// What a race needs is kept of the elites alone: memory does not grow with the budget.
 void DesignRunner::forget_losers() {
-  std::erase_if(machines_, [&](const auto& known) { return !alive_.contains(known.first); });
+  std::erase_if(calls_of_, [&](const auto& known) { return !alive_.contains(known.first); });
   passed_ = PassedCandidates{.design = id(),
                              .before = candidate(static_cast<std::int64_t>(totals_.size()) + 1)};
   for (const std::int64_t number : alive_)

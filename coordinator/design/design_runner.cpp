@@ -211,15 +211,15 @@ Task DesignRunner::task_of(const EvaluationKey& key, const Experiment& experimen
           .method = plan_.method,
           .instance = experiment.instance,
           .seed = experiment.seed,
-          .machine = machine_of(experiment.configuration),
+          .machine = call_of(experiment.configuration),
           .bound = experiment.bound};
 }
 
 /// The last race and the tests take candidates from anywhere.
-std::string DesignRunner::machine_of(std::int64_t number) const {
-  const auto known = machines_.find(number);
-  return known != machines_.end() ? known->second
-                                  : plan_.describe(race_->configuration(number)).machine;
+std::string DesignRunner::call_of(std::int64_t number) const {
+  const auto known = calls_of_.find(number);
+  return known != calls_of_.end() ? known->second
+                                  : plan_.describe(race_->configuration(number)).call;
 }
 
 void DesignRunner::put(std::size_t position, const StoredScore& score) {

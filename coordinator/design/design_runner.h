@@ -179,7 +179,7 @@ class DesignRunner {
   void want(std::size_t position, const EvaluationKey& key, const Experiment& experiment,
             std::vector<Task>& tasks, std::vector<Row>& rows);
   Task task_of(const EvaluationKey& key, const Experiment& experiment) const;
-  std::string machine_of(std::int64_t number) const;
+  std::string call_of(std::int64_t number) const;
   /// What is stored under the key of this purpose and was not asked for.
   std::unordered_map<std::uint64_t, StoredScore>& known(Purpose purpose);
   void put(std::size_t position, const StoredScore& score);
@@ -261,8 +261,9 @@ class DesignRunner {
   std::vector<std::int64_t> testing_;  ///< numbers of those who are tested
   std::optional<Error> fault_;         ///< of the store, found while the race was played again
 
-  std::map<std::int64_t, std::string> machines_;  ///< by number, of those in the race
-  std::vector<Totals> totals_;                    ///< by candidate number - 1
+  std::map<std::int64_t, std::string>
+      calls_of_;                ///< texts for workers, by number, of those in the race
+  std::vector<Totals> totals_;  ///< by candidate number - 1
   /// By candidate number - 1, score by pair: what a targetEvaluator said last. Else empty.
   std::vector<std::map<std::int64_t, double>> judged_;
   std::vector<std::vector<std::int64_t>> elites_;  ///< of each iteration, best first

@@ -69,7 +69,8 @@ Expected<DesignPlan> plan_of(const Campaign& campaign, const DesignRow& row, std
 Expected<std::vector<DesignPlan>> plans_of(const Campaign& campaign) {
   std::vector<SharedSpace> spaces;
   for (const Method& method : campaign.methods) {
-    auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
+    auto space = MethodSpace::make(method, static_cast<int>(campaign.digits),
+                                   campaign.target && campaign.target->aclib);
     if (!space) return Unexpected(space.error());
     spaces.push_back(std::make_shared<const MethodSpace>(std::move(*space)));
   }

@@ -18,4 +18,15 @@ std::string command_line_text(const ParameterSpace& space, const Configuration& 
   return text;
 }
 
+std::string aclib_text(const ParameterSpace& space, const Configuration& configuration) {
+  std::string text;
+  for (std::size_t i = 0; i < space.size(); ++i) {
+    if (!configuration.is_active(i)) continue;
+    const std::string value = space.is_numeric(i) ? to_text(Scalar::real(configuration[i]))
+                                                  : space.scalar(i, configuration[i]).text;
+    text += (text.empty() ? "-" : " -") + space[i].switch_text + " " + value;
+  }
+  return text;
+}
+
 }  // namespace swarmsmith

@@ -27,7 +27,9 @@ struct IraceSetup {
   std::string configurations_text;
   std::vector<Configuration> initial;
 
-  std::vector<std::string> training;  ///< instances, as they reach the target-runner
+  std::vector<std::string> training;      ///< instances, as they reach the target-runner
+  std::filesystem::path training_folder;  ///< where they came from, as far as options say it
+  std::filesystem::path training_file;
   std::vector<std::string> test;
 
   std::filesystem::path exec_dir;
@@ -40,7 +42,8 @@ struct IraceSetup {
   std::int64_t target_runner_retries = 0;
   std::int64_t target_runner_timeout = 0;
   bool aclib = false;
-  std::string batchmode = "0";  ///< "0", "sge", "pbs", "torque", "slurm", "htcondor"
+  bool rejects_failures = false;  ///< --on-failure reject
+  std::string batchmode = "0";    ///< "0", "sge", "pbs", "torque", "slurm", "htcondor"
 
   std::filesystem::path log_file;  ///< irace's; empty for none
   /// The file of --store, else the log file with `.db` in place of `.Rdata`; empty: nothing is

@@ -169,6 +169,15 @@ Expected<Parameter> Builder::read_parameter(const ParameterLine& line) {
       sources_.refuse_doubled_operators ? ExpressionUse::Value : ExpressionUse::Forbidden;
   auto condition = irace::read_expression(line.condition, file_, names_, use, warnings_);
   if (!condition) return Unexpected(condition.error());
+  if (condition->operands().empty() && condition->name().empty()) {
+    const Values value = condition->evaluate({});
+    if (value.type() != Scalar::Type::Logical) {
+      return bad_input("the condition of '" + line.name.text + "' is " + to_text(value[0]) +
+                           ", which is neither TRUE nor FALSE; write a comparison, such as "
+                           "algorithm == \"as\"",
+                       file_ + ":" + r::to_string(line.condition.place));
+    }
+  }
   parameter.condition = std::move(*condition);
   return parameter;
 }

@@ -45,7 +45,7 @@ class Printer {
     line("logFile", setup_.log_file.string());
     line("parameterFile", names_.parameters);
     // irace 3.5 would put ./Instances before every instance.
-    line("trainInstancesDir", std::string());
+    line("trainInstancesDir", names_.training_folder);
     line("trainInstancesFile", names_.training);
     if (!names_.test.empty()) line("testInstancesFile", names_.test);
     if (!names_.configurations.empty()) line("configurationsFile", names_.configurations);

@@ -14,6 +14,7 @@ enum class IraceVersion { V3_5, V4 };
 struct IraceFileNames {
   std::string parameters = "parameters.txt";
   std::string training = "instances-list.txt";
+  std::string training_folder{};  ///< in place of the file
   std::string test;
   std::string configurations;
   std::string forbidden;  ///< only irace 3.5 has it in a file of its own

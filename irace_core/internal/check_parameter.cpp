@@ -134,6 +134,19 @@ Expected<void> check_numeric(const Numeric& domain, bool whole, int digits,
 
 }  // namespace
 
+int digits_needed(std::span<const Parameter> parameters, int digits) {
+  for (const Parameter& parameter : parameters) {
+    const auto* real = std::get_if<Real>(&parameter.domain);
+    if (real == nullptr) continue;
+    for (const Bound* bound : {&real->lower, &real->upper}) {
+      const double* value = std::get_if<double>(bound);
+      while (value != nullptr && std::isfinite(*value) && !fits_digits(*value, digits))
+        ++digits;
+    }
+  }
+  return digits;
+}
+
 bool fits_digits(double bound, int digits) {
   if (digits >= 15 || bound == 0) return true;
   double smallest = 1;

@@ -29,6 +29,8 @@ Expected<void> bind_parameter(Parameter& parameter, std::span<const std::string>
 /// Whether a constant bound of a real survives rounding to that many digits, and does not vanish
 /// (irace facts, 23.2).
 bool fits_digits(double bound, int digits);
+/// How many the constant bounds of all reals need, `digits` at least.
+int digits_needed(std::span<const Parameter> parameters, int digits);
 
 /// What can be said of a bound parameter alone: its name, its values or its constant bounds.
 Expected<void> check_parameter(const Parameter& parameter, int digits);

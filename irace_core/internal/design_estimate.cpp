@@ -26,8 +26,8 @@ Expected<void> IteratedRace::State::begin_estimate() {
 }
 
 void IteratedRace::State::lower_bound_max(double bound) {
-  warn("bound_max is lowered from " + to_fixed_text(bound_max_) + " to " + to_fixed_text(bound) +
-       ": the runs so far, and the time, say that it is much too large");
+  warn("the bound of runs is lowered from " + to_fixed_text(bound_max_) + " to " +
+       to_fixed_text(bound) + ": the runs so far, and the time, say that it is much too large");
   bound_max_ = bound;
 }
 

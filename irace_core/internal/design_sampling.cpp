@@ -41,6 +41,12 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::first_contestants(const
   for (std::int64_t id = 1; id <= initial_count_ && ids.size() < most; ++id) {
     if (candidate(id).takes_part && candidate(id).results.empty()) ids.push_back(id);
   }
+  const auto given = std::ranges::count_if(
+      ids, [&](std::int64_t id) { return id <= initial_count_ && candidate(id).results.empty(); });
+  if (ids.size() == most && given < initial_count_ && elites.empty()) {
+    warn("only " + std::to_string(given) + " of the " + std::to_string(initial_count_) +
+         " initial configurations take part: the first race has no place for more");
+  }
   if (ids.size() < most) {
     const auto missing = static_cast<std::int64_t>(most - ids.size());
     auto sampled = sample_initial(missing, plan.iteration);

@@ -74,6 +74,11 @@ Expected<void> IteratedRace::State::begin() {
     warn("the first configurations are uniform draws: there are Sobol points for " +
          std::to_string(irace::SobolSequence::most_dimensions()) + " parameters at most");
   }
+  const std::int64_t pairs = scenario.first_test * scenario.block_size;
+  if (scenario.mu < pairs && scenario.mu != Scenario{}.mu) {
+    warn("mu is " + std::to_string(pairs) + " in place of " + std::to_string(scenario.mu) +
+         ": it cannot be less than the pairs before the first test");
+  }
   if (time) return begin_estimate();
   const std::int64_t least = schedule_.minimum_budget();
   if (budget() < least) {
@@ -93,10 +98,11 @@ Expected<std::vector<Measurement>> IteratedRace::State::raised_times(
   for (std::size_t i = 0; i < raised.size(); ++i) {
     double& took = raised[i].time;
     if (time && !wanted[i].is_evaluation && !(took > 0 && std::isfinite(took))) {
-      return bad_input("the run of configuration " + std::to_string(wanted[i].configuration) +
-                       " on pair " + std::to_string(wanted[i].pair) +
-                       " came without its time, which max_time needs: the target must give the "
-                       "cost and the time of each run");
+      return bad_input(
+          "the run of configuration " + std::to_string(wanted[i].configuration) + " on pair " +
+          std::to_string(wanted[i].pair) +
+          " came without its time, which a budget of time needs: the target must give the "
+          "cost and the time of each run");
     }
     if (took > 0) took = std::max(took, scenario.min_measurable_time);
   }
@@ -181,8 +187,7 @@ Expected<void> IteratedRace::State::begin_race() {
 Expected<void> IteratedRace::State::may_be_extended() const {
   SWARMSMITH_ASSERT(finished, "an extension follows the end");
   if (time) {
-    return bad_input("its budget is time (max_time), and an extension is in experiments",
-                     "max_time");
+    return bad_input("its budget is time, and an extension is in experiments", "max_time");
   }
   if (failure) return bad_input("there is nothing to go on from: " + to_string(*failure));
   return {};

@@ -322,6 +322,15 @@ class Failures(Irace):
         self.assertLess(time.monotonic() - began, 60)
         self.assertRegex(errors, r"1 s")
 
+    def test_failures_reject_their_configuration_when_asked_for(self):
+        self.write_runner("if [ $x -gt 60 ]; then exit 3; fi; echo $cost")
+        self.assertIn("stop or reject", self.irace("--on-failure", "drop", code=1).stderr)
+        done = self.irace("--on-failure", "reject")
+        self.assertTrue(self.best_lines(done.stdout))
+        self.assert_clean()
+        rejected = self.query("SELECT count(*) AS n FROM v_evaluations WHERE status = 'rejected'")
+        self.assertGreater(rejected[0]["n"], 0)
+
     def test_a_failed_call_is_repeated_when_asked_for(self):
         self.write_runner('if [ $(wc -l < calls.txt) -eq 30 ]; then exit 1; fi; echo $cost')
         self.irace("--target-runner-retries", "1", "--parallel", "1")
@@ -448,6 +457,57 @@ class Variants(Irace):
         text = self.runs(maxExperiments=0, maxTime=2000, boundMax=8, capping=1)
         self.assertIn("|   Bound|", text)
         self.assertIn("# capping: median", text)
+
+    def test_one_with_a_budget_of_time_goes_on_with_any_number_of_runs_at_a_time(self):
+        self.write_runner("echo $cost $(( 1 + cost % 7 ))")
+        self.write_scenario(maxExperiments=0, maxTime=1500)
+        whole = self.irace("--parallel", "3", "--log-file=whole.db")
+        self.write_runner('if [ $(wc -l < calls.txt) -gt 480 ]; then exit 3; fi; '
+                          "echo $cost $(( 1 + cost % 7 ))")
+        self.irace("--parallel", "3", code=1)
+        self.write_runner("echo $cost $(( 1 + cost % 7 ))")
+        done = self.irace("--parallel", "1")
+        self.assertIn("begun with --parallel 3", done.stderr)
+        self.assertEqual(self.best_lines(done.stdout), self.best_lines(whole.stdout))
+        self.assertEqual(self.digest(), self.digest("whole.db"))
+
+    def test_wrappers_of_aclib_are_called_as_irace_calls_them(self):
+        (self.folder / "parameters.txt").write_text(
+            'x "x" i (0, 100)\nalg "alg" c (as, mmas)\ny "y" r (0.00001, 1) | alg == "mmas"\n')
+        self.write_program("target-runner", """\
+#!/bin/sh
+echo "$*" >> calls.txt
+x=0
+while [ "$1" != --config ]; do shift; done
+shift
+while [ $# -gt 0 ]; do
+  case $1 in
+    -x) x=$2 ;;
+    -alg | -y) ;;
+    *) exit 3 ;;
+  esac
+  shift 2
+done
+echo "some words of the wrapper"
+echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(( (x - 30) * (x - 30) )), \\"runtime\\": 1.5}"
+""")
+        text = self.runs(aclib=1)
+        for line in self.calls():
+            self.assertRegex(line, r"^--instance \S+ --seed \d+ --config -x \d+ -alg (as|mmas -y \S+)$")
+        # The report has the configurations as R's has them: switches and values without a blank.
+        self.assertRegex(self.best_lines(text)[0], r"^\d+ +x(2[5-9]|3[0-5]) alg")
+
+    def test_more_initial_configurations_than_a_race_has_room_for(self):
+        rows = "".join(f"{x} slow NA\n" for x in range(60))
+        (self.folder / "first.txt").write_text("x mode y\n" + rows)
+        self.write_scenario(configurationsFile="first.txt")
+        self.assertRegex(self.irace().stdout, r"only \d+ of the 60 initial configurations take part")
+
+    def test_a_larger_budget_is_an_extension(self):
+        self.runs()
+        refused = self.irace("--max-experiments", "240", code=1)
+        self.assertIn("`swarmsmith extend", refused.stderr)
+        self.assertIn("--budget 60`", refused.stderr)
 
     def test_a_target_evaluator(self):
         self.write_runner("echo $cost > cost-$id-$seed; echo 1")

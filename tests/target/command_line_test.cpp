@@ -60,7 +60,7 @@ TEST(CommandLine, SpeaksToAclib) {
   RunnerCall call = some_call();
   call.bound = 10;
   EXPECT_EQ(arguments_of(target, call).substr(0, 56),
-            "--instance inst/a.tsp --seed 734718556 --cutoff 10 --con");
+            "--cutoff 10 --instance inst/a.tsp --seed 734718556 --con");
 }
 
 TEST(CommandLine, TellsAnEvaluatorWhoIsAlive) {

@@ -95,7 +95,8 @@ ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& c
   const CampaignMission& mission = campaign.missions.front();
   const auto configurations = contestants(setup, race_on(campaign, mission));
   if (!configurations) return fail(output, ExitCode::Failed, configurations.error());
-  const auto space = MethodSpace::make(campaign.methods.front(), static_cast<int>(campaign.digits));
+  const auto space = MethodSpace::make(campaign.methods.front(), static_cast<int>(campaign.digits),
+                                       campaign.target->aclib);
   if (!space) return fail(output, ExitCode::Failed, space.error());
   output.out << fmt::format("# {}: Checking the target: {} calls\n", irace_date(),
                             configurations->size());
@@ -110,7 +111,7 @@ ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& c
                                   .seed = kSeed,
                                   .instance = instance,
                                   .bound = campaign.race.bound_max,
-                                  .switches = space->text_of(configuration).machine});
+                                  .switches = space->text_of(configuration).call});
     if (!works) ++failed;
   }
   if (!campaign.target->evaluator.empty() && failed == 0) {

@@ -93,10 +93,12 @@ std::string instances_text(const std::string& what, const std::vector<std::strin
 ExitCode check(Output& output, const IraceSetup& setup) {
   const Campaign campaign = campaign_of(setup, setup.seed.value_or(1));
   const IraceFileNames names{.parameters = setup.parameter_file.string(),
-                             .training = "",
+                             .training = setup.training_file.string(),
+                             .training_folder = setup.training_folder.string(),
                              .configurations = setup.configurations_file.string()};
   output.out << "# " << irace_date() << ": Checking scenario\n## irace scenario:\n"
              << print_irace_scenario(setup, IraceVersion::V4, names).text
+             << (uses_capping(setup.race) ? "# capping is on\n" : "# capping is off\n")
              << instances_text("training", setup.training) << instances_text("test", setup.test)
              << "## end of irace scenario\n## parameters:\n"
              << setup.parameter_text << "## end of parameters\n";
@@ -106,6 +108,14 @@ ExitCode check(Output& output, const IraceSetup& setup) {
 ExitCode carry_out(Output& output, const IraceCommandLine& line) {
   auto setup = read_irace_setup(line, surroundings_of_process());
   if (!setup) return complain(output, setup.error());
+  if (const auto action = line.settings.text("--on-failure")) {
+    if (*action != "stop" && *action != "reject") {
+      return fail(
+          output, ExitCode::Failed,
+          {ErrorKind::BadInput, "is stop or reject, found \"" + *action + "\"", "--on-failure"});
+    }
+    setup->rejects_failures = *action == "reject";
+  }
   output.quiet = setup->quiet;
   for (const std::string& warning : setup->warnings)
     print_note(output, "warning: " + warning);

@@ -7,6 +7,7 @@
 #include <random>
 #include <utility>
 
+#include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/irace_campaign.h"
 #include "coordinator/campaign/method_space.h"
@@ -52,6 +53,7 @@ class ScenarioRun {
         place_(store),
         campaign_(campaign_of(setup, seed_of(setup, store))) {
     campaign_.store = store.file();
+    if (campaign_.race.max_time > 0) keep_parallel();
   }
 
   ExitCode run(const RunOptions& options) {
@@ -69,10 +71,51 @@ class ScenarioRun {
         return fail(output_, ExitCode::Failed, told.error());
     }
     const ExitCode ended = carry_out(output_, {campaign_}, options, teller).front();
+    const std::int64_t more = ended == ExitCode::Store && !begins ? experiments_more() : 0;
+    if (more > 0) {
+      output_.err << fmt::format(
+          "It was made with maxExperiments = {}. To go on with more: `swarmsmith extend {} d1 "
+          "--budget {}`, then this command with the old number.\n",
+          campaign_.race.max_experiments - more, place_.file().string(), more);
+    }
     return ended == ExitCode::Done ? report() : explain_end(output_, ended, begins);
   }
 
  private:
+  /// With a budget of time the first estimate depends on how many runs are made at a time: one that
+  /// goes on keeps the number that it began with, whatever this machine has.
+  void keep_parallel() {
+    const std::optional<Campaign> stored = stored_campaign();
+    if (!stored || stored->race.max_time <= 0) return;
+    if (stored->race.parallel != campaign_.race.parallel) {
+      print_note(output_, fmt::format("the store was begun with --parallel {}, which its budget of "
+                                      "time keeps; runs are made {} at a time now",
+                                      stored->race.parallel, setup_.parallel.value_or(1)));
+    }
+    campaign_.race.parallel = stored->race.parallel;
+  }
+
+  /// What the store was made with, whether it is this run's or not.
+  std::optional<Campaign> stored_campaign() const {
+    std::error_code trouble;
+    if (!std::filesystem::exists(place_.file(), trouble)) return std::nullopt;
+    const auto store = StoreReader::open(place_.file());
+    if (!store) return std::nullopt;
+    auto campaign = parse_campaign((*store)->campaign().file, place_.file());
+    if (!campaign) return std::nullopt;
+    return std::move(*campaign);
+  }
+
+  /// How many experiments more are asked for than the store was made with, when that is all that
+  /// differs: there is a command for it.
+  std::int64_t experiments_more() const {
+    std::optional<Campaign> stored = stored_campaign();
+    if (!stored) return 0;
+    const std::int64_t more = campaign_.race.max_experiments - stored->race.max_experiments;
+    stored->race.max_experiments = campaign_.race.max_experiments;
+    return campaign_digest(*stored) == campaign_digest(campaign_) ? more : 0;
+  }
+
   Expected<IraceConsole> make_console() {
     const auto race = IteratedRace::start(setup_.space, race_, setup_.initial);
     if (!race) return Unexpected(race.error());

@@ -70,6 +70,8 @@ void read_training(SetupWork& work) {
   const std::size_t complaints = work.errors.size();
   std::vector<std::string>& training = work.setup.training;
   training = instances_of(work, kTraining);
+  work.setup.training_folder = path_of(work, kTraining.folder);
+  work.setup.training_file = path_of(work, kTraining.file);
   if (training.empty() && work.errors.size() == complaints) {
     const bool was_said = work.settings.find(kTraining.folder) != nullptr;
     const fs::path folder = was_said ? fs::path() : old_folder(work);

@@ -35,6 +35,8 @@ bool read_space(SetupWork& work) {
     if (*digits < 1 || *digits > 15) work.complain("digits", "must be 1 to 15");
     sources.digits = static_cast<int>(*digits);
   }
+  // As irace does, whatever digits says.
+  if (work.settings.is_on("aclib")) sources.digits = 15;
   sources.forbidden = text_of(work, "forbiddenFile");
   sources.dependency = text_of(work, "dependencyFile");
   auto parameters = text_of(work, "parameterFile", work.setup.parameter_file);

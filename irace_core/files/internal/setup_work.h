@@ -27,12 +27,23 @@ struct SetupWork {
     const IraceSetting* setting = settings.find(option);
     return setting == nullptr ? std::string(option) : setting->where;
   }
-  void complain(std::string_view option, std::string message) {
-    errors.push_back({ErrorKind::BadInput, std::move(message), where(option)});
+  void complain(std::string_view option, const std::string& message) {
+    errors.push_back({ErrorKind::BadInput, named(option, message), where(option)});
   }
   /// An error whose own place, if it has one, is in a file.
   void complain(std::string_view option, const Error& error) {
-    errors.push_back(error.where.empty() ? Error{error.kind, error.message, where(option)} : error);
+    errors.push_back(error.where.empty()
+                         ? Error{error.kind, named(option, error.message), where(option)}
+                         : error);
+  }
+  /// A place in a file does not say which option is meant.
+  std::string named(std::string_view option, const std::string& message) const {
+    const bool is_said =
+        message.find(option) != std::string::npos || where(option).find(':') == std::string::npos;
+    if (is_said) return message;
+    const bool goes_on = message.starts_with("must ") || message.starts_with("needs ") ||
+                         message.starts_with("uses ") || message.starts_with("stands ");
+    return "`" + std::string(option) + (goes_on ? "` " : "`: ") + message;
   }
   void warn(std::string message) { setup.warnings.push_back(std::move(message)); }
 };

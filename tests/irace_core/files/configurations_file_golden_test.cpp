@@ -3,6 +3,9 @@
 
 #include <map>
 
+#include <sstream>
+#include <string>
+
 #include "irace_core/files/command_line_text.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/parameter_file.h"
@@ -99,6 +102,41 @@ TEST(CommandLineTextGolden, IsThatOfR) {
     EXPECT_EQ(command_line_text(file->space, configuration), given["line"].get<std::string>());
   }
   EXPECT_GT(cases.size(), 5U);
+}
+
+/// What R wrote is read as numbers, and must come out the same.
+TEST(AclibTextGolden, IsThatOfR) {
+  const auto file = parse_parameter_file(
+      {.parameters = {"cost \"cost\" r (0,1)\nbig \"big\" i (100000,200000)\n"
+                      "tiny \"tiny\" r,log (0.00001,0.1)\nwide \"wide\" r (0,100000000)\n"
+                      "count \"count\" i (1,12)\n[global]\ndigits=15\n",
+                      "p"}});
+  ASSERT_TRUE(file) << to_string(file.error());
+  std::istringstream lines(golden_text("aclib_calls.txt").text);
+  int checked = 0;
+  for (std::string line; std::getline(lines, line);) {
+    if (line.starts_with('#')) continue;
+    Configuration configuration(5);
+    std::istringstream words(line);
+    std::string name;
+    std::string value;
+    for (std::size_t i = 0; words >> name >> value; ++i)
+      configuration.set(i, std::stod(value));
+    EXPECT_EQ(aclib_text(file->space, configuration), line);
+    ++checked;
+  }
+  EXPECT_GE(checked, 10);
+}
+
+TEST(AclibTextGolden, WritesWhatIsActiveAndLargeNumbersAsRDoes) {
+  const auto file =
+      parse_parameter_file({.parameters = {"alg \"alg\" c (a,b)\nbig \"big\" i (1,200000)\n"
+                                           "only \"only\" i (1,3) | alg == \"a\"\n",
+                                           "p"}});
+  Configuration configuration(3);
+  configuration.set(0, 1);
+  configuration.set(1, 100000);
+  EXPECT_EQ(aclib_text(file->space, configuration), "-alg b -big 1e+05");
 }
 
 }  // namespace

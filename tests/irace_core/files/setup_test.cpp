@@ -249,13 +249,14 @@ TEST_F(IraceSetupFiles, EverythingWrongIsReportedTogether) {
         "targetRunner = \"./missing\"\ntargetCmdline = \"{seed} {targetRunnerArgs}\"\n"
         "firstTest = 5\neachTest = 2\nbatchmode = \"slurm\"\n");
   write("parameters.txt", "a \"--a \" r (1, 0)\n");
-  EXPECT_THAT(errors(), ElementsAre(HasSubstr("scenario.txt:2:1: " + path("none.txt")),
-                                    HasSubstr("parameters.txt:1:"),
-                                    HasSubstr("scenario.txt:3:1: there is no such folder"),
-                                    HasSubstr("scenario.txt:4:1: there is no such program"),
-                                    HasSubstr("scenario.txt:8:1: needs `targetEvaluator`"),
-                                    HasSubstr("scenario.txt:5:1: must contain {instance}"),
-                                    "scenario.txt:6:1: must be a multiple of eachTest"));
+  EXPECT_THAT(errors(),
+              ElementsAre(HasSubstr("scenario.txt:2:1: `trainInstancesFile`: " + path("none.txt")),
+                          HasSubstr("parameters.txt:1:"),
+                          HasSubstr("scenario.txt:3:1: `execDir`: there is no such folder"),
+                          HasSubstr("scenario.txt:4:1: `targetRunner`: there is no such program"),
+                          HasSubstr("scenario.txt:8:1: `batchmode` needs `targetEvaluator`"),
+                          HasSubstr("scenario.txt:5:1: `targetCmdline` must contain {instance}"),
+                          "scenario.txt:6:1: `firstTest` must be a multiple of eachTest"));
 }
 
 TEST_F(IraceSetupFiles, AProgramMustBeExecutable) {
