@@ -75,6 +75,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
                      {.rows = limit == 0 ? kAll : limit});
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
   letter_ids(*rows);
+  if (!output.json && is_of_programs(**store)) as_costs(*rows);
   write_rows(output, *rows, output.json ? Form::Json : Form::Text);
   if (rows->truncated) print_note(output, "`--limit 0` shows all");
   return ExitCode::Done;

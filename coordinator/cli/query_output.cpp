@@ -1,8 +1,11 @@
 #include "coordinator/cli/query_output.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdio>
+#include <string_view>
+#include <utility>
 
 #include "base/csv.h"
 #include "base/shown_text.h"
@@ -86,6 +89,47 @@ void letter_ids(Rows& rows) {
     for (auto& cells : rows.cells) {
       Cell& cell = cells[column];
       if (cell.type == Type::Integer) cell = {Type::Text, letter + cell.text};
+    }
+  }
+}
+
+bool is_of_programs(StoreReader& store) {
+  const std::vector<DesignRow> designs = store.designs();
+  return !designs.empty() && std::ranges::all_of(designs, [](const DesignRow& design) {
+    return design.flavour.empty();
+  });
+}
+
+void as_costs(Rows& rows) {
+  constexpr std::array<std::string_view, 3> kOfMachines{"n_states", "n_transitions", "modules"};
+  for (std::size_t column = rows.columns.size(); column-- > 0;) {
+    if (std::ranges::find(kOfMachines, rows.columns[column]) == kOfMachines.end()) continue;
+    rows.columns.erase(rows.columns.begin() + static_cast<std::ptrdiff_t>(column));
+    for (auto& cells : rows.cells)
+      cells.erase(cells.begin() + static_cast<std::ptrdiff_t>(column));
+  }
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 5> kCosts{
+      {{"score", "cost"},
+       {"mean", "mean_cost"},
+       {"best_mean", "best_mean_cost"},
+       {"lowest", "highest"},
+       {"highest", "lowest"}}};
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 3> kNames{
+      {{"candidate", "configuration"},
+       {"best_candidate", "best_configuration"},
+       {"fsm_config", "command_line"}}};
+  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
+    std::string& name = rows.columns[column];
+    const auto is_named = [&](const auto& pair) { return pair.first == name; };
+    if (const auto* other = std::ranges::find_if(kNames, is_named); other != kNames.end())
+      name = other->second;
+    const auto* cost = std::ranges::find_if(kCosts, is_named);
+    if (cost == kCosts.end()) continue;
+    name = cost->second;
+    for (auto& cells : rows.cells) {
+      Cell& cell = cells[column];
+      if (cell.type == Type::Null || cell.text == "0") continue;
+      cell.text = cell.text.starts_with('-') ? cell.text.substr(1) : "-" + cell.text;
     }
   }
 }

@@ -29,6 +29,12 @@ Expected<Rows> select(StoreReader& store, const std::string& sql,
 /// `parent` and `best_candidate` get a c.
 void letter_ids(Rows& rows);
 
+/// Whether programs gave all of the store's scores: then people who read it know costs.
+bool is_of_programs(StoreReader& store);
+/// The same rows in irace's words, for people: costs in place of scores, which are their negatives,
+/// configurations in place of candidates, and nothing of machines.
+void as_costs(Rows& rows);
+
 /// Aligned columns below a headline, numbers on the right, six digits of reals.
 std::string rows_as_text(const Rows& rows);
 /// One line of CSV (base/csv.h), with its end.

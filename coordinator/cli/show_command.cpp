@@ -150,6 +150,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
       return fail(output, ExitCode::NoSuchId, "the store has no " + part.name + " " + arguments.id);
     }
     letter_ids(*rows);
+    if (!output.json && is_of_programs(**store)) as_costs(*rows);
     shown.push_back(std::move(*rows));
   }
   output.json ? write_json(output, parts, shown) : write_text(output, parts, shown);

@@ -224,6 +224,7 @@ ExitCode show_stored(const Arguments& arguments, Output& output, bool& running) 
   if (!status) return fail(output, ExitCode::Store, status.error());
   if (!has_writer(*arguments.store.path())) correct_states(*status);
   if (arguments.watch && output.out_is_terminal) output.out << Verbatim{"\x1b[H\x1b[2J"};
+  if (!output.json && is_of_programs(**store)) as_costs(status->designs);
   output.json ? write_json(output, *status) : write_text(output, *status);
   running = status->campaign.cells.size() == 1 && status->of_campaign(0, "state") == "running";
   return ExitCode::Done;

@@ -6,6 +6,7 @@
 
 #include "irace_core/files/internal/programs.h"
 #include "irace_core/files/internal/setup_work.h"
+#include "irace_core/internal/schedule.h"
 #include "irace_core/iterated_race.h"
 
 namespace swarmsmith::irace {
@@ -139,6 +140,14 @@ void check_race(SetupWork& work) {
 void check_budget(SetupWork& work) {
   if (work.action == IraceAction::OnlyTest || !work.errors.empty()) return;
   const IraceSetup& setup = work.setup;
+  const std::int64_t survive =
+      irace::Schedule(setup.race, setup.space.variable_count()).min_survival();
+  if (setup.race.nb_configurations > 0 && setup.race.nb_configurations <= survive) {
+    work.complain("nbConfigurations", "must be more than the configurations that survive a race, " +
+                                          std::to_string(survive) + " (minNbSurvival), found " +
+                                          std::to_string(setup.race.nb_configurations));
+    return;
+  }
   const auto race = IteratedRace::start(setup.space, setup.race, setup.initial);
   // What else may be wrong with the first race is said when it is run, after repairs.
   if (race || race.error().where != "max_experiments") return;
