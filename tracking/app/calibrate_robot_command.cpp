@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 #include <memory>
 
-#include "base/suggestion.h"
 #include "base/output_file.h"
+#include "base/suggestion.h"
 #include "console/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"

@@ -36,6 +36,15 @@ constexpr std::string_view kPrintSurveyDetails =
     "A form to write down where the floor tags lie, with places to put them and distances of the\n"
     "arena's corners to check.";
 
+constexpr std::string_view kDetectDetails =
+    "Examples:\n"
+    "  swarmsmith track detect run07.mp4\n"
+    "  swarmsmith track detect pictures/ --csv tags.csv\n"
+    "\n"
+    "Which tags are seen, in how many frames, how large (the shortest side) and how clear (the\n"
+    "detector's margin), whether bits had to be mended and whether a tag is there twice. Needs no\n"
+    "arena file and no calibration: try light, tags and camera with it.";
+
 constexpr std::string_view kScoreDetails =
     "Examples:\n"
     "  swarmsmith track score run07.mp4 --arena arena.toml --run run07.toml --into demo.db\n"
@@ -113,6 +122,8 @@ constexpr std::array kCommands = {
             declare_track_score},
     Command{"rescore", "Score stored runs again, with what was mended", "", declare_track_rescore},
     Command{"override", "Put a person's word above a run's verdict", "", declare_track_override},
+    Command{"detect", "List the tags that are in a video or in pictures", kDetectDetails,
+            declare_detect},
     Command{"calibrate camera", "Find a camera's lens from pictures of a board",
             kCalibrateCameraDetails, declare_calibrate_camera},
     Command{"calibrate arena", "Find where a camera hangs from the floor tags",

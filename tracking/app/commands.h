@@ -18,6 +18,7 @@ Run declare_track_check(Options& options);
 Run declare_calibrate_camera(Options& options);
 Run declare_calibrate_arena(Options& options);
 Run declare_calibrate_robot(Options& options);
+Run declare_detect(Options& options);
 Run declare_print_tags(Options& options);
 Run declare_print_board(Options& options);
 Run declare_print_survey(Options& options);

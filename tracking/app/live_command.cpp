@@ -10,6 +10,7 @@
 #include "tracking/app/complaints.h"
 #include "tracking/app/recording.h"
 #include "tracking/app/stop_signal.h"
+#include "tracking/calibration/find_board.h"
 #include "tracking/live/live_pages.h"
 #include "tracking/live/live_tracker.h"
 #include "tracking/live/newest_frame.h"
@@ -32,6 +33,46 @@ struct Words {
   std::string mission;
   std::optional<std::int64_t> port;
   std::string record;
+  std::string board;
+};
+
+/// What the views of a board that is held before the camera cover so far; the same choice of views
+/// as `calibrate camera` makes of a video.
+class BoardWatch {
+ public:
+  explicit BoardWatch(Board board) : board_(board) {}
+
+  LiveState::BoardProgress look_at(const GrayImage& image, double time_s) {
+    // A board takes longer to find than robots, and nobody moves it faster.
+    constexpr double kEvery_s = 0.5;
+    constexpr std::size_t kMostViews = 200;
+    if (searched_s_ && time_s - *searched_s_ < kEvery_s) return progress_;
+    searched_s_ = time_s;
+    auto sight = find_board(image, board_);
+    progress_.is_seen = sight.has_value();
+    if (!sight) return progress_;
+    const ImageSize size{image.width, image.height};
+    sights_.push_back(std::move(*sight));
+    const std::vector<std::size_t> picked = pick_views(sights_, board_, size, kMostViews);
+    std::vector<BoardSight> kept;
+    std::vector<ImagePoint> corners;
+    for (const std::size_t i : picked) {
+      kept.push_back(sights_[i]);
+      corners.insert(corners.end(), kept.back().view.seen.begin(), kept.back().view.seen.end());
+    }
+    sights_ = std::move(kept);
+    const FrameCoverage coverage = coverage_of(corners, size);
+    progress_.views = static_cast<int>(sights_.size());
+    progress_.ninths = coverage.ninths;
+    progress_.coverage = coverage.share;
+    return progress_;
+  }
+
+ private:
+  Board board_;
+  std::vector<BoardSight> sights_;
+  std::optional<double> searched_s_;
+  LiveState::BoardProgress progress_;
 };
 
 /// Delays from having a frame to having its poses.
@@ -133,8 +174,8 @@ struct Watched {
 };
 
 /// Until the source ends or somebody asks for an end.
-Watched watch(FrameSource& source, LiveTracker& tracker, LivePages& pages, LiveRecording* recording,
-              Output& output) {
+Watched watch(FrameSource& source, LiveTracker& tracker, BoardWatch* board, LivePages& pages,
+              LiveRecording* recording, Output& output) {
   NewestFrame::OnFrame keep;
   if (recording != nullptr)
     keep = [recording](FrameSource& from, double time_s) { return recording->add(from, time_s); };
@@ -146,6 +187,7 @@ Watched watch(FrameSource& source, LiveTracker& tracker, LivePages& pages, LiveR
     auto frame = newest.take(kPatience);
     if (!frame) continue;
     LiveState state = tracker.look_at(frame->image(), frame->number, frame->time_s);
+    if (board != nullptr) state.board = board->look_at(frame->image(), frame->time_s);
     state.delay_s = std::chrono::duration<double>(Clock::now() - frame->in).count();
     watched.delays.add(state.delay_s);
     state.most_delay_s = watched.delays.most_of_late();
@@ -210,7 +252,14 @@ ExitCode live(const Words& words, Output& output) {
     recording = std::make_unique<LiveRecording>(std::move(*opened));
   }
   if (!output.quiet) output.err << "Preview: " << (*pages)->address() << std::endl;
-  Watched watched = watch(**source, *tracker, **pages, recording.get(), output);
+  std::optional<BoardWatch> board;
+  if (!words.board.empty()) {
+    const auto parsed = parse_board(words.board);
+    if (!parsed) return failed(parsed.error());
+    board.emplace(*parsed);
+  }
+  Watched watched =
+      watch(**source, *tracker, board ? &*board : nullptr, **pages, recording.get(), output);
   if (recording != nullptr) {
     if (const auto ended = recording->finish(); !ended && !watched.error)
       watched.error = ended.error();
@@ -231,6 +280,9 @@ Run declare_live(Options& options) {
   options.text("--mission", words->mission, "Mission whose floor is drawn in: a name or a file");
   options.integer("--port", words->port, {0, 65'535},
                   "Of the preview, on 127.0.0.1 alone (default 8080; 0: a free one)");
+  options.text("--board", words->board,
+               "A board that is held before the camera: shows which parts of the frame its views "
+               "cover so far (as for calibrate camera)");
   options.text("--record", words->record, "Record all frames, a .mkv, with their times beside it");
   return [words](Output& output) { return live(*words, output); };
 }

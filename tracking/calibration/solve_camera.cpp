@@ -145,25 +145,6 @@ std::optional<std::size_t> outlier_of(const std::vector<SolvedView>& views,
   return worst;
 }
 
-/// How the used corners lie in the frame.
-void measure_coverage(const Points& points, ImageSize size, CameraSolution& solution) {
-  std::vector<cv::Point2f> all;
-  for (const auto& seen : points.seen)
-    all.insert(all.end(), seen.begin(), seen.end());
-  const auto third = [](double at, int length) {
-    return static_cast<std::size_t>(std::clamp(3 * (at + 0.5) / length, 0.0, 2.0));
-  };
-  for (const cv::Point2f& corner : all) {
-    const std::size_t column = third(static_cast<double>(corner.x), size.width);
-    const std::size_t row = third(static_cast<double>(corner.y), size.height);
-    ++solution.ninths.at(3 * row + column);
-  }
-  std::vector<cv::Point2f> hull;
-  cv::convexHull(all, hull);
-  solution.calibration.coverage =
-      cv::contourArea(hull) / (static_cast<double>(size.width) * size.height);
-}
-
 void take_fit(const Fit& fit, ImageSize size, Lens lens, CameraCalibration& calibration) {
   CameraModel& model = calibration.model;
   model = {size, lens, fit.matrix(0, 0), fit.matrix(1, 1), fit.matrix(0, 2), fit.matrix(1, 2), {}};
@@ -173,6 +154,23 @@ void take_fit(const Fit& fit, ImageSize size, Lens lens, CameraCalibration& cali
 }
 
 }  // namespace
+
+FrameCoverage coverage_of(std::span<const ImagePoint> corners, ImageSize size) {
+  FrameCoverage coverage;
+  if (corners.empty()) return coverage;
+  const auto third = [](double at, int length) {
+    return static_cast<std::size_t>(std::clamp(3 * (at + 0.5) / length, 0.0, 2.0));
+  };
+  std::vector<cv::Point2f> all;
+  for (const ImagePoint& corner : corners) {
+    ++coverage.ninths.at(3 * third(corner.v, size.height) + third(corner.u, size.width));
+    all.emplace_back(static_cast<float>(corner.u), static_cast<float>(corner.v));
+  }
+  std::vector<cv::Point2f> hull;
+  cv::convexHull(all, hull);
+  coverage.share = cv::contourArea(hull) / (static_cast<double>(size.width) * size.height);
+  return coverage;
+}
 
 Expected<CameraSolution> solve_camera(std::span<const BoardView> views, ImageSize size, Lens lens) {
   CameraSolution solution;
@@ -209,7 +207,12 @@ Expected<CameraSolution> solve_camera(std::span<const BoardView> views, ImageSiz
       continue;
     }
     take_fit(*fit, size, lens, solution.calibration);
-    measure_coverage(points, size, solution);
+    std::vector<ImagePoint> corners;
+    for (const std::size_t i : used)
+      corners.insert(corners.end(), views[i].seen.begin(), views[i].seen.end());
+    const FrameCoverage coverage = coverage_of(corners, size);
+    solution.ninths = coverage.ninths;
+    solution.calibration.coverage = coverage.share;
     break;
   }
   solution.calibration.views = static_cast<int>(used.size());

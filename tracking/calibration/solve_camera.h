@@ -25,6 +25,13 @@ struct SolvedView {
   std::vector<ImagePoint> residuals;  ///< seen minus expected, a corner each
 };
 
+/// How corners lie in a frame.
+struct FrameCoverage {
+  std::array<int, 9> ninths{};  ///< corners in each ninth, by rows
+  double share = 0;             ///< of the frame within the corners' hull
+};
+FrameCoverage coverage_of(std::span<const ImagePoint> corners, ImageSize size);
+
 struct CameraSolution {
   CameraCalibration calibration;  ///< without board and date
   std::vector<SolvedView> views;  ///< one a view that was given

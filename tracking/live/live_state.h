@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -29,6 +30,17 @@ struct LiveState {
   double delay_s = 0;        ///< from having the frame to having the poses
   double most_delay_s = 0;   ///< of the last hundred frames
   std::int64_t dropped = 0;  ///< frames that nobody looked at, since newer ones were there
+  /// How far the floor tags are from where the calibration of the camera's place saw them: the
+  /// median over those seen in the last second.
+  std::optional<double> camera_shift_px;
+  /// While a board is shown to the camera: what the views so far cover.
+  struct BoardProgress {
+    bool is_seen = false;  ///< in the last picture that was searched
+    int views = 0;         ///< that differ
+    std::array<int, 9> ninths{};
+    double coverage = 0;
+  };
+  std::optional<BoardProgress> board;
   int references_seen = 0;
   int references = 0;
   std::vector<LiveRobot> robots;

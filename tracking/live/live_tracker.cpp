@@ -16,6 +16,8 @@ constexpr double kRateOver_s = 2;
 /// A shorter gap is interpolated without a word (tracking facts, section 8).
 constexpr double kLost_s = 0.5;
 constexpr double kScaleTolerance = 0.05;
+/// As in tracking (TrackLimits::moved_px).
+constexpr double kMoved_px = 1;
 /// Floor tags are looked for some times a second only.
 constexpr double kReferenceSeen_s = 1;
 
@@ -53,7 +55,38 @@ LiveTracker::LiveTracker(TagSearch search, Rig rig, CameraSetup camera, std::opt
       camera_(std::move(camera)),
       arena_(std::move(arena)),
       view_(rig_.view_of(camera_)),
-      known_(rig_.robots.size()) {}
+      known_(rig_.robots.size()) {
+  const auto place = rig_.places.find(camera_.place_file);
+  if (place == rig_.places.end()) return;
+  for (const PlaceCalibration::Seen& seen : place->second.tags)
+    calibrated_.emplace(seen.tag.tag, seen.corners);
+}
+
+void LiveTracker::note_floor_tag(const Detection& seen, double time_s) {
+  references_seen_s_[seen.tag] = time_s;
+  if (calibrated_.contains(seen.tag)) floor_looks_[seen.tag].emplace_back(time_s, seen.corners);
+}
+
+/// Means over a second, since a single look has the noise of its picture.
+std::optional<double> LiveTracker::camera_shift(double time_s) {
+  std::vector<double> shifts;
+  for (auto& [tag, looks] : floor_looks_) {
+    while (!looks.empty() && time_s - looks.front().first > kReferenceSeen_s)
+      looks.pop_front();
+    if (looks.empty()) continue;
+    ImagePoint mean;
+    for (const auto& [seen_s, corners] : looks) {
+      mean.u += middle_of(corners).u / static_cast<double>(looks.size());
+      mean.v += middle_of(corners).v / static_cast<double>(looks.size());
+    }
+    const ImagePoint was = middle_of(calibrated_.at(tag));
+    shifts.push_back(std::hypot(mean.u - was.u, mean.v - was.v));
+  }
+  if (shifts.empty()) return std::nullopt;
+  const auto middle = shifts.begin() + static_cast<std::ptrdiff_t>(shifts.size() / 2);
+  std::ranges::nth_element(shifts, middle);
+  return *middle;
+}
 
 LiveState LiveTracker::look_at(const GrayImage& image, std::int64_t frame, double time_s) {
   LiveState state;
@@ -76,9 +109,9 @@ LiveState LiveTracker::look_at(const GrayImage& image, std::int64_t frame, doubl
   const std::vector<Detection> seen = search_.find(image, time_s);
   for (const Detection& each : seen) {
     state.tags.push_back({each.tag, each.corners, kind_of(rig_, each.tag)});
-    if (state.tags.back().kind == OverlayTag::Kind::Reference)
-      references_seen_s_[each.tag] = time_s;
+    if (state.tags.back().kind == OverlayTag::Kind::Reference) note_floor_tag(each, time_s);
   }
+  if (view_.has_value()) state.camera_shift_px = camera_shift(time_s);
   state.references = static_cast<int>(rig_.references.size());
   for (const auto& [tag, seen_s] : references_seen_s_)
     if (time_s - seen_s <= kReferenceSeen_s) ++state.references_seen;
@@ -119,6 +152,11 @@ void LiveTracker::add_issues(const std::vector<Detection>& seen, LiveState& stat
   if (!view_.has_value() && state.issues.empty())
     state.issues.push_back(
         fmt::format("camera {} is not calibrated: tags alone are shown", camera_.name));
+  if (state.camera_shift_px.value_or(0) > kMoved_px)
+    state.issues.push_back(fmt::format(
+        "the camera moved: its floor tags are {:.1f} px off where they were calibrated; "
+        "fix it and calibrate its place again",
+        *state.camera_shift_px));
   for (std::size_t i = 0; i < rig_.robots.size(); ++i) {
     const LiveRobot& robot = state.robots[i];
     const std::string who = fmt::format("{} (tag {})", robot.name, robot.tag);

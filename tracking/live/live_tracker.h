@@ -29,6 +29,8 @@ class LiveTracker {
   LiveTracker(TagSearch search, Rig rig, CameraSetup camera, std::optional<Arena> arena);
   void place(std::size_t robot, const std::vector<Detection>& seen, double time_s,
              LiveState& state);
+  void note_floor_tag(const Detection& seen, double time_s);
+  std::optional<double> camera_shift(double time_s);
   void add_issues(const std::vector<Detection>& seen, LiveState& state) const;
 
   struct Known {
@@ -45,6 +47,9 @@ class LiveTracker {
   std::optional<View> view_;
   std::vector<Known> known_;        ///< a robot
   std::deque<double> frame_times_;  ///< of the last two seconds
+  /// Looks of the last second of floor tags that the calibration of the place knows.
+  std::map<int, std::deque<std::pair<double, TagCorners>>> floor_looks_;
+  std::map<int, TagCorners> calibrated_;
   std::map<int, double> references_seen_s_;
 };
 

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/support/film/virtual_camera.h"
+#include "tests/support/overhead_camera.h"
 
 namespace swarmsmith {
 namespace {
@@ -91,6 +92,25 @@ TEST(LiveTrackerTest, SaysForHowLongARobotIsNotSeen) {
   EXPECT_FALSE(all[17].robots[1].is_seen);
   EXPECT_NEAR(all[17].robots[1].pose->x, 0.3, 0.003) << "the last known place";
   EXPECT_THAT(all[17].issues, Contains("rvr2 (tag 2) is not seen for 0.8 s"));
+}
+
+TEST(LiveTrackerTest, SeesThatTheCameraMoved) {
+  Rig calibrated = rig();
+  PlaceCalibration& place = calibrated.places["c.place.toml"];
+  for (const ReferenceTag& tag : calibrated.references)
+    place.tags.push_back({tag, seen_corners(view_from_above(), tag.pose, tag.edge_m, 0), 0, 0});
+  const LiveState still = states(calibrated, 6).back();
+  ASSERT_TRUE(still.camera_shift_px.has_value());
+  EXPECT_LT(*still.camera_shift_px, 0.3);
+  EXPECT_TRUE(still.issues.empty()) << still.issues.front();
+  for (PlaceCalibration::Seen& seen : place.tags) {
+    for (ImagePoint& corner : seen.corners)
+      corner.u -= 3;
+  }
+  const LiveState moved = states(calibrated, 6).back();
+  EXPECT_NEAR(moved.camera_shift_px.value(), 3, 0.3);
+  EXPECT_THAT(moved.issues, Contains(HasSubstr("the camera moved: its floor tags are 3.")));
+  EXPECT_THAT(live_state_json(moved), HasSubstr("\"camera_shift_px\":3."));
 }
 
 TEST(LiveTrackerTest, SaysWhatIsWrong) {

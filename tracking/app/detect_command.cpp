@@ -1,0 +1,176 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <memory>
+
+#include "base/csv.h"
+#include "console/counter.h"
+#include "console/whole_file.h"
+#include "sim/mission/trajectory_csv.h"
+#include "tracking/app/commands.h"
+#include "tracking/detection/tag_detector.h"
+#include "tracking/rig/issue.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct Words {
+  std::string source;
+  std::string family = "tag36h11";
+  std::string csv;
+  std::optional<std::int64_t> every;
+};
+
+/// What was seen of one tag.
+struct SeenTag {
+  std::int64_t frames = 0;
+  std::int64_t twice = 0;      ///< frames with more than one of it
+  std::int64_t corrected = 0;  ///< sightings with a wrong bit
+  std::vector<double> edges_px;
+  std::vector<double> margins;
+};
+
+struct Finds {
+  std::int64_t frames = 0;
+  std::map<int, SeenTag> tags;
+  std::string csv = "frame,time_s,file,tag,hamming,margin,edge_px,u,v,u0,v0,u1,v1,u2,v2,u3,v3\n";
+  bool is_mirrored = false;
+};
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::ranges::nth_element(values, middle);
+  return *middle;
+}
+
+/// The shortest side: what decides whether it is found.
+double edge_of(const TagCorners& corners) {
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const ImagePoint& a = corners[i];
+    const ImagePoint& b = corners[(i + 1) % corners.size()];
+    least = std::min(least, std::hypot(a.u - b.u, a.v - b.v));
+  }
+  return least;
+}
+
+void add_row(std::string& csv, const Frame& frame, const Detection& tag) {
+  const ImagePoint middle = middle_of(tag.corners);
+  csv += fmt::format("{},", frame.number);
+  if (frame.time_s) append_number(csv, *frame.time_s);
+  csv += fmt::format(",{},{},{},{:.2f},{:.3f},{:.3f},{:.3f}", csv_field(frame.file), tag.tag,
+                     tag.hamming, tag.margin, edge_of(tag.corners), middle.u, middle.v);
+  for (const ImagePoint& corner : tag.corners)
+    csv += fmt::format(",{:.3f},{:.3f}", corner.u, corner.v);
+  csv += kCsvLineEnd;
+}
+
+void add(Finds& finds, const Frame& frame, const std::vector<Detection>& seen) {
+  ++finds.frames;
+  std::map<int, int> counts;
+  for (const Detection& tag : seen) {
+    SeenTag& all = finds.tags[tag.tag];
+    const int count = ++counts[tag.tag];
+    if (count == 1) ++all.frames;
+    if (count == 2) ++all.twice;
+    if (tag.hamming > 0) ++all.corrected;
+    all.edges_px.push_back(edge_of(tag.corners));
+    all.margins.push_back(tag.margin);
+    add_row(finds.csv, frame, tag);
+  }
+}
+
+Expected<Finds> look(const Words& words, Output& output) {
+  auto detector = TagDetector::of_family(words.family);
+  if (!detector) return Unexpected(detector.error());
+  auto source = FrameSource::open(words.source);
+  if (!source) return Unexpected(source.error());
+  if ((*source)->info().is_live) {
+    return bad_input("a camera has no end: `swarmsmith track live` watches one", words.source);
+  }
+  const std::int64_t every = words.every.value_or(1);
+  Finds finds;
+  Counter counter(output, "looked at", "pictures");
+  for (std::int64_t done = 1;; ++done) {
+    const auto more = (*source)->next();
+    if (!more) return Unexpected(more.error());
+    if (!*more) break;
+    counter.tell(done, (*source)->info().expected_frames);
+    const Frame& frame = (*source)->frame();
+    if (frame.number % every != 0) continue;
+    const std::vector<Detection> seen = detector->find(frame.gray, 1);
+    if (finds.frames == 0 && seen.empty()) finds.is_mirrored = is_mirrored(*detector, frame.gray);
+    add(finds, frame, seen);
+  }
+  if (finds.frames == 0) {
+    return Unexpected(error_of(IssueCode::VideoUnreadable, "no frame could be read", words.source));
+  }
+  return finds;
+}
+
+void print(const Finds& finds, Output& output) {
+  if (output.json) {
+    std::string tags;
+    for (const auto& [tag, seen] : finds.tags) {
+      tags += fmt::format(
+          "{}{{\"tag\":{},\"frames\":{},\"twice\":{},\"corrected\":{},\"edge_px\":{},\"margin\":{}}"
+          "}",
+          tags.empty() ? "" : ",", tag, seen.frames, seen.twice, seen.corrected,
+          json_number(median(seen.edges_px)), json_number(median(seen.margins)));
+    }
+    output.out << fmt::format("{{\"frames\":{},\"mirrored\":{},\"tags\":[{}]}}\n", finds.frames,
+                              finds.is_mirrored, tags);
+    return;
+  }
+  output.out << "   tag  frames   of  edge px  margin  bits mended  twice\n";
+  for (const auto& [tag, seen] : finds.tags) {
+    output.out << fmt::format("{:>6} {:>7} {:>4} {:>8.1f} {:>7.0f} {:>12} {:>6}\n", tag,
+                              seen.frames, finds.frames, median(seen.edges_px),
+                              median(seen.margins), seen.corrected, seen.twice);
+  }
+  if (finds.tags.empty()) output.out << "  none\n";
+  if (finds.is_mirrored) print_note(output, kMirroredAdvice);
+  constexpr double kSmall_px = 24;
+  std::string small;
+  for (const auto& [tag, seen] : finds.tags) {
+    if (median(seen.edges_px) < kSmall_px)
+      small += (small.empty() ? "" : ", ") + std::to_string(tag);
+  }
+  if (small.empty()) return;
+  print_note(output, fmt::format("below {:.0f} px along an edge tags are missed: {}; larger tags, "
+                                 "more pixels or a nearer camera help",
+                                 kSmall_px, small));
+}
+
+ExitCode run(const Words& words, Output& output) {
+  const auto finds = look(words, output);
+  if (!finds) return fail(output, exit_code_of_tracking(finds.error()), finds.error());
+  if (words.csv == "-") {
+    output.out << finds->csv;
+    return ExitCode::Done;
+  }
+  if (!words.csv.empty()) {
+    if (const auto written = write_whole_file(words.csv, finds->csv); !written)
+      return fail(output, ExitCode::Failed, written.error());
+  }
+  print(*finds, output);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_detect(Options& options) {
+  auto words = std::make_shared<Words>();
+  options.text("SOURCE", words->source, "Video, picture or folder of pictures",
+               Options::Need::Required);
+  options.text("--family", words->family, "Family of the tags (default tag36h11)");
+  options.integer("--every", words->every, {1, 1'000'000}, "Look at each N-th frame (default 1)");
+  options.text("--csv", words->csv,
+               "Write a row a sighting: frame, time, tag, corners in pixels (- prints)");
+  return [words](Output& output) { return run(*words, output); };
+}
+
+}  // namespace swarmsmith::cli
