@@ -1,3 +1,4 @@
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,7 +10,7 @@
 namespace swarmsmith {
 namespace {
 
-using Vector6 = cv::Matx61d;  ///< Rodrigues vector and translation
+using Vector6 = Eigen::Matrix<double, 6, 1>;  ///< Rodrigues vector and translation
 
 struct Corners {
   std::vector<cv::Point3d> world;
@@ -26,90 +27,64 @@ CameraPlace place_of(const Vector6& pose) {
 }
 
 /// Seen minus expected, u and v of each corner; nothing when a corner would be behind the camera.
-std::optional<std::vector<double>> residuals_of(const Corners& corners, const CameraModel& camera,
-                                                const Vector6& pose) {
+std::optional<Eigen::VectorXd> residuals_of(const Corners& corners, const CameraModel& camera,
+                                            const Vector6& pose) {
   const CameraPlace place = place_of(pose);
-  std::vector<double> residuals;
-  residuals.reserve(2 * corners.seen.size());
+  Eigen::VectorXd residuals(2 * static_cast<Eigen::Index>(corners.seen.size()));
   for (std::size_t i = 0; i < corners.seen.size(); ++i) {
     const cv::Point3d& p = corners.world[i];
     const Point3 seen = place.seen_from_camera({p.x, p.y, p.z});
     if (!(seen.z > 1e-6)) return std::nullopt;
     const ImagePoint expected = image_of(camera, seen);
-    residuals.push_back(corners.seen[i].u - expected.u);
-    residuals.push_back(corners.seen[i].v - expected.v);
+    residuals.segment<2>(2 * static_cast<Eigen::Index>(i)) << corners.seen[i].u - expected.u,
+        corners.seen[i].v - expected.v;
   }
   return residuals;
 }
 
-double squares_of(const std::vector<double>& residuals) {
-  double squares = 0;
-  for (const double residual : residuals)
-    squares += residual * residual;
-  return squares;
-}
-
-/// Normal equations at a pose, by central differences.
-bool linearise(const Corners& corners, const CameraModel& camera, const Vector6& pose,
-               const std::vector<double>& residuals, cv::Matx66d& normal, Vector6& right) {
+/// How residuals change with the pose, by central differences.
+using Slopes = Eigen::Matrix<double, Eigen::Dynamic, 6>;
+std::optional<Slopes> slopes_of(const Corners& corners, const CameraModel& camera,
+                                const Vector6& pose) {
   constexpr double kStep = 1e-6;
-  std::vector<std::vector<double>> slopes;
+  Slopes slopes(2 * static_cast<Eigen::Index>(corners.seen.size()), 6);
   for (int k = 0; k < 6; ++k) {
-    Vector6 ahead = pose;
-    Vector6 behind = pose;
-    ahead(k) += kStep;
-    behind(k) -= kStep;
-    const auto a = residuals_of(corners, camera, ahead);
-    const auto b = residuals_of(corners, camera, behind);
-    if (!a || !b) return false;
-    auto& slope = slopes.emplace_back();
-    for (std::size_t i = 0; i < residuals.size(); ++i)
-      slope.push_back(((*a)[i] - (*b)[i]) / (2 * kStep));
+    const auto ahead = residuals_of(corners, camera, pose + kStep * Vector6::Unit(k));
+    const auto behind = residuals_of(corners, camera, pose - kStep * Vector6::Unit(k));
+    if (!ahead || !behind) return std::nullopt;
+    slopes.col(k) = (*ahead - *behind) / (2 * kStep);
   }
-  for (int j = 0; j < 6; ++j) {
-    const auto& sj = slopes[static_cast<std::size_t>(j)];
-    right(j) = 0;
-    for (std::size_t i = 0; i < residuals.size(); ++i)
-      right(j) -= sj[i] * residuals[i];
-    for (int k = 0; k < 6; ++k) {
-      const auto& sk = slopes[static_cast<std::size_t>(k)];
-      normal(j, k) = 0;
-      for (std::size_t i = 0; i < residuals.size(); ++i)
-        normal(j, k) += sj[i] * sk[i];
-    }
-  }
-  return true;
+  return slopes;
 }
 
 /// Levenberg and Marquardt from a start; nothing when the start sees corners behind the camera.
 std::optional<PlaceFit> refined(const Corners& corners, const CameraModel& camera, Vector6 pose) {
   auto residuals = residuals_of(corners, camera, pose);
   if (!residuals) return std::nullopt;
-  double squares = squares_of(*residuals);
+  double squares = residuals->squaredNorm();
   double damping = 1e-3;
   constexpr int kMostSteps = 100;
   for (int step = 0; step < kMostSteps && damping < 1e9; ++step) {
-    cv::Matx66d normal;
-    Vector6 right;
-    if (!linearise(corners, camera, pose, *residuals, normal, right)) break;
-    for (int k = 0; k < 6; ++k)
-      normal(k, k) *= 1 + damping;
-    Vector6 move;
-    if (!cv::solve(normal, right, move, cv::DECOMP_CHOLESKY)) break;
-    const Vector6 next = pose + move;
-    const auto moved = residuals_of(corners, camera, next);
-    if (!moved || !(squares_of(*moved) < squares)) {
+    const auto slopes = slopes_of(corners, camera, pose);
+    if (!slopes) break;
+    Eigen::Matrix<double, 6, 6> normal = slopes->transpose() * *slopes;
+    normal.diagonal() *= 1 + damping;
+    const Eigen::LLT<Eigen::Matrix<double, 6, 6>> factors(normal);
+    if (factors.info() != Eigen::Success) break;
+    const Vector6 move = factors.solve(-(slopes->transpose() * *residuals));
+    const auto moved = residuals_of(corners, camera, pose + move);
+    if (!moved || !(moved->squaredNorm() < squares)) {
       damping *= 10;
       continue;
     }
-    const double gain = squares - squares_of(*moved);
-    pose = next;
+    const double gain = squares - moved->squaredNorm();
+    pose += move;
     residuals = moved;
     squares -= gain;
     damping = std::max(damping / 10, 1e-12);
-    if (gain < 1e-14 * squares || cv::norm(move) < 1e-13) break;
+    if (gain < 1e-14 * squares || move.norm() < 1e-13) break;
   }
-  squares = squares_of(*residuals);
+  squares = residuals->squaredNorm();
   if (!std::isfinite(squares)) return std::nullopt;
   return PlaceFit{place_of(pose), std::sqrt(squares / static_cast<double>(corners.seen.size()))};
 }

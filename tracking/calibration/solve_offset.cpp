@@ -1,10 +1,11 @@
 #include "tracking/calibration/solve_offset.h"
 
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <opencv2/core.hpp>
 #include <optional>
 
 #include "base/math.h"
@@ -20,43 +21,41 @@ constexpr double kLeastRun_m = 0.5;
 constexpr double kStep_m = 0.1;
 constexpr double kMostSpread_rad = 5 * kDegree;
 
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
 /// Unknowns: centre x, y; offset x, y; drift x, y.
 struct SpinFit {
-  cv::Matx61d unknowns;
-  cv::Matx66d inverse;            ///< of the normal matrix
+  Eigen::Matrix<double, 6, 1> unknowns;
+  Matrix6 inverse;                ///< of the normal matrix
   std::vector<double> residuals;  ///< distance, one a sample
   double squares = 0;
 };
 
 std::optional<SpinFit> fit_spin(const std::vector<TagSample>& samples) {
-  const auto count = static_cast<int>(samples.size());
+  const auto count = static_cast<Eigen::Index>(samples.size());
   if (count < 4) return std::nullopt;
-  cv::Mat a = cv::Mat::zeros(2 * count, 6, CV_64F);
-  cv::Mat b(2 * count, 1, CV_64F);
+  Eigen::Matrix<double, Eigen::Dynamic, 6> a(2 * count, 6);
+  Eigen::VectorXd b(2 * count);
   // Times from their middle keep the equations well conditioned.
   const double middle = (samples.front().time_s + samples.back().time_s) / 2;
-  for (int i = 0; i < count; ++i) {
+  for (Eigen::Index i = 0; i < count; ++i) {
     const TagSample& sample = samples[static_cast<std::size_t>(i)];
     const double c = std::cos(sample.tag.theta);
     const double s = std::sin(sample.tag.theta);
     const double t = sample.time_s - middle;
-    const cv::Matx<double, 2, 6> rows(1, 0, c, -s, t, 0, 0, 1, s, c, 0, t);
-    cv::Mat(rows).copyTo(a.rowRange(2 * i, 2 * i + 2));
-    b.at<double>(2 * i) = sample.tag.x;
-    b.at<double>(2 * i + 1) = sample.tag.y;
+    a.middleRows<2>(2 * i) << 1, 0, c, -s, t, 0, 0, 1, s, c, 0, t;
+    b.segment<2>(2 * i) << sample.tag.x, sample.tag.y;
   }
+  const Matrix6 normal = a.transpose() * a;
+  const Eigen::SelfAdjointEigenSolver<Matrix6> axes(normal);
+  if (!(axes.eigenvalues()(0) > 1e-9 * axes.eigenvalues()(5))) return std::nullopt;
   SpinFit fit;
-  const cv::Mat normal = a.t() * a;
-  cv::Mat inverse;
-  // The ratio of the smallest to the largest singular value.
-  if (!(cv::invert(normal, inverse, cv::DECOMP_SVD) > 1e-9)) return std::nullopt;
-  fit.inverse = cv::Matx66d(inverse);
-  fit.unknowns = cv::Matx61d(cv::Mat(inverse * (a.t() * b)));
-  const cv::Mat off = b - a * cv::Mat(fit.unknowns);
-  for (int i = 0; i < count; ++i) {
-    fit.residuals.push_back(std::hypot(off.at<double>(2 * i), off.at<double>(2 * i + 1)));
-    fit.squares += fit.residuals.back() * fit.residuals.back();
-  }
+  fit.inverse = normal.inverse();
+  fit.unknowns = fit.inverse * (a.transpose() * b);
+  const Eigen::VectorXd off = b - a * fit.unknowns;
+  for (Eigen::Index i = 0; i < count; ++i)
+    fit.residuals.push_back(off.segment<2>(2 * i).norm());
+  fit.squares = off.squaredNorm();
   return fit;
 }
 

@@ -1,6 +1,7 @@
 #include "tracking/calibration/solve_place.h"
 
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -38,27 +39,13 @@ std::string seen_and_missing(const PlaceQuestion& question) {
 }
 
 bool are_in_line(const std::vector<SeenTag>& seen) {
-  const auto count = static_cast<double>(seen.size());
-  Point mean;
-  for (const SeenTag& tag : seen) {
-    mean.x += tag.tag.pose.x / count;
-    mean.y += tag.tag.pose.y / count;
-  }
-  double xx = 0;
-  double xy = 0;
-  double yy = 0;
-  for (const SeenTag& tag : seen) {
-    const double x = tag.tag.pose.x - mean.x;
-    const double y = tag.tag.pose.y - mean.y;
-    xx += x * x;
-    xy += x * y;
-    yy += y * y;
-  }
+  Eigen::Matrix2Xd places(2, static_cast<Eigen::Index>(seen.size()));
+  for (std::size_t i = 0; i < seen.size(); ++i)
+    places.col(static_cast<Eigen::Index>(i)) << seen[i].tag.pose.x, seen[i].tag.pose.y;
+  const Eigen::Matrix2Xd off = places.colwise() - places.rowwise().mean();
   // Spreads along the two principal axes, squared.
-  const double half = std::hypot((xx - yy) / 2, xy);
-  const double along = (xx + yy) / 2 + half;
-  const double across = std::max(0.0, (xx + yy) / 2 - half);
-  return !(across > kThin * kThin * along);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> axes(off * off.transpose());
+  return !(axes.eigenvalues()(0) > kThin * kThin * axes.eigenvalues()(1));
 }
 
 /// How much of what the camera sees of the arena lies within the hull of the tags' corners, 0 to 1;

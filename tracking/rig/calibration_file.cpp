@@ -1,3 +1,4 @@
+#include <Eigen/LU>
 #include <cmath>
 
 #include "sim/files/file_text.h"
@@ -142,20 +143,9 @@ CameraModel read_model(TableReader& table) {
 }
 
 /// A rotation has rows of length 1 that stand on each other, and does not mirror.
-bool is_rotation(const std::array<double, 9>& r) {
-  constexpr double kTolerance = 1e-6;
-  for (std::size_t i = 0; i < 3; ++i) {
-    for (std::size_t j = 0; j < 3; ++j) {
-      double product = 0;
-      for (std::size_t k = 0; k < 3; ++k)
-        product += r[3 * i + k] * r[3 * j + k];
-      if (!(std::abs(product - (i == j ? 1 : 0)) <= kTolerance)) return false;
-    }
-  }
-  const double determinant = r[0] * (r[4] * r[8] - r[5] * r[7]) -
-                             r[1] * (r[3] * r[8] - r[5] * r[6]) +
-                             r[2] * (r[3] * r[7] - r[4] * r[6]);
-  return determinant > 0;
+bool is_rotation(const std::array<double, 9>& rows) {
+  const Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>> r(rows.data());
+  return (r * r.transpose()).isIdentity(1e-6) && r.determinant() > 0;
 }
 
 PlaceCalibration::Seen read_seen(TableReader& table) {

@@ -87,7 +87,7 @@ std::vector<FilmedBoard> calibration_views(const BoardKind& kind, const CameraMo
   for (int i = 0; i < count; ++i) {
     // The nine thirds in turn, corners nearer to the edge each second time.
     const int third = i % 9;
-    const double reach = (kind.charuco ? 0.30 : 0.25) + 0.06 * (i / 9 % 2);
+    const double reach = (kind.charuco ? 0.30 : 0.28) + 0.06 * (i / 9 % 2);
     const ImagePoint middle{width * (0.5 + reach * (third % 3 - 1)),
                             height * (0.5 + reach * (third / 3 - 1))};
     constexpr double kDegree = std::numbers::pi / 180;
@@ -96,7 +96,7 @@ std::vector<FilmedBoard> calibration_views(const BoardKind& kind, const CameraMo
     const double side = rng.uniform(0, 2 * std::numbers::pi);
     const double turn = rng.uniform(-12, 12) * kDegree;
     // Of the image's width; a chessboard must be seen whole.
-    const double share = kind.charuco ? rng.uniform(0.36, 0.62) : rng.uniform(0.26, 0.40);
+    const double share = kind.charuco ? rng.uniform(0.36, 0.62) : rng.uniform(0.24, 0.36);
     const double distance = camera.fx * kind.width_m() / (share * width);
     views.push_back(held(board, kind, camera, middle, distance, tilt * std::cos(side),
                          tilt * std::sin(side), turn));

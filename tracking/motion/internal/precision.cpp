@@ -1,7 +1,7 @@
 #include "tracking/motion/internal/precision.h"
 
+#include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <optional>
 
@@ -17,40 +17,22 @@ constexpr double kWindow_s = 0.6;
 /// Median of the absolute value of a normal variable of sigma 1.
 constexpr double kMedianOfNormal = 0.6744897501960817;
 
-using Five = std::array<double, 5>;
+using Five = Eigen::Matrix<double, 5, 1>;
 
 /// Weights with which five values make the parabola's value at the middle one, for times counted
 /// from there: the row of the least squares' hat matrix. Nothing when times coincide.
 std::optional<Five> weights_at_middle(const Five& times) {
-  double s1 = 0;
-  double s2 = 0;
-  double s3 = 0;
-  double s4 = 0;
-  for (const double t : times) {
-    s1 += t;
-    s2 += t * t;
-    s3 += t * t * t;
-    s4 += t * t * t * t;
-  }
-  // First row of the inverse of the normal equations [5 s1 s2; s1 s2 s3; s2 s3 s4].
-  const double a = s2 * s4 - s3 * s3;
-  const double b = s2 * s3 - s1 * s4;
-  const double c = s1 * s3 - s2 * s2;
-  const double determinant = 5 * a + s1 * b + s2 * c;
-  if (!(std::fabs(determinant) > 1e-18)) return std::nullopt;
-  Five weights{};
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    weights.at(i) = (a + b * times.at(i) + c * times.at(i) * times.at(i)) / determinant;
-  return weights;
+  Eigen::Matrix<double, 5, 3> powers;
+  powers << Five::Ones(), times, times.cwiseAbs2();
+  const Eigen::Matrix3d normal = powers.transpose() * powers;
+  if (!(std::fabs(normal.determinant()) > 1e-18)) return std::nullopt;
+  return powers * normal.inverse().col(0);
 }
 
 /// The middle value minus the parabola there, scaled to the sigma of one value.
 double residual_at_middle(const Five& weights, const Five& values) {
-  double fitted = 0;
-  for (std::size_t i = 0; i < weights.size(); ++i)
-    fitted += weights.at(i) * values.at(i);
   // A hat matrix projects: its row's squares add up to its middle entry.
-  return (values[kHalf] - fitted) / std::sqrt(1 - weights[kHalf]);
+  return (values(kHalf) - weights.dot(values)) / std::sqrt(1 - weights(kHalf));
 }
 
 double sigma_of(std::vector<double>& residuals, double least) {
@@ -67,21 +49,21 @@ Scatter scatter_of(const std::vector<TimedPose>& track) {
   std::vector<double> of_heading;
   for (std::size_t i = kHalf; i + kHalf < track.size(); ++i) {
     if (track[i + kHalf].time_s - track[i - kHalf].time_s > kWindow_s) continue;
-    Five times{};
-    Five xs{};
-    Five ys{};
-    Five headings{};
-    for (std::size_t j = 0; j < times.size(); ++j) {
-      const TimedPose& sample = track[i - kHalf + j];
-      times.at(j) = sample.time_s - track[i].time_s;
-      xs.at(j) = sample.pose.x - track[i].pose.x;
-      ys.at(j) = sample.pose.y - track[i].pose.y;
-      headings.at(j) = wrap_angle(sample.pose.theta - track[i].pose.theta);
+    Five times;
+    Five xs;
+    Five ys;
+    Five headings;
+    for (Eigen::Index j = 0; j < times.size(); ++j) {
+      const TimedPose& sample = track[i - kHalf + static_cast<std::size_t>(j)];
+      times(j) = sample.time_s - track[i].time_s;
+      xs(j) = sample.pose.x - track[i].pose.x;
+      ys(j) = sample.pose.y - track[i].pose.y;
+      headings(j) = wrap_angle(sample.pose.theta - track[i].pose.theta);
     }
     const std::optional<Five> weights = weights_at_middle(times);
     if (!weights) continue;
     // With too uneven times the fit goes through the middle, which then says nothing.
-    if (weights->at(kHalf) > 0.9) continue;
+    if ((*weights)(kHalf) > 0.9) continue;
     of_place.push_back(std::fabs(residual_at_middle(*weights, xs)));
     of_place.push_back(std::fabs(residual_at_middle(*weights, ys)));
     of_heading.push_back(std::fabs(residual_at_middle(*weights, headings)));
