@@ -58,6 +58,15 @@ std::vector<Error> settle_names(RunLog& log, const Rig& rig) {
       errors.push_back(unknown("camera", camera, cameras, rig.file));
     }
   }
+  for (const HandPoint& point : log.points) {
+    const std::vector<std::string> robots = names_of(rig.robots);
+    if (std::ranges::find(robots, point.robot) == robots.end())
+      errors.push_back(unknown("robot", point.robot, robots, rig.file));
+    if (point.camera.empty() ? log.videos.size() > 1
+                             : std::ranges::find(cameras, point.camera) == cameras.end()) {
+      errors.push_back(unknown("camera", point.camera, cameras, rig.file));
+    }
+  }
   for (const std::string& robot : log.robots) {
     const std::vector<std::string> robots = names_of(rig.robots);
     if (std::ranges::find(robots, robot) == robots.end()) {

@@ -8,6 +8,7 @@
 #include "tracking/motion/tracked_run.h"
 #include "tracking/observing/observations.h"
 #include "tracking/rig/rig.h"
+#include "tracking/rig/run_log.h"
 
 namespace swarmsmith {
 
@@ -42,7 +43,8 @@ struct TrackLimits {
 
 struct TrackOptions {
   RunSpan span;
-  std::vector<int> other_tags;  ///< that are expected in the picture: the tag of a sync event
+  std::vector<HandPoint> points;  ///< by hand
+  std::vector<int> other_tags;    ///< that are expected in the picture: the tag of a sync event
   TrackLimits limits;
   bool scored_at_the_end = false;       ///< the mission's score sees the last instant alone
   bool takes_tags_for_centres = false;  ///< where a robot has no offset

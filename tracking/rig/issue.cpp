@@ -8,7 +8,7 @@ namespace swarmsmith {
 namespace {
 
 /// In the order of IssueCode.
-constexpr std::array<std::string_view, 29> kNames = {
+constexpr std::array<std::string_view, 30> kNames = {
     "E_VIDEO_UNREADABLE", "E_VIDEO_TRUNCATED",   "E_CALIB_SIZE",
     "E_CALIB_QUALITY",    "E_REF_TAGS",          "E_EXTRINSICS",
     "E_CAMERA_MOVED",     "E_ROBOT_MISSING",     "E_GAP",
@@ -18,8 +18,8 @@ constexpr std::array<std::string_view, 29> kNames = {
     "E_CONFIG",           "E_OUTSIDE_ARENA",     "W_OUTLIERS",
     "W_INTERPOLATED",     "W_TOO_CLOSE_TO_CALL", "W_UNKNOWN_TAGS",
     "W_CAMERAS_DISAGREE", "W_TAG_AS_CENTRE",     "E_DURATION",
-    "W_CAMERA_UNCHECKED", "W_SURVEY_CHANGED"};
-static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::SurveyChanged) + 1);
+    "W_CAMERA_UNCHECKED", "W_SURVEY_CHANGED",    "W_BY_HAND"};
+static_assert(kNames.size() == static_cast<std::size_t>(IssueCode::ByHand) + 1);
 
 constexpr std::array<std::string_view, 3> kVerdicts = {"VALID", "DEGRADED", "INVALID"};
 

@@ -43,6 +43,7 @@ enum class IssueCode {
   Duration,         ///< the video's length is not the log's
   CameraUnchecked,  ///< a warning: too few floor tags were seen to tell whether a camera moved
   SurveyChanged,    ///< a warning: floor tags were surveyed anew since a place was found
+  ByHand,           ///< a warning: a person said where a robot was
 };
 
 /// "E_GAP".

@@ -7,6 +7,7 @@
 #include "base/expected.h"
 #include "sim/mission/instance_csv.h"
 #include "sim/mission/mission.h"
+#include "tracking/geometry/camera_model.h"
 
 namespace swarmsmith {
 
@@ -44,6 +45,18 @@ struct RunLayout {
   friend bool operator==(const RunLayout&, const RunLayout&) = default;
 };
 
+/// Where a person saw a robot in a picture in which its tag was not found.
+struct HandPoint {
+  std::string robot;
+  std::string camera;                 ///< empty when there is only one
+  double time_s = 0;                  ///< of the run
+  ImagePoint middle;                  ///< of its tag
+  std::optional<double> heading_deg;  ///< of the robot; else as its neighbours say
+  std::string who;
+
+  friend bool operator==(const HandPoint&, const HandPoint&) = default;
+};
+
 struct RunLog {
   std::string name;       ///< "run07"
   std::string recorded;   ///< date, "2026-11-21"
@@ -55,6 +68,7 @@ struct RunLog {
   RunStart start;
   RunLayout layout;
   std::vector<RunVideo> videos;
+  std::vector<HandPoint> points;
 
   friend bool operator==(const RunLog&, const RunLog&) = default;
 };

@@ -127,6 +127,26 @@ RunLayout read_layout(TableReader& root) {
   return layout;
 }
 
+HandPoint read_hand_point(TableReader& table) {
+  HandPoint point;
+  point.robot = need_text(table, "robot", "rvr1");
+  point.camera = table.text("camera").value_or("");
+  if (!table.has("time")) table.complain("time", table.name() + " needs a `time` of the run");
+  point.time_s = table.seconds("time", kClock).value_or(0);
+  constexpr Limits<double> kPixels{-10'000, 100'000};
+  for (const auto& [key, value] : {std::pair{"u", &point.middle.u}, {"v", &point.middle.v}}) {
+    if (!table.has(key))
+      table.complain(key, table.name() + " needs `u` and `v`, the middle of the tag in pixels");
+    *value = table.number(key, kPixels).value_or(0);
+  }
+  if (table.has("heading")) {
+    point.heading_deg = table.number("heading", {-360, 360}).value_or(0);
+  }
+  point.who = need_text(table, "who", "A. Person");
+  table.finish();
+  return point;
+}
+
 /// "2026-11-21".
 std::string date_text(std::chrono::year_month_day date) {
   return fmt::format("{:04}-{:02}-{:02}", static_cast<int>(date.year()),
@@ -210,6 +230,8 @@ OrComplaints<RunLog> parse_run_log(std::string_view text, const std::filesystem:
   for (TableReader& table : root.tables("video"))
     log.videos.push_back(read_video(table));
   check_videos(root, log.videos);
+  for (TableReader& table : root.tables("point"))
+    log.points.push_back(read_hand_point(table));
   root.finish();
   if (!complaints.empty()) return tl::unexpected(config_errors(complaints.take()));
   return log;
@@ -225,6 +247,16 @@ std::string run_log_text(const RunLog& log) {
   std::vector<Section> sections = {{"", "", head_lines(log)}};
   for (const RunVideo& video : log.videos)
     sections.push_back(video_section(video));
+  for (const HandPoint& point : log.points) {
+    Section section{"[[point]]", "point.", {{"robot", quoted_text(point.robot)}}};
+    if (!point.camera.empty()) section.lines.push_back({"camera", quoted_text(point.camera)});
+    section.lines.push_back({"time", time_text(point.time_s)});
+    section.lines.push_back({"u", number_text(point.middle.u)});
+    section.lines.push_back({"v", number_text(point.middle.v)});
+    if (point.heading_deg) section.lines.push_back({"heading", number_text(*point.heading_deg)});
+    section.lines.push_back({"who", quoted_text(point.who)});
+    sections.push_back(std::move(section));
+  }
   for (const PatchPlacement& patch : log.layout.patches) {
     sections.push_back({"[[patch]]",
                         "patch.",

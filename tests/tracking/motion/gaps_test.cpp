@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "base/math.h"
 #include "tests/tracking/motion/seen_run.h"
 #include "tracking/motion/resampling.h"
 
@@ -102,6 +103,52 @@ TEST(GapsTest, NothingIsInterpolatedAcrossAWayThatNoRobotGoes) {
   EXPECT_THAT(issue->text, HasSubstr("cannot have come"));
   EXPECT_EQ(count_of(run, CycleKind::Missing), 3);
   EXPECT_NEAR(run.trajectory.at(305)[1].x, carried(1, 30.6).x, 1e-4);
+}
+
+/// Where a camera sees the middle of a robot's tag.
+HandPoint seen_by_a_person(const SeenRun& seen, int robot, double time_s) {
+  const View view = seen.rig.view_of(seen.rig.cameras[0]).value();
+  const TagOffset offset = seen.rig.offsets.begin()->second.offset;
+  const Pose tag = tag_pose_of_robot(on_circle(robot, time_s), offset);
+  HandPoint point{.robot = "rvr" + std::to_string(robot + 1), .time_s = time_s, .who = "A. Person"};
+  point.middle = image_of(view, Point3{tag.x, tag.y, seen.rig.robots[0].height_m});
+  return point;
+}
+
+TEST(HandPointTest, BridgesAGapAndIsMarked) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 300});
+  seen.hide(2, 10, 11.5);
+  ASSERT_NE(find_issue(seen.track().value(), IssueCode::Gap), nullptr);
+  for (const double time : {10.4, 10.8, 11.2}) {
+    seen.options.points.push_back(seen_by_a_person(seen, 1, time));
+    seen.options.points.back().heading_deg = on_circle(1, time).theta * 180 / kPi;
+  }
+  const TrackedRun run = seen.track().value();
+  EXPECT_EQ(find_issue(run, IssueCode::Gap), nullptr);
+  const Issue* issue = find_issue(run, IssueCode::ByHand);
+  ASSERT_NE(issue, nullptr);
+  EXPECT_THAT(issue->text, HasSubstr("3 times from 10.40 s to 11.20 s (A. Person)"));
+  for (int cycle = 101; cycle <= 114; ++cycle) {
+    const auto at = static_cast<std::size_t>(cycle - 1);
+    EXPECT_EQ(run.robots[1].cycles[at], CycleKind::Interpolated) << cycle;
+    const Pose& pose = run.trajectory.at(cycle - 1)[1];
+    const Pose truth = on_circle(1, instant_s(cycle));
+    EXPECT_NEAR(hypot(pose.x - truth.x, pose.y - truth.y), 0, 0.003) << cycle;
+    EXPECT_GT(run.robots[1].sigmas[at].sigma_m, run.robots[0].sigmas[at].sigma_m) << cycle;
+  }
+  // Others are as they were.
+  EXPECT_EQ(run.robots[0].cycles[104], CycleKind::Measured);
+}
+
+TEST(HandPointTest, WithoutAHeadingGoesOnAsItsNeighbours) {
+  SeenRun seen = seen_run(on_circle, {.cycles = 300});
+  seen.hide(2, 10, 11.2);
+  seen.options.points.push_back(seen_by_a_person(seen, 1, 10.6));
+  const TrackedRun run = seen.track().value();
+  EXPECT_EQ(find_issue(run, IssueCode::Gap), nullptr);
+  const Pose& pose = run.trajectory.at(105)[1];
+  const Pose truth = on_circle(1, 10.6);
+  EXPECT_NEAR(hypot(pose.x - truth.x, pose.y - truth.y), 0, 0.005);
 }
 
 }  // namespace

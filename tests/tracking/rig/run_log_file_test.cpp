@@ -59,6 +59,13 @@ TEST(RunLogFile, ReadsBackToTheSameBits) {
   RunLog log = *parse_run_log(kLog, "run.toml");
   log.start.time_s = 0.1 + 0.2;
   log.videos[1].clock_ahead_s = 1.0 / 3;
+  log.points = {{.robot = "rvr2", .time_s = 43.2, .middle = {812.25, 455}, .who = "A. Person"},
+                {.robot = "rvr1",
+                 .camera = "east",
+                 .time_s = 1.0 / 3,
+                 .middle = {0.1, 7},
+                 .heading_deg = -33.3,
+                 .who = "B"}};
   RunLog synced = log;
   synced.start = {std::nullopt, 99, RunStart::Sync::Shown};
   synced.robots = {"rvr1", "rvr \"3\""};

@@ -52,6 +52,20 @@ TEST(ScoreRunTest, SaysWhatIsTooCloseToCall) {
   EXPECT_EQ(score_run(standing_at(0.505), mission, {}, {})->verdict, Verdict::Valid);
 }
 
+/// Between frames a robot is less sure than in them; what counts is how sure it is at the end.
+TEST(ScoreRunTest, AsksHowWellTheLastInstantIsKnown) {
+  const Mission mission = mission_of("aggregation", 100);
+  TrackedRun run = standing_at(0.505);
+  run.robots[0].sigmas.front().sigma_m = 0.003;
+  EXPECT_EQ(score_run(run, mission, {}, {})->verdict, Verdict::Valid);
+  run.robots[0].sigmas.back().sigma_m = 0.003;
+  const ScoredRun scored = score_run(run, mission, {}, {}).value();
+  EXPECT_EQ(scored.verdict, Verdict::Degraded);
+  EXPECT_TRUE(scored.borders[0]->too_close);
+  EXPECT_EQ(scored.borders[0]->sigma_m, 0.003);
+  EXPECT_THAT(scored.reasons[0], HasSubstr("is known to 9.0 mm (3 sigma)"));
+}
+
 TEST(ScoreRunTest, TheVerdictFollowsFromAllIssues) {
   const Mission mission = mission_of("aggregation", 100);
   TrackedRun run = standing_at(0.7);

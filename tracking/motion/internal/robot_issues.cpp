@@ -230,6 +230,22 @@ void check_outliers(const TrackedRobot& robot, Complaints& complaints) {
                              robot.samples.size(), bad_fits));
 }
 
+void check_by_hand(const RobotTrack& track, const std::vector<HandPoint>& points,
+                   const std::string& robot, Complaints& complaints) {
+  if (track.by_hand_s.empty()) return;
+  std::string who;
+  for (const HandPoint& point : points) {
+    if (point.robot != robot || who.find(point.who) != std::string::npos) continue;
+    who += (who.empty() ? "" : ", ") + point.who;
+  }
+  const auto [first, last] = std::ranges::minmax(track.by_hand_s);
+  complaints.add(IssueCode::ByHand,
+                 fmt::format("was put where a person saw it, {} times from {:.2f} s to {:.2f} s "
+                             "({})",
+                             track.by_hand_s.size(), first, last, who),
+                 first, last);
+}
+
 void check_cameras(const RobotTrack& track, Complaints& complaints) {
   if (track.disagreeing == 0) return;
   complaints.add(
@@ -274,6 +290,7 @@ TrackedRobot tracked_robot(const TaggedRobot& robot, RobotSamples samples, const
   check_outside(made.samples, options, complaints);
   check_outliers(made, complaints);
   check_cameras(track, complaints);
+  check_by_hand(track, options.points, robot.setup.name, complaints);
   return made;
 }
 

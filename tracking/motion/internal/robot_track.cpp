@@ -33,6 +33,44 @@ std::vector<CameraTrack> camera_tracks(const TaggedRobot& robot, const RobotSamp
   return tracks;
 }
 
+/// The heading between the neighbours of an instant; the nearest one's beyond them.
+double heading_between(const std::vector<TimedPose>& track, double time_s) {
+  const auto next = std::ranges::lower_bound(track, time_s, {}, &TimedPose::time_s);
+  if (next == track.end()) return track.back().pose.theta;
+  if (next == track.begin()) return next->pose.theta;
+  const TimedPose& before = *std::prev(next);
+  const double share = (time_s - before.time_s) / (next->time_s - before.time_s);
+  const double turn = wrap_angle(next->pose.theta - before.pose.theta);
+  return wrap_angle(before.pose.theta + share * turn);
+}
+
+/// What people pointed at, on the plane of the robot's tag. A person hits a few pixels.
+std::vector<TimedPose> by_hand(const TaggedRobot& robot, const std::vector<TimedPose>& track,
+                               std::span<const TrackedCamera> cameras,
+                               const std::vector<HandPoint>& points) {
+  constexpr double kHit_px = 3;
+  constexpr double kSaid_rad = 0.1;
+  constexpr double kGuessed_rad = 0.5;
+  std::vector<TimedPose> made;
+  for (const HandPoint& point : points) {
+    if (point.robot != robot.setup.name) continue;
+    const auto camera = std::ranges::find_if(cameras, [&](const TrackedCamera& one) {
+      return one.name == point.camera || (point.camera.empty() && cameras.size() == 1);
+    });
+    if (camera == cameras.end()) continue;
+    const std::vector<ImagePoint> pixels{point.middle, {point.middle.u + 1, point.middle.v}};
+    const std::vector<Point> places = on_plane(camera->view, pixels, robot.setup.height_m);
+    const double pixel_m = hypot(places[1].x - places[0].x, places[1].y - places[0].y);
+    const double heading =
+        point.heading_deg ? *point.heading_deg * kPi / 180 : heading_between(track, point.time_s);
+    const Pose tag{places[0].x, places[0].y, wrap_angle(heading + robot.offset.yaw_rad)};
+    made.push_back({point.time_s,
+                    robot_pose(tag, robot.offset),
+                    {kHit_px * pixel_m, point.heading_deg ? kSaid_rad : kGuessed_rad}});
+  }
+  return made;
+}
+
 struct Estimate {
   Pose pose;
   Scatter sigma;
@@ -93,6 +131,11 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
     motions.emplace_back(&track, Motion(track.poses, options.limits));
   }
   std::ranges::stable_sort(made.merged, {}, &TimedPose::time_s);
+  const std::vector<TimedPose> points = by_hand(robot, made.merged, cameras, options.points);
+  for (const TimedPose& point : points)
+    made.by_hand_s.push_back(point.time_s);
+  made.merged.insert(made.merged.end(), points.begin(), points.end());
+  std::ranges::stable_sort(made.merged, {}, &TimedPose::time_s);
   const Motion together(made.merged, options.limits);
   const auto add = [&](const Estimate& estimate, CycleKind kind) {
     made.poses.push_back(estimate.pose);
@@ -111,7 +154,12 @@ RobotTrack track_of(const TaggedRobot& robot, const RobotSamples& samples,
     }
     if (measured.empty()) {
       const PoseAt found = together.at(time);
-      add({found.pose, found.sigma}, found.kind);
+      // What a person said bridges a gap, and measures nothing.
+      const bool is_by_hand = std::ranges::any_of(made.by_hand_s, [&](double point_s) {
+        return std::fabs(point_s - time) <= std::max(found.gap_s, options.limits.measured_gap_s);
+      });
+      add({found.pose, found.sigma},
+          is_by_hand ? std::max(found.kind, CycleKind::Interpolated) : found.kind);
       continue;
     }
     note_disagreement(measured, time, made);
