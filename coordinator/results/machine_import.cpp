@@ -1,6 +1,7 @@
 #include "coordinator/results/machine_import.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <utility>
@@ -47,7 +48,8 @@ class Repetitions {
 };
 
 /// What is wrong with a design's own words.
-std::optional<std::string> complaint_about(const std::string& mission, const std::string& method) {
+std::optional<std::string> complaint_about(const std::string& mission, const std::string& method,
+                                           bool is_known) {
   if (mission.empty()) {
     return "no mission is named; add a column mission, or --mission aggregation";
   }
@@ -55,6 +57,21 @@ std::optional<std::string> complaint_about(const std::string& mission, const std
     return "`" + mission +
            "` is no name for a mission: letters, digits, _ - . are; rename it with "
            "--mission OLD=NEW";
+  }
+  if (!is_known) {
+    constexpr std::array<const char*, 3> kBuiltIn{"aggregation", "grid_exploration",
+                                                  "color_selection"};
+    const auto* const meant = std::ranges::find_if(
+        kBuiltIn, [&](const std::string& name) { return name.starts_with(mission); });
+    return meant == kBuiltIn.end()
+               ? fmt::format(
+                     "there is no mission `{0}` here; say which one it is: --mission "
+                     "{0}=NEW, or --mission {0}={0} to keep the name",
+                     mission)
+               : fmt::format(
+                     "there is no mission `{0}` here; is it {1}? Then --mission {0}={1}, "
+                     "or --mission {0}={0} to keep the name",
+                     mission, *meant);
   }
   if (!is_name(method)) {
     return "`" + method + "` is no name for a method: letters, digits, _ - . are";
@@ -103,11 +120,12 @@ OrErrors<std::vector<MachineText>> read_machine_lines(std::string_view text,
            from.place});
     }
     machines.push_back({.name = std::move(from.name),
-                        .mission = head.mission ? std::move(head.mission->mission.name) : "",
+                        .mission = head.mission ? head.mission->mission.name : "",
                         .method = std::move(head.method),
                         .flavour = std::move(head.flavour),
                         .text = std::move(from.text),
-                        .place = std::move(from.place)});
+                        .place = std::move(from.place),
+                        .describes_mission = head.mission.has_value()});
   }
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   return machines;
@@ -178,7 +196,12 @@ OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
   for (const MachineText& from : machines) {
     const std::string mission = known.missions.name_of(from.mission);
     const std::string method = from.method.empty() ? known.method : from.method;
-    if (auto complaint = complaint_about(mission, method)) {
+    // A person may keep a name by renaming it to itself.
+    const bool is_known =
+        from.describes_mission || built_in_mission(mission).has_value() ||
+        known.missions.renamed.contains(from.mission) || !known.missions.of_all.empty() ||
+        std::ranges::find(known.designs, mission, &KnownDesign::mission) != known.designs.end();
+    if (auto complaint = complaint_about(mission, method, is_known)) {
       errors.push_back({ErrorKind::BadInput, std::move(*complaint), from.place});
       continue;
     }

@@ -23,6 +23,7 @@ struct MachineText {
   std::string flavour;  ///< as its head says; may be empty
   std::string text;     ///< of the grammar
   std::string place;    ///< file:line
+  bool describes_mission = false;  ///< its head holds the mission, whatever that is called
 };
 
 /// The machines of a file as sim/files/machine_file.h reads it.

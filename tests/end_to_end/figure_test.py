@@ -113,9 +113,15 @@ class Figure(unittest.TestCase):
 
     def test_a_file_is_written_whole_or_not_at_all(self):
         file = self.folder / "figure.svg"
-        file.write_text("older")
+        older = "<svg>older</svg>"
+        file.write_text(older)
         self.assertIn("no design d9", self.refused(4, "box", self.store, "-o", file, "--design", "d9"))
-        self.assertEqual(file.read_text(), "older")
+        self.assertEqual(file.read_text(), older)
+        notes = self.folder / "notes.svg"
+        notes.write_text("of a person")
+        self.assertIn("is a text, not an SVG picture",
+                      self.refused(1, "box", self.store, "-o", notes))
+        self.assertEqual(notes.read_text(), "of a person")
         link = self.folder / "link.svg"
         link.symlink_to(file)
         self.figure("box", "-o", link)

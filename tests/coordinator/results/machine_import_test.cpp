@@ -114,6 +114,12 @@ OrErrors<Addition> thesis_designs(const MachineImport& known) {
 
 TEST(MachineImport, KnowsTheSameMachinesAgainWhateverTheStoreHolds) {
   MachineImport known = into_empty_store();
+  const auto unknown = thesis_designs(known);
+  ASSERT_FALSE(unknown);
+  EXPECT_EQ(unknown.error().front().message,
+            "there is no mission `grid` here; is it grid_exploration? Then --mission "
+            "grid=grid_exploration, or --mission grid=grid to keep the name");
+  known.missions.renamed = {{"grid", "grid"}, {"color", "color"}};
   const auto first = thesis_designs(known);
   ASSERT_TRUE(first) << to_string(first.error().front());
   EXPECT_EQ(first->designs.size(), 30U);
