@@ -96,9 +96,16 @@ TEST_F(Programs, MayDieBySignals) {
   EXPECT_EQ(end.output.text, "1\n");
 }
 
+/// Long enough for a program to begin, also where everything is slow.
+#ifdef SWARMSMITH_SANITIZED
+constexpr milliseconds kBeginning{2000};
+#else
+constexpr milliseconds kBeginning{200};
+#endif
+
 TEST_F(Programs, AreEndedWhenTheirTimeIsOver) {
   ProcessCall call = hostile({"--print", "1", "--hang", ""});
-  call.limit = milliseconds(30);
+  call.limit = kBeginning;
   const ProcessEnd end = run(call);
   EXPECT_EQ(end.why, ProcessEnd::Why::Limit);
   EXPECT_EQ(end.signal, SIGTERM);
@@ -107,7 +114,7 @@ TEST_F(Programs, AreEndedWhenTheirTimeIsOver) {
 
 TEST_F(Programs, AreKilledWhenTheyIgnoreTheirEnd) {
   ProcessCall call = hostile({"--ignore", "15", "--hang", ""});
-  call.limit = milliseconds(30);
+  call.limit = kBeginning;
   const ProcessEnd end = run(call);
   EXPECT_EQ(end.why, ProcessEnd::Why::Limit);
   EXPECT_EQ(end.signal, SIGKILL);
