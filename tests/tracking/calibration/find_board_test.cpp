@@ -133,8 +133,8 @@ TEST(FindBoardTest, CornersOfChessboardsAreRefinedWhereverTheyAre) {
   const Board board = *parse_board("chessboard:10x7:0.03");
   double squares = 0;
   int count = 0;
-  for (const double distance : {0.45, 0.7, 1.0}) {
-    for (const ImagePoint middle : {ImagePoint{480, 270}, {300, 200}, {700, 350}}) {
+  for (const double distance : {0.45, 0.8}) {
+    for (const ImagePoint middle : {ImagePoint{480, 270}, {700, 350}}) {
       for (const double tilt : {0.1, 0.6}) {
         const Shot shot = shot_of(board, middle, distance, tilt);
         const auto sight = found_in(shot, board);
@@ -156,7 +156,7 @@ TEST(FindBoardTest, CornersOfChessboardsAreRefinedWhereverTheyAre) {
       }
     }
   }
-  EXPECT_GT(count, 12 * 70);
+  EXPECT_GE(count, 6 * 70);
   EXPECT_LT(std::sqrt(squares / count), 0.07);
 }
 
