@@ -23,7 +23,7 @@ constexpr IraceOption kOptions[] = {
     {"execDir", "", "--exec-dir", Folder, "./", "", G::Files, Supported,
      "folder in which the target's programs run", ""},
     {"parameterFile", "-p", "--parameter-file", File, "./parameters.txt", "", G::Files, Supported,
-     "description of the parameters", ""},
+     "description of the parameters", "a PCS file or ConfigSpace's JSON will do, too"},
     {"configurationsFile", "", "--configurations-file", File, "", "", G::Files, Supported,
      "table of configurations to begin with", ""},
     {"logFile", "-l", "--log-file", File, "./irace.Rdata", "", G::Files, Supported,

@@ -497,6 +497,28 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         # The report has the configurations as R's has them: switches and values without a blank.
         self.assertRegex(self.best_lines(text)[0], r"^\d+ +x(2[5-9]|3[0-5]) alg")
 
+    def test_parameters_of_smac_and_configspace(self):
+        (self.folder / "parameters.txt").unlink()
+        (self.folder / "space.pcs").write_text(
+            "-x [0, 100] [60]i\nmode {slow, fast}[slow]\ny [0.001, 1] [0.5]l\ny | mode in {fast}\n")
+        (self.folder / "space.json").write_text(json.dumps({
+            "hyperparameters": [
+                {"name": "x", "type": "uniform_int", "lower": 0, "upper": 100, "default": 60},
+                {"name": "mode", "type": "categorical", "choices": ["slow", "fast"], "default": "slow"},
+                {"name": "y", "type": "uniform_float", "lower": 0.001, "upper": 1, "log": True, "default": 0.5}],
+            "conditions": [{"child": "y", "parent": "mode", "type": "EQ", "value": "fast"}]}))
+        calls = 0
+        for name, mark in (("space.pcs", "-"), ("space.json", "--")):
+            done = self.irace("--check", "-p", name)
+            self.assertIn(f'"{mark}mode " c (slow, fast)', done.stdout)
+            calls = len(self.calls())
+            done = self.irace("-p", name, "--log-file", name + ".db")
+            self.assertIn(f"--x 60 {mark}mode slow", self.calls()[calls])
+            self.assertLess(abs(int(re.search(r"--x (\d+)", self.best_lines(done.stdout)[0]).group(1)) - 30), 12)
+            self.assert_clean(name + ".db")
+        (self.folder / "space.pcs").write_text("x [0, 100] [60]i\n{x * 2 > 10}\n")
+        self.assertIn("space.pcs:2: formulas", self.irace("-p", "space.pcs", code=1).stderr)
+
     def test_more_initial_configurations_than_a_race_has_room_for(self):
         rows = "".join(f"{x} slow NA\n" for x in range(60))
         (self.folder / "first.txt").write_text("x mode y\n" + rows)
