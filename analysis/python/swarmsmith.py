@@ -198,7 +198,10 @@ class Tuner:
         self._folder = tempfile.TemporaryDirectory(prefix="swarmsmith-tuner-")
         folder = pathlib.Path(self._folder.name)
         self._listener = socket.socket(socket.AF_UNIX)
-        self._listener.bind(str(folder / "socket"))
+        try:
+            self._listener.bind(str(folder / "socket"))
+        except OSError as error:
+            raise Error(f"{folder}: {error}; set TMPDIR to a folder with a shorter path") from error
         self._listener.listen(1024)
         self._write_files(folder, initial, forbidden, digits)
         home = pathlib.Path(store).resolve().parent if store else folder
