@@ -168,8 +168,8 @@ def _plain(value):
 
 
 Trial = collections.namedtuple("Trial", "id configuration instance seed bound")
-Trial.__doc__ = """What is to be evaluated: `id` for `tell`, the configuration as a dictionary of its active parameters, the
-instance (of the list that was given, else None), a seed, and the most time it may take (None without boundMax)."""
+Trial.__doc__ = """What is to be evaluated: `id` for `tell`, the configuration as a dictionary of its active parameters,
+the instance (of the list that was given, else None), a seed, and the most time it may take (None without boundMax)."""
 
 
 class Tuner:
@@ -183,7 +183,8 @@ class Tuner:
 
     `space` has a parameter a name; `initial` are configurations to begin with, `instances` what costs are taken on,
     `forbidden` conditions in R's words that no configuration may fulfil. Other options are those of irace
-    (docs/irace-options.md), written max_experiments, seed, test_instances excepted. `digits` are the decimals of reals.
+    (docs/irace-options.md), written as max_experiments and seed, but for files, programs and test instances, which a
+    tuner has no use for. `digits` are the decimals of reals.
     With `store` the run is kept, and the same call goes on after a crash: what was told is not asked again."""
 
     def __init__(self, space, *, store=None, instances=(None,), initial=(), forbidden=(), digits=4, parallel=1,
@@ -193,6 +194,10 @@ class Tuner:
         for name in self._space:
             if not re.fullmatch(r"[A-Za-z][A-Za-z0-9_.]*", name):
                 raise Error(f"'{name}' is no name of a parameter: letters, digits, '_' and '.'")
+        for name in options:
+            if name.startswith(("test_instances", "train_instances", "target_", "log_file", "exec_dir")) or \
+                    name.endswith("_file"):
+                raise Error(f"{name} means nothing here: a function, its instances and a store are given")
         self._instances = list(instances)
         self._open, self._count, self._best, self.store = {}, 0, None, store
         self._folder = tempfile.TemporaryDirectory(prefix="swarmsmith-tuner-")
@@ -323,8 +328,8 @@ def _r(value):
 
 
 def tune(function, space, **options):
-    """The elites of a run of irace, best first, on a function that takes a Trial and returns its cost, or cost and time.
-    Options as of `Tuner`. An exception of the function ends the run and is raised."""
+    """The elites of a run of irace, best first, on a function that takes a Trial and returns its cost, or cost and
+    time. Options as of `Tuner`. An exception of the function ends the run and is raised."""
     with Tuner(space, **options) as tuner:
         while trials := tuner.ask():
             for trial in trials:
@@ -334,9 +339,10 @@ def tune(function, space, **options):
 
 
 def _ask_and_tell():
-    """`python3 -m swarmsmith`: the first line on standard input is {"space": {"x": {"type": "real", "lower": 0, "upper":
-    1}, "m": {"type": "categorical", "values": ["a", "b"]}}, ...options of Tuner}. Lines {"ask": [{"id", "configuration",
-    "instance", "seed", "bound"}]} come out, lines {"tell": [{"id", "cost", "time"}]} go in; the last is {"best": [...]}."""
+    """`python3 -m swarmsmith`: the first line on standard input is {"space": {"x": {"type": "real", "lower": 0,
+    "upper": 1}, "m": {"type": "categorical", "values": ["a", "b"]}}, ...options of Tuner}. Lines {"ask": [{"id",
+    "configuration", "instance", "seed", "bound"}]} come out, lines {"tell": [{"id", "cost", "time"}]} go in; the last
+    is {"best": [...]}."""
     types = {"real": Real, "integer": Integer, "categorical": Categorical, "ordinal": Ordinal}
     options = json.loads(sys.stdin.readline())
     space = {name: types[domain.pop("type")](**domain) for name, domain in options.pop("space").items()}

@@ -1,4 +1,4 @@
-"""The target-runner of `swarmsmith.Tuner`: hands a call to the Python process that waits for it, and prints its answer."""
+"""The target-runner of `swarmsmith.Tuner`: hands a call to the Python process that waits for it, prints its answer."""
 import os
 import socket
 import sys

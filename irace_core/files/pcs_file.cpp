@@ -102,6 +102,19 @@ std::size_t find_outside(std::string_view text, std::string_view separator) {
   return std::string_view::npos;
 }
 
+Expected<Domain> numeric_domain(const std::string& bounds, bool whole, bool log,
+                                const std::string& where) {
+  const std::vector<std::string> items = split_list(bounds);
+  const auto lower = number_of(items.front());
+  const auto upper = number_of(items.back());
+  if (items.size() != 2 || !lower || !upper) {
+    return bad_input("expected two numbers with a comma between them, found [" + bounds + "]",
+                     where);
+  }
+  if (whole) return Integer{*lower, *upper, log};
+  return Real{*lower, *upper, log};
+}
+
 class PcsReader {
  public:
   PcsReader(const IraceText& source, const ForeignSpaceOptions& options)
@@ -120,8 +133,6 @@ class PcsReader {
 
   Expected<void> read_line(std::string_view text, std::size_t number);
   Expected<void> read_parameter(const std::string& name, LineReader line, std::string where);
-  Expected<Domain> numeric_domain(const std::string& bounds, bool whole, bool log,
-                                  const std::string& where) const;
   /// Comparisons joined by one operator.
   Expected<Expression> read_joined(const Later& from, const std::string& separator,
                                    Operation operation) const;
@@ -134,19 +145,6 @@ class PcsReader {
   std::vector<Later> conditions_;
   std::vector<Later> forbidden_;
 };
-
-Expected<Domain> PcsReader::numeric_domain(const std::string& bounds, bool whole, bool log,
-                                           const std::string& where) const {
-  const std::vector<std::string> items = split_list(bounds);
-  const auto lower = number_of(items.front());
-  const auto upper = number_of(items.back());
-  if (items.size() != 2 || !lower || !upper) {
-    return bad_input("expected two numbers with a comma between them, found [" + bounds + "]",
-                     where);
-  }
-  if (whole) return Integer{*lower, *upper, log};
-  return Real{*lower, *upper, log};
-}
 
 /// The older format has `{a, b}[a]` and `[1, 10][5]il`, the newer one a word for the type.
 Expected<void> PcsReader::read_parameter(const std::string& name, LineReader line,
