@@ -298,6 +298,8 @@ Examples:
   swarmsmith irace --check
   swarmsmith irace --scenario scenario.txt --max-experiments 1000 --seed 42 --parallel 8
   swarmsmith irace --only-test configurations.txt
+  swarmsmith irace --psrace --psrace-max-experiments 200
+  swarmsmith irace --ablation --ablation-csv ablation.csv
   swarmsmith irace -s scenario.txt | sed '1,/as commandlines/d')";
 
 constexpr std::array kCommands = {

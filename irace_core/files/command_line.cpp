@@ -101,6 +101,8 @@ class Reader {
       line_.only_test = absolute_path(*file, folder_);
       return IraceAction::OnlyTest;
     }
+    if (given.is_on("--psrace")) return IraceAction::PsRace;
+    if (given.is_on("--ablation")) return IraceAction::Ablation;
     return given.is_on("--check") ? IraceAction::Check : IraceAction::Run;
   }
 

@@ -10,8 +10,9 @@
 
 namespace swarmsmith {
 
-/// What a command line asks for. Help comes before Version, that before Init, OnlyTest and Check.
-enum class IraceAction { Run, Check, Init, OnlyTest, Help, Version };
+/// What a command line asks for. Help comes before Version, that before Init, OnlyTest, PsRace,
+/// Ablation and Check.
+enum class IraceAction { Run, Check, Init, OnlyTest, PsRace, Ablation, Help, Version };
 
 /// The words after `swarmsmith irace`, checked one by one (irace facts, 21).
 struct IraceCommandLine {

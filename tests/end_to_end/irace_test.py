@@ -497,6 +497,83 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         # The report has the configurations as R's has them: switches and values without a blank.
         self.assertRegex(self.best_lines(text)[0], r"^\d+ +x(2[5-9]|3[0-5]) alg")
 
+    def test_parameters_of_smac_and_configspace(self):
+        (self.folder / "parameters.txt").unlink()
+        (self.folder / "space.pcs").write_text(
+            "-x [0, 100] [60]i\nmode {slow, fast}[slow]\ny [0.001, 1] [0.5]l\ny | mode in {fast}\n")
+        (self.folder / "space.json").write_text(json.dumps({
+            "hyperparameters": [
+                {"name": "x", "type": "uniform_int", "lower": 0, "upper": 100, "default": 60},
+                {"name": "mode", "type": "categorical", "choices": ["slow", "fast"], "default": "slow"},
+                {"name": "y", "type": "uniform_float", "lower": 0.001, "upper": 1, "log": True, "default": 0.5}],
+            "conditions": [{"child": "y", "parent": "mode", "type": "EQ", "value": "fast"}]}))
+        calls = 0
+        for name, mark in (("space.pcs", "-"), ("space.json", "--")):
+            done = self.irace("--check", "-p", name)
+            self.assertIn(f'"{mark}mode " c (slow, fast)', done.stdout)
+            calls = len(self.calls())
+            done = self.irace("-p", name, "--log-file", name + ".db")
+            self.assertIn(f"--x 60 {mark}mode slow", self.calls()[calls])
+            self.assertLess(abs(int(re.search(r"--x (\d+)", self.best_lines(done.stdout)[0]).group(1)) - 30), 12)
+            self.assert_clean(name + ".db")
+        (self.folder / "space.pcs").write_text("x [0, 100] [60]i\n{x * 2 > 10}\n")
+        self.assertIn("space.pcs:2: formulas", self.irace("-p", "space.pcs", code=1).stderr)
+
+    def test_a_finished_run_is_raced_again(self):
+        self.assertIn("irace.db", self.irace("--psrace", "--psrace-max-experiments", "60", code=1).stderr)
+        self.irace()
+        made = len(self.calls())
+        self.assertIn("--psrace-max-experiments N", self.irace("--psrace", code=1).stderr)
+        words = ("--psrace", "--psrace-elites", "--psrace-max-experiments", "60")
+        done = self.irace(*words)
+        lines = self.best_lines(done.stdout)
+        self.assertEqual(len(lines), 1)
+        self.assertIn("# 1 here is configuration ", done.stdout)
+        again = self.calls()[made:]
+        self.assertTrue(6 <= len(again) <= 60, len(again))
+        # Other seeds than those of the run, and no configuration that it did not have.
+        self.assertFalse({line.split()[2] for line in again} & {line.split()[2] for line in self.calls()[:made]})
+        self.assertLessEqual({line.split(" ", 4)[4] for line in again},
+                             {line.split(" ", 4)[4] for line in self.calls()[:made]})
+        self.assert_clean("irace-psrace.db")
+        # It is kept, and told again.
+        self.assertEqual(self.best_lines(self.irace(*words).stdout), lines)
+        self.assertEqual(len(self.calls()), made + len(again))
+        # Those that are named.
+        done = self.irace("--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", "30",
+                          "--log-file", "irace.db", code=1)
+        self.assertIn("irace-psrace.db", done.stderr)
+        (self.folder / "irace-psrace.db").unlink()
+        done = self.irace("--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", "30")
+        self.assertIn("# 2 here is configuration 5 of the run", done.stdout)
+        self.assertIn("no configuration 999", self.irace(
+            "--psrace", "--psrace-ids", "2,999", "--psrace-max-experiments", "30", code=1).stderr)
+
+    def test_ablation_finds_the_change_that_matters(self):
+        (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
+        self.write_scenario(configurationsFile="first.txt")
+        self.irace()
+        made = len(self.calls())
+        done = self.irace("--ablation", "--ablation-csv", "ablation.csv", "--ablation-target", "1", code=1)
+        self.assertIn("are the same", done.stderr)
+        done = self.irace("--ablation", "--ablation-csv", "ablation.csv")
+        self.assertRegex(done.stdout, r"# Step 1: x: 90 -> (2|3)\d\n")
+        self.assertEqual(len(self.best_lines(done.stdout)), 1)
+        rows = [line.split(",") for line in (self.folder / "ablation.csv").read_text().splitlines()]
+        self.assertEqual(rows[0], ["configuration", "step", "on_path", "changed", "pair", "instance", "seed", "cost"])
+        self.assertEqual(len(rows) - 1, len(self.calls()) - made)
+        pairs = {tuple(row[-3:-1]) for row in rows[1:]}
+        self.assertEqual(len(pairs), 5, "firstTest pairs, the same for all")
+        # The same again, and more instances.
+        again = self.irace("--ablation", "--parallel", "1")
+        self.assertEqual([line for line in again.stdout.splitlines() if "Step" in line],
+                         [line for line in done.stdout.splitlines() if "Step" in line])
+        before = len(self.calls())
+        self.irace("--ablation", "--ablation-instances", "2", "-q")
+        self.assertEqual(len(self.calls()) - before, 2 * (len(rows) - 1))
+        self.write_runner("exit 3")
+        self.assertIn("exit", self.irace("--ablation", code=1).stderr)
+
     def test_more_initial_configurations_than_a_race_has_room_for(self):
         rows = "".join(f"{x} slow NA\n" for x in range(60))
         (self.folder / "first.txt").write_text("x mode y\n" + rows)

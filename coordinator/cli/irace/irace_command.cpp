@@ -8,10 +8,12 @@
 #include "coordinator/campaign/irace_campaign.h"
 #include "coordinator/campaign/programs.h"
 #include "coordinator/cli/commands.h"
+#include "coordinator/cli/irace/irace_ablation.h"
 #include "coordinator/cli/irace/irace_check.h"
 #include "coordinator/cli/irace/irace_console.h"
 #include "coordinator/cli/irace/irace_init.h"
 #include "coordinator/cli/irace/irace_only_test.h"
+#include "coordinator/cli/irace/irace_psrace.h"
 #include "coordinator/cli/irace/irace_run.h"
 #include "irace_core/files/command_line.h"
 #include "irace_core/files/scenario_text.h"
@@ -62,6 +64,22 @@ std::filesystem::path store_file(std::filesystem::path log_file) {
   return log_file;
 }
 
+/// What is no run of the scenario is a campaign of its own: `name-test.db`.
+std::filesystem::path beside(const std::filesystem::path& file, const std::string& ending) {
+  return file.parent_path() / (file.stem().string() + ending + file.extension().string());
+}
+
+/// The store of the finished run that --psrace and --ablation begin from.
+Expected<std::filesystem::path> finished_store(const IraceCommandLine& line,
+                                               const IraceSetup& setup) {
+  const IraceSetting* store = line.settings.find("--store");
+  const auto text = line.settings.text("--store");
+  if (text && !text->empty()) return absolute_path(*text, store->folder);
+  if (!setup.log_file.empty()) return store_file(setup.log_file);
+  return bad_input("names no run: give the log file of one that is over (--log-file NAME)",
+                   "--log-file");
+}
+
 /// --store, else the log file, else a place that goes afterwards.
 Expected<StorePlace> place_of(Output& output, const IraceCommandLine& line,
                               const IraceSetup& setup) {
@@ -75,10 +93,7 @@ Expected<StorePlace> place_of(Output& output, const IraceCommandLine& line,
       print_note(output, "the store is " + file.string() + ": an SQLite file in place of R's " +
                              setup.log_file.string());
     }
-    // Tests without a run are a campaign of their own.
-    if (line.action != IraceAction::OnlyTest) return StorePlace::at(file);
-    const std::string name = file.stem().string() + "-test" + file.extension().string();
-    return StorePlace::at(file.parent_path() / name);
+    return StorePlace::at(line.action == IraceAction::OnlyTest ? beside(file, "-test") : file);
   }
   return StorePlace::temporary();
 }
@@ -103,6 +118,19 @@ ExitCode check(Output& output, const IraceSetup& setup) {
              << "## end of irace scenario\n## parameters:\n"
              << setup.parameter_text << "## end of parameters\n";
   return check_target(output, setup, campaign);
+}
+
+/// What is made of a finished run.
+ExitCode after_run(Output& output, const IraceCommandLine& line, const IraceSetup& setup) {
+  const auto finished = finished_store(line, setup);
+  if (!finished) return fail(output, ExitCode::Failed, finished.error());
+  if (line.action == IraceAction::Ablation) {
+    const Campaign campaign = campaign_of(setup, seed_of(setup, StorePlace::at(*finished)));
+    return ablate(output, line.settings, setup, campaign, *finished);
+  }
+  const IraceSlots slots{.workers = line.settings.number("--workers"), .parallel = setup.parallel};
+  return race_again(output, line.settings, setup, *finished,
+                    StorePlace::at(beside(*finished, "-psrace")), slots);
 }
 
 ExitCode carry_out(Output& output, const IraceCommandLine& line) {
@@ -130,6 +158,8 @@ ExitCode carry_out(Output& output, const IraceCommandLine& line) {
                  "`swarmsmith run` serves others)",
                  "--workers"});
   }
+  if (line.action == IraceAction::PsRace || line.action == IraceAction::Ablation)
+    return after_run(output, line, *setup);
   const auto place = place_of(output, line, *setup);
   if (!place) return fail(output, ExitCode::Failed, place.error());
   const IraceSlots slots{.workers = workers, .parallel = setup->parallel};
@@ -157,6 +187,8 @@ ExitCode run_irace(const std::vector<std::string>& words, Output& output) {
     case IraceAction::Run:
     case IraceAction::Check:
     case IraceAction::OnlyTest:
+    case IraceAction::PsRace:
+    case IraceAction::Ablation:
       break;
   }
   return carry_out(output, *line);

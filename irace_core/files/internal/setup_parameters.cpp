@@ -1,6 +1,8 @@
+#include <algorithm>
 #include <optional>
 
 #include "irace_core/files/configurations_file.h"
+#include "irace_core/files/foreign_space.h"
 #include "irace_core/files/internal/setup_work.h"
 #include "irace_core/files/parameter_file.h"
 #include "irace_core/files/whole_file.h"
@@ -27,6 +29,24 @@ std::optional<IraceText> text_of(SetupWork& work, std::string_view option) {
                  absolute_path(std::get<std::string>(setting->value), setting->folder));
 }
 
+/// The space of another tool, kept as irace's text, and its defaults as the first configuration.
+bool read_foreign_space(SetupWork& work, const IraceText& text, SpaceFormat format,
+                        std::optional<int> digits) {
+  const ForeignSpaceOptions options{work.settings.is_on("aclib"), digits};
+  auto foreign = format == SpaceFormat::Pcs ? parse_pcs_file(text, options)
+                                            : parse_config_space(text, options);
+  if (!foreign) {
+    work.complain("parameterFile", foreign.error());
+    return false;
+  }
+  for (std::string& warning : foreign->warnings)
+    work.warn(std::move(warning));
+  work.setup.space = std::move(foreign->space);
+  work.setup.parameter_text = std::move(foreign->text);
+  if (foreign->initial) work.setup.initial.push_back(std::move(*foreign->initial));
+  return true;
+}
+
 /// False after a complaint.
 bool read_space(SetupWork& work) {
   const std::size_t complaints = work.errors.size();
@@ -41,6 +61,16 @@ bool read_space(SetupWork& work) {
   sources.dependency = text_of(work, "dependencyFile");
   auto parameters = text_of(work, "parameterFile", work.setup.parameter_file);
   if (work.errors.size() != complaints) return false;
+  if (const SpaceFormat format = space_format_of(*parameters); format != SpaceFormat::Irace) {
+    if (!sources.forbidden && !sources.dependency) {
+      return read_foreign_space(work, *parameters, format,
+                                work.settings.is_on("aclib") ? std::nullopt : sources.digits);
+    }
+    work.complain(sources.forbidden ? "forbiddenFile" : "dependencyFile",
+                  "stands beside parameters that are not in irace's format: leave it out, and "
+                  "forbid in the parameter file");
+    return false;
+  }
   sources.parameters = std::move(*parameters);
   auto file = parse_parameter_file(sources);
   if (!file) {
@@ -63,19 +93,37 @@ bool read_space(SetupWork& work) {
   return true;
 }
 
+/// Puts the defaults before the configurations of a file, unless they are among them.
+void begin_with(SetupWork& work, const Configuration& defaults) {
+  auto& initial = work.setup.initial;
+  if (std::ranges::find(initial, defaults) != initial.end()) return;
+  initial.insert(initial.begin(), defaults);
+  auto text = print_configurations_file(work.setup.space, initial);
+  if (!text) {
+    work.errors.push_back(text.error());
+    return;
+  }
+  work.setup.configurations_text = std::move(*text);
+}
+
 }  // namespace
 
 void read_parameters(SetupWork& work) {
   const bool has_space = read_space(work);
   const auto text = text_of(work, "configurationsFile", work.setup.configurations_file);
-  if (!has_space || !text) return;
-  auto configurations = parse_configurations_file(*text, work.setup.space);
-  if (!configurations) {
-    work.errors.push_back(configurations.error());
-    return;
+  if (!has_space) return;
+  const std::vector<Configuration> defaults = std::move(work.setup.initial);
+  work.setup.initial.clear();
+  if (text) {
+    auto configurations = parse_configurations_file(*text, work.setup.space);
+    if (!configurations) {
+      work.errors.push_back(configurations.error());
+      return;
+    }
+    work.setup.initial = std::move(*configurations);
+    work.setup.configurations_text = text->text;
   }
-  work.setup.initial = std::move(*configurations);
-  work.setup.configurations_text = text->text;
+  if (!defaults.empty()) begin_with(work, defaults.front());
 }
 
 }  // namespace swarmsmith::irace

@@ -114,6 +114,29 @@ TEST_F(IraceSetupFiles, AScenarioAndWhatItNamesIsRead) {
   EXPECT_EQ(read.scenario_file, path("scenario.txt"));
 }
 
+TEST_F(IraceSetupFiles, ParametersOfOtherToolsBecomeIracesAndTheirDefaultsComeFirst) {
+  write("space.pcs", "a [0, 1] [0.25]\nb {x, y}[x]\n");
+  const IraceSetup read = setup({"-p", "space.pcs"});
+  EXPECT_EQ(read.parameter_text,
+            "a \"-a \" r (0, 1)\nb \"-b \" c (x, y)\n\n[global]\ndigits = 4\n");
+  ASSERT_EQ(read.initial.size(), 1U);
+  EXPECT_EQ(read.initial[0][0], 0.25);
+  EXPECT_EQ(read.configurations_text, "a b\n0.25 x\n");
+  EXPECT_EQ(setup({"-p", "space.pcs", "--aclib", "1"}).space[0].switch_text, "a");
+
+  write("first.txt", "a b\n0.5 y\n");
+  const IraceSetup both = setup({"-p", "space.pcs", "--configurations-file", "first.txt"});
+  EXPECT_EQ(both.initial.size(), 2U);
+  EXPECT_EQ(both.configurations_text, "a b\n0.25 x\n0.5 y\n");
+
+  write("space.json", R"({"hyperparameters": [{"name": "a", "type": "constant", "value": 1},
+    {"name": "b", "type": "uniform_float", "lower": 0, "upper": 1, "default": 0.5}]})");
+  EXPECT_EQ(setup({"-p", "space.json"}).space[1].switch_text, "--b ");
+  write("none.txt", "");
+  EXPECT_THAT(errors({"-p", "space.json", "--forbidden-file", "none.txt"}),
+              Contains(HasSubstr("not in irace's format")));
+}
+
 TEST_F(IraceSetupFiles, AScenarioThatNobodyNamedIsReadWithAWarning) {
   EXPECT_THAT(setup().warnings, ElementsAre(HasSubstr("because it is there")));
   EXPECT_THAT(setup({"--scenario", "scenario.txt"}).warnings, IsEmpty());
