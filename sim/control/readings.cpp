@@ -33,6 +33,7 @@ double neighbour_strength(double distance_m, const ObstacleModel& model) {
 Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                         const ObstacleModel& model) {
   Vector2 sum;
+  if (neighbours.empty() && nothing_within(proximity, model.far_m)) return sum;
   for (std::size_t i = 0; i < proximity.size(); ++i) {
     const double strength = obstacle_strength(proximity[i], model);
     if (strength == 0) continue;

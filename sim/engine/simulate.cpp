@@ -60,6 +60,7 @@ class Run {
            .control = ControlSoftware(setup.machine, setup.flavour,
                                       run.split("control", static_cast<std::uint64_t>(i))),
            .clock = RobotClock(setup.profile.timing, run, i)});
+      next_events_.push_back(agents_.back().next_event());
     }
   }
 
@@ -70,13 +71,14 @@ class Run {
       const std::int64_t end = std::int64_t{instant} * kSubStepsPerInstant;
       while (now < end) {
         std::int64_t next = end;
-        for (const Agent& agent : agents_)
-          next = std::min(next, agent.next_event());
+        for (const std::int64_t event : next_events_)
+          next = std::min(next, event);
         world_.advance(static_cast<int>(next - now));
         now = next;
         check(now);
-        for (int i = 0; i < world_.robots(); ++i)
-          serve(i, now);
+        for (int i = 0; i < world_.robots(); ++i) {
+          if (next_events_[static_cast<std::size_t>(i)] == now) serve(i, now);
+        }
       }
       observe();
       record(instant);
@@ -118,6 +120,7 @@ class Run {
     }
     // Also an old command is renewed: its direction follows the heading, cycle by cycle.
     if (acts || arrived) world_.command(robot, agent.acting);
+    next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
   }
 
   /// One control cycle: read, decide, and send the command on its way. A command without latency
@@ -192,6 +195,7 @@ class Run {
   World world_;
   Scorer scorer_;
   std::vector<Agent> agents_;
+  std::vector<std::int64_t> next_events_;  ///< of the agents
   std::vector<Point> positions_;
   std::vector<Point> object_positions_;
   std::vector<RobotRecord> records_;

@@ -70,15 +70,17 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
     const double ny = wall.ny * self.cos - wall.nx * self.sin;
     for (const Line& line : kLines) {
       const double cosine = nx * line.x + ny * line.y;
-      if (depth > sight * std::fabs(cosine)) continue;
+      const bool meets = depth <= sight * std::fabs(cosine);
       const double from_centre = cosine == 0 ? 0 : depth / cosine;  // its sign: ahead or back
       if (!walls.convex) {
         const double sideways = nx * line.y - ny * line.x;
         const double along = wall.along(self.x, self.y) + from_centre * sideways;
         if (along < -kSlack_m || along > wall.length_m + kSlack_m) continue;
       }
+      // Selected, not branched to: which lines meet a wall changes with every turn.
+      const double met = meets ? std::max(0.0, std::fabs(from_centre) - start_m) : kInfinity;
       double& distance = distances[cosine > 0 ? line.ahead : line.back];
-      distance = std::min(distance, std::max(0.0, std::fabs(from_centre) - start_m));
+      distance = std::min(distance, met);
     }
   }
 }
@@ -123,11 +125,6 @@ void meet_robot(const Body& self, const Body& other, double range_m, RayDistance
       distance = std::min(distance, distance_to_square(-line.x, -line.y, at));
     }
   }
-}
-
-double limited(double distance_m, double range_m) {
-  if (distance_m < kBlindZone_m) return -kInfinity;
-  return distance_m > range_m ? kInfinity : distance_m;
 }
 
 }  // namespace swarmsmith

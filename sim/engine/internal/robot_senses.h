@@ -8,6 +8,7 @@
 #include "sim/engine/internal/motion_sensors.h"
 #include "sim/engine/internal/noise_stream.h"
 #include "sim/engine/internal/proximity_noise.h"
+#include "sim/engine/internal/sensing.h"
 #include "sim/engine/internal/world.h"
 #include "sim/engine/profile.h"
 #include "sim/engine/readings.h"
@@ -70,6 +71,7 @@ class RobotSenses final : public Senses {
   const Profile* profile_;
   int robot_;
   MotionSensors motion_;
+  ProximityRays proximity_rays_;
   ProximityNoise proximity_noise_;
   NoiseStream ground_noise_;
   NoiseStream lidar_noise_;
@@ -79,6 +81,7 @@ class RobotSenses final : public Senses {
   Cycle cycle_;
   Sensors computed_;  ///< the others' readings are of an earlier cycle
   Readings readings_;
+  std::vector<int> near_;  ///< room for the numbers of robots
   Point floor_place_;  ///< where the floor was last looked up, and what colour it has there
   Rgb floor_;
   std::vector<double> turret_ranges_m_;  ///< the scan that finds neighbours, if it is the lidar

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/engine/internal/mover.h"
+
+namespace swarmsmith {
+
+inline double distance2_of(const Body& a, const Body& b) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  return dx * dx + dy * dy;
+}
+
+/// Where all movers are, for whoever asks what is near a place. A few are looked at one by one;
+/// more are sorted into the cells of a grid, so that an answer costs what is near and not how many
+/// there are.
+class Places {
+ public:
+  explicit Places(std::size_t movers);
+
+  /// Takes the places as they are now; to be called whenever movers have moved.
+  void update(std::span<const Mover> movers);
+
+  /// The movers with numbers from `first` on whose centres are at most `radius_m` away from a
+  /// mover's centre, ascending, without itself; replaces what was in `found`. `movers` are those of
+  /// the last update.
+  void find_near(std::span<const Mover> movers, std::size_t mover, double radius_m,
+                 std::size_t first, std::vector<int>& found) const {
+    found.clear();
+    const Body& self = movers[mover].body;
+    const double radius2 = radius_m * radius_m;
+    const auto take = [&](std::size_t other) {
+      if (other < first || other == mover) return;
+      if (distance2_of(self, movers[other].body) <= radius2) {
+        found.push_back(static_cast<int>(other));
+      }
+    };
+    if (movers.size() > kFew) return take_from_cells(self, radius_m, take, found);
+    for (std::size_t other = first; other < movers.size(); ++other)
+      take(other);
+  }
+
+ private:
+  static constexpr std::size_t kFew = 8;
+  /// Side of a cell: about what sensors and contacts reach.
+  static constexpr double kCell_m = 0.75;
+
+  template <class Take>
+  void take_from_cells(const Body& self, double radius_m, const Take& take,
+                       std::vector<int>& found) const {
+    const std::size_t left = column_of(self.x - radius_m);
+    const std::size_t right = column_of(self.x + radius_m);
+    const std::size_t top = row_of(self.y + radius_m);
+    for (std::size_t row = row_of(self.y - radius_m); row <= top; ++row) {
+      const std::size_t end = begin_[row * columns_ + right + 1];
+      for (std::size_t i = begin_[row * columns_ + left]; i < end; ++i)
+        take(sorted_[i]);
+    }
+    std::sort(found.begin(), found.end());
+  }
+
+  std::size_t column_of(double x) const { return cell_of((x - left_m_) / cell_m_, columns_); }
+  std::size_t row_of(double y) const { return cell_of((y - bottom_m_) / cell_m_, rows_); }
+  /// Also what is no number lies in a cell.
+  static std::size_t cell_of(double place, std::size_t cells) {
+    if (!(place >= 1)) return 0;
+    return place < static_cast<double>(cells) ? static_cast<std::size_t>(place) : cells - 1;
+  }
+  void lay_grid(std::span<const Mover> movers);
+
+  double left_m_ = 0;
+  double bottom_m_ = 0;
+  double cell_m_ = kCell_m;
+  std::size_t columns_ = 1;
+  std::size_t rows_ = 1;
+  std::vector<std::size_t> cell_;    ///< of each mover
+  std::vector<std::size_t> begin_;   ///< of each cell in `sorted_`, and the end of the last
+  std::vector<std::size_t> sorted_;  ///< movers, cell by cell
+};
+
+}  // namespace swarmsmith
