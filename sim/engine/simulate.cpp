@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <deque>
 #include <stdexcept>
 #include <string>
@@ -24,6 +25,14 @@ struct LateCommand {
   std::int64_t from = 0;  ///< sub-step from which it acts
   Command command;
 };
+
+/// `to` becomes `from`. Part by part, and LEDs only when they change: after a copy in one piece,
+/// whoever reads a speed next waits for all of it.
+void renew(Command& to, const Command& from) {
+  to.left_mps = from.left_mps;
+  to.right_mps = from.right_mps;
+  if (std::memcmp(&to.leds, &from.leds, sizeof to.leds) != 0) to.leds = from.leds;
+}
 
 /// A robot with what it needs to act on its own clock.
 struct Agent {
@@ -131,11 +140,11 @@ class Run {
     agent.senses.begin_cycle({.number = agent.cycle,
                               .time_s = kSubStep_s * static_cast<double>(now),
                               .acted = agent.acting});
-    agent.command = clamped(agent.control.step(agent.senses));
+    renew(agent.command, clamped(agent.control.step(agent.senses)));
     if (!recorder_.sensors.empty()) agent.readings = &agent.senses.read(recorder_.sensors);
     const std::int64_t arrival = agent.clock.arrival_of_command(now);
     if (arrival == now && agent.late.empty()) {
-      agent.acting = agent.command;
+      renew(agent.acting, agent.command);
     } else {
       agent.late.push_back({arrival, agent.command});
     }

@@ -25,23 +25,30 @@ class Places {
   /// Takes the places as they are now; to be called whenever movers have moved.
   void update(std::span<const Mover> movers);
 
-  /// The movers with numbers from `first` on whose centres are at most `radius_m` away from a
-  /// mover's centre, ascending, without itself; replaces what was in `found`. `movers` are those of
-  /// the last update.
-  void find_near(std::span<const Mover> movers, std::size_t mover, double radius_m,
-                 std::size_t first, std::vector<int>& found) const {
-    found.clear();
+  /// Calls visit(other) for the movers with numbers from `first` on whose centres are at most
+  /// `radius_m` from that of `mover`, ascending, without itself. `movers` are those of the last
+  /// update; `room` is room to work in.
+  template <class Visit>
+  void visit_near(std::span<const Mover> movers, std::size_t mover, double radius_m,
+                  std::size_t first, std::vector<int>& room, const Visit& visit) const {
     const Body& self = movers[mover].body;
     const double radius2 = radius_m * radius_m;
-    const auto take = [&](std::size_t other) {
-      if (other < first || other == mover) return;
-      if (distance2_of(self, movers[other].body) <= radius2) {
-        found.push_back(static_cast<int>(other));
-      }
+    const auto is_near = [&](std::size_t other) {
+      return other >= first && other != mover && distance2_of(self, movers[other].body) <= radius2;
     };
-    if (movers.size() > kFew) return take_from_cells(self, radius_m, take, found);
-    for (std::size_t other = first; other < movers.size(); ++other)
-      take(other);
+    if (movers.size() <= kFew) {
+      for (std::size_t other = first; other < movers.size(); ++other) {
+        if (is_near(other)) visit(static_cast<int>(other));
+      }
+      return;
+    }
+    room.clear();
+    for_cells(self, radius_m, [&](std::size_t other) {
+      if (is_near(other)) room.push_back(static_cast<int>(other));
+    });
+    std::sort(room.begin(), room.end());
+    for (const int other : room)
+      visit(other);
   }
 
  private:
@@ -49,9 +56,9 @@ class Places {
   /// Side of a cell: about what sensors and contacts reach.
   static constexpr double kCell_m = 0.75;
 
+  /// All movers of the cells that a circle may meet.
   template <class Take>
-  void take_from_cells(const Body& self, double radius_m, const Take& take,
-                       std::vector<int>& found) const {
+  void for_cells(const Body& self, double radius_m, const Take& take) const {
     const std::size_t left = column_of(self.x - radius_m);
     const std::size_t right = column_of(self.x + radius_m);
     const std::size_t top = row_of(self.y + radius_m);
@@ -60,7 +67,6 @@ class Places {
       for (std::size_t i = begin_[row * columns_ + left]; i < end; ++i)
         take(sorted_[i]);
     }
-    std::sort(found.begin(), found.end());
   }
 
   std::size_t column_of(double x) const { return cell_of((x - left_m_) / cell_m_, columns_); }

@@ -43,8 +43,8 @@ constexpr double sight_of_robots_m(double range_m) {
 /// Readings as the sensor gives them: -infinity below the blind zone, +infinity beyond the range.
 inline double limited(double distance_m, double range_m) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
-  if (distance_m < kBlindZone_m) return -kInfinity;
-  return distance_m > range_m ? kInfinity : distance_m;
+  const double seen = distance_m > range_m ? kInfinity : distance_m;
+  return distance_m < kBlindZone_m ? -kInfinity : seen;
 }
 
 }  // namespace swarmsmith

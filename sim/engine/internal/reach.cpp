@@ -49,11 +49,11 @@ std::span<const Island> Reach::find(const Swarm& swarm, int sub_steps) {
 
 bool Reach::any_pair_near(const Swarm& swarm, double span_s) {
   const double reach = 2 * (largest_radius_m_ + swarm.speed_limit_mps * span_s + kRounding_m);
-  for (std::size_t i = 0; i < swarm.movers.size(); ++i) {
-    swarm.places.find_near(swarm.movers, i, reach, i + 1, found_);
-    if (!found_.empty()) return true;
+  bool any = false;
+  for (std::size_t i = 0; i < swarm.movers.size() && !any; ++i) {
+    swarm.places.visit_near(swarm.movers, i, reach, i + 1, room_, [&](int) { any = true; });
   }
-  return false;
+  return any;
 }
 
 bool Reach::any_wall_near(const Swarm& swarm, double span_s) const {
@@ -90,9 +90,9 @@ void Reach::list_pairs(const Swarm& swarm, double span_s) {
   const double fastest = *std::max_element(speed_mps_.begin(), speed_mps_.end());
   const double reach = 2 * (largest_radius_m_ + kPushed * fastest * span_s + kRounding_m);
   for (std::size_t i = 0; i < swarm.movers.size(); ++i) {
-    swarm.places.find_near(swarm.movers, i, reach, i + 1, found_);
-    for (const int other : found_)
+    swarm.places.visit_near(swarm.movers, i, reach, i + 1, room_, [&](int other) {
       near_.push_back({i, static_cast<std::size_t>(other)});
+    });
   }
 }
 

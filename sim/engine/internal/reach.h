@@ -57,7 +57,7 @@ class Reach {
   const Surroundings* surroundings_;
   double largest_radius_m_;
   std::vector<Pair> near_;           ///< pairs that may touch even when pushed
-  std::vector<int> found_;           ///< what is near one mover
+  std::vector<int> room_;            ///< for numbers of movers
   std::vector<std::size_t> parent_;  ///< union-find; the root is the first of its group
   std::vector<std::size_t> size_;    ///< of a root's group
   std::vector<std::size_t> island_;  ///< of a root's group

@@ -45,11 +45,6 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
   floor_ = floor_at(arena, floor_place_);
 }
 
-void RobotSenses::begin_cycle(const Cycle& cycle) {
-  cycle_ = cycle;
-  computed_ = {};
-}
-
 bool RobotSenses::is_due(Sensor sensor) {
   if (computed_.has(sensor)) return false;
   computed_ = computed_ | sensor;
@@ -91,7 +86,7 @@ Rgb RobotSenses::ground_color() {
 std::span<const Neighbour> RobotSenses::neighbours() {
   if (!is_due(Sensor::Neighbours)) return readings_.neighbours;
   if (profile_->neighbours.source == NeighbourSensing::Source::Camera) {
-    find_neighbours(*world_, robot_, near_, readings_.neighbours);
+    find_neighbours(*world_, robot_, room_, readings_.neighbours);
   } else {
     turret_ranges_m_.resize(kLidarRays);
     scan_turrets(*world_, robot_, turret_ranges_m_);

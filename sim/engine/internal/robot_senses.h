@@ -42,7 +42,10 @@ class RobotSenses final : public Senses {
     Command acted;            ///< what the treads followed during the cycle that just ended
   };
   /// Forgets all readings.
-  void begin_cycle(const Cycle& cycle);
+  void begin_cycle(const Cycle& cycle) {
+    cycle_ = cycle;
+    computed_ = {};
+  }
 
   const ProximityReadings& proximity() override;
   Rgb ground_color() override;
@@ -81,8 +84,8 @@ class RobotSenses final : public Senses {
   Cycle cycle_;
   Sensors computed_;  ///< the others' readings are of an earlier cycle
   Readings readings_;
-  std::vector<int> near_;  ///< room for the numbers of robots
-  Point floor_place_;  ///< where the floor was last looked up, and what colour it has there
+  std::vector<int> room_;  ///< for numbers of movers
+  Point floor_place_;      ///< where the floor was last looked up, and what colour it has there
   Rgb floor_;
   std::vector<double> turret_ranges_m_;  ///< the scan that finds neighbours, if it is the lidar
 };

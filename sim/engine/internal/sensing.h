@@ -31,15 +31,15 @@ class ProximityRays {
   Body looked_from_;
   Walls walls_;  ///< those near that place
   std::vector<const FixedSolid*> obstacles_;
-  std::vector<int> near_;  ///< movers in sight
+  std::vector<int> room_;  ///< for numbers of movers
 };
 
 /// The same, once.
 RayDistances ray_distances(const World& world, int robot, double range_m);
 
 /// The robots nearer than 0.75 m as an omnidirectional camera sees them, in the order of their
-/// numbers; replaces what was in `found`. `near` is room to work in.
-void find_neighbours(const World& world, int robot, std::vector<int>& near,
+/// numbers; replaces what was in `found`. `room` is room to work in.
+void find_neighbours(const World& world, int robot, std::vector<int>& room,
                      std::vector<Neighbour>& found);
 
 }  // namespace swarmsmith

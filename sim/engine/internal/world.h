@@ -34,13 +34,12 @@ class World {
   /// Only robots that are squares of the RVR's side, and walls around a convex arena.
   bool is_plain() const { return plain_; }
   /// Square of the distance between two centres, now.
-  double distance2(int mover, int other) const {
-    return distance2_of(body(mover), body(other));
-  }
-  /// The movers whose centres are at most so far from the mover's, ascending, without itself;
-  /// replaces what was in `found`.
-  void find_near(int mover, double radius_m, std::vector<int>& found) const {
-    places_.find_near(movers_, static_cast<std::size_t>(mover), radius_m, 0, found);
+  double distance2(int mover, int other) const { return distance2_of(body(mover), body(other)); }
+  /// Calls visit(other) for the movers whose centres are at most so far from the mover's,
+  /// ascending, without itself; `room` is room to work in.
+  template <class Visit>
+  void visit_near(int mover, double radius_m, std::vector<int>& room, const Visit& visit) const {
+    places_.visit_near(movers_, static_cast<std::size_t>(mover), radius_m, 0, room, visit);
   }
   /// No mover is wider from its centre.
   double largest_radius_m() const { return largest_radius_m_; }
