@@ -39,6 +39,10 @@ void Places::lay_grid(std::span<const Mover> movers) {
     right = std::max(right, mover.body.x);
     top = std::max(top, mover.body.y);
   }
+  left_m_ = std::max(left_m_, -kMostSound);
+  bottom_m_ = std::max(bottom_m_, -kMostSound);
+  right = std::min(right, kMostSound);
+  top = std::min(top, kMostSound);
   const double widest = std::max(right - left_m_, top - bottom_m_);
   cell_m_ = std::max(kCell_m, widest / kMostCells);
   columns_ = static_cast<std::size_t>(std::clamp((right - left_m_) / cell_m_, 0.0, kMostCells)) + 1;
