@@ -52,7 +52,7 @@ class Places {
   }
 
  private:
-  static constexpr std::size_t kFew = 8;
+  static constexpr std::size_t kFew = 32;
   /// Side of a cell: about what sensors and contacts reach.
   static constexpr double kCell_m = 0.75;
 

@@ -32,7 +32,7 @@ std::vector<int> near(const Places& places, const std::vector<Mover>& movers, st
 /// How many movers there are, and the side of the square that they are in, in metres.
 class PlacesOf : public testing::TestWithParam<std::pair<std::size_t, double>> {};
 INSTANTIATE_TEST_SUITE_P(Swarms, PlacesOf,
-                         testing::Values(std::pair{1, 2.0}, std::pair{8, 2.0}, std::pair{9, 2.0},
+                         testing::Values(std::pair{1, 2.0}, std::pair{32, 2.0}, std::pair{33, 2.0},
                                          std::pair{100, 0.1}, std::pair{100, 12.0},
                                          std::pair{300, 200.0}));
 
@@ -56,14 +56,14 @@ TEST_P(PlacesOf, FindWhatIsNearInTheOrderOfNumbers) {
 }
 
 TEST(Places, WhatIsNoNumberIsNowhereAndHarmsNobody) {
-  std::vector<Mover> movers = scattered(20, 3, 1);
+  std::vector<Mover> movers = scattered(40, 3, 1);
   movers[4].body.x = std::numeric_limits<double>::quiet_NaN();
   movers[5].body.y = std::numeric_limits<double>::infinity();
   movers[6].body.x = 1e300;
   Places places(movers.size());
   places.update(movers);
   EXPECT_TRUE(near(places, movers, 4, 1).empty());
-  EXPECT_EQ(near(places, movers, 0, 100).size(), 16);
+  EXPECT_EQ(near(places, movers, 0, 100).size(), 36);
 }
 
 }  // namespace
