@@ -61,8 +61,7 @@ void World::command(int robot, const Command& command) {
 
 void World::advance(int sub_steps) {
   const std::span<const Island> islands = reach_.find(
-      {.movers = movers_, .places = places_, .speed_limit_mps = speed_limit_mps_},
-      sub_steps);
+      {.movers = movers_, .places = places_, .speed_limit_mps = speed_limit_mps_}, sub_steps);
   solver_->advance(movers_, islands, sub_steps);
   for (std::size_t i = 0; i < movers_.size(); ++i) {
     Mover& mover = movers_[i];
