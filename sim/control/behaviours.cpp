@@ -50,11 +50,15 @@ Turn turn_from_front(Senses& senses, const Flavour& flavour) {
   const ExplorationModel& model = flavour.exploration;
   Front front;
   const ProximityReadings& proximity = senses.proximity();
-  for (std::size_t i = 0; i < proximity.size(); ++i) {
-    front.add(obstacle_strength(proximity[i], flavour.obstacles), kProximityDirections[i],
-              model.front_slope);
+  const std::span<const Neighbour> neighbours = neighbours_in_the_way(senses, flavour.obstacles);
+  if (model.threshold > 0 && neighbours.empty() &&
+      nothing_within(proximity, flavour.obstacles.far_m)) {
+    return Turn::None;
   }
-  for (const Neighbour& neighbour : neighbours_in_the_way(senses, flavour.obstacles)) {
+  const auto strengths = obstacle_strengths(proximity, flavour.obstacles);
+  for (std::size_t i = 0; i < strengths.size(); ++i)
+    front.add(strengths[i], kProximityDirections[i], model.front_slope);
+  for (const Neighbour& neighbour : neighbours) {
     front.add(neighbour_strength(neighbour.distance_m, flavour.obstacles),
               {neighbour.direction_x, neighbour.direction_y}, model.front_slope);
   }

@@ -41,6 +41,19 @@ inline constexpr std::array<Vector2, kProximitySensors> kProximityDirections = {
 /// published program's inverse distance in 1/m. 0 when there is no obstacle.
 double obstacle_strength(double distance_m, const ObstacleModel& model);
 
+/// The same for all sensors.
+std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings& proximity,
+                                                         const ObstacleModel& model);
+
+/// Whether nothing is met up to the distance; then all strengths are 0 for a model whose `far_m` it
+/// is.
+inline bool nothing_within(const ProximityReadings& proximity, double far_m) {
+  bool any = false;
+  for (const double distance : proximity)
+    any |= distance <= far_m;
+  return !any;
+}
+
 /// Strength of a neighbour as an obstacle, in [0, 1] (thesis 7.1).
 double neighbour_strength(double distance_m, const ObstacleModel& model);
 

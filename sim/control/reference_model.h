@@ -89,12 +89,12 @@ struct Command {
 inline constexpr double kMaxWheelSpeed_mps = 1.55;
 
 /// The command within the wheels' range.
-constexpr Command clamped(Command command) {
-  for (double* speed : {&command.left_mps, &command.right_mps}) {
-    if (*speed > kMaxWheelSpeed_mps) *speed = kMaxWheelSpeed_mps;
-    if (*speed < -kMaxWheelSpeed_mps) *speed = -kMaxWheelSpeed_mps;
-  }
-  return command;
+constexpr Command clamped(const Command& command) {
+  const auto within = [](double speed_mps) {
+    if (speed_mps > kMaxWheelSpeed_mps) return kMaxWheelSpeed_mps;
+    return speed_mps < -kMaxWheelSpeed_mps ? -kMaxWheelSpeed_mps : speed_mps;
+  };
+  return {within(command.left_mps), within(command.right_mps), command.leds};
 }
 
 /// A line of table 5.1, in SI units.

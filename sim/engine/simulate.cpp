@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
+#include <cstring>
 #include <deque>
 #include <stdexcept>
 #include <string>
@@ -24,6 +25,14 @@ struct LateCommand {
   std::int64_t from = 0;  ///< sub-step from which it acts
   Command command;
 };
+
+/// `to` becomes `from`. Part by part, and LEDs only when they change: after a copy in one piece,
+/// whoever reads a speed next waits for all of it.
+void renew(Command& to, const Command& from) {
+  to.left_mps = from.left_mps;
+  to.right_mps = from.right_mps;
+  if (std::memcmp(&to.leds, &from.leds, sizeof to.leds) != 0) to.leds = from.leds;
+}
 
 /// A robot with what it needs to act on its own clock.
 struct Agent {
@@ -60,6 +69,7 @@ class Run {
            .control = ControlSoftware(setup.machine, setup.flavour,
                                       run.split("control", static_cast<std::uint64_t>(i))),
            .clock = RobotClock(setup.profile.timing, run, i)});
+      next_events_.push_back(agents_.back().next_event());
     }
   }
 
@@ -70,13 +80,14 @@ class Run {
       const std::int64_t end = std::int64_t{instant} * kSubStepsPerInstant;
       while (now < end) {
         std::int64_t next = end;
-        for (const Agent& agent : agents_)
-          next = std::min(next, agent.next_event());
+        for (const std::int64_t event : next_events_)
+          next = std::min(next, event);
         world_.advance(static_cast<int>(next - now));
         now = next;
         check(now);
-        for (int i = 0; i < world_.robots(); ++i)
-          serve(i, now);
+        for (int i = 0; i < world_.robots(); ++i) {
+          if (next_events_[static_cast<std::size_t>(i)] == now) serve(i, now);
+        }
       }
       observe();
       record(instant);
@@ -118,6 +129,7 @@ class Run {
     }
     // Also an old command is renewed: its direction follows the heading, cycle by cycle.
     if (acts || arrived) world_.command(robot, agent.acting);
+    next_events_[static_cast<std::size_t>(robot)] = agent.next_event();
   }
 
   /// One control cycle: read, decide, and send the command on its way. A command without latency
@@ -128,11 +140,11 @@ class Run {
     agent.senses.begin_cycle({.number = agent.cycle,
                               .time_s = kSubStep_s * static_cast<double>(now),
                               .acted = agent.acting});
-    agent.command = clamped(agent.control.step(agent.senses));
+    renew(agent.command, clamped(agent.control.step(agent.senses)));
     if (!recorder_.sensors.empty()) agent.readings = &agent.senses.read(recorder_.sensors);
     const std::int64_t arrival = agent.clock.arrival_of_command(now);
     if (arrival == now && agent.late.empty()) {
-      agent.acting = agent.command;
+      renew(agent.acting, agent.command);
     } else {
       agent.late.push_back({arrival, agent.command});
     }
@@ -192,6 +204,7 @@ class Run {
   World world_;
   Scorer scorer_;
   std::vector<Agent> agents_;
+  std::vector<std::int64_t> next_events_;  ///< of the agents
   std::vector<Point> positions_;
   std::vector<Point> object_positions_;
   std::vector<RobotRecord> records_;

@@ -33,18 +33,16 @@ class ExactSolver final : public ContactSolver {
     if (islands.empty() && memory_.empty()) return;
     robots_.resize(movers.size() + 1);
     fresh_.clear();
-    for (const Island& island : islands)
-      advance_island(movers, island, sub_steps);
-    memory_.swap(fresh_);
-    if (islands.size() > 1) {
-      std::sort(memory_.begin(), memory_.end(),
-                [](const Constraint& a, const Constraint& b) { return a.id < b.id; });
+    sort_memory(movers.size(), islands);
+    for (std::size_t i = 0; i < islands.size(); ++i) {
+      recall(islands[i], i);
+      advance_island(movers, islands[i], sub_steps);
     }
+    memory_.swap(fresh_);
   }
 
  private:
   void advance_island(std::span<Mover> movers, const Island& island, int sub_steps) {
-    recall(island);
     int left = sub_steps;
     while (left > 0) {
       // Most islands are false alarms, or come to touch late: those sub-steps are free.
@@ -65,15 +63,33 @@ class ExactSolver final : public ContactSolver {
     fresh_.insert(fresh_.end(), before_.begin(), before_.end());
   }
 
-  /// What held the island's contacts at the end of the last call; forgets the drives of the others.
-  void recall(const Island& island) {
+  /// Orders `memory_` by the islands in which its contacts are now, those in none last.
+  void sort_memory(std::size_t movers, std::span<const Island> islands) {
+    next_in_memory_ = 0;
+    if (memory_.empty()) return;
+    island_of_.assign(movers, islands.size());
+    for (std::size_t i = 0; i < islands.size(); ++i) {
+      for (const int index : islands[i].movers)
+        island_of_[static_cast<std::size_t>(index)] = i;
+    }
+    const auto before = [&](const Constraint& a, const Constraint& b) {
+      const std::size_t of_a = island_of_[a.a];
+      const std::size_t of_b = island_of_[b.a];
+      return of_a != of_b ? of_a < of_b : a.id < b.id;
+    };
+    if (std::is_sorted(memory_.begin(), memory_.end(), before)) return;
+    std::sort(memory_.begin(), memory_.end(), before);
+  }
+
+  /// What held an island's contacts at the end of the last call; forgets the drives of the others.
+  /// To be called island by island.
+  void recall(const Island& island, std::size_t number) {
     before_.clear();
     for (const int index : island.movers)
       robots_[static_cast<std::size_t>(index)].touched = false;
-    for (const Constraint& c : memory_) {
-      if (!std::binary_search(island.movers.begin(), island.movers.end(), static_cast<int>(c.a))) {
-        continue;
-      }
+    for (; next_in_memory_ < memory_.size(); ++next_in_memory_) {
+      const Constraint& c = memory_[next_in_memory_];
+      if (island_of_[c.a] != number) break;
       before_.push_back(c);
       robots_[c.a].touched = robots_[c.b].touched = true;
     }
@@ -209,6 +225,8 @@ class ExactSolver final : public ContactSolver {
   std::vector<Constraint> before_;       ///< of the last one
   std::vector<Constraint> memory_;       ///< of all islands at the end of the last call
   std::vector<Constraint> fresh_;        ///< and of this one
+  std::size_t next_in_memory_ = 0;
+  std::vector<std::size_t> island_of_;  ///< of each mover, while contacts are remembered
   std::vector<Dynamic> robots_;
   std::vector<std::size_t> active_;  ///< movers in contact
 };

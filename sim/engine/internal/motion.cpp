@@ -49,7 +49,7 @@ struct Approach {
 
 Approach approach(double distance, double step, int sub_steps) {
   const double ratio = distance / step;
-  const double off = ratio >= sub_steps ? sub_steps : std::floor(ratio) + 1;
+  const double off = ratio >= sub_steps ? sub_steps : static_cast<int>(ratio) + 1;
   return {.sum = off * distance - step * (off * (off - 1) / 2),
           .left = std::max(0.0, distance - sub_steps * step)};
 }

@@ -29,23 +29,13 @@ NormalNoise::NormalNoise() {
     inside_[i] = edge_[i + 1] / edge_[i];
 }
 
-const NormalNoise& NormalNoise::instance() {
-  static const NormalNoise noise;
-  return noise;
-}
-
-double NormalNoise::draw(Rng& rng) const {
-  for (;;) {
-    const std::uint64_t bits = rng.next();
-    const std::size_t layer = bits % kLayers;
-    const double u = static_cast<double>(bits >> 11U) * 0x1.0p-52 - 1;
-    const double x = u * edge_[layer];
-    if (std::fabs(u) < inside_[layer]) return x;
-    if (layer == 0) return draw_tail(rng, u < 0);
-    const double top = curve(edge_[layer + 1]);
-    const double bottom = curve(edge_[layer]);
-    if (bottom + rng.uniform() * (top - bottom) < curve(x)) return x;
-  }
+double NormalNoise::draw_edge(Rng& rng, std::size_t layer, double u) const {
+  if (layer == 0) return draw_tail(rng, u < 0);
+  const double x = u * edge_[layer];
+  const double top = curve(edge_[layer + 1]);
+  const double bottom = curve(edge_[layer]);
+  if (bottom + rng.uniform() * (top - bottom) < curve(x)) return x;
+  return draw(rng);
 }
 
 double NormalNoise::draw_tail(Rng& rng, bool negative) {

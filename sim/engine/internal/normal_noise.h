@@ -1,6 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 
 #include "base/rng.h"
 
@@ -14,12 +17,27 @@ namespace swarmsmith {
 class NormalNoise {
  public:
   /// The tables, made once; any thread.
-  static const NormalNoise& instance();
+  static const NormalNoise& instance() {
+    static const NormalNoise noise;
+    return noise;
+  }
 
-  double draw(Rng& rng) const;
+  double draw(Rng& rng) const {
+    const std::uint64_t bits = rng.next();
+    const std::size_t layer = bits % kLayers;
+    const double u = share_of(bits);
+    if (std::fabs(u) < inside_[layer]) return u * edge_[layer];
+    return draw_edge(rng, layer, u);
+  }
 
  private:
   NormalNoise();
+  /// Uniform in [-1, 1).
+  static double share_of(std::uint64_t bits) {
+    return static_cast<double>(bits >> 11U) * 0x1.0p-52 - 1;
+  }
+  /// The rest of a draw that did not lie under the curve for sure: one in a hundred.
+  double draw_edge(Rng& rng, std::size_t layer, double u) const;
   static double draw_tail(Rng& rng, bool negative);
 
   static constexpr std::size_t kLayers = 128;

@@ -26,9 +26,11 @@ ProximityNoise::ProximityNoise(const ProximitySensing& sensing, const Rng& run, 
 }
 
 void ProximityNoise::apply(RayDistances& readings, std::int64_t cycle) const {
+  const double range = sensing_->range_m;
+  for (double& reading : readings)
+    reading = limited(reading, range);
+  if (ideal_) return;
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    readings[i] = limited(readings[i], sensing_->range_m);
-    if (ideal_) continue;
     const auto index = static_cast<std::uint64_t>(cycle) * kProximitySensors + i;
     readings[i] = read(readings[i], i, index);
   }

@@ -56,6 +56,17 @@ double distance_to_square(double ux, double uy, const Relative& at) {
   return nearest;
 }
 
+/// Whether a line through the robot's centre meets the wall's line between its ends. `normal` is
+/// the wall's, in the robot's frame.
+bool is_on_face(const Body& self, const WallPlane& wall, double depth, Vector2 normal,
+                const Line& line) {
+  const double cosine = normal.x * line.x + normal.y * line.y;
+  const double from_centre = cosine == 0 ? 0 : depth / cosine;
+  const double sideways = normal.x * line.y - normal.y * line.x;
+  const double along = wall.along(self.x, self.y) + from_centre * sideways;
+  return along >= -kSlack_m && along <= wall.length_m + kSlack_m;
+}
+
 }  // namespace
 
 void meet_walls(const Body& self, double start_m, const Walls& walls, double range_m,
@@ -68,17 +79,21 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
     if (depth > sight || depth < 0) continue;
     const double nx = wall.nx * self.cos + wall.ny * self.sin;
     const double ny = wall.ny * self.cos - wall.nx * self.sin;
-    for (const Line& line : kLines) {
-      const double cosine = nx * line.x + ny * line.y;
-      if (depth > sight * std::fabs(cosine)) continue;
-      const double from_centre = cosine == 0 ? 0 : depth / cosine;  // its sign: ahead or back
-      if (!walls.convex) {
-        const double sideways = nx * line.y - ny * line.x;
-        const double along = wall.along(self.x, self.y) + from_centre * sideways;
-        if (along < -kSlack_m || along > wall.length_m + kSlack_m) continue;
-      }
-      double& distance = distances[cosine > 0 ? line.ahead : line.back];
-      distance = std::min(distance, std::max(0.0, std::fabs(from_centre) - start_m));
+    // Selected, not branched to: which lines meet a wall changes with every turn.
+    std::array<double, kLines.size()> cosines;
+    std::array<double, kLines.size()> met;
+    for (std::size_t i = 0; i < kLines.size(); ++i)
+      cosines[i] = nx * kLines[i].x + ny * kLines[i].y;
+    for (std::size_t i = 0; i < kLines.size(); ++i) {
+      const double cosine = std::fabs(cosines[i]);
+      const double distance = std::max(0.0, depth / cosine - start_m);  // 0 for no number
+      met[i] = depth <= sight * cosine ? distance : kInfinity;
+    }
+    for (std::size_t i = 0; i < kLines.size(); ++i) {
+      const Line& line = kLines[i];
+      if (!walls.convex && !is_on_face(self, wall, depth, {nx, ny}, line)) continue;
+      double& distance = distances[cosines[i] > 0 ? line.ahead : line.back];
+      distance = std::min(distance, met[i]);
     }
   }
 }
@@ -123,11 +138,6 @@ void meet_robot(const Body& self, const Body& other, double range_m, RayDistance
       distance = std::min(distance, distance_to_square(-line.x, -line.y, at));
     }
   }
-}
-
-double limited(double distance_m, double range_m) {
-  if (distance_m < kBlindZone_m) return -kInfinity;
-  return distance_m > range_m ? kInfinity : distance_m;
 }
 
 }  // namespace swarmsmith

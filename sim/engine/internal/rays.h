@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 
 #include "sim/control/reference_model.h"
 #include "sim/engine/internal/body.h"
@@ -40,6 +41,10 @@ constexpr double sight_of_robots_m(double range_m) {
 }
 
 /// Readings as the sensor gives them: -infinity below the blind zone, +infinity beyond the range.
-double limited(double distance_m, double range_m);
+inline double limited(double distance_m, double range_m) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  const double seen = distance_m > range_m ? kInfinity : distance_m;
+  return distance_m < kBlindZone_m ? -kInfinity : seen;
+}
 
 }  // namespace swarmsmith

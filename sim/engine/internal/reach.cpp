@@ -47,16 +47,13 @@ std::span<const Island> Reach::find(const Swarm& swarm, int sub_steps) {
   return {islands_.data(), count_};
 }
 
-bool Reach::any_pair_near(const Swarm& swarm, double span_s) const {
-  const double reach2 =
-      square(2 * (largest_radius_m_ + swarm.speed_limit_mps * span_s + kRounding_m));
-  const std::size_t n = swarm.movers.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      if (swarm.distances2[i * n + j] < reach2) return true;
-    }
+bool Reach::any_pair_near(const Swarm& swarm, double span_s) {
+  const double reach = 2 * (largest_radius_m_ + swarm.speed_limit_mps * span_s + kRounding_m);
+  bool any = false;
+  for (std::size_t i = 0; i < swarm.movers.size() && !any; ++i) {
+    swarm.places.visit_near(swarm.movers, i, reach, i + 1, room_, [&](int) { any = true; });
   }
-  return false;
+  return any;
 }
 
 bool Reach::any_wall_near(const Swarm& swarm, double span_s) const {
@@ -91,12 +88,11 @@ void Reach::bound_motion(const Swarm& swarm, double span_s) {
 
 void Reach::list_pairs(const Swarm& swarm, double span_s) {
   const double fastest = *std::max_element(speed_mps_.begin(), speed_mps_.end());
-  const double reach2 = square(2 * (largest_radius_m_ + kPushed * fastest * span_s + kRounding_m));
-  const std::size_t n = swarm.movers.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      if (swarm.distances2[i * n + j] < reach2) near_.push_back({i, j});
-    }
+  const double reach = 2 * (largest_radius_m_ + kPushed * fastest * span_s + kRounding_m);
+  for (std::size_t i = 0; i < swarm.movers.size(); ++i) {
+    swarm.places.visit_near(swarm.movers, i, reach, i + 1, room_, [&](int other) {
+      near_.push_back({i, static_cast<std::size_t>(other)});
+    });
   }
 }
 
@@ -114,7 +110,7 @@ bool Reach::may_touch(const Swarm& swarm, const Pair& pair) const {
   const Mover& b = swarm.movers[j];
   const double margin = margin_m_[i] + margin_m_[j];
   const double circles = a.form().radius_m + b.form().radius_m + margin;
-  return swarm.distances2[i * swarm.movers.size() + j] < square(circles) &&
+  return distance2_of(a.body, b.body) < square(circles) &&
          gap_between(a.form(), a.body, b.form(), b.body) <= margin;
 }
 

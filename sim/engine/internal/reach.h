@@ -5,6 +5,7 @@
 
 #include "sim/engine/internal/island.h"
 #include "sim/engine/internal/mover.h"
+#include "sim/engine/internal/places.h"
 #include "sim/engine/internal/surroundings.h"
 
 namespace swarmsmith {
@@ -12,8 +13,7 @@ namespace swarmsmith {
 /// All movers at one instant, as the reach test wants them.
 struct Swarm {
   std::span<const Mover> movers;
-  /// (movers x movers), squares of the distances between the centres.
-  std::span<const double> distances2;
+  const Places& places;  ///< of the same movers
   /// No centre moves faster, nor is asked to.
   double speed_limit_mps = 0;
 };
@@ -41,7 +41,7 @@ class Reach {
     std::size_t b;
   };
 
-  bool any_pair_near(const Swarm& swarm, double span_s) const;
+  bool any_pair_near(const Swarm& swarm, double span_s);
   bool any_wall_near(const Swarm& swarm, double span_s) const;
   bool any_obstacle_near(const Swarm& swarm, double span_s) const;
   void bound_motion(const Swarm& swarm, double span_s);
@@ -57,6 +57,7 @@ class Reach {
   const Surroundings* surroundings_;
   double largest_radius_m_;
   std::vector<Pair> near_;           ///< pairs that may touch even when pushed
+  std::vector<int> room_;            ///< for numbers of movers
   std::vector<std::size_t> parent_;  ///< union-find; the root is the first of its group
   std::vector<std::size_t> size_;    ///< of a root's group
   std::vector<std::size_t> island_;  ///< of a root's group

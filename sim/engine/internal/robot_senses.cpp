@@ -7,14 +7,12 @@
 #include "sim/control/lidar_clustering.h"
 #include "sim/engine/internal/lidar.h"
 #include "sim/engine/internal/light.h"
-#include "sim/engine/internal/sensing.h"
 
 namespace swarmsmith {
 namespace {
 
 std::uint8_t noisy_channel(std::uint8_t value, double noise) {
-  const double rounded = std::floor(value + noise + 0.5);
-  return static_cast<std::uint8_t>(std::clamp(rounded, 0.0, 255.0));
+  return static_cast<std::uint8_t>(std::clamp(value + noise + 0.5, 0.0, 255.0));
 }
 
 /// Whether this robot has trouble for the whole run, and so how often it misses a neighbour.
@@ -33,6 +31,7 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
       profile_(&profile),
       robot_(robot),
       motion_(world.body(robot)),
+      proximity_rays_(world, robot, profile.proximity.range_m),
       proximity_noise_(profile.proximity, run, robot),
       neighbour_miss_rate_(miss_rate_of_run(profile.neighbours, run, robot)) {
   const GroundColorSensing& ground = profile.ground_color;
@@ -46,11 +45,6 @@ RobotSenses::RobotSenses(const World& world, const Arena& arena, const Profile& 
   floor_ = floor_at(arena, floor_place_);
 }
 
-void RobotSenses::begin_cycle(const Cycle& cycle) {
-  cycle_ = cycle;
-  computed_ = {};
-}
-
 bool RobotSenses::is_due(Sensor sensor) {
   if (computed_.has(sensor)) return false;
   computed_ = computed_ | sensor;
@@ -59,7 +53,7 @@ bool RobotSenses::is_due(Sensor sensor) {
 
 const ProximityReadings& RobotSenses::proximity() {
   if (is_due(Sensor::Proximity)) {
-    readings_.proximity_m = ray_distances(*world_, robot_, profile_->proximity.range_m);
+    proximity_rays_.cast(readings_.proximity_m);
     proximity_noise_.apply(readings_.proximity_m, cycle_.number);
   }
   return readings_.proximity_m;
@@ -92,7 +86,7 @@ Rgb RobotSenses::ground_color() {
 std::span<const Neighbour> RobotSenses::neighbours() {
   if (!is_due(Sensor::Neighbours)) return readings_.neighbours;
   if (profile_->neighbours.source == NeighbourSensing::Source::Camera) {
-    find_neighbours(*world_, robot_, readings_.neighbours);
+    find_neighbours(*world_, robot_, room_, readings_.neighbours);
   } else {
     turret_ranges_m_.resize(kLidarRays);
     scan_turrets(*world_, robot_, turret_ranges_m_);

@@ -8,6 +8,7 @@
 #include "sim/engine/internal/motion_sensors.h"
 #include "sim/engine/internal/noise_stream.h"
 #include "sim/engine/internal/proximity_noise.h"
+#include "sim/engine/internal/sensing.h"
 #include "sim/engine/internal/world.h"
 #include "sim/engine/profile.h"
 #include "sim/engine/readings.h"
@@ -41,7 +42,10 @@ class RobotSenses final : public Senses {
     Command acted;            ///< what the treads followed during the cycle that just ended
   };
   /// Forgets all readings.
-  void begin_cycle(const Cycle& cycle);
+  void begin_cycle(const Cycle& cycle) {
+    cycle_ = cycle;
+    computed_ = {};
+  }
 
   const ProximityReadings& proximity() override;
   Rgb ground_color() override;
@@ -70,6 +74,7 @@ class RobotSenses final : public Senses {
   const Profile* profile_;
   int robot_;
   MotionSensors motion_;
+  ProximityRays proximity_rays_;
   ProximityNoise proximity_noise_;
   NoiseStream ground_noise_;
   NoiseStream lidar_noise_;
@@ -79,7 +84,8 @@ class RobotSenses final : public Senses {
   Cycle cycle_;
   Sensors computed_;  ///< the others' readings are of an earlier cycle
   Readings readings_;
-  Point floor_place_;  ///< where the floor was last looked up, and what colour it has there
+  std::vector<int> room_;  ///< for numbers of movers
+  Point floor_place_;      ///< where the floor was last looked up, and what colour it has there
   Rgb floor_;
   std::vector<double> turret_ranges_m_;  ///< the scan that finds neighbours, if it is the lidar
 };

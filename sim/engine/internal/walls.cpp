@@ -30,6 +30,15 @@ Walls walls_of(const Arena& arena) {
   return walls;
 }
 
+void find_walls_near(const Walls& walls, const Body& place, double distance_m, Walls& near) {
+  near.planes.clear();
+  near.convex = walls.convex;
+  near.clear_radius_m = walls.clear_radius_m;
+  for (const WallPlane& plane : walls.planes) {
+    if (std::fabs(plane.depth_of(place.x, place.y)) <= distance_m) near.planes.push_back(plane);
+  }
+}
+
 double gap_between(const Body& a, const Body& b) {
   const double dx = b.x - a.x;
   const double dy = b.y - a.y;

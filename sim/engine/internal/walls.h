@@ -34,6 +34,10 @@ struct Walls {
 
 Walls walls_of(const Arena& arena);
 
+/// Of `walls`, those whose lines are at most so far from a place, on either side; replaces what was
+/// in `near`.
+void find_walls_near(const Walls& walls, const Body& place, double distance_m, Walls& near);
+
 /// Gap between two robots' squares along the best separating axis, metres: a lower bound of their
 /// distance, negative when they overlap.
 double gap_between(const Body& a, const Body& b);

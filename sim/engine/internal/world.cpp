@@ -28,7 +28,7 @@ std::vector<Mover> movers_of(const Arena& arena, std::span<const Pose> starts,
   return movers;
 }
 
-double largest_radius_m(const std::vector<MoverKind>& kinds) {
+double largest_radius_of(const std::vector<MoverKind>& kinds) {
   double largest = 0;
   for (const MoverKind& kind : kinds)
     largest = std::max(largest, kind.form.radius_m);
@@ -45,10 +45,11 @@ World::World(const Arena& arena, const Outline& robot, std::span<const Pose> sta
       movers_(movers_of(arena, starts, kinds_)),
       plain_(surroundings_.walls.convex && kinds_[0].form.is_rvr && arena.obstacles.empty() &&
              arena.objects.empty()),
-      distances2_(movers_.size() * movers_.size()),
-      reach_(surroundings_, movers_.size(), largest_radius_m(kinds_)),
+      largest_radius_m_(largest_radius_of(kinds_)),
+      places_(movers_.size()),
+      reach_(surroundings_, movers_.size(), largest_radius_m_),
       solver_(make_contact_solver(contacts, plain_, surroundings_)) {
-  measure_distances();
+  places_.update(movers_);
 }
 
 void World::command(int robot, const Command& command) {
@@ -60,8 +61,7 @@ void World::command(int robot, const Command& command) {
 
 void World::advance(int sub_steps) {
   const std::span<const Island> islands = reach_.find(
-      {.movers = movers_, .distances2 = distances2_, .speed_limit_mps = speed_limit_mps_},
-      sub_steps);
+      {.movers = movers_, .places = places_, .speed_limit_mps = speed_limit_mps_}, sub_steps);
   solver_->advance(movers_, islands, sub_steps);
   for (std::size_t i = 0; i < movers_.size(); ++i) {
     Mover& mover = movers_[i];
@@ -71,7 +71,7 @@ void World::advance(int sub_steps) {
   }
   for (const Island& island : islands)
     take_note(island, sub_steps);
-  measure_distances();
+  places_.update(movers_);
 }
 
 void World::take_note(const Island& island, int sub_steps) {
@@ -80,17 +80,6 @@ void World::take_note(const Island& island, int sub_steps) {
     const Body& now = body(mover);
     // A push by a spinning corner may be faster than any drive.
     speed_limit_mps_ = std::max(speed_limit_mps_, std::sqrt(now.vx * now.vx + now.vy * now.vy));
-  }
-}
-
-void World::measure_distances() {
-  const std::size_t n = movers_.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    for (std::size_t j = i + 1; j < n; ++j) {
-      const double dx = movers_[j].body.x - movers_[i].body.x;
-      const double dy = movers_[j].body.y - movers_[i].body.y;
-      distances2_[i * n + j] = distances2_[j * n + i] = dx * dx + dy * dy;
-    }
   }
 }
 

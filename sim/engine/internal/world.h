@@ -6,6 +6,7 @@
 
 #include "sim/engine/internal/contact_solver.h"
 #include "sim/engine/internal/mover.h"
+#include "sim/engine/internal/places.h"
 #include "sim/engine/internal/reach.h"
 #include "sim/engine/internal/surroundings.h"
 #include "sim/mission/arena.h"
@@ -33,10 +34,15 @@ class World {
   /// Only robots that are squares of the RVR's side, and walls around a convex arena.
   bool is_plain() const { return plain_; }
   /// Square of the distance between two centres, now.
-  double distance2(int mover, int other) const {
-    return distances2_[static_cast<std::size_t>(mover) * movers_.size() +
-                       static_cast<std::size_t>(other)];
+  double distance2(int mover, int other) const { return distance2_of(body(mover), body(other)); }
+  /// Calls visit(other) for the movers whose centres are at most so far from the mover's,
+  /// ascending, without itself; `room` is room to work in.
+  template <class Visit>
+  void visit_near(int mover, double radius_m, std::vector<int>& room, const Visit& visit) const {
+    places_.visit_near(movers_, static_cast<std::size_t>(mover), radius_m, 0, room, visit);
   }
+  /// No mover is wider from its centre.
+  double largest_radius_m() const { return largest_radius_m_; }
 
   /// From now on the robot's drive steers towards the command, along its present heading.
   void command(int robot, const Command& command);
@@ -49,14 +55,14 @@ class World {
 
  private:
   void take_note(const Island& island, int sub_steps);
-  void measure_distances();
 
   Surroundings surroundings_;
   int robots_;
   std::vector<MoverKind> kinds_;  ///< the robots', then those of the objects
   std::vector<Mover> movers_;
   bool plain_;
-  std::vector<double> distances2_;
+  double largest_radius_m_;
+  Places places_;
   double speed_limit_mps_ = 0;  ///< what no centre has exceeded so far
   Reach reach_;
   std::unique_ptr<ContactSolver> solver_;

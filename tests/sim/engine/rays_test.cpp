@@ -136,6 +136,25 @@ void expect_plain_distances_among_things(const Outline& robot, std::uint64_t see
   EXPECT_GT(hits, 2000);
 }
 
+TEST(Rays, WhatIsKeptInMindOfWallsAndObstaclesChangesNoDistance) {
+  Arena arena = notched_arena();
+  furnish(arena);
+  const std::vector<Pose> starts = {{0, -0.2, 0.3}, {-0.5, 0.05, 2}};
+  for (const bool fast : {false, true}) {
+    World world(arena, BoxOutline{kBodySide_m, kBodySide_m}, starts, ContactModel::Box2d);
+    ProximityRays rays(world, 0, 0.4);
+    Rng rng(3);
+    for (int cycle = 0; cycle < 500; ++cycle) {
+      const double most = fast ? 1.55 : 0.3;
+      world.command(0, {rng.uniform(-most, most), rng.uniform(-most, most)});
+      world.advance(10);
+      RayDistances distances;
+      rays.cast(distances);
+      EXPECT_EQ(distances, ray_distances(world, 0, 0.4));
+    }
+  }
+}
+
 TEST(Rays, OfSquareRobotsMeetObstaclesObjectsAndWalls) {
   expect_plain_distances_among_things(BoxOutline{kBodySide_m, kBodySide_m}, 5);
 }

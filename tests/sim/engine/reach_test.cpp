@@ -22,7 +22,6 @@ struct Scene {
   std::vector<Mover> robots;
 
   std::vector<Island> islands(int sub_steps = 10) const {
-    std::vector<double> distances2;
     double speed_limit = 0;
     double radius = 0;
     for (const Mover& a : robots) {
@@ -30,13 +29,11 @@ struct Scene {
           std::max({speed_limit, hypot(a.body.vx, a.body.vy), hypot(a.set_point.vx, a.set_point.vy),
                     std::fabs(a.set_point.spin) * kWheelSeparation_m / 2});
       radius = std::max(radius, a.form().radius_m);
-      for (const Mover& b : robots) {
-        const double d = hypot(a.body.x - b.body.x, a.body.y - b.body.y);
-        distances2.push_back(d * d);
-      }
     }
+    Places places(robots.size());
+    places.update(robots);
     Reach reach(around, robots.size(), radius);
-    const auto found = reach.find({robots, distances2, speed_limit}, sub_steps);
+    const auto found = reach.find({robots, places, speed_limit}, sub_steps);
     return {found.begin(), found.end()};
   }
 };

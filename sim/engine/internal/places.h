@@ -1,0 +1,91 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "sim/engine/internal/mover.h"
+
+namespace swarmsmith {
+
+inline double distance2_of(const Body& a, const Body& b) {
+  const double dx = b.x - a.x;
+  const double dy = b.y - a.y;
+  return dx * dx + dy * dy;
+}
+
+/// Where all movers are, for whoever asks what is near a place. A few are looked at one by one;
+/// more are sorted into the cells of a grid, so that an answer costs what is near and not how many
+/// there are.
+class Places {
+ public:
+  explicit Places(std::size_t movers);
+
+  /// Takes the places as they are now; to be called whenever movers have moved.
+  void update(std::span<const Mover> movers);
+
+  /// Calls visit(other) for the movers with numbers from `first` on whose centres are at most
+  /// `radius_m` from that of `mover`, ascending, without itself. `movers` are those of the last
+  /// update; `room` is room to work in.
+  template <class Visit>
+  void visit_near(std::span<const Mover> movers, std::size_t mover, double radius_m,
+                  std::size_t first, std::vector<int>& room, const Visit& visit) const {
+    const Body& self = movers[mover].body;
+    const double radius2 = radius_m * radius_m;
+    const auto is_near = [&](std::size_t other) {
+      return other >= first && other != mover && distance2_of(self, movers[other].body) <= radius2;
+    };
+    if (movers.size() <= kFew) {
+      for (std::size_t other = first; other < movers.size(); ++other) {
+        if (is_near(other)) visit(static_cast<int>(other));
+      }
+      return;
+    }
+    room.clear();
+    for_cells(self, radius_m, [&](std::size_t other) {
+      if (is_near(other)) room.push_back(static_cast<int>(other));
+    });
+    std::sort(room.begin(), room.end());
+    for (const int other : room)
+      visit(other);
+  }
+
+ private:
+  static constexpr std::size_t kFew = 32;
+  /// Side of a cell: about what sensors and contacts reach.
+  static constexpr double kCell_m = 0.75;
+
+  /// All movers of the cells that a circle may meet.
+  template <class Take>
+  void for_cells(const Body& self, double radius_m, const Take& take) const {
+    const std::size_t left = column_of(self.x - radius_m);
+    const std::size_t right = column_of(self.x + radius_m);
+    const std::size_t top = row_of(self.y + radius_m);
+    for (std::size_t row = row_of(self.y - radius_m); row <= top; ++row) {
+      const std::size_t end = begin_[row * columns_ + right + 1];
+      for (std::size_t i = begin_[row * columns_ + left]; i < end; ++i)
+        take(sorted_[i]);
+    }
+  }
+
+  std::size_t column_of(double x) const { return cell_of((x - left_m_) / cell_m_, columns_); }
+  std::size_t row_of(double y) const { return cell_of((y - bottom_m_) / cell_m_, rows_); }
+  /// Also what is no number lies in a cell.
+  static std::size_t cell_of(double place, std::size_t cells) {
+    if (!(place >= 1)) return 0;
+    return place < static_cast<double>(cells) ? static_cast<std::size_t>(place) : cells - 1;
+  }
+  void lay_grid(std::span<const Mover> movers);
+
+  double left_m_ = 0;
+  double bottom_m_ = 0;
+  double cell_m_ = kCell_m;
+  std::size_t columns_ = 1;
+  std::size_t rows_ = 1;
+  std::vector<std::size_t> cell_;    ///< of each mover
+  std::vector<std::size_t> begin_;   ///< of each cell in `sorted_`, and the end of the last
+  std::vector<std::size_t> sorted_;  ///< movers, cell by cell
+};
+
+}  // namespace swarmsmith
