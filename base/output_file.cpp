@@ -20,7 +20,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Device, inode and when it was made: an inode's number is given again.
-using Identity = std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::int64_t, std::uint32_t>;
+using Identity =
+    std::tuple<std::uint32_t, std::uint32_t, std::uint64_t, std::int64_t, std::uint32_t>;
 
 struct Inputs {
   std::mutex mutex;

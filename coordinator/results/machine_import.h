@@ -17,12 +17,12 @@ namespace swarmsmith {
 
 /// A machine that was designed elsewhere, as a file has it.
 struct MachineText {
-  std::string name;     ///< may be empty
-  std::string mission;  ///< as the file calls it; may be empty
-  std::string method;   ///< may be empty
-  std::string flavour;  ///< as its head says; may be empty
-  std::string text;     ///< of the grammar
-  std::string place;    ///< file:line
+  std::string name;                ///< may be empty
+  std::string mission;             ///< as the file calls it; may be empty
+  std::string method;              ///< may be empty
+  std::string flavour;             ///< as its head says; may be empty
+  std::string text;                ///< of the grammar
+  std::string place;               ///< file:line
   bool describes_mission = false;  ///< its head holds the mission, whatever that is called
 };
 
