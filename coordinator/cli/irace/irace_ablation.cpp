@@ -70,8 +70,8 @@ class Evaluations {
     };
     {
       std::vector<std::jthread> threads;
-      const std::int64_t cores = std::max(1U, std::thread::hardware_concurrency());
-      for (std::int64_t i = 0; i < std::max<std::int64_t>(1, setup_.parallel.value_or(cores)); ++i)
+      // As many as irace makes: one, unless it is told.
+      for (std::int64_t i = 0; i < std::max<std::int64_t>(1, setup_.parallel.value_or(1)); ++i)
         threads.emplace_back(work);
     }
     if (!campaign_.target->evaluator.empty() && !error_) evaluate(rows);

@@ -170,7 +170,10 @@ ExitCode carry_out(Output& output, const IraceCommandLine& line) {
 
 }  // namespace
 
-ExitCode run_irace(const std::vector<std::string>& words, Output& output) {
+ExitCode run_irace(const std::vector<std::string>& given, Output& output) {
+  std::vector<std::string> words = given;
+  // R's irace has a program of this name.
+  if (!words.empty() && words.front() == "ablation") words.front() = "--ablation";
   const auto line = read_irace_command_line(words, std::filesystem::current_path());
   if (!line) return complain(output, line.error());
   read_flags(line->settings, output);
