@@ -136,6 +136,7 @@ class Names(FaultTest):
         serve = self.serve()
         worker = self.worker(serve.address())
         self.wait_stored(300)
+        worker.kill()  # so that the campaign is not over before it was asked
         link = self.folder / "link.db"
         link.symlink_to(self.store.name)
         self.assert_refused(link, "another process is writing this store", f"pid={serve.pid}")
@@ -147,7 +148,7 @@ class Names(FaultTest):
         self.assertEqual(done.returncode, 0, done.stderr)
         done = call("resume", link)
         self.assertEqual(done.returncode, 0, done.stderr)
-        self.finish(serve, [worker])
+        self.finish(serve, [self.worker(serve.address())])
 
     def test_a_store_with_two_names_is_refused_at_rest(self):
         self.assertEqual(self.run_local("--workers", "2", "--budget", "2000").wait(), 0)
