@@ -28,10 +28,9 @@ ParameterSpace space() {
 }
 
 CandidateText text_of(const Configuration& configuration) {
-  return {.parameters = "{}",
-          .machine = fmt::format("--kind {} --count {} --gain {}", configuration[0],
-                                 configuration[1], configuration[2]),
-          .modules = "{}"};
+  const std::string machine = fmt::format("--kind {} --count {} --gain {}", configuration[0],
+                                          configuration[1], configuration[2]);
+  return {.parameters = "{}", .machine = machine, .call = machine, .modules = "{}"};
 }
 
 Outcome outcome_of(const CampaignShape& shape, const Task& task) {
