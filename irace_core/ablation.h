@@ -1,9 +1,14 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "base/expected.h"
+#include "irace_core/experiment.h"
 #include "irace_core/parameter_space.h"
 #include "irace_core/scenario.h"
 
@@ -29,8 +34,25 @@ std::vector<AblationChange> ablation_changes(const ParameterSpace& space,
                                              const Configuration& target,
                                              std::span<const std::size_t> open);
 
-/// The position of the best of configurations that were all run on the same pairs: by irace's
-/// overall ranks. `costs[c]` has a value a pair. The first of equals.
+/// How a step finds its best change: all changes are run on all pairs, or they race (the types of
+/// R's ablation()).
+enum class AblationType { Full, Racing };
+
+/// Makes experiments, and tells what came of each, in their order.
+using AblationRuns =
+    std::function<Expected<std::vector<Measurement>>(std::span<const Experiment> wanted)>;
+
+/// The position of the best change of a step, by irace's overall ranks; the first of equals;
+/// nothing when all were rejected. It is a race that is not elitist, with the tests that the
+/// scenario asks for; capping is not used, and bounds are `bound_max`. Experiments count changes
+/// and pairs from 1; their instances and seeds are the caller's. Errors: those of `run`, and a
+/// target that went over its bound.
+Expected<std::optional<std::size_t>> best_change(const Scenario& scenario, AblationType type,
+                                                 std::size_t changes, std::int64_t pairs,
+                                                 const AblationRuns& run);
+
+/// The position of the best of configurations, by irace's overall ranks. `costs[c]` has a value a
+/// pair, NaN where it was not run: more pairs always come before fewer. The first of equals.
 std::size_t best_by_ranks(const std::vector<std::vector<double>>& costs, TestType type);
 
 }  // namespace swarmsmith

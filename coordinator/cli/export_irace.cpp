@@ -1,8 +1,8 @@
 #include "coordinator/cli/export_irace.h"
 
 #include <filesystem>
-#include <fstream>
 
+#include "console/whole_file.h"
 #include "coordinator/campaign/irace_folder.h"
 #include "coordinator/cli/design_argument.h"
 
@@ -20,10 +20,7 @@ Expected<void> write(const std::filesystem::path& folder, const std::vector<Name
   }
   for (const NamedText& file : files) {
     const fs::path path = folder / file.name;
-    std::ofstream stream(path, std::ios::binary);
-    stream << file.text;
-    stream.close();
-    if (!stream) return Unexpected(cannot_write(path.string()));
+    if (auto written = write_whole_file(path.string(), file.text); !written) return written;
     if (!file.is_program) continue;
     const auto run = fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec;
     fs::permissions(path, run, fs::perm_options::add, trouble);

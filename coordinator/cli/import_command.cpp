@@ -1,10 +1,10 @@
 #include <algorithm>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <random>
 
 #include "console/terminal.h"
+#include "console/whole_file.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/irace_campaign.h"
@@ -42,14 +42,6 @@ std::string workers_text(const Campaign& campaign) {
   return "\n[workers]\nlocal = " + std::to_string(*campaign.local_workers) + "\n";
 }
 
-Expected<void> write_file(const std::string& file, const std::string& text) {
-  std::ofstream stream(file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) return Unexpected(cannot_write(file));
-  return {};
-}
-
 ExitCode import_scenario(const Arguments& arguments, Output& output) {
   const std::vector<std::string> words{"--scenario", arguments.file};
   const SetupSurroundings surroundings = surroundings_of_process();
@@ -78,7 +70,7 @@ ExitCode import_scenario(const Arguments& arguments, Output& output) {
     write_data(output, text);
     return ExitCode::Done;
   }
-  if (auto written = write_file(arguments.out, text); !written) {
+  if (auto written = write_whole_file(arguments.out, text); !written) {
     return fail(output, ExitCode::Failed, written.error());
   }
   print_note(output, "wrote " + arguments.out);

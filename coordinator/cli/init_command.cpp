@@ -1,7 +1,7 @@
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
+#include "console/whole_file.h"
 #include "coordinator/cli/campaign_template.h"
 #include "coordinator/cli/commands.h"
 #include "sim/control/flavour.h"
@@ -24,11 +24,9 @@ ExitCode run(const Arguments& arguments, Output& output) {
     return fail(output, ExitCode::Usage,
                 Error{ErrorKind::BadInput, "is there already; name another folder", file.string()});
   }
-  std::ofstream stream(file, std::ios::binary);
-  stream << campaign_template(arguments.mission, arguments.flavour);
-  stream.close();
-  if (!stream) {
-    return fail(output, ExitCode::Failed, cannot_write(file.string()));
+  const std::string text = campaign_template(arguments.mission, arguments.flavour);
+  if (auto written = write_whole_file(file.string(), text); !written) {
+    return fail(output, ExitCode::Failed, written.error());
   }
   if (output.json) {
     output.out << "{\"file\":" << json_text(file.string()) << "}\n";

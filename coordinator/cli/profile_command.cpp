@@ -1,8 +1,8 @@
 #include <filesystem>
-#include <fstream>
 #include <memory>
 
 #include "base/suggestion.h"
+#include "console/whole_file.h"
 #include "coordinator/cli/commands.h"
 #include "sim/files/profile_file.h"
 
@@ -27,11 +27,8 @@ ExitCode write(const Arguments& arguments, std::string_view text, Output& output
     return fail(output, ExitCode::Usage,
                 Error{ErrorKind::BadInput, "is there already; name another file", arguments.file});
   }
-  std::ofstream stream(arguments.file, std::ios::binary);
-  stream << text;
-  stream.close();
-  if (!stream) {
-    return fail(output, ExitCode::Failed, cannot_write(arguments.file));
+  if (auto written = write_whole_file(arguments.file, text); !written) {
+    return fail(output, ExitCode::Failed, written.error());
   }
   print_note(output, arguments.file + " can be named in a campaign file: [simulator] profile = \"" +
                          arguments.file + "\"");

@@ -548,6 +548,9 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         self.assertIn("# 2 here is configuration 5 of the run", done.stdout)
         self.assertIn("no configuration 999", self.irace(
             "--psrace", "--psrace-ids", "2,999", "--psrace-max-experiments", "30", code=1).stderr)
+        for ids in ("3.5,2", "2,1e300", "2,nan", "2,-1", "2,", "two,2", "2,99999999999999999999"):
+            self.assertIn("3,17,20", self.irace("--psrace", "--psrace-ids", ids, "--psrace-max-experiments", "30",
+                                                code=1).stderr, ids)
 
     def test_ablation_finds_the_change_that_matters(self):
         (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
@@ -571,8 +574,68 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         before = len(self.calls())
         self.irace("--ablation", "--ablation-instances", "2", "-q")
         self.assertEqual(len(self.calls()) - before, 2 * (len(rows) - 1))
+        # The race of the changes: those that are worse are dropped, and run on fewer pairs.
+        before = len(self.calls())
+        done = self.irace("--ablation", "--ablation-type", "racing", "--ablation-csv", "ablation.csv")
+        self.assertRegex(done.stdout, r"# Step 1: x: 90 -> (2|3)\d\n")
+        rows = [line.split(",") for line in (self.folder / "ablation.csv").read_text().splitlines()][1:]
+        self.assertEqual(len(rows), len(self.calls()) - before)
+        self.assertEqual(len({tuple(row[-3:-1]) for row in rows}), 6, "each training instance once")
+        self.assertIn("--ablation-instances", self.irace(
+            "--ablation", "--ablation-type", "racing", "--ablation-instances", "2", code=1).stderr)
+        self.assertIn("full", self.irace("--ablation", "--ablation-type", "half", code=1).stderr)
         self.write_runner("exit 3")
         self.assertIn("exit", self.irace("--ablation", code=1).stderr)
+
+    def test_ablation_destroys_nothing_and_loses_nothing(self):
+        (self.folder / "first.txt").write_text("x mode y\n90 slow NA\n")
+        self.write_scenario(configurationsFile="first.txt")
+        self.irace()
+        made = len(self.calls())
+        before = {file: (self.folder / file).read_bytes() for file in
+                  ("irace.db", "scenario.txt", "parameters.txt", "first.txt")}
+        for file in [*before, "nowhere/ablation.csv", "."]:
+            done = self.irace("--ablation", "--ablation-csv", file, code=1)
+            self.assertIn(file.split("/")[0], done.stderr)
+        self.assertEqual(len(self.calls()), made, "refused before the first run")
+        for file, text in before.items():
+            self.assertEqual((self.folder / file).read_bytes(), text, file)
+        for words in (("--ablation-instances", "0"), ("--ablation-source", "999")):
+            self.irace("--ablation", *words, code=1)
+        self.assertEqual(len(self.calls()), made)
+        # A target that fails later on: what was run is there.
+        (self.folder / "count").write_text("")
+        self.write_runner("echo >>count; [ $(wc -l <count) -le 12 ] || exit 3; echo $cost")
+        self.irace("--ablation", "--ablation-csv", "ablation.csv", code=1)
+        rows = (self.folder / "ablation.csv").read_text().splitlines()
+        self.assertGreaterEqual(len(rows) - 1, 10)
+        self.assertFalse([file for file in self.folder.iterdir() if ".part" in file.name])
+
+    def test_import_destroys_nothing(self):
+        self.irace()
+        for file in ("scenario.txt", "parameters.txt", "irace.db"):
+            before = (self.folder / file).read_bytes()
+            done = call("import", "scenario.txt", "-o", file, cwd=self.folder)
+            self.assertNotEqual(done.returncode, 0, file)
+            self.assertIn(file, done.stderr)
+            self.assertEqual((self.folder / file).read_bytes(), before)
+        self.assertEqual(call("import", "scenario.txt", "-o", "campaign.toml", cwd=self.folder).returncode, 0)
+
+    def test_ablation_with_a_target_evaluator(self):
+        self.write_runner("echo $cost > cost-$id-$seed")
+        self.write_program("target-evaluator", "#!/bin/sh\necho $* >> evaluator.txt; cat cost-$1-$3\n")
+        self.write_scenario(targetEvaluator="./target-evaluator")
+        self.irace()
+        made, evaluated = len(self.calls()), len((self.folder / "evaluator.txt").read_text().splitlines())
+        for kind in ("full", "racing"):
+            done = self.irace("ablation", "--ablation-type", kind, "--ablation-csv", f"{kind}.csv", "--parallel", "2")
+            self.assertIn("# Step 1: ", done.stdout)
+            costs = [line.rsplit(",", 1)[1] for line in (self.folder / f"{kind}.csv").read_text().splitlines()[1:]]
+            calls = (self.folder / "evaluator.txt").read_text().splitlines()
+            self.assertGreaterEqual(len(calls) - evaluated, len(costs))
+            self.assertEqual(len(self.calls()) - made, len(costs))
+            self.assertTrue(all(float(cost) >= 0 for cost in costs))
+            made, evaluated = len(self.calls()), len(calls)
 
     def test_more_initial_configurations_than_a_race_has_room_for(self):
         rows = "".join(f"{x} slow NA\n" for x in range(60))

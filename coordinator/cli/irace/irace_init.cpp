@@ -1,8 +1,8 @@
 #include "coordinator/cli/irace/irace_init.h"
 
 #include <filesystem>
-#include <fstream>
 
+#include "console/whole_file.h"
 #include "irace_core/files/templates.h"
 
 namespace swarmsmith::cli {
@@ -20,10 +20,9 @@ ExitCode write_templates(Output& output) {
       std::error_code trouble;
       fs::create_directories(path.parent_path(), trouble);
     }
-    std::ofstream stream(path, std::ios::binary);
-    stream << file.text;
-    stream.close();
-    if (!stream) return fail(output, ExitCode::Failed, cannot_write(file.name));
+    if (auto written = write_whole_file(file.name, file.text); !written) {
+      return fail(output, ExitCode::Failed, written.error());
+    }
     if (file.is_program) {
       fs::permissions(path, fs::perms::owner_exec | fs::perms::group_exec | fs::perms::others_exec,
                       fs::perm_options::add);

@@ -2,12 +2,13 @@
 
 #include <fmt/format.h>
 #include <algorithm>
+#include <charconv>
 #include <sstream>
+#include <system_error>
 #include <vector>
 
 #include "coordinator/cli/irace/stored_configurations.h"
 #include "irace_core/files/configurations_file.h"
-#include "irace_core/files/number_text.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -23,13 +24,16 @@ Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings
     if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
   };
   if (const auto text = settings.text(kIdsOption); text && !text->empty()) {
-    std::istringstream words(*text);
+    std::istringstream words(*text + ",");
     for (std::string word; std::getline(words, word, ',');) {
-      const auto id = swarmsmith::number_of(word);
-      if (!id) return bad_input("is a list as 3,17,20, found \"" + *text + "\"", kIdsOption);
-      const auto found = stored.find(static_cast<std::int64_t>(*id), kIdsOption);
+      std::int64_t id = 0;
+      const char* end = word.data() + word.size();
+      const auto [rest, trouble] = std::from_chars(word.data(), end, id);
+      if (trouble != std::errc() || rest != end || id < 1)
+        return bad_input("is a list as 3,17,20, found \"" + *text + "\"", kIdsOption);
+      const auto found = stored.find(id, kIdsOption);
       if (!found) return Unexpected(found.error());
-      add(static_cast<std::int64_t>(*id));
+      add(id);
     }
   } else {
     const bool all = settings.is_on("--psrace-elites");
