@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -110,8 +111,9 @@ std::vector<double> ticks_in(ValueRange range, double step) {
   std::vector<double> ticks;
   const double first = std::ceil(range.low / step - 1e-9);
   const double last = std::floor(range.high / step + 1e-9);
-  for (double k = first; k <= last; ++k)
-    ticks.push_back(k * step);
+  const auto count = static_cast<std::int64_t>(last - first) + 1;
+  for (std::int64_t k = 0; k < count; ++k)
+    ticks.push_back((first + static_cast<double>(k)) * step);
   return ticks;
 }
 

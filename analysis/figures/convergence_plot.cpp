@@ -77,6 +77,7 @@ Legend legend_of(const ConvergencePlot& plot) {
 std::vector<PagePoint> on_page(const std::vector<StairPoint>& points, const Axis& x,
                                const Axis& y) {
   std::vector<PagePoint> result;
+  result.reserve(points.size());
   for (const StairPoint& point : points)
     result.push_back({x.at(point.x), y.at(point.y)});
   return result;
@@ -147,8 +148,9 @@ struct Layout {
 
   PlotArea area(std::size_t panel) const {
     const double width = pitch - between - room;
+    const std::size_t line = panel / across;
     return {.left = kMargin + pitch * static_cast<double>(panel % across) + room,
-            .top = head + panel_height * static_cast<double>(panel / across) + area_top,
+            .top = head + panel_height * static_cast<double>(line) + area_top,
             .width = width,
             .height = kRatio * width};
   }

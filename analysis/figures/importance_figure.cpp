@@ -105,7 +105,8 @@ Expected<std::vector<ScoredPair>> scored_pairs(StoreReader& store, DesignId desi
 }
 
 /// Groups of the candidates that have the parameter: its categories, or fifths of its values.
-std::vector<std::size_t> groups_of(const ParameterColumn& column, std::vector<double> values) {
+std::vector<std::size_t> groups_of(const ParameterColumn& column,
+                                   const std::vector<double>& values) {
   std::vector<std::size_t> groups;
   if (column.is_category()) {
     for (const double value : values)

@@ -80,8 +80,7 @@ Expected<Race> read_race(StoreReader& store, const FigureOptions& options) {
   });
   race.has_ended = !race.elites_after.empty();
   const auto iteration = std::ranges::find(*all, *number, &IterationRecord::iteration);
-  race.iteration =
-      iteration == all->end() ? IterationRecord{.iteration = *number} : std::move(*iteration);
+  race.iteration = iteration == all->end() ? IterationRecord{.iteration = *number} : *iteration;
   return race;
 }
 

@@ -123,8 +123,9 @@ std::string draw(const SamplingPlot& plot) {
   draw_heading(svg, plot.title, plot.details);
   for (std::size_t i = 0; i < plot.panels.size(); ++i) {
     const SamplingPlot::Panel& panel = plot.panels[i];
+    const std::size_t line = i / across;
     const PlotArea area{.left = kMargin + room + pitch * static_cast<double>(i % across),
-                        .top = head + kLineHeight + line_height * static_cast<double>(i / across),
+                        .top = head + kLineHeight + line_height * static_cast<double>(line),
                         .width = area_width,
                         .height = area_height};
     SamplingPanel drawing(svg, panel, area);

@@ -25,7 +25,7 @@ struct Coverage {
           rule.tiles);
     field({.key = "side", .meaning = "of the square, m", .least = 0.01, .most = 1000}, rule.side_m);
   }
-  std::string unit() const { return "cycles"; }
+  static std::string unit() { return "cycles"; }
   friend bool operator==(const Coverage&, const Coverage&) = default;
 };
 

@@ -26,7 +26,7 @@ struct Foraging {
     field({.key = "nest", .meaning = "of the floor where a robot leaves its item"}, rule.nest);
     field({.key = "source", .meaning = "of the floor where a robot takes an item"}, rule.source);
   }
-  std::string unit() const { return "items"; }
+  static std::string unit() { return "items"; }
   std::optional<ScoreFault> fault() const;
   friend bool operator==(const Foraging&, const Foraging&) = default;
 };
