@@ -163,7 +163,8 @@ bool means_a_recording(const std::string& word) {
     return command.name == word || command.name.starts_with(word + " ");
   });
   std::error_code trouble;
-  return !is_command && !word.starts_with('-') && std::filesystem::exists(word, trouble);
+  return !is_command && !word.starts_with('-') &&
+         std::filesystem::exists(file_of_source(word), trouble);
 }
 
 ExitCode exit_code_of_tracking(const Error& error) {

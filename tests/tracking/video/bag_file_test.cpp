@@ -205,7 +205,8 @@ BagImage even_image(const std::string& encoding, const std::array<int, 3>& bgr) 
         if (encoding.ends_with("a8")) put(17);
       }
     }
-    image.data.insert(image.data.end(), is_16 ? 6 : 7, 99);  // rows may be longer than their pixels
+    image.data.insert(image.data.end(), is_16 || encoding.ends_with("a8") ? 6 : 7,
+                      99);  // rows may be longer than their pixels
   }
   image.step = static_cast<std::uint32_t>(image.data.size() / image.height);
   return image;

@@ -66,6 +66,9 @@ std::optional<Fields> fields_of(std::string_view bytes) {
   return fields;
 }
 
+/// So many bytes from a place on; nothing beyond the end.
+using Read = std::function<std::optional<std::string>(std::int64_t at, std::int64_t count)>;
+
 struct Record {
   Op op{};
   Fields fields;
@@ -75,17 +78,56 @@ struct Record {
   std::int64_t size() const { return end - data; }
 };
 
+/// The record that begins there and ends before `limit`.
+std::optional<Record> record_at(std::int64_t at, std::int64_t limit, const Read& read) {
+  constexpr std::int64_t kLength = sizeof(std::uint32_t);
+  const auto length_at = [&](std::int64_t place) -> std::optional<std::uint32_t> {
+    const auto bytes = read(place, kLength);
+    return bytes ? number_at<std::uint32_t>(*bytes, 0) : std::nullopt;
+  };
+  const auto header_size = length_at(at);
+  if (!header_size || *header_size > kMostHeader) return std::nullopt;
+  const auto header = read(at + kLength, *header_size);
+  auto fields = header ? fields_of(*header) : std::nullopt;
+  const auto op = fields ? number_in<std::uint8_t>(*fields, "op") : std::nullopt;
+  const auto data_size = length_at(at + kLength + *header_size);
+  if (!op || !data_size) return std::nullopt;
+  const std::int64_t data = at + kLength + *header_size + kLength;
+  if (data + *data_size > limit) return std::nullopt;
+  return Record{static_cast<Op>(*op), std::move(*fields), data, data + *data_size};
+}
+
+/// The places in a chunk that an index may name; nothing when it does not consist of records. The
+/// library goes from a connection on to the next message.
+std::optional<std::vector<std::uint32_t>> messages_in(std::int64_t size, const Read& read) {
+  std::vector<std::uint32_t> messages;
+  std::vector<std::uint32_t> before;
+  for (std::int64_t at = 0; at < size;) {
+    const auto found = record_at(at, size, read);
+    if (!found) return std::nullopt;
+    before.push_back(static_cast<std::uint32_t>(at));
+    if (found->op == Op::Message) {
+      messages.insert(messages.end(), before.begin(), before.end());
+      before.clear();
+    } else if (found->op != Op::Connection) {
+      return std::nullopt;
+    }
+    at = found->end;
+  }
+  return messages;
+}
+
 class Check {
  public:
-  Check(av::ByteStream bytes, std::string name)
-      : bytes_(std::move(bytes)), name_(std::move(name)) {}
+  Check(av::ByteStream bytes, std::string name, const UnpackChunk& unpack)
+      : bytes_(std::move(bytes)), name_(std::move(name)), unpack_(unpack) {}
 
   Expected<void> run() {
     const auto version = read(0, static_cast<std::int64_t>(kVersion.size()));
     if (!version || *version != kVersion) {
       return unreadable("is no bag of ROS 1 in format 2.0: it does not begin with `#ROSBAG V2.0`");
     }
-    const auto head = record(kVersion.size(), bytes_.size());
+    const auto head = record(kVersion.size());
     const auto index = head && head->op == Op::File
                            ? number_in<std::uint64_t>(head->fields, "index_pos")
                            : std::nullopt;
@@ -101,7 +143,7 @@ class Check {
     std::int64_t at = head->end;
     while (at < bytes_.size()) {
       leads_to_a_record = leads_to_a_record || static_cast<std::uint64_t>(at) == *index;
-      const auto found = record(at, bytes_.size());
+      const auto found = record(at);
       if (!found || !take(at, *found)) return damaged(at);
       at = found->end;
     }
@@ -126,6 +168,11 @@ class Check {
         bytes_.size()));
   }
 
+  std::optional<Record> record(std::int64_t at) {
+    return record_at(at, bytes_.size(),
+                     [this](std::int64_t place, std::int64_t count) { return read(place, count); });
+  }
+
   std::optional<std::string> read(std::int64_t at, std::int64_t count) {
     if (at < 0 || count < 0 || count > bytes_.size() - at) return std::nullopt;
     std::string text(static_cast<std::size_t>(count), '\0');
@@ -135,26 +182,6 @@ class Check {
       return std::nullopt;
     }
     return text;
-  }
-
-  std::optional<std::uint32_t> read_length(std::int64_t at) {
-    const auto bytes = read(at, sizeof(std::uint32_t));
-    return bytes ? number_at<std::uint32_t>(*bytes, 0) : std::nullopt;
-  }
-
-  /// The record that begins there and ends before `limit`.
-  std::optional<Record> record(std::int64_t at, std::int64_t limit) {
-    constexpr std::int64_t kLength = sizeof(std::uint32_t);
-    const auto header_size = read_length(at);
-    if (!header_size || *header_size > kMostHeader) return std::nullopt;
-    const auto header = read(at + kLength, *header_size);
-    auto fields = header ? fields_of(*header) : std::nullopt;
-    const auto op = fields ? number_in<std::uint8_t>(*fields, "op") : std::nullopt;
-    const auto data_size = read_length(at + kLength + *header_size);
-    if (!op || !data_size) return std::nullopt;
-    const std::int64_t data = at + kLength + *header_size + kLength;
-    if (data + *data_size > limit) return std::nullopt;
-    return Record{static_cast<Op>(*op), std::move(*fields), data, data + *data_size};
   }
 
   /// Whether a record is right beside those before it.
@@ -186,25 +213,24 @@ class Check {
     if (!size || packing == chunk.fields.end() || *size > kMostChunk || chunk.size() > kMostChunk) {
       return false;
     }
-    chunk_size_ = *size;
-    is_packed_ = packing->second != "none";
-    messages_.clear();
-    if (is_packed_) return true;
-    if (chunk.size() != *size) return false;
-    // The library goes from a connection on to the next message.
-    std::vector<std::uint32_t> before;
-    for (std::int64_t at = chunk.data; at < chunk.end;) {
-      const auto found = record(at, chunk.end);
-      if (!found) return false;
-      before.push_back(static_cast<std::uint32_t>(at - chunk.data));
-      if (found->op == Op::Message) {
-        messages_.insert(messages_.end(), before.begin(), before.end());
-        before.clear();
-      } else if (found->op != Op::Connection) {
-        return false;
-      }
-      at = found->end;
+    Read inside = [&](std::int64_t at, std::int64_t count) { return read(chunk.data + at, count); };
+    std::string unpacked;
+    is_lost_ = false;
+    if (packing->second != "none") {
+      auto packed = read(chunk.data, chunk.size());
+      unpacked.resize(*size);
+      is_lost_ = !packed || !unpack_(packing->second, *packed, unpacked);
+      if (is_lost_) return true;
+      inside = [&](std::int64_t at, std::int64_t count) -> std::optional<std::string> {
+        if (at > *size || count > *size - at) return std::nullopt;
+        return unpacked.substr(static_cast<std::size_t>(at), static_cast<std::size_t>(count));
+      };
+    } else if (chunk.size() != *size) {
+      return false;
     }
+    auto messages = messages_in(*size, inside);
+    if (!messages) return false;
+    messages_ = std::move(*messages);
     return true;
   }
 
@@ -219,11 +245,7 @@ class Check {
     indexed_.insert(*connection);
     for (std::size_t at = 8; at < entries->size(); at += kEntry) {
       const std::uint32_t place = number_at<std::uint32_t>(*entries, at).value();
-      constexpr std::uint32_t kLeastMessage = 8;
-      const bool leads_there = is_packed_
-                                   ? place < chunk_size_ && chunk_size_ - place > kLeastMessage
-                                   : std::ranges::binary_search(messages_, place);
-      if (!leads_there) return false;
+      if (!is_lost_ && !std::ranges::binary_search(messages_, place)) return false;
     }
     return true;
   }
@@ -241,18 +263,18 @@ class Check {
   std::set<std::uint64_t> chunks_;  ///< where they begin
   std::set<std::uint32_t> connections_;
   std::set<std::uint32_t> indexed_;  ///< connections that have messages
+  const UnpackChunk& unpack_;
   // Of the last chunk.
-  std::uint32_t chunk_size_ = 0;  ///< unpacked
-  bool is_packed_ = false;
+  bool is_lost_ = false;                 ///< it cannot be unpacked
   std::vector<std::uint32_t> messages_;  ///< places that the index may name
 };
 
 }  // namespace
 
-Expected<void> check_bag(const std::string& file) {
+Expected<void> check_bag(const std::string& file, const UnpackChunk& unpack) {
   auto bytes = av::ByteStream::reading(file);
   if (!bytes) return Unexpected(bytes.error());
-  return Check(std::move(*bytes), file).run();
+  return Check(std::move(*bytes), file, unpack).run();
 }
 
 }  // namespace swarmsmith

@@ -2,7 +2,6 @@
 
 extern "C" {
 #include <libavutil/imgutils.h>
-#include <libavutil/pixdesc.h>
 }
 
 #include <console_bridge/console.h>
@@ -48,6 +47,20 @@ struct Topic {
   std::string md5;
   bool has_images() const { return type == kRaw.name || type == kPacked.name; }
 };
+
+bool unpack_chunk(const std::string& packing, std::string& packed, std::string& into) {
+  if (packing != rosbag::COMPRESSION_BZ2 && packing != rosbag::COMPRESSION_LZ4) return false;
+  const auto bytes = [](std::string& text) { return reinterpret_cast<std::uint8_t*>(text.data()); };
+  try {
+    rosbag::ChunkedFile().decompress(
+        packing == rosbag::COMPRESSION_BZ2 ? rosbag::compression::BZ2 : rosbag::compression::LZ4,
+        bytes(into), static_cast<unsigned>(into.size()), bytes(packed),
+        static_cast<unsigned>(packed.size()));
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
 
 /// Those with messages, by their names.
 std::map<std::string, Topic> topics_of(const rosbag::Bag& bag) {
@@ -181,7 +194,7 @@ Expected<av::FramePtr> raw_picture(const Message& message, const std::string& na
   const std::uint64_t needed = std::uint64_t{message.step} * (message.height - 1) +
                                static_cast<std::uint64_t>(std::max(row, 0));
   // The scaler steps through samples of two bytes.
-  const bool is_even = message.step % 2 == 0 || av_pix_fmt_desc_get(format)->comp[0].depth == 8;
+  const bool is_even = message.step % 2 == 0 || row / width % 2 != 0;
   if (row <= 0 || message.step < static_cast<std::uint32_t>(row) || !is_even ||
       needed > message.size) {
     return unreadable(fmt::format("an image of {} x {} {} has {} bytes, {} a row", width, height,
@@ -205,28 +218,73 @@ Expected<av::FramePtr> packed_picture(const Message& message, const std::string&
   return av::decode_still(*packet, name);
 }
 
+/// The messages of a topic, one after the other.
+class Messages {
+ public:
+  Messages(std::unique_ptr<rosbag::Bag> bag, std::string topic)
+      : bag_(std::move(bag)), topic_(std::move(topic)) {
+    go_to(0);
+  }
+
+  std::int64_t count() { return view_->size(); }
+  bool has_next() { return next_ != view_->end(); }
+  /// The next one's bytes, and when it was recorded. Throws for what is damaged, and goes on.
+  ros::Time take(MessageBytes& into) {
+    // After a chunk that it could not unpack, the library takes what it got for the chunk before.
+    if (has_failed_) reopen();
+    has_failed_ = true;
+    const ros::Time recorded = next_->getTime();
+    const rosbag::View::iterator taken = next_++;
+    ++number_;
+    taken->write(into);
+    has_failed_ = false;
+    return recorded;
+  }
+  void go_to(std::int64_t number) {
+    view_ = std::make_unique<rosbag::View>(*bag_, rosbag::TopicQuery(topic_));
+    next_ = view_->begin();
+    for (number_ = 0; number_ < number && has_next(); ++number_)
+      ++next_;
+  }
+
+ private:
+  void reopen() {
+    const std::string file = bag_->getFileName();
+    const std::int64_t number = number_;
+    next_ = {};
+    view_.reset();
+    bag_ = std::make_unique<rosbag::Bag>(file);
+    go_to(number);
+  }
+
+  std::unique_ptr<rosbag::Bag> bag_;
+  std::string topic_;
+  std::unique_ptr<rosbag::View> view_;
+  rosbag::View::iterator next_;
+  std::int64_t number_ = 0;
+  bool has_failed_ = false;
+};
+
 class BagFile final : public FrameSource {
  public:
   BagFile(std::string name, std::unique_ptr<rosbag::Bag> bag, const std::string& topic,
           bool is_packed)
-      : is_packed_(is_packed),
-        bag_(std::move(bag)),
-        view_(std::make_unique<rosbag::View>(*bag_, rosbag::TopicQuery(topic))) {
+      : is_packed_(is_packed), messages_(std::move(bag), topic) {
     info_.name = std::move(name);
-    info_.expected_frames = view_->size();
+    info_.expected_frames = messages_.count();
     info_.has_times = true;
   }
 
   /// Looks at the first image that can be read: how large they are, and whether they have stamps.
   Expected<void> look() {
     std::optional<Error> first_error;
-    for (next_ = view_->begin(); next_ != view_->end(); ++next_) {
+    while (messages_.has_next()) {
       const auto read = read_next();
       if (read) {
         info_.size = {picture_->width, picture_->height};
         if (!pictures_.gray(*picture_)) return unreadable(kNotRead, info_.name);
         has_stamps_ = !message_.stamp.isZero();
-        next_ = view_->begin();
+        messages_.go_to(0);
         return {};
       }
       if (!first_error) first_error = read.error();
@@ -240,11 +298,9 @@ class BagFile final : public FrameSource {
   std::int64_t damaged_frames() const override { return damaged_; }
 
   Expected<bool> next() override {
-    while (next_ != view_->end()) {
+    while (messages_.has_next()) {
       const std::int64_t number = number_++;
       const auto read = read_next();
-      const ros::Time recorded = next_->getTime();
-      ++next_;
       if (!read) {
         ++damaged_;
         continue;
@@ -258,7 +314,7 @@ class BagFile final : public FrameSource {
       const auto gray = pictures_.gray(*picture_);
       if (!gray) return unreadable(kNotRead, info_.name);
       frame_ = {.number = number,
-                .time_s = seconds(has_stamps_ ? message_.stamp : recorded),
+                .time_s = seconds(has_stamps_ ? message_.stamp : recorded_),
                 .gray = *gray};
       return true;
     }
@@ -277,7 +333,7 @@ class BagFile final : public FrameSource {
 
   Expected<void> read_next() {
     try {
-      next_->write(bytes_);
+      recorded_ = messages_.take(bytes_);
       message_ = read_message(bytes_, is_packed_);
     } catch (const std::exception& error) {
       return unreadable(std::string("an image cannot be read: ") + error.what(), info_.name);
@@ -292,11 +348,10 @@ class BagFile final : public FrameSource {
   SourceInfo info_;
   bool is_packed_ = false;
   bool has_stamps_ = false;
-  std::unique_ptr<rosbag::Bag> bag_;
-  std::unique_ptr<rosbag::View> view_;
-  rosbag::View::iterator next_;
-  std::int64_t number_ = 0;  ///< of `next_`
+  Messages messages_;
+  std::int64_t number_ = 0;  ///< of the next one
   MessageBytes bytes_;
+  ros::Time recorded_;
   Message message_;  ///< in `bytes_`
   av::FramePtr picture_;
   av::Pictures pictures_;
@@ -309,7 +364,7 @@ class BagFile final : public FrameSource {
 Expected<std::unique_ptr<FrameSource>> open_bag(const BagWord& word) {
   av::set_up();
   console_bridge::noOutputHandler();
-  if (auto whole = check_bag(word.file); !whole) return Unexpected(whole.error());
+  if (auto whole = check_bag(word.file, unpack_chunk); !whole) return Unexpected(whole.error());
   auto bag = std::make_unique<rosbag::Bag>();
   std::map<std::string, Topic> topics;
   try {
