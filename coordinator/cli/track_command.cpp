@@ -16,7 +16,7 @@ ExitCode run_track(const std::vector<std::string>& words, Output& output) {
                 program +
                     " is not there: it is built where OpenCV, libapriltag and FFmpeg's libraries "
                     "are (Debian: libopencv-contrib-dev libapriltag-dev libavformat-dev "
-                    "libavcodec-dev libswscale-dev); `./dev build` installs them");
+                    "libavcodec-dev libswscale-dev librosbag-storage-dev); `./dev build` installs them");
   }
   std::vector<std::string> copies(words);
   std::vector<char*> pointers{program.data()};

@@ -40,6 +40,7 @@ constexpr std::string_view kDetectDetails =
     "Examples:\n"
     "  swarmsmith track detect run07.mp4\n"
     "  swarmsmith track detect pictures/ --csv tags.csv\n"
+    "  swarmsmith track detect run07.bag:/ceiling/image_raw\n"
     "\n"
     "Which tags are seen, in how many frames, how large (the shortest side) and how clear (the\n"
     "detector's margin), whether bits had to be mended and whether a tag is there twice. Needs no\n"

@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::string_view kVersion = "#ROSBAG V2.0\n";
 constexpr std::uint32_t kMostHeader = 1'000'000;  // as the library has it
-constexpr std::uint32_t kMostChunk = 1U << 30;
+constexpr std::uint32_t kMostChunk = 400U << 20;
 
 enum class Op : std::uint8_t {
   Message = 2,
