@@ -14,6 +14,7 @@ extern "C" {
 #include <algorithm>
 #include <array>
 #include <exception>
+#include <iterator>
 #include <map>
 #include <optional>
 #include <string>
@@ -221,47 +222,40 @@ Expected<av::FramePtr> packed_picture(const Message& message, const std::string&
 /// The messages of a topic, one after the other.
 class Messages {
  public:
-  Messages(std::unique_ptr<rosbag::Bag> bag, std::string topic)
-      : bag_(std::move(bag)), topic_(std::move(topic)) {
-    go_to(0);
+  Messages(std::unique_ptr<rosbag::Bag> bag, std::string topic) : topic_(std::move(topic)) {
+    use(std::move(bag));
   }
 
   std::int64_t count() { return view_->size(); }
   bool has_next() { return next_ != view_->end(); }
-  /// The next one's bytes, and when it was recorded. Throws for what is damaged, and goes on.
+  void rewind() { next_ = view_->begin(); }
+  /// The next one's bytes, and when it was recorded. Goes on, also where it throws for damage.
   ros::Time take(MessageBytes& into) {
-    // After a chunk that it could not unpack, the library takes what it got for the chunk before.
-    if (has_failed_) reopen();
+    rosbag::View::iterator taken = next_++;
+    if (has_failed_) {
+      // After a chunk that it could not unpack, the library takes what it got for the chunk before.
+      const std::int64_t left = std::distance(next_, view_->end());
+      use(std::make_unique<rosbag::Bag>(bag_->getFileName()));
+      taken = std::next(view_->begin(), count() - left - 1);
+      next_ = std::next(taken);
+    }
     has_failed_ = true;
-    const ros::Time recorded = next_->getTime();
-    const rosbag::View::iterator taken = next_++;
-    ++number_;
     taken->write(into);
     has_failed_ = false;
-    return recorded;
-  }
-  void go_to(std::int64_t number) {
-    view_ = std::make_unique<rosbag::View>(*bag_, rosbag::TopicQuery(topic_));
-    next_ = view_->begin();
-    for (number_ = 0; number_ < number && has_next(); ++number_)
-      ++next_;
+    return taken->getTime();
   }
 
  private:
-  void reopen() {
-    const std::string file = bag_->getFileName();
-    const std::int64_t number = number_;
-    next_ = {};
-    view_.reset();
-    bag_ = std::make_unique<rosbag::Bag>(file);
-    go_to(number);
+  void use(std::unique_ptr<rosbag::Bag> bag) {
+    view_ = std::make_unique<rosbag::View>(*bag, rosbag::TopicQuery(topic_));
+    bag_ = std::move(bag);
+    rewind();
   }
 
-  std::unique_ptr<rosbag::Bag> bag_;
   std::string topic_;
+  std::unique_ptr<rosbag::Bag> bag_;
   std::unique_ptr<rosbag::View> view_;
   rosbag::View::iterator next_;
-  std::int64_t number_ = 0;
   bool has_failed_ = false;
 };
 
@@ -284,7 +278,7 @@ class BagFile final : public FrameSource {
         info_.size = {picture_->width, picture_->height};
         if (!pictures_.gray(*picture_)) return unreadable(kNotRead, info_.name);
         has_stamps_ = !message_.stamp.isZero();
-        messages_.go_to(0);
+        messages_.rewind();
         return {};
       }
       if (!first_error) first_error = read.error();
