@@ -178,7 +178,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
 Run declare_calibrate_arena(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   options.words("PICTURES", arguments->words,
-                "A video of the arena with its floor tags, or pictures or folders of them");
+                "A video or bag of the arena with its floor tags, or pictures or folders of them");
   options.text("--arena", arguments->arena, "Arena file", Options::Need::Required);
   options.text("--camera", arguments->camera, "Which camera, when the arena has several");
   options.flag("--again", arguments->again,

@@ -174,7 +174,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
 Run declare_calibrate_camera(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   options.words("PICTURES", arguments->words,
-                "Pictures of the board, folders of them, or a video of it",
+                "Pictures of the board, folders of them, or a video or bag of it",
                 Options::Need::Required);
   options.text("--board", arguments->board,
                "The board: charuco:COLUMNSxROWS:SQUARE:MARKER:DICTIONARY or "

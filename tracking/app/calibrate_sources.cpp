@@ -22,9 +22,9 @@ std::string text_of(ImageSize size) {
 }
 
 /// The sidecar beside a video or a folder, if there is one.
-Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& video) {
+Expected<std::optional<std::vector<double>>> sidecar_of(const std::string& source) {
   // "run.times.csv" for run.mp4 and for the folder run; a dot in a folder's name is no ending.
-  std::filesystem::path sidecar(video);
+  std::filesystem::path sidecar(file_of_source(source));
   if (sidecar.filename().empty()) sidecar = sidecar.parent_path();
   std::error_code ignored;
   if (!std::filesystem::is_directory(sidecar, ignored)) sidecar.replace_extension();

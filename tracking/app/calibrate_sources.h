@@ -11,7 +11,7 @@
 
 namespace swarmsmith::cli {
 
-/// Pictures of several words, each a picture, a folder of pictures, a video or a camera.
+/// Pictures of several words, each a picture, a folder of pictures, a video, a bag or a camera.
 struct PictureSource {
   std::string word;
   bool is_video = false;  ///< its frames resemble each other

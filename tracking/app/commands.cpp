@@ -40,6 +40,7 @@ constexpr std::string_view kDetectDetails =
     "Examples:\n"
     "  swarmsmith track detect run07.mp4\n"
     "  swarmsmith track detect pictures/ --csv tags.csv\n"
+    "  swarmsmith track detect run07.bag:/ceiling/image_raw\n"
     "\n"
     "Which tags are seen, in how many frames, how large (the shortest side) and how clear (the\n"
     "detector's margin), whether bits had to be mended and whether a tag is there twice. Needs no\n"
@@ -163,7 +164,8 @@ bool means_a_recording(const std::string& word) {
     return command.name == word || command.name.starts_with(word + " ");
   });
   std::error_code trouble;
-  return !is_command && !word.starts_with('-') && std::filesystem::exists(word, trouble);
+  return !is_command && !word.starts_with('-') &&
+         std::filesystem::exists(file_of_source(word), trouble);
 }
 
 ExitCode exit_code_of_tracking(const Error& error) {

@@ -164,7 +164,7 @@ ExitCode run(const Words& words, Output& output) {
 
 Run declare_detect(Options& options) {
   auto words = std::make_shared<Words>();
-  options.text("SOURCE", words->source, "Video, picture or folder of pictures",
+  options.text("SOURCE", words->source, "Video, picture, folder of pictures or bag",
                Options::Need::Required);
   options.text("--family", words->family, "Family of the tags (default tag36h11)");
   options.integer("--every", words->every, {1, 1'000'000}, "Look at each N-th frame (default 1)");

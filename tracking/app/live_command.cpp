@@ -274,7 +274,7 @@ Run declare_live(Options& options) {
   auto words = std::make_shared<Words>();
   options.text("--arena", words->arena, "Arena file", Options::Need::Required);
   options.text("--camera", words->source,
-               "What to watch: camera:0, an address, a video file, a folder of images",
+               "What to watch: camera:0, an address, a video file, a folder of images, a bag",
                Options::Need::Required);
   options.text("--view", words->view, "Which camera of the arena file that is, of several");
   options.text("--mission", words->mission, "Mission whose floor is drawn in: a name or a file");

@@ -9,7 +9,6 @@
 
 #include "base/id.h"
 #include "console/counter.h"
-#include "console/sha256.h"
 #include "console/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
@@ -100,7 +99,7 @@ std::optional<Refusal> settle_video(const Words& words, DrawnRun& run) {
   }
   fs::path& file = run.videos.at(run.camera);
   if (!words.video.empty()) file = words.video;
-  const auto sha256 = sha256_of_file(file.string());
+  const auto sha256 = sha256_of_source(file.string());
   if (!sha256) {
     Error error = sha256.error();
     error.message += "; name the run's video by --video";

@@ -105,7 +105,7 @@ ExitCode record(const Words& words, Output& output) {
 
 Run declare_record(Options& options) {
   auto words = std::make_shared<Words>();
-  options.text("SOURCE", words->source, "Camera, address, video file or folder of images",
+  options.text("SOURCE", words->source, "Camera, address, video file, folder of images or bag",
                Options::Need::Required);
   options.text("FILE", words->file, "Video to write, a .mkv", Options::Need::Required);
   options.text("--seconds", words->seconds, "Stop after so long (default: until Ctrl-C)");

@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 /// A run log for a video that has none.
 RunLog log_of_words(const std::vector<std::string>& videos) {
   RunLog log;
-  if (!videos.empty()) log.name = fs::path(videos.front()).stem().string();
+  if (!videos.empty()) log.name = fs::path(file_of_source(videos.front())).stem().string();
   for (const std::string& video : videos)
     log.videos.push_back({.camera = {}, .file = video, .times = {}});
   return log;
@@ -31,7 +31,8 @@ struct VideoFiles {
 };
 
 /// "run07.times.csv" beside "run07.mp4", if it is there.
-fs::path sidecar_beside(const fs::path& video) {
+fs::path sidecar_beside(const fs::path& source) {
+  const fs::path video = file_of_source(source.string());
   for (fs::path file :
        {fs::path(video).replace_extension(".times.csv"), fs::path(video).concat(".times.csv")}) {
     std::error_code trouble;

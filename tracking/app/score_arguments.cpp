@@ -13,7 +13,7 @@ std::string store_word(const std::string& option) {
 void ScoreArguments::declare(Options& options) {
   constexpr Options::Range kTags{0, 65'535};
   options.words("VIDEO", videos,
-                "Videos or folders of images, one a camera (default: those of the run log)");
+                "Videos, folders of images or bags, one a camera (default: those of the run log)");
   options.text("--arena", arena, "Arena file", Options::Need::Required);
   options.text("--run", run, "Run log; the options here win over it");
   options.text("--mission", mission,

@@ -77,6 +77,13 @@ OrRefusal<void> measure(const std::vector<FloorPicture>& pictures, RunLog& log) 
 
 }  // namespace
 
+Expected<std::string> sha256_of_source(const std::string& word) {
+  const std::string file = file_of_source(word);
+  auto sha256 = sha256_of_file(file);
+  if (!sha256 || file == word) return sha256;
+  return sha256_of(*sha256 + "  " + word.substr(file.size()) + "\n");
+}
+
 OrRefusal<Observations> watch_run(RunPlan& plan, Output& output) {
   const ObserveOptions options = observe_options(plan);
   std::vector<CameraObservations> cameras;
@@ -84,11 +91,14 @@ OrRefusal<Observations> watch_run(RunPlan& plan, Output& output) {
   FloorPictures floor(plan, pictures);
   for (std::size_t i = 0; i < plan.videos.size(); ++i) {
     PlannedVideo& video = plan.videos[i];
-    auto sha256 = sha256_of_file(video.path.string());
+    auto sha256 = sha256_of_source(video.path.string());
     if (!sha256)
       return refused(
           error_of(IssueCode::VideoUnreadable, sha256.error().message, sha256.error().where));
-    Counter watching(output, "watched", "frames of " + video.path.filename().string());
+    Counter watching(
+        output, "watched",
+        "frames of " +
+            std::filesystem::path(file_of_source(video.path.string())).filename().string());
     auto seen =
         observe({plan.rig.cameras[i], *video.source, video.clock, *sha256}, options,
                 [&](std::int64_t done, std::int64_t of, const std::vector<Detection>& detections) {

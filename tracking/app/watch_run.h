@@ -9,4 +9,8 @@ namespace swarmsmith::cli {
 /// is, from pictures on the way, and goes into the plan's log.
 OrRefusal<Observations> watch_run(RunPlan& plan, Output& output);
 
+/// What a word of FrameSource::open names, by its bytes (sha256_of_file): of a bag's topic, which
+/// may be one of several cameras, the SHA-256 of that of the bag and the topic.
+Expected<std::string> sha256_of_source(const std::string& word);
+
 }  // namespace swarmsmith::cli

@@ -17,7 +17,7 @@ namespace swarmsmith {
 /// A video of the run, by one camera.
 struct RunVideo {
   std::string camera;  ///< as in the rig; empty when there is only one
-  std::string file;    ///< a video, a folder of images
+  std::string file;    ///< a video, a folder of images, a bag
   std::string times;   ///< sidecar with a time a frame; empty: FILE.times.csv if that is there
   double clock_ahead_s = 0;  ///< its clock minus that of the first video
   /// How long the camera ran, by another clock: shows a video that plays too fast.

@@ -37,7 +37,7 @@ struct Frame {
 };
 
 struct SourceInfo {
-  std::string name;  ///< of file, folder or device
+  std::string name;  ///< of file, folder or device, a bag's with the topic that was asked for
   ImageSize size;
   double frame_rate = 0;             ///< nominal; 0 when nobody says it
   std::int64_t expected_frames = 0;  ///< with the damaged ones; 0 when not known
@@ -47,12 +47,12 @@ struct SourceInfo {
   bool is_live = false;
 };
 
-/// Where frames come from: a video file, a folder of images, a camera.
+/// Where frames come from: a video file, a folder of images, a bag of ROS, a camera.
 class FrameSource {
  public:
-  /// `word`: a video file, a picture, a folder of images (in the order of their names), `camera:0`
-  /// or another
-  /// word that OpenCV opens (`rtsp://...`). E_VIDEO_UNREADABLE with the decoder's own words.
+  /// `word`: a video file, a picture, a folder of images (in the order of their names), a bag
+  /// (`run.bag`, `run.bag:/topic`), `camera:0` or another word that OpenCV opens (`rtsp://...`).
+  /// E_VIDEO_UNREADABLE with the decoder's own words.
   static Expected<std::unique_ptr<FrameSource>> open(const std::string& word);
   virtual ~FrameSource() = default;
 
@@ -65,5 +65,8 @@ class FrameSource {
   virtual ColorImage color() = 0;
   virtual std::int64_t damaged_frames() const = 0;
 };
+
+/// The file or folder of a word: that of a bag without its topic. Other words as they are.
+std::string file_of_source(const std::string& word);
 
 }  // namespace swarmsmith

@@ -12,9 +12,9 @@
 
 #include "tracking/rig/issue.h"
 #include "tracking/video/internal/byte_stream.h"
-#include "tracking/video/internal/decoder.h"
 #include "tracking/video/internal/natural_order.h"
 #include "tracking/video/internal/picture.h"
+#include "tracking/video/internal/still_picture.h"
 
 namespace swarmsmith {
 namespace {
@@ -36,26 +36,6 @@ bool is_image_name(const fs::path& path) {
          std::find(kEndings.begin(), kEndings.end(), ending) != kEndings.end();
 }
 
-/// By the first bytes: names lie.
-AVCodecID codec_of(std::string_view bytes) {
-  struct Mark {
-    std::string_view begin;
-    AVCodecID codec;
-  };
-  using namespace std::string_view_literals;
-  constexpr std::array<Mark, 7> kMarks = {{{"\x89PNG", AV_CODEC_ID_PNG},
-                                           {"\xff\xd8", AV_CODEC_ID_MJPEG},
-                                           {"BM", AV_CODEC_ID_BMP},
-                                           {"II*\0"sv, AV_CODEC_ID_TIFF},
-                                           {"MM\0*"sv, AV_CODEC_ID_TIFF},
-                                           {"P5", AV_CODEC_ID_PGM},
-                                           {"P6", AV_CODEC_ID_PPM}}};
-  for (const Mark& mark : kMarks) {
-    if (bytes.starts_with(mark.begin)) return mark.codec;
-  }
-  return AV_CODEC_ID_NONE;
-}
-
 /// A whole file as a packet.
 Expected<av::PacketPtr> packet_of(const std::string& path) {
   constexpr std::int64_t kMostBytes = std::int64_t{400} << 20;
@@ -73,30 +53,9 @@ Expected<av::PacketPtr> packet_of(const std::string& path) {
 }
 
 Expected<av::FramePtr> picture_of(const std::string& path) {
-  av::take_message();
   auto packet = packet_of(path);
   if (!packet) return Unexpected(packet.error());
-  const AVCodecID codec = codec_of(
-      {reinterpret_cast<const char*>((*packet)->data), static_cast<std::size_t>((*packet)->size)});
-  if (codec == AV_CODEC_ID_NONE) return unreadable("is no PNG, JPEG, BMP, TIFF, PGM or PPM", path);
-  std::unique_ptr<AVCodecParameters, void (*)(AVCodecParameters*)> about(
-      avcodec_parameters_alloc(), [](AVCodecParameters* p) { avcodec_parameters_free(&p); });
-  about->codec_type = AVMEDIA_TYPE_VIDEO;
-  about->codec_id = codec;
-  auto decoder = av::open_decoder(*about, {1, 1}, path);
-  if (!decoder) return Unexpected(decoder.error());
-  av::FramePtr picture(av_frame_alloc());
-  int code = avcodec_send_packet(decoder->get(), packet->get());
-  if (code >= 0) avcodec_send_packet(decoder->get(), nullptr);
-  if (code >= 0) code = avcodec_receive_frame(decoder->get(), picture.get());
-  if (code < 0) return unreadable("cannot be decoded: " + av::reason(code), path);
-  if (picture->decode_error_flags != 0 || (picture->flags & AV_FRAME_FLAG_CORRUPT) != 0) {
-    return unreadable("is damaged: " + av::take_message(), path);
-  }
-  if (auto fits = av::check_size(picture->width, picture->height, path); !fits) {
-    return Unexpected(fits.error());
-  }
-  return picture;
+  return av::decode_still(**packet, path);
 }
 
 class ImageFolder final : public FrameSource {
