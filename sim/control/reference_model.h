@@ -85,7 +85,7 @@ struct Command {
   friend bool operator==(const Command&, const Command&) = default;
 };
 
-/// Wheels go up to 155 cm/s, either way (thesis table 5.1 and facts, section 5).
+/// Wheels go up to 155 cm/s, either way (thesis table 5.1; thesis facts, section 5).
 inline constexpr double kMaxWheelSpeed_mps = 1.55;
 
 /// The command within the wheels' range.
