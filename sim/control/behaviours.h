@@ -13,7 +13,7 @@ namespace swarmsmith {
 struct Flavour;
 
 /// Low-level behaviours, one a state of the machine. What they do in detail is the flavour's data;
-/// the sources are thesis section 6 and rvr-automode facts, section 5.
+/// the sources are thesis facts, section 6, and rvr-automode facts, section 5.
 
 /// Straight on until there is an obstacle in front, then a turn on the spot for a random number of
 /// control cycles.

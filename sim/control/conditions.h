@@ -14,7 +14,7 @@ struct Flavour;
 
 /// Conditions, one a transition of the machine. A condition says with which probability its
 /// transition is enabled in this cycle; which readings it accepts is the flavour's data. Sources:
-/// thesis section 7 and rvr-automode facts, section 6.1.
+/// thesis facts, section 7, and rvr-automode facts, section 6.1.
 
 /// The colours that ColorDetection can look for (thesis 5.2).
 enum class ColorLabel { Green, Blue, Red, Yellow };

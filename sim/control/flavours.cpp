@@ -4,8 +4,8 @@
 #include "sim/control/flavour.h"
 #include "sim/control/internal/module_tables.h"
 
-// Sources: "thesis" is the facts page on the thesis' text, "program" the one on the published
-// implementation (rvr-automode).
+// Sources: "thesis" and "program" with a number are sections of the thesis facts and of the
+// rvr-automode facts (docs/reference); "its 7.1" and equations have the thesis' own numbers.
 
 namespace swarmsmith {
 namespace {

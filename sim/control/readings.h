@@ -54,7 +54,7 @@ inline bool nothing_within(const ProximityReadings& proximity, double far_m) {
   return !any;
 }
 
-/// Strength of a neighbour as an obstacle, in [0, 1] (thesis 7.1).
+/// Strength of a neighbour as an obstacle, in [0, 1] (thesis facts, section 6.2).
 double neighbour_strength(double distance_m, const ObstacleModel& model);
 
 /// Vector of all obstacles: w_o of the thesis, P of the published program (rvr-automode facts,

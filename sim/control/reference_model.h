@@ -30,7 +30,7 @@ inline constexpr double kMostLight_lux = 16'000;
 /// 5.1). Table 5.1 has 10 m, the range of the variable.
 inline constexpr double kNeighbourRange_m = 0.75;
 
-/// One control cycle, nominally (thesis 6.6: 1200 cycles are 120 s).
+/// One control cycle, nominally (thesis facts, section 9: 1200 cycles are 120 s).
 inline constexpr double kControlPeriod_s = 0.1;
 
 struct Rgb {
@@ -85,7 +85,7 @@ struct Command {
   friend bool operator==(const Command&, const Command&) = default;
 };
 
-/// Wheels go up to 155 cm/s, either way (thesis table 5.1 and facts, section 5).
+/// Wheels go up to 155 cm/s, either way (thesis table 5.1; thesis facts, section 5).
 inline constexpr double kMaxWheelSpeed_mps = 1.55;
 
 /// The command within the wheels' range.

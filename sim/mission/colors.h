@@ -15,7 +15,7 @@ struct NamedColor {
   Rgb color;
 };
 
-/// The labeler's colours (thesis 3.2): full or no light in each channel, and the base floor's grey.
+/// The labeler's colours (thesis facts, section 4): full or no light a channel, and the base floor.
 inline constexpr std::array<NamedColor, 7> kNamedColors = {{{"black", {0, 0, 0}},
                                                             {"gray", {127, 127, 127}},
                                                             {"white", {255, 255, 255}},

@@ -22,7 +22,7 @@ struct RunSpan {
   std::vector<std::optional<double>> lengths_s;
 };
 
-/// Limits of tracking facts, section 8; the defaults are theirs.
+/// Limits of tracking facts, sections 3, 4, 7, 8 and 10; the defaults are theirs.
 struct TrackLimits {
   double top_speed_m_s = 1.0;
   double top_turn_rad_s = 10;

@@ -59,7 +59,7 @@ double hue_of(Rgb color, int largest, int spread) {
   return hue < 0 ? hue + 360 : hue;
 }
 
-/// Thesis 7: the closest hue within the tolerance; the program also looks at the saturation.
+/// Thesis facts, section 7: the closest hue near enough; the program also looks at the saturation.
 bool is_seen_as(Rgb color, ColorLabel wanted, const FloorModel& floor) {
   const int largest = std::max({color.r, color.g, color.b});
   const int spread = largest - std::min({color.r, color.g, color.b});

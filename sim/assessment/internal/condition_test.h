@@ -31,8 +31,8 @@ struct ConditionTest {
 /// a failed assertion.
 std::vector<ConditionTest> tests_of(const ModuleSpec& spec, const Flavour& flavour);
 
-/// Whether the flavour's numbers say that the reading satisfies the condition (thesis 7): worked
-/// out here once more, so that a slip in the control software shows.
+/// Whether the flavour's numbers say that the reading satisfies the condition (thesis facts,
+/// section 7): worked out here once more, so that a slip in the control software shows.
 bool satisfies(const ConditionTest& test, Rgb reading, const FloorModel& floor);
 
 /// Parameters of the conditions: beta for those that look at the floor, the sigmoid's for counts.

@@ -15,7 +15,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr BoxOutline kRvr = {kBodySide_m, kBodySide_m};
-/// The RVR's highest wheel speed, m/s (rvr-automode facts, section 2).
+/// The RVR's highest wheel speed, m/s (thesis facts, section 5).
 constexpr double kFullSpeed_mps = 1.55;
 
 /// A room of 4 m by 4 m around the origin.
