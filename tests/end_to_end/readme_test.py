@@ -1,4 +1,4 @@
-"""Every command of the README, in its order, in a folder that looks like a built checkout."""
+"""Every command of the README and then of docs/getting-started.md, in a folder that looks like a built checkout."""
 import os
 import pathlib
 import re
@@ -12,8 +12,8 @@ PATIENCE = int(os.environ.get("SWARMSMITH_PATIENCE", "1"))
 
 
 def commands():
-    """The lines of the README's blocks of shell."""
-    text = (SOURCE / "README.md").read_text()
+    """The lines of the blocks of shell, those of the README first."""
+    text = "".join((SOURCE / page).read_text() for page in ("README.md", "docs/getting-started.md"))
     return "\n".join(re.findall(r"^```sh\n(.*?)^```", text, re.S | re.M))
 
 
