@@ -215,9 +215,16 @@ def check_whole(row, ran):
         assert len(calls) >= row.budget // 2, f"only {len(calls)} runs of {row.budget}"
         keys = [(call.id, call.number, call.seed) for call in calls]
         assert len(set(keys)) == len(keys), "a run was made twice"
+        assert all(1 <= call.seed <= 2147483647 for call in calls), "a seed that is none"
         known = ran.runs_of()
+        for number, runs in known.items():
+            assert len({call.words for call in runs}) <= 1 or "bound" in ran.out, f"{number} has two texts"
         for number, _ in ran.best():
             assert number in known, f"configuration {number} was never run"
+        survive = re.search(r"^# minNbSurvival: (\d+)$", ran.done[0].stdout, re.MULTILINE)
+        assert survive and len(ran.best(0)) <= int(survive[1]), "more elites than may survive"
+        used = re.findall(r"^# experimentsUsed: (\d+)$", ran.done[0].stdout, re.MULTILINE)
+        assert len(ran.done) > 1 or int(used[-1]) == len(calls), f"{used[-1]} are told, {len(calls)} were made"
     if row.every is not None:
         assert calls, "the target was never called"
         for call in calls:
