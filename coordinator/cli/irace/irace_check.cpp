@@ -21,10 +21,12 @@ namespace {
 constexpr std::int64_t kSeed = 1'234'567;  // irace facts, 21
 constexpr std::size_t kRandom = 2;
 
-/// The given configurations and random ones; an error when no race can begin.
+/// The given configurations, but for forbidden ones, and random ones; an error when no race can
+/// begin.
 Expected<std::vector<Configuration>> contestants(const IraceSetup& setup, const Scenario& race,
                                                  const Repair& repair) {
   std::vector<Configuration> all = setup.initial;
+  std::erase_if(all, [&](const Configuration& c) { return setup.space.is_forbidden(c); });
   // The run itself would say no: so should its check.
   auto run = IteratedRace::start(setup.space, race, setup.initial, repair);
   if (!run) return Unexpected(run.error());
@@ -105,6 +107,11 @@ ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& c
   Repair repair;
   if (!campaign.repair.empty())
     repair = repair_by(campaign.repair, campaign.target->folder, shared);
+  for (std::size_t i = 0; i < setup.initial.size(); ++i) {
+    if (!setup.space.is_forbidden(setup.initial[i])) continue;
+    output.out << fmt::format(
+        "# Warning: initial configuration {} is forbidden, and is not tried\n", i + 1);
+  }
   const auto configurations = contestants(setup, race_on(campaign, mission), repair);
   if (!configurations)
     return fail(output, ExitCode::Failed, with_irace_option_names(configurations.error()));
