@@ -267,9 +267,9 @@ line("blocksize", "a first test between tests", "--each-test 2", code=1,
      says=("firstTest|--first-test", "eachTest|--each-test", "multiple"))
 line("blocksize", "a block bigger than the list", "--block-size 20", code=1,
      says=("--block-size", r"\b10\b", r"\b20\b"))
-line("bug-blocksize", "five instances, tests after 25 runs, in their order", parameters=COLONY, budget=1500,
+line("bug-blocksize", "five instances, tests after 25 runs, in their order", parameters=COLONY, budget=420,
      files={"instances.txt": "1\n2\n3\n4\n5\n"}, every=colony_holds,
-     scenario={"firstTest": 25, "eachTest": 5, "sampleInstances": 0, "maxExperiments": 1500,
+     scenario={"firstTest": 25, "eachTest": 5, "sampleInstances": 0, "maxExperiments": 420, "nbIterations": 2, "minNbSurvival": 2,
                "elitistNewInstances": 1, "parallel": 1},
      check=lambda ran: want([call.number for call in ran.calls if call.id == 1][:25] == list("12345" * 5)))
 line("bug-blocksize", "one run less is too little", "--max-experiments 1499", code=1, says=r"\b1500\b",
@@ -523,7 +523,7 @@ line("GenericWrapper4AC", "ABORT", scenario=ACLIB, parameters=WRAPPED, files=wra
 line("GenericWrapper4AC", "a status that is none", scenario=ACLIB, parameters=WRAPPED, files=wrapper("status=FINE"),
      code=1, says=("FINE", "target-runner --instance"))
 line("GenericWrapper4AC", "a cutoff with bounds", parameters=WRAPPED, files=wrapper("status=SUCCESS"),
-     scenario={"aclib": 1, "maxExperiments": None, "maxTime": 200, "boundMax": 1, "capping": 1, "boundDigits": 1},
+     scenario={"aclib": 1, "maxExperiments": None, "maxTime": 40, "boundMax": 1, "capping": 1, "boundDigits": 1},
      check=lambda ran: want(all("--cutoff" in " ".join(line.split()[4:]) for line in ran.lines_of("calls.txt"))))
 line("GenericWrapper4AC", "no line with a result", scenario=ACLIB, parameters=WRAPPED, code=1,
      files={"target-runner": "#!/bin/sh\necho 5\n"},
@@ -772,7 +772,7 @@ line("readconfs", "only a header is no configuration",
 
 # --- test-recovery, and test-targeteval's ---------------------------------------------------------
 
-line("recovery", "the same command goes on", "", code=1, scenario={"maxExperiments": 300, "parallel": 1},
+line("recovery", "the same command goes on", "", code=1, scenario={"maxExperiments": 200, "parallel": 1},
      runner="[ $(wc -l < calls.txt) -eq 100 ] && exit 3\nanswer $(( seed % 50 + x ))",
      says=("the same command", "target-runner"), then=(("", 0, ("Going on after \\d+ experiments",)),
            ("-l whole.Rdata", 0, ())), check=lambda ran: want(ran.best(1) == ran.best(2)))
@@ -782,7 +782,7 @@ line("recovery", "of a budget of time", "", code=1,
      then=(("", 0, ("Going on after",)), ("-l whole.Rdata", 0, ())),
      check=lambda ran: want(ran.best(1) == ran.best(2)))
 line("recovery", "of a deterministic target", "", code=1,
-     scenario={"deterministic": 1, "maxExperiments": 300, "parallel": 1},
+     scenario={"deterministic": 1, "maxExperiments": 200, "parallel": 1},
      runner="[ $(wc -l < calls.txt) -eq 60 ] && exit 3\nanswer $(( number + x ))", says="the same command",
      then=(("", 0, ("Going on after",)), ("-l whole.Rdata", 0, ())),
      check=lambda ran: want(ran.best(1) == ran.best(2)))
@@ -930,9 +930,9 @@ DUMMY_LINE = ("--debug-level 3 --parallel 2 --scenario= --parameter-file=dummy.t
 ONE = {"one.txt": "1\n"}
 line("target-runner-dummy", "--check", DUMMY_LINE + "--check --max-experiments 500",
      files={**ONE, "dummy.txt": DUMMY}, runner="answer $p_int", says=("Check successful", "500"))
-line("target-runner-dummy", "--max-time", DUMMY_LINE + "--max-time 2500 --seed 5",
+line("target-runner-dummy", "--max-time", DUMMY_LINE + "--max-time 1500 --seed 5",
      files={**ONE, "dummy.txt": DUMMY + 'time "--time=" c (1)\n'}, runner="answer $p_int $(( p_int + seed % 3 ))",
-     every=lambda v: v["time"] == 1, check=time_is_used(2500))
+     every=lambda v: v["time"] == 1, check=time_is_used(1500))
 line("target-runner-dummy", "--capping", DUMMY_LINE + "--max-time 200 --bound-max 3 --capping 1 --seed 5",
      runner="t=$(( 1 + p_int / 4 )); [ $t -le $bound ] || t=$bound; answer $t $t",
      files={**ONE, "dummy.txt": DUMMY + 'time "--time=" c (1)\n'}, says="[Ww]arning: .*boundMax.*")
