@@ -111,7 +111,8 @@ Expected<ParameterSpace> ParameterSpace::make(std::vector<Parameter> parameters,
     }
     if (choices.size() != 1) ++space.variable_count_;
   }
-  if (space.variable_count_ == 0) return bad_input("every parameter has a single value");
+  if (space.variable_count_ == 0)
+    return bad_input("every parameter has a single value: there is nothing to choose from");
   for (Expression& clause : forbidden) {
     if (auto bound = clause.bind(names); !bound) {
       return bad_input(bound.error().message, "forbidden");
@@ -231,7 +232,8 @@ Expected<std::optional<Interval>> ParameterSpace::interval(std::size_t index,
   }
   if (found && found->lower > found->upper) {
     return bad_input("the domain (" + to_fixed_text(found->lower) + ", " +
-                         to_fixed_text(found->upper) + ") is empty here",
+                         to_fixed_text(found->upper) +
+                         ") is empty here: keep the bounds apart, as by min() and max()",
                      parameters_[index].name);
   }
   return found;

@@ -70,16 +70,19 @@ Expected<void> check_budget(const Scenario& s) {
         "min_experiments) and max_time",
         "max_time");
   }
-  if (!s.elitist) return bad_input("needs elitist", "max_time");
+  if (!s.elitist) return bad_input("needs elitist to be on", "max_time");
   if (!(s.budget_estimation > 0 && s.budget_estimation < 1)) {
-    return bad_input("must lie between 0 and 1", "budget_estimation");
+    return bad_input("must lie between 0 and 1, and is " + to_fixed_text(s.budget_estimation),
+                     "budget_estimation");
   }
   return {};
 }
 
 Expected<void> check_blocks(const Scenario& s) {
   if (s.first_test % s.each_test != 0) {
-    return bad_input("must be a multiple of each_test", "first_test");
+    return bad_input("must be a multiple of each_test, which is " + std::to_string(s.each_test) +
+                         ", and is " + std::to_string(s.first_test),
+                     "first_test");
   }
   if (s.n_instances % s.block_size != 0) {
     return bad_input("must divide the number of instances, which is " +
@@ -88,7 +91,9 @@ Expected<void> check_blocks(const Scenario& s) {
   }
   const std::int64_t pairs = s.first_test * s.block_size;
   if (s.mu > pairs && s.mu % s.block_size != 0) {
-    return bad_input("must be a multiple of block_size", "mu");
+    return bad_input("must be a multiple of block_size, which is " + std::to_string(s.block_size) +
+                         ", and is " + std::to_string(s.mu),
+                     "mu");
   }
   if (s.deterministic && pairs > s.n_instances) {
     return bad_input("uses each instance once, so that a first test after " +
@@ -107,10 +112,11 @@ Expected<void> check(const Scenario& scenario) {
   if (auto checked = check_budget(scenario); !checked) return checked;
   if (auto checked = check_blocks(scenario); !checked) return checked;
   if (!(scenario.confidence > 0 && scenario.confidence < 1)) {
-    return bad_input("must lie between 0 and 1", "confidence");
+    return bad_input("must lie between 0 and 1, and is " + to_fixed_text(scenario.confidence),
+                     "confidence");
   }
   if (scenario.capping.value_or(false)) {
-    if (!scenario.elitist) return bad_input("needs elitist", "capping");
+    if (!scenario.elitist) return bad_input("needs elitist to be on", "capping");
     if (scenario.bound_max == 0) {
       return bad_input("needs a bound_max above 0, which bounds the first runs", "capping");
     }

@@ -27,7 +27,8 @@ inline constexpr std::size_t kMaxFrameBytes = 1U << 20U;
 /// A scenario has the pictures of its missions' floors.
 inline constexpr std::size_t kMaxFrameToWorkerBytes = 32U << 20U;
 inline constexpr int kMaxItemsPerMessage = 4096;  ///< tasks, results or keys
-inline constexpr std::size_t kMaxMachineBytes = 16U << 10U;
+/// A machine, or switches and values of a program: some thousands of parameters.
+inline constexpr std::size_t kMaxMachineBytes = 1U << 20U;
 inline constexpr std::size_t kMaxTextBytes = 4U << 10U;
 /// Names of a hello: a coordinator keeps them for each worker.
 inline constexpr std::size_t kMaxNameBytes = 256;

@@ -9,6 +9,26 @@
 #include "sim/control/machine_text.h"
 
 namespace swarmsmith {
+namespace {
+
+/// As much as a task may carry to a worker (proto/wire.h, kMaxMachineBytes).
+constexpr std::size_t kMostCallBytes = 1U << 20U;
+constexpr std::size_t kNumberBytes = 25;
+constexpr std::size_t kBlanks = 3;  ///< and the dash of aclib
+
+/// Bytes of switches and values when all parameters are active and their values the longest.
+std::size_t longest_call(const ParameterSpace& space) {
+  std::size_t bytes = 0;
+  for (std::size_t i = 0; i < space.size(); ++i) {
+    std::size_t longest = space.is_numeric(i) ? kNumberBytes : 0;
+    for (std::size_t k = 0; k < space.value_count(i); ++k)
+      longest = std::max(longest, space.scalar(i, static_cast<double>(k)).text.size());
+    bytes += space[i].switch_text.size() + longest + kBlanks;
+  }
+  return bytes;
+}
+
+}  // namespace
 
 CandidateText text_of(const Machine& machine, const Flavour& flavour) {
   return {.parameters = "{}",
@@ -34,6 +54,12 @@ Expected<MethodSpace> MethodSpace::make(const Method& method, int digits, bool a
   auto parameters = parse_parameter_file({.parameters = {method.parameters, "parameters"}});
   if (!parameters) return Unexpected(parameters.error());
   made.parameters_ = std::move(parameters->space);
+  if (const std::size_t bytes = longest_call(*made.parameters_); bytes > kMostCallBytes) {
+    return bad_input("switches and values of one call may take " + std::to_string(bytes) +
+                         " bytes, and a program is given at most " +
+                         std::to_string(kMostCallBytes) + ": fewer parameters, or shorter switches",
+                     "parameters");
+  }
   if (method.configurations.empty()) return made;
   auto initial =
       parse_configurations_file({method.configurations, "configurations"}, *made.parameters_);

@@ -10,6 +10,11 @@
 namespace swarmsmith {
 namespace {
 
+std::string how_it_failed(const ProcessEnd& end) {
+  if (end.signal != 0) return "the program was killed by signal " + std::to_string(end.signal);
+  return "the program ended with exit status " + std::to_string(end.exit_code) + ", which is not 0";
+}
+
 /// The end of what a program wrote, for messages.
 std::string excerpt(const Captured& captured) {
   constexpr std::size_t kMost = 500;
@@ -41,7 +46,7 @@ Repair repair_by(const std::string& program, const std::string& folder,
     const auto end = run_process(call, *interrupt);
     if (!end) return Unexpected(end.error());
     if (end->signal != 0 || end->exit_code != 0) {
-      return Unexpected(failure(program, "the program failed", *end));
+      return Unexpected(failure(program, how_it_failed(*end), *end));
     }
     auto repaired = parse_configurations_file({end->output.text, "its output"}, parameters);
     if (!repaired) {

@@ -13,8 +13,8 @@ Expected<std::vector<Expression>> parse_forbidden_file(const IraceText& source,
   for (const std::string_view text : irace::split_lines(source.text)) {
     irace::LineReader line(source.file, text, ++number);
     if (line.at_comment_or_end()) continue;
-    auto clause = irace::read_expression({std::string(line.rest()), line.place()}, source.file,
-                                         names, ExpressionUse::Forbidden, warnings);
+    auto clause = irace::read_forbidden_line({std::string(line.rest()), line.place()}, source.file,
+                                             names, warnings);
     if (!clause) return Unexpected(clause.error());
     clauses.push_back(std::move(*clause));
   }

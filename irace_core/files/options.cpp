@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
 
@@ -32,6 +33,18 @@ std::vector<std::string_view> split(std::string_view text, char separator) {
     if (end == std::string_view::npos) return parts;
     text.remove_prefix(end + 1);
   }
+}
+
+/// first_test becomes firstTest.
+std::string camel_case(std::string_view name) {
+  std::string option;
+  for (std::size_t i = 0; i < name.size(); ++i) {
+    const bool joins = name[i] == '_' && i + 1 < name.size();
+    if (joins) ++i;
+    option +=
+        joins ? static_cast<char>(std::toupper(static_cast<unsigned char>(name[i]))) : name[i];
+  }
+  return option;
 }
 
 std::string found(std::string_view text) {
@@ -119,6 +132,28 @@ std::vector<std::string> irace_words(const IraceOption& option) {
     words.emplace_back(choice.substr(0, choice.find('|')));
   }
   return words;
+}
+
+std::string with_irace_option_names(std::string_view text) {
+  std::string result;
+  while (!text.empty()) {
+    const auto is_letter = [](char c) {
+      return c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0;
+    };
+    const auto end = std::find_if_not(text.begin(), text.end(), is_letter);
+    const std::string_view word = text.substr(0, static_cast<std::size_t>(end - text.begin()));
+    const std::string option = camel_case(word);
+    result += find_irace_option(option) != nullptr ? option : std::string(word);
+    text.remove_prefix(word.size());
+    if (text.empty()) break;
+    result += text.front();
+    text.remove_prefix(1);
+  }
+  return result;
+}
+
+Error with_irace_option_names(const Error& error) {
+  return {error.kind, with_irace_option_names(error.message), with_irace_option_names(error.where)};
 }
 
 Expected<IraceValue> irace_value_of(const IraceOption& option, std::string_view text) {

@@ -72,6 +72,9 @@ std::vector<std::string> irace_option_names();
 /// The long switches, for suggestions.
 std::vector<std::string> irace_switches();
 /// The words of a Choice.
+/// irace_core speaks of options as of its fields: `max_time` becomes `maxTime`.
+std::string with_irace_option_names(std::string_view text);
+Error with_irace_option_names(const Error& error);
 std::vector<std::string> irace_words(const IraceOption& option);
 /// What `--help` prints below the usage line, wrapped at 80 columns.
 std::string irace_option_help();

@@ -185,8 +185,8 @@ Expected<Parameter> Builder::read_parameter(const ParameterLine& line) {
 Expected<std::vector<Expression>> Builder::read_forbidden() {
   std::vector<Expression> clauses;
   for (const LineReader& line : parts_.forbidden) {
-    auto clause = irace::read_expression({std::string(line.rest()), line.place()}, file_, names_,
-                                         ExpressionUse::Forbidden, warnings_);
+    auto clause = irace::read_forbidden_line({std::string(line.rest()), line.place()}, file_,
+                                             names_, warnings_);
     if (!clause) return Unexpected(clause.error());
     clauses.push_back(std::move(*clause));
   }

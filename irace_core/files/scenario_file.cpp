@@ -97,7 +97,8 @@ class Reader {
     if (error.message.find("'function'") != std::string::npos) {
       error.message +=
           "; for targetRunner, targetEvaluator and repairConfiguration write a program (a script "
-          "will do) and give its name here";
+          "will do) and give its name here; leave targetRunnerParallel out: `parallel` says how "
+          "many calls run at a time";
     }
     complain(file, std::move(error));
   }

@@ -1,6 +1,7 @@
 #include "irace_core/files/settings.h"
 
 #include <algorithm>
+#include <cstdlib>
 
 namespace swarmsmith {
 namespace {
@@ -13,6 +14,15 @@ bool is_default(const IraceOption& option, const IraceValue& value) {
   }
   const auto initial = irace_value_of(option, option.initial);
   return initial && *initial == value;
+}
+
+/// `~` and `~/...` begin in the home folder, as in R, which does not leave that to the shell.
+std::filesystem::path with_home(std::string_view path) {
+  const bool begins = path == "~" || path.starts_with("~/");
+  const char* home = begins ? std::getenv("HOME") : nullptr;
+  if (home == nullptr || *home == '\0') return path;
+  path.remove_prefix(std::min<std::size_t>(path.size(), 2));
+  return std::filesystem::path(home) / path;
 }
 
 std::string in_backticks(std::string_view text) {
@@ -94,7 +104,7 @@ std::optional<std::string> irace_remark(const IraceOption& option, const IraceVa
 
 std::filesystem::path absolute_path(std::string_view path, const std::filesystem::path& folder) {
   if (path.empty()) return {};
-  std::filesystem::path whole = (folder / std::filesystem::path(path)).lexically_normal();
+  std::filesystem::path whole = (folder / with_home(path)).lexically_normal();
   // "folder/" and "folder" are the same place.
   if (!whole.has_filename() && whole.has_relative_path()) whole = whole.parent_path();
   return whole;

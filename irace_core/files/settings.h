@@ -48,8 +48,8 @@ std::optional<std::string> irace_refusal(const IraceOption& option, const IraceV
 /// their default, and those that newer versions of irace do not read.
 std::optional<std::string> irace_remark(const IraceOption& option, const IraceValue& value);
 
-/// A file or folder as an absolute path without dots, relative to the setting's folder; empty stays
-/// empty.
+/// A file or folder as an absolute path without dots, relative to the setting's folder, or to HOME
+/// where it begins with `~/`; empty stays empty.
 std::filesystem::path absolute_path(std::string_view path, const std::filesystem::path& folder);
 
 }  // namespace swarmsmith

@@ -20,13 +20,14 @@ Expected<void> IteratedRace::State::begin_estimate() {
   if (!asked) return Unexpected(asked.error());
   if (!*asked) {
     return bad_input(
-        "no configuration that is not forbidden was found: the constraints are too strict");
+        "no configuration that is not forbidden was found: the constraints are too strict; forbid "
+        "less, or narrow the domains instead");
   }
   return {};
 }
 
 void IteratedRace::State::lower_bound_max(double bound) {
-  warn("the bound of runs is lowered from " + to_fixed_text(bound_max_) + " to " +
+  warn("bound_max, the bound of runs, is lowered from " + to_fixed_text(bound_max_) + " to " +
        to_fixed_text(bound) + ": the runs so far, and the time, say that it is much too large");
   bound_max_ = bound;
 }

@@ -55,12 +55,15 @@ Expected<std::vector<std::int64_t>> IteratedRace::State::first_contestants(const
   }
   if (ids.empty()) {
     return bad_input(
-        "no configuration that is not forbidden was found: the constraints are too strict");
+        "no configuration that is not forbidden was found: the constraints are too strict; forbid "
+        "less, or narrow the domains instead");
   }
   if (static_cast<std::int64_t>(ids.size()) <= schedule_.min_survival()) {
     return bad_input("only " + std::to_string(ids.size()) +
                      " different configurations were found, and a race needs more than " +
-                     std::to_string(schedule_.min_survival()));
+                     std::to_string(schedule_.min_survival()) +
+                     ", which survive (min_nb_survival): let fewer survive, or give the parameters "
+                     "more values");
   }
   return ids;
 }
@@ -113,7 +116,9 @@ Expected<std::vector<Candidate>> IteratedRace::State::sample_new(std::int64_t co
     }
   }
   if (static_cast<std::int64_t>(sampled.size()) == count) return sampled;
-  return bad_input("nearly all that is sampled is forbidden: the constraints are too strict");
+  return bad_input(
+      "nearly all that is sampled is forbidden: the constraints are too strict; forbid less, or "
+      "narrow the domains instead");
 }
 
 std::vector<std::int64_t> IteratedRace::State::lines_to_restart(

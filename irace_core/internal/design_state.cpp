@@ -150,7 +150,10 @@ Expected<void> IteratedRace::State::begin_race() {
           ? irace::NoMoreRaces{"not enough budget for the first task of a race"}
           : schedule_.next(remaining(), static_cast<std::int64_t>(elites.size()), pairs_seen_);
   if (const auto* end = std::get_if<irace::NoMoreRaces>(&next)) {
-    if (races_ == 0) return bad_input("not even one race can be run: " + end->reason);
+    if (races_ == 0) {
+      return bad_input("not even one race can be run: " + end->reason +
+                       schedule_.advice_for_first_race(remaining()));
+    }
     end_reason_ = end->reason;
     if (!begin_postselection()) stop(*end_reason_);
     return {};

@@ -77,6 +77,15 @@ Expected<bool> Schedule::shrink_to(std::int64_t remaining) {
   return changed;
 }
 
+std::string Schedule::advice_for_first_race(std::int64_t remaining) const {
+  const std::int64_t wanted = scenario_.nb_configurations;
+  const std::int64_t most = remaining / (mu_ + pairs_between_tests_);
+  if (wanted <= most) return {};
+  return " (nb_configurations is " + std::to_string(wanted) + ", and " + std::to_string(remaining) +
+         " experiments are good for " + std::to_string(most) +
+         "): give a larger budget, or ask for fewer configurations";
+}
+
 void Schedule::limit_new_pairs(std::int64_t unused) {
   new_pairs_ = std::min(new_pairs_, std::max<std::int64_t>(0, unused));
 }

@@ -69,6 +69,8 @@ class Schedule {
   /// `remaining` experiments are enough. Whether anything was changed; an error when not even one
   /// iteration fits.
   Expected<bool> shrink_to(std::int64_t remaining);
+  /// What to do when there is no first race, behind the reason; often nothing.
+  std::string advice_for_first_race(std::int64_t remaining) const;
   /// No more than so many new pairs in a race from now on: a deterministic run has no others.
   void limit_new_pairs(std::int64_t unused);
 

@@ -2,11 +2,15 @@
 
 #include <fmt/format.h>
 #include <chrono>
+#include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coordinator/campaign/method_space.h"
 #include "coordinator/cli/irace/irace_console.h"
+#include "coordinator/design/repair.h"
+#include "irace_core/files/options.h"
 #include "irace_core/iterated_race.h"
 #include "target/guard.h"
 #include "target/runner.h"
@@ -17,13 +21,16 @@ namespace {
 constexpr std::int64_t kSeed = 1'234'567;  // irace facts, 21
 constexpr std::size_t kRandom = 2;
 
-/// The given configurations and random ones; an error when no race can begin.
-Expected<std::vector<Configuration>> contestants(const IraceSetup& setup, const Scenario& race) {
+/// The given configurations, but for forbidden ones, and random ones; an error when no race can
+/// begin.
+Expected<std::vector<Configuration>> contestants(const IraceSetup& setup, const Scenario& race,
+                                                 const Repair& repair) {
   std::vector<Configuration> all = setup.initial;
+  std::erase_if(all, [&](const Configuration& c) { return setup.space.is_forbidden(c); });
   // The run itself would say no: so should its check.
-  auto run = IteratedRace::start(setup.space, race, setup.initial);
+  auto run = IteratedRace::start(setup.space, race, setup.initial, repair);
   if (!run) return Unexpected(run.error());
-  auto sampled = IteratedRace::start(setup.space, race);
+  auto sampled = IteratedRace::start(setup.space, race, {}, repair);
   if (!sampled) return Unexpected(sampled.error());
   std::int64_t last = 0;
   std::size_t random = 0;
@@ -93,11 +100,21 @@ ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& c
   if (auto guarded = start_guard(); !guarded)
     return fail(output, ExitCode::Failed, guarded.error());
   const CampaignMission& mission = campaign.missions.front();
-  const auto configurations = contestants(setup, race_on(campaign, mission));
-  if (!configurations) return fail(output, ExitCode::Failed, configurations.error());
-  const auto space = MethodSpace::make(campaign.methods.front(), static_cast<int>(campaign.digits),
-                                       campaign.target->aclib);
+  auto space = MethodSpace::make(campaign.methods.front(), static_cast<int>(campaign.digits),
+                                 campaign.target->aclib);
   if (!space) return fail(output, ExitCode::Failed, space.error());
+  const auto shared = std::make_shared<const MethodSpace>(std::move(*space));
+  Repair repair;
+  if (!campaign.repair.empty())
+    repair = repair_by(campaign.repair, campaign.target->folder, shared);
+  for (std::size_t i = 0; i < setup.initial.size(); ++i) {
+    if (!setup.space.is_forbidden(setup.initial[i])) continue;
+    output.out << fmt::format(
+        "# Warning: initial configuration {} is forbidden, and is not tried\n", i + 1);
+  }
+  const auto configurations = contestants(setup, race_on(campaign, mission), repair);
+  if (!configurations)
+    return fail(output, ExitCode::Failed, with_irace_option_names(configurations.error()));
   output.out << fmt::format("# {}: Checking the target: {} calls\n", irace_date(),
                             configurations->size());
   Trial trial(output, *campaign.target);
@@ -111,7 +128,7 @@ ExitCode check_target(Output& output, const IraceSetup& setup, const Campaign& c
                                   .seed = kSeed,
                                   .instance = instance,
                                   .bound = campaign.race.bound_max,
-                                  .switches = space->text_of(configuration).call});
+                                  .switches = shared->text_of(configuration).call});
     if (!works) ++failed;
   }
   if (!campaign.target->evaluator.empty() && failed == 0) {

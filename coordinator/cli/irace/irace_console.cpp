@@ -10,6 +10,7 @@
 
 #include "coordinator/cli/irace/race_table.h"
 #include "coordinator/cli/progress_text.h"
+#include "irace_core/files/options.h"
 #include "target/cost.h"
 
 namespace swarmsmith::cli {
@@ -221,8 +222,9 @@ void IraceConsole::add_state(const DesignStateRow& row) {
   if (!elites_.empty() || row.state != DesignState::Racing) end_race();
   if (row.reason.empty() || row.reason == reason_) return;
   reason_ = row.reason;
-  std::string text = fmt::format("# {}: Stopped: {}\n# Iteration: {}\n# experimentsUsed: {}\n",
-                                 date_(), row.reason, row.iteration, row.used);
+  std::string text =
+      fmt::format("# {}: Stopped: {}\n# Iteration: {}\n# experimentsUsed: {}\n", date_(),
+                  with_irace_option_names(row.reason), row.iteration, row.used);
   if (run_.budget > 0) text += fmt::format("# remainingBudget: {}\n", run_.budget - row.used);
   write(text);
 }
@@ -250,7 +252,7 @@ void IraceConsole::add_event(const EventRow& event) {
                     date_(), number("mean"), number("runs"), number("time"),
                     run_.race.max_time - number("time"), *remaining_));
   } else if (event.kind == "race") {
-    write("# Warning: " + text("text") + "\n");
+    write("# Warning: " + with_irace_option_names(text("text")) + "\n");
   } else if (event.severity != "info" || output_.verbose) {
     write("# " + event_line(event) + "\n");
   }

@@ -15,6 +15,7 @@
 #include "coordinator/cli/irace/cost_events.h"
 #include "coordinator/cli/irace/irace_console.h"
 #include "coordinator/cli/irace/irace_report.h"
+#include "irace_core/files/options.h"
 #include "irace_core/iterated_race.h"
 
 namespace swarmsmith::cli {
@@ -39,7 +40,7 @@ std::string times_line(TimePoint begin) {
 }
 
 std::string no_result(const std::string& reason) {
-  return "there is no best configuration: " + reason +
+  return "there is no best configuration: " + with_irace_option_names(reason) +
          ". Mend the target or the scenario, and begin again with another store (--log-file NAME) "
          "or without this one";
 }
@@ -59,7 +60,7 @@ class ScenarioRun {
   ExitCode run(const RunOptions& options) {
     race_ = race_on(campaign_, campaign_.missions.front());
     auto console = make_console();
-    if (!console) return fail(output_, ExitCode::Failed, console.error());
+    if (!console) return fail(output_, ExitCode::Failed, with_irace_option_names(console.error()));
     Progress progress(output_, design_rows(campaign_), begin_);
     CostEvents events(progress);
     RunListener& teller = output_.json ? static_cast<RunListener&>(events) : *console;

@@ -32,6 +32,17 @@ Expected<Expression> read_expression(const Piece& piece, const std::string& file
   });
 }
 
+Expected<Expression> read_forbidden_line(const Piece& piece, const std::string& file,
+                                         std::span<const std::string> names,
+                                         std::vector<Error>& warnings) {
+  auto clause = read_expression(piece, file, names, ExpressionUse::Forbidden, warnings);
+  if (!clause || !clause->operands().empty() || !clause->name().empty()) return clause;
+  return bad_input(
+      "a value alone forbids everything or nothing; write a comparison, such as algorithm == "
+      "\"as\"",
+      file + ":" + r::to_string(piece.place));
+}
+
 Expected<std::pair<Bound, Bound>> read_bounds(const Piece& domain, const std::string& file,
                                               std::span<const std::string> names,
                                               std::vector<Error>& warnings) {

@@ -1,5 +1,4 @@
 #include <array>
-#include <cctype>
 #include <string>
 #include <system_error>
 #include <utility>
@@ -73,41 +72,6 @@ void check_folders(SetupWork& work) {
   }
 }
 
-/// The option that `check(Scenario)` means: there names are written first_test.
-std::string option_named(const std::string& name) {
-  std::string option;
-  for (std::size_t i = 0; i < name.size(); ++i) {
-    if (name[i] == '_' && i + 1 < name.size()) {
-      ++i;
-      option += static_cast<char>(std::toupper(static_cast<unsigned char>(name[i])));
-    } else {
-      option += name[i];
-    }
-  }
-  return option;
-}
-
-/// Sentences of `check(Scenario)` name options as its fields: `each_test`.
-std::string with_option_names(const std::string& message) {
-  std::string result;
-  std::string word;
-  const auto flush = [&] {
-    const std::string option = option_named(word);
-    result += find_irace_option(option) != nullptr ? option : word;
-    word.clear();
-  };
-  for (const char c : message) {
-    if (c == '_' || std::isalnum(static_cast<unsigned char>(c)) != 0) {
-      word += c;
-    } else {
-      flush();
-      result += c;
-    }
-  }
-  flush();
-  return result;
-}
-
 void check_debug_level(SetupWork& work) {
   constexpr std::int64_t kMost = 3;
   if (work.setup.debug_level <= kMost) return;
@@ -132,7 +96,8 @@ void check_race(SetupWork& work) {
   }
   const auto checked = check(race);
   if (!checked && tunes) {
-    work.complain(option_named(checked.error().where), with_option_names(checked.error().message));
+    const Error error = with_irace_option_names(checked.error());
+    work.complain(error.where, error.message);
   }
 }
 

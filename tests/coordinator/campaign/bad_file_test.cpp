@@ -199,7 +199,7 @@ const Mistake kMistakes[] = {
      "in/x.toml:9:14: `confidence` must be from 0 to 1, this is 1.5"},
     {"FirstTest",
      {.race = "max_experiments = 2000\neach_test = 2\nfirst_test = 5\n"},
-     "in/x.toml:10:14: `first_test` must be a multiple of each_test"},
+     "in/x.toml:10:14: `first_test` must be a multiple of each_test, which is 2, and is 5"},
     {"OtherSimulator",
      {.rest = "[simulator]\nkind = \"argos\"\n"},
      "in/x.toml:10:8: kind = \"argos\" is not there yet"},

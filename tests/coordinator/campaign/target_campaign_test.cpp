@@ -55,6 +55,20 @@ TEST(TargetCampaign, KeepsInstancesParametersAndPrograms) {
   expect_kept(campaign);
 }
 
+TEST(TargetCampaign, CallsThatNoTaskCanCarryAreRefusedAtTheStart) {
+  Method method;
+  for (int i = 0; i < 2000; ++i)
+    method.parameters +=
+        "p" + std::to_string(i) + " \"--" + std::string(100, 'x') + "\" r (0, 1)\n";
+  EXPECT_TRUE(MethodSpace::make(method, 4));
+  for (int i = 2000; i < 12'000; ++i)
+    method.parameters +=
+        "p" + std::to_string(i) + " \"--" + std::string(100, 'x') + "\" r (0, 1)\n";
+  const auto space = MethodSpace::make(method, 4);
+  ASSERT_FALSE(space);
+  EXPECT_THAT(to_string(space.error()), HasSubstr("1560000 bytes"));
+}
+
 TEST(TargetCampaign, KeepsEveryKeyOfTheTargetAndOfTheRace) {
   const std::string race =
       "max_time = 5000\nparallel = 4\ntest_type = \"t-test-holm\"\ncapping = true\n"

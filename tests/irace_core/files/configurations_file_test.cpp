@@ -27,9 +27,11 @@ TEST(ConfigurationsFile, SaysWhereAndWhat) {
   EXPECT_EQ(error_of(space, "a b c\n1 NA 'x\n"),
             "c.txt:2:6: expected a closing quote ', found \"'x\"");
   EXPECT_EQ(error_of(space, "a b c\n6 1 5\n"),
-            "c.txt:2:5: configuration 1, parameter 'c': the domain (6, 5) is empty here");
+            "c.txt:2:5: configuration 1, parameter 'c': the domain (6, 5) is empty here: "
+            "keep the bounds apart, as by min() and max()");
   EXPECT_EQ(error_of(space, "a b c\n6 1 NA\n"),
-            "c.txt:2:5: configuration 1, parameter 'c': the domain (6, 5) is empty here");
+            "c.txt:2:5: configuration 1, parameter 'c': the domain (6, 5) is empty here: "
+            "keep the bounds apart, as by min() and max()");
   EXPECT_EQ(error_of(space, "a b c\n9 1 NA\n"), "none") << "empty, but inactive";
   EXPECT_EQ(error_of(space, "a b c\n4 1 4\n4 2 5 6 7\n"),
             "c.txt:3:1: expected 3 fields, as many as the first line has names, found 5");

@@ -104,6 +104,15 @@ TEST(IraceOptions, WrongWordsGetASuggestion) {
   EXPECT_THAT(value.error().message, HasSubstr("did you mean \"median\""));
 }
 
+TEST(IraceOptions, NamesOfFieldsBecomeThoseOfOptions) {
+  EXPECT_EQ(with_irace_option_names("min_nb_survival and max_time, but not first_tests or a_b"),
+            "minNbSurvival and maxTime, but not first_tests or a_b");
+  EXPECT_EQ(with_irace_option_names("needs elitist; mu_"), "needs elitist; mu_");
+  const Error error =
+      with_irace_option_names(Error{ErrorKind::BadInput, "is 3, each_test 2", "first_test"});
+  EXPECT_EQ(to_string(error), "firstTest: is 3, eachTest 2");
+}
+
 TEST(IraceOptions, HelpListsEverySwitchThatCanBeUsedWithinEightyColumns) {
   const std::string help = irace_option_help();
   for (const IraceOption& option : irace_options()) {

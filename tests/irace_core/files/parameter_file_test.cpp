@@ -116,6 +116,13 @@ TEST(ParameterFile, DigitsFromOutsideRoundBoundsAsIrace35Does) {
                                           "for digits = 2"));
 }
 
+TEST(ParameterFile, AForbiddenLineIsNoValueAlone) {
+  for (const char* line : {"TRUE", "0", "\"a\"", "NA"}) {
+    EXPECT_THAT(error_of("a \"\" i (1,2)\n[forbidden]\n" + std::string(line)),
+                HasSubstr("p.txt:3:1: a value alone forbids everything or nothing"));
+  }
+}
+
 TEST(ParameterFile, ReadsTheForbiddenFileOfIrace35) {
   ParameterSources sources{.parameters = {"a \"\" i (1,5)\nb \"\" c (x,y)", "p.txt"},
                            .forbidden = IraceText{"# none\n\n (a > 3) && b == \"x\" # why\nb %in% "

@@ -87,8 +87,12 @@ ParameterSpace random_space(Rng& rng) {
     parameters.push_back(std::move(parameter));
   }
   std::vector<Expression> forbidden;
-  for (std::int64_t i = below(rng, 3); i > 0; --i)
-    forbidden.push_back(RandomExpressions(rng, names).any(4));
+  for (std::int64_t i = below(rng, 3); i > 0; --i) {
+    Expression clause = RandomExpressions(rng, names).any(4);
+    // A value alone is no line of a file.
+    const bool is_value = clause.operands().empty() && clause.name().empty();
+    if (!is_value) forbidden.push_back(std::move(clause));
+  }
   auto space = ParameterSpace::make(std::move(parameters), std::move(forbidden), digits);
   if (!space) throw std::logic_error("a random space is wrong: " + to_string(space.error()));
   return std::move(*space);

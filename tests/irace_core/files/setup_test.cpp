@@ -1,6 +1,7 @@
 #include "irace_core/files/setup.h"
 
 #include <gmock/gmock.h>
+#include <cstdlib>
 #include <fstream>
 
 #include "irace_core/files/templates.h"
@@ -181,6 +182,17 @@ TEST_F(IraceSetupFiles, PathsBeginWhereTheyAreWritten) {
   EXPECT_EQ(setup({"-s", "sub/scenario.txt"}).space[0].name, "z");
 }
 
+TEST(IracePaths, ATildeIsTheHomeFolderAtTheBeginningOnly) {
+  const char* home = std::getenv("HOME");
+  if (home == nullptr || *home == '\0') GTEST_SKIP() << "there is no home folder";
+  const fs::path folder = fs::path(home).lexically_normal();
+  EXPECT_EQ(absolute_path("~/a/../b", "/c"), folder / "b");
+  EXPECT_EQ(absolute_path("~", "/c"), absolute_path(home, "/"));
+  EXPECT_EQ(absolute_path("a/~/b", "/c"), "/c/a/~/b");
+  EXPECT_EQ(absolute_path("~a/b", "/c"), "/c/~a/b");
+  EXPECT_EQ(absolute_path("./~/b", "/c"), "/c/~/b");
+}
+
 TEST_F(IraceSetupFiles, DefaultsThatLieBesideTheScenarioAreFoundThere) {
   fs::create_directories(folder_ / "elsewhere");
   const auto read = read_in(folder_ / "elsewhere", {"-s", "../scenario.txt"});
@@ -279,7 +291,8 @@ TEST_F(IraceSetupFiles, EverythingWrongIsReportedTogether) {
                           HasSubstr("scenario.txt:4:1: `targetRunner`: there is no such program"),
                           HasSubstr("scenario.txt:8:1: `batchmode` needs `targetEvaluator`"),
                           HasSubstr("scenario.txt:5:1: `targetCmdline` must contain {instance}"),
-                          "scenario.txt:6:1: `firstTest` must be a multiple of eachTest"));
+                          "scenario.txt:6:1: `firstTest` must be a multiple of eachTest, which "
+                          "is 2, and is 5"));
 }
 
 TEST_F(IraceSetupFiles, AProgramMustBeExecutable) {
