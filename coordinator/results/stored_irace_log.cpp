@@ -162,6 +162,7 @@ class Reading {
   Expected<void> read_elites();
   Expected<void> read_runs();
   void judge();
+  void sort_runs();
   void sort_tests();
 
   StoreReader& store_;
@@ -364,17 +365,25 @@ Expected<void> Reading::read_runs() {
       });
   if (!read) return read;
   judge();
-  std::ranges::stable_sort(log_.runs, {}, [&](const LogRun& run) {
-    const auto step = steps_.find({run.iteration, run.pair});
-    // Runs of a step that is not over come last, those before the first race first.
-    const std::int64_t at = step != steps_.end() ? step->second
-                            : log_.completed != "Incomplete"
-                                ? 0
-                                : std::numeric_limits<std::int64_t>::max();
-    return std::tuple{run.iteration, at, run.pair, run.configuration};
-  });
+  sort_runs();
   sort_tests();
   return {};
+}
+
+/// As irace runs: step by step, the elites of the iteration before first.
+void Reading::sort_runs() {
+  std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> ranks;
+  for (const LogElite& elite : log_.elites)
+    ranks.emplace(std::pair{elite.iteration + 1, elite.configuration}, elite.rank);
+  // Runs before the first race come before its steps, those of a step that is not over last.
+  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  const std::int64_t without_step = log_.completed == "Incomplete" ? kLast : 0;
+  std::ranges::stable_sort(log_.runs, {}, [&](const LogRun& run) {
+    const auto step = steps_.find({run.iteration, run.pair});
+    const auto rank = ranks.find({run.iteration, run.configuration});
+    return std::tuple{run.iteration, step == steps_.end() ? without_step : step->second, run.pair,
+                      rank == ranks.end() ? kLast : rank->second, run.configuration};
+  });
 }
 
 /// As irace tests: the elites of the first iteration, then those of the next that are new.

@@ -10,7 +10,7 @@
 namespace swarmsmith {
 
 /// A design of a store as the log that R's irace would have kept of it: the reverse of
-/// irace_log_addition. Runs are in the order of the race's steps, and of configurations within one.
+/// irace_log_addition. Runs are in the order of the race's steps, elites first.
 /// The last word of a targetEvaluator on a run is its cost. A test instance has the number of its
 /// test, since a log has a row for each. `on_row` hears how many rows were read.
 ///
