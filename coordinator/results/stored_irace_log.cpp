@@ -131,7 +131,8 @@ class Reading {
 
  private:
   struct Costs {
-    std::int64_t task = 0;  ///< of the targetEvaluator that said it
+    std::int64_t task = 0;       ///< of the targetEvaluator that said it
+    std::int64_t iteration = 0;  ///< of that task
     double cost = 0;
   };
 
@@ -162,6 +163,8 @@ class Reading {
   Expected<void> read_elites();
   Expected<void> read_runs();
   void judge();
+  Expected<void> cap();
+  Expected<double> read_lowered_bound();
   void sort_runs();
   void sort_tests();
 
@@ -173,6 +176,7 @@ class Reading {
   DesignRow row_;
   std::int64_t campaign_ = 1;
   IraceLog log_;
+  std::optional<Scenario> capping_;                     ///< of a race that bounds its runs
   std::map<std::int64_t, std::size_t> configurations_;  ///< place in the log, by id
   /// Numbers of the race's pairs by instance and seed, which is how evaluators know them.
   std::map<std::pair<std::int64_t, std::int64_t>, std::int64_t> pairs_;
@@ -220,6 +224,7 @@ Expected<void> Reading::read_settings() {
   log_.seed = campaign->row.seed < kLargest ? campaign->row.seed : 0;
   const auto parsed = parse_campaign(campaign->row.file, "campaign.toml");
   if (!parsed) return Unexpected(parsed.error().front());
+  if (uses_capping(parsed->race)) capping_ = parsed->race;
   return add_settings(*parsed, row_, log_);
 }
 
@@ -360,14 +365,53 @@ Expected<void> Reading::read_runs() {
           const auto of = pairs.find(task->second);
           if (of == pairs.end()) return;
           Costs& last = judged_[{configuration, test ? -of->second : of->second}];
-          if (pair >= last.task) last = {.task = pair, .cost = cost};
+          if (pair >= last.task) {
+            last = {.task = pair, .iteration = integer(cells[3]), .cost = cost};
+          }
         }
       });
   if (!read) return read;
   judge();
+  if (auto capped = cap(); !capped) return capped;
   sort_runs();
   sort_tests();
   return {};
+}
+
+/// A race that caps does not count what programs print, but what it makes of it, and so does a log.
+Expected<void> Reading::cap() {
+  if (!capping_) return {};
+  double bound_max = capping_->bound_max;
+  if (capping_->max_time > 0) {
+    const auto lowered = read_lowered_bound();
+    if (!lowered) return Unexpected(lowered.error());
+    bound_max = std::min(bound_max, *lowered);
+  }
+  for (LogRun& run : log_.runs) {
+    const auto judged = judged_.find({run.configuration, run.pair});
+    const bool ran_in_task = judged == judged_.end() || judged->second.iteration == run.iteration;
+    // Runs before the first race had larger bounds, up to which nothing was cut off.
+    const double most = std::max(bound_max, run.bound);
+    if (!std::isfinite(*run.cost)) continue;
+    run.cost = capped_cost(*capping_, most, *run.cost, run.time, ran_in_task ? run.bound : most);
+  }
+  return {};
+}
+
+/// The largest bound of the races' runs, which the first runs lower where a time is given.
+Expected<double> Reading::read_lowered_bound() {
+  double lowered = std::numeric_limits<double>::infinity();
+  const auto read = each(
+      "SELECT json_extract(text, '$.bound_max'), json_extract(text, '$.mean') FROM event "
+      "WHERE kind = 'time estimated' AND json_extract(text, '$.design') = '" +
+          to_string(design_) + "' ORDER BY seq DESC LIMIT 1",
+      [&](const Cells& cells) {
+        // Said before the first race, it is not the last word yet.
+        lowered = log_.elites.empty() ? std::min(number(cells[0]), 2 * number(cells[1]))
+                                      : number(cells[0]);
+      });
+  if (!read) return Unexpected(read.error());
+  return lowered;
 }
 
 /// As irace runs: step by step, the elites of the iteration before first.

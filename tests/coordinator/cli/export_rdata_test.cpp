@@ -165,6 +165,48 @@ TEST_F(ExportRdata, OfProgramsHasConditionsCostsOfAnEvaluatorAndRejections) {
   EXPECT_THAT(table("scenario.csv"), HasSubstr("forbidden,"));
 }
 
+TEST_F(ExportRdata, OfARaceThatCapsHasTheCostsThatTheRaceCounted) {
+  std::string text = kPrograms;
+  text.replace(text.find("max_experiments = 400"), 21,
+               "max_experiments = 400\ncapping = true\nbound_max = 20\nbound_par = 2");
+  text.erase(text.find("evaluator = \"/bin/true\"\n"), 24);
+  const auto campaign = parse_campaign(text, "capping.toml");
+  ASSERT_TRUE(campaign) << to_string(campaign.error().front());
+  const CandidateId one = candidate_id({1}, 1);
+  std::vector<Row> rows{IterationRow{.design = {1}, .number = 1, .of = 3},
+                        CandidateRow{.id = one,
+                                     .iteration = 1,
+                                     .parent = {},
+                                     .parameters = R"({"x":1,"kind":"b c"})",
+                                     .machine = "",
+                                     .modules = "{}"}};
+  // Score, time, bound: it ends in time, costs too much, and reaches a smaller bound.
+  const double runs[3][3] = {{-3, 4, 20}, {-25, 6, 20}, {-7, 5, 5}};
+  for (std::int64_t pair = 1; pair <= 3; ++pair) {
+    const auto& [score, time, bound] = runs[pair - 1];
+    rows.push_back(PairRow{.design = {1}, .number = pair, .instance = 1, .seed = pair});
+    rows.push_back(EvaluationRow{.key = {one, Purpose::Race, pair},
+                                 .iteration = 1,
+                                 .score = score,
+                                 .time = time,
+                                 .bound = bound,
+                                 .source = "command"});
+    rows.push_back(RaceStepRow{.design = {1}, .step = pair, .iteration = 1, .pair = pair});
+  }
+  {
+    const auto store =
+        Store::open(place("cap.db"), campaign_row(*campaign), design_rows(*campaign));
+    ASSERT_TRUE(store);
+    (*store)->append(std::move(rows));
+    ASSERT_TRUE((*store)->flush());
+  }
+  const Ran ran = exported(place("cap.db"));
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(table("runs.csv"),
+            "iteration,pair,configuration,cost,time,bound\n"
+            "1,1,1,3,4,20\n1,2,1,40,6,20\n1,3,1,20,5,5\n");
+}
+
 TEST_F(ExportRdata, IsReadBackByImport) {
   ASSERT_EQ(exported(store_).code, 0);
   // Here a parent comes before its child.
