@@ -56,6 +56,20 @@ while [ $# -gt 0 ]; do
 done
 if [ $((id % 7)) -eq 6 ]; then echo Inf; else echo $(( (ants - 30) * (ants - 30) + seed % 50 + ${instance%t} )) 0.5; fi
 """
+# Costs are times; the bound is the fifth word.
+TIMED = """\
+#!/bin/sh
+seed=$3; bound=$5
+shift 5
+while [ $# -gt 0 ]; do
+  case $1 in --ants) ants=$2; shift ;; esac
+  shift
+done
+off=$((ants > 30 ? ants - 30 : 30 - ants))
+time=$((1 + off / 8 + seed % 2))
+[ $time -gt $bound ] && time=$bound
+echo $time $time
+"""
 CAMPAIGN = """\
 format = 1
 [campaign]
@@ -263,10 +277,9 @@ class IraceRdata(unittest.TestCase):
         (self.folder / "checks.txt").write_text("\n".join(check for check, _ in IRACEPLOT) + "\n")
         self.r(CHECK_FIELDS, log, self.folder / "checks.txt")
 
-    def tune(self):
-        for name, text in [("parameters.txt", PARAMETERS + FORBIDDEN), ("scenario.txt", SCENARIO),
-                           ("instances.txt", "in/a b\nin/ä\nin/c\nin/d\nin/e\n"), ("tests.txt", "t/1\nt/2\n"),
-                           ("target-runner", RUNNER)]:
+    def tune(self, scenario=SCENARIO, runner=RUNNER, instances="in/a b\nin/ä\nin/c\nin/d\nin/e\n"):
+        for name, text in [("parameters.txt", PARAMETERS + FORBIDDEN), ("scenario.txt", scenario),
+                           ("instances.txt", instances), ("tests.txt", "t/1\nt/2\n"), ("target-runner", runner)]:
             (self.folder / name).write_text(text)
         (self.folder / "target-runner").chmod(0o755)
         self.call("irace", "--scenario", "scenario.txt")
@@ -275,17 +288,21 @@ class IraceRdata(unittest.TestCase):
     def rows(self, store, sql):
         return json.loads(self.call("query", store, sql, "--json").stdout)["rows"]
 
+    def assert_elites(self, lines, store):
+        """Of each iteration, with their mean costs."""
+        elites = [line.split() for line in lines if not line.startswith("line")]
+        ours = self.rows(store, "SELECT iteration, candidate, mean FROM v_convergence ORDER BY iteration, rank")
+        self.assertEqual([(int(i), int(c)) for i, c, _ in elites], [(row["iteration"], row["candidate"]) for row in ours])
+        for (_, _, cost), row in zip(elites, ours):
+            self.assertAlmostEqual(float(cost), -row["mean"], places=6)
+
     def test_functions_of_irace_find_our_elites_and_their_costs(self):
         store = self.tune()
         done = self.call("export", store, "--format", "rdata", "-o", "irace.Rdata", "--json")
         told = json.loads(done.stdout)
         self.assertEqual((told["file"], told["design"]), ("irace.Rdata", "d1"))
         lines = self.r(WITH_IRACE, "irace.Rdata").splitlines()
-        elites = [line.split() for line in lines if not line.startswith("line")]
-        ours = self.rows(store, "SELECT iteration, candidate, mean FROM v_convergence ORDER BY iteration, rank")
-        self.assertEqual([(int(i), int(c)) for i, c, _ in elites], [(row["iteration"], row["candidate"]) for row in ours])
-        for (_, _, cost), row in zip(elites, ours):
-            self.assertAlmostEqual(float(cost), -row["mean"], places=6)
+        self.assert_elites(lines, store)
         # Command lines, too: switches, values and what is not active.
         commands = {int(line.split()[1]): line.split()[2:] for line in lines if line.startswith("line")}
         candidates = self.rows(store, "SELECT number, fsm_config FROM v_candidates")
@@ -346,11 +363,16 @@ class IraceRdata(unittest.TestCase):
         for name in TABLES[:-1]:
             self.assertEqual(tables[name], ours[name], name)
         lines = self.r(WITH_IRACE, "machines.Rdata").splitlines()
-        ours = self.rows("machines.db", "SELECT iteration, candidate, mean FROM v_convergence ORDER BY iteration, rank")
-        elites = [line.split() for line in lines if not line.startswith("line")]
-        self.assertEqual([(int(i), int(c)) for i, c, _ in elites], [(row["iteration"], row["candidate"]) for row in ours])
-        for (_, _, cost), row in zip(elites, ours):
-            self.assertAlmostEqual(float(cost), -row["mean"], places=6)
+        self.assert_elites(lines, "machines.db")
+
+    def test_a_race_that_caps_with_a_budget_of_time(self):
+        scenario = SCENARIO.replace("maxExperiments = 250", "maxTime = 700\ncapping = 1\nboundMax = 9\nboundPar = 2")
+        store = self.tune(scenario, TIMED, "i1\ni2\ni3\ni4\ni5\n")
+        self.call("export", store, "--format", "rdata", "-o", "irace.Rdata")
+        self.assert_elites(self.r(WITH_IRACE, "irace.Rdata").splitlines(), store)
+        runs = self.tables_of_log("irace.Rdata", "after")["runs"][1:]
+        self.assertTrue(all(float(time) > 0 and float(bound) > 0 for *_, time, bound in runs))
+        self.assertTrue(any(float(cost) != float(time) for _, _, _, cost, time, _ in runs), "none was capped")
 
     def test_the_same_store_gives_the_same_bytes_and_other_files_stay(self):
         store = self.tune()
