@@ -123,13 +123,14 @@ void forget_input(const fs::path& file) {
 
 FileKind kind_of(std::string_view beginning) {
   using namespace std::string_view_literals;
-  constexpr std::array<std::pair<std::string_view, FileKind>, 8> kSignatures{
+  constexpr std::array<std::pair<std::string_view, FileKind>, 9> kSignatures{
       {{"SQLite format 3\0"sv, FileKind::Store},
        {"\x1a\x45\xdf\xa3"sv, FileKind::Video},
        {"RIFF"sv, FileKind::Video},
        {"\x89PNG"sv, FileKind::Picture},
        {"\xff\xd8\xff"sv, FileKind::Picture},
        {"%PDF"sv, FileKind::Pdf},
+       {"\x1f\x8b"sv, FileKind::Gzip},
        {"{"sv, FileKind::Json},
        {"[{"sv, FileKind::Json}}};
   for (const auto& [signature, kind] : kSignatures) {
@@ -151,9 +152,9 @@ FileKind kind_of(std::string_view beginning) {
 }
 
 std::string_view name_of(FileKind kind) {
-  constexpr std::array<std::string_view, 10> kNames{
-      "a store",    "a video", "a picture",   "a PDF file",    "an SVG picture",
-      "a web page", "JSON",    "a TOML file", "a table (CSV)", "a text"};
+  constexpr std::array<std::string_view, 11> kNames{
+      "a store", "a video",     "a picture",       "a PDF file",    "an SVG picture", "a web page",
+      "JSON",    "a TOML file", "compressed data", "a table (CSV)", "a text"};
   return kNames.at(static_cast<std::size_t>(kind));
 }
 

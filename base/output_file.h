@@ -16,7 +16,7 @@ void note_input(const std::filesystem::path& file);
 void forget_input(const std::filesystem::path& file);
 
 /// What a file holds, as far as its beginning tells.
-enum class FileKind { Store, Video, Picture, Pdf, Svg, WebPage, Json, Toml, Table, Text };
+enum class FileKind { Store, Video, Picture, Pdf, Svg, WebPage, Json, Toml, Gzip, Table, Text };
 FileKind kind_of(std::string_view beginning);
 std::string_view name_of(FileKind kind);  ///< "a store", "a table (CSV)"
 

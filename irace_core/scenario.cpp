@@ -1,9 +1,11 @@
 #include "irace_core/scenario.h"
 
+#include <algorithm>
 #include <span>
 #include <string>
 
 #include "irace_core/expression.h"
+#include "irace_core/internal/capping.h"
 
 namespace swarmsmith {
 namespace {
@@ -127,6 +129,16 @@ Expected<void> check(const Scenario& scenario) {
 bool uses_capping(const Scenario& scenario) {
   return scenario.capping.value_or(scenario.elitist && scenario.max_time > 0 &&
                                    scenario.bound_max > 0);
+}
+
+double capped_cost(const Scenario& scenario, double bound_max, double cost, double time,
+                   double bound) {
+  return irace::capped_cost(cost, std::max(time, scenario.min_measurable_time), bound,
+                            {.bound_max = bound_max,
+                             .bound_digits = scenario.bound_digits,
+                             .bound_par = scenario.bound_par,
+                             .bound_as_timeout = scenario.bound_as_timeout,
+                             .min_measurable_time = scenario.min_measurable_time});
 }
 
 TestType test_type_of(const Scenario& scenario) {

@@ -84,6 +84,11 @@ Expected<void> check(const Scenario& scenario);
 
 /// Whether bounds are adapted (irace facts, 17).
 bool uses_capping(const Scenario& scenario);
+/// What a run with a bound costs a race that caps, whose runs may take `bound_max` at most: one
+/// that costs as much costs bound_par times that, and one that took as long as a smaller bound
+/// costs bound_max, if bound_as_timeout. A rejection stays one.
+double capped_cost(const Scenario& scenario, double bound_max, double cost, double time,
+                   double bound);
 /// The test that drops configurations.
 TestType test_type_of(const Scenario& scenario);
 

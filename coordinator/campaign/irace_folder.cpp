@@ -168,19 +168,26 @@ Expected<IraceFileNames> add_parameters(const ParameterSpace& space, IraceVersio
 
 }  // namespace
 
-Expected<IraceFolder> irace_folder(const Campaign& campaign, const DesignRow& design,
-                                   IraceVersion version, const std::filesystem::path& program) {
+Expected<IraceSetup> irace_setup(const Campaign& campaign, const DesignRow& design) {
   const Method& method = *std::ranges::find(campaign.methods, design.method, &Method::name);
   const CampaignMission& mission = *std::ranges::find_if(
       campaign.missions,
       [&](const CampaignMission& candidate) { return candidate.mission.name == design.mission; });
   auto setup = campaign.target ? setup_of_target(campaign, method, mission)
                                : setup_of_machines(campaign, method, mission);
-  if (!setup) return Unexpected(setup.error());
+  if (!setup) return setup;
   setup->race = campaign.race;
   setup->race.max_experiments = design.budget;
   setup->race.min_experiments.reset();
   setup->log_file = "./irace.Rdata";
+  return setup;
+}
+
+Expected<IraceFolder> irace_folder(const Campaign& campaign, const DesignRow& design,
+                                   IraceVersion version, const std::filesystem::path& program) {
+  auto setup = irace_setup(campaign, design);
+  if (!setup) return Unexpected(setup.error());
+  const Method& method = *std::ranges::find(campaign.methods, design.method, &Method::name);
   IraceFolder folder;
   auto names = add_parameters(setup->space, version, folder);
   if (!names) return Unexpected(names.error());

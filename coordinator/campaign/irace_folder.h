@@ -6,6 +6,7 @@
 
 #include "base/expected.h"
 #include "coordinator/campaign/campaign.h"
+#include "irace_core/files/irace_setup.h"
 #include "irace_core/files/scenario_text.h"
 #include "storage/rows.h"
 
@@ -22,6 +23,10 @@ struct IraceFolder {
   std::vector<NamedText> files;
   std::vector<std::string> remarks;  ///< what that irace cannot be told, a sentence each
 };
+
+/// What irace is told of a design: options, instances, and the space, which of machines is in the
+/// words of their text grammar. Fails for what irace cannot express.
+Expected<IraceSetup> irace_setup(const Campaign& campaign, const DesignRow& design);
 
 /// A folder in which R's irace tunes what the design tunes: scenario, parameters, instances. A
 /// design of machines is tuned against this simulator: switches and values are the text grammar's,

@@ -9,6 +9,7 @@
 #include "coordinator/cli/commands.h"
 #include "coordinator/cli/export_irace.h"
 #include "coordinator/cli/export_machines.h"
+#include "coordinator/cli/export_rdata.h"
 #include "coordinator/cli/machine_filer.h"
 #include "coordinator/cli/query_output.h"
 #include "coordinator/cli/store_argument.h"
@@ -140,6 +141,10 @@ std::optional<Error> misplaced_option(const Arguments& arguments) {
   }
   const bool sized = is_picture(arguments.format) && arguments.format != "dot";
   if (!arguments.width.empty() && !sized) return Error{ErrorKind::BadInput, "it" + with, "--width"};
+  if (arguments.format == "rdata" && (!arguments.candidate.empty() || arguments.what != "best")) {
+    return Error{ErrorKind::BadInput, "it" + with + ": the log has all of a design",
+                 arguments.candidate.empty() ? "--what" : "--candidate"};
+  }
   if (!arguments.mission.empty() && !asks_for_table(arguments)) {
     return Error{ErrorKind::BadInput, "it means nothing with --what " + arguments.what,
                  "--mission"};
@@ -250,6 +255,11 @@ ExitCode run(const Arguments& arguments, Output& output) {
     return export_irace(*source, {.design = arguments.design, .version = arguments.irace_version},
                         arguments.file, output);
   }
+  if (arguments.format == "rdata") {
+    const auto store = arguments.store.open();
+    if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+    return export_rdata(**store, arguments.design, arguments.file, output);
+  }
   if (asks_for_table(arguments)) {
     const auto store = arguments.store.open();
     if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
@@ -298,12 +308,13 @@ Run declare_export(Options& options) {
       "`evaluate` reads: where the robots started, or where the patches lay, in the runs "
       "that scored a mission's winners");
   options.choice("--format", arguments->format,
-                 {"fsm-config", "json", "svg", "pdf", "dot", "tikz", "argos", "irace"},
+                 {"fsm-config", "json", "svg", "pdf", "dot", "tikz", "argos", "irace", "rdata"},
                  "Text of the grammar with lines that say what it was designed for, JSON, a "
                  "picture, an experiment file of the "
-                 "original simulator, or a folder in which R's irace does the same design");
+                 "original simulator, a folder in which R's irace does the same design, or what "
+                 "a design's race did as the log of R's irace, for iraceplot");
   options.text("-o,--output", arguments->file,
-               "Write to this file; to this folder, a file a machine");
+               "Write to this file; to this folder, a file a machine, or the tables of a log");
   options.text("--design", arguments->design, "Only this design's, such as d3");
   options.text("--candidate", arguments->candidate, "This one, such as c812");
   options.text("--mission", arguments->mission, "With --what starts or patches: of this mission");

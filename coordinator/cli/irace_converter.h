@@ -18,4 +18,9 @@ std::map<std::string, std::string> read_log_folder(const std::filesystem::path& 
 Expected<std::map<std::string, std::string>> convert_irace_log(const std::filesystem::path& log,
                                                                Output& output);
 
+/// The tables as the bytes of an irace.Rdata. Unavailable when there is no Rscript, or it refuses
+/// them; `log` is its name in messages.
+Expected<std::string> make_irace_log(const std::map<std::string, std::string>& tables,
+                                     const std::filesystem::path& log, Output& output);
+
 }  // namespace swarmsmith::cli

@@ -23,16 +23,14 @@ log <- loaded$iraceResults
 folder <- words[2]
 
 # Numbers keep all their digits; NA becomes an empty cell.
-cells <- function(x) {
-  text <- if (is.numeric(x)) sprintf("%.17g", x) else as.character(x)
+cells <- function(x, format = "%.17g") {
+  # A text that begins as with the apostrophe against spreadsheets gets one, so that it comes back.
+  text <- if (is.numeric(x)) sprintf(format, x) else
+    sub("^('+[=+@\t\r\n-])", "'\\1", as.character(x), perl = TRUE)
   text[is.na(x)] <- ""
   text
 }
-short <- function(x) {  # parameters: as irace shows them
-  text <- if (is.numeric(x)) sprintf("%.15g", x) else as.character(x)
-  text[is.na(x)] <- ""
-  text
-}
+short <- function(x) cells(x, "%.15g")  # parameters: as irace shows them
 write_table <- function(.file, ...) {
   columns <- data.frame(..., check.names = FALSE, stringsAsFactors = FALSE)
   utils::write.csv(columns, file.path(folder, .file), row.names = FALSE, quote = TRUE)
@@ -50,7 +48,6 @@ first <- function(...) {
 state <- log$state
 scenario <- log$scenario
 parameters <- first(scenario$parameters, log$parameters)
-is_fixed <- first(as.list(parameters)$isFixed, rep(FALSE, length(parameters$names)))
 
 # From irace 4 on the log and the instances are in the state; irace 3 keeps them elsewhere.
 runs <- first(state$experiment_log, log$experimentLog)
@@ -78,9 +75,28 @@ write_table("log.csv", key = keys,
             value = c(as.character(first(log$irace_version, log$irace.version, "")),
                       as.character(completed), cells(first(scenario$seed, state$seed, NA_real_)),
                       cells(first(scenario$maxExperiments, 0)), cells(planned), restarts))
+
+# Domains, conditions and what is forbidden are R's own texts.
+source_of <- function(x) {
+  text <- attr(x, "source")
+  if (is.null(text) && (is.language(x) || is.expression(x)))
+    text <- deparse(if (is.expression(x)) x[[1]] else x, width.cutoff = 500L)
+  paste(text, collapse = " ")
+}
+of_parameters <- function(list, what) lapply(parameters$names, function(name) what(list[[name]]))
+conditions <- of_parameters(parameters$conditions, function(x) if (is.null(x) || isTRUE(x)) "" else source_of(x))
+transforms <- first(parameters$transform, lapply(parameters$.params, function(x) x$transform))
+logs <- of_parameters(transforms, function(x) if (identical(as.character(x), "log")) "1" else "0")
 write_table("parameters.csv", name = parameters$names,
             type = unname(unlist(parameters$types[parameters$names])),
-            switch = unname(unlist(parameters$switches[parameters$names])))
+            switch = cells(unname(unlist(parameters$switches[parameters$names]))),
+            log = as.character(unlist(logs)), condition = cells(as.character(unlist(conditions))))
+domains <- of_parameters(first(parameters$domains, parameters$domain), function(x) {
+  if (!is.expression(x)) return(short(unlist(x)))
+  vapply(x, function(bound) if (is.numeric(bound)) short(bound) else source_of(bound), "")
+})
+write_table("domains.csv", parameter = rep(parameters$names, lengths(domains)),
+            value = as.character(unlist(domains)))
 
 all <- log$allConfigurations
 values <- lapply(parameters$names, function(name) short(column(all, name)))
@@ -99,6 +115,27 @@ write_table("pairs.csv", kind = c(rep("race", nrow(pairs)), rep("test", nrow(tes
 write_table("runs.csv", iteration = cells(column(runs, "iteration")), pair = cells(pair),
             configuration = cells(configuration), cost = cells(cost),
             time = cells(column(runs, "time")), bound = cells(column(runs, "bound")))
+
+# Options that are one truth, number or text.
+literal <- function(x) {
+  if (is.character(x)) encodeString(x, quote = "\"") else if (is.logical(x)) as.character(x) else cells(x, "%.15g")
+}
+is_plain <- function(x) is.atomic(x) && length(x) == 1 && !is.na(x) && !(is.numeric(x) && !is.finite(x))
+apart <- c("instances", "testInstances", "seed", "maxExperiments", "digits")
+plain <- Filter(is_plain, scenario[setdiff(names(scenario), apart)])
+places <- unlist(lapply(parameters$.params, function(x) x$digits))
+digits <- first(if (length(places)) max(places), scenario$digits, 4)
+forbidden <- first(parameters$forbidden, scenario$forbiddenExps, state$forbiddenExps)
+clauses <- vapply(as.list(forbidden), source_of, "")
+write_table("scenario.csv",
+            option = c(names(plain), "digits", rep("forbidden", length(clauses))),
+            value = cells(c(vapply(plain, literal, "", USE.NAMES = FALSE), literal(digits),
+                            vapply(clauses, literal, "", USE.NAMES = FALSE))))
+named <- function(x) if (is.atomic(x) && !all(is.na(x))) as.character(x) else character(0)
+trained <- named(scenario$instances)
+test_names <- named(scenario$testInstances)
+write_table("instances.csv", kind = c(rep("race", length(trained)), rep("test", length(test_names))),
+            instance = c(seq_along(trained), seq_along(test_names)), name = cells(c(trained, test_names)))
 
 elites <- log$allElites
 lengths <- vapply(elites, length, 0L)

@@ -1,13 +1,21 @@
 #include "coordinator/results/irace_log.h"
 
+#include <fmt/format.h>
 #include <algorithm>
+#include <cmath>
 #include <set>
 #include <utility>
 
+#include "base/csv.h"
 #include "base/hash.h"
 
 namespace swarmsmith {
 namespace {
+
+/// Logs that were converted before there were these tables lack them.
+bool is_optional(const std::string& file) {
+  return file == "domains.csv" || file == "instances.csv" || file == "scenario.csv";
+}
 
 /// One table, whose cells are read by column; what is wrong is gathered.
 class Reader {
@@ -17,7 +25,9 @@ class Reader {
       : errors_(errors) {
     const auto text = texts.find(file);
     if (text == texts.end()) {
-      errors_.push_back({ErrorKind::BadInput, "the log has no such table", file});
+      if (!is_optional(file)) {
+        errors_.push_back({ErrorKind::BadInput, "the log has no such table", file});
+      }
       return;
     }
     auto table = parse_csv(text->second, file);
@@ -32,6 +42,10 @@ class Reader {
 
   std::string text(const CsvRow& row, const std::string& column) {
     if (!table_.column(column)) complain(row, "there is no column " + column);
+    return cell_of(table_, row, column);
+  }
+  /// Of a column that older tables lack.
+  std::string text_if_there(const CsvRow& row, const std::string& column) const {
     return cell_of(table_, row, column);
   }
   /// NA, which is an empty cell, is 0.
@@ -77,8 +91,38 @@ void read_parameters(Reader reader, IraceLog& log) {
       reader.complain(row, "column type wants c, o, i or r, not `" + type + "`");
       continue;
     }
-    log.parameters.push_back({reader.text(row, "name"), type.front(), reader.text(row, "switch")});
+    log.parameters.push_back({.name = reader.text(row, "name"),
+                              .type = type.front(),
+                              .switch_text = reader.text(row, "switch"),
+                              .log = reader.text_if_there(row, "log") == "1",
+                              .condition = reader.text_if_there(row, "condition"),
+                              .domain = {}});
   }
+}
+
+void read_domains(Reader reader, IraceLog& log) {
+  for (const CsvRow& row : reader.table().rows) {
+    const auto parameter =
+        std::ranges::find(log.parameters, reader.text(row, "parameter"), &LogParameter::name);
+    if (parameter == log.parameters.end()) {
+      reader.complain(row, "there is no parameter " + reader.text(row, "parameter"));
+      continue;
+    }
+    parameter->domain.push_back(reader.text(row, "value"));
+  }
+}
+
+void read_instances(Reader reader, IraceLog& log) {
+  for (const CsvRow& row : reader.table().rows) {
+    log.instances.push_back({.test = reader.text(row, "kind") == "test",
+                             .number = reader.integer(row, "instance"),
+                             .name = reader.text(row, "name")});
+  }
+}
+
+void read_options(Reader reader, IraceLog& log) {
+  for (const CsvRow& row : reader.table().rows)
+    log.options.emplace_back(reader.text(row, "option"), reader.text(row, "value"));
 }
 
 void read_configurations(Reader reader, IraceLog& log) {
@@ -156,13 +200,141 @@ void read_tests(Reader reader, const Known& known, IraceLog& log) {
   }
 }
 
+/// Digits as R's converter writes them.
+std::string long_text(double value) {
+  if (std::isinf(value)) return value > 0 ? "Inf" : "-Inf";
+  return fmt::format("{:.17g}", value);
+}
+
+/// A number that is not there is an empty cell.
+std::string cell(std::int64_t number) {
+  return number == 0 ? "" : std::to_string(number);
+}
+std::string cell(double number) {
+  return number == 0 ? "" : long_text(number);
+}
+
+using Line = std::vector<std::string>;
+
+std::string print_head(const IraceLog& log) {
+  std::string text = csv_line({"key", "value"});
+  text += csv_line({"irace_version", log.version});
+  text += csv_line({"completed", log.completed});
+  text += csv_line({"seed", cell(log.seed)});
+  text += csv_line({"max_experiments", std::to_string(log.budget)});
+  text += csv_line({"iterations", std::to_string(log.iterations)});
+  for (const std::int64_t iteration : log.soft_restarts)
+    text += csv_line({"soft_restart", std::to_string(iteration)});
+  return text;
+}
+
+std::string print_parameters(const IraceLog& log) {
+  std::string text = csv_line({"name", "type", "switch", "log", "condition"});
+  for (const LogParameter& parameter : log.parameters) {
+    text += csv_line({parameter.name, std::string(1, parameter.type), parameter.switch_text,
+                      parameter.log ? "1" : "0", parameter.condition});
+  }
+  return text;
+}
+
+std::string print_domains(const IraceLog& log) {
+  std::string text = csv_line({"parameter", "value"});
+  for (const LogParameter& parameter : log.parameters)
+    for (const std::string& value : parameter.domain)
+      text += csv_line({parameter.name, value});
+  return text;
+}
+
+std::string print_configurations(const IraceLog& log) {
+  Line columns{"id", "parent"};
+  for (const LogParameter& parameter : log.parameters)
+    columns.push_back(parameter.name);
+  std::string text = csv_line(columns);
+  for (const LogConfiguration& configuration : log.configurations) {
+    Line line{std::to_string(configuration.id), cell(configuration.parent)};
+    line.insert(line.end(), configuration.values.begin(), configuration.values.end());
+    text += csv_line(line);
+  }
+  return text;
+}
+
+std::string print_pairs(const IraceLog& log) {
+  std::string text = csv_line({"kind", "pair", "instance", "seed"});
+  for (const LogPair& pair : log.pairs) {
+    text += csv_line({pair.test ? "test" : "race", std::to_string(pair.number),
+                      std::to_string(pair.instance), cell(pair.seed)});
+  }
+  return text;
+}
+
+std::string print_runs(const IraceLog& log) {
+  std::string text = csv_line({"iteration", "pair", "configuration", "cost", "time", "bound"});
+  for (const LogRun& run : log.runs) {
+    text += csv_line({std::to_string(run.iteration), std::to_string(run.pair),
+                      std::to_string(run.configuration), run.cost ? long_text(*run.cost) : "",
+                      cell(run.time), cell(run.bound)});
+  }
+  return text;
+}
+
+std::string print_elites(const IraceLog& log) {
+  std::string text = csv_line({"iteration", "rank", "configuration"});
+  for (const LogElite& elite : log.elites) {
+    text += csv_line({std::to_string(elite.iteration), std::to_string(elite.rank),
+                      std::to_string(elite.configuration)});
+  }
+  return text;
+}
+
+std::string print_tests(const IraceLog& log) {
+  std::string text = csv_line({"pair", "configuration", "cost"});
+  for (const LogTest& test : log.tests) {
+    text += csv_line(
+        {std::to_string(test.pair), std::to_string(test.configuration), long_text(test.cost)});
+  }
+  return text;
+}
+
+std::string print_instances(const IraceLog& log) {
+  std::string text = csv_line({"kind", "instance", "name"});
+  for (const LogInstance& instance : log.instances) {
+    text +=
+        csv_line({instance.test ? "test" : "race", std::to_string(instance.number), instance.name});
+  }
+  return text;
+}
+
+std::string print_options(const IraceLog& log) {
+  std::string text = csv_line({"option", "value"});
+  for (const auto& [option, value] : log.options)
+    text += csv_line({option, value});
+  return text;
+}
+
 }  // namespace
 
 const std::vector<std::string>& irace_log_files() {
-  static const std::vector<std::string> kFiles{"log.csv",   "parameters.csv", "configurations.csv",
-                                               "pairs.csv", "runs.csv",       "elites.csv",
-                                               "tests.csv"};
+  static const std::vector<std::string> kFiles{
+      "log.csv",  "parameters.csv", "domains.csv", "configurations.csv", "pairs.csv",
+      "runs.csv", "elites.csv",     "tests.csv",   "instances.csv",      "scenario.csv"};
   return kFiles;
+}
+
+const std::vector<std::string>& irace_setting_files() {
+  static const std::vector<std::string> kFiles{"parameters.csv", "domains.csv", "instances.csv",
+                                               "scenario.csv"};
+  return kFiles;
+}
+
+OrErrors<IraceLog> read_irace_settings(const std::map<std::string, std::string>& texts) {
+  IraceLog log;
+  std::vector<Error> errors;
+  read_parameters(Reader(texts, "parameters.csv", errors), log);
+  read_domains(Reader(texts, "domains.csv", errors), log);
+  read_instances(Reader(texts, "instances.csv", errors), log);
+  read_options(Reader(texts, "scenario.csv", errors), log);
+  if (!errors.empty()) return tl::unexpected(std::move(errors));
+  return log;
 }
 
 OrErrors<IraceLog> read_irace_log(const std::map<std::string, std::string>& texts) {
@@ -171,6 +343,7 @@ OrErrors<IraceLog> read_irace_log(const std::map<std::string, std::string>& text
   const auto table = [&](const char* file) { return Reader(texts, file, errors); };
   read_head(table("log.csv"), log);
   read_parameters(table("parameters.csv"), log);
+  read_domains(table("domains.csv"), log);
   read_configurations(table("configurations.csv"), log);
   read_pairs(table("pairs.csv"), log);
   Known known;
@@ -181,12 +354,27 @@ OrErrors<IraceLog> read_irace_log(const std::map<std::string, std::string>& text
   read_runs(table("runs.csv"), known, log);
   read_elites(table("elites.csv"), known, log);
   read_tests(table("tests.csv"), known, log);
+  read_instances(table("instances.csv"), log);
+  read_options(table("scenario.csv"), log);
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   Digest digest;
   for (const std::string& file : irace_log_files())
-    digest.add(texts.at(file));
+    if (const auto text = texts.find(file); text != texts.end()) digest.add(text->second);
   log.digest = digest.hex();
   return log;
+}
+
+std::map<std::string, std::string> print_irace_log(const IraceLog& log) {
+  return {{"log.csv", print_head(log)},
+          {"parameters.csv", print_parameters(log)},
+          {"domains.csv", print_domains(log)},
+          {"configurations.csv", print_configurations(log)},
+          {"pairs.csv", print_pairs(log)},
+          {"runs.csv", print_runs(log)},
+          {"elites.csv", print_elites(log)},
+          {"tests.csv", print_tests(log)},
+          {"instances.csv", print_instances(log)},
+          {"scenario.csv", print_options(log)}};
 }
 
 }  // namespace swarmsmith

@@ -4,6 +4,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/expected.h"
@@ -11,13 +12,17 @@
 
 namespace swarmsmith {
 
-/// The log of R's irace (irace.Rdata) as the tables that its converter writes
-/// (coordinator/cli/irace_log.R), one CSV file each. Costs are minimised, as in R.
+/// The log of R's irace (irace.Rdata) as tables, one CSV file each: coordinator/cli/irace_log.R
+/// makes them of a log, and irace_rdata.R a log of them. Costs are minimised, as in R.
 
 struct LogParameter {
   std::string name;
   char type = 'c';          ///< c, o: texts; i, r: numbers
   std::string switch_text;  ///< put before the value, blank included
+  bool log = false;         ///< sampled in the logarithm
+  std::string condition;    ///< R's text; empty: always active
+  /// The values of c and o; the bounds of i and r, numbers or R's texts. Empty: not known.
+  std::vector<std::string> domain;
 };
 
 struct LogConfiguration {
@@ -55,6 +60,13 @@ struct LogTest {
   double cost = 0;
 };
 
+/// What an instance is called. The tables may have none.
+struct LogInstance {
+  bool test = false;
+  std::int64_t number = 0;  ///< from 1
+  std::string name;
+};
+
 struct IraceLog {
   std::string version;    ///< of irace
   std::string completed;  ///< why it ended; "Incomplete" when it did not
@@ -68,14 +80,25 @@ struct IraceLog {
   std::vector<LogRun> runs;  ///< in the order in which they were made
   std::vector<LogElite> elites;
   std::vector<LogTest> tests;
+  std::vector<LogInstance> instances;
+  /// Of the scenario, with values in R's words: TRUE, 5, "text"; digits, and forbidden as often as
+  /// there are forbidden expressions.
+  std::vector<std::pair<std::string, std::string>> options;
   std::string digest;  ///< of the tables' texts
 };
 
 /// Names of the tables: "log.csv", "parameters.csv", ...
 const std::vector<std::string>& irace_log_files();
+/// Those that say what was tuned, and how: a store has no tables for them, and keeps their texts.
+const std::vector<std::string>& irace_setting_files();
 
 /// `texts`: by those names; one that is missing is an error, as is a row that names a pair or a
-/// configuration that is not there.
+/// configuration that is not there. domains.csv, instances.csv and scenario.csv may be missing.
 OrErrors<IraceLog> read_irace_log(const std::map<std::string, std::string>& texts);
+/// Only what irace_setting_files hold.
+OrErrors<IraceLog> read_irace_settings(const std::map<std::string, std::string>& texts);
+
+/// The reverse: all tables.
+std::map<std::string, std::string> print_irace_log(const IraceLog& log);
 
 }  // namespace swarmsmith

@@ -240,6 +240,16 @@ void Rows::add_end() {
   rows_.emplace_back(std::move(state));
 }
 
+/// With what the store has no tables for, so that the log can be made again.
+std::string deciding_of(const IraceLog& log) {
+  std::string json = fmt::format(R"({{"imported":"irace log","irace":{},"log":"{}")",
+                                 quoted_text(log.version), log.digest);
+  const auto texts = print_irace_log(log);
+  for (const std::string& file : irace_setting_files())
+    json += fmt::format(R"(,"{}":{})", file, quoted_text(texts.at(file)));
+  return json + "}";
+}
+
 std::int64_t next_repetition(const IraceImport& known) {
   std::int64_t last = 0;
   for (const KnownDesign& design : known.designs) {
@@ -263,9 +273,7 @@ OrErrors<Addition> irace_log_addition(const IraceLog& log, const IraceImport& kn
     digest.add(text);
   return Addition{.campaign = CampaignRow{.name = known.campaign,
                                           .digest = digest.hex(),
-                                          .deciding = fmt::format(
-                                              R"({{"imported":"irace log","irace":{},"log":"{}"}})",
-                                              quoted_text(log.version), log.digest),
+                                          .deciding = deciding_of(log),
                                           .file = "",
                                           .seed = log.seed},
                   .designs = {{.row = {.id = design,

@@ -110,4 +110,18 @@ IraceScenarioText print_irace_scenario(const IraceSetup& setup, IraceVersion ver
   return Printer(setup, version, names).print();
 }
 
+std::vector<std::pair<std::string, std::string>> irace_options(const IraceSetup& setup) {
+  std::vector<std::pair<std::string, std::string>> options;
+  for (const irace::SetupField& field : irace::setup_fields()) {
+    const IraceValue value = field.get(setup);
+    if (std::holds_alternative<std::monostate>(value)) continue;
+    if (field.name == "boundMax" && setup.race.bound_max == 0) continue;
+    const auto* truth = std::get_if<bool>(&value);
+    options.emplace_back(field.name, truth == nullptr ? irace_value_text(value)
+                                     : *truth         ? "TRUE"
+                                                      : "FALSE");
+  }
+  return options;
+}
+
 }  // namespace swarmsmith

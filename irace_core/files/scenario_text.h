@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "irace_core/files/irace_setup.h"
@@ -31,5 +32,9 @@ struct IraceScenarioText {
 /// but for what the remarks say.
 IraceScenarioText print_irace_scenario(const IraceSetup& setup, IraceVersion version,
                                        const IraceFileNames& names = {});
+
+/// Every option that the setup has a value for, by its name in scenario files, with the value in
+/// R's words: TRUE, 5, "text". Nothing stands for an option that is off by being absent (boundMax).
+std::vector<std::pair<std::string, std::string>> irace_options(const IraceSetup& setup);
 
 }  // namespace swarmsmith

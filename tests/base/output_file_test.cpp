@@ -29,6 +29,7 @@ TEST(FileKindTest, IsToldByTheBeginning) {
   EXPECT_EQ(kind_of("RIFF....AVI "), FileKind::Video);
   EXPECT_EQ(kind_of("\x89PNG\r\n"), FileKind::Picture);
   EXPECT_EQ(kind_of("%PDF-1.4"), FileKind::Pdf);
+  EXPECT_EQ(kind_of("\x1f\x8b\x08..."), FileKind::Gzip);
   EXPECT_EQ(kind_of("<?xml version='1.0'?>\n<svg xmlns"), FileKind::Svg);
   EXPECT_EQ(kind_of("<!DOCTYPE html>\n<html><body><svg>"), FileKind::WebPage);
   EXPECT_EQ(kind_of("{\"a\":1}"), FileKind::Json);

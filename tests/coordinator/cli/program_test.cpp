@@ -52,14 +52,28 @@ TEST(Program, NamesWhatIsMissing) {
   EXPECT_THAT(ran.err, HasSubstr("FILE is required"));
 }
 
+/// Help is wrapped; a blank between words.
+std::string on_one_line(std::string_view text) {
+  std::istringstream words{std::string(text)};
+  std::string line;
+  for (std::string word; words >> word;)
+    line += word + " ";
+  return line;
+}
+
 TEST(Program, ExplainsEveryCommandOnStandardOutput) {
+  int explained = 0;
   for (const Command& command : commands()) {
+    if (command.name == "track") continue;  // becomes another program, in place of this one
     const Ran ran = run({std::string(command.name), "--help"});
     EXPECT_EQ(ran.code, 0) << command.name;
-    EXPECT_THAT(ran.out, HasSubstr(std::string(command.summary)));
-    EXPECT_THAT(ran.out, HasSubstr(std::string(command.details)));
-    EXPECT_THAT(ran.out, HasSubstr("--json"));
+    const std::string help = on_one_line(ran.out);
+    EXPECT_THAT(help, HasSubstr(on_one_line(command.summary)));
+    EXPECT_THAT(help, HasSubstr(on_one_line(command.details)));
+    EXPECT_THAT(help, HasSubstr("--json"));
+    ++explained;
   }
+  EXPECT_GT(explained, 30);
 }
 
 TEST(Program, HasEveryCommandInItsManual) {

@@ -6,6 +6,10 @@
 #include <sstream>
 
 #include "coordinator/results/irace_log_rows.h"
+#include "coordinator/results/stored_irace_log.h"
+#include "storage/store.h"
+#include "storage/store_at_rest.h"
+#include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {
 namespace {
@@ -167,6 +171,80 @@ TEST(IraceLog, OfTheExampleHasItsNineHundredAndEightyOneRuns) {
   EXPECT_EQ(state.used, 981);
   EXPECT_EQ(state.best, CandidateId{155});  // the last of iterationElites in R
   EXPECT_EQ(state.reason, "Not enough budget to race more than the minimum configurations");
+}
+
+/// By hand, with everything that a store has no tables for, and texts that are hard to hold.
+Texts with_settings() {
+  Texts texts = by_hand();
+  texts["parameters.csv"] =
+      "name,type,switch,log,condition\nx,r,--x ,1,\nkind,c,\"'--\",0,\"x > 1 & \"\"a\"\" != "
+      "\"\"b\"\"\"\n";
+  texts["domains.csv"] =
+      "parameter,value\nx,0.5\nx,\"min(y, 2)\"\nkind,a\nkind,\"b\"\"\"\nkind,''=1\n";
+  texts["instances.csv"] = "kind,instance,name\nrace,1,\"in/a, b\"\nrace,2,in/c\ntest,1,t\n";
+  texts["scenario.csv"] =
+      "option,value\nelitist,TRUE\ntestNbElites,2\nforbidden,\"\"\"x == 1\"\"\"\nforbidden,\"\"\"x "
+      "== "
+      "2\"\"\"\n";
+  return texts;
+}
+
+/// The log as a store gives it back that it was imported into.
+IraceLog through_a_store(const IraceLog& log) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder / "log.db";
+  const auto addition = irace_log_addition(log, {.campaign = "log", .flavour = {}, .designs = {}});
+  auto store = StoreAtRest::open(file, StoreAtRest::IfMissing::Make);
+  EXPECT_TRUE(store);
+  EXPECT_TRUE((*store)->add(*addition));
+  const auto reader = StoreReader::open(file);
+  std::int64_t rows = 0;
+  const auto again = stored_irace_log(**reader, {1}, [&](std::int64_t read) { rows = read; });
+  EXPECT_TRUE(again) << to_string(again.error());
+  EXPECT_GT(rows, 0);
+  return *again;
+}
+
+TEST(IraceLog, IsPrintedAsTablesThatReadBackTheSame) {
+  for (const Texts& texts : {by_hand(), with_settings(), example()}) {
+    const auto log = read_irace_log(texts);
+    ASSERT_TRUE(log) << to_string(log.error().front());
+    const Texts printed = print_irace_log(*log);
+    EXPECT_EQ(printed.size(), irace_log_files().size());
+    const auto again = read_irace_log(printed);
+    ASSERT_TRUE(again) << to_string(again.error().front());
+    EXPECT_EQ(print_irace_log(*again), printed);
+    EXPECT_EQ(again->runs.size(), log->runs.size());
+  }
+  const Texts printed = print_irace_log(*read_irace_log(with_settings()));
+  EXPECT_THAT(printed.at("domains.csv"), HasSubstr("kind,''=1\n"));
+  EXPECT_THAT(printed.at("runs.csv"), HasSubstr("2,1,3,Inf,,\n"));
+  EXPECT_THAT(printed.at("configurations.csv"), HasSubstr("3,2,,\"b\"\"\"\n"));
+}
+
+TEST(IraceLog, ComesBackFromAStoreAsItWas) {
+  for (const Texts& texts : {with_settings(), example()}) {
+    const auto log = read_irace_log(texts);
+    ASSERT_TRUE(log) << to_string(log.error().front());
+    Texts expected = print_irace_log(*log);
+    Texts found = print_irace_log(through_a_store(*log));
+    for (const std::string& file : irace_log_files())
+      EXPECT_EQ(found.at(file), expected.at(file)) << file;
+  }
+}
+
+TEST(IraceLog, WithoutParametersInItsStoreIsRefused) {
+  const TemporaryFolder folder;
+  auto addition = irace_log_addition(*read_irace_log(by_hand()),
+                                     {.campaign = "log", .flavour = {}, .designs = {}});
+  addition->campaign->deciding = R"({"imported":"irace log","irace":"3.5","log":"x"})";
+  ASSERT_TRUE(
+      (*StoreAtRest::open(folder / "log.db", StoreAtRest::IfMissing::Make))->add(*addition));
+  const auto reader = StoreReader::open(folder / "log.db");
+  const auto none = [](std::int64_t) {};
+  EXPECT_THAT(to_string(stored_irace_log(**reader, {1}, none).error()),
+              HasSubstr("import its log into a new store"));
+  EXPECT_EQ(stored_irace_log(**reader, {2}, none).error().kind, ErrorKind::NotFound);
 }
 
 }  // namespace

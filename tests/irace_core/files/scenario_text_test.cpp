@@ -142,5 +142,19 @@ TEST(ScenarioText, ARepairProgramCannotBeToldToR) {
   EXPECT_THAT(printed.remarks, Contains(HasSubstr("repairConfiguration")));
 }
 
+TEST(IraceOptions, AreInWordsOfR) {
+  IraceSetup setup;
+  setup.race.elitist = false;
+  setup.target_runner = "/a \"b\"";
+  const auto options = irace_options(setup);
+  EXPECT_THAT(options, Contains(testing::Pair("elitist", "FALSE")));
+  EXPECT_THAT(options, Contains(testing::Pair("postselection", "TRUE")));
+  EXPECT_THAT(options, Contains(testing::Pair("firstTest", "5")));
+  EXPECT_THAT(options, Contains(testing::Pair("targetRunner", R"("/a \"b\"")")));
+  // What is there only where it is used.
+  EXPECT_THAT(options, Not(Contains(testing::Pair("boundMax", testing::_))));
+  EXPECT_THAT(options, Not(Contains(testing::Pair("testType", testing::_))));
+}
+
 }  // namespace
 }  // namespace swarmsmith
