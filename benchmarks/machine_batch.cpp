@@ -11,9 +11,9 @@
 #include <string>
 
 #include "coordinator/campaign/campaign_file.h"
+#include "programs/cost.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
-#include "target/cost.h"
 
 namespace swarmsmith {
 namespace {

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "target/runner.h"
+#include "programs/runner.h"
 
 namespace swarmsmith {
 namespace {

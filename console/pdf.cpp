@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "target/process.h"
+#include "base/process/process.h"
 
 namespace swarmsmith::cli {
 namespace {

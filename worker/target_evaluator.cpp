@@ -7,8 +7,8 @@
 
 #include "base/hash.h"
 #include "base/log.h"
-#include "target/cost.h"
-#include "target/runner.h"
+#include "programs/cost.h"
+#include "programs/runner.h"
 
 namespace swarmsmith {
 namespace {

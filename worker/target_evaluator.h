@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/process/interrupt.h"
 #include "sim/messages/scenario_messages.h"
-#include "target/interrupt.h"
 #include "worker/work_item.h"
 
 namespace swarmsmith {

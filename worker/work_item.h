@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "programs/failure_details.h"
 #include "proto/key.h"
-#include "target/failure_details.h"
 
 namespace swarmsmith {
 

@@ -5,7 +5,7 @@
 #include <utility>
 #include <vector>
 
-#include "coordinator/work_source.h"
+#include "coordinator/design/work_source.h"
 
 namespace swarmsmith::bench {
 

@@ -9,7 +9,7 @@
 #include <variant>
 
 #include "coordinator/launchers/local_workers.h"
-#include "coordinator/service.h"
+#include "coordinator/service/service.h"
 
 namespace swarmsmith::bench {
 namespace {

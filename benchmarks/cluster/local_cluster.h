@@ -8,8 +8,8 @@
 #include "base/expected.h"
 #include "benchmarks/cluster/idle_worker.h"
 #include "benchmarks/cluster/process_stats.h"
-#include "coordinator/live_status.h"
-#include "coordinator/work_source.h"
+#include "coordinator/design/work_source.h"
+#include "coordinator/service/live_status.h"
 
 namespace swarmsmith::bench {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "coordinator/work_source.h"
+#include "coordinator/design/work_source.h"
 
 namespace swarmsmith::bench {
 

@@ -10,10 +10,10 @@
 
 #include "coordinator/launchers/launch_options.h"
 #include "irace_core/scenario.h"
+#include "programs/target.h"
 #include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
 #include "sim/files/mission_file.h"
-#include "target/target.h"
 
 namespace swarmsmith {
 

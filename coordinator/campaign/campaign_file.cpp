@@ -3,14 +3,14 @@
 #include <cctype>
 #include <limits>
 
+#include "base/text/file_text.h"
+#include "base/text/table_reader.h"
 #include "coordinator/campaign/internal/read_method.h"
 #include "coordinator/campaign/internal/read_target.h"
 #include "coordinator/campaign/internal/read_workers.h"
 #include "coordinator/campaign/method_space.h"
 #include "irace_core/iterated_race.h"
-#include "sim/files/file_text.h"
 #include "sim/files/profile_file.h"
-#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
 namespace {

@@ -6,7 +6,7 @@
 #include <variant>
 
 #include "base/assert.h"
-#include "sim/files/toml_text.h"
+#include "base/text/toml_text.h"
 
 namespace swarmsmith {
 namespace {

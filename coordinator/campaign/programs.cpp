@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "target/command_line.h"
+#include "programs/command_line.h"
 
 namespace swarmsmith {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "base/expected.h"
 #include "coordinator/design/design_runner.h"
-#include "coordinator/work_source.h"
+#include "coordinator/design/work_source.h"
 
 namespace swarmsmith {
 

@@ -3,9 +3,9 @@
 #include <set>
 #include <tuple>
 
+#include "base/text/toml_text.h"
 #include "coordinator/campaign/campaign.h"
 #include "coordinator/design/design_runner.h"
-#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 Expected<void> check_command(const DesignPlan& plan, const CommandRow& command) {

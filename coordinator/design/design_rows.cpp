@@ -3,9 +3,9 @@
 
 #include "base/assert.h"
 #include "base/overloaded.h"
+#include "base/text/toml_text.h"
 #include "coordinator/design/design_runner.h"
-#include "sim/files/toml_text.h"
-#include "target/cost.h"
+#include "programs/cost.h"
 
 namespace swarmsmith {
 

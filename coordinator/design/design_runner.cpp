@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/assert.h"
-#include "target/cost.h"
+#include "programs/cost.h"
 
 namespace swarmsmith {
 namespace {

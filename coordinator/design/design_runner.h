@@ -13,8 +13,8 @@
 
 #include "base/expected.h"
 #include "coordinator/campaign/candidate_text.h"
-#include "coordinator/task.h"
-#include "coordinator/work_source.h"
+#include "coordinator/design/task.h"
+#include "coordinator/design/work_source.h"
 #include "irace_core/iterated_race.h"
 #include "storage/rows.h"
 

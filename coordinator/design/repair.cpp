@@ -3,9 +3,9 @@
 #include <memory>
 #include <utility>
 
+#include "base/process/interrupt.h"
+#include "base/process/process.h"
 #include "irace_core/files/configurations_file.h"
-#include "target/interrupt.h"
-#include "target/process.h"
 
 namespace swarmsmith {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "base/clock.h"
 #include "base/expected.h"
-#include "coordinator/launchers/child_process.h"
+#include "base/process/child_process.h"
 #include "coordinator/launchers/launcher.h"
 
 namespace swarmsmith {

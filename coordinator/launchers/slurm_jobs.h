@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "coordinator/launchers/child_process.h"
+#include "base/process/child_process.h"
 #include "coordinator/launchers/launcher.h"
 
 namespace swarmsmith {

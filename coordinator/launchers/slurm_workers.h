@@ -7,11 +7,11 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "base/process/interrupt.h"
+#include "base/process/process.h"
 #include "coordinator/launchers/launch_options.h"
 #include "coordinator/launchers/launcher.h"
 #include "coordinator/launchers/slurm_jobs.h"
-#include "target/interrupt.h"
-#include "target/process.h"
 
 namespace swarmsmith {
 

@@ -6,8 +6,8 @@
 #include <random>
 #include <utility>
 
+#include "base/process/process.h"
 #include "coordinator/launchers/worker_program.h"
-#include "target/process.h"
 
 namespace swarmsmith {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "base/clock.h"
 #include "base/expected.h"
-#include "coordinator/launchers/child_process.h"
+#include "base/process/child_process.h"
 #include "coordinator/launchers/host_file.h"
 #include "coordinator/launchers/launch_options.h"
 #include "coordinator/launchers/launcher.h"

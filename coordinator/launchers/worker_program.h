@@ -6,7 +6,7 @@
 
 #include "base/expected.h"
 #include "coordinator/launchers/launch_options.h"
-#include "target/target.h"
+#include "programs/target.h"
 
 namespace swarmsmith {
 

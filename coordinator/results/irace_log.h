@@ -12,7 +12,7 @@
 
 namespace swarmsmith {
 
-/// The log of R's irace (irace.Rdata) as tables, one CSV file each: coordinator/cli/irace_log.R
+/// The log of R's irace (irace.Rdata) as tables, one CSV file each: cli/commands/irace_log.R
 /// makes them of a log, and irace_rdata.R a log of them. Costs are minimised, as in R.
 
 struct LogParameter {

@@ -8,10 +8,10 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
+#include "base/text/toml_text.h"
 #include "coordinator/campaign/machine_space.h"
 #include "coordinator/results/internal/log_races.h"
 #include "sim/control/machine_text.h"
-#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 namespace {

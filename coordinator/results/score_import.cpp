@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include "sim/files/toml_text.h"
+#include "base/text/toml_text.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {

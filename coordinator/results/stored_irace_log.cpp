@@ -17,7 +17,7 @@
 #include "irace_core/files/expression_text.h"
 #include "irace_core/files/number_text.h"
 #include "irace_core/files/scenario_text.h"
-#include "target/cost.h"
+#include "programs/cost.h"
 
 namespace swarmsmith {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <system_error>
 
-#include "irace_core/files/whole_file.h"
+#include "base/text/whole_file.h"
 
 namespace swarmsmith {
 namespace {

@@ -5,10 +5,10 @@
 #include <utility>
 
 #include "base/suggestion.h"
+#include "base/text/whole_file.h"
 #include "irace_core/files/internal/r_values.h"
 #include "irace_core/files/number_text.h"
 #include "irace_core/files/r_syntax.h"
-#include "irace_core/files/whole_file.h"
 
 namespace swarmsmith {
 namespace {

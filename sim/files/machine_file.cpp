@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "sim/files/document.h"
-#include "sim/files/file_text.h"
+#include "base/text/document.h"
+#include "base/text/file_text.h"
+#include "base/text/toml_text.h"
 #include "sim/files/profile_file.h"
-#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 namespace {

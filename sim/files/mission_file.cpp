@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "base/suggestion.h"
-#include "sim/files/document.h"
-#include "sim/files/file_text.h"
+#include "base/text/document.h"
+#include "base/text/file_text.h"
 #include "sim/files/internal/read_arena.h"
 #include "sim/files/internal/read_placement.h"
 #include "sim/files/internal/read_score.h"

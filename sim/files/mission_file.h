@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "sim/files/table_reader.h"
-#include "sim/files/toml_text.h"
+#include "base/text/table_reader.h"
+#include "base/text/toml_text.h"
 #include "sim/mission/mission.h"
 
 namespace swarmsmith {

@@ -5,11 +5,11 @@
 
 #include "base/assert.h"
 #include "base/suggestion.h"
+#include "base/text/document.h"
+#include "base/text/file_text.h"
 #include "embedded/kArgos3Profile.h"
 #include "embedded/kPseudoRealityProfile.h"
 #include "embedded/kRvrProfile.h"
-#include "sim/files/document.h"
-#include "sim/files/file_text.h"
 #include "sim/files/internal/read_profile.h"
 #include "sim/files/mission_file.h"
 

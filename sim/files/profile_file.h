@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "base/text/table_reader.h"
+#include "base/text/toml_text.h"
 #include "sim/engine/profile.h"
-#include "sim/files/table_reader.h"
-#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 

@@ -2,7 +2,7 @@
 
 #include <string_view>
 
-#include "sim/files/table_reader.h"
+#include "base/text/table_reader.h"
 #include "sim/mission/pose.h"
 
 namespace swarmsmith {

@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "programs/target.h"
 #include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
 #include "sim/mission/mission.h"
-#include "target/target.h"
 
 namespace swarmsmith {
 

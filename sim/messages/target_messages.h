@@ -1,7 +1,7 @@
 #pragma once
 
 #include "base/expected.h"
-#include "target/target.h"
+#include "programs/target.h"
 
 namespace swarmsmith::pb {
 class InstanceTexts;

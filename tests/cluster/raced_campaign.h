@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "coordinator/design/campaign_runner.h"
-#include "coordinator/task_key.h"
+#include "coordinator/pool/task_key.h"
 #include "tests/cluster/simulated_disk.h"
 #include "tests/support/truth.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "base/overloaded.h"
-#include "coordinator/paused_designs.h"
+#include "coordinator/service/paused_designs.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {

@@ -13,7 +13,7 @@
 
 #include "base/clock.h"
 #include "base/rng.h"
-#include "coordinator/coordinator.h"
+#include "coordinator/service/coordinator.h"
 #include "tests/cluster/raced_campaign.h"
 #include "tests/cluster/simulated_disk.h"
 #include "tests/support/hostile_peer.h"

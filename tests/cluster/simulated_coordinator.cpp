@@ -3,9 +3,9 @@
 #include <algorithm>
 
 #include "base/overloaded.h"
-#include "coordinator/lease_signer.h"
-#include "coordinator/paused_designs.h"
-#include "coordinator/task_key.h"
+#include "coordinator/pool/lease_signer.h"
+#include "coordinator/pool/task_key.h"
+#include "coordinator/service/paused_designs.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {

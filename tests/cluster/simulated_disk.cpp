@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/overloaded.h"
-#include "coordinator/task_key.h"
+#include "coordinator/pool/task_key.h"
 #include "storage/answer.h"
 
 namespace swarmsmith::cluster {

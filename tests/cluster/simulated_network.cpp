@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "coordinator/paused_designs.h"
+#include "coordinator/service/paused_designs.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {

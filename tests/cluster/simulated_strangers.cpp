@@ -4,7 +4,7 @@
 #include <array>
 #include <string_view>
 
-#include "coordinator/task_key.h"
+#include "coordinator/pool/task_key.h"
 #include "proto/wire.h"
 #include "storage/answer.h"
 #include "tests/cluster/simulated_cluster.h"

@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "coordinator/task_key.h"
-#include "coordinator/work_source.h"
+#include "coordinator/design/work_source.h"
+#include "coordinator/pool/task_key.h"
 #include "tests/support/truth.h"
 
 namespace swarmsmith::cluster {

@@ -1,4 +1,4 @@
-#include "access/allow_list.h"
+#include "proto/access/allow_list.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace swarmsmith::fuzz {

@@ -1,8 +1,8 @@
 #include <cmath>
 #include <string>
 
-#include "target/output.h"
-#include "target/words.h"
+#include "programs/output.h"
+#include "programs/words.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace swarmsmith::fuzz {

@@ -7,7 +7,7 @@ import tempfile
 import unittest
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
-SCRIPT = SOURCE / "coordinator/cli/irace_log.R"
+SCRIPT = SOURCE / "cli/commands/irace_log.R"
 FIXTURE = SOURCE / "tests/golden/irace/log-acotsp"
 SWARMSMITH = pathlib.Path(os.environ["SWARMSMITH_BIN"]) / "swarmsmith"
 

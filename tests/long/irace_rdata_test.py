@@ -11,8 +11,8 @@ import tempfile
 import unittest
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
-TO_TABLES = SOURCE / "coordinator/cli/irace_log.R"
-TO_LOG = SOURCE / "coordinator/cli/irace_rdata.R"
+TO_TABLES = SOURCE / "cli/commands/irace_log.R"
+TO_LOG = SOURCE / "cli/commands/irace_rdata.R"
 SWARMSMITH = pathlib.Path(os.environ["SWARMSMITH_BIN"]) / "swarmsmith"
 TABLES = ["log", "parameters", "domains", "configurations", "pairs", "runs", "elites", "tests", "instances",
           "scenario"]

@@ -19,8 +19,8 @@
 #include <thread>
 #include <vector>
 
-#include "access/key_file.h"
 #include "base/clock.h"
+#include "proto/access/key_file.h"
 #include "proto/socket.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"

@@ -4,7 +4,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <regex>
 
-#include "target/process.h"
+#include "base/process/process.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "base/suggestion.h"
+#include "base/text/file_text.h"
 #include "console/counter.h"
-#include "sim/files/file_text.h"
 #include "tracking/geometry/tag_pose.h"
 #include "tracking/observing/observe.h"
 

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "base/text/toml_text.h"
 #include "console/output.h"
-#include "sim/files/toml_text.h"
 #include "sim/mission/trajectory_csv.h"
 #include "tracking/rig/calibration_limits.h"
 

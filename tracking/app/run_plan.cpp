@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/files/file_text.h"
+#include "base/text/file_text.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_options.h"
 #include "tracking/app/run_store.h"

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "base/text/sha256.h"
 #include "console/counter.h"
-#include "console/sha256.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/observing/observe.h"
 #include "tracking/scoring/measured_layout.h"

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "base/suggestion.h"
-#include "sim/files/toml_text.h"
+#include "base/text/toml_text.h"
 #include "tracking/calibration/internal/marker_board.h"
 
 namespace swarmsmith {

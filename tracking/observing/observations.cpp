@@ -6,11 +6,6 @@
 
 namespace swarmsmith {
 
-std::string_view name_of(TimeSource source) {
-  static constexpr std::array<std::string_view, 3> kNames = {"sidecar", "container", "frame rate"};
-  return kNames.at(static_cast<std::size_t>(source));
-}
-
 Observations joined_observations(std::vector<CameraObservations> cameras) {
   Observations all;
   for (CameraObservations& each : cameras) {

@@ -6,6 +6,7 @@
 
 #include "tracking/geometry/tag_pose.h"
 #include "tracking/rig/issue.h"
+#include "tracking/rig/time_source.h"
 
 namespace swarmsmith {
 
@@ -33,10 +34,6 @@ struct ReferenceLook {
   TagCorners corners{};
   int frames = 0;
 };
-
-/// Where a camera's frame times come from, best first.
-enum class TimeSource { Sidecar, Container, FrameRate };
-std::string_view name_of(TimeSource source);
 
 /// One camera's recording.
 struct CameraRecord {

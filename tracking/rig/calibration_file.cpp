@@ -1,8 +1,8 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "sim/files/file_text.h"
-#include "sim/files/table_reader.h"
+#include "base/text/file_text.h"
+#include "base/text/table_reader.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 

@@ -2,7 +2,7 @@
 #include <span>
 
 #include "base/math.h"
-#include "sim/files/toml_text.h"
+#include "base/text/toml_text.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {

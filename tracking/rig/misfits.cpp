@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "base/math.h"
-#include "sim/files/toml_text.h"
+#include "base/text/toml_text.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 

@@ -4,11 +4,11 @@
 #include <array>
 #include <utility>
 
-#include "console/sha256.h"
-#include "sim/files/file_text.h"
+#include "base/text/file_text.h"
+#include "base/text/sha256.h"
+#include "base/text/table_reader.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/read_place.h"
-#include "sim/files/table_reader.h"
 #include "sim/mission/polygon.h"
 #include "tracking/geometry/tag_family.h"
 #include "tracking/rig/internal/config_errors.h"

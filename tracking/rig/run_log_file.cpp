@@ -4,11 +4,11 @@
 #include <utility>
 
 #include "base/id.h"
+#include "base/text/file_text.h"
+#include "base/text/table_reader.h"
 #include "sim/files/color_text.h"
-#include "sim/files/file_text.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/read_place.h"
-#include "sim/files/table_reader.h"
 #include "tracking/rig/internal/config_errors.h"
 #include "tracking/rig/rig_file.h"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "base/overloaded.h"
-#include "console/sha256.h"
+#include "base/text/sha256.h"
 #include "sim/files/color_text.h"
 #include "sim/files/mission_file.h"
 #include "tracking/motion/resampling.h"

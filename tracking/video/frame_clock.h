@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "tracking/observing/observations.h"
+#include "tracking/rig/time_source.h"
 #include "tracking/video/frame_source.h"
 
 namespace swarmsmith {

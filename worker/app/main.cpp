@@ -15,14 +15,14 @@
 #include <thread>
 #include <vector>
 
-#include "access/find_coordinator.h"
 #include "base/descriptor_limit.h"
 #include "base/local_secret.h"
 #include "base/log.h"
+#include "base/process/guard.h"
 #include "base/shown_text.h"
+#include "proto/access/find_coordinator.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
-#include "target/guard.h"
 #include "worker/evaluate.h"
 #include "worker/referee.h"
 #include "worker/service.h"

@@ -4,12 +4,12 @@
 #include <optional>
 
 #include "base/suggestion.h"
+#include "base/text/file_text.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/parameter_file.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
 #include "sim/control/machine_text.h"
-#include "sim/files/file_text.h"
 #include "sim/files/machine_file.h"
 #include "sim/files/mission_file.h"
 

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <vector>
 
+#include "base/text/table_reader.h"
 #include "coordinator/campaign/campaign.h"
-#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
 

@@ -5,8 +5,8 @@
 #include <cstdlib>
 
 #include "base/program_path.h"
+#include "base/text/file_text.h"
 #include "irace_core/files/instances_file.h"
-#include "sim/files/file_text.h"
 #include "sim/files/mission_file.h"
 
 namespace swarmsmith {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "base/text/table_reader.h"
 #include "coordinator/campaign/campaign.h"
-#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
 

@@ -4,8 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "base/text/table_reader.h"
 #include "coordinator/campaign/campaign.h"
-#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
 

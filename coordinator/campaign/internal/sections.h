@@ -2,8 +2,8 @@
 
 #include <vector>
 
+#include "base/text/toml_text.h"
 #include "coordinator/campaign/campaign.h"
-#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "base/text/toml_text.h"
 #include "coordinator/campaign/campaign.h"
-#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/text/whole_file.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/foreign_space.h"
 #include "irace_core/files/internal/setup_work.h"
 #include "irace_core/files/parameter_file.h"
-#include "irace_core/files/whole_file.h"
 
 namespace swarmsmith::irace {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/files/toml_text.h"
+#include "base/text/toml_text.h"
 #include "sim/mission/mission.h"
 
 namespace swarmsmith {

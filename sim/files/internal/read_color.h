@@ -6,8 +6,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/text/table_reader.h"
 #include "sim/control/reference_model.h"
-#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
 

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "sim/files/table_reader.h"
+#include "base/text/table_reader.h"
 #include "sim/mission/mission.h"
 
 namespace swarmsmith {

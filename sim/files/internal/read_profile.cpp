@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "base/text/toml_text.h"
 #include "sim/engine/profile_fields.h"
 #include "sim/files/color_text.h"
-#include "sim/files/toml_text.h"
 
 namespace swarmsmith {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "base/text/table_reader.h"
 #include "sim/engine/profile.h"
-#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "sim/files/table_reader.h"
+#include "base/text/table_reader.h"
 #include "sim/mission/arena.h"
 
 namespace swarmsmith {

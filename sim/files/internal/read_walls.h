@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/files/table_reader.h"
+#include "base/text/table_reader.h"
 #include "sim/mission/mission.h"
 
 namespace swarmsmith {

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "base/text/table_reader.h"
 #include "sim/files/color_text.h"
-#include "sim/files/table_reader.h"
 
 namespace swarmsmith {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "sim/files/toml_text.h"
+#include "base/text/toml_text.h"
 #include "sim/mission/score.h"
 
 namespace swarmsmith {

@@ -4,9 +4,9 @@
 #include <sstream>
 #include <vector>
 
+#include "base/text/table_reader.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "sim/files/color_text.h"
-#include "sim/files/table_reader.h"
 #include "tests/coordinator/campaign/campaign_support.h"
 #include "tests/support/score_rules.h"
 

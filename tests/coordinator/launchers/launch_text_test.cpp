@@ -2,12 +2,12 @@
 
 #include <gmock/gmock.h>
 
+#include "base/process/process.h"
 #include "coordinator/launchers/host_file.h"
 #include "coordinator/launchers/slurm_script.h"
 #include "coordinator/launchers/slurm_workers.h"
 #include "coordinator/launchers/ssh_workers.h"
 #include "coordinator/launchers/worker_program.h"
-#include "target/process.h"
 
 namespace swarmsmith {
 namespace {

@@ -2,10 +2,10 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/text/whole_file.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/scenario_file.h"
 #include "irace_core/files/setup.h"
-#include "irace_core/files/whole_file.h"
 #include "tests/support/temporary_folder.h"
 
 namespace swarmsmith {

@@ -4,9 +4,9 @@
 #include <set>
 
 #include "base/rng.h"
+#include "base/text/whole_file.h"
 #include "irace_core/files/internal/setup_fields.h"
 #include "irace_core/files/number_text.h"
-#include "irace_core/files/whole_file.h"
 
 namespace swarmsmith {
 namespace {

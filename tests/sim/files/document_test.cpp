@@ -1,4 +1,4 @@
-#include "sim/files/document.h"
+#include "base/text/document.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "sim/files/document.h"
+#include "base/text/document.h"
 #include "sim/mission/polygon.h"
 #include "tests/sim/random_mission.h"
 

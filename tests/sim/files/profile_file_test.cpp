@@ -2,7 +2,7 @@
 
 #include <gmock/gmock.h>
 
-#include "sim/files/document.h"
+#include "base/text/document.h"
 #include "tests/sim/every_noise.h"
 
 namespace swarmsmith {

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
+#include "base/text/toml_text.h"
 #include "sim/files/color_text.h"
 #include "sim/files/mission_file.h"
-#include "sim/files/toml_text.h"
 #include "sim/mission/trajectory_csv.h"
 #include "tests/support/film/commands.h"
 

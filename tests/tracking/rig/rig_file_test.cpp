@@ -4,8 +4,8 @@
 #include <map>
 
 #include "base/math.h"
-#include "console/sha256.h"
-#include "sim/files/document.h"
+#include "base/text/document.h"
+#include "base/text/sha256.h"
 #include "tracking/rig/rig_file.h"
 
 namespace swarmsmith {

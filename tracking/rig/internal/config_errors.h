@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "sim/files/table_reader.h"
+#include "base/text/table_reader.h"
 
 namespace swarmsmith {
 

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <sys/types.h>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+
+namespace swarmsmith {
+
+/// A file descriptor that is closed with the object; -1 for none.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  Descriptor(Descriptor&& other) noexcept : number_(other.release()) {}
+  Descriptor& operator=(Descriptor&& other) noexcept;
+  ~Descriptor() { reset(); }
+
+  int get() const { return number_; }
+  int release();
+  void reset();
+
+ private:
+  int number_;
+};
+
+/// A program that was started, in a group of its own, and is not reaped.
+struct Child {
+  pid_t pid = 0;
+  Descriptor output;  ///< what it writes to standard output, not blocking
+  Descriptor errors;
+  Descriptor ended;  ///< readable when it has ended; none on kernels before 5.3
+};
+
+/// Starts `program` with these words (`words[0]` is the name that it sees) in a folder. Its group
+/// is guarded (base/process/guard.h) until somebody unguards it.
+Expected<Child> spawn(const std::string& program, const std::vector<std::string>& words,
+                      const std::string& folder);
+
+}  // namespace swarmsmith

@@ -1,0 +1,60 @@
+#include "cli/arguments/machine_words.h"
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace swarmsmith::cli {
+namespace {
+
+/// The first word of a machine's text.
+bool begins_machine(std::string_view word) {
+  return word.starts_with("--nstates") || word.starts_with("--fsm-config");
+}
+
+/// Whether the word is a switch of the grammar: a known stem, and then digits or DIGITSxDIGITS.
+bool is_machine_switch(std::string_view word) {
+  static constexpr std::array<std::string_view, 9> kStems = {"s", "rwm", "att", "rep", "n",
+                                                             "c", "p",   "w",   "l"};
+  if (begins_machine(word)) return true;
+  if (!word.starts_with("--")) return false;
+  word.remove_prefix(2);
+  for (const std::string_view stem : kStems) {
+    if (!word.starts_with(stem)) continue;
+    const std::string_view suffix = word.substr(stem.size());
+    const std::size_t cross = suffix.find('x');
+    if (suffix.empty() || suffix.front() == 'x' || suffix.back() == 'x') continue;
+    if (suffix.find_first_not_of("0123456789x") != std::string_view::npos) continue;
+    if (cross == std::string_view::npos || suffix.find('x', cross + 1) == std::string_view::npos) {
+      return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+std::vector<std::string> with_machine_as_one_word(std::vector<std::string> words) {
+  std::vector<std::string> changed;
+  std::size_t i = 0;
+  while (i < words.size() && words[i] != "--" && !begins_machine(words[i])) {
+    changed.push_back(words[i++]);
+  }
+  if (i == words.size()) return changed;
+  const bool everything = words[i] == "--";
+  if (everything) ++i;
+  std::string machine;
+  // A value follows its switch, so that only words after a value need to be switches.
+  bool value_next = false;
+  for (; i < words.size(); ++i) {
+    if (!everything && !value_next && !is_machine_switch(words[i])) break;
+    const bool whole_text = words[i].find(' ') != std::string::npos;
+    value_next = !value_next && !whole_text && words[i] != "--fsm-config";
+    machine += " " + words[i];
+  }
+  changed.push_back(std::move(machine));
+  changed.insert(changed.end(), words.begin() + static_cast<std::ptrdiff_t>(i), words.end());
+  return changed;
+}
+
+}  // namespace swarmsmith::cli

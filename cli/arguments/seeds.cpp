@@ -1,0 +1,48 @@
+#include "cli/arguments/seeds.h"
+
+#include <charconv>
+#include <optional>
+#include <string>
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::int64_t kLargestSeed = 2'147'483'647;
+constexpr std::size_t kMostSeeds = 10'000'000;
+
+/// The range of irace's seeds.
+std::optional<std::int64_t> parse_seed(std::string_view text) {
+  std::int64_t seed = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, seed);
+  if (error != std::errc() || stop != end || seed < 1 || seed > kLargestSeed) return std::nullopt;
+  return seed;
+}
+
+}  // namespace
+
+Expected<std::vector<std::int64_t>> parse_seeds(std::string_view text) {
+  std::vector<std::int64_t> seeds;
+  const auto wrong = [&] {
+    return bad_input("seeds are written like 1-10 or 1,4,7-9, from 1 to 2147483647; this is \"" +
+                         std::string(text) + "\"",
+                     "--seeds");
+  };
+  std::string_view rest = text;
+  while (true) {
+    const std::string_view part = rest.substr(0, rest.find(','));
+    const std::size_t dash = part.find('-');
+    const auto first = parse_seed(part.substr(0, dash));
+    const auto last = dash == std::string_view::npos ? first : parse_seed(part.substr(dash + 1));
+    if (!first || !last || *last < *first) return wrong();
+    if (static_cast<std::size_t>(*last - *first) + seeds.size() >= kMostSeeds) {
+      return bad_input("more than ten million seeds are too many", "--seeds");
+    }
+    for (std::int64_t seed = *first; seed <= *last; ++seed)
+      seeds.push_back(seed);
+    if (part.size() == rest.size()) return seeds;
+    rest.remove_prefix(part.size() + 1);
+  }
+}
+
+}  // namespace swarmsmith::cli

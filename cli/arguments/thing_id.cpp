@@ -1,0 +1,27 @@
+#include "cli/arguments/thing_id.h"
+
+namespace swarmsmith::cli {
+
+std::optional<ThingId> parse_thing_id(std::string_view text) {
+  constexpr std::string_view kDigits = "0123456789";
+  if (text.empty()) return std::nullopt;
+  ThingId id{.letter = text.front(), .digits = {}, .purpose = {}};
+  if (std::string_view("dcer").find(id.letter) == std::string_view::npos) return std::nullopt;
+  text.remove_prefix(1);
+  if (id.letter == 'e' && !text.empty() &&
+      std::string_view("ltas").find(text.back()) != std::string_view::npos) {
+    id.purpose = text.back();
+    text.remove_suffix(1);
+  }
+  if (text.empty() || text.size() > 18) return std::nullopt;
+  if (text.find_first_not_of(kDigits) != std::string_view::npos) return std::nullopt;
+  id.digits = text;
+  return id;
+}
+
+std::string is_evaluation(const ThingId& id) {
+  // e<candidate * 100,000 + pair>, the letter of the purpose behind it.
+  return "candidate = " + id.digits + " / 100000 AND id = 'e" + id.digits + id.purpose + "'";
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,44 @@
+#include <memory>
+
+#include "cli/arguments/world_argument.h"
+#include "cli/commands/assessment_text.h"
+#include "cli/commands/commands.h"
+#include "console/counter.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using assessment::Report;
+
+struct AssessArguments {
+  std::string flavour = "watermelon";
+  std::string profile = "rvr";
+};
+
+ExitCode run_assess(const AssessArguments& arguments, Output& output) {
+  const auto flavour = find_flavour(arguments.flavour);
+  if (!flavour) {
+    return fail(output, ExitCode::Usage,
+                {ErrorKind::BadInput, flavour.error().message, "--flavour"});
+  }
+  const auto profile = find_profile_or_complain(arguments.profile, "--profile", output);
+  if (!profile) return fail(output, ExitCode::Usage, profile.error());
+  Counter counter(output, "assessed", "modules");
+  const Report report = assessment::assess(
+      **flavour, *profile, [&counter](int done, int of) { counter.tell(done, of); });
+  output.out << (output.json ? assessment_json(report, (*flavour)->name, profile->name)
+                             : assessment_text(report, (*flavour)->name, profile->name));
+  return report.passes() && output.out.good() ? ExitCode::Done : ExitCode::Failed;
+}
+
+}  // namespace
+
+Run declare_assess(Options& options) {
+  auto arguments = std::make_shared<AssessArguments>();
+  options.text("--flavour", arguments->flavour,
+               "Flavour whose modules are assessed (default watermelon)");
+  options.text("--profile", arguments->profile, "Simulator profile (default rvr)");
+  return [arguments](Output& output) { return run_assess(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

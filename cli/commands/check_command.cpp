@@ -1,0 +1,109 @@
+#include <cstdio>
+#include <memory>
+
+#include "cli/arguments/campaign_argument.h"
+#include "cli/commands/commands.h"
+#include "cli/output/number_text.h"
+#include "cli/run/campaign_plan.h"
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/programs.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// `aggregation, grid_exploration x watermelon`
+std::string names_of(const Campaign& campaign) {
+  std::string text;
+  for (const CampaignMission& mission : campaign.missions) {
+    text += (text.empty() ? "" : ", ") + mission.mission.name;
+  }
+  text += " x ";
+  for (const Method& method : campaign.methods) {
+    text += (text.ends_with("x ") ? "" : ", ") + method.name;
+  }
+  return text;
+}
+
+std::string decimals(double value, const char* format) {
+  char buffer[32];
+  const int size = std::snprintf(buffer, sizeof buffer, format, value);
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+/// What all races may use: experiments, or the programs' own time.
+std::string budget_text(const Campaign& campaign, const CampaignPlan& plan) {
+  if (campaign.race.max_time > 0) {
+    return "as many as a time of " + json_number(campaign.race.max_time) + " a design is good for";
+  }
+  return grouped(plan.experiments) + " (at most " + grouped(plan.largest_budget) + " a design)";
+}
+
+/// Who evaluates, and how fast.
+std::string evaluation_text(const Campaign& campaign, const CampaignPlan& plan) {
+  if (plan.evaluation_s) {
+    return decimals(*plan.evaluation_s * 1e3, "%.3g") + " ms on one core of this machine";
+  }
+  return "by " + campaign.target->runner + ", up to " + std::to_string(plan.slots) + " at a time";
+}
+
+/// The plan for people.
+void write_text(Output& output, const Campaign& campaign, const CampaignPlan& plan) {
+  const std::string megabytes = decimals(plan.disk_bytes / 1e6, "%.1f");
+  output.out << "campaign     " << campaign.name << "\n"
+             << "store        " << campaign.store.string() << "\n"
+             << "designs      " << plan.designs << " = " << names_of(campaign) << " x "
+             << campaign.repetitions << " repetitions\n"
+             << "experiments  " << budget_text(campaign, plan) << ", and " << grouped(plan.tests)
+             << " tests of winners\n"
+             << "evaluation   " << evaluation_text(campaign, plan) << "\n";
+  if (plan.evaluation_s) {
+    output.out << "time         about " << duration_text(plan.time_s) << " on " << plan.slots
+               << (plan.slots == 1 ? " slot\n" : " slots\n");
+  }
+  output.out << "disk         about " << megabytes << " MB, and "
+             << decimals(plan.log_bytes / 1e6, "%.1f") << " MB of log while it runs\n"
+             << "digest       " << campaign_digest(campaign) << "\n";
+}
+
+/// The plan for programs.
+void write_json(Output& output, const Campaign& campaign, const CampaignPlan& plan) {
+  std::string warnings;
+  for (const std::string& warning : plan.warnings) {
+    warnings += (warnings.empty() ? "" : ",") + json_text(warning);
+  }
+  output.out << "{\"campaign\":" << json_text(campaign.name)
+             << ",\"store\":" << json_text(campaign.store.string())
+             << ",\"digest\":" << json_text(campaign_digest(campaign))
+             << ",\"designs\":" << plan.designs << ",\"experiments\":" << plan.experiments
+             << ",\"tests\":" << plan.tests << ",\"slots\":" << plan.slots << ",\"evaluation_ms\":"
+             << (plan.evaluation_s ? json_number(*plan.evaluation_s * 1e3) : "null")
+             << ",\"time_s\":" << (plan.evaluation_s ? json_number(plan.time_s) : "null")
+             << ",\"disk_bytes\":" << json_number(plan.disk_bytes)
+             << ",\"log_bytes\":" << json_number(plan.log_bytes) << ",\"warnings\":[" << warnings
+             << "]}\n";
+}
+
+ExitCode run_check(const std::string& file, Output& output) {
+  const auto campaign = read_or_complain(file, output);
+  if (!campaign) return ExitCode::Usage;
+  const std::vector<Error> faults = check_programs(*campaign);
+  for (const Error& fault : faults)
+    print_error(output, fault);
+  if (!faults.empty()) return ExitCode::Usage;
+  const CampaignPlan plan = plan_of(*campaign);
+  for (const std::string& warning : plan.warnings) {
+    print_note(output, "warning: " + file + ": " + warning);
+  }
+  output.json ? write_json(output, *campaign, plan) : write_text(output, *campaign, plan);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_check(Options& options) {
+  auto file = std::make_shared<std::string>();
+  options.text("FILE", *file, "The campaign file", Options::Need::Required);
+  return [file](Output& output) { return run_check(*file, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,367 @@
+#include "cli/commands/commands.h"
+
+#include <array>
+
+#include "cli/arguments/machine_words.h"
+#include "cli/commands/irace_command.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::string_view kRunDetails =
+    R"(Designs control software as the campaign file says, with workers of its own, and prints the result.
+Without a file it runs a demo: color_selection, 2,000 experiments, beside a machine by hand and a random one, store demo.db. Every score is in the
+store as soon as it counts; Ctrl-C, kill -9, a power cut: the same command goes on where it was, and
+comes to the same answer. On a finished store it prints the result again. Several campaigns share the
+workers; each has the store that its file names, and the answer that it would have alone.
+
+Examples:
+  swarmsmith run
+  swarmsmith run campaign.toml
+  swarmsmith run campaign.toml --budget 10_000 --workers 2 --store tonight.db
+  swarmsmith run campaign.toml --workers slurm:16x64
+  swarmsmith run first.toml second.toml)";
+
+constexpr std::string_view kServeDetails =
+    R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. Beyond loopback
+connections are encrypted, and only listed keys come in: `swarmsmith keygen` makes them, and
+docs/security.md tells the rest. How the coordinator is found stands in STORE.coordinator as long as
+it runs.
+
+Examples:
+  swarmsmith serve campaign.toml
+  swarmsmith serve campaign.toml --bind 0.0.0.0:5555
+  swarmsmith serve campaign.toml --bind 0.0.0.0:5555 --keys thesis-keys --advertise login1)";
+
+constexpr std::string_view kWorkerDetails =
+    R"(Evaluates for a coordinator until there is nothing more to do. SIGTERM lets it finish what it is
+at; it can come and go at any time. Starts the program swarmsmith-worker.
+
+Examples:
+  swarmsmith worker --connect 127.0.0.1:5555 --slots 4
+  swarmsmith worker --coordinator thesis.db.coordinator
+  swarmsmith worker --connect login1:5555 --key worker.key)";
+
+constexpr std::string_view kKeygenDetails =
+    R"(Makes a folder with the coordinator's key (server.key), a key for each role (worker.key,
+operator.key, reader.key), and the list of those who may connect (clients.toml); or, with --client,
+one more key in such a folder. Nothing is overwritten, and secrets are in files of mode 0600 only.
+
+Examples:
+  swarmsmith keygen
+  swarmsmith keygen thesis-keys
+  swarmsmith keygen thesis-keys --client guest --role reader --expires 2027-01-31)";
+
+constexpr std::string_view kPauseDetails =
+    R"(Nothing more of the designs is leased to workers; what runs ends, and counts. They stay paused, also
+when the coordinator is started again, until somebody resumes them. The answer does not change.
+
+Examples:
+  swarmsmith pause demo.db
+  swarmsmith pause d2 d3 demo.db)";
+
+constexpr std::string_view kResumeDetails = R"(Examples:
+  swarmsmith resume demo.db
+  swarmsmith resume d2 demo.db)";
+
+constexpr std::string_view kCancelDetails =
+    R"(The design stops after the step of its race that it has come to, with the best candidate so far; the
+others go on. The step is in the store: a campaign that is run again stops there, too. For good.
+
+Example:
+  swarmsmith cancel d2 demo.db)";
+
+constexpr std::string_view kExtendDetails =
+    R"(A design whose race is over, or will be, goes on from its end with further iterations. That is another
+race than one that had the larger budget from the start (docs/irace.md). The designs of a campaign that
+nobody runs go on when it is run again.
+
+Example:
+  swarmsmith extend d1 demo.db --budget 5_000 && swarmsmith run)";
+
+constexpr std::string_view kVerifyDetails =
+    R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
+budget and winner with what is stored; checks the file itself, too. Evaluates some of it again: all
+rejections and 64 scores, or as many as --sample says. Exit code 0 when all is clean.
+
+Examples:
+  swarmsmith verify demo.db
+  swarmsmith verify demo.db --sample 5_000)";
+
+constexpr std::string_view kInitDetails = R"(Examples:
+  swarmsmith init mine
+  swarmsmith init mine --mission grid_exploration && swarmsmith run mine/campaign.toml)";
+
+constexpr std::string_view kCheckDetails =
+    R"(Reads the file, prints all that is wrong with it (exit code 2), or the plan. Simulates for about half
+a second to say how long the campaign will take on this machine.
+
+Examples:
+  swarmsmith check campaign.toml
+  swarmsmith check campaign.toml --json)";
+
+constexpr std::string_view kEvaluateDetails =
+    R"(Simulates the machine once for each seed, in this process. A larger score is better, in every mission.
+Scores of a store's candidates are stored there, with the profile as their source; `best` are the winners
+of the finished designs. With --json one line a run: {"seed":1,"score":2}.
+
+Examples:
+  swarmsmith evaluate best demo.db
+  swarmsmith evaluate best demo.db --profile pseudo-reality
+  swarmsmith evaluate c812 demo.db --seeds 1-100 --no-store
+  swarmsmith evaluate best.fsm
+  swarmsmith evaluate best.fsm --mission my_mission.toml --profile my_rvr.toml
+  swarmsmith evaluate --nstates 1 --s0 0 --rwm0 10 --flavour watermelon --mission grid_exploration
+  swarmsmith evaluate --flavour watermelon-argos3 --profile argos3 --mission color_selection \
+      --seeds 1-100 --starts starts.csv --patches patches.csv machine.fsm)";
+
+constexpr std::string_view kAssessDetails =
+    R"(Runs each behaviour 5 times and each condition 10 times with three robots for 120 s, and compares what
+they do with what they promise; below that, how often conditions fired against their probability. Exit
+code 0 when all modules pass, 1 when one fails: under a profile with much noise some may, and a line
+says why. docs/assessment.md tells what is measured, and how.
+
+Examples:
+  swarmsmith assess
+  swarmsmith assess --flavour watermelon-argos3 --profile argos3
+  swarmsmith assess --json)";
+
+constexpr std::string_view kReplayDetails =
+    R"(Simulates a stored evaluation again and checks that score and final state have the same bits as
+stored; exit code 1 when they have not. Writes it down on the way: poses, commands, states and
+readings as CSV, a picture as SVG (docs/trajectories.md).
+
+Examples:
+  swarmsmith replay e100001 demo.db
+  swarmsmith replay e100001 demo.db --csv run.csv --readings ground_color,proximity
+  swarmsmith replay c1 demo.db --seed 7 --svg run.svg
+  swarmsmith replay c1 demo.db --seed 7 --svg - --at 60 > minute.svg
+  swarmsmith replay --sample 100 demo.db)";
+
+constexpr std::string_view kProfileDetails =
+    R"(A built-in profile as a commented file, to change and to name in a campaign file: profile =
+"my_rvr.toml". Without a name it lists the built-in ones.
+
+Examples:
+  swarmsmith profile
+  swarmsmith profile pseudo-reality
+  swarmsmith profile rvr -o my_rvr.toml)";
+
+constexpr std::string_view kStatusDetails =
+    R"(Asks the running coordinator, where one is known: campaigns, why slots idle, designs, hosts with the
+worst first. Else it reads the store. On a terminal --watch redraws one screen until Ctrl-C or the end;
+elsewhere it writes a line every 5 s. docs/observability.md explains the numbers.
+
+Examples:
+  swarmsmith status demo.db
+  swarmsmith status --connect 127.0.0.1:5555 --watch
+  SWARMSMITH_STORE=demo.db swarmsmith status --watch)";
+
+constexpr std::string_view kExplainDetails =
+    R"(Which race asked for the evaluation and whether it counted there, who evaluated it, what went wrong on
+the way (lost, expired, failed, other results), and how to simulate it again.
+
+Examples:
+  swarmsmith explain e1000007 demo.db
+  swarmsmith explain e1000007 demo.db --json)";
+
+constexpr std::string_view kLsDetails =
+    R"(Conditions and order are SQL over the columns, which --json shows all of.
+
+Examples:
+  swarmsmith ls designs demo.db
+  swarmsmith ls candidates demo.db --where "n_states = 2 AND mean > 2.5" --sort "mean DESC" --limit 10
+  swarmsmith ls evaluations demo.db --where "status <> 'ok'" --json)";
+
+constexpr std::string_view kShowDetails = R"(Examples:
+  swarmsmith show d1 demo.db
+  swarmsmith show c812 demo.db --json)";
+
+constexpr std::string_view kQueryDetails =
+    R"(Without a statement it lists the views, which are the store's public schema (docs/storage.md).
+Statements may only read. Ids are numbers here: design 3, candidate 812.
+
+Examples:
+  swarmsmith query demo.db
+  swarmsmith query "SELECT * FROM v_leaderboard" demo.db
+  swarmsmith query "SELECT seed, score FROM v_design_scores" demo.db --csv > scores.csv)";
+
+constexpr std::string_view kFigureDetails =
+    R"(The ending of the file says what is written: the picture (.svg; .pdf and .png with librsvg2-bin; .tex of machines), or the
+numbers in it (.csv). docs/figures.md shows what each kind tells.
+
+Examples:
+  swarmsmith figure box thesis.db -o performance.pdf
+  swarmsmith figure modules thesis.db --method watermelon --width 175mm -o modules.svg
+  swarmsmith figure convergence thesis.db --mission aggregation > convergence.svg
+  swarmsmith figure scores thesis.db -o scores.csv)";
+constexpr std::string_view kCompareDetails =
+    R"(Summaries and tests of what the designs' winners scored outside of the race. By source, the same designs
+are compared in simulation and reality (signed-rank); by method, designs of one mission and source
+(rank-sum); over missions, ranks (Friedman). What makes no sense is left out. docs/statistics.md has
+the formulas.
+
+Examples:
+  swarmsmith compare thesis.db
+  swarmsmith compare thesis.db --by method --mission aggregation
+  swarmsmith compare thesis.db --by mission
+  swarmsmith compare thesis.db --csv > p-values.csv)";
+
+constexpr std::string_view kExportDetails =
+    R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
+With --format irace the campaign, from its file or its store, becomes a folder of irace's files in which
+`irace --scenario scenario.txt` does one of its designs, with this simulator behind the target-runner.
+Pictures show states and conditions with their parameters (docs/machines.md); PDF needs rsvg-convert.
+With --format argos each machine becomes a file that the ARGoS of the thesis runs.
+
+Examples:
+  swarmsmith export demo.db -o best.fsm
+  swarmsmith export demo.db --design d1 --format svg --width 174mm -o best.svg
+  swarmsmith export demo.db --what elites --format json
+  swarmsmith export campaign.toml --format irace --design d1 -o folder)";
+
+constexpr std::string_view kImportDetails =
+    R"(Without --into: turns a scenario of irace, with the files that it names, into a campaign file that runs
+the same race. `swarmsmith irace` runs a scenario as it is.
+
+With --into: takes results from elsewhere into a store, all or nothing, and a second time nothing.
+  scores    CSV with score (or cost), who (candidate, design, fsm_id, or mission, method, repetition), and
+            source, seed, instance, time, note
+  machines  a text a line, or CSV with fsm (or fsm_config), fsm_id, mission, method
+  logs      irace.Rdata (needs Rscript), or the folder of its tables
+
+Examples:
+  swarmsmith import scenario.txt -o campaign.toml
+  swarmsmith import robots.csv --source real --into demo.db
+  swarmsmith import machines.txt --flavour watermelon-argos3 --mission aggregation --into theirs.db
+  swarmsmith import irace.Rdata --into tuning.db)";
+
+constexpr std::string_view kReportDetails =
+    R"(What was asked, results, statistics, a chapter a design with its machine and its race, and where it all
+comes from: one HTML file without scripts that opens offline and prints. docs/report.md tells what is
+in it.
+
+Examples:
+  swarmsmith report demo.db
+  swarmsmith report demo.db -o thesis.html --design d1 --design d3)";
+
+constexpr std::string_view kSupplementDetails =
+    R"(A new folder with what goes beside a paper: all scores, controllers as text, JSON and drawings, figures
+with their numbers, the report, campaign file, a README and checksums. The same store gives the same
+bytes. docs/report.md tells what is in it.
+
+Example:
+  swarmsmith supplement thesis.db -o supplement && cd supplement && sha256sum -c SHA256SUMS)";
+
+constexpr std::string_view kDigestDetails =
+    R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
+number of workers and the history of crashes.
+
+Example:
+  swarmsmith digest demo.db)";
+
+constexpr std::string_view kBackupDetails =
+    R"(A whole copy of the store as it is now, also while a campaign runs; checked, and never over another
+file. The copy has this program's schema: so an old store is brought up to date without touching it.
+
+Examples:
+  swarmsmith backup demo.db demo-monday.db
+  swarmsmith backup thesis-2024.db thesis.db)";
+
+constexpr std::string_view kMergeDetails =
+    R"(Puts the campaigns of several stores into a new one, to be read together: figures, tables, queries.
+Designs are numbered on from store to store (c3 of the second store, after one with two designs, is
+c2000003), and the answer of each campaign stays as it was. The stores are not changed; the new one is
+for reading, campaigns go on in their own.
+
+Examples:
+  swarmsmith merge aggregation.db grid.db color.db -o thesis.db
+  swarmsmith ls designs thesis.db)";
+
+constexpr std::string_view kRecoverDetails =
+    R"(Makes a new store of what can be read of a damaged one: every whole row of every page that is left,
+also without the file's header. What follows from scores is derived from them anew, and what is missing
+is said. Run the campaign on the new store: it evaluates what was lost, and comes to the same answer.
+
+Examples:
+  swarmsmith recover demo.db -o rescued.db && swarmsmith run --store rescued.db
+  swarmsmith recover thesis.db -o rescued.db --campaign thesis.toml)";
+
+constexpr std::string_view kIraceDetails =
+    R"(Takes the place of irace: reads the same scenario, parameter, instance and configuration files, calls
+the same target-runner, means the same by the same options, and ends with the same report. All that
+happens is in the store that logFile names; after Ctrl-C, kill -9 or a failing target the same command
+goes on where it was, and comes to the same answer with any number of workers.
+
+Examples:
+  swarmsmith irace --init
+  swarmsmith irace --check
+  swarmsmith irace --scenario scenario.txt --max-experiments 1000 --seed 42 --parallel 8
+  swarmsmith irace --only-test configurations.txt
+  swarmsmith irace --psrace --psrace-max-experiments 200
+  swarmsmith irace --ablation --ablation-csv ablation.csv
+  swarmsmith irace -s scenario.txt | sed '1,/as commandlines/d')";
+
+constexpr std::array kCommands = {
+    Command{"run", "Run a campaign, or go on with it", kRunDetails, declare_run},
+    Command{"init", "Write a commented campaign file", kInitDetails, declare_init},
+    Command{"check", "Check a campaign file and show its plan", kCheckDetails, declare_check},
+    Command{"profile", "Print a simulator profile, to make one's own", kProfileDetails,
+            declare_profile},
+    Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
+    Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
+    Command{"pause", "Pause a design, or all of a campaign", kPauseDetails, declare_pause},
+    Command{"resume", "Resume what was paused", kResumeDetails, declare_resume},
+    Command{"cancel", "End a design as it stands", kCancelDetails, declare_cancel},
+    Command{"extend", "Give a design more budget", kExtendDetails, declare_extend},
+    Command{"keygen", "Make keys for coordinator, workers and people", kKeygenDetails,
+            declare_keygen},
+    Command{"irace", "Configure an algorithm as irace does, from irace's files", kIraceDetails,
+            nullptr, run_irace},
+    Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},
+    Command{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
+            declare_ls},
+    Command{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
+    Command{"explain", "Tell the history of one evaluation", kExplainDetails, declare_explain},
+    Command{"query", "Ask a store in SQL", kQueryDetails, declare_query},
+    Command{"compare", "Compare sources or methods by statistical tests", kCompareDetails,
+            declare_compare},
+    Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate,
+            nullptr, with_machine_as_one_word},
+    Command{"assess", "Measure whether each module does what it promises", kAssessDetails,
+            declare_assess},
+    Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
+            declare_replay},
+    Command{"figure", "Draw a figure of a store, as SVG, PDF, PNG, CSV or TeX", kFigureDetails,
+            declare_figure},
+    Command{"export", "Write machines out of a store", kExportDetails, declare_export},
+    Command{"import", "Take in scenarios, scores, machines and logs from elsewhere", kImportDetails,
+            declare_import},
+    Command{"report", "Write all that a store tells as one HTML file", kReportDetails,
+            declare_report},
+    Command{"supplement", "Write a folder of files to publish beside a paper", kSupplementDetails,
+            declare_supplement},
+    Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
+    Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
+    Command{"backup", "Copy a store, also while a campaign runs", kBackupDetails, declare_backup},
+    Command{"merge", "Put several stores into a new one, for reading", kMergeDetails,
+            declare_merge},
+    Command{"recover", "Make a new store of what is left of a damaged one", kRecoverDetails,
+            declare_recover},
+    Command{"track", "Score runs of real robots, filmed from above", "", nullptr, run_track},
+    Command{"version", "Print the version", "", declare_version},
+};
+
+}  // namespace
+
+std::span<const Command> commands() {
+  return kCommands;
+}
+
+ExitCode run_program(const std::vector<std::string>& arguments, Output& output) {
+  const Program program{"swarmsmith", "Designs control software for robot swarms.", kCommands,
+                        "Begin with `swarmsmith run` (a demo) or `swarmsmith init`."};
+  return run_program(program, arguments, output);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,249 @@
+// pause, resume, cancel and extend: what people ask of a campaign, whether somebody runs it or not.
+
+#include <sys/types.h>
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <filesystem>
+#include <memory>
+#include <thread>
+
+#include "cli/arguments/store_argument.h"
+#include "cli/arguments/thing_id.h"
+#include "cli/commands/commands.h"
+#include "cli/run/command_at_rest.h"
+#include "cli/run/coordinator_link.h"
+#include "coordinator/campaign/campaign.h"
+#include "proto/access/address.h"
+#include "proto/access/coordinator_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// A coordinator that is starting writes its file after having read its stores.
+constexpr std::chrono::milliseconds kLookAgain{100};
+constexpr int kLooks = 100;
+
+struct Arguments {
+  std::string kind;
+  std::vector<std::string> words;
+  std::string store;
+  CoordinatorArgument coordinator;
+  std::optional<std::int64_t> budget;
+};
+
+/// The words, sorted.
+struct Wish {
+  std::string store;  ///< empty: only the coordinator is named
+  std::vector<DesignId> designs;
+};
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value == nullptr ? "" : value;
+}
+
+std::optional<DesignId> design_in(const std::string& word) {
+  const auto id = parse_thing_id(word);
+  if (!id || id->letter != 'd') return std::nullopt;
+  return DesignId{std::stoll(id->digits)};
+}
+
+Expected<Wish> wish_of(const Arguments& arguments) {
+  Wish wish{.store = arguments.store, .designs = {}};
+  for (const std::string& word : arguments.words) {
+    if (const auto design = design_in(word)) {
+      wish.designs.push_back(*design);
+    } else if (wish.store.empty()) {
+      wish.store = word;
+    } else {
+      return bad_input("`" + word +
+                       "` is one word too many: there is a store already, and a "
+                       "design is written d3");
+    }
+  }
+  if (wish.store.empty()) wish.store = environment("SWARMSMITH_STORE");
+  const bool named =
+      arguments.coordinator.is_named() || !environment("SWARMSMITH_COORDINATOR").empty();
+  if (!wish.store.empty() || named) return wish;
+  return bad_input("of which campaign? Name its store, or its coordinator by --coordinator FILE");
+}
+
+Expected<void> check(const Arguments& arguments, const Wish& wish) {
+  const bool of_designs = arguments.kind == "cancel" || arguments.kind == "extend";
+  if (of_designs && wish.designs.empty()) {
+    return bad_input("which design? Name it, d1, or several: each acts at a step of its own");
+  }
+  if (arguments.kind == "extend" && !arguments.budget) {
+    return bad_input("how many experiments more? Say it by --budget N");
+  }
+  return {};
+}
+
+/// Left behind by a coordinator of this host that was killed.
+bool is_stale(const CoordinatorFile& file) {
+  return file.host == name_of_this_host() && kill(static_cast<pid_t>(file.pid), 0) != 0 &&
+         errno == ESRCH;
+}
+
+/// Whether the file of the coordinator that runs now is there, after having waited for it.
+bool stands(const std::filesystem::path& file) {
+  for (int look = 0; look < kLooks; ++look) {
+    const auto found = read_coordinator_file(file);
+    if (found ? !is_stale(*found) : found.error().kind != ErrorKind::NotFound) return true;
+    if (look + 1 < kLooks) std::this_thread::sleep_for(kLookAgain);
+  }
+  return false;
+}
+
+/// A command to one campaign, for one design after the other.
+class Control {
+ public:
+  Control(Output& output, const Arguments& arguments, Wish wish)
+      : output_(output), arguments_(arguments), wish_(std::move(wish)) {}
+
+  ExitCode run() {
+    if (wish_.store.empty()) return by_wire(environment("SWARMSMITH_COORDINATOR"));
+    const auto reader = StoreReader::open(wish_.store);
+    if (!reader) return fail(output_, exit_code_of_store(reader.error()), reader.error());
+    if (const auto all = (*reader)->campaigns(); all.size() > 1) {
+      return fail(output_, ExitCode::Store,
+                  Error{ErrorKind::Conflict,
+                        "the store holds " + std::to_string(all.size()) +
+                            " campaigns and is there to be read; name the campaign's own store",
+                        wish_.store});
+    }
+    campaign_ = (*reader)->campaign();
+    const std::vector<DesignRow> designs = (*reader)->designs();
+    for (const DesignId design : wish_.designs) {
+      if (std::ranges::find(designs, design, &DesignRow::id) != designs.end()) continue;
+      return fail(
+          output_, ExitCode::NoSuchId,
+          Error{ErrorKind::NotFound,
+                "the campaign has no such design; it has d1 to " + to_string(designs.back().id),
+                to_string(design)});
+    }
+    if (arguments_.coordinator.is_named()) return by_wire("");
+    auto store = Store::open(wish_.store, campaign_, designs);
+    if (store) return at_rest(**store);
+    if (store.error().kind == ErrorKind::Conflict) return by_wire(file_of_runner(store.error()));
+    return fail(output_, exit_code_of_store(store.error()), store.error());
+  }
+
+ private:
+  /// Somebody runs the campaign: the file beside the store says where, or the environment.
+  std::string file_of_runner(const Error& in_use) {
+    const std::filesystem::path beside = coordinator_file_of(real_store(wish_.store));
+    const std::string named = environment("SWARMSMITH_COORDINATOR");
+    std::error_code none;
+    const bool elsewhere = !named.empty() && !std::filesystem::exists(beside, none);
+    if (!elsewhere && stands(beside)) return beside.string();
+    if (named.empty()) print_error(output_, in_use);
+    return named.empty() ? beside.string() : named;
+  }
+
+  ExitCode by_wire(const std::string& file) {
+    const CoordinatorSearch search = arguments_.coordinator.search(file);
+    return each([&](const CommandRow& command) {
+      return command_by_wire(search, campaign_.digest, command);
+    });
+  }
+
+  ExitCode at_rest(Store& store) {
+    return each([&](const CommandRow& command) {
+      return command_at_rest(store, campaign_, wish_.store, command);
+    });
+  }
+
+  /// All that were named, whatever becomes of one; the first that fails makes the exit code.
+  template <class Ask>
+  ExitCode each(const Ask& ask) {
+    std::vector<DesignId> designs = wish_.designs;
+    if (designs.empty()) designs.emplace_back();
+    ExitCode code = ExitCode::Done;
+    for (const DesignId design : designs) {
+      const Expected<std::string> done = ask(CommandRow{.kind = arguments_.kind,
+                                                        .design = design,
+                                                        .step = std::nullopt,
+                                                        .budget = arguments_.budget.value_or(0),
+                                                        .who = user_and_host()});
+      if (done) {
+        write(design, *done);
+        continue;
+      }
+      const ErrorKind kind = done.error().kind;
+      const bool away = kind == ErrorKind::Unavailable || kind == ErrorKind::NotFound;
+      fail(output_, away ? ExitCode::Unreachable : ExitCode::Failed, done.error());
+      if (code == ExitCode::Done) code = away ? ExitCode::Unreachable : ExitCode::Failed;
+    }
+    return code;
+  }
+
+  void write(DesignId design, const std::string& sentence) {
+    if (!output_.json) {
+      output_.out << sentence << "\n";
+      return;
+    }
+    output_.out << "{\"command\":" << json_text(arguments_.kind)
+                << ",\"design\":" << (design ? json_text(to_string(design)) : "null")
+                << ",\"done\":" << json_text(sentence) << "}\n";
+  }
+
+  Output& output_;
+  const Arguments& arguments_;
+  Wish wish_;
+  CampaignRow campaign_;
+};
+
+Run declare(const std::string& kind, Options& options) {
+  auto arguments = std::make_shared<Arguments>();
+  arguments->kind = kind;
+  const bool of_all = kind == "pause" || kind == "resume";
+  options.words("STORE", arguments->words,
+                std::string("The campaign's store (else SWARMSMITH_STORE), and designs, d1 d2") +
+                    (of_all ? "; without any, all that are not over" : ""));
+  options.text("--store", arguments->store, "The campaign's store");
+  if (kind == "extend") {
+    options.integer("--budget", arguments->budget, {1, kLargestBudget}, "Experiments more");
+  }
+  CoordinatorArgument& coordinator = arguments->coordinator;
+  options.text("--coordinator", coordinator.coordinator,
+               "File of the coordinator that runs the campaign (default: STORE.coordinator, else "
+               "SWARMSMITH_COORDINATOR)");
+  options.text("--connect", coordinator.connect, "In place of the file: its address, HOST:PORT");
+  options.text("--key", coordinator.key,
+               "Key file of an operator (default: SWARMSMITH_KEY, else operator.key in "
+               "SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
+  options.flag("--insecure-plaintext", coordinator.insecure_plaintext,
+               "Talk to a coordinator on another host that does not encrypt");
+  return [arguments](Output& output) {
+    auto wish = wish_of(*arguments);
+    if (!wish) return fail(output, ExitCode::Usage, wish.error());
+    if (const auto checked = check(*arguments, *wish); !checked) {
+      return fail(output, ExitCode::Usage, checked.error());
+    }
+    return Control(output, *arguments, std::move(*wish)).run();
+  };
+}
+
+}  // namespace
+
+Run declare_pause(Options& options) {
+  return declare("pause", options);
+}
+
+Run declare_resume(Options& options) {
+  return declare("resume", options);
+}
+
+Run declare_cancel(Options& options) {
+  return declare("cancel", options);
+}
+
+Run declare_extend(Options& options) {
+  return declare("extend", options);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,276 @@
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "cli/commands/commands.h"
+#include "cli/output/mean_interval.h"
+#include "cli/output/progress_text.h"
+#include "cli/replay/evaluation_plan.h"
+#include "cli/replay/recording.h"
+#include "cli/replay/score_keeper.h"
+#include "console/counter.h"
+#include "sim/engine/simulate.h"
+#include "storage/answer.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct EvaluateOptions : EvaluateArguments {
+  RecordingArguments recording;
+};
+
+/// For people: mean and interval.
+void write_summary(std::ostream& out, const std::vector<double>& scores) {
+  const MeanInterval summary = mean_interval(scores);
+  const auto shown = [](double value) {
+    char buffer[32];
+    const int size = std::snprintf(buffer, sizeof buffer, "%.6g", value);
+    return std::string(buffer, static_cast<std::size_t>(size));
+  };
+  out << "mean " << shown(summary.mean);
+  if (scores.size() > 1) {
+    out << "  95 % interval " << shown(summary.mean - summary.half_width) << " to "
+        << shown(summary.mean + summary.half_width);
+  }
+  out << "  n " << scores.size() << "\n";
+}
+
+/// What a picture says of the run; a machine given as text has no name.
+std::vector<std::string> details_of(const EvaluateOptions& arguments, std::int64_t seed,
+                                    double score) {
+  const std::size_t first = arguments.machine.find_first_not_of(' ');
+  const bool is_text = arguments.machine.compare(first, 2, "--") == 0;
+  const std::string name =
+      is_text ? "" : std::filesystem::path(arguments.machine).filename().string();
+  return {name, "seed " + std::to_string(seed), "score " + score_text(score)};
+}
+
+/// Also counts the cycles of a run that takes seconds; for others it would cost more than it says.
+Recorder counted(Recorder recorder, const Mission& mission, Counter& counter) {
+  constexpr std::int64_t kLongRun = 500'000;  // robots times cycles
+  if (std::int64_t{mission.robots} * mission.cycles < kLongRun) return recorder;
+  const Sensors sensors = recorder.sensors;
+  return {[observe = std::move(recorder.observe), &mission, &counter](const Snapshot& now) {
+            counter.tell(now.cycle, mission.cycles);
+            if (observe) observe(now);
+          },
+          sensors};
+}
+
+/// One run as it is told.
+struct Told {
+  const EvaluationJob* job = nullptr;
+  std::int64_t seed = 0;
+  double score = 0;
+  std::optional<ScoreKeeper::Kept> kept;  ///< nothing: it is printed only
+};
+
+using How = ScoreKeeper::Kept::How;
+
+std::string as_json(const Told& told) {
+  std::string text = "{";
+  if (const CandidateId candidate = told.job->candidate) {
+    text += "\"design\":" + json_text(to_string(design_of(candidate))) +
+            ",\"candidate\":" + json_text(to_string(candidate)) +
+            ",\"source\":" + json_text(told.job->profile.name) + ",";
+  } else if (!told.job->name.empty()) {
+    text += "\"machine\":" + json_text(told.job->name) + ",";
+  }
+  text += "\"seed\":" + std::to_string(told.seed) + ",\"score\":" + json_number(told.score);
+  if (told.kept) {
+    constexpr const char* kHow[] = {"new", "known", "conflict"};
+    text += ",\"id\":" + json_text(to_string(told.kept->key)) +
+            ",\"stored\":" + json_text(kHow[static_cast<std::size_t>(told.kept->how)]);
+  }
+  return text + "}\n";
+}
+
+std::string as_line(const Told& told) {
+  std::string text;
+  if (const CandidateId candidate = told.job->candidate) {
+    text = to_string(design_of(candidate)) + "  " + to_string(candidate) + "  " +
+           told.job->profile.name + "  ";
+  } else if (!told.job->name.empty()) {
+    text += told.job->name + "  ";
+  }
+  text += "seed " + std::to_string(told.seed) + "  score " + json_number(told.score);
+  if (told.kept && told.kept->how == How::New) text += "  stored as " + to_string(told.kept->key);
+  if (told.kept && told.kept->how == How::Known)
+    text += "  was stored as " + to_string(told.kept->key);
+  return text + "\n";
+}
+
+/// Both scores of one place.
+Error conflict_of(const Told& told) {
+  return {ErrorKind::Conflict,
+          "seed " + std::to_string(told.seed) + " gives score " + json_number(told.score) +
+              ", and the store holds " + json_number(told.kept->stored) +
+              " or another last state; both are kept, the first one counts. Another version of the "
+              "program made one of them, or a machine computes wrongly",
+          to_string(told.kept->key)};
+}
+
+std::int64_t runs_of(const EvaluationPlan& plan) {
+  std::size_t runs = 0;
+  for (const EvaluationJob& job : plan.jobs)
+    runs += job.seeds.size();
+  return static_cast<std::int64_t>(runs);
+}
+
+/// Runs the jobs one after the other, and tells of each run.
+class Evaluation {
+ public:
+  Evaluation(const EvaluateOptions& arguments, const EvaluationPlan& plan, Output& output)
+      : arguments_(arguments),
+        plan_(plan),
+        output_(output),
+        answer_(arguments.recording.takes_standard_output() ? output.err : output.out),
+        counter_(output, "simulated", "runs"),
+        of_(runs_of(plan)) {}
+
+  ExitCode run() {
+    if (plan_.stores) {
+      auto keeper = ScoreKeeper::open(*arguments_.store.path());
+      if (!keeper) return fail(output_, ExitCode::Store, keeper.error());
+      keeper_ = std::move(*keeper);
+    }
+    auto recording = Recording::start(arguments_.recording, plan_.jobs.front().mission,
+                                      plan_.jobs.front().machine, output_);
+    if (!recording) {
+      return fail(output_, exit_code_of_recording(recording.error()), recording.error());
+    }
+    for (const EvaluationJob& job : plan_.jobs) {
+      for (std::size_t i = 0; i < job.seeds.size(); ++i)
+        run_one(job, i, recording->recorder());
+      // A design at a time, so that little is lost when this is ended.
+      if (!keeper_) continue;
+      if (auto written = keeper_->commit(); !written) {
+        return fail(output_, ExitCode::Store, written.error());
+      }
+    }
+    counter_.tell(of_, of_);
+    const auto written = recording->finish(details_of(arguments_, plan_.jobs.front().seeds.front(),
+                                                      scores_.empty() ? 0 : scores_.front()),
+                                           plan_.jobs.front().instances.front());
+    if (!written) return fail(output_, ExitCode::Failed, written.error());
+    if (!output_.json && plan_.jobs.size() == 1 && !scores_.empty())
+      write_summary(answer_, scores_);
+    return output_.out.good() && !conflicts_ && !rejected_ ? ExitCode::Done : ExitCode::Failed;
+  }
+
+ private:
+  void run_one(const EvaluationJob& job, std::size_t i, Recorder recorder) {
+    Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(job.seeds[i]));
+    const auto begin = std::chrono::steady_clock::now();
+    const SimulationResult result = simulate({.machine = job.machine,
+                                              .flavour = job.flavour,
+                                              .profile = job.profile,
+                                              .mission = job.mission,
+                                              .instance = job.instances[i],
+                                              .seed = job.seeds[i]},
+                                             counted(std::move(recorder), job.mission, cycles));
+    const auto wall = std::chrono::duration_cast<std::chrono::microseconds>(
+        std::chrono::steady_clock::now() - begin);
+    if (!std::isfinite(result.score)) return reject(job, job.seeds[i], result.score);
+    scores_.push_back(result.score);
+    Told told{.job = &job, .seed = job.seeds[i], .score = result.score, .kept = {}};
+    if (keeper_) {
+      const ScorePlace place{.candidate = job.candidate,
+                             .source = job.profile.name,
+                             .instance = {},
+                             .seed = told.seed};
+      told.kept = keeper_->keep(place, result, wall.count());
+    }
+    if (of_ > 1) counter_.tell(static_cast<std::int64_t>(scores_.size()), of_);
+    if (output_.json) {
+      output_.out << as_json(told);
+    } else {
+      answer_ << as_line(told);
+    }
+    if (!told.kept || told.kept->how != How::Conflict) return;
+    conflicts_ = true;
+    print_error(output_, conflict_of(told));
+  }
+
+  /// A campaign would reject it, so it is neither counted nor stored.
+  void reject(const EvaluationJob& job, std::int64_t seed, double score) {
+    rejected_ = true;
+    if (output_.json)
+      output_.out << as_json({.job = &job, .seed = seed, .score = score, .kept = {}});
+    print_error(output_,
+                {ErrorKind::BadInput,
+                 std::string("the score is ") + (std::isnan(score) ? "no number" : "infinite") +
+                     ", and a campaign rejects such an evaluation",
+                 "seed " + std::to_string(seed)});
+  }
+
+  const EvaluateOptions& arguments_;
+  const EvaluationPlan& plan_;
+  Output& output_;
+  std::ostream& answer_;
+  Counter counter_;
+  std::int64_t of_;
+  std::optional<ScoreKeeper> keeper_;
+  std::vector<double> scores_;
+  bool conflicts_ = false;
+  bool rejected_ = false;
+};
+
+ExitCode run(const EvaluateOptions& arguments, Output& output) {
+  const auto plan = plan_evaluations(arguments, output);
+  if (!plan) {
+    const Error& error = plan.error();
+    const bool no_candidate = error.kind == ErrorKind::NotFound && error.where.empty();
+    const bool no_store = error.kind != ErrorKind::BadInput && !no_candidate;
+    const bool of_files = error.where == arguments.starts || error.where == arguments.patches;
+    if (no_store && !of_files) return fail(output, ExitCode::Store, error);
+    return fail(output, no_candidate ? ExitCode::NoSuchId : ExitCode::Usage, error);
+  }
+  if (arguments.recording.any() && runs_of(*plan) > 1) {
+    return fail(output, ExitCode::Usage,
+                "--seeds: tables and pictures are of one run; name one seed");
+  }
+  return Evaluation(arguments, *plan, output).run();
+}
+
+}  // namespace
+
+Run declare_evaluate(Options& options) {
+  auto arguments = std::make_shared<EvaluateOptions>();
+  options.text("MACHINE", arguments->machine,
+               "Text that begins with --nstates or --fsm-config, a file of machines, a candidate "
+               "(c812), or best: "
+               "the winner of each finished design",
+               Options::Need::Required);
+  options.text("--flavour", arguments->flavour,
+               "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
+               "candidate's or the file's)");
+  options.text(
+      "--profile", arguments->profile,
+      "Simulator profile: rvr, argos3, pseudo-reality or a file (default: the candidate's or the "
+      "file's, else rvr)");
+  options.text(
+      "--mission", arguments->mission,
+      "aggregation, grid_exploration, color_selection or a file (default: the candidate's or the "
+      "file's)");
+  options.text("--campaign", arguments->campaign,
+               "Campaign file or store that says flavour, profile and mission");
+  options.texts("--design", arguments->designs,
+                "Which of the campaign's designs (default: d1, when they differ in repetition "
+                "alone); with best as often as you like (default: all)");
+  options.text(
+      "--seeds", arguments->seeds,
+      "Seeds of the runs: 1-10 or 1,4,7-9 (default: those of the tests that the file names, else "
+      "1-10; for candidates one that no race or test of the store had)");
+  options.text("--starts", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
+  options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");
+  options.flag("--no-store", arguments->no_store,
+               "Only print the scores of candidates, and do not store them");
+  arguments->store.declare(options, true);
+  arguments->recording.declare(options);
+  return [arguments](Output& output) { return run(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

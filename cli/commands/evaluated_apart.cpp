@@ -1,0 +1,106 @@
+#include "cli/commands/evaluated_apart.h"
+
+#include <fcntl.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <bit>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <exception>
+#include <optional>
+
+namespace swarmsmith::cli {
+namespace {
+
+/// What the child says of a run: how it ended, score, state digest.
+using Message = std::array<std::uint64_t, 3>;
+
+Again evaluate_here(const StoredRun& run, const EvaluateRun& evaluate) {
+  try {
+    const SimulationResult result = evaluate(run);
+    if (std::isfinite(result.score)) return {.end = Again::End::Scored, .result = result};
+  } catch (const std::exception&) {
+    // The reason of a run without a score is of no interest here.
+  }
+  return {.end = Again::End::Failed, .result = {}};
+}
+
+/// The child: says what it finds until it is done or dead. Its words on the error stream are those
+/// of a crash that is expected.
+[[noreturn]] void evaluate_and_tell(std::span<const StoredRun> runs, const EvaluateRun& evaluate,
+                                    int to) {
+  const struct rlimit none = {};
+  setrlimit(RLIMIT_CORE, &none);
+  if (const int null = open("/dev/null", O_WRONLY | O_CLOEXEC); null >= 0) dup2(null, 2);
+  for (const StoredRun& run : runs) {
+    const Again again = evaluate_here(run, evaluate);
+    const Message message = {static_cast<std::uint64_t>(again.end),
+                             std::bit_cast<std::uint64_t>(again.result.score),
+                             again.result.state_digest};
+    // Shorter than PIPE_BUF: all of it or nothing.
+    if (::write(to, message.data(), sizeof message) != sizeof message) _exit(1);
+  }
+  _exit(0);
+}
+
+/// The next word of the child; nothing when it is done or dead.
+std::optional<Again> hear(int from) {
+  Message message{};
+  std::size_t got = 0;
+  while (got < sizeof message) {
+    const ssize_t size =
+        ::read(from, reinterpret_cast<char*>(message.data()) + got, sizeof message - got);
+    if (size < 0 && errno == EINTR) continue;
+    if (size <= 0) return std::nullopt;
+    got += static_cast<std::size_t>(size);
+  }
+  return Again{.end = static_cast<Again::End>(message[0]),
+               .result = {.score = std::bit_cast<double>(message[1]), .state_digest = message[2]}};
+}
+
+/// Hears a child of its own about `runs`, until it is done or dead.
+Expected<std::vector<Again>> evaluate_in_child(std::span<const StoredRun> runs,
+                                               const EvaluateRun& evaluate) {
+  std::array<int, 2> ends{};
+  if (pipe2(ends.data(), O_CLOEXEC) != 0) {
+    return unexpected(ErrorKind::Unavailable, std::string("no pipe: ") + std::strerror(errno));
+  }
+  const pid_t child = fork();
+  if (child == 0) evaluate_and_tell(runs, evaluate, ends[1]);
+  const int reason = errno;
+  close(ends[1]);
+  std::vector<Again> heard;
+  while (child > 0 && heard.size() < runs.size()) {
+    const std::optional<Again> again = hear(ends[0]);
+    if (!again) break;
+    heard.push_back(*again);
+  }
+  close(ends[0]);
+  if (child < 0) {
+    return unexpected(ErrorKind::Unavailable,
+                      std::string("no process to evaluate in: ") + std::strerror(reason));
+  }
+  while (waitpid(child, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  return heard;
+}
+
+}  // namespace
+
+Expected<std::vector<Again>> evaluate_apart(std::span<const StoredRun> runs,
+                                            const EvaluateRun& evaluate) {
+  std::vector<Again> all;
+  while (all.size() < runs.size()) {
+    const auto heard = evaluate_in_child(runs.subspan(all.size()), evaluate);
+    if (!heard) return Unexpected(heard.error());
+    all.insert(all.end(), heard->begin(), heard->end());
+    if (all.size() < runs.size()) all.push_back({.end = Again::End::Killed, .result = {}});
+  }
+  return all;
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,200 @@
+#include <memory>
+#include <optional>
+
+#include "base/shown_text.h"
+#include "cli/arguments/store_argument.h"
+#include "cli/arguments/thing_id.h"
+#include "cli/commands/commands.h"
+#include "cli/output/query_output.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct ExplainArguments {
+  std::string id;
+  StoreArgument store;
+};
+
+/// Everything that the store knows of one evaluation, the outcome last.
+struct History {
+  Rows candidate;
+  Rows evaluation;  ///< none while it has no outcome
+  Rows steps;       ///< of the race, in which it counted
+  Rows attempts;    ///< leases that did not simply end with the result
+  Rows failures;
+  Rows conflicts;
+  Rows worker;  ///< who gave the outcome
+};
+
+/// The text of a column of the first row; empty when it is null or there is no row.
+std::string cell(const Rows& rows, const std::string& column) {
+  for (std::size_t i = 0; i < rows.columns.size() && !rows.cells.empty(); ++i) {
+    if (rows.columns[i] == column) return rows.cells.front()[i].text;
+  }
+  return {};
+}
+
+Expected<History> read_history(StoreReader& store, const ThingId& id) {
+  const std::string candidate = id.digits + " / 100000";
+  const std::string pair = id.digits + " % 100000";
+  const std::string is_it = is_evaluation(id);
+  const std::string design = "(" + candidate + " - 1) / 1000000 + 1";
+  History history;
+  const std::pair<std::string, Rows*> parts[] = {
+      {"SELECT candidate, design, iteration, parent, fsm_config, parameters, eliminated_in, "
+       "eliminated_at, eliminated_by FROM v_candidates WHERE candidate = " +
+           candidate,
+       &history.candidate},
+      {"SELECT * FROM v_evaluations WHERE " + is_it, &history.evaluation},
+      {"SELECT m.iteration, m.step, m.rank, s.marker, s.alive_before, s.alive_after FROM "
+       "v_race_matrix AS m JOIN v_race_steps AS s ON s.design = m.design AND s.step = m.step "
+       "WHERE m.design = " +
+           design + " AND m.candidate = " + candidate + " AND m.pair = " + pair +
+           (id.purpose.empty() ? "" : " AND 0") + " ORDER BY m.step",
+       &history.steps},
+      {"SELECT at, attempt, worker, host, held_ms, outcome FROM v_attempts WHERE " + is_it +
+           " ORDER BY at, attempt",
+       &history.attempts},
+      {"SELECT at, attempt, worker, host, reason, command, output, errors FROM v_failures WHERE " +
+           is_it + " AND at IS NOT NULL ORDER BY at",
+       &history.failures},
+      {"SELECT time AS at, kept_score, other_score, other_worker FROM conflict WHERE candidate = " +
+           candidate + " AND pair = " + pair + " AND purpose = " +
+           (id.purpose.empty() ? "0" : std::to_string(1 + std::string("ltas").find(id.purpose))) +
+           " ORDER BY time",
+       &history.conflicts},
+      {"SELECT w.worker, w.host, w.pid, w.job, w.client, w.build, w.state FROM v_workers AS w "
+       "WHERE "
+       "w.worker = (SELECT worker FROM v_evaluations WHERE " +
+           is_it + ")",
+       &history.worker}};
+  for (const auto& [sql, rows] : parts) {
+    auto found = select(store, sql);
+    if (!found) return Unexpected(found.error());
+    *rows = std::move(*found);
+  }
+  letter_ids(history.candidate);
+  letter_ids(history.evaluation);
+  return history;
+}
+
+std::string why(const History& history) {
+  const std::string purpose = cell(history.evaluation, "purpose");
+  if (purpose == "test") return "a test of its candidate after the race, outside of the budget";
+  if (purpose == "audit") return "an audit: a second worker, bits compared";
+  if (purpose == "score") return "a person scored the candidate";
+  if (purpose == "evaluator") return "a call of the targetEvaluator";
+  const std::string iteration = cell(history.evaluation, "iteration");
+  if (iteration.empty()) return "looked ahead: no race has wanted it";
+  const std::string step = cell(history.steps, "step");
+  return "the race of iteration " + iteration + (step.empty() ? "" : ", first in step " + step);
+}
+
+std::string used(const History& history) {
+  const std::string iteration = cell(history.evaluation, "iteration");
+  if (cell(history.evaluation, "purpose") != "race") return "not by the race";
+  if (history.steps.cells.empty()) {
+    return iteration.empty() ? "no" : "not in a step that is over";
+  }
+  return "in " + std::to_string(history.steps.cells.size()) + " step" +
+         (history.steps.cells.size() == 1 ? "" : "s") + " of the race";
+}
+
+void write_line(Output& output, const char* name, const std::string& value) {
+  if (!value.empty())
+    output.out << name << std::string(12 - std::string(name).size(), ' ')
+               << as_shown(value, Layout::Escaped) << "\n";
+}
+
+void write_outcome(Output& output, const std::string& id, const History& history) {
+  const Rows& evaluation = history.evaluation;
+  write_line(output, "asked for", why(history));
+  write_line(output, "pair",
+             cell(evaluation, "pair") + ", instance " + cell(evaluation, "instance") + ", seed " +
+                 cell(evaluation, "seed"));
+  const std::string score = cell(evaluation, "score");
+  write_line(output, "outcome",
+             cell(evaluation, "status") + (score.empty() ? "" : ", score " + score) + ", attempt " +
+                 cell(evaluation, "attempt") + ", " + cell(evaluation, "wall_ms") + " ms");
+  const Rows& worker = history.worker;
+  if (!worker.cells.empty()) {
+    const std::string job = cell(worker, "job");
+    const std::string client = cell(worker, "client");
+    write_line(output, "worker",
+               cell(worker, "worker") + " on " + cell(worker, "host") + ", pid " +
+                   cell(worker, "pid") + (job.empty() ? "" : ", job " + job) +
+                   (client.empty() ? "" : ", key " + client) + ", build " + cell(worker, "build") +
+                   " (" + cell(worker, "state") + ")");
+  }
+  write_line(output, "used", used(history));
+  write_line(output, "replay", "swarmsmith replay " + id + " STORE");
+}
+
+void write_text(Output& output, const std::string& id, const History& history) {
+  output.out << "evaluation " << id << "\n";
+  const Rows& candidate = history.candidate;
+  write_line(output, "candidate",
+             cell(candidate, "candidate") + " of " + cell(candidate, "design") +
+                 ", made in iteration " + cell(candidate, "iteration"));
+  write_line(output, "machine", cell(candidate, "fsm_config"));
+  if (history.evaluation.cells.empty()) {
+    write_line(output, "outcome", "none yet");
+  } else {
+    write_outcome(output, id, history);
+  }
+  const std::pair<const char*, const Rows*> tables[] = {{"steps", &history.steps},
+                                                        {"attempts", &history.attempts},
+                                                        {"failures", &history.failures},
+                                                        {"conflicts", &history.conflicts}};
+  for (const auto& [name, rows] : tables) {
+    if (!rows->cells.empty()) output.out << "\n" << name << "\n" << rows_as_text(*rows);
+  }
+}
+
+/// Objects or null for what there is one of, arrays for the rest.
+void write_json(Output& output, const std::string& id, const History& history) {
+  const auto one = [](const Rows& rows) {
+    return rows.cells.empty() ? std::string("null") : row_as_json(rows, 0);
+  };
+  const bool has_outcome = !history.evaluation.cells.empty();
+  output.out << "{\"v\":1,\"id\":" << json_text(id) << ",\"candidate\":" << one(history.candidate)
+             << ",\"evaluation\":" << one(history.evaluation)
+             << ",\"asked_for\":" << (has_outcome ? json_text(why(history)) : "null")
+             << ",\"worker\":" << one(history.worker)
+             << ",\"steps\":" << rows_as_json(history.steps)
+             << ",\"attempts\":" << rows_as_json(history.attempts)
+             << ",\"failures\":" << rows_as_json(history.failures)
+             << ",\"conflicts\":" << rows_as_json(history.conflicts) << "}\n";
+}
+
+ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
+  const auto id = parse_thing_id(arguments.id);
+  if (!id || id->letter != 'e') {
+    return fail(output, ExitCode::Usage,
+                "\"" + arguments.id + "\" is no id of an evaluation; they look like e100000007");
+  }
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const auto history = read_history(**store, *id);
+  if (!history) return fail(output, ExitCode::Store, history.error());
+  const bool is_known = !history->evaluation.cells.empty() || !history->attempts.cells.empty() ||
+                        !history->failures.cells.empty();
+  if (!is_known) {
+    return fail(output, ExitCode::NoSuchId, "the store knows nothing of " + arguments.id);
+  }
+  output.json ? write_json(output, arguments.id, *history)
+              : write_text(output, arguments.id, *history);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_explain(Options& options) {
+  auto arguments = std::make_shared<ExplainArguments>();
+  options.text("EVALUATION", arguments->id, "e100000007, or e100000007t of a test",
+               Options::Need::Required);
+  arguments->store.declare(options);
+  return [arguments](Output& output) { return run_explain(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

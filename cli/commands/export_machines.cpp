@@ -1,0 +1,157 @@
+#include "cli/commands/export_machines.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "analysis/figures/machine_figure.h"
+#include "analysis/machines/machine_drawing.h"
+#include "console/pdf.h"
+#include "console/terminal.h"
+#include "console/whole_file.h"
+#include "coordinator/campaign/argos_experiment.h"
+#include "coordinator/campaign/campaign_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kWidest_mm = 1000;
+
+std::string ending_of(const std::string& format) {
+  return format == "tikz" ? "tex" : format;
+}
+
+Expected<double> width_of(const MachineExport& what) {
+  if (what.width.empty()) return 84;
+  const double width = millimetres_from_text(what.width);
+  if (width >= kNarrowestMachine_mm && width <= kWidest_mm) return width;
+  return bad_input(
+      "a machine's picture is 60mm to 1000mm wide (also cm, in), not \"" + what.width + "\"",
+      "--width");
+}
+
+Expected<std::string> picture_of(const MachineRecord& candidate, const StoredMachine& stored,
+                                 const MachineExport& what, double width) {
+  const MachineLayout layout = lay_out(stored.machine, *stored.flavour, width);
+  if (what.format == "tikz") return tikz_of(layout);
+  if (what.format == "dot") return dot_of(layout, title_of(candidate));
+  const std::string svg = svg_of(layout, title_of(candidate));
+  if (what.format == "pdf") return pdf_of_svg(svg);
+  return svg;
+}
+
+/// The mission as the store's campaign has it.
+Expected<Mission> mission_of(StoreReader& store, DesignId design, const std::string& name) {
+  const auto stored = store.campaign_of(design);
+  if (!stored) return Unexpected(stored.error());
+  if (stored->row.file.empty()) return built_in_mission(name);  // imported machines
+  const auto campaign = parse_campaign(stored->row.file, "campaign.toml");
+  if (!campaign) return Unexpected(campaign.error().front());
+  const auto found = std::ranges::find_if(
+      campaign->missions, [&](const CampaignMission& known) { return known.mission.name == name; });
+  if (found != campaign->missions.end()) return found->mission;
+  return unexpected(ErrorKind::NotFound,
+                    "the store's campaign does not say what the mission " + name + " is");
+}
+
+Expected<std::string> experiment_of(StoreReader& store, const MachineRecord& candidate,
+                                    const StoredMachine& stored, const MachineExport& what) {
+  const auto mission = mission_of(store, candidate.design, candidate.mission);
+  if (!mission) return Unexpected(mission.error());
+  return argos_experiment({.machine = stored.machine,
+                           .mission = *mission,
+                           .seed = what.seed,
+                           .title = title_of(candidate)});
+}
+
+struct NamedBytes {
+  std::string name;
+  std::string bytes;
+};
+
+Expected<NamedBytes> written(StoreReader& store, CandidateId id, const MachineExport& what,
+                             double width) {
+  const auto record = candidate(store, id);
+  if (!record) return Unexpected(record.error());
+  const auto stored = machine_of(*record);
+  if (!stored) return Unexpected(stored.error());
+  auto bytes = what.format == "argos" ? experiment_of(store, *record, *stored, what)
+                                      : picture_of(*record, *stored, what, width);
+  if (!bytes) {
+    Error error = bytes.error();
+    error.where = to_string(id) + (error.where.empty() ? "" : ", " + error.where);
+    return Unexpected(std::move(error));
+  }
+  return NamedBytes{to_string(record->design) + "-" + to_string(id) + "." + ending_of(what.format),
+                    std::move(*bytes)};
+}
+
+/// Behaviours of another flavour do something else with the same numbers.
+void remark_flavours(StoreReader& store, CandidateId first, Output& output) {
+  const auto record = candidate(store, first);
+  if (!record || record->flavour == watermelon_argos3().name) return;
+  print_note(output, "the machines were designed for the flavour " + record->flavour +
+                         "; the original's modules are those of watermelon-argos3, so scores will "
+                         "differ (docs/flavours.md)");
+}
+
+ExitCode code_of(const Error& error) {
+  if (error.kind == ErrorKind::NotFound) return ExitCode::NoSuchId;
+  return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
+}
+
+}  // namespace
+
+ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& candidates,
+                         const MachineExport& what, Output& output) {
+  const auto width = width_of(what);
+  if (!width) return fail(output, ExitCode::Usage, width.error());
+  if (candidates.empty()) return ExitCode::Done;
+  const bool several = candidates.size() > 1;
+  if (what.place.empty() && (several || what.format == "pdf" || output.json)) {
+    return fail(output, ExitCode::Usage,
+                several ? std::to_string(candidates.size()) +
+                              " machines are as many files; name a folder with -o FOLDER, or one "
+                              "machine with --design or --candidate"
+                        : "name a file with -o FILE");
+  }
+  std::error_code trouble;
+  if (several && fs::path(what.place).extension() == "." + ending_of(what.format) &&
+      !fs::is_directory(what.place, trouble)) {
+    return fail(output, ExitCode::Usage,
+                {ErrorKind::BadInput,
+                 std::to_string(candidates.size()) +
+                     " machines are as many files; name a folder, or one machine with --design or "
+                     "--candidate",
+                 what.place});
+  }
+  const bool folder = several || fs::is_directory(what.place, trouble);
+  if (several) fs::create_directories(what.place, trouble);
+  if (several && !fs::is_directory(what.place, trouble)) {
+    return fail(output, ExitCode::Failed, cannot_write(what.place));
+  }
+  std::vector<std::string> files;
+  for (const CandidateId id : candidates) {
+    const auto text = written(store, id, what, *width);
+    if (!text) return fail(output, code_of(text.error()), text.error());
+    if (what.place.empty()) {
+      write_data(output, text->bytes);
+      continue;
+    }
+    files.push_back(folder ? (fs::path(what.place) / text->name).string() : what.place);
+    if (const auto done = write_whole_file(files.back(), text->bytes); !done) {
+      return fail(output, ExitCode::Failed, done.error());
+    }
+  }
+  if (what.format == "argos") remark_flavours(store, candidates.front(), output);
+  if (!output.json) return ExitCode::Done;
+  std::string list;
+  for (const std::string& file : files)
+    list += (list.empty() ? "" : ",") + json_text(file);
+  output.out << "{\"files\":[" << list << "]}\n";
+  return ExitCode::Done;
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,141 @@
+#include "cli/commands/figure_arguments.h"
+
+#include <algorithm>
+#include <charconv>
+#include <utility>
+
+#include "analysis/drawing/svg.h"
+#include "base/suggestion.h"
+#include "cli/arguments/score_words.h"
+#include "cli/arguments/thing_id.h"
+#include "cli/commands/trajectories_figure.h"
+#include "cli/output/query_output.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// The number behind `letter` in d3 or c812.
+Expected<std::int64_t> number_of(const std::string& text, char letter, const char* option) {
+  const auto id = parse_thing_id(text);
+  if (id && id->letter == letter) return std::stoll(id->digits);
+  const std::string example = letter == 'd' ? "d3" : "c812";
+  return bad_input("wants an id such as " + example + ", not \"" + text + "\"", option);
+}
+
+/// A name that no design of the store has, with those that there are.
+std::optional<Error> unknown_name(const std::string& given, const char* option,
+                                  std::vector<std::string> known) {
+  if (given.empty() || std::ranges::find(known, given) != known.end()) return std::nullopt;
+  std::ranges::sort(known);
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  return Error{ErrorKind::BadInput,
+               "the store has no \"" + given + "\"" + did_you_mean(given, known) +
+                   "; it has: " + joined(known),
+               option};
+}
+
+}  // namespace
+
+void FigureArguments::declare(Options& words) {
+  constexpr std::int64_t kLargest = 1'000'000;
+  std::vector<std::string> kinds;
+  for (const FigureKind& known : all_figure_kinds())
+    kinds.emplace_back(known.name);
+  words.choice("KIND", kind, kinds, "What to draw; without it all kinds are told");
+  store.declare(words);
+  words.text("-o,--output", file,
+             "Write to this .svg, .pdf, .png, .csv or .tex file (else SVG to standard output)");
+  words.text("--width", width, "Such as 84mm, 17.5cm or 3.3in (default 84mm)");
+  words.flag("--paper", options.paper,
+             "Without title, details and explanations, which a paper has in the caption");
+  words.text("--font", font, "Of the texts, where it is installed, such as \"Linux Libertine\"");
+  words.text("--mission", options.filter.mission, "Only of this mission");
+  words.text("--method", options.filter.method, "Only of this method");
+  words.text("--design", design, "Only of this design: d3");
+  words.text("--candidate", candidate, "Of this candidate: c812");
+  words.integer("--iteration", options.iteration, {1, kLargest}, "Of this iteration of the race");
+  words.choice("--by", options.by, {"source", "method", "mission"}, "What is compared");
+  words.text("--source", options.source, "Only scores of this source: a profile, real, ...");
+  words.choice("--purpose", purpose, {"test", "score", "all"}, kPurposeHelp);
+  words.choice("--per", per, {"run", "design"}, kPerHelp);
+  words.text("--parameter", options.parameter, "Of this parameter: rwm0");
+  words.texts("--seed", seeds, "Of runs of this seed; once for each");
+}
+
+std::vector<FigureKind> all_figure_kinds() {
+  std::vector<FigureKind> kinds(figure_kinds().begin(), figure_kinds().end());
+  kinds.push_back({.name = kTrajectories,
+                   .summary = "Runs of a machine from above, simulated again, side by side",
+                   .options = "design candidate seed"});
+  return kinds;
+}
+
+Expected<FigureOptions> read_options(const FigureArguments& arguments) {
+  FigureOptions options = arguments.options;
+  options.choice = score_choice(arguments.purpose, arguments.per);
+  if (!arguments.design.empty()) {
+    const auto design = number_of(arguments.design, 'd', "--design");
+    if (!design) return Unexpected(design.error());
+    options.filter.design = DesignId{*design};
+  }
+  if (!arguments.candidate.empty()) {
+    const auto candidate = number_of(arguments.candidate, 'c', "--candidate");
+    if (!candidate) return Unexpected(candidate.error());
+    options.candidate = CandidateId{*candidate};
+  }
+  if (arguments.width.empty()) return options;
+  options.width_mm = millimetres_from_text(arguments.width);
+  if (options.width_mm >= kLeastFigureWidth_mm && options.width_mm <= kMostFigureWidth_mm)
+    return options;
+  return bad_input("a figure is 60mm to 1000mm wide (also cm, in), not \"" + arguments.width + "\"",
+                   "--width");
+}
+
+Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments) {
+  constexpr std::int64_t kLargest = 2'147'483'647;
+  std::vector<std::int64_t> seeds;
+  if (!arguments.seeds.empty() && arguments.kind != kTrajectories)
+    return bad_input("means nothing to the figure `" + arguments.kind + "`", "--seed");
+  if (arguments.seeds.size() > kMostTrajectories) {
+    return bad_input("at most " + std::to_string(kMostTrajectories) + " runs are drawn", "--seed");
+  }
+  for (const std::string& text : arguments.seeds) {
+    std::int64_t seed = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+    const bool is_whole = error == std::errc() && end == text.data() + text.size();
+    if (!is_whole || seed < 1 || seed > kLargest)
+      return bad_input("wants a number from 1 to 2147483647, not \"" + text + "\"", "--seed");
+    seeds.push_back(seed);
+  }
+  return seeds;
+}
+
+std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options) {
+  const auto all = designs(store, {});
+  if (!all) return all.error();
+  std::vector<std::string> missions;
+  std::vector<std::string> methods;
+  bool has_design = !options.filter.design;
+  for (const DesignRecord& design : *all) {
+    missions.push_back(design.mission);
+    methods.push_back(design.method);
+    has_design = has_design || design.design == *options.filter.design;
+  }
+  if (auto error = unknown_name(options.filter.mission, "--mission", std::move(missions)))
+    return error;
+  if (auto error = unknown_name(options.filter.method, "--method", std::move(methods)))
+    return error;
+  if (!has_design) {
+    return Error{ErrorKind::NotFound,
+                 "the store has no design " + to_string(*options.filter.design), "--design"};
+  }
+  if (!options.candidate) return std::nullopt;
+  const auto found = select(store, "SELECT 1 FROM v_candidates WHERE candidate = " +
+                                       std::to_string(options.candidate->value));
+  if (!found) return found.error();
+  if (!found->cells.empty()) return std::nullopt;
+  return Error{ErrorKind::NotFound, "the store has no candidate " + to_string(*options.candidate),
+               "--candidate"};
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "analysis/figures/figure.h"
+#include "cli/arguments/store_argument.h"
+#include "console/options.h"
+
+namespace swarmsmith::cli {
+
+/// The words of the command `figure`, as typed.
+struct FigureArguments {
+  std::string kind;
+  StoreArgument store;
+  std::string file;
+  std::string width;
+  std::string font;
+  std::string design;
+  std::string candidate;
+  std::vector<std::string> seeds;
+  std::string purpose;
+  std::string per;
+  FigureOptions options;  ///< what needs no reading
+
+  void declare(Options& words);
+};
+
+/// The one kind that simulates; views alone do not have it.
+inline constexpr std::string_view kTrajectories = "trajectories";
+
+/// Those that are drawn from views, then `kTrajectories`, which has no maker.
+std::vector<FigureKind> all_figure_kinds();
+
+/// What the words mean, before any store is opened. Errors: BadInput, with the option.
+Expected<FigureOptions> read_options(const FigureArguments& arguments);
+/// Seeds of runs that are simulated again.
+Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments);
+
+/// What is asked for and not in the store: a mission, a method (BadInput), an id (NotFound);
+/// Corrupt for views of an older schema.
+std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,143 @@
+#include <filesystem>
+#include <memory>
+#include <utility>
+
+#include "analysis/drawing/svg.h"
+#include "analysis/figures/figure.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/figure_arguments.h"
+#include "cli/commands/trajectories_figure.h"
+#include "console/pdf.h"
+#include "console/terminal.h"
+#include "console/whole_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// A line a kind, with its options below it.
+std::string kinds_text() {
+  std::string text = "Kinds:\n";
+  for (const FigureKind& kind : all_figure_kinds()) {
+    const std::string name(kind.name);
+    text += "  " + name + std::string(name.size() < 12 ? 12 - name.size() : 1, ' ') +
+            std::string(kind.summary) + "\n";
+    std::string options(kind.options);
+    for (std::size_t at = 0; (at = options.find(' ', at)) != std::string::npos; at += 4)
+      options.replace(at, 1, ", --");
+    if (!options.empty()) text += std::string(14, ' ') + "--" + options + "\n";
+  }
+  return text;
+}
+
+std::string kinds_json() {
+  std::string text;
+  for (const FigureKind& kind : all_figure_kinds()) {
+    text += std::string(text.empty() ? "" : ",") + "{\"kind\":" + json_text(kind.name) +
+            ",\"summary\":" + json_text(kind.summary) + "}";
+  }
+  return "{\"kinds\":[" + text + "]}\n";
+}
+
+/// Rows below the headline; a row may have line feeds in quotes.
+std::size_t rows_of_csv(const std::string& csv) {
+  std::size_t rows = 0;
+  bool quoted = false;
+  for (const char letter : csv) {
+    if (letter == '"') quoted = !quoted;
+    if (letter == '\n' && !quoted) ++rows;
+  }
+  return rows == 0 ? 0 : rows - 1;
+}
+
+/// The ending of the file's name, which says what is written; ".svg" for standard output.
+Expected<std::string> ending_of(const FigureArguments& arguments, const Output& output) {
+  if (arguments.file.empty() || arguments.file == "-") {
+    if (!output.json) return std::string(".svg");
+    return bad_input("standard output has the answer of --json; name a file for the figure", "-o");
+  }
+  std::string ending = std::filesystem::path(arguments.file).extension().string();
+  for (const char* known : {".svg", ".pdf", ".png", ".csv", ".tex"})
+    if (ending == known) return ending;
+  return bad_input("the file's ending says what is written: .svg, .pdf, .png, .csv or .tex",
+                   arguments.file);
+}
+
+ExitCode exit_code_of(const Error& error) {
+  if (error.kind == ErrorKind::NotFound) return ExitCode::NoSuchId;
+  if (error.kind == ErrorKind::Corrupt) return ExitCode::Store;
+  return error.kind == ErrorKind::Conflict ? ExitCode::Failed : ExitCode::Usage;
+}
+
+/// The bytes of the file with this ending.
+Expected<std::string> bytes_of(Figure figure, const std::string& ending, const std::string& kind) {
+  if (ending == ".csv") return std::move(figure.csv);
+  if (ending == ".pdf") return pdf_of_svg(figure.svg);
+  if (ending == ".png") return png_of_svg(figure.svg);
+  if (ending == ".svg") return std::move(figure.svg);
+  if (!figure.tex.empty()) return std::move(figure.tex);
+  return bad_input("the figure `" + kind + "` has no TeX form; write an .svg, .pdf, .png or .csv",
+                   "-o");
+}
+
+ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, Output& output) {
+  const auto options = read_options(arguments);
+  if (!options) return fail(output, ExitCode::Usage, options.error());
+  if (const auto refused = refused_option(kind, *options))
+    return fail(output, ExitCode::Usage, *refused);
+  const auto seeds = read_seeds(arguments);
+  if (!seeds) return fail(output, ExitCode::Usage, seeds.error());
+  const auto ending = ending_of(arguments, output);
+  if (!ending) return fail(output, ExitCode::Usage, ending.error());
+  if ((*ending == ".csv" || *ending == ".tex") && (options->paper || !arguments.font.empty())) {
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput, "means nothing to a " + *ending + " file",
+                      options->paper ? "--paper" : "--font"});
+  }
+  auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  if (const auto missing = missing_in(**store, *options))
+    return fail(output, exit_code_of(*missing), *missing);
+  auto figure = kind.make != nullptr ? kind.make(**store, *options)
+                                     : trajectories_figure(std::move(*store), *options, *seeds);
+  if (!figure) return fail(output, exit_code_of(figure.error()), figure.error());
+  if (!arguments.font.empty()) {
+    auto dressed = with_font(std::move(figure->svg), arguments.font);
+    if (!dressed) return fail(output, ExitCode::Usage, dressed.error());
+    figure->svg = std::move(*dressed);
+  }
+  const std::size_t points = rows_of_csv(figure->csv);
+  const auto bytes = bytes_of(std::move(*figure), *ending, arguments.kind);
+  if (!bytes) {
+    const bool is_usage = bytes.error().kind == ErrorKind::BadInput;
+    return fail(output, is_usage ? ExitCode::Usage : ExitCode::Failed, bytes.error());
+  }
+  if (arguments.file.empty() || arguments.file == "-") {
+    write_data(output, *bytes);
+    return ExitCode::Done;
+  }
+  if (const auto written = write_whole_file(arguments.file, *bytes); !written)
+    return fail(output, ExitCode::Failed, written.error());
+  if (output.json) {
+    output.out << "{\"figure\":" << json_text(arguments.kind)
+               << ",\"file\":" << json_text(arguments.file) << ",\"points\":" << points << "}\n";
+  }
+  return ExitCode::Done;
+}
+
+ExitCode run_figure(const FigureArguments& arguments, Output& output) {
+  for (const FigureKind& kind : all_figure_kinds())
+    if (kind.name == arguments.kind) return draw_figure(kind, arguments, output);
+  output.out << (output.json ? kinds_json() : kinds_text());
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_figure(Options& options) {
+  auto arguments = std::make_shared<FigureArguments>();
+  arguments->declare(options);
+  options.explain(kinds_text());
+  return [arguments](Output& output) { return run_figure(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+
+#include "cli/run/campaign_run.h"
+#include "console/options.h"
+
+namespace swarmsmith::cli {
+
+/// Where a coordinator shows what it does.
+struct HttpFlags {
+  std::string http;
+  std::string token_file;
+
+  /// Declares --http and --http-token-file.
+  void declare(Options& options, const std::string& otherwise);
+  /// `otherwise` is where pages are served when nobody says; empty for nowhere.
+  void put(RunOptions& run, const std::string& otherwise) const;
+};
+
+}  // namespace swarmsmith::cli

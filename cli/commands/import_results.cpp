@@ -1,0 +1,238 @@
+#include "cli/commands/import_results.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <utility>
+
+#include "base/text/file_text.h"
+#include "cli/arguments/store_argument.h"
+#include "cli/commands/irace_converter.h"
+#include "coordinator/results/irace_log_rows.h"
+#include "coordinator/results/machine_import.h"
+#include "coordinator/results/score_import.h"
+#include "sim/files/mission_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Says at most so many errors.
+ExitCode fail_all(Output& output, const std::vector<Error>& errors) {
+  constexpr std::size_t kMost = 20;
+  for (std::size_t i = 0; i < std::min(kMost, errors.size()); ++i)
+    print_error(output, errors[i]);
+  if (errors.size() > kMost) {
+    print_error(output, {ErrorKind::BadInput,
+                         "and " + std::to_string(errors.size() - kMost) + " more", ""});
+  }
+  print_error(output, {ErrorKind::BadInput, "nothing was imported", ""});
+  return ExitCode::Usage;
+}
+
+/// The store that is imported into, locked, and what it holds.
+struct Target {
+  std::unique_ptr<StoreAtRest> store;
+  std::unique_ptr<StoreReader> reader;  ///< none of a new store
+  std::vector<KnownDesign> designs;
+};
+
+Expected<Target> open_target(const std::string& path, StoreAtRest::IfMissing if_missing) {
+  auto store = open_at_rest(path, if_missing);
+  if (!store) {
+    Error error = store.error();
+    if (error.kind == ErrorKind::Conflict) error.message += "; import when the campaign has ended";
+    return Unexpected(error);
+  }
+  Target target{.store = std::move(*store), .reader = {}, .designs = {}};
+  if (target.store->is_new()) return target;
+  auto reader = StoreReader::open(path);
+  if (!reader) return Unexpected(reader.error());
+  target.reader = std::move(*reader);
+  auto designs = known_designs(*target.reader);
+  if (!designs) return Unexpected(designs.error());
+  target.designs = std::move(*designs);
+  return target;
+}
+
+/// What was imported, for people who look at the store later.
+EventRow note_of(const ImportArguments& arguments, const std::string& what, std::size_t count) {
+  const std::string file = fs::path(arguments.file).filename().string();
+  return {.severity = "info",
+          .kind = "imported",
+          .text = "{\"file\":" + json_text(file) + ",\"what\":" + json_text(what) +
+                  ",\"count\":" + std::to_string(count) + "}"};
+}
+
+/// "d3", or "d3 to d5".
+std::string range_of(const std::vector<ImportedDesign>& designs) {
+  const std::string first = to_string(designs.front().row.id);
+  return designs.size() == 1 ? first : first + " to " + to_string(designs.back().row.id);
+}
+
+/// Adds a campaign, unless the store has the same one already.
+ExitCode add_campaign(const ImportArguments& arguments, Target target, Addition addition,
+                      const std::string& what, Output& output) {
+  if (target.reader) {
+    const auto digests = imported_digests(*target.reader);
+    if (!digests) return fail(output, ExitCode::Store, digests.error());
+    if (std::ranges::find(*digests, addition.campaign->digest) != digests->end()) {
+      print_note(output, "the store has imported the same before: nothing to add");
+      if (output.json) output.out << "{\"imported\":" << json_text(what) << ",\"designs\":[]}\n";
+      return ExitCode::Done;
+    }
+  }
+  addition.rows.emplace_back(note_of(arguments, what, addition.designs.size()));
+  if (auto added = target.store->add(addition); !added) {
+    return fail(output, ExitCode::Store, added.error());
+  }
+  if (output.json) {
+    std::string designs;
+    for (const ImportedDesign& design : addition.designs)
+      designs += (designs.empty() ? "" : ",") + json_text(to_string(design.row.id));
+    output.out << "{\"imported\":" << json_text(what) << ",\"designs\":[" << designs << "]}\n";
+  } else {
+    output.out << what << " imported: " << range_of(addition.designs) << " of campaign "
+               << addition.campaign->name << " in " << arguments.into << "\n";
+  }
+  return ExitCode::Done;
+}
+
+/// The name of the campaign that a file becomes: that of the file, where it is a name.
+std::string campaign_name(const ImportArguments& arguments) {
+  if (!arguments.name.empty()) return arguments.name;
+  const std::string stem = fs::path(arguments.file).stem().string();
+  return is_name(stem) ? stem : "imported";
+}
+
+ExitCode import_machines_into(const ImportArguments& arguments,
+                              OrErrors<std::vector<MachineText>> machines, Output& output) {
+  if (!machines) return fail_all(output, machines.error());
+  const auto named = flavour_of(*machines, arguments.flavour);
+  if (!named) return fail(output, ExitCode::Usage, named.error());
+  const auto flavour = find_flavour(*named);
+  if (!flavour) {
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput, flavour.error().message, "--flavour"});
+  }
+  const auto missions = read_mission_words(arguments.missions);
+  if (!missions) return fail(output, ExitCode::Usage, missions.error());
+  auto target = open_target(arguments.into, StoreAtRest::IfMissing::Make);
+  if (!target) return fail(output, ExitCode::Store, target.error());
+  auto addition =
+      import_machines(*machines, {.campaign = campaign_name(arguments),
+                                  .flavour = **flavour,
+                                  .missions = *missions,
+                                  .method = arguments.method.empty() ? *named : arguments.method,
+                                  .designs = target->designs});
+  if (!addition) return fail_all(output, addition.error());
+  return add_campaign(arguments, std::move(*target), std::move(*addition), "machines", output);
+}
+
+ExitCode import_log_into(const ImportArguments& arguments,
+                         const std::map<std::string, std::string>& texts, Output& output) {
+  IraceImport known{.campaign = campaign_name(arguments), .flavour = {}, .designs = {}};
+  if (!arguments.flavour.empty()) {
+    const auto flavour = find_flavour(arguments.flavour);
+    if (!flavour) {
+      return fail(output, ExitCode::Usage,
+                  Error{ErrorKind::BadInput, flavour.error().message, "--flavour"});
+    }
+    known.flavour = **flavour;
+  }
+  const auto missions = read_mission_words(arguments.missions);
+  if (!missions) return fail(output, ExitCode::Usage, missions.error());
+  if (!missions->of_all.empty()) known.mission = missions->of_all;
+  if (!arguments.method.empty()) known.method = arguments.method;
+  const auto log = read_irace_log(texts);
+  if (!log) return fail_all(output, log.error());
+  auto target = open_target(arguments.into, StoreAtRest::IfMissing::Make);
+  if (!target) return fail(output, ExitCode::Store, target.error());
+  known.designs = target->designs;
+  auto addition = irace_log_addition(*log, known);
+  if (!addition) return fail_all(output, addition.error());
+  return add_campaign(arguments, std::move(*target), std::move(*addition), "irace log", output);
+}
+
+ExitCode import_scores_into(const ImportArguments& arguments, const CsvTable& table,
+                            Output& output) {
+  const auto missions = read_mission_words(arguments.missions);
+  if (!missions) return fail(output, ExitCode::Usage, missions.error());
+  auto target = open_target(arguments.into, StoreAtRest::IfMissing::Refuse);
+  if (!target) return fail(output, ExitCode::Store, target.error());
+  auto ledger = ScoreLedger::read(*target->reader);
+  if (!ledger) return fail(output, ExitCode::Store, ledger.error());
+  std::optional<Error> trouble;
+  const auto has = [&](CandidateId candidate) {
+    const auto known = has_candidate(*target->reader, candidate);
+    if (!known) trouble = known.error();
+    return known.value_or(false);
+  };
+  auto scores = import_scores(table,
+                              {.missions = *missions,
+                               .source = arguments.source,
+                               .costs_of = arguments.costs_of,
+                               .replace = arguments.replace,
+                               .designs = target->designs,
+                               .has_candidate = has},
+                              std::move(*ledger));
+  if (trouble) return fail(output, ExitCode::Store, *trouble);
+  if (!scores) return fail_all(output, scores.error());
+  for (const std::string& column : scores->not_read)
+    print_note(output, "column " + column + " is not read");
+  const std::int64_t written = scores->added + scores->replaced;
+  if (written > 0) {
+    scores->addition.rows.emplace_back(
+        note_of(arguments, "scores", static_cast<std::size_t>(written)));
+    if (auto added = target->store->add(scores->addition); !added) {
+      return fail(output, ExitCode::Store, added.error());
+    }
+  }
+  if (output.json) {
+    output.out << "{\"imported\":\"scores\",\"added\":" << scores->added
+               << ",\"replaced\":" << scores->replaced << ",\"known\":" << scores->known << "}\n";
+  } else {
+    output.out << scores->added << " scores imported into " << arguments.into << ", "
+               << scores->replaced << " replaced, " << scores->known << " were there before\n";
+  }
+  return ExitCode::Done;
+}
+
+ExitCode import_table_into(const ImportArguments& arguments, const std::string& text,
+                           Output& output) {
+  const auto table = parse_csv(text, arguments.file);
+  if (!table) return fail_all(output, table.error());
+  if (has_machines(*table) && !has_scores(*table)) {
+    return import_machines_into(arguments, read_machine_table(*table), output);
+  }
+  if (has_scores(*table)) return import_scores_into(arguments, *table, output);
+  return fail(
+      output, ExitCode::Usage,
+      Error{ErrorKind::BadInput,
+            "neither scores nor machines: there is no column score, cost, fsm or fsm_config",
+            arguments.file});
+}
+
+}  // namespace
+
+ExitCode import_into_store(const ImportArguments& arguments, Output& output) {
+  std::error_code ignored;
+  if (fs::is_directory(arguments.file, ignored)) {
+    return import_log_into(arguments, read_log_folder(arguments.file), output);
+  }
+  const auto text = read_file(arguments.file, "file");
+  if (!text) return fail(output, ExitCode::Usage, text.error());
+  const std::string ending = fs::path(arguments.file).extension().string();
+  if (ending == ".csv") return import_table_into(arguments, *text, output);
+  if (ending != ".Rdata" && ending != ".RData" && ending != ".rda") {
+    return import_machines_into(arguments, read_machine_lines(*text, arguments.file), output);
+  }
+  const auto tables = convert_irace_log(arguments.file, output);
+  if (tables) return import_log_into(arguments, *tables, output);
+  const bool no_r = tables.error().kind == ErrorKind::Unavailable;
+  return fail(output, no_r ? ExitCode::Failed : ExitCode::Usage, tables.error());
+}
+
+}  // namespace swarmsmith::cli

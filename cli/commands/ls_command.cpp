@@ -1,0 +1,100 @@
+#include <array>
+#include <memory>
+
+#include "base/suggestion.h"
+#include "cli/arguments/store_argument.h"
+#include "cli/commands/commands.h"
+#include "cli/output/query_output.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// What can be listed: rows of a view, with the columns that fit on a screen and all of them.
+struct Kind {
+  std::string_view name;
+  std::string_view from;
+  std::string_view columns;
+  std::string_view order;
+};
+
+constexpr std::array<Kind, 6> kKinds = {{
+    {"designs", "v_designs",
+     "design, mission, method, repetition, state, iteration, used, budget, best_candidate, "
+     "best_mean",
+     "design"},
+    {"candidates", "v_candidates",
+     "candidate, design, iteration, parent, n_states, n_transitions, runs, mean, eliminated_in",
+     "candidate"},
+    {"evaluations", "v_evaluations",
+     "id, design, candidate, purpose, pair, seed, iteration, status, score, wall_ms, worker",
+     "candidate, purpose, pair"},
+    {"elites",
+     "(SELECT e.*, c.n_states, c.n_transitions, c.fsm_config FROM v_convergence AS e "
+     "JOIN v_candidates AS c ON c.candidate = e.candidate WHERE e.iteration = "
+     "(SELECT max(iteration) FROM v_convergence AS l WHERE l.design = e.design))",
+     "design, iteration, rank, candidate, mean, n, n_states, n_transitions", "design, rank"},
+    {"runs", "v_real_runs",
+     "id, name, mission, candidate, source, score, verdict, overridden_by, biased, robots, "
+     "recorded",
+     "run"},
+    {"workers", "v_workers", "worker, host, pid, slots, state, done, failed, first_seen, last_seen",
+     "worker"},
+}};
+
+struct LsArguments {
+  std::string kind;
+  StoreArgument store;
+  std::string where;
+  std::string sort;
+  std::optional<std::int64_t> limit;
+};
+
+/// The person's own words go into the statement: it may only read.
+std::string statement(const Kind& kind, const LsArguments& arguments, bool all_columns,
+                      bool several_campaigns) {
+  std::string columns(all_columns ? "*" : kind.columns);
+  if (!all_columns && several_campaigns && kind.name == "designs") columns += ", campaign";
+  std::string sql = "SELECT " + columns + " FROM " + std::string(kind.from);
+  if (!arguments.where.empty()) sql += " WHERE " + arguments.where;
+  sql += " ORDER BY " + (arguments.sort.empty() ? std::string(kind.order) : arguments.sort);
+  return sql;
+}
+
+ExitCode run_ls(const LsArguments& arguments, Output& output) {
+  constexpr std::int64_t kShown = 100;
+  constexpr std::int64_t kAll = 1'000'000'000;
+  const Kind* kind = nullptr;
+  for (const Kind& known : kKinds) {
+    if (known.name == arguments.kind) kind = &known;
+  }
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const bool several = (*store)->campaigns().size() > 1;
+  const std::int64_t limit = arguments.limit.value_or(output.json ? 0 : kShown);
+  auto rows = select(**store, statement(*kind, arguments, output.json, several),
+                     {.rows = limit == 0 ? kAll : limit});
+  if (!rows) return fail(output, ExitCode::Usage, rows.error());
+  letter_ids(*rows);
+  if (!output.json && is_of_programs(**store)) as_costs(*rows);
+  write_rows(output, *rows, output.json ? Form::Json : Form::Text);
+  if (rows->truncated) print_note(output, "`--limit 0` shows all");
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_ls(Options& options) {
+  auto arguments = std::make_shared<LsArguments>();
+  std::vector<std::string> kinds;
+  for (const Kind& kind : kKinds)
+    kinds.emplace_back(kind.name);
+  options.choice("KIND", arguments->kind, kinds, "What to list", Options::Need::Required);
+  arguments->store.declare(options);
+  options.text("--where", arguments->where, "Condition in SQL, such as \"mean > 2.5\"");
+  options.text("--sort", arguments->sort, "Columns to sort by, such as \"mean DESC\"");
+  options.integer("--limit", arguments->limit, {0, 1'000'000'000},
+                  "At most so many rows; 0 for all (default 100, all with --json)");
+  return [arguments](Output& output) { return run_ls(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

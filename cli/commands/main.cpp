@@ -1,0 +1,34 @@
+#include <exception>
+#include <new>
+#include <string>
+#include <vector>
+
+#include "cli/commands/commands.h"
+#include "storage/store.h"
+
+int main(int argc, char** argv) {
+  using namespace swarmsmith::cli;
+  Output output = standard_output();
+  try {
+    const std::vector<std::string> arguments(argv + 1, argv + argc);
+    const ExitCode code = run_program(arguments, output);
+    if (output.out.flush() || code != ExitCode::Done) return static_cast<int>(code);
+    return static_cast<int>(
+        fail(output, ExitCode::Failed,
+             "standard output: the answer could not be written; is the disk full, or the output "
+             "closed?"));
+  } catch (const swarmsmith::StoreFailure& failure) {
+    const std::string message = std::string("the store cannot be used: ") + failure.what() +
+                                "; take it from a backup, or let `swarmsmith recover` make a "
+                                "new store of what can be read";
+    return static_cast<int>(
+        fail(output, ExitCode::Store, {swarmsmith::ErrorKind::Corrupt, message, failure.file()}));
+  } catch (const std::bad_alloc&) {
+    return static_cast<int>(fail(output, ExitCode::Failed,
+                                 "there is not enough memory for this; try it with a smaller "
+                                 "budget, fewer seeds or fewer rows"));
+  } catch (const std::exception& error) {
+    // What the environment refused: a full disk, no memory, a store that goes away under us.
+    return static_cast<int>(fail(output, ExitCode::Failed, std::string(error.what())));
+  }
+}

@@ -1,0 +1,75 @@
+#include "base/shown_text.h"
+#include "storage/merge.h"
+
+#include <memory>
+
+#include "cli/commands/commands.h"
+#include "console/counter.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct MergeArguments {
+  std::vector<std::string> stores;
+  std::string out;
+};
+
+/// "d4 to d9".
+std::string designs_text(const StoredCampaign& campaign) {
+  if (campaign.designs == 0) return "no designs";
+  const std::string first = to_string(DesignId{campaign.designs_before + 1});
+  if (campaign.designs == 1) return first;
+  return first + " to " + to_string(DesignId{campaign.designs_before + campaign.designs});
+}
+
+void write(Output& output, const Merged& merged, const std::string& file) {
+  if (!output.json) {
+    for (const StoredCampaign& campaign : merged.campaigns)
+      output.out << as_shown(campaign.row.name, Layout::Escaped) << "  " << campaign.state << "  "
+                 << designs_text(campaign) << "\n";
+    output.out << file << ": " << merged.campaigns.size() << " campaigns, digest " << merged.digest
+               << "\n";
+    return;
+  }
+  std::string campaigns;
+  for (const StoredCampaign& campaign : merged.campaigns) {
+    campaigns += (campaigns.empty() ? "" : ",") + ("{\"campaign\":" + std::to_string(campaign.id)) +
+                 ",\"name\":" + json_text(campaign.row.name) +
+                 ",\"state\":" + json_text(campaign.state) +
+                 ",\"designs_before\":" + std::to_string(campaign.designs_before) +
+                 ",\"designs\":" + std::to_string(campaign.designs) + "}";
+  }
+  output.out << "{\"store\":" << json_text(file) << ",\"digest\":" << json_text(merged.digest)
+             << ",\"campaigns\":[" << campaigns << "]}\n";
+}
+
+ExitCode run_merge(const MergeArguments& arguments, Output& output) {
+  if (arguments.out.empty()) {
+    return fail(output, ExitCode::Usage,
+                "into which file? Name it by -o: `swarmsmith merge a.db b.db -o all.db`");
+  }
+  Counter counter(output, "merged", "stores");
+  const auto merged =
+      merge_stores({arguments.stores.begin(), arguments.stores.end()}, arguments.out,
+                   [&](std::int64_t done, std::int64_t of) { counter.tell(done, of); });
+  if (!merged) {
+    const bool about_out = merged.error().where == arguments.out;
+    return fail(output, about_out ? ExitCode::Failed : ExitCode::Store, merged.error());
+  }
+  for (const std::string& warning : merged->warnings)
+    print_note(output, "warning: " + warning);
+  write(output, *merged, arguments.out);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_merge(Options& options) {
+  auto arguments = std::make_shared<MergeArguments>();
+  options.words("STORE", arguments->stores, "The stores, in the order that their designs get",
+                Options::Need::Required);
+  options.text("-o,--output", arguments->out, "The new store's file");
+  return [arguments](Output& output) { return run_merge(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,79 @@
+#include <cstdint>
+#include <limits>
+#include <memory>
+
+#include "base/csv.h"
+#include "cli/arguments/store_argument.h"
+#include "cli/commands/commands.h"
+#include "cli/output/query_output.h"
+#include "console/terminal.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct QueryArguments {
+  StoreArgument store;
+  std::vector<std::string> words;
+  bool csv = false;
+};
+
+constexpr const char* kViews =
+    "SELECT v.name AS view, group_concat(c.name, ' ') AS columns "
+    "FROM sqlite_master AS v JOIN pragma_table_info(v.name) AS c "
+    "WHERE v.type = 'view' AND v.name GLOB 'v_*' GROUP BY v.name ORDER BY v.name";
+
+/// `query SQL STORE`, `query SQL` (the store from option or environment), `query STORE`; also
+/// `query STORE SQL`. A statement has blanks; a store's name that has them must be given with
+/// --store.
+std::string take_sql(QueryArguments& arguments) {
+  std::vector<std::string>& words = arguments.words;
+  const bool named = !arguments.store.option.empty();
+  if (!words.empty() && !named && words.front().find(' ') == std::string::npos) {
+    arguments.store.word = words.front();
+    words.erase(words.begin());
+  } else if (words.size() == 2 && !named && words.back().find(' ') == std::string::npos) {
+    arguments.store.word = words.back();
+    words.pop_back();
+  }
+  std::string sql;
+  for (const std::string& word : words)
+    sql += (sql.empty() ? "" : " ") + word;
+  return sql;
+}
+
+/// Writes rows as they come: a table of millions is not held.
+ExitCode write_csv(StoreReader& store, const std::string& sql, Output& output) {
+  const auto end = store.query(
+      sql, {.bytes = std::numeric_limits<std::int64_t>::max()},
+      [&](const std::vector<std::string>& columns) { write_data(output, csv_line(columns)); },
+      [&](const std::vector<StoreReader::Cell>& cells) {
+        write_data(output, cells_as_csv(cells));
+      });
+  if (!end) return fail(output, ExitCode::Usage, end.error());
+  if (end->truncated) note_truncated(output, static_cast<std::size_t>(end->rows));
+  return ExitCode::Done;
+}
+
+ExitCode run_query(QueryArguments& arguments, Output& output) {
+  const std::string sql = take_sql(arguments);
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const std::string statement = sql.empty() ? kViews : sql;
+  if (arguments.csv) return write_csv(**store, statement, output);
+  const auto rows = select(**store, statement);
+  if (!rows) return fail(output, ExitCode::Usage, rows.error());
+  write_rows(output, *rows, output.json ? Form::Json : Form::Text);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_query(Options& options) {
+  auto arguments = std::make_shared<QueryArguments>();
+  options.words("SQL_AND_STORE", arguments->words, "The statement, then the store's file");
+  arguments->store.declare(options, false);
+  options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
+  return [arguments](Output& output) { return run_query(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,182 @@
+#include "base/shown_text.h"
+#include "storage/recover.h"
+
+#include <memory>
+
+#include "cli/commands/commands.h"
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/design/rebuild.h"
+#include "coordinator/design/verify.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct RecoverArguments {
+  std::string damaged;
+  std::string out;
+  std::string campaign;
+};
+
+/// What is told at the end.
+struct Report {
+  std::vector<Rebuilt::Design> designs;  ///< by the ids of the new store
+  std::vector<std::string> complaints;
+};
+
+/// "100 whole rows; 3 pages and 2 rows cannot be read".
+std::string table_text(const SalvagedTable& table) {
+  std::string text = std::to_string(table.rows) + " rows";
+  if (table.tree_is_lost) text += " (where the table began is lost: there may have been more)";
+  if (table.lost_pages == 0 && table.broken == 0) return text;
+  text += "; lost: ";
+  if (table.lost_pages > 0) text += std::to_string(table.lost_pages) + " pages";
+  if (table.lost_pages > 0 && table.broken > 0) text += ", ";
+  if (table.broken > 0) text += std::to_string(table.broken) + " rows";
+  return text;
+}
+
+std::string design_text(const Rebuilt::Design& design) {
+  std::string text = to_string(design.id) + ": ";
+  if (design.missing == 0) {
+    text += "whole, ";
+  } else {
+    text += std::to_string(design.missing) + " evaluations are missing after ";
+  }
+  text += std::to_string(design.used) + " experiments";
+  if (design.ahead > 0) {
+    text += "; " + std::to_string(design.ahead) + " scores of what comes later are kept";
+  }
+  if (design.unasked > 0) {
+    text += "; " + std::to_string(design.unasked) + " scores of tests are left out";
+  }
+  return text;
+}
+
+std::string table_json(const SalvagedTable& table) {
+  return "{\"name\":" + json_text(table.name) + ",\"rows\":" + std::to_string(table.rows) +
+         ",\"lost_pages\":" + std::to_string(table.lost_pages) +
+         ",\"broken\":" + std::to_string(table.broken) +
+         ",\"tree_lost\":" + (table.tree_is_lost ? "true" : "false") + "}";
+}
+
+std::string design_json(const Rebuilt::Design& design) {
+  return "{\"design\":" + json_text(to_string(design.id)) +
+         ",\"used\":" + std::to_string(design.used) +
+         ",\"missing\":" + std::to_string(design.missing) +
+         ",\"ahead\":" + std::to_string(design.ahead) +
+         ",\"unasked\":" + std::to_string(design.unasked) + "}";
+}
+
+template <class Things, class Text>
+std::string json_list(const Things& things, Text text) {
+  std::string list;
+  for (const auto& thing : things)
+    list += (list.empty() ? "" : ",") + text(thing);
+  return "[" + list + "]";
+}
+
+void write(Output& output, const Salvaged& found, const Report& report, const Recovery::End& end,
+           const std::string& file) {
+  if (output.json) {
+    output.out << "{\"store\":" << json_text(file) << ",\"digest\":" << json_text(end.digest)
+               << ",\"evaluations\":" << end.evaluations << ",\"schema\":" << found.schema
+               << ",\"header_damaged\":" << (found.header_is_damaged ? "true" : "false")
+               << ",\"unplaced\":" << found.unplaced << ",\"orphans\":" << end.orphans
+               << ",\"tables\":" << json_list(found.tables, table_json)
+               << ",\"designs\":" << json_list(report.designs, design_json)
+               << ",\"complaints\":" << json_list(report.complaints, json_text) << "}\n";
+    return;
+  }
+  if (found.header_is_damaged) {
+    output.out << "the header is damaged; the pages look like schema " << found.schema << "\n";
+  }
+  for (const SalvagedTable& table : found.tables) {
+    if (table.rows > 0 || table.lost_pages > 0 || table.broken > 0 || table.tree_is_lost)
+      output.out << table.name << ": " << table_text(table) << "\n";
+  }
+  if (found.unplaced > 0) output.out << found.unplaced << " rows might be of several tables\n";
+  if (end.orphans > 0) {
+    output.out << end.orphans << " rows belong to what is lost, and were left out\n";
+  }
+  for (const Rebuilt::Design& design : report.designs)
+    output.out << as_shown(design_text(design), Layout::Escaped) << "\n";
+  for (const std::string& complaint : report.complaints)
+    output.out << as_shown(complaint, Layout::Escaped) << "\n";
+  output.out << file << ": " << end.evaluations << " evaluations, digest " << end.digest << "\n";
+}
+
+/// The file that a person names for a campaign whose row is lost.
+Expected<void> put_campaign(Recovery& recovery, const std::string& file) {
+  if (!recovery.campaigns().empty() || file.empty()) return {};
+  const auto campaign = read_campaign(file);
+  if (!campaign) return Unexpected(campaign.error().front());
+  recovery.put_campaign(campaign_row(*campaign));
+  return {};
+}
+
+/// Derives what follows from scores anew, where this program can play the races.
+Expected<void> rebuild_campaign(Recovery& recovery, const StoredCampaign& stored, Report& report) {
+  if (stored.state == "imported") return {};
+  auto plans = plans_of(stored.row);
+  if (!plans) {
+    report.complaints.push_back(stored.row.name + ": " + to_string(plans.error()) +
+                                "; its rows are kept as they were found");
+    return {};
+  }
+  std::vector<DesignRow> designs;
+  for (const DesignPlan& plan : *plans)
+    designs.push_back(plan.row);
+  if (auto put = recovery.put_designs(stored, designs); !put) return put;
+  StoredCampaign campaign = stored;
+  campaign.designs = static_cast<std::int64_t>(designs.size());
+  const std::string source = plans->front().source;
+  Rebuilt rebuilt = rebuild(std::move(*plans), recovery.scores(campaign), recovery.steps(campaign),
+                            recovery.commands(campaign));
+  recovery.replace_derived(campaign, rebuilt.derived, source);
+  for (Rebuilt::Design& design : rebuilt.designs) {
+    design.id.value += campaign.designs_before;
+    report.designs.push_back(design);
+  }
+  for (const std::string& complaint : rebuilt.complaints)
+    report.complaints.push_back(complaint);
+  return {};
+}
+
+ExitCode run_recover(const RecoverArguments& arguments, Output& output) {
+  if (arguments.out.empty()) {
+    return fail(output, ExitCode::Usage,
+                "into which file? Name it by -o: `swarmsmith recover damaged.db -o rescued.db`");
+  }
+  auto recovery = Recovery::begin(arguments.damaged, arguments.out);
+  if (!recovery) {
+    const bool about_out = recovery.error().where == arguments.out;
+    return fail(output, about_out ? ExitCode::Failed : ExitCode::Store, recovery.error());
+  }
+  if (const auto put = put_campaign(**recovery, arguments.campaign); !put) {
+    return fail(output, ExitCode::Usage, put.error());
+  }
+  Report report;
+  for (const StoredCampaign& campaign : (*recovery)->campaigns()) {
+    if (const auto rebuilt = rebuild_campaign(**recovery, campaign, report); !rebuilt) {
+      return fail(output, ExitCode::Store, rebuilt.error());
+    }
+  }
+  const auto end = (*recovery)->finish();
+  if (!end) return fail(output, ExitCode::Store, end.error());
+  write(output, (*recovery)->found(), report, *end, arguments.out);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_recover(Options& options) {
+  auto arguments = std::make_shared<RecoverArguments>();
+  options.text("DAMAGED", arguments->damaged, "The damaged store's file", Options::Need::Required);
+  options.text("-o,--output", arguments->out, "The new store's file");
+  options.text("--campaign", arguments->campaign,
+               "The campaign's file, where the store's own copy of it is lost");
+  return [arguments](Output& output) { return run_recover(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,195 @@
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "cli/arguments/store_argument.h"
+#include "cli/commands/commands.h"
+#include "cli/commands/compared_runs.h"
+#include "cli/commands/real_replay_command.h"
+#include "cli/output/progress_text.h"
+#include "cli/replay/recording.h"
+#include "cli/replay/stored_runs.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct ReplayArguments {
+  std::string id;
+  StoreArgument store;
+  std::optional<std::int64_t> seed;
+  std::optional<std::int64_t> sample;
+  std::optional<std::int64_t> beside;
+  std::string seeds;
+  RecordingArguments recording;
+
+  /// The real run that is meant, if any.
+  std::optional<RealRunId> real_run() const {
+    const auto thing = parse_thing_id(id);
+    if (!thing || thing->letter != 'r') return std::nullopt;
+    return RealRunId{std::stoll(thing->digits)};
+  }
+};
+
+std::string hexadecimal(std::uint64_t digest) {
+  return fmt::format("{:016x}", digest);
+}
+
+std::string as_json(const StoredRun& run, const SimulationResult& result) {
+  const auto or_null = [&](const std::string& text) { return run.outcome ? text : "null"; };
+  const StoredOutcome stored = run.outcome.value_or(StoredOutcome{});
+  const bool same = run.outcome && same_bits(stored, result);
+  return "{\"id\":" + (run.id.empty() ? "null" : json_text(run.id)) +
+         ",\"candidate\":" + json_text(run.candidate) + ",\"seed\":" + std::to_string(run.seed) +
+         ",\"score\":" + json_number(result.score) +
+         ",\"stored_score\":" + or_null(json_number(stored.score)) +
+         ",\"same_bits\":" + or_null(same ? "true" : "false") +
+         ",\"digest\":" + json_text(hexadecimal(result.state_digest)) +
+         ",\"stored_digest\":" + or_null(json_text(hexadecimal(stored.state_digest))) +
+         ",\"engine\":" + std::to_string(kEngineVersion) +
+         ",\"stored_engine\":" + std::to_string(run.engine_version) + "}\n";
+}
+
+/// The line that says how the comparison went.
+std::string as_line(const StoredRun& run, const SimulationResult& result) {
+  const std::string values = values_text(result.score, result.state_digest);
+  if (run.outcome) return name_of(run) + ": same bits as stored: " + values;
+  return name_of(run) + ": " + values +
+         (run.rejected ? "; the store holds no score to compare with: it was rejected"
+                       : "; the store holds no such evaluation to compare with");
+}
+
+/// What a picture says of the run, besides the mission and the times.
+std::vector<std::string> details_of(const StoredRun& run, const SimulationResult& result) {
+  return {run.candidate, "seed " + std::to_string(run.seed), "score " + score_text(result.score)};
+}
+
+ExitCode replay_one(const StoredRun& run, const ReplayArguments& arguments, Output& output) {
+  auto recording = Recording::start(arguments.recording, run.mission, run.machine, output);
+  if (!recording) return fail(output, exit_code_of_recording(recording.error()), recording.error());
+  const SimulationResult result = simulate(run.setup(), recording->recorder());
+  const auto written = recording->finish(details_of(run, result), run.instance);
+  if (!written) return fail(output, ExitCode::Failed, written.error());
+  const bool differs = run.outcome && !same_bits(*run.outcome, result);
+  if (output.json) {
+    output.out << as_json(run, result);
+  } else if (!differs && arguments.recording.takes_standard_output()) {
+    print_note(output, as_line(run, result));
+  } else if (!differs) {
+    output.out << as_line(run, result) << "\n";
+  }
+  if (!differs) return ExitCode::Done;
+  return fail(output, ExitCode::Failed, difference_text(run, result));
+}
+
+/// The run that the words name.
+Expected<StoredRun> find_run(StoredRuns& runs, const ReplayArguments& arguments) {
+  const auto id = parse_thing_id(arguments.id);
+  if (!id || id->letter == 'd') {
+    return bad_input("\"" + arguments.id +
+                         "\" is no evaluation; replay wants one (e81200007, see `ls evaluations`), "
+                         "a candidate with a seed (c812 --seed 7), or a real run (r7)",
+                     "ID");
+  }
+  if (id->letter == 'e') {
+    if (arguments.seed) return bad_input("an evaluation has its own seed", "--seed");
+    return runs.evaluation(*id);
+  }
+  if (!arguments.seed) return bad_input("on which seed? Add --seed 7", arguments.id);
+  return runs.candidate(*id, *arguments.seed);
+}
+
+/// Every difference is an error of its own; the answer counts them.
+ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
+  if (!runs.has_machines()) return fail(output, ExitCode::Usage, programs_scored("--sample"));
+  const auto ids = runs.sample(count);
+  if (!ids) return fail(output, ExitCode::Store, ids.error());
+  Counter counter(output, "replayed", "evaluations");
+  const auto different = compare_again(runs, *ids, counter);
+  if (!different) return fail(output, ExitCode::Failed, different.error());
+  std::string different_json;
+  for (const Difference& difference : *different) {
+    different_json += (different_json.empty() ? "" : ",") + json_text(difference.id);
+    print_error(output, {ErrorKind::Conflict, difference.sentence, ""});
+  }
+  const std::size_t same = ids->size() - different->size();
+  if (output.json) {
+    output.out << "{\"replayed\":" << ids->size() << ",\"same_bits\":" << same << ",\"different\":["
+               << different_json << "]}\n";
+  } else {
+    output.out << ids->size() << " evaluations replayed, " << same
+               << " with the same bits as stored\n";
+  }
+  return different->empty() ? ExitCode::Done : ExitCode::Failed;
+}
+
+/// What cannot be meant, before any store is opened.
+std::optional<Error> complaint_about(const ReplayArguments& arguments) {
+  const bool has_company = arguments.beside || !arguments.seeds.empty();
+  if (has_company && !arguments.real_run()) {
+    return Error{ErrorKind::BadInput, "is of a real run, such as r7",
+                 arguments.beside ? "--beside" : "--seeds"};
+  }
+  if (arguments.real_run() && arguments.seed) {
+    return Error{ErrorKind::BadInput,
+                 "a real run has no seed; --seeds names those of simulations beside it", "--seed"};
+  }
+  if (!arguments.sample) {
+    if (!arguments.id.empty()) return std::nullopt;
+    return Error{ErrorKind::BadInput, "is required: an evaluation such as e81200007", "ID"};
+  }
+  if (arguments.recording.any() || arguments.seed) {
+    return Error{ErrorKind::BadInput,
+                 "replays many evaluations; --csv, --svg and --seed are of one", "--sample"};
+  }
+  return std::nullopt;
+}
+
+ExitCode run_replay(ReplayArguments arguments, Output& output) {
+  // With --sample there is no id, so that the first word is the store.
+  if (arguments.sample && arguments.store.word.empty())
+    std::swap(arguments.id, arguments.store.word);
+  auto complaint = complaint_about(arguments);
+  if (!complaint && arguments.sample && !arguments.id.empty()) {
+    complaint = Error{ErrorKind::BadInput, "takes no ID", "--sample"};
+  }
+  if (complaint) return fail(output, ExitCode::Usage, *complaint);
+  auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  if (const auto real = arguments.real_run(); real && !arguments.sample) {
+    return replay_real(std::move(*store),
+                       {.id = *real,
+                        .beside = arguments.beside,
+                        .seeds = arguments.seeds,
+                        .recording = arguments.recording},
+                       output);
+  }
+  auto runs = StoredRuns::open(std::move(*store));
+  if (!runs) return fail(output, ExitCode::Store, runs.error());
+  if (arguments.sample) return replay_sample(*runs, *arguments.sample, output);
+  const auto found = find_run(*runs, arguments);
+  if (!found) {
+    const bool missing = found.error().kind == ErrorKind::NotFound;
+    return fail(output, missing ? ExitCode::NoSuchId : ExitCode::Usage, found.error());
+  }
+  return replay_one(*found, arguments, output);
+}
+
+}  // namespace
+
+Run declare_replay(Options& options) {
+  constexpr std::int64_t kLargest = 2'147'483'647;
+  auto arguments = std::make_shared<ReplayArguments>();
+  options.text("ID", arguments->id,
+               "An evaluation (e81200007), a candidate (c812) with --seed, or a real run (r7)");
+  arguments->store.declare(options);
+  options.integer("--seed", arguments->seed, {1, kLargest}, "Seed of a candidate's run");
+  options.integer("--sample", arguments->sample, {1, kLargest},
+                  "Replay so many stored evaluations, evenly spaced, instead of one");
+  options.integer("--beside", arguments->beside, {1, 1000},
+                  "Show so many simulations of its machine beside a real run");
+  options.text("--seeds", arguments->seeds, "Seeds of the simulations beside a real run: 1-4,9");
+  arguments->recording.declare(options);
+  return [arguments](Output& output) { return run_replay(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,63 @@
+#include <memory>
+#include <optional>
+
+#include "cli/commands/commands.h"
+#include "cli/commands/http_flags.h"
+#include "cli/run/campaign_flags.h"
+#include "cli/run/campaign_run.h"
+#include "cli/run/pool_setup.h"
+#include "coordinator/launchers/launch_text.h"
+
+namespace swarmsmith::cli {
+
+Run declare_run(Options& options) {
+  struct Arguments {
+    CampaignFlags campaign;
+    AccessFlags access;
+    std::string workers;
+    std::optional<std::int64_t> slots;
+    bool no_dashboard = false;
+    HttpFlags http;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  arguments->campaign.declare(options, Options::Need::Optional);
+  options.text("--workers", arguments->workers,
+               "Who evaluates: auto (this host, all cores), N or local:N (that many processes "
+               "here, a core each), ssh:HOSTFILE, slurm or slurm:JOBSxCPUS");
+  options.integer(
+      "--slots", arguments->slots, {1, 10'000},
+      "Evaluations at a time on this host (default: one a worker; with auto one a core)");
+  options.flag("--no-dashboard", arguments->no_dashboard,
+               "Accepted; this version has no dashboard to leave out");
+  arguments->access.declare(options);
+  arguments->http.declare(options, "default none");
+  return [arguments](Output& output) {
+    const auto campaigns = arguments->campaign.read(output);
+    if (!campaigns) return ExitCode::Usage;
+    RunOptions run{.access = arguments->access};
+    arguments->http.put(run, "");
+    if (!arguments->workers.empty()) {
+      const auto launch = parse_workers(arguments->workers, campaigns->front().launch);
+      if (!launch) {
+        return fail(output, ExitCode::Usage,
+                    Error{launch.error().kind, launch.error().message, "--workers"});
+      }
+      run.launch = *launch;
+    }
+    if (arguments->slots) {
+      LaunchOptions launch = launch_of(campaigns->front(), run);
+      if (launch.kind != LaunchOptions::Kind::Local) {
+        return fail(output, ExitCode::Usage,
+                    Error{ErrorKind::BadInput,
+                          "is of workers on this host; of jobs write slurm:JOBSxCPUS, and hosts of "
+                          "a file say it themselves",
+                          "--slots"});
+      }
+      launch.slots = *arguments->slots;
+      run.launch = launch;
+    }
+    return run_campaigns(output, *campaigns, run);
+  };
+}
+
+}  // namespace swarmsmith::cli

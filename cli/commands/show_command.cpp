@@ -1,0 +1,169 @@
+#include <algorithm>
+#include <memory>
+
+#include "base/shown_text.h"
+#include "cli/arguments/store_argument.h"
+#include "cli/arguments/thing_id.h"
+#include "cli/commands/commands.h"
+#include "cli/output/query_output.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+struct ShowArguments {
+  std::string id;
+  StoreArgument store;
+};
+
+/// A part of what is shown: its name in JSON and as a headline, and its rows.
+struct Part {
+  std::string name;
+  std::string sql;
+};
+
+/// What a design's winner got outside of its race, by source. Before schema 4 all of it was tests.
+std::string scores_of(const std::string& number, const std::string& purpose, bool has_purposes) {
+  const std::string of = has_purposes ? " AND purpose = '" + purpose + "'" : "";
+  return "SELECT candidate, source, count(score) AS runs, avg(score) AS mean, "
+         "min(score) AS lowest, max(score) AS highest FROM v_design_scores "
+         "WHERE design = " +
+         number + of + " GROUP BY candidate, source";
+}
+
+/// Statements that show a thing, the first of which has one row if it exists.
+std::vector<Part> parts_of_design(const std::string& number, bool has_purposes) {
+  std::vector<Part> parts = {
+      {"design", "SELECT * FROM v_designs WHERE design = " + number},
+      {"elites",
+       "SELECT iteration, rank, candidate, mean, n, experiments_used "
+       "FROM v_convergence WHERE design = " +
+           number + " ORDER BY iteration, rank"},
+      {"test", scores_of(number, "test", has_purposes)},
+      {"commands", "SELECT number, kind, budget, step, who, at FROM v_commands WHERE design = " +
+                       number + " ORDER BY number"}};
+  if (has_purposes) parts.push_back({"scores", scores_of(number, "score", true)});
+  return parts;
+}
+
+std::vector<Part> parts_of_candidate(const std::string& number) {
+  return {{"candidate", "SELECT * FROM v_candidates WHERE candidate = " + number},
+          {"ancestry",
+           "WITH RECURSIVE line (candidate, parent, iteration, mean, depth) AS ("
+           "SELECT candidate, parent, iteration, mean, 0 FROM v_candidates WHERE candidate = " +
+               number +
+               " UNION ALL SELECT c.candidate, c.parent, c.iteration, c.mean, depth + 1 "
+               "FROM line JOIN v_candidates AS c ON c.candidate = line.parent) "
+               "SELECT candidate, parent, iteration, mean FROM line WHERE depth > 0"},
+          {"scores",
+           "SELECT purpose, source, count(score) AS runs, avg(score) AS mean, "
+           "min(score) AS lowest, max(score) AS highest FROM v_evaluations "
+           "WHERE candidate = " +
+               number + " GROUP BY purpose, source"}};
+}
+
+std::vector<Part> parts_of_evaluation(const ThingId& id) {
+  return {{"evaluation", "SELECT * FROM v_evaluations WHERE " + is_evaluation(id)}};
+}
+
+std::vector<Part> parts_of_real_run(const std::string& number) {
+  const std::string of_run = " WHERE run = " + number;
+  return {{"real run", "SELECT * FROM v_real_runs" + of_run},
+          {"robots",
+           "SELECT robot, name, tag, measured, interpolated, degraded, missing, longest_gap_s, "
+           "outliers, sigma_m, border_m, too_close FROM v_real_robots" +
+               of_run + " ORDER BY robot"},
+          {"issues", "SELECT code, robot, from_s, to_s, text FROM v_real_issues" + of_run +
+                         " ORDER BY number"},
+          {"scorings", "SELECT scoring, score, verdict, biased, at, program FROM v_real_scores" +
+                           of_run + " ORDER BY scoring"},
+          {"overrides",
+           "SELECT verdict, who, reason, at FROM v_real_overrides" + of_run + " ORDER BY number"},
+          {"videos", "SELECT camera, file, frames, damaged_frames, time_source FROM v_real_videos" +
+                         of_run + " ORDER BY video"},
+          {"calibrations",
+           "SELECT kind, subject, valid_from, valid_until, rms FROM v_calibrations WHERE sha256 IN "
+           "(SELECT camera_calibration FROM v_real_videos" +
+               of_run + " UNION SELECT place_calibration FROM v_real_videos" + of_run +
+               " UNION SELECT offset_calibration FROM v_real_robots" + of_run +
+               ") ORDER BY kind, subject"}};
+}
+
+std::vector<Part> parts_of(const ThingId& id, bool has_purposes) {
+  if (id.letter == 'd') return parts_of_design(id.digits, has_purposes);
+  if (id.letter == 'c') return parts_of_candidate(id.digits);
+  if (id.letter == 'r') return parts_of_real_run(id.digits);
+  return parts_of_evaluation(id);
+}
+
+/// One row as "name  value" lines.
+std::string as_lines(const Rows& rows) {
+  std::size_t width = 0;
+  for (const std::string& column : rows.columns)
+    width = std::max(width, column.size());
+  std::string text;
+  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
+    const auto& cell = rows.cells.front()[column];
+    if (cell.type == StoreReader::Cell::Type::Null || cell.text.empty()) continue;
+    const std::string& name = rows.columns[column];
+    text += name + std::string(width - name.size() + 2, ' ') +
+            as_shown(cell.text, Layout::Escaped) + "\n";
+  }
+  return text;
+}
+
+/// The thing itself as lines, the rest as tables.
+void write_text(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
+  output.out << as_lines(rows.front());
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    if (rows[i].cells.empty()) continue;
+    output.out << "\n" << parts[i].name << "\n" << rows_as_text(rows[i]);
+  }
+}
+
+/// One object, a key a part.
+void write_json(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
+  output.out << "{" << json_text(parts.front().name) << ":" << row_as_json(rows.front(), 0);
+  for (std::size_t i = 1; i < parts.size(); ++i) {
+    output.out << "," << json_text(parts[i].name) << ":" << rows_as_json(rows[i]);
+  }
+  output.out << "}\n";
+}
+
+ExitCode run_show(const ShowArguments& arguments, Output& output) {
+  const auto id = parse_thing_id(arguments.id);
+  if (!id) {
+    return fail(output, ExitCode::Usage,
+                "\"" + arguments.id + "\" is no id; ids look like d3 (design), c812 (candidate), " +
+                    "e81200007 (evaluation), r7 (real run)");
+  }
+  const auto store = arguments.store.open();
+  if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  const auto known = select(**store, "SELECT * FROM v_design_scores LIMIT 0");
+  if (!known) return fail(output, ExitCode::Store, known.error());
+  const bool has_purposes = std::ranges::find(known->columns, "purpose") != known->columns.end();
+  const std::vector<Part> parts = parts_of(*id, has_purposes);
+  std::vector<Rows> shown;
+  for (const Part& part : parts) {
+    auto rows = select(**store, part.sql);
+    if (!rows) return fail(output, ExitCode::Store, rows.error());
+    if (shown.empty() && rows->cells.empty()) {
+      return fail(output, ExitCode::NoSuchId, "the store has no " + part.name + " " + arguments.id);
+    }
+    letter_ids(*rows);
+    if (!output.json && is_of_programs(**store)) as_costs(*rows);
+    shown.push_back(std::move(*rows));
+  }
+  output.json ? write_json(output, parts, shown) : write_text(output, parts, shown);
+  return ExitCode::Done;
+}
+
+}  // namespace
+
+Run declare_show(Options& options) {
+  auto arguments = std::make_shared<ShowArguments>();
+  options.text("ID", arguments->id, "d3, c812, e81200007 or r7", Options::Need::Required);
+  arguments->store.declare(options);
+  return [arguments](Output& output) { return run_show(*arguments, output); };
+}
+
+}  // namespace swarmsmith::cli

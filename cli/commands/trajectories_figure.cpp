@@ -1,0 +1,133 @@
+#include "cli/commands/trajectories_figure.h"
+
+#include <utility>
+
+#include "analysis/arena/arena_panels.h"
+#include "analysis/records/names.h"
+#include "cli/output/progress_text.h"
+#include "cli/output/query_output.h"
+#include "cli/replay/stored_runs.h"
+#include "sim/control/module.h"
+#include "sim/mission/trajectory_csv.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::int64_t kTestsOfReport = 2;
+
+/// The candidate that is meant: itself, or the best of a design.
+Expected<CandidateId> candidate_of(StoreReader& store, const FigureOptions& options) {
+  if (options.candidate) return *options.candidate;
+  const auto found = designs(store, options.filter);
+  if (!found) return Unexpected(found.error());
+  if (found->size() != 1) {
+    return bad_input("of which machine? Add --candidate c812, or --design d3 for its winner",
+                     "figure trajectories");
+  }
+  if (found->front().best) return *found->front().best;
+  return unexpected(ErrorKind::NotFound, "this design has no best machine yet", "--design");
+}
+
+/// Seeds of the first stored tests that were simulated.
+Expected<std::vector<std::int64_t>> seeds_of_tests(StoreReader& store, CandidateId candidate,
+                                                   std::int64_t most) {
+  const auto rows = select(store,
+                           "SELECT seed FROM v_evaluations WHERE purpose = 'test' AND "
+                           "seed IS NOT NULL AND score IS NOT NULL AND candidate = " +
+                               std::to_string(candidate.value) + " ORDER BY pair",
+                           {.rows = most});
+  if (!rows) return Unexpected(rows.error());
+  std::vector<std::int64_t> seeds;
+  for (const auto& cells : rows->cells)
+    seeds.push_back(std::stoll(cells.front().text));
+  if (!seeds.empty()) return seeds;
+  return unexpected(
+      ErrorKind::NotFound,
+      "the store has no tests of " + to_string(candidate) + "; name the seeds: --seed 7 --seed 8",
+      "--candidate");
+}
+
+/// Adds the run's picture, and its rows to the table.
+Expected<void> film(const StoredRun& run, ArenaPanels& panels, std::string& csv) {
+  ArenaPicture picture{.title = "seed " + std::to_string(run.seed),
+                       .details = {},
+                       .arena = arena_of(run.mission, run.instance),
+                       .body = run.mission.body,
+                       .robots = {},
+                       .objects = {}};
+  std::string rows;
+  const auto observe = [&](const Snapshot& snapshot) {
+    picture.robots.resize(snapshot.robots.size());
+    picture.objects.resize(snapshot.objects.size());
+    for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+      const auto state = static_cast<std::size_t>(snapshot.robots[i].state);
+      picture.robots[i].poses.push_back(snapshot.robots[i].pose);
+      picture.robots[i].label = id_of(module_of(run.machine.states[state].behaviour));
+      rows += run.candidate + "," + std::to_string(run.seed) + ",";
+      append_pose_cells(rows, snapshot.cycle, static_cast<int>(i), snapshot.robots[i].pose);
+      rows += kCsvLineEnd;
+    }
+    for (std::size_t i = 0; i < snapshot.objects.size(); ++i)
+      picture.objects[i].push_back(snapshot.objects[i]);
+  };
+  const SimulationResult result = simulate(run.setup(), Recorder(observe));
+  if (run.outcome && !same_bits(*run.outcome, result)) {
+    return unexpected(ErrorKind::Conflict,
+                      "this run does not come out as it is stored; `swarmsmith replay " +
+                          (run.id.empty() ? run.candidate : run.id) + "` tells more",
+                      "seed " + std::to_string(run.seed));
+  }
+  picture.details = {"score " + score_text(result.score)};
+  panels.pictures.push_back(std::move(picture));
+  csv += rows;
+  return {};
+}
+
+}  // namespace
+
+Expected<Figure> trajectories_figure(std::unique_ptr<StoreReader> store,
+                                     const FigureOptions& options,
+                                     const std::vector<std::int64_t>& seeds,
+                                     std::int64_t most_tests) {
+  const auto candidate = candidate_of(*store, options);
+  if (!candidate) return Unexpected(candidate.error());
+  auto wanted = seeds;
+  if (seeds.empty()) {
+    auto stored = seeds_of_tests(*store, *candidate, most_tests);
+    if (!stored) return Unexpected(stored.error());
+    wanted = std::move(*stored);
+  }
+  auto runs = StoredRuns::open(std::move(store));
+  if (!runs) return Unexpected(runs.error());
+  const ThingId id{.letter = 'c', .digits = std::to_string(candidate->value), .purpose = {}};
+  ArenaPanels panels{.title = {},
+                     .details = {to_string(*candidate) +
+                                 "; hollow: start, solid: end; the floor is paler than it is"},
+                     .pictures = {},
+                     .width_mm = options.width_mm};
+  Figure figure;
+  figure.csv = "candidate,seed,";
+  figure.csv += kTrajectoryColumns;
+  figure.csv += kCsvLineEnd;
+  for (const std::int64_t seed : wanted) {
+    const auto run = runs->candidate(id, seed);
+    if (!run) return Unexpected(run.error());
+    panels.title = as_words(run->mission.name);
+    if (const auto filmed = film(*run, panels, figure.csv); !filmed)
+      return Unexpected(filmed.error());
+  }
+  if (options.paper) panels.details.clear();
+  figure.svg = draw(panels);
+  return figure;
+}
+
+Expected<std::string> runs_from_above(const StoreArgument& argument, DesignId design) {
+  auto store = argument.open();
+  if (!store) return Unexpected(store.error());
+  auto figure =
+      trajectories_figure(std::move(*store), {.filter = {.design = design}}, {}, kTestsOfReport);
+  if (!figure) return Unexpected(figure.error());
+  return std::move(figure->svg);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,96 @@
+#include <unistd.h>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+#include "cli/commands/commands.h"
+#include "coordinator/launchers/worker_program.h"
+#include "proto/socket.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// How the program is told where the coordinator is.
+Expected<std::vector<std::string>> where_words(const std::string& connect,
+                                               const std::string& coordinator) {
+  if (connect.empty() == coordinator.empty()) {
+    return bad_input(
+        "say where the coordinator is, by its address (--connect HOST:PORT) or by its file "
+        "(--coordinator FILE)");
+  }
+  if (!coordinator.empty()) return std::vector<std::string>{"--coordinator", coordinator};
+  const bool has_scheme = connect.find("://") != std::string::npos;
+  const std::string endpoint = (has_scheme ? "" : "tcp://") + connect;
+  if (is_tcp_address(endpoint) && !endpoint.ends_with("*")) {
+    return std::vector<std::string>{"--connect", endpoint};
+  }
+  return bad_input("`" + connect +
+                       "` is no address; it is written 127.0.0.1:5555, host and port, as `serve` "
+                       "prints it",
+                   "--connect");
+}
+
+}  // namespace
+
+Run declare_worker(Options& options) {
+  struct Arguments {
+    std::string connect;
+    std::string coordinator;
+    std::string key;
+    bool insecure_plaintext = false;
+    std::optional<std::int64_t> slots;
+    std::vector<std::string> allow;
+    bool allow_shell = false;
+  };
+  auto arguments = std::make_shared<Arguments>();
+  options.text("--connect", arguments->connect, "Address and port of the coordinator");
+  options.text("--coordinator", arguments->coordinator,
+               "In place of --connect: the file that the coordinator writes (STORE.coordinator); "
+               "one that moved is found");
+  options.text(
+      "--key", arguments->key,
+      "Key file, where the coordinator wants one (default: SWARMSMITH_KEY, else worker.key "
+      "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
+  options.flag("--insecure-plaintext", arguments->insecure_plaintext,
+               "Talk to a coordinator on another host that does not encrypt");
+  options.integer("--slots", arguments->slots, {1, 1024},
+                  "Evaluations at the same time (default: SLURM_CPUS_PER_TASK, else the CPUs that "
+                  "this process may use)");
+  options.texts("--allow", arguments->allow,
+                "A program that campaigns may run here in place of the simulator; repeatable");
+  options.flag("--allow-shell", arguments->allow_shell,
+               "Give command lines that only a shell understands to /bin/sh: then campaigns may "
+               "run anything");
+  return [arguments](Output& output) {
+    const auto program = find_worker_program();
+    if (!program) return fail(output, ExitCode::Unreachable, program.error());
+    const auto where = where_words(arguments->connect, arguments->coordinator);
+    if (!where) return fail(output, ExitCode::Usage, where.error());
+    std::vector<std::string> words{program->string()};
+    words.insert(words.end(), where->begin(), where->end());
+    if (!arguments->key.empty()) {
+      words.emplace_back("--key");
+      words.push_back(arguments->key);
+    }
+    if (arguments->insecure_plaintext) words.emplace_back("--insecure-plaintext");
+    if (arguments->slots) {
+      words.emplace_back("--slots");
+      words.push_back(std::to_string(*arguments->slots));
+    }
+    for (const std::string& allowed : arguments->allow) {
+      words.emplace_back("--allow");
+      words.push_back(allowed);
+    }
+    if (arguments->allow_shell) words.emplace_back("--allow-shell");
+    std::vector<char*> pointers;
+    pointers.reserve(words.size() + 1);
+    for (std::string& word : words)
+      pointers.push_back(word.data());
+    pointers.push_back(nullptr);
+    execv(pointers.front(), pointers.data());
+    return fail(output, ExitCode::Unreachable,
+                program->string() + " cannot be started: " + std::strerror(errno));
+  };
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,111 @@
+#include "cli/irace/aligned_table.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr int kDigits = 7;  // what R shows
+
+/// What a number needs at kDigits significant digits.
+struct Shape {
+  int digits = 1;  ///< significant ones that are not trailing zeros
+  int exponent = 0;
+  bool negative = false;
+};
+
+Shape shape_of(double value) {
+  const std::string text = fmt::format("{:.{}e}", std::fabs(value), kDigits - 1);
+  const std::size_t e = text.find('e');
+  const std::size_t last = text.find_last_not_of('0', e - 1);
+  return {.digits = last == 1 || last == 0 ? 1 : static_cast<int>(last),
+          .exponent = std::stoi(text.substr(e + 1)),
+          .negative = std::signbit(value)};
+}
+
+/// What all numbers of a column need together.
+struct Format {
+  int decimals = 0;
+  int mantissa = 0;  ///< decimals of the scientific form
+  bool scientific = false;
+};
+
+Format format_of(std::span<const std::optional<double>> values) {
+  Format format;
+  int before_point = 1;
+  bool negative = false;
+  bool wide_exponent = false;
+  for (const std::optional<double>& value : values) {
+    if (!value || !std::isfinite(*value)) continue;
+    const Shape shape = shape_of(*value);
+    before_point =
+        std::max(before_point, std::max(shape.exponent + 1, 1) + (shape.negative ? 1 : 0));
+    format.decimals = std::max(format.decimals, shape.digits - shape.exponent - 1);
+    format.mantissa = std::max(format.mantissa, shape.digits - 1);
+    negative = negative || shape.negative;
+    wide_exponent = wide_exponent || std::abs(shape.exponent) >= 100;
+  }
+  const int fixed = before_point + (format.decimals > 0 ? format.decimals + 1 : 0);
+  const int scientific = (negative ? 1 : 0) + 1 + (format.mantissa > 0 ? format.mantissa + 1 : 0) +
+                         (wide_exponent ? 5 : 4);
+  format.scientific = scientific < fixed;
+  return format;
+}
+
+/// Characters, not bytes.
+std::size_t width_of(const std::string& text) {
+  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char letter) {
+    return (static_cast<unsigned char>(letter) & 0xc0U) != 0x80;
+  }));
+}
+
+std::string padding(const std::string& text, std::size_t width) {
+  return std::string(width - std::min(width, width_of(text)), ' ');
+}
+
+}  // namespace
+
+std::vector<std::string> real_cells(std::span<const std::optional<double>> values) {
+  const Format format = format_of(values);
+  std::vector<std::string> cells;
+  for (const std::optional<double>& value : values) {
+    if (!value || std::isnan(*value)) {
+      cells.emplace_back("NA");
+    } else if (std::isinf(*value)) {
+      cells.emplace_back(*value > 0 ? "Inf" : "-Inf");
+    } else if (format.scientific) {
+      cells.push_back(fmt::format("{:.{}e}", *value, format.mantissa));
+    } else {
+      cells.push_back(fmt::format("{:.{}f}", *value, format.decimals));
+    }
+  }
+  return cells;
+}
+
+std::string aligned_table(const std::vector<std::string>& row_names,
+                          const std::vector<TableColumn>& columns) {
+  std::size_t names_width = 0;
+  for (const std::string& name : row_names)
+    names_width = std::max(names_width, width_of(name));
+  std::vector<std::string> lines{std::string(names_width, ' ')};
+  for (const std::string& name : row_names)
+    lines.push_back(name + padding(name, names_width));
+  for (const TableColumn& column : columns) {
+    std::size_t width = width_of(column.name);
+    for (const std::string& cell : column.cells)
+      width = std::max(width, width_of(cell));
+    lines[0] += ' ' + padding(column.name, width) + column.name;
+    for (std::size_t row = 0; row < column.cells.size(); ++row)
+      lines[row + 1] += ' ' + padding(column.cells[row], width) + column.cells[row];
+  }
+  std::string text;
+  for (const std::string& line : lines)
+    text += line + '\n';
+  return text;
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,99 @@
+#include "cli/irace/irace_psrace.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <charconv>
+#include <sstream>
+#include <system_error>
+#include <vector>
+
+#include "cli/irace/stored_configurations.h"
+#include "irace_core/files/configurations_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr const char* kIdsOption = "--psrace-ids";
+
+/// Those that were asked for, else the best of every iteration and the elites of the last one, or
+/// all elites.
+Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings,
+                                                   const StoredConfigurations& stored) {
+  std::vector<std::int64_t> ids;
+  const auto add = [&ids](std::int64_t id) {
+    if (std::ranges::find(ids, id) == ids.end()) ids.push_back(id);
+  };
+  if (const auto text = settings.text(kIdsOption); text && !text->empty()) {
+    std::istringstream words(*text + ",");
+    for (std::string word; std::getline(words, word, ',');) {
+      std::int64_t id = 0;
+      const char* end = word.data() + word.size();
+      const auto [rest, trouble] = std::from_chars(word.data(), end, id);
+      if (trouble != std::errc() || rest != end || id < 1)
+        return bad_input("is a list as 3,17,20, found \"" + *text + "\"", kIdsOption);
+      const auto found = stored.find(id, kIdsOption);
+      if (!found) return Unexpected(found.error());
+      add(id);
+    }
+  } else {
+    const bool all = settings.is_on("--psrace-elites");
+    for (const auto& [iteration, elites] : stored.elites) {
+      const bool is_last = iteration == stored.elites.rbegin()->first;
+      for (std::size_t i = 0; i < (all || is_last ? elites.size() : 1); ++i)
+        add(elites[i]);
+    }
+  }
+  if (ids.size() > 1) return ids;
+  return bad_input(
+      "a race needs two configurations or more: name them as --psrace-ids 3,17, or "
+      "take all elites by --psrace-elites",
+      "--psrace");
+}
+
+}  // namespace
+
+ExitCode race_again(Output& output, const IraceSettings& settings, const IraceSetup& setup,
+                    const std::filesystem::path& finished, const StorePlace& store,
+                    const IraceSlots& slots) {
+  const auto budget = settings.number("--psrace-max-experiments");
+  if (!budget) {
+    return fail(output, ExitCode::Failed,
+                {ErrorKind::BadInput,
+                 "needs --psrace-max-experiments N: how many experiments the "
+                 "race may have",
+                 "--psrace"});
+  }
+  const auto stored = read_stored_configurations(finished, setup.space);
+  if (!stored) return fail(output, ExitCode::Failed, stored.error());
+  const auto ids = contestants_of(settings, *stored);
+  if (!ids) return fail(output, ExitCode::Failed, ids.error());
+  IraceSetup again = setup;
+  again.initial.clear();
+  for (const std::int64_t id : *ids)
+    again.initial.push_back(stored->all.at(id));
+  auto text = print_configurations_file(setup.space, again.initial);
+  if (!text) return fail(output, ExitCode::Failed, text.error());
+  again.configurations_text = std::move(*text);
+  again.repair_configuration.clear();
+  // Other pairs than those of the run.
+  again.seed = seed_of(setup, StorePlace::at(finished)) + 1;
+  Scenario& race = again.race;
+  race.max_experiments = *budget;
+  race.min_experiments.reset();
+  race.max_time = 0;
+  race.nb_iterations = 1;
+  race.nb_experiments_per_iteration = 0;
+  race.nb_configurations = static_cast<std::int64_t>(ids->size());
+  race.min_nb_survival = 1;
+  race.elitist = false;
+  race.postselection = false;
+  race.capping = false;
+  if (!output.json && !output.quiet) {
+    output.out << fmt::format("# Post-selection race of {}\n", finished.string());
+    for (std::size_t i = 0; i < ids->size(); ++i)
+      output.out << fmt::format("# {} here is configuration {} of the run\n", i + 1, (*ids)[i]);
+  }
+  return run_scenario(output, again, store, slots);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,157 @@
+#include "cli/irace/irace_report.h"
+
+#include <fmt/format.h>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <variant>
+
+#include "cli/irace/aligned_table.h"
+#include "cli/irace/irace_console.h"
+#include "console/output.h"
+#include "programs/cost.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+double cost_of(const EvaluationRow& row) {
+  return row.status == EvaluationStatus::Ok ? to_cost(row.score)
+                                            : std::numeric_limits<double>::infinity();
+}
+
+/// Keeps of a store's rows what the report needs, in whatever order they come.
+class Collector {
+ public:
+  explicit Collector(const ParameterSpace& space) : result_{.candidates = CandidateTable(space)} {}
+
+  void add(const Row& row) {
+    if (const auto* candidate = std::get_if<CandidateRow>(&row)) {
+      if (auto added = result_.candidates.add(*candidate); !added) error_ = added.error();
+    } else if (const auto* elite = std::get_if<EliteRow>(&row)) {
+      elites_[elite->iteration][elite->rank] = *elite;
+    } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
+      result_.state = *state;
+    } else if (const auto* pair = std::get_if<PairRow>(&row)) {
+      if (pair->purpose == Purpose::Test) {
+        instances_[{Purpose::Test, pair->number}] = pair->instance;
+        result_.test_seeds[pair->instance] = pair->seed;
+      } else if (pair->purpose == Purpose::Evaluator && pair->instance < 0) {
+        // Of a test instance, so that it is not taken for a training instance.
+        instances_[{Purpose::Evaluator, pair->number}] = -pair->instance;
+      }
+    } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
+      const Purpose purpose = evaluation->key.purpose;
+      if (purpose == Purpose::Test || purpose == Purpose::Evaluator)
+        evaluations_.push_back(*evaluation);
+    }
+  }
+
+  Expected<IraceResult> result() && {
+    if (error_) return Unexpected(*error_);
+    if (!elites_.empty()) {
+      for (const auto& [rank, elite] : elites_.rbegin()->second) {
+        result_.best.push_back({number_of(elite.candidate), to_cost(elite.mean), elite.runs});
+      }
+    }
+    // Where an evaluator says the costs, the runs have none.
+    for (const Purpose purpose : {Purpose::Test, Purpose::Evaluator}) {
+      for (const EvaluationRow& row : evaluations_) {
+        const auto instance = instances_.find({purpose, row.key.pair});
+        if (row.key.purpose != purpose || instance == instances_.end()) continue;
+        result_.tests[{number_of(row.key.candidate), instance->second}] = cost_of(row);
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  IraceResult result_;
+  std::map<std::int64_t, std::map<std::int64_t, EliteRow>> elites_;  ///< by iteration and rank
+  std::map<std::pair<Purpose, std::int64_t>, std::int64_t> instances_;
+  std::vector<EvaluationRow> evaluations_;
+  std::optional<Error> error_;
+};
+
+std::vector<std::int64_t> best_numbers(const IraceResult& result) {
+  std::vector<std::int64_t> numbers;
+  for (const IraceResult::Best& best : result.best)
+    numbers.push_back(best.number);
+  return numbers;
+}
+
+std::set<std::int64_t> tested(const IraceResult& result) {
+  std::set<std::int64_t> numbers;
+  for (const auto& [key, cost] : result.tests)
+    numbers.insert(key.first);
+  return numbers;
+}
+
+/// JSON has no infinity: a rejection is null.
+std::string tests_json(const IraceResult& result) {
+  std::string text;
+  for (const auto& [key, cost] : result.tests) {
+    const auto seed = result.test_seeds.find(key.second);
+    text += fmt::format(R"({}{{"id":{},"instance":"{}t","seed":{},"cost":{}}})",
+                        text.empty() ? "" : ",", key.first, key.second,
+                        seed == result.test_seeds.end() ? 0 : seed->second, json_number(cost));
+  }
+  return "[" + text + "]";
+}
+
+}  // namespace
+
+Expected<IraceResult> read_irace_result(StoreReader& store, const ParameterSpace& space) {
+  Collector collector(space);
+  store.each_answer_row([&](const Row& row) { collector.add(row); });
+  return std::move(collector).result();
+}
+
+std::string best_text(const IraceResult& result, const Scenario& scenario) {
+  const std::vector<std::int64_t> numbers = best_numbers(result);
+  return fmt::format(
+      "# Best configurations (first number is the configuration ID; listed from best to worst "
+      "according to {}):\n{}"
+      "# Best configurations as commandlines (first number is the configuration ID; same order as "
+      "above):\n{}",
+      irace_order(scenario), result.candidates.configurations(numbers),
+      result.candidates.command_lines(numbers));
+}
+
+std::string testing_text(const IraceResult& result) {
+  if (result.tests.empty()) return "";
+  std::vector<std::string> names;
+  for (const auto& [instance, seed] : result.test_seeds)
+    names.push_back(std::to_string(instance) + "t");
+  std::vector<TableColumn> columns;
+  for (const std::int64_t number : tested(result)) {
+    std::vector<std::optional<double>> costs;
+    for (const auto& [instance, seed] : result.test_seeds) {
+      const auto found = result.tests.find({number, instance});
+      costs.push_back(found == result.tests.end() ? std::nullopt : std::optional(found->second));
+    }
+    columns.push_back({std::to_string(number), real_cells(costs)});
+  }
+  return fmt::format(
+      "# {}: Testing results (column number is configuration ID in no particular order):\n{}",
+      irace_date(), aligned_table(names, columns));
+}
+
+std::string result_json(const IraceResult& result, const std::string& store, std::int64_t seed) {
+  std::string best;
+  for (const IraceResult::Best& each : result.best) {
+    const std::string parameters = result.candidates.parameters(each.number);
+    best +=
+        fmt::format(R"({}{{"id":{},"mean_cost":{},"pairs":{},"parameters":{},"command_line":{}}})",
+                    best.empty() ? "" : ",", each.number, json_number(each.mean), each.pairs,
+                    parameters.empty() ? "{}" : parameters,
+                    json_text(result.candidates.command_line(each.number)));
+  }
+  return fmt::format(
+      R"({{"v":1,"event":"done","store":{},"seed":{},"experiments":{},"reason":{},"best":[{}],)"
+      R"("tests":{}}})"
+      "\n",
+      json_text(store), seed, result.state.used, json_text(result.state.reason), best,
+      tests_json(result));
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,245 @@
+#include "cli/irace/irace_run.h"
+
+#include <fmt/format.h>
+#include <sys/resource.h>
+#include <algorithm>
+#include <chrono>
+#include <random>
+#include <utility>
+
+#include "cli/irace/cost_events.h"
+#include "cli/irace/irace_console.h"
+#include "cli/irace/irace_report.h"
+#include "cli/run/campaign_run.h"
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/irace_campaign.h"
+#include "coordinator/campaign/method_space.h"
+#include "irace_core/files/options.h"
+#include "irace_core/iterated_race.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::int64_t kLargestSeed = 2'147'483'647;  // irace's
+
+std::string times_line(TimePoint begin) {
+  rusage own{};
+  rusage children{};
+  getrusage(RUSAGE_SELF, &own);
+  getrusage(RUSAGE_CHILDREN, &children);
+  const auto seconds = [](const timeval& a, const timeval& b) {
+    return static_cast<double>(a.tv_sec + b.tv_sec) +
+           1e-6 * static_cast<double>(a.tv_usec + b.tv_usec);
+  };
+  const std::chrono::duration<double> wall = SystemClock().now() - begin;
+  return fmt::format(
+      "# Total CPU user time: {:.3f}, CPU sys time: {:.3f}, Wall-clock time: {:.3f}\n",
+      seconds(own.ru_utime, children.ru_utime), seconds(own.ru_stime, children.ru_stime),
+      wall.count());
+}
+
+std::string no_result(const std::string& reason) {
+  return "there is no best configuration: " + with_irace_option_names(reason) +
+         ". Mend the target or the scenario, and begin again with another store (--log-file NAME) "
+         "or without this one";
+}
+
+/// A run of one scenario, from its first line to its report.
+class ScenarioRun {
+ public:
+  ScenarioRun(Output& output, const IraceSetup& setup, const StorePlace& store)
+      : output_(output),
+        setup_(setup),
+        place_(store),
+        campaign_(campaign_of(setup, seed_of(setup, store))) {
+    campaign_.store = store.file();
+    if (campaign_.race.max_time > 0) keep_parallel();
+  }
+
+  ExitCode run(const RunOptions& options) {
+    race_ = race_on(campaign_, campaign_.missions.front());
+    auto console = make_console();
+    if (!console) return fail(output_, ExitCode::Failed, with_irace_option_names(console.error()));
+    Progress progress(output_, design_rows(campaign_), begin_);
+    CostEvents events(progress);
+    RunListener& teller = output_.json ? static_cast<RunListener&>(events) : *console;
+    // What is wrong with a store is said by who opens it to write; nothing begins before.
+    const bool begins = may_begin();
+    if (!is_finished() && begins && !output_.json) {
+      console->write_begin();
+      if (auto told = tell_what_was(*console); !told)
+        return fail(output_, ExitCode::Failed, told.error());
+    }
+    const ExitCode ended = carry_out(output_, {campaign_}, options, teller).front();
+    const std::int64_t more = ended == ExitCode::Store && !begins ? experiments_more() : 0;
+    if (more > 0) {
+      output_.err << fmt::format(
+          "It was made with maxExperiments = {}. To go on with more: `swarmsmith extend {} d1 "
+          "--budget {}`, then this command with the old number.\n",
+          campaign_.race.max_experiments - more, place_.file().string(), more);
+    }
+    return ended == ExitCode::Done ? report() : explain_end(output_, ended, begins);
+  }
+
+ private:
+  /// With a budget of time the first estimate depends on how many runs are made at a time: one that
+  /// goes on keeps the number that it began with, whatever this machine has.
+  void keep_parallel() {
+    const std::optional<Campaign> stored = stored_campaign();
+    if (!stored || stored->race.max_time <= 0) return;
+    if (stored->race.parallel != campaign_.race.parallel) {
+      print_note(output_, fmt::format("the store was begun with --parallel {}, which its budget of "
+                                      "time keeps; runs are made {} at a time now",
+                                      stored->race.parallel, setup_.parallel.value_or(1)));
+    }
+    campaign_.race.parallel = stored->race.parallel;
+  }
+
+  /// What the store was made with, whether it is this run's or not.
+  std::optional<Campaign> stored_campaign() const {
+    std::error_code trouble;
+    if (!std::filesystem::exists(place_.file(), trouble)) return std::nullopt;
+    const auto store = StoreReader::open(place_.file());
+    if (!store) return std::nullopt;
+    auto campaign = parse_campaign((*store)->campaign().file, place_.file());
+    if (!campaign) return std::nullopt;
+    return std::move(*campaign);
+  }
+
+  /// How many experiments more are asked for than the store was made with, when that is all that
+  /// differs: there is a command for it.
+  std::int64_t experiments_more() const {
+    std::optional<Campaign> stored = stored_campaign();
+    if (!stored) return 0;
+    const std::int64_t more = campaign_.race.max_experiments - stored->race.max_experiments;
+    stored->race.max_experiments = campaign_.race.max_experiments;
+    return campaign_digest(*stored) == campaign_digest(campaign_) ? more : 0;
+  }
+
+  Expected<IraceConsole> make_console() {
+    const auto race = IteratedRace::start(setup_.space, race_, setup_.initial);
+    if (!race) return Unexpected(race.error());
+    return IraceConsole(output_,
+                        {.race = race_,
+                         .space = setup_.space,
+                         .seed = campaign_.seed,
+                         .n_iterations = race->n_iterations(),
+                         .budget = race_.max_time > 0 ? 0 : race->budget()},
+                        begin_);
+  }
+
+  /// Whether the store holds this run, to its end.
+  bool is_finished() const {
+    const auto store = reader();
+    return store != nullptr && store->finished();
+  }
+
+  /// There is no store yet, or it is this run's.
+  bool may_begin() const {
+    std::error_code trouble;
+    return !std::filesystem::exists(place_.file(), trouble) || reader() != nullptr;
+  }
+
+  /// The store, when it is this run's.
+  std::unique_ptr<StoreReader> reader() const {
+    std::error_code trouble;
+    if (!std::filesystem::exists(place_.file(), trouble)) return nullptr;
+    auto store = StoreReader::open(place_.file());
+    if (!store || (*store)->campaign().digest != campaign_digest(campaign_)) return nullptr;
+    return std::move(*store);
+  }
+
+  Expected<void> tell_what_was(IraceConsole& console) const {
+    const auto store = reader();
+    if (store == nullptr) return {};
+    return console.go_on_from(*store);
+  }
+
+  ExitCode report() {
+    const auto store = StoreReader::open(place_.file());
+    if (!store) return fail(output_, ExitCode::Failed, store.error());
+    const auto result = read_irace_result(**store, setup_.space);
+    if (!result) return fail(output_, ExitCode::Failed, result.error());
+    const auto seed = static_cast<std::int64_t>(campaign_.seed);
+    // The race ended without a best configuration, as when the target rejected all of them.
+    const bool has_failed = result->state.state == DesignState::Stopped;
+    if (output_.json) {
+      output_.out << result_json(*result, place_.is_kept() ? place_.file().string() : "", seed);
+    } else if (!output_.quiet && !has_failed) {
+      output_.out << times_line(begin_) << best_text(*result, race_) << tests_text(*result)
+                  << std::flush;
+      print_whereabouts();
+    }
+    if (has_failed) return fail(output_, ExitCode::Failed, no_result(result->state.reason));
+    return ExitCode::Done;
+  }
+
+  std::string tests_text(const IraceResult& result) const {
+    std::string text = fmt::format(
+        "\n\n# Testing of elite configurations: {}\n"
+        "# Testing iteration configurations: {}\n",
+        campaign_.test_nb_elites, campaign_.test_iteration_elites ? "TRUE" : "FALSE");
+    if (setup_.test.empty()) {
+      return text + fmt::format("# {}: No test instances, skip testing\n", irace_date());
+    }
+    return text + testing_text(result) + fmt::format("# {}: Finished testing\n", irace_date());
+  }
+
+  void print_whereabouts() {
+    if (!place_.is_kept()) {
+      print_note(output_, "nothing is kept: the log file has no name (logFile, --log-file)");
+      return;
+    }
+    const std::string file = place_.file().string();
+    print_note(output_, "\nEverything is in " + file + ". How to go on:\n  swarmsmith ls elites " +
+                            file + "\n  swarmsmith query " + file + "\n  swarmsmith verify " +
+                            file);
+  }
+
+  Output& output_;
+  const IraceSetup& setup_;
+  const StorePlace& place_;
+  Campaign campaign_;
+  Scenario race_;
+  TimePoint begin_ = SystemClock().now();
+};
+
+}  // namespace
+
+RunOptions run_options(const IraceSlots& slots, const StorePlace& store) {
+  RunOptions options;
+  options.keeps_store = store.is_kept();
+  options.workers = slots.workers.value_or(1);
+  if (slots.parallel) {
+    const std::int64_t all = std::max<std::int64_t>(*slots.parallel, 1);
+    options.workers = std::min(*options.workers, all);
+    options.slots = (all + *options.workers - 1) / *options.workers;
+  }
+  return options;
+}
+
+ExitCode explain_end(Output& output, ExitCode ended, bool began) {
+  if (ended == ExitCode::Interrupted || ended == ExitCode::Terminated) return ended;
+  if (ended == ExitCode::Store) {
+    // It has said what became of the store.
+    if (began) return ended;
+    output.err << "Give the options that made this store, or another one: --log-file NAME, or "
+                  "--store PATH.\n";
+  }
+  return ExitCode::Failed;
+}
+
+std::uint64_t seed_of(const IraceSetup& setup, const StorePlace& store) {
+  if (setup.seed) return *setup.seed;
+  if (const auto stored = store.seed()) return *stored;
+  std::random_device device;
+  return 1 + device() % static_cast<std::uint64_t>(kLargestSeed);
+}
+
+ExitCode run_scenario(Output& output, const IraceSetup& setup, const StorePlace& store,
+                      const IraceSlots& slots) {
+  return ScenarioRun(output, setup, store).run(run_options(slots, store));
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "cli/irace/store_place.h"
+#include "cli/run/campaign_run.h"
+#include "console/output.h"
+#include "irace_core/files/irace_setup.h"
+
+namespace swarmsmith::cli {
+
+/// How many evaluations run at a time.
+struct IraceSlots {
+  std::optional<std::int64_t> workers;   ///< processes
+  std::optional<std::int64_t> parallel;  ///< evaluations of all of them together
+};
+
+/// Both as the worker processes of `carry_out`.
+RunOptions run_options(const IraceSlots& slots, const StorePlace& store);
+
+/// What to exit with after `carry_out` did not come to its end: 1 for all errors, as irace, but
+/// that of a store that was lost after the run `began`. Says what to do about a store of another
+/// scenario.
+ExitCode explain_end(Output& output, ExitCode ended, bool began);
+
+/// Runs the scenario into its store, or goes on with it, and prints irace's report. Failed for
+/// whatever goes wrong, as irace; Interrupted and Terminated as `run`.
+ExitCode run_scenario(Output& output, const IraceSetup& setup, const StorePlace& store,
+                      const IraceSlots& slots);
+
+/// The setup's seed, else that of the store, so that the same command goes on, else a new one.
+std::uint64_t seed_of(const IraceSetup& setup, const StorePlace& store);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,26 @@
+#include "cli/output/number_text.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace swarmsmith::cli {
+
+std::string duration_text(double seconds) {
+  const auto whole = static_cast<std::int64_t>(std::llround(std::max(0.0, seconds)));
+  const auto two = [](std::int64_t n) { return (n < 10 ? "0" : "") + std::to_string(n); };
+  if (whole < 60) return std::to_string(whole) + "s";
+  if (whole < 3600) return std::to_string(whole / 60) + "m" + two(whole % 60) + "s";
+  return std::to_string(whole / 3600) + "h" + two(whole / 60 % 60) + "m";
+}
+
+std::string grouped(std::int64_t number) {
+  std::string text = std::to_string(number);
+  const std::size_t first = number < 0 ? 1 : 0;
+  for (std::size_t at = text.size(); at > first + 3;) {
+    at -= 3;
+    text.insert(at, " ");
+  }
+  return text;
+}
+
+}  // namespace swarmsmith::cli

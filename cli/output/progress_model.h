@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coordinator/service/live_status.h"
+#include "storage/rows.h"
+
+namespace swarmsmith::cli {
+
+/// How far one design is.
+struct DesignProgress {
+  DesignRow design;
+  DesignState state = DesignState::Waiting;
+  std::int64_t iteration = 0;
+  std::int64_t iterations = 0;  ///< as planned when the iteration began
+  std::int64_t configurations = 0;
+  std::int64_t alive = 0;
+  std::int64_t used = 0;
+  std::int64_t in_step = 0;  ///< evaluations since the race's last step, which counts them as used
+  CandidateId best;
+  double best_mean = 0;
+  bool paused = false;  ///< by a person
+};
+
+/// How far a campaign is, kept up from its rows. Pure.
+class ProgressModel {
+ public:
+  /// With `costs` a mean is told as the cost that programs print: the negative of the score.
+  explicit ProgressModel(std::span<const DesignRow> designs, bool costs = false);
+
+  void add(const Row& row);
+
+  /// The score, or its cost.
+  std::string mean_text(double score) const;
+  bool shows_costs() const { return costs_; }
+  const DesignProgress& design(DesignId id) const { return designs_.at(id); }
+  std::int64_t designs() const { return static_cast<std::int64_t>(designs_.size()); }
+  /// Designs that need nothing more.
+  std::int64_t finished() const;
+  /// Designs that are neither finished nor stopped, and that a person has paused.
+  std::int64_t paused() const;
+  /// Nothing is left to be done.
+  bool is_over() const;
+  /// Of `budget`, with what a step has evaluated so far; a design whose race is over counts with
+  /// all of its own.
+  std::int64_t used() const;
+  /// With what was given to designs later.
+  std::int64_t budget() const;
+  /// The first design that is not over, else the last one: what the status line tells about.
+  const DesignProgress* current() const;
+
+ private:
+  void add_state(const DesignStateRow& row);
+  void add_command(const CommandRow& row);
+
+  std::map<DesignId, DesignProgress> designs_;
+  bool costs_;
+  std::set<std::int64_t> extensions_;  ///< numbers of those that have acted
+};
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,211 @@
+#include "cli/output/progress_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <vector>
+
+#include "cli/output/number_text.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// Padded on the left.
+std::string right(const std::string& text, std::size_t width) {
+  return std::string(width > text.size() ? width - text.size() : 0, ' ') + text;
+}
+
+/// Statistics are not there before the first test; irace writes NA.
+std::string optional_text(const std::optional<double>& value, const char* format) {
+  if (!value) return "NA";
+  char buffer[64];
+  const int size = std::snprintf(buffer, sizeof buffer, format, *value);
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+/// Hours may have more than two digits.
+std::string clock_text(double seconds) {
+  const auto whole = static_cast<long long>(seconds);
+  char buffer[64];
+  const int size = std::snprintf(buffer, sizeof buffer, "%02lld:%02lld:%02lld", whole / 3600,
+                                 whole / 60 % 60, whole % 60);
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+/// How much of the whole budget is used.
+std::string bar(std::int64_t used, std::int64_t budget) {
+  constexpr std::int64_t kCells = 20;
+  const std::int64_t filled =
+      budget > 0 ? std::clamp<std::int64_t>(used * kCells / budget, 0, kCells) : 0;
+  return "[" + std::string(static_cast<std::size_t>(filled), '#') +
+         std::string(static_cast<std::size_t>(kCells - filled), '-') + "]";
+}
+
+/// Sums over what is told of.
+struct Totals {
+  explicit Totals(std::span<const ProgressModel> models) {
+    for (const ProgressModel& model : models) {
+      over += model.is_over();
+      designs += model.designs();
+      finished += model.finished();
+      paused += model.paused();
+      used += model.used();
+      budget += model.budget();
+    }
+  }
+  std::int64_t over = 0, designs = 0, finished = 0, paused = 0, used = 0, budget = 0;
+};
+
+/// A piece of a status line. Where a line is too narrow, the least needed pieces are left out.
+struct Piece {
+  int rank;  ///< 1: needed most
+  std::string text;
+};
+
+/// In the order in which they stand.
+std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveStatus& live) {
+  const Totals totals(models);
+  std::vector<Piece> pieces;
+  const bool several = models.size() > 1;
+  const DesignProgress* current = several ? nullptr : models.front().current();
+  if (several) {
+    pieces.push_back(
+        {5, "campaigns " + std::to_string(totals.over) + "/" + std::to_string(models.size())});
+  }
+  pieces.push_back(
+      {6, "designs " + std::to_string(totals.finished) + "/" + std::to_string(totals.designs)});
+  if (current != nullptr && current->iteration > 0) {
+    pieces.push_back({8, to_string(current->design.id) + " iteration " +
+                             std::to_string(current->iteration) + "/~" +
+                             std::to_string(std::max(current->iterations, current->iteration))});
+  }
+  pieces.push_back({9, bar(totals.used, totals.budget)});
+  pieces.push_back({2, grouped(totals.used) + "/" + grouped(totals.budget)});
+  if (current != nullptr && current->best) {
+    pieces.push_back({4, (models.front().shows_costs() ? "best cost " : "best ") +
+                             models.front().mean_text(current->best_mean)});
+  }
+  const auto left = static_cast<double>(totals.budget - totals.used);
+  if (live.evaluations_per_s > 0 && left > 0) {
+    pieces.push_back({3, "ETA " + duration_text(left / live.evaluations_per_s)});
+  }
+  pieces.push_back({7, std::to_string(std::llround(live.evaluations_per_s)) + " sim/s"});
+  if (current != nullptr && current->configurations > 0) {
+    pieces.push_back({10, "alive " + std::to_string(current->alive) + "/" +
+                              std::to_string(current->configurations)});
+  }
+  if (totals.paused > 0) pieces.push_back({1, "paused " + std::to_string(totals.paused)});
+  if (live.failed > 0) pieces.push_back({1, "failed " + std::to_string(live.failed)});
+  if (live.workers > 0 || totals.over == static_cast<std::int64_t>(models.size())) return pieces;
+  // Only local workers are there at once.
+  const bool waits = !live.launcher.name.empty() && live.launcher.name != "local";
+  pieces.push_back(
+      {1, waits ? "no workers yet (" + to_text(live.launcher) + ")" : std::string("no workers")});
+  return pieces;
+}
+
+std::string joined(const std::vector<Piece>& pieces) {
+  std::string line;
+  for (const Piece& piece : pieces)
+    line += (line.empty() ? "" : "  ") + piece.text;
+  return line;
+}
+
+}  // namespace
+
+std::string score_text(double score) {
+  char buffer[64];
+  const int size =
+      std::snprintf(buffer, sizeof buffer, std::abs(score) < 1000 ? "%.4g" : "%.0f", score);
+  return {buffer, static_cast<std::size_t>(size)};
+}
+
+std::string_view name_of(DesignState state) {
+  static constexpr std::array<std::string_view, 5> kNames = {"waiting", "racing", "testing",
+                                                             "finished", "stopped"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+std::string status_line(std::span<const ProgressModel> models, const LiveStatus& live,
+                        std::size_t width) {
+  std::vector<Piece> pieces = pieces_of(models, live);
+  std::string line = joined(pieces);
+  while (line.size() > width && pieces.size() > 1) {
+    pieces.erase(std::ranges::max_element(pieces, {}, &Piece::rank));
+    line = joined(pieces);
+  }
+  if (line.size() > width) line.resize(width);
+  return line;
+}
+
+std::string plain_status(std::span<const ProgressModel> models, const LiveStatus& live) {
+  std::vector<Piece> pieces = pieces_of(models, live);
+  std::erase_if(pieces, [](const Piece& piece) { return piece.text.starts_with("["); });
+  const std::string line = joined(pieces);
+  if (Totals(models).over == static_cast<std::int64_t>(models.size())) return line;
+  // What waits at a worker for a slot is leased as well.
+  return line + "  workers " + std::to_string(live.workers) + "  slots " +
+         std::to_string(std::min(live.leased, live.slots)) + "/" + std::to_string(live.slots);
+}
+
+std::string race_headline() {
+  return "design| |  pair|alive|      best|mean best|exp used| W time |  rho|KenW|  Qvar|";
+}
+
+std::string race_line(const RaceStepRow& step, const std::string& mean_best, double elapsed_s) {
+  return right(to_string(step.design), 6) + "|" + step.marker + "|" +
+         right(std::to_string(step.pair), 6) + "|" + right(std::to_string(step.alive_after), 5) +
+         "|" + right(to_string(step.best), 10) + "|" + right(mean_best, 9) + "|" +
+         right(std::to_string(step.used), 8) + "|" + clock_text(elapsed_s) + "|" +
+         right(optional_text(step.spearman_rho, "%+.2f"), 5) + "|" +
+         right(optional_text(step.kendall_w, "%.2f"), 4) + "|" +
+         right(optional_text(step.qvar, "%.4f"), 6) + "|";
+}
+
+std::string iteration_line(const IterationRow& iteration) {
+  return to_string(iteration.design) + " iteration " + std::to_string(iteration.number) + "/~" +
+         std::to_string(std::max(iteration.of, iteration.number)) + ": " +
+         std::to_string(iteration.configurations) + " configurations (" +
+         std::to_string(iteration.elites) + (iteration.elites == 1 ? " elite" : " elites") +
+         "), budget " + grouped(iteration.budget) +
+         (iteration.soft_restart ? ", soft restart" : "");
+}
+
+std::string elite_line(const EliteRow& elite, const std::string& mean) {
+  return to_string(elite.design) + " elite " + std::to_string(elite.rank) + ": " +
+         to_string(elite.candidate) + "  mean " + mean + " over " + std::to_string(elite.runs) +
+         " runs";
+}
+
+std::string state_line(const DesignStateRow& state, const DesignProgress& progress,
+                       const std::string& best_mean) {
+  std::string text = to_string(state.design) + " " + std::string(name_of(state.state)) + "  " +
+                     progress.design.mission + " " + progress.design.method + " " +
+                     std::to_string(progress.design.repetition);
+  // Without a budget there is no race.
+  if (progress.design.budget > 0 || state.used > 0) {
+    text += "  " + grouped(state.used) + "/" + grouped(progress.design.budget);
+  }
+  if (state.best && state.used > 0) text += "  best " + to_string(state.best) + " " + best_mean;
+  // That its budget is used up is how a race ends as it should.
+  const bool as_it_should = state.best && state.reason.starts_with("not enough");
+  if (!state.reason.empty() && !as_it_should) text += "  (" + state.reason + ")";
+  return text;
+}
+
+std::string command_line(const CommandRow& command) {
+  std::string text = command.kind + " " + to_string(command.design);
+  if (command.kind == "extend") text += " by " + grouped(command.budget) + " experiments";
+  if (!command.who.empty()) text += ", asked by " + command.who;
+  // Its row comes when it is asked for, and when it acts.
+  if (command.step) text += ": done after step " + std::to_string(*command.step);
+  return text;
+}
+
+std::string event_line(const EventRow& event) {
+  return event.severity + ": " + event.kind + (event.text.empty() ? "" : " " + event.text);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "cli/output/progress_model.h"
+
+namespace swarmsmith::cli {
+
+/// Lines about a campaign for people, and events for programs. All pure.
+
+/// Four digits, and none behind the point from 1,000 on: scores of grid exploration are large.
+std::string score_text(double score);
+
+/// The line that is redrawn on a terminal, at most `width` columns wide:
+///   designs 3/10  d4 iteration 5/~10  [####------]  52 418/100 000  best 2.71  ETA 1m55s
+///   412 sim/s  alive 17/58  failed 3
+/// What is needed least is left out first: alive, bar, iteration, rate. Of several campaigns, their
+/// sums: campaigns 0/2  designs 3/20  [####------]  ...
+std::string status_line(std::span<const ProgressModel> models, const LiveStatus& live,
+                        std::size_t width);
+
+/// The same facts for logs, without the bar.
+std::string plain_status(std::span<const ProgressModel> models, const LiveStatus& live);
+
+/// The table of a race as irace prints it, with the design in front. Means are as
+/// `ProgressModel::mean_text` has them.
+std::string race_headline();
+std::string race_line(const RaceStepRow& step, const std::string& mean_best, double elapsed_s);
+
+/// A race begins: its size and budget.
+std::string iteration_line(const IterationRow& iteration);
+/// One of those that a race kept.
+std::string elite_line(const EliteRow& elite, const std::string& mean);
+/// A design's state changed.
+std::string state_line(const DesignStateRow& state, const DesignProgress& progress,
+                       const std::string& best_mean);
+/// Somebody asked for something, or it acts now.
+std::string command_line(const CommandRow& command);
+/// Something happened that a person may want to know.
+std::string event_line(const EventRow& event);
+
+/// As stores and events call it.
+std::string_view name_of(DesignState state);
+
+/// The row as one event, {"v":1,"event":"race_step",...}; empty for rows that are none
+/// (candidates, pairs, single evaluations, totals).
+std::string event_json(const Row& row);
+/// {"v":1,"event":"progress",...}; `left` experiments of all campaigns make the expected time.
+std::string progress_json(const ProgressModel& model, const LiveStatus& live, std::int64_t left);
+/// The event with the name of its campaign; unchanged without one.
+std::string of_campaign(std::string event, const std::string& name);
+
+}  // namespace swarmsmith::cli

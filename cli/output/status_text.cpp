@@ -1,0 +1,252 @@
+#include "cli/output/status_text.h"
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <map>
+#include <numeric>
+#include <tuple>
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::size_t kBar = 40;
+
+std::string duration_text(double seconds) {
+  const auto s = std::llround(seconds);
+  if (s >= 86400) return fmt::format("{}d{:02}h", s / 86400, s % 86400 / 3600);
+  if (s >= 3600) return fmt::format("{}h{:02}m", s / 3600, s % 3600 / 60);
+  return s >= 60 ? fmt::format("{}m{:02}s", s / 60, s % 60) : fmt::format("{}s", s);
+}
+
+std::string percent(double part, double whole) {
+  return whole > 0 ? fmt::format("{:.0f} %", 100 * part / whole) : "-";
+}
+
+std::int64_t sum(const LiveStatus& status, std::int64_t CampaignStatus::*field) {
+  if (!status.campaigns) return 0;
+  return std::accumulate(
+      status.campaigns->begin(), status.campaigns->end(), std::int64_t{0},
+      [&](std::int64_t total, const CampaignStatus& one) { return total + one.*field; });
+}
+
+/// As people read it. On one host nothing crosses a network.
+std::string_view shown_name(IdleCause cause) {
+  return cause == IdleCause::Network ? "on the way" : name_of(cause);
+}
+
+/// "busy 91 %  barrier 6 %  on the way 3 %": the largest first, nothing below half a percent.
+std::string shares(const SlotTimes& times) {
+  if (times.slots <= 0) return "no heartbeats yet";
+  std::vector<std::pair<double, std::string_view>> causes;
+  for (std::size_t i = 0; i < kIdleCauses; ++i)
+    causes.emplace_back(times.idle[i], shown_name(static_cast<IdleCause>(i)));
+  std::ranges::stable_sort(causes, std::greater<>(), [](const auto& one) { return one.first; });
+  std::string text = "busy " + percent(times.busy, times.slots);
+  for (const auto& [time, name] : causes) {
+    if (time >= 0.005 * times.slots)
+      text += fmt::format("  {} {}", name, percent(time, times.slots));
+  }
+  return text;
+}
+
+/// A letter a share: # busy, the causes by their first letters.
+std::string share_bar(const SlotTimes& times) {
+  if (times.slots <= 0) return "";
+  std::string bar;
+  double upto = times.busy;
+  const auto fill = [&](double end, char c) {
+    const auto columns = std::lround(kBar * std::min(1.0, end / times.slots));
+    bar.resize(std::max(bar.size(), static_cast<std::size_t>(columns)), c);
+  };
+  fill(upto, '#');
+  for (std::size_t i = 0; i < kIdleCauses; ++i) {
+    upto += times.idle[i];
+    fill(upto, shown_name(static_cast<IdleCause>(i)).front());
+  }
+  bar.resize(kBar, '.');
+  return "[" + bar + "]";
+}
+
+std::string eta(const LiveStatus& status) {
+  const double left = seconds_left(status);
+  return left > 0 ? "  ETA " + duration_text(left) : "";
+}
+
+void add_head(std::vector<std::string>& lines, const LiveStatus& status) {
+  if (status.campaigns) {
+    for (const CampaignStatus& one : *status.campaigns) {
+      const auto over = std::ranges::count_if(one.designs, [](const DesignStatus& design) {
+        return design.state == "finished" || design.state == "stopped";
+      });
+      lines.push_back(
+          fmt::format("campaign {}  designs {}/{}  experiments {}/{} ({})", one.name, over,
+                      one.designs.size(), one.used, one.budget,
+                      percent(static_cast<double>(one.used), static_cast<double>(one.budget))));
+      if (!one.trouble.empty()) lines.push_back("  trouble: " + one.trouble);
+    }
+  }
+  lines.push_back(fmt::format("workers {}  slots {}  {:.0f} evaluations/s  leased {}  ready {}{}",
+                              status.workers, status.slots, status.evaluations_per_s, status.leased,
+                              status.ready, eta(status)));
+  if (!status.launcher.name.empty()) lines.push_back("launcher " + to_text(status.launcher));
+  lines.push_back("last minute  " + shares(status.slot_times_last_minute));
+  if (const std::string bar = share_bar(status.slot_times_last_minute); !bar.empty()) {
+    lines.push_back("  " + bar);
+  }
+  lines.push_back("since start  " + shares(status.slot_times));
+}
+
+/// What a person should look after; empty when all is well.
+std::string troubles(const LiveStatus& status) {
+  std::string text;
+  const auto add = [&](std::string_view name, std::int64_t count) {
+    if (count > 0) text += fmt::format("  {} {}", name, count);
+  };
+  add("failed", status.failed);
+  add("rejected", status.rejected);
+  add("conflicts", status.conflicts);
+  add("unleased results", status.unleased);
+  add("quarantined workers", status.quarantined);
+  add("requeued", status.requeued);
+  add("expired", status.expired);
+  add("lost workers", status.lost_workers);
+  add("malformed", status.malformed);
+  std::int64_t over_budget = 0;
+  for (const auto& [kind, count] : status.over_budget)
+    over_budget += static_cast<std::int64_t>(count);
+  add("over budget", over_budget);
+  std::int64_t refused = 0;
+  for (const auto& [reason, count] : status.refused)
+    refused += static_cast<std::int64_t>(count);
+  add("refused", refused);
+  if (status.insecure_plaintext) text += "  NOT ENCRYPTED";
+  return text;
+}
+
+std::vector<std::string> design_lines(const LiveStatus& status) {
+  std::vector<std::string> lines;
+  if (!status.campaigns) return lines;
+  const bool several = status.campaigns->size() > 1;
+  // Those that race first; what is over says its best, what waits says nothing.
+  for (const bool racing : {true, false}) {
+    for (const CampaignStatus& campaign : *status.campaigns) {
+      for (const DesignStatus& one : campaign.designs) {
+        const bool is_racing = one.state == "racing" || one.state == "testing";
+        if (is_racing != racing) continue;
+        lines.push_back(fmt::format("{:<5} {:<8} {:>9}/{:<9} it {:<3} {:<9} {} {}{}",
+                                    "d" + std::to_string(one.id), one.paused ? "paused" : one.state,
+                                    one.used, one.budget, one.iteration,
+                                    one.best > 0 ? fmt::format("{:.4g}", one.best_mean) : "",
+                                    one.mission, one.method, several ? "  " + campaign.name : ""));
+      }
+    }
+  }
+  return lines;
+}
+
+struct Host {
+  std::int64_t workers = 0;
+  std::int64_t gone = 0;
+  std::int64_t slots = 0;
+  std::int64_t held = 0;
+  std::int64_t done = 0;
+  std::int64_t failed = 0;
+  double rate = 0;
+  double busy_slots = 0;
+  double silent = 0;  ///< longest of its connected workers, seconds
+
+  double busy() const { return slots > 0 ? busy_slots / static_cast<double>(slots) : 0; }
+};
+
+std::map<std::string, Host> hosts_of(const LiveStatus& status) {
+  std::map<std::string, Host> hosts;
+  if (!status.fleet) return hosts;
+  for (const WorkerStatus& worker : *status.fleet) {
+    Host& host = hosts[worker.host];
+    host.done += worker.done;
+    host.failed += worker.failed;
+    if (worker.state != "connected") {
+      ++host.gone;
+      continue;
+    }
+    ++host.workers;
+    host.slots += worker.slots;
+    host.held += worker.held;
+    host.rate += worker.done_per_s;
+    host.busy_slots += worker.busy * static_cast<double>(worker.slots);
+    host.silent = std::max(host.silent, worker.last_heard_s);
+  }
+  return hosts;
+}
+
+/// The worst first: with failures, with workers that are gone, the least busy.
+std::vector<std::string> host_lines(const LiveStatus& status) {
+  const std::map<std::string, Host> hosts = hosts_of(status);
+  std::vector<std::pair<std::string, Host>> sorted(hosts.begin(), hosts.end());
+  std::ranges::stable_sort(sorted, [](const auto& a, const auto& b) {
+    return std::tuple(-a.second.failed, -a.second.gone, a.second.busy()) <
+           std::tuple(-b.second.failed, -b.second.gone, b.second.busy());
+  });
+  std::vector<std::string> lines;
+  lines.reserve(sorted.size());
+  for (const auto& [name, host] : sorted) {
+    lines.push_back(fmt::format(
+        "{:<20.20} {:>4} {:>4} {:>5} {:>5} {:>5.0f}% {:>8.1f} {:>6} {:>6.1f}s", name, host.workers,
+        host.gone, host.slots, host.held, 100 * host.busy(), host.rate, host.failed, host.silent));
+  }
+  return lines;
+}
+
+/// As many as fit, and how many do not.
+void add_table(std::vector<std::string>& lines, const std::string& headline,
+               const std::vector<std::string>& table, std::size_t room) {
+  // A blank line, the headline, and one row at least.
+  if (table.empty() || room < 3) return;
+  lines.emplace_back();
+  lines.push_back(headline);
+  const bool all = table.size() + 2 <= room;
+  const std::size_t rows = all ? table.size() : room - 3;
+  lines.insert(lines.end(), table.begin(), table.begin() + static_cast<std::ptrdiff_t>(rows));
+  if (!all) lines.push_back(fmt::format("... and {} more", table.size() - rows));
+}
+
+}  // namespace
+
+std::vector<std::string> status_lines(const LiveStatus& status, const Screen& screen) {
+  std::vector<std::string> lines;
+  add_head(lines, status);
+  if (!status.trouble.empty()) lines.push_back("NOTHING IS STORED: " + status.trouble);
+  if (const std::string text = troubles(status); !text.empty()) lines.push_back("look at" + text);
+  const std::vector<std::string> designs = design_lines(status);
+  const std::vector<std::string> hosts = host_lines(status);
+  const std::size_t room = screen.height > lines.size() ? screen.height - lines.size() : 0;
+  // Half each, and what the one does not need for the other.
+  const std::size_t want_hosts = hosts.empty() ? 0 : hosts.size() + 2;
+  add_table(lines, "design state         used/budget             best      mission method", designs,
+            std::max(room / 2, room - std::min(room, want_hosts)));
+  add_table(lines, "host                 here gone slots  held   busy  evals/s failed silent",
+            hosts, screen.height > lines.size() ? screen.height - lines.size() : 0);
+  if (lines.size() > screen.height) lines.resize(screen.height);
+  for (std::string& line : lines) {
+    if (line.size() > screen.width) line.resize(screen.width);
+  }
+  return lines;
+}
+
+std::string status_summary(const LiveStatus& status) {
+  const std::int64_t used = sum(status, &CampaignStatus::used);
+  const std::int64_t budget = sum(status, &CampaignStatus::budget);
+  const LauncherStatus& launcher = status.launcher;
+  const bool all_there =
+      launcher.name.empty() || (launcher.running >= launcher.wanted && launcher.note.empty());
+  return fmt::format("experiments {}/{} ({})  workers {}  slots {}  {:.0f}/s  {}{}{}", used, budget,
+                     percent(static_cast<double>(used), static_cast<double>(budget)),
+                     status.workers, status.slots, status.evaluations_per_s,
+                     shares(status.slot_times_last_minute), eta(status), troubles(status)) +
+         (all_there ? "" : "  " + to_text(status.launcher)) +
+         (status.trouble.empty() ? "" : "  NOTHING IS STORED: " + status.trouble);
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+
+#include "base/expected.h"
+#include "cli/replay/machine_argument.h"
+#include "console/output.h"
+#include "coordinator/campaign/campaign.h"
+#include "storage/rows.h"
+
+namespace swarmsmith::cli {
+
+/// The campaign of a campaign file or of a store. All that is wrong with a file but the last thing
+/// is printed, the last is the error.
+Expected<Campaign> campaign_of(const std::string& file, Output& output);
+
+/// The design `d3` of a campaign. Without a word the first one, if all have the same mission and
+/// the same method.
+Expected<DesignRow> find_design(const Campaign& campaign, const std::string& word);
+
+/// Gives a machine the world of a design: its mission, its method's flavour, the campaign's
+/// profile.
+void put_into_world(NamedMachine& machine, const Campaign& campaign, const DesignRow& design);
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,79 @@
+#include "cli/replay/design_worlds.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <string_view>
+#include <utility>
+
+#include "cli/output/query_output.h"
+#include "coordinator/campaign/campaign_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// From the JSON object of what decides the campaign, whose values are texts.
+int engine_version_in(const std::string& deciding) {
+  constexpr std::string_view kKey = R"("engine.version":")";
+  const std::size_t at = deciding.find(kKey);
+  return at == std::string::npos ? 0 : std::atoi(deciding.c_str() + at + kKey.size());
+}
+
+/// A mission whose name is a built-in one's.
+std::optional<CampaignMission> built_in(const std::string& name) {
+  auto found = built_in_mission(name);
+  if (!found) return std::nullopt;
+  CampaignMission mission;
+  mission.mission = std::move(*found);
+  return mission;
+}
+
+/// What the campaign's file says of the design.
+void put_campaign(DesignWorld& world, const Campaign& campaign) {
+  world.has_programs = campaign.target.has_value();
+  if (!world.has_programs) world.profile = campaign.profile;
+  for (const CampaignMission& mission : campaign.missions) {
+    if (!world.has_programs && mission.mission.name == world.design.mission)
+      world.mission = mission;
+  }
+  const auto method = std::ranges::find(campaign.methods, world.design.method, &Method::name);
+  if (method == campaign.methods.end()) return;
+  world.has_parameters = !method->parameters.empty();
+  world.flavour = world.has_parameters ? "" : method->flavour;
+  world.turn_clock = method->turn_clock;
+}
+
+}  // namespace
+
+Expected<DesignWorlds> DesignWorlds::read(StoreReader& store) {
+  DesignWorlds worlds;
+  auto designs = known_designs(store);
+  if (!designs) return Unexpected(designs.error());
+  worlds.designs_ = std::move(*designs);
+  const auto files = select(store, "SELECT id, file, deciding FROM campaign ORDER BY id");
+  if (!files) return Unexpected(files.error());
+  for (const auto& cells : files->cells)
+    worlds.files_.emplace(std::stoll(cells[0].text),
+                          File{cells[1].text, engine_version_in(cells[2].text)});
+  worlds.seed_ = static_cast<std::uint64_t>(store.campaign().seed);
+  return worlds;
+}
+
+Expected<std::optional<DesignWorld>> DesignWorlds::of(DesignId design) const {
+  const auto known = std::ranges::find(designs_, design, &KnownDesign::id);
+  if (known == designs_.end()) return std::optional<DesignWorld>();
+  DesignWorld world{.design = *known};
+  const auto file = files_.find(known->campaign);
+  if (file != files_.end() && !file->second.text.empty()) {
+    world.engine_version = file->second.engine_version;
+    const auto campaign = parse_campaign(file->second.text, "the store's campaign file");
+    if (!campaign) return Unexpected(campaign.error().front());
+    put_campaign(world, *campaign);
+    return world;
+  }
+  world.flavour = known->flavour;
+  world.has_parameters = known->flavour.empty();
+  if (!world.has_parameters) world.mission = built_in(known->mission);
+  return world;
+}
+
+}  // namespace swarmsmith::cli

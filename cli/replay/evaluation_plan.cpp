@@ -1,0 +1,290 @@
+#include "cli/replay/evaluation_plan.h"
+
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "base/rng.h"
+#include "base/text/file_text.h"
+#include "cli/arguments/seeds.h"
+#include "cli/arguments/thing_id.h"
+#include "cli/arguments/world_argument.h"
+#include "cli/output/query_output.h"
+#include "cli/replay/design_argument.h"
+#include "cli/replay/design_worlds.h"
+#include "sim/control/machine_text.h"
+#include "sim/files/profile_file.h"
+#include "sim/mission/instance_csv.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::int64_t kLargestSeed = 2'147'483'647;
+
+/// The same text is another machine under another flavour: nobody guesses which one is meant. A
+/// candidate's method has a say in its flavour's constants; another flavour has its own.
+Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMachine& named) {
+  const std::string name = arguments.flavour.empty() ? named.flavour : arguments.flavour;
+  if (name.empty()) {
+    return bad_input(
+        "in which flavour is the machine written? Add --flavour watermelon, watermelon-argos3 or "
+        "chocolate; files that `swarmsmith export` writes say it themselves");
+  }
+  if (!named.candidate && !named.flavour.empty() && name != named.flavour) {
+    return bad_input("the machine is of the flavour " + named.flavour + " (" + named.place +
+                     "), not " + name + "; leave the flag out, or change the file's head");
+  }
+  const auto known = find_flavour(name);
+  if (!known) return Unexpected(known.error());
+  if (name != named.flavour || !named.turn_clock) return **known;
+  return find_flavour(name, *named.turn_clock);
+}
+
+/// A candidate's own mission may have been changed by its file; the flag names a built-in one, or a
+/// file.
+Expected<Mission> mission_of(const EvaluateArguments& arguments, const NamedMachine& named,
+                             Output& output) {
+  if (arguments.mission.empty()) {
+    if (named.mission) return named.mission->mission;
+    return bad_input(
+        "on which mission? Add --mission aggregation, grid_exploration, color_selection or a file",
+        "--mission");
+  }
+  if (named.mission && named.mission->mission.name == arguments.mission) {
+    return named.mission->mission;
+  }
+  return find_mission_or_complain(arguments.mission, "--mission", output);
+}
+
+/// The candidate's own profile, or what the flag says.
+Expected<Profile> profile_of(const EvaluateArguments& arguments, const NamedMachine& named,
+                             Output& output) {
+  if (named.profile && (arguments.profile.empty() || arguments.profile == named.profile->name)) {
+    return *named.profile;
+  }
+  const std::string word = arguments.profile.empty() ? "rvr" : arguments.profile;
+  return find_profile_or_complain(word, "--profile", output);
+}
+
+/// A table of a file; errors say "file:line".
+template <class Table>
+Expected<Table> read_table(const std::string& file, Expected<Table> (*parse)(std::string_view)) {
+  const auto text = read_file(file, "table");
+  if (!text) return Unexpected(text.error());
+  auto table = parse(*text);
+  if (table) return table;
+  return bad_input(table.error().message, file + ":" + table.error().where);
+}
+
+/// The tables, where they are named.
+Expected<void> read_instances(const EvaluateArguments& arguments, EvaluationPlan& plan,
+                              ExplicitInstances& given, Output& output) {
+  if (!arguments.starts.empty()) {
+    auto starts = read_table(arguments.starts, parse_starts_csv);
+    if (!starts) return Unexpected(starts.error());
+    given.starts = std::move(*starts);
+  }
+  if (arguments.patches.empty()) return {};
+  const Mission& mission = plan.jobs.front().mission;
+  if (mission.shuffled.places.empty()) {
+    print_note(output, "mission " + mission.name + " shuffles no patches: --patches is not used");
+    return {};
+  }
+  auto patches = read_table(arguments.patches, parse_patches_csv);
+  if (!patches) return Unexpected(patches.error());
+  given.patches = std::move(*patches);
+  return {};
+}
+
+/// The winners of the finished designs, or of those that are named.
+Expected<std::vector<NamedMachine>> winners_of(const EvaluateArguments& arguments) {
+  const auto store = arguments.store.open();
+  if (!store) return Unexpected(store.error());
+  const auto worlds = DesignWorlds::read(**store);
+  if (!worlds) return Unexpected(worlds.error());
+  std::vector<NamedMachine> machines;
+  for (const std::string& word : arguments.designs) {
+    const auto is_it = [&](const KnownDesign& design) { return to_string(design.id) == word; };
+    const auto found = std::ranges::find_if(worlds->designs(), is_it);
+    if (found == worlds->designs().end()) {
+      return unexpected(ErrorKind::NotFound, "the store has no design " + word);
+    }
+    if (!found->finished || !found->best) {
+      return bad_input("it is not finished; its candidates can be named (c812)", word);
+    }
+  }
+  for (const KnownDesign& design : worlds->designs()) {
+    const auto& wanted = arguments.designs;
+    const bool is_named = std::ranges::find(wanted, to_string(design.id)) != wanted.end();
+    if (!wanted.empty() && !is_named) continue;
+    if (!design.finished || !design.best) continue;
+    auto machine = machine_of_candidate(**store, *worlds, design.best);
+    if (!machine) return Unexpected(machine.error());
+    machines.push_back(std::move(*machine));
+  }
+  if (machines.empty()) return bad_input("no design of the store is finished yet", "best");
+  return machines;
+}
+
+/// The machines that the word MACHINE names, in their worlds.
+Expected<std::vector<NamedMachine>> machines_of(const EvaluateArguments& arguments,
+                                                Output& output) {
+  const auto id = parse_thing_id(arguments.machine);
+  const bool of_store = arguments.machine == "best" || (id && id->letter == 'c');
+  if (!of_store && !arguments.store.word.empty()) {
+    return bad_input("`" + arguments.store.word +
+                     "` is one word too many: a store goes with a candidate of it, or with `best`");
+  }
+  if (arguments.machine == "best") {
+    if (arguments.campaign.empty()) return winners_of(arguments);
+    return bad_input("the winners have campaigns of their own", "--campaign");
+  }
+  auto machines = find_machines(arguments.machine, arguments.store, output);
+  if (!machines) return Unexpected(machines.error());
+  if (arguments.designs.size() > 1) {
+    return bad_input("is one design here; with `best` it may be there more than once", "--design");
+  }
+  if (!arguments.campaign.empty()) {
+    auto source = campaign_of(arguments.campaign, output);
+    if (!source) return Unexpected(source.error());
+    const auto design =
+        find_design(*source, arguments.designs.empty() ? "" : arguments.designs.front());
+    if (!design) return Unexpected(design.error());
+    for (NamedMachine& named : *machines) {
+      const std::string said = named.candidate ? "" : named.flavour;
+      put_into_world(named, *source, *design);
+      if (said.empty() || said == named.flavour) continue;
+      return bad_input(
+          "the machine is of the flavour " + said + ", the campaign's design of " + named.flavour,
+          named.place);
+    }
+  }
+  return machines;
+}
+
+Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArguments& arguments,
+                               Output& output) {
+  EvaluationJob job{.candidate = named.candidate, .name = named.name};
+  std::string where = named.candidate ? to_string(named.candidate) : named.place;
+  if (where.empty()) where = "MACHINE";
+  auto flavour = flavour_of(arguments, named);
+  if (!flavour) return bad_input(flavour.error().message, "--flavour");
+  job.flavour = std::move(*flavour);
+  auto machine = parse_machine(named.text, job.flavour);
+  if (!machine) return bad_input(machine.error().message, where + ", " + machine.error().where);
+  job.machine = std::move(*machine);
+  auto profile = profile_of(arguments, named, output);
+  if (!profile) return Unexpected(profile.error());
+  job.profile = std::move(*profile);
+  auto mission = mission_of(arguments, named, output);
+  if (!mission) return Unexpected(mission.error());
+  job.mission = std::move(*mission);
+  return job;
+}
+
+/// Why the job's scores are none of the design's; nothing when they are.
+std::optional<std::string> complaint_about(const EvaluationJob& job, const NamedMachine& named,
+                                           const EvaluateArguments& arguments) {
+  if (!arguments.starts.empty() || !arguments.patches.empty()) {
+    return "a stored score follows from its seed, and not from tables of starts or patches";
+  }
+  if (!arguments.campaign.empty()) return "the candidate has a campaign of its own";
+  if (!arguments.flavour.empty() && arguments.flavour != named.flavour) {
+    return "the design's machines are of the flavour " + named.flavour;
+  }
+  const bool same_mission = named.mission ? named.mission->mission == job.mission
+                                          : named.design_mission == job.mission.name;
+  if (!same_mission) return "the design is one for the mission " + named.design_mission;
+  const std::string& name = job.profile.name;
+  if (name == "real" || name == "command") {
+    return "scores of the source " + name + " are not simulated; give the profile another name";
+  }
+  const auto built_in = built_in_profile(name);
+  const bool is_campaigns = named.profile && named.profile->name == name;
+  if (is_campaigns ? *named.profile != job.profile : built_in && *built_in != job.profile) {
+    return "there is another profile " + name +
+           ", whose scores would be taken for these; give it "
+           "another name";
+  }
+  return std::nullopt;
+}
+
+/// The seeds that are named, or the default: for a store's candidates a fresh one, for a file those
+/// that its head names, else 1-10.
+Expected<std::vector<std::int64_t>> seeds_of(const EvaluateArguments& arguments,
+                                             const NamedMachine& named) {
+  if (!arguments.seeds.empty()) return parse_seeds(arguments.seeds);
+  if (!named.seeds.empty()) {
+    auto seeds = parse_seeds(named.seeds);
+    if (!seeds) return bad_input(seeds.error().message, named.place + ", `seeds` of its head");
+    return seeds;
+  }
+  if (!named.candidate) return parse_seeds("1-10");
+  const auto store = arguments.store.open();
+  if (!store) return Unexpected(store.error());
+  const auto seed = fresh_seed(**store, static_cast<std::uint64_t>((*store)->campaign().seed));
+  if (!seed) return Unexpected(seed.error());
+  return std::vector{*seed};
+}
+
+/// All instances, so that a missing row stops everything and not the second half.
+Expected<void> add_instances(EvaluationPlan& plan, const ExplicitInstances& given) {
+  for (EvaluationJob& job : plan.jobs) {
+    for (const std::int64_t seed : job.seeds) {
+      auto instance = instance_of(job.mission, seed, given);
+      if (!instance) return bad_input(instance.error().message, instance.error().where);
+      job.instances.push_back(std::move(*instance));
+    }
+  }
+  return {};
+}
+
+}  // namespace
+
+Expected<EvaluationPlan> plan_evaluations(const EvaluateArguments& arguments, Output& output) {
+  EvaluationPlan plan;
+  const auto machines = machines_of(arguments, output);
+  if (!machines) return Unexpected(machines.error());
+  plan.of_store = static_cast<bool>(machines->front().candidate);
+  plan.stores = plan.of_store && !arguments.no_store;
+  for (const NamedMachine& named : *machines) {
+    auto job = job_of(named, arguments, output);
+    if (!job) return Unexpected(job.error());
+    if (plan.stores) {
+      if (auto complaint = complaint_about(*job, named, arguments)) {
+        return bad_input(*complaint + "; --no-store prints them only", to_string(named.candidate));
+      }
+    }
+    // One fresh seed for all candidates: their scores are compared.
+    auto seeds = named.candidate && !plan.jobs.empty()
+                     ? Expected<std::vector<std::int64_t>>(plan.jobs.front().seeds)
+                     : seeds_of(arguments, named);
+    if (!seeds) return Unexpected(seeds.error());
+    job->seeds = std::move(*seeds);
+    plan.jobs.push_back(std::move(*job));
+  }
+  ExplicitInstances given;
+  if (auto read = read_instances(arguments, plan, given, output); !read) {
+    return Unexpected(read.error());
+  }
+  if (auto added = add_instances(plan, given); !added) return Unexpected(added.error());
+  return plan;
+}
+
+Expected<std::int64_t> fresh_seed(StoreReader& store, std::uint64_t campaign_seed) {
+  constexpr std::int64_t kAll = 1'000'000'000;
+  const auto rows =
+      select(store, "SELECT DISTINCT seed FROM v_evaluations WHERE purpose <> 'score' AND seed > 0",
+             {.rows = kAll, .seconds = 600});
+  if (!rows) return Unexpected(rows.error());
+  std::set<std::string> used;
+  for (const auto& cells : rows->cells)
+    used.insert(cells.front().text);
+  Rng stream = Rng(campaign_seed).split("score");
+  std::int64_t seed = stream.uniform_int(1, kLargestSeed);
+  while (used.contains(std::to_string(seed)))
+    seed = stream.uniform_int(1, kLargestSeed);
+  return seed;
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,169 @@
+#include "cli/replay/real_replay.h"
+
+#include <array>
+#include <cmath>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "analysis/arena/arena_panels.h"
+#include "base/csv.h"
+#include "cli/output/progress_text.h"
+#include "cli/replay/stored_runs.h"
+#include "sim/control/module.h"
+#include "sim/mission/trajectory_csv.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// By CycleKind of tracking, and of what was simulated.
+std::string_view kind_text(std::int64_t kind) {
+  constexpr std::array<std::string_view, 4> kKinds{"measured", "interpolated", "degraded",
+                                                   "missing"};
+  return kind < 0 || kind > 3 ? "" : kKinds.at(static_cast<std::size_t>(kind));
+}
+constexpr std::string_view kSimulated = "simulated";
+
+ShownRun shown(const RealRunRows& rows, const FilmedRun& filmed, double score) {
+  ShownRun run{.source = rows.source, .score = score, .instance = filmed.instance};
+  for (std::size_t robot = 0; robot < rows.robots.size(); ++robot) {
+    run.labels.push_back(rows.robots[robot].name);
+    std::vector<Pose>& poses = run.robots.emplace_back();
+    poses.push_back(filmed.instance.starts[robot]);
+    for (int instant = 0; instant < filmed.trajectory.instants(); ++instant)
+      poses.push_back(filmed.trajectory.at(instant)[robot]);
+  }
+  return run;
+}
+
+/// Whether a simulated swarm can begin there: as many robots as the mission has, within the walls
+/// and not within each other.
+bool can_start(const Mission& mission, const std::vector<Pose>& starts) {
+  if (starts.size() != static_cast<std::size_t>(mission.robots)) return false;
+  for (std::size_t i = 0; i < starts.size(); ++i) {
+    const Point here{starts[i].x, starts[i].y};
+    if (!is_inside(mission.arena, here)) return false;
+    for (std::size_t k = 0; k < i; ++k) {
+      // Robots are squares or discs: closer than half of one's side, they overlap for sure.
+      if (std::hypot(starts[k].x - here.x, starts[k].y - here.y) < kBodySide_m / 2) return false;
+    }
+  }
+  return true;
+}
+
+ShownRun simulated(const StoredRun& stored, const FilmedRun& filmed, Instance instance) {
+  ShownRun run{.source = stored.profile.name, .seed = stored.seed};
+  const auto observe = [&](const Snapshot& snapshot) {
+    run.robots.resize(snapshot.robots.size());
+    run.labels.resize(snapshot.robots.size());
+    run.objects.resize(snapshot.objects.size());
+    for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
+      const auto state = static_cast<std::size_t>(snapshot.robots[i].state);
+      run.robots[i].push_back(snapshot.robots[i].pose);
+      run.labels[i] = id_of(module_of(stored.machine.states[state].behaviour));
+    }
+    for (std::size_t i = 0; i < snapshot.objects.size(); ++i)
+      run.objects[i].push_back(snapshot.objects[i]);
+  };
+  run.instance = std::move(instance);
+  run.score = simulate({.machine = stored.machine,
+                        .flavour = stored.flavour,
+                        .profile = stored.profile,
+                        .mission = filmed.mission,
+                        .instance = run.instance,
+                        .seed = stored.seed},
+                       Recorder(observe))
+                  .score;
+  return run;
+}
+
+}  // namespace
+
+Expected<RealReplay> replay_real_run(std::unique_ptr<StoreReader> store, RealRunId id,
+                                     const std::vector<std::int64_t>& seeds) {
+  auto rows = store->real_run(id);
+  if (!rows) return Unexpected(rows.error());
+  auto filmed = filmed_run(*rows);
+  if (!filmed) return Unexpected(filmed.error());
+  RealReplay replay{.rows = std::move(*rows), .verdict = {}, .filmed = std::move(*filmed)};
+  for (const RealRunHead& head : store->real_runs())
+    if (head.id == id) replay.verdict = head.verdict;
+  replay.score = score_again(replay.filmed);
+  replay.runs.push_back(shown(replay.rows, replay.filmed, replay.score));
+  if (seeds.empty()) return replay;
+  const CandidateId candidate = replay.rows.candidate;
+  if (!candidate) {
+    return bad_input("the run names no candidate: there is nothing to simulate beside it",
+                     to_string(id));
+  }
+  auto runs = StoredRuns::open(std::move(store));
+  if (!runs) return Unexpected(runs.error());
+  const ThingId machine{.letter = 'c', .digits = std::to_string(candidate.value), .purpose = {}};
+  replay.starts_as_real = can_start(replay.filmed.mission, replay.filmed.instance.starts);
+  for (const std::int64_t seed : seeds) {
+    const auto stored = runs->candidate(machine, seed);
+    if (!stored) return Unexpected(stored.error());
+    Instance instance = replay.filmed.instance;
+    if (!replay.starts_as_real) {
+      auto drawn = instance_of(replay.filmed.mission, seed);
+      if (!drawn) return Unexpected(drawn.error());
+      instance.starts = std::move(drawn->starts);
+    }
+    replay.runs.push_back(simulated(*stored, replay.filmed, std::move(instance)));
+  }
+  return replay;
+}
+
+std::string picture_of(const RealReplay& replay, RealRunId id, double width_mm) {
+  const RealRunRows& rows = replay.rows;
+  std::string who = to_string(id) + " " + rows.name;
+  if (!rows.recorded.empty()) who += ", " + rows.recorded;
+  if (rows.candidate) who += ", " + to_string(rows.candidate);
+  ArenaPanels panels{.title = replay.filmed.mission.name,
+                     .details = {who, "hollow: start, solid: end; the floor is paler than it is"},
+                     .pictures = {},
+                     .width_mm = width_mm};
+  if (!replay.starts_as_real) panels.details.emplace_back("simulations start elsewhere");
+  for (const ShownRun& run : replay.runs) {
+    const bool is_real = &run == &replay.runs.front();
+    ArenaPicture picture{
+        .title = is_real ? run.source : fmt::format("{}, seed {}", run.source, run.seed),
+        .details = {"score " + score_text(run.score)},
+        .arena = arena_of(replay.filmed.mission, run.instance),
+        .body = replay.filmed.mission.body,
+        .robots = {},
+        .objects = run.objects};
+    if (is_real) picture.details.front() += ", " + replay.verdict;
+    for (std::size_t robot = 0; robot < run.robots.size(); ++robot)
+      picture.robots.push_back({run.robots[robot], run.labels[robot]});
+    panels.pictures.push_back(std::move(picture));
+  }
+  return draw(panels);
+}
+
+std::string table_of(const RealReplay& replay, RealRunId id) {
+  std::string csv = "run,source,seed,";
+  csv += kTrajectoryColumns;
+  csv += ",kind";
+  csv += kCsvLineEnd;
+  for (const ShownRun& run : replay.runs) {
+    const bool is_real = &run == &replay.runs.front();
+    const std::string first = is_real ? to_string(id) + "," + csv_field(run.source) + ",,"
+                                      : fmt::format(",{},{},", csv_field(run.source), run.seed);
+    const std::size_t robots = run.robots.size();
+    for (std::size_t cycle = 0; cycle < run.robots.front().size(); ++cycle) {
+      for (std::size_t robot = 0; robot < robots; ++robot) {
+        csv += first;
+        append_pose_cells(csv, static_cast<int>(cycle), static_cast<int>(robot),
+                          run.robots[robot][cycle]);
+        csv += ',';
+        csv += is_real ? kind_text(replay.rows.cycles[cycle * robots + robot].kind) : kSimulated;
+        csv += kCsvLineEnd;
+      }
+    }
+  }
+  return csv;
+}
+
+}  // namespace swarmsmith::cli

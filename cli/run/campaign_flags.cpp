@@ -1,0 +1,109 @@
+#include "cli/run/campaign_flags.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+
+#include "cli/arguments/campaign_argument.h"
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/pool/task_key.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+std::string store_of_environment() {
+  const char* variable = std::getenv("SWARMSMITH_STORE");
+  return variable == nullptr ? "" : variable;
+}
+
+/// The same file under any of its names.
+std::filesystem::path place_of(const std::filesystem::path& store) {
+  std::error_code trouble;
+  const auto place = std::filesystem::weakly_canonical(store, trouble);
+  return trouble ? store : place;
+}
+
+Expected<void> check_one_store(const std::string& store, const std::string& where) {
+  if (store.empty()) return {};
+  return bad_input(
+      "names one store, and each campaign has one of its own: their files say which (key `store`)",
+      where);
+}
+
+}  // namespace
+
+void CampaignFlags::declare(Options& options, Options::Need files_needed) {
+  options.words("FILE", files,
+                "Campaign file; several campaigns share the workers, each with its own store",
+                files_needed);
+  options.integer("--budget", budget, {1, kLargestBudget}, "Experiments of each design");
+  options.integer("--seed", seed, {0, INT64_MAX}, "Seed that everything derives from");
+  options.text("--store", store, "Where the results go");
+}
+
+Expected<void> check_pool(const std::vector<Campaign>& campaigns) {
+  if (campaigns.size() > kMaxCampaigns) {
+    return bad_input("one coordinator runs at most " + std::to_string(kMaxCampaigns) +
+                     " campaigns, and these are " + std::to_string(campaigns.size()));
+  }
+  std::set<std::filesystem::path> stores;
+  std::set<std::string> digests;
+  for (const Campaign& campaign : campaigns) {
+    // The second would be asked for its own answer again.
+    if (!digests.insert(campaign_digest(campaign)).second) {
+      return bad_input("the campaign is there twice: its answer would be the same", campaign.name);
+    }
+    if (!stores.insert(place_of(campaign.store)).second) {
+      return bad_input("two of the campaigns have this store: give each its own (key `store`)",
+                       campaign.store.string());
+    }
+    if (campaign.target.has_value() != campaigns.front().target.has_value()) {
+      return bad_input(
+          "some of the campaigns run programs and others the simulator, for which other rules "
+          "hold: run them apart");
+    }
+  }
+  return {};
+}
+
+std::optional<std::vector<Campaign>> CampaignFlags::read(Output& output) const {
+  const std::string environment = store_of_environment();
+  if (files.size() > 1) {
+    for (const auto& one :
+         {check_one_store(store, "--store"), check_one_store(environment, "SWARMSMITH_STORE")}) {
+      if (one) continue;
+      print_error(output, one.error());
+      return std::nullopt;
+    }
+  }
+  std::vector<Campaign> campaigns;
+  bool well = true;
+  for (const std::string& file : files.empty() ? std::vector<std::string>{""} : files) {
+    std::optional<Campaign> campaign =
+        file.empty() ? demo_campaign() : read_or_complain(file, output, budget);
+    if (!campaign) {
+      well = false;
+      continue;
+    }
+    if (budget) campaign->race.max_experiments = *budget;
+    if (seed) campaign->seed = static_cast<std::uint64_t>(*seed);
+    if (!environment.empty()) campaign->store = environment;
+    if (!store.empty()) campaign->store = store;
+    if (budget) {
+      for (const Error& complaint : check_budget(*campaign)) {
+        print_error(output, {complaint.kind, complaint.message, "--budget"});
+        well = false;
+      }
+    }
+    campaigns.push_back(std::move(*campaign));
+  }
+  if (!well) return std::nullopt;
+  if (const auto checked = check_pool(campaigns); !checked) {
+    print_error(output, checked.error());
+    return std::nullopt;
+  }
+  return campaigns;
+}
+
+}  // namespace swarmsmith::cli

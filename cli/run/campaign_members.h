@@ -1,0 +1,73 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "cli/output/run_listener.h"
+#include "console/exit_code.h"
+#include "console/output.h"
+#include "coordinator/campaign/campaign.h"
+#include "coordinator/design/campaign_runner.h"
+#include "coordinator/service/service.h"
+#include "storage/store.h"
+
+namespace swarmsmith::cli {
+
+/// The campaign's name, or, where others have the same, its store.
+std::string name_among(const std::vector<Campaign>& campaigns, const Campaign& campaign);
+
+/// The campaigns of one run, each with its store, its races and its end. What goes wrong is
+/// printed, and stands in front of it the campaign's name when there are several.
+class CampaignMembers {
+ public:
+  /// `campaigns` must outlive it. `keeps_store`: an interrupted run goes on later.
+  CampaignMembers(Output& output, const std::vector<Campaign>& campaigns, bool keeps_store);
+
+  /// Tells `listener` how the campaigns stand, and closes the stores of those that are over.
+  ExitCode open_stores(RunListener& listener);
+  /// Plays the races of the others as far as their stores have them.
+  ExitCode begin();
+  /// How each of those ended, whom a service has run; `trouble` is why workers could not be had.
+  void end(const ServiceEnd& end, const std::string& trouble);
+
+  std::size_t size() const { return members_.size(); }
+  ExitCode end_of(std::size_t place) const { return members_[place].end; }
+  /// Places of those that are not over; the service has them in this order.
+  const std::vector<std::size_t>& running() const { return running_; }
+  const Campaign& campaign(std::size_t place) const { return *members_[place].campaign; }
+
+  /// Those that run, for the service.
+  std::vector<ServiceCampaign> served() const;
+  std::vector<const Campaign*> campaigns() const;
+  /// The first number of a worker that none of their stores has.
+  std::int64_t first_worker() const;
+  /// What lets workers run the programs of any of them.
+  std::vector<std::string> allowed_programs() const;
+  /// Beside each store, so that whoever knows one of them finds the coordinator.
+  std::vector<std::filesystem::path> coordinator_files() const;
+
+ private:
+  struct Member {
+    const Campaign* campaign;
+    std::string name;                ///< that no other has
+    std::unique_ptr<Store> store{};  ///< closed when the campaign was finished before
+    std::unique_ptr<CampaignRunner> runner{};
+    ExitCode end = ExitCode::Done;
+  };
+
+  void replay(Member& member, std::vector<DesignPlan> plans);
+  ExitCode end_of(const Member& member, const std::string& reason, const std::string& trouble);
+  ExitCode lose(const Member& member, const std::string& fate);
+  ExitCode fail_of(const Member& member, Error error);
+  std::string in_front(const Member& member, const std::string& mark) const;
+  void print_resume(const Member& member);
+
+  Output& output_;
+  bool keeps_store_;
+  std::vector<Member> members_;
+  std::vector<std::size_t> running_;  ///< of `members_`
+};
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,162 @@
+#include "cli/run/campaign_plan.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <variant>
+
+#include "cli/run/campaign_warnings.h"
+#include "console/output.h"
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/machine_space.h"
+#include "irace_core/iterated_race.h"
+#include "sim/engine/simulate.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using SteadyClock = std::chrono::steady_clock;
+
+/// Measured on stores of 12k and 100k evaluations: what an evaluation, its candidate and step take,
+/// and what they write to the log until it is folded in.
+constexpr double kBytesPerEvaluation = 120;
+constexpr double kLogBytesPerEvaluation = 1300;
+constexpr double kLargestLog = 10e6;
+/// For all missions and methods together.
+constexpr double kMeasured_s = 0.5;
+/// Racing, storing and messages.
+constexpr double kOverhead_s = 30e-6;
+
+/// Machines as a first race would try them.
+std::vector<Machine> some_machines(const Campaign& campaign, const Method& method) {
+  constexpr std::size_t kMachines = 50;
+  std::vector<Machine> machines;
+  const Flavour& flavour = **find_flavour(method.flavour);
+  auto space = MachineSpace::make(method, flavour, static_cast<int>(campaign.digits));
+  if (!space) return machines;
+  auto race = IteratedRace::start(space->parameters(), campaign.race);
+  if (!race) return machines;
+  for (const RaceEvent& event : race->take_events()) {
+    const auto* sampled = std::get_if<ConfigurationSampled>(&event);
+    if (sampled == nullptr) continue;
+    machines.push_back(space->to_machine(sampled->configuration));
+    if (machines.size() == kMachines) break;
+  }
+  return machines;
+}
+
+/// What random machines showed.
+struct Measured {
+  double evaluation_s = 0;  ///< mean
+  std::int64_t runs = 0;    ///< of the whole mission
+  double least = 0;         ///< of their scores
+  double most = 0;
+  bool finite = true;
+};
+
+/// A score that is never a number, or always the same, is a mistake more often than not.
+void warn_about_scores(const std::string& mission, const Measured& measured,
+                       std::vector<std::string>& warnings) {
+  constexpr std::int64_t kEnough = 20;
+  if (!measured.finite) {
+    warnings.push_back(
+        "mission " + mission +
+        ": a random machine's score is no finite number; a race rejects such machines");
+  } else if (measured.runs >= kEnough && measured.least == measured.most) {
+    warnings.push_back("mission " + mission + ": " + std::to_string(measured.runs) +
+                       " runs of random machines all scored " + json_number(measured.most) +
+                       "; can a score be another one at all?");
+  }
+}
+
+/// Evaluations of the method on the mission, as many as fit into `budget_s`. Of a mission that is
+/// too long for that, its beginning is simulated: as much as fits.
+Measured measure(const Campaign& campaign, const Method& method, const Mission& mission,
+                 double budget_s) {
+  const Flavour flavour = find_flavour(method.flavour, method.turn_clock).value();
+  const std::vector<Machine> machines = some_machines(campaign, method);
+  constexpr int kFirstCycles = 50;
+  constexpr int kGrowth = 4;
+  Mission piece = mission;
+  piece.cycles = std::min(mission.cycles, kFirstCycles);
+  double elapsed_s = 0;  // of all runs
+  double counted_s = 0;  // of those as long as the last
+  std::int64_t runs = 0;
+  Measured measured;
+  constexpr std::int64_t kMostSeeds = 100'000;  // also where no seed should find room for the swarm
+  for (std::int64_t seed = 1;
+       seed <= kMostSeeds && !machines.empty() && (runs == 0 || elapsed_s < budget_s); ++seed) {
+    const Machine& machine = machines[static_cast<std::size_t>(seed) % machines.size()];
+    const auto instance = instance_of(mission, seed);
+    if (!instance) continue;
+    const auto begin = SteadyClock::now();
+    const double score = simulate({.machine = machine,
+                                   .flavour = flavour,
+                                   .profile = campaign.profile,
+                                   .mission = piece,
+                                   .instance = *instance,
+                                   .seed = seed})
+                             .score;
+    measured.finite = measured.finite && std::isfinite(score);
+    if (piece.cycles == mission.cycles) {
+      measured.least = measured.runs == 0 ? score : std::min(measured.least, score);
+      measured.most = measured.runs == 0 ? score : std::max(measured.most, score);
+      ++measured.runs;
+    }
+    const double run_s = std::chrono::duration<double>(SteadyClock::now() - begin).count();
+    elapsed_s += run_s;
+    if (runs == 0 && piece.cycles < mission.cycles && kGrowth * run_s < budget_s - elapsed_s) {
+      piece.cycles = std::min(mission.cycles, kGrowth * piece.cycles);
+      continue;
+    }
+    counted_s += run_s;
+    ++runs;
+  }
+  if (runs == 0) return measured;
+  measured.evaluation_s = counted_s / static_cast<double>(runs) * mission.cycles / piece.cycles;
+  return measured;
+}
+
+}  // namespace
+
+CampaignPlan plan_of(const Campaign& campaign) {
+  CampaignPlan plan;
+  const auto methods = static_cast<std::int64_t>(campaign.methods.size());
+  const auto missions = static_cast<std::int64_t>(campaign.missions.size());
+  for (const DesignRow& design : design_rows(campaign)) {
+    ++plan.designs;
+    plan.experiments += design.budget;
+    plan.largest_budget = std::max(plan.largest_budget, design.budget);
+  }
+  std::int64_t tested = 0;  // machines a mission
+  for (const Method& method : campaign.methods) {
+    const std::int64_t elites = method.baseline.empty() ? campaign.test_nb_elites : 1;
+    tested += elites * repetitions_of(campaign, method);
+  }
+  for (const CampaignMission& mission : campaign.missions)
+    plan.tests += mission.test_count * tested;
+  const auto cores = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
+  plan.slots = std::max<std::int64_t>(1, campaign.local_workers.value_or(cores));
+  const auto evaluations = static_cast<double>(plan.experiments + plan.tests);
+  plan.disk_bytes = evaluations * kBytesPerEvaluation;
+  plan.log_bytes = std::min(kLargestLog, evaluations * kLogBytesPerEvaluation);
+  plan.warnings = warnings_about(campaign);
+  // How long programs take, they alone know.
+  if (campaign.target) return plan;
+  const auto pairs = static_cast<double>(missions * methods);
+  double sum_s = 0;
+  for (const CampaignMission& mission : campaign.missions) {
+    for (const Method& method : campaign.methods) {
+      const Measured measured = measure(campaign, method, mission.mission, kMeasured_s / pairs);
+      sum_s += measured.evaluation_s;
+      warn_about_scores(mission.mission.name, measured, plan.warnings);
+    }
+  }
+  plan.evaluation_s = sum_s / pairs;
+  const auto busy = static_cast<double>(std::min(plan.slots, cores));
+  plan.time_s = evaluations * (*plan.evaluation_s + kOverhead_s) / busy;
+  return plan;
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,247 @@
+#include "cli/run/campaign_run.h"
+
+#include <algorithm>
+#include <memory>
+#include <stop_token>
+#include <utility>
+
+#include "base/descriptor_limit.h"
+#include "cli/arguments/store_argument.h"
+#include "cli/output/progress.h"
+#include "cli/run/campaign_members.h"
+#include "cli/run/campaign_result.h"
+#include "cli/run/pool_setup.h"
+#include "cli/run/run_signals.h"
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/launchers/start_workers.h"
+#include "proto/access/address.h"
+#include "proto/access/key_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// Of the process, besides its connections: stores, logs, workers' pipes.
+constexpr int kOtherDescriptors = 1'000;
+
+/// How much worse than others an end is: a campaign that cannot go on outweighs one that can.
+int gravity(ExitCode code) {
+  if (code == ExitCode::Done) return 0;
+  if (code == ExitCode::Interrupted || code == ExitCode::Terminated) return 1;
+  if (code == ExitCode::Unreachable) return 2;
+  if (code == ExitCode::OverFailureLimit) return 3;
+  return 4;
+}
+
+ExitCode exit_code_of(const Error& error) {
+  return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Unreachable;
+}
+
+/// Campaigns that are being run: everything that must live while the service does.
+class CampaignRun {
+ public:
+  CampaignRun(Output& output, const std::vector<Campaign>& campaigns, const RunOptions& options,
+              RunListener& listener)
+      : output_(output),
+        options_(options),
+        listener_(listener),
+        members_(output, campaigns, options.keeps_store) {
+    if (options_.bind.empty()) options_.bind = campaigns.front().bind;
+    // Workers from other hosts have to reach it; where it is, its file says.
+    const bool local = launch_of(campaigns.front(), options_).kind == LaunchOptions::Kind::Local;
+    if (options_.bind.empty() && !local) options_.bind = "0.0.0.0:0";
+  }
+
+  std::vector<ExitCode> run() {
+    ExitCode begun = members_.open_stores(listener_);
+    if (begun == ExitCode::Done && !members_.running().empty()) begun = begin();
+    std::vector<ExitCode> ends;
+    for (std::size_t i = 0; i < members_.size(); ++i)
+      ends.push_back(begun == ExitCode::Done ? members_.end_of(i) : begun);
+    return ends;
+  }
+
+ private:
+  ExitCode begin() {
+    catch_ending_signals();
+    if (const ExitCode begun = members_.begin(); begun != ExitCode::Done) return begun;
+    if (!open_door()) return ExitCode::Usage;
+    auto service = listen();
+    if (!service) return fail(output_, exit_code_of(service.error()), service.error());
+    // Before the coordinator's file, where their address stands.
+    auto pages = open_pages(options_);
+    if (!pages) return fail(output_, exit_code_of(pages.error()), pages.error());
+    pages_ = std::move(*pages);
+    if (pages_) print_note(output_, "metrics, health and status: http://" + pages_->address());
+    const std::string endpoint = (*service)->endpoint();
+    CoordinatorFile file = coordinator_file(options_.access, access_, endpoint);
+    if (pages_) file.http = "http://" + pages_->address();
+    for (const std::filesystem::path& path : coordinator_files()) {
+      if (const auto written = write_coordinator_file(path, file); !written) {
+        return fail(output_, ExitCode::Unreachable, written.error());
+      }
+    }
+    if (options_.announce) announce(endpoint);
+    const ExitCode ended = serve_with_workers(**service);
+    for (const std::filesystem::path& path : coordinator_files())
+      remove_coordinator_file(path, file);
+    return ended;
+  }
+
+  /// Keys and clients, or plaintext; false after having said what is wrong.
+  bool open_door() {
+    raise_descriptor_limit(SocketOptions().max_connections + kOtherDescriptors);
+    auto access = open_access(options_.access, bind_of(options_));
+    if (access) {
+      access_ = std::move(*access);
+      if (access_.watch) catch_hangup();
+      return true;
+    }
+    for (const Error& fault : access.error())
+      print_error(output_, fault);
+    return false;
+  }
+
+  std::vector<std::filesystem::path> coordinator_files() const {
+    if (!options_.access.coordinator_file.empty()) return {options_.access.coordinator_file};
+    return members_.coordinator_files();
+  }
+
+  Expected<std::unique_ptr<Service>> listen() {
+    ServiceOptions service = service_options(members_.campaigns(), options_);
+    service.coordinator.scheduler.first_worker = members_.first_worker();
+    local_secret_ = service.coordinator.local_secret;
+    service.keys = access_.keys;
+    service.insecure_plaintext = access_.insecure_plaintext;
+    if (access_.watch) {
+      service.new_clients = [watch = access_.watch] { return watch->take(); };
+    }
+    return open_service(std::move(service), members_.served(), options_.next_port);
+  }
+
+  /// Workers of this host get the address, others the file in which it stands.
+  WorkersSetup workers_setup(const std::string& endpoint) const {
+    const Campaign& first = members_.campaign(members_.running().front());
+    WorkersSetup setup{.launch = launch_of(first, options_),
+                       .local_slots = static_cast<int>(options_.slots),
+                       .local_secret = local_secret_,
+                       .campaign_digest = campaign_digest(first),
+                       .store = first.store};
+    const auto file = std::filesystem::absolute(coordinator_files().front());
+    setup.shared_folder = file.parent_path();
+    setup.address.endpoint = local_endpoint(endpoint);
+    if (setup.launch.kind != LaunchOptions::Kind::Local) setup.address.coordinator = file;
+    if (access_.keys) setup.address.key = std::filesystem::absolute(access_.local_key);
+    setup.arguments = members_.allowed_programs();
+    if (access_.insecure_plaintext) setup.arguments.emplace_back("--insecure-plaintext");
+    return setup;
+  }
+
+  ExitCode serve_with_workers(Service& service) {
+    const WorkersSetup setup = workers_setup(service.endpoint());
+    if (!setup.address.key.empty() && setup.wants_workers()) {
+      if (const auto key = read_client_key(access_.local_key); !key) {
+        return fail(output_, ExitCode::Usage, key.error());
+      }
+    }
+    const auto workers = start_workers(setup);
+    if (workers) return serve(service, workers->get());
+    for (const Error& error : workers.error())
+      print_error(output_, error);
+    const bool usage = workers.error().front().kind == ErrorKind::BadInput;
+    return usage ? ExitCode::Usage : ExitCode::Unreachable;
+  }
+
+  ExitCode serve(Service& service, Launcher* workers) {
+    std::stop_source stop;
+    std::string worker_trouble;
+    const ServiceHooks hooks{
+        .on_rows =
+            [&](std::optional<std::size_t> campaign, std::span<const Row> rows) {
+              if (campaign) campaign = members_.running()[*campaign];
+              for (const Row& row : rows)
+                listener_.add(campaign, row, clock_.now());
+            },
+        .on_status =
+            [&](LiveStatus& live) {
+              if (access_.watch && take_hangup()) access_.watch->look_now();
+              if (workers != nullptr && worker_trouble.empty()) {
+                worker_trouble = workers->tend(clock_.now());
+                if (worker_trouble.empty()) live.launcher = workers->status();
+              }
+              last_ = live;
+              if (pages_) pages_->publish(live);
+              listener_.update(last_, clock_.now());
+              if (ending_signal() != 0 || !worker_trouble.empty()) stop.request_stop();
+            },
+    };
+    const ServiceEnd end = service.run(stop.get_token(), hooks);
+    const std::string left_behind =
+        workers == nullptr ? "" : workers->stop(std::chrono::seconds(2));
+    listener_.finish(last_);
+    if (!left_behind.empty()) print_note(output_, left_behind);
+    members_.end(end, worker_trouble);
+    if (!worker_trouble.empty()) fail(output_, ExitCode::Unreachable, worker_trouble);
+    return ExitCode::Done;
+  }
+
+  void announce(const std::string& endpoint) {
+    const std::string advertised = advertised_endpoint(endpoint, options_.access.advertise);
+    const std::string address = advertised.substr(advertised.find("//") + 2);
+    print_note(output_, "waiting for workers: swarmsmith worker --connect " + address +
+                            (access_.keys ? " --key " + access_.local_key.string() : "") +
+                            (access_.insecure_plaintext ? " --insecure-plaintext" : ""));
+  }
+
+  Output& output_;
+  RunOptions options_;
+  RunListener& listener_;
+  CampaignMembers members_;
+  SystemClock clock_;
+  LiveStatus last_;
+  std::unique_ptr<HttpServer> pages_;
+  Access access_;
+  std::string local_secret_;
+};
+
+/// Lines of several campaigns begin with their names.
+std::vector<ToldCampaign> told(const std::vector<Campaign>& campaigns) {
+  std::vector<ToldCampaign> told;
+  told.reserve(campaigns.size());
+  for (const Campaign& campaign : campaigns) {
+    told.push_back({.name = campaigns.size() > 1 ? name_among(campaigns, campaign) : "",
+                    .designs = design_rows(campaign),
+                    .costs = campaign.target.has_value()});
+  }
+  return told;
+}
+
+ExitCode show_result(Output& output, const Campaign& campaign, const std::string& name) {
+  const auto reader = StoreReader::open(campaign.store);
+  if (!reader) return fail(output, exit_code_of_store(reader.error()), reader.error());
+  const ExitCode written = write_result(output, **reader, name);
+  if (!output.json) print_next_steps(output, campaign.store.string());
+  return written;
+}
+
+}  // namespace
+
+std::vector<ExitCode> carry_out(Output& output, const std::vector<Campaign>& campaigns,
+                                const RunOptions& options, RunListener& listener) {
+  return CampaignRun(output, campaigns, options, listener).run();
+}
+
+ExitCode run_campaigns(Output& output, const std::vector<Campaign>& campaigns,
+                       const RunOptions& options) {
+  if (const auto agreed = check_agreement(campaigns, options); !agreed) {
+    return fail(output, ExitCode::Usage, agreed.error());
+  }
+  const std::vector<ToldCampaign> names = told(campaigns);
+  Progress progress(output, names, SystemClock().now());
+  std::vector<ExitCode> ends = carry_out(output, campaigns, options, progress);
+  for (std::size_t i = 0; i < campaigns.size(); ++i) {
+    if (ends[i] == ExitCode::Done) ends[i] = show_result(output, campaigns[i], names[i].name);
+  }
+  return *std::ranges::max_element(ends, {}, gravity);
+}
+
+}  // namespace swarmsmith::cli

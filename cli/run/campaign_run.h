@@ -1,0 +1,47 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "cli/arguments/access_flags.h"
+#include "cli/output/run_listener.h"
+#include "console/options.h"
+#include "coordinator/campaign/campaign.h"
+#include "coordinator/launchers/launch_options.h"
+
+namespace swarmsmith::cli {
+
+/// Who evaluates, and where workers from elsewhere find the coordinator.
+struct RunOptions {
+  /// Who starts workers; none: as `workers` or the campaign have it.
+  std::optional<LaunchOptions> launch;
+  /// Worker processes of this host; none: as the campaign has it, 0: no workers at all.
+  std::optional<std::int64_t> workers;
+  /// Evaluations at a time of each; 0: the cores, shared among the processes.
+  std::int64_t slots = 0;
+  std::string bind;  ///< host:port; empty: as the campaigns have it, else a free port on loopback
+  bool announce = false;
+  AccessFlags access{};
+  /// When another program listens on the port of `bind`, one of the next ones will do.
+  bool next_port = false;
+  std::string http{};  ///< host:port of the pages; empty: none
+  bool http_next_port = false;
+  std::string http_token_file{};
+  /// Whether an interrupted run goes on later; else its store is thrown away.
+  bool keeps_store = true;
+};
+
+/// Runs the campaigns to their ends on one pool of workers, going on where their stores stand, and
+/// prints the results of those that came to one. SIGINT and SIGTERM end it so that the same command
+/// goes on later; a second one ends it at once. The worst end of a campaign is what is returned.
+ExitCode run_campaigns(Output& output, const std::vector<Campaign>& campaigns,
+                       const RunOptions& options);
+
+/// The same without printing results: `listener` is told how it goes, errors are explained. How
+/// each campaign ended; all alike when they could not begin.
+std::vector<ExitCode> carry_out(Output& output, const std::vector<Campaign>& campaigns,
+                                const RunOptions& options, RunListener& listener);
+
+}  // namespace swarmsmith::cli

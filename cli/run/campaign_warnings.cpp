@@ -1,0 +1,71 @@
+#include "cli/run/campaign_warnings.h"
+
+#include <algorithm>
+
+#include "console/output.h"
+#include "sim/control/flavour.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+bool has(const std::vector<std::string>& modules, Module module) {
+  return std::ranges::find(modules, id_of(module)) != modules.end();
+}
+
+/// The published program sees black only at a grey level that noise never leaves alone.
+void warn_about_black(const Method& method, const Flavour& flavour, const Profile& profile,
+                      std::vector<std::string>& warnings) {
+  const bool narrow = flavour.floor.black.high < 1000;
+  if (!has(method.conditions, Module::BlackFloor) || !narrow || profile.ground_color.sd == 0)
+    return;
+  warnings.push_back("method \"" + method.name + "\": flavour " + method.flavour +
+                     " takes only a pure black for black, so that with the ground noise of "
+                     "profile " +
+                     profile.name + " black_floor hardly ever holds");
+}
+
+/// What a sensor that sees less far, or farther, than the flavour reckons with makes of prox.
+void warn_about_range(const Method& method, const Flavour& flavour, const Profile& profile,
+                      std::vector<std::string>& warnings) {
+  const double expected = flavour.obstacles.far_m;
+  const double range = profile.proximity.range_m;
+  if (range == expected) return;
+  warnings.push_back("method \"" + method.name + "\": flavour " + method.flavour +
+                     " takes obstacles into account up to " + json_number(expected) +
+                     " m, but the proximity sensors of profile " + profile.name + " see up to " +
+                     json_number(range) + " m; " +
+                     (range < expected ? "obstacles between are never seen"
+                                       : "what they see beyond is not heeded"));
+}
+
+/// Without a light both phototaxes are a way to go straight on.
+void warn_about_light(const Method& method, const Campaign& campaign,
+                      std::vector<std::string>& warnings) {
+  const bool photo = has(method.behaviours, Module::Phototaxis);
+  const bool anti = has(method.behaviours, Module::AntiPhototaxis);
+  if (!photo && !anti) return;
+  const std::string effect = photo && anti ? "phototaxis and anti_phototaxis only avoid"
+                             : photo       ? "phototaxis only avoids"
+                                           : "anti_phototaxis only avoids";
+  for (const CampaignMission& mission : campaign.missions) {
+    if (!mission.mission.arena.lights.empty()) continue;
+    warnings.push_back("method \"" + method.name + "\": mission " + mission.mission.name +
+                       " has no light, so that " + effect + " obstacles there");
+  }
+}
+
+}  // namespace
+
+std::vector<std::string> warnings_about(const Campaign& campaign) {
+  std::vector<std::string> warnings;
+  if (campaign.target) return warnings;  // what its programs do of modules is theirs
+  for (const Method& method : campaign.methods) {
+    const Flavour& flavour = **find_flavour(method.flavour);
+    warn_about_black(method, flavour, campaign.profile, warnings);
+    warn_about_range(method, flavour, campaign.profile, warnings);
+    warn_about_light(method, campaign, warnings);
+  }
+  return warnings;
+}
+
+}  // namespace swarmsmith::cli

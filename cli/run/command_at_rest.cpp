@@ -1,0 +1,112 @@
+#include "cli/run/command_at_rest.h"
+
+#include <algorithm>
+
+#include "coordinator/campaign/campaign_file.h"
+#include "coordinator/design/campaign_runner.h"
+#include "coordinator/design/plans.h"
+#include "coordinator/service/paused_designs.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+/// The designs that go on when the campaign is run again.
+std::vector<DesignId> unfinished(const std::vector<DesignStateRow>& states,
+                                 const std::vector<CommandRow>& commands) {
+  const std::vector<DesignId> ended = ended_designs(states, commands);
+  std::vector<DesignId> left;
+  for (const DesignStateRow& state : states) {
+    const bool over = state.state == DesignState::Stopped ||
+                      std::ranges::find(ended, state.design) != ended.end();
+    if (!over) left.push_back(state.design);
+  }
+  return left;
+}
+
+/// A row for each design that it changes.
+Expected<std::vector<CommandRow>> pauses(Store& store, const std::vector<CommandRow>& commands,
+                                         const CommandRow& command) {
+  std::vector<DesignId> designs = unfinished(store.design_states(), commands);
+  if (command.design) {
+    if (std::ranges::find(designs, command.design) == designs.end()) {
+      return bad_input("it is over; designs that are not: " + listed(designs),
+                       to_string(command.design));
+    }
+    designs = {command.design};
+  }
+  const std::set<DesignId> paused = paused_designs(commands);
+  std::vector<CommandRow> rows;
+  for (const DesignId design : designs) {
+    if (paused.contains(design) == (command.kind == "pause")) continue;
+    rows.push_back(command);
+    rows.back().design = design;
+  }
+  return rows;
+}
+
+/// What the design says of the command, as far as it has come.
+Expected<void> ask_design(Store& store, const Campaign& campaign,
+                          const std::vector<CommandRow>& commands, const CommandRow& command) {
+  auto plans = plans_of(campaign);
+  if (!plans) return Unexpected(plans.error());
+  const auto plan =
+      std::ranges::find(*plans, command.design, [](const DesignPlan& each) { return each.row.id; });
+  if (plan == plans->end()) {
+    return bad_input("the campaign has no such design", to_string(command.design));
+  }
+  std::vector<DesignId> others;
+  for (const DesignPlan& each : *plans) {
+    if (each.row.id != command.design) others.push_back(each.row.id);
+  }
+  plan->commands = commands_to(command.design, commands);
+  auto stored = by_design(store.scores(), store.steps(), others);
+  auto runner = DesignRunner::start(std::move(*plan), std::move(stored[command.design]));
+  if (!runner) return Unexpected(runner.error());
+  std::vector<Task> tasks;
+  std::vector<Row> rows;
+  if (auto advanced = runner->advance(tasks, rows); !advanced) return advanced;
+  return runner->command(command, rows);
+}
+
+/// Written as one, and on disk when this returns.
+Expected<void> write(Store& store, std::vector<CommandRow> commands, std::int64_t number) {
+  std::vector<Row> rows;
+  for (CommandRow& command : commands) {
+    command.number = ++number;
+    rows.emplace_back(std::move(command));
+  }
+  store.append(std::move(rows));
+  return store.flush();
+}
+
+}  // namespace
+
+Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
+                                      const std::filesystem::path& path,
+                                      const CommandRow& command) {
+  const std::vector<CommandRow> commands = store.commands();
+  const std::int64_t last = commands.empty() ? 0 : commands.back().number;
+  if (command.kind == "pause" || command.kind == "resume") {
+    const auto rows = pauses(store, commands, command);
+    if (!rows) return Unexpected(rows.error());
+    std::vector<DesignId> designs;
+    for (const CommandRow& row : *rows)
+      designs.push_back(row.design);
+    if (!rows->empty()) {
+      if (auto written = write(store, *rows, last); !written) return Unexpected(written.error());
+    }
+    return sentence_of_pause(command.kind, designs);
+  }
+  const auto campaign = parse_campaign(known.file, path.string());
+  if (!campaign) return Unexpected(campaign.error().front());
+  if (auto asked = ask_design(store, *campaign, commands, command); !asked) {
+    return Unexpected(asked.error());
+  }
+  if (auto written = write(store, {command}, last); !written) return Unexpected(written.error());
+  const std::string name = to_string(command.design);
+  if (command.kind == "cancel") return name + " ends when the campaign is run again";
+  return name + " gets " + std::to_string(command.budget) +
+         " experiments more when the campaign is run again";
+}
+
+}  // namespace swarmsmith::cli

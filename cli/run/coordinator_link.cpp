@@ -1,0 +1,111 @@
+#include "cli/run/coordinator_link.h"
+
+#include <pwd.h>
+#include <unistd.h>
+
+#include "base/clock.h"
+#include "proto/access/address.h"
+#include "proto/socket.h"
+#include "proto/wakeup.h"
+#include "proto/wire.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+constexpr std::chrono::milliseconds kLookAgain{200};
+
+pb::Command::Kind kind_of(const std::string& kind) {
+  if (kind == "pause") return pb::Command::KIND_PAUSE;
+  if (kind == "resume") return pb::Command::KIND_RESUME;
+  if (kind == "cancel") return pb::Command::KIND_CANCEL;
+  return pb::Command::KIND_EXTEND;
+}
+
+std::string frame_of(const std::string& campaign, const CommandRow& command) {
+  pb::ToCoordinator message;
+  message.set_sequence(1);
+  pb::Command& wish = *message.mutable_command();
+  wish.set_kind(kind_of(command.kind));
+  wish.set_campaign(campaign);
+  wish.set_design(command.design.value);
+  wish.set_budget(command.budget);
+  wish.set_who(command.who);
+  return encode(message);
+}
+
+using Answer = Expected<std::string>;
+
+/// The coordinator's sentence, if the frame has it.
+std::optional<Answer> answer_in(const std::string& frame) {
+  google::protobuf::Arena arena;
+  const auto message = decode_to_worker(frame, arena);
+  if (!message) return Answer(Unexpected(message.error()));
+  if ((*message)->has_command_reply()) {
+    const pb::CommandReply& reply = (*message)->command_reply();
+    return reply.done() ? Answer(reply.sentence()) : Answer(bad_input(reply.sentence()));
+  }
+  // Another major version says so.
+  if ((*message)->has_reject()) return Answer(bad_input((*message)->reject().sentence()));
+  return std::nullopt;
+}
+
+}  // namespace
+
+CoordinatorSearch CoordinatorArgument::search(const std::string& file) const {
+  CoordinatorSearch search{.endpoint = {},
+                           .file = coordinator.empty() ? file : coordinator,
+                           .key = key,
+                           .role = "operator",
+                           .insecure_plaintext = insecure_plaintext};
+  if (connect.empty()) return search;
+  const bool has_scheme = connect.find("://") != std::string::npos;
+  search.endpoint = (has_scheme ? "" : "tcp://") + connect;
+  search.file.clear();
+  return search;
+}
+
+Expected<std::string> command_by_wire(const CoordinatorSearch& search, const std::string& campaign,
+                                      const CommandRow& command, std::chrono::seconds patience) {
+  if (!search.endpoint.empty() && !is_tcp_address(search.endpoint)) {
+    return bad_input("this is no address; it is written 127.0.0.1:5555, host and port",
+                     search.endpoint);
+  }
+  auto found = find_coordinator(search);
+  if (!found) return Unexpected(found.error());
+  const SystemClock clock;
+  const TimePoint until = clock.now() + patience;
+  const Wakeup wakeup;
+  ClientSocket socket(found->endpoint, {}, found->keys);
+  socket.connect();
+  // Said once: of a command that is sent twice the second could act, too.
+  socket.send(frame_of(campaign, command));
+  std::string received;
+  while (clock.now() < until) {
+    while (socket.receive(received)) {
+      if (const auto answer = answer_in(received)) return *answer;
+    }
+    if (socket.refused()) {
+      return bad_input(
+          "it does not let this key in: its clients.toml must list the key with the role operator "
+          "(`swarmsmith keygen --client NAME --role operator`)",
+          found->endpoint);
+    }
+    if (socket.lost()) {
+      return unexpected(ErrorKind::Unavailable, "no coordinator answers there", found->endpoint);
+    }
+    socket.wait(wakeup, kLookAgain);
+  }
+  return unexpected(ErrorKind::Unavailable,
+                    "the coordinator has not confirmed the command within " +
+                        std::to_string(patience.count()) +
+                        " s; it may still carry it out: `swarmsmith status STORE` tells",
+                    found->endpoint);
+}
+
+std::string user_and_host() {
+  const passwd* user = getpwuid(geteuid());
+  const std::string name = user != nullptr ? user->pw_name : std::to_string(geteuid());
+  return name + "@" + name_of_this_host();
+}
+
+}  // namespace swarmsmith::cli

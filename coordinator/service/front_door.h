@@ -1,0 +1,32 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "base/clock.h"
+#include "base/expected.h"
+#include "coordinator/service/service.h"
+#include "proto/socket.h"
+
+namespace swarmsmith {
+
+/// Listens as the options say, whose `bind` and `insecure_plaintext` are then what holds: a name
+/// made a number, nobody's key asked for. Errors: as Service::open.
+Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options);
+
+/// Says who was kept out, seldom.
+class RefusalLog {
+ public:
+  void say(const Refusals& refusals, TimePoint now);
+
+ private:
+  struct Said {
+    std::uint64_t count = 0;
+    TimePoint when;
+  };
+  std::map<std::string, Said> said_;
+};
+
+}  // namespace swarmsmith

@@ -1,0 +1,142 @@
+#include "coordinator/service/http_address.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cstring>
+#include <optional>
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::size_t kShortestToken = 16;
+constexpr std::size_t kLongestToken = 512;
+
+/// Host and port apart; no port where there is none.
+std::pair<std::string, std::optional<std::string>> split(std::string_view text) {
+  if (text.starts_with('[')) {
+    const std::size_t end = text.find(']');
+    if (end == std::string_view::npos) return {};
+    const std::string host(text.substr(1, end - 1));
+    text.remove_prefix(end + 1);
+    if (text.empty()) return {host, std::nullopt};
+    return text.front() == ':' ? std::pair(host, std::optional(std::string(text.substr(1))))
+                               : std::pair(std::string(), std::optional<std::string>());
+  }
+  const std::size_t colon = text.find(':');
+  if (colon == std::string_view::npos) return {std::string(text), std::nullopt};
+  return {std::string(text.substr(0, colon)), std::string(text.substr(colon + 1))};
+}
+
+bool is_number(const std::string& host) {
+  std::array<unsigned char, 16> bytes{};
+  return inet_pton(AF_INET, host.c_str(), bytes.data()) == 1 ||
+         inet_pton(AF_INET6, host.c_str(), bytes.data()) == 1;
+}
+
+std::string lower(std::string text) {
+  std::ranges::transform(text, text.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return text;
+}
+
+bool is_loopback_host(const std::string& host) {
+  return host == "localhost" || host == "::1" || (host.starts_with("127.") && is_number(host));
+}
+
+/// Closes a descriptor.
+class Closer {
+ public:
+  explicit Closer(int fd) : fd_(fd) {}
+  ~Closer() {
+    if (fd_ >= 0) close(fd_);
+  }
+  Closer(const Closer&) = delete;
+  Closer& operator=(const Closer&) = delete;
+
+ private:
+  int fd_;
+};
+
+}  // namespace
+
+Expected<HttpAddress> parse_http_address(const std::string& text) {
+  const auto [host, port] = split(text);
+  const auto wrong = [&] {
+    return bad_input("this is no address for pages; it is written 127.0.0.1:8347, host and port",
+                     text);
+  };
+  if (host.empty() || !port) return wrong();
+  if (*port == "*") return HttpAddress{host, 0};
+  int number = 0;
+  const auto [end, error] = std::from_chars(port->data(), port->data() + port->size(), number);
+  const bool whole = error == std::errc() && end == port->data() + port->size();
+  if (!whole || number < 0 || number > 65535) return wrong();
+  return HttpAddress{host, number};
+}
+
+std::string to_string(const HttpAddress& address) {
+  const bool six = address.host.find(':') != std::string::npos;
+  return (six ? "[" + address.host + "]" : address.host) + ":" + std::to_string(address.port);
+}
+
+bool is_loopback(const HttpAddress& address) {
+  return is_loopback_host(lower(address.host));
+}
+
+bool is_our_host(std::string_view header, const HttpAddress& address,
+                 const std::string& host_name) {
+  const std::string host = lower(split(header).first);
+  if (host.empty()) return false;
+  if (is_loopback_host(host)) return true;
+  if (is_loopback(address)) return false;
+  return is_number(host) || host == lower(address.host) || host == lower(host_name);
+}
+
+Expected<std::string> read_token(const std::filesystem::path& file) {
+  const int fd = open(file.c_str(), O_RDONLY | O_CLOEXEC);
+  const Closer closer(fd);
+  if (fd < 0) {
+    return unexpected(ErrorKind::NotFound,
+                      std::string("the token cannot be read: ") + std::strerror(errno),
+                      file.string());
+  }
+  struct stat facts = {};
+  if (fstat(fd, &facts) != 0 || !S_ISREG(facts.st_mode)) {
+    return bad_input("the token must be in an ordinary file", file.string());
+  }
+  if ((facts.st_mode & 077U) != 0) {
+    return bad_input("others can read the token: chmod 600 " + file.string(), file.string());
+  }
+  std::string token(kLongestToken + 1, '\0');
+  const ssize_t size = read(fd, token.data(), token.size());
+  token.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  token.resize(std::min(token.size(), token.find_last_not_of(" \t\r\n") + 1));
+  const bool plain = std::ranges::all_of(token, [](char c) { return c > ' ' && c < 0x7f; });
+  if (token.size() < kShortestToken || token.size() > kLongestToken || !plain) {
+    return bad_input(
+        "a token is one line of 16 to 512 characters without spaces; make one by: head -c 32 "
+        "/dev/urandom | base64",
+        file.string());
+  }
+  return token;
+}
+
+bool has_token(std::string_view header, std::string_view token) {
+  constexpr std::string_view kScheme = "Bearer ";
+  if (!header.starts_with(kScheme)) return false;
+  header.remove_prefix(kScheme.size());
+  unsigned difference = header.size() == token.size() ? 0U : 1U;
+  for (std::size_t i = 0; i < token.size(); ++i) {
+    const char c = i < header.size() ? header[i] : '\0';
+    difference |= static_cast<unsigned>(c ^ token[i]);
+  }
+  return difference == 0;
+}
+
+}  // namespace swarmsmith

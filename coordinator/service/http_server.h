@@ -1,0 +1,40 @@
+#pragma once
+
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "base/expected.h"
+#include "coordinator/service/http_address.h"
+#include "coordinator/service/live_status.h"
+
+namespace swarmsmith {
+
+struct HttpOptions {
+  HttpAddress address;
+  bool next_port = false;  ///< when another program listens there, one of the next hundred will do
+  std::string token;       ///< that requests must carry; must not be empty beyond loopback
+  /// For a request's head to come, and again for the answer to go.
+  std::chrono::milliseconds request_time{3000};
+  /// Older numbers than that mean that the coordinator's loop stands.
+  std::chrono::milliseconds stale_after{5000};
+};
+
+/// Serves what the coordinator's loop publishes, from threads of its own: /metrics (Prometheus),
+/// /healthz, /readyz, /status (JSON). GET only, one request a connection, bounded in size, number
+/// and time. The pages of health need no token, say no more than "ok" without one, and wait for
+/// nobody: not for slow connections, nor for those who read the other pages.
+class HttpServer {
+ public:
+  /// Errors: BadInput (beyond loopback without a token, no address of this host), Conflict (the
+  /// port is taken), Unavailable.
+  static Expected<std::unique_ptr<HttpServer>> start(HttpOptions options);
+  virtual ~HttpServer() = default;
+
+  /// HOST:PORT, with the real port.
+  virtual std::string address() const = 0;
+  /// What is shown from now on. Costs a copy; formatting is done by who asks.
+  virtual void publish(LiveStatus status) = 0;
+};
+
+}  // namespace swarmsmith

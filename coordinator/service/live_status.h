@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/expected.h"
+#include "coordinator/launchers/launcher.h"
+#include "coordinator/pool/campaign_meters.h"
+#include "coordinator/pool/slot_times.h"
+
+namespace swarmsmith {
+
+/// A worker as it is now. Times in seconds.
+struct WorkerStatus {
+  std::int64_t number = 0;  ///< WorkerRow::id
+  std::string state;        ///< "connected", "quarantined", "gone"
+  std::string host;
+  std::string job;
+  std::string client;
+  std::int64_t slots = 0;
+  std::int64_t held = 0;     ///< leases
+  std::int64_t running = 0;  ///< as it last said
+  std::int64_t done = 0;
+  std::int64_t failed = 0;
+  std::int64_t connections = 0;
+  double done_per_s = 0;  ///< over the last seconds
+  double busy = 0;        ///< share of its slots' time over the same
+  double last_heard_s = 0;
+};
+
+struct DesignStatus {
+  std::int64_t id = 0;
+  std::string mission;
+  std::string method;
+  std::int64_t repetition = 0;
+  std::string state;  ///< "waiting", "racing", "testing", "finished", "stopped"
+  std::int64_t used = 0;
+  std::int64_t budget = 0;
+  std::int64_t iteration = 0;
+  std::int64_t best = 0;  ///< candidate; 0 for none
+  double best_mean = 0;
+  bool paused = false;  ///< nothing of it is leased until somebody resumes it
+};
+
+struct CampaignStatus {
+  std::string name;
+  std::string trouble;  ///< why its store cannot write, or why it is stopped; empty when well
+  std::int64_t used = 0;
+  std::int64_t budget = 0;        ///< of designs that are over what they used
+  std::int64_t queued_units = 0;  ///< row units that its writer has not committed
+  std::int64_t wal_bytes = 0;
+  std::vector<DesignStatus> designs;
+  CampaignMeters meters;
+  Histogram commit_time;  ///< from a unit of rows given to the writer to its commit
+  Histogram step_time;    ///< from one step of a design's race to its next
+};
+
+/// How a coordinator's campaigns are right now; from the coordinator's memory, for people. Counts
+/// are since the start of this process.
+struct LiveStatus {
+  std::int64_t workers = 0;
+  std::int64_t slots = 0;
+  std::int64_t ready = 0;  ///< tasks that wait for a slot
+  std::int64_t leased = 0;
+  std::int64_t credit = 0;  ///< tasks that workers want to hold
+  std::int64_t done = 0;    ///< outcomes
+  std::int64_t rejected = 0;
+  std::int64_t failed = 0;  ///< attempts without a score
+  std::int64_t requeued = 0;
+  std::int64_t expired = 0;  ///< leases whose time was over
+  std::int64_t duplicates = 0;
+  std::int64_t conflicts = 0;
+  std::int64_t unknown = 0;        ///< results that nobody had asked for
+  std::int64_t unleased = 0;       ///< results of tasks that their senders were never given
+  std::int64_t audits = 0;         ///< results that were made again, and compared
+  std::int64_t rulings = 0;        ///< evaluations of the referee, audits included
+  std::int64_t referee_queue = 0;  ///< evaluations that wait for it
+  std::int64_t lost_workers = 0;
+  std::int64_t reconnects = 0;
+  std::int64_t malformed = 0;
+  std::map<std::string, std::uint64_t> malformed_by;  ///< by the part that was wrong
+  /// What others wanted beyond their budgets, and was left out, by kind.
+  std::map<std::string, std::uint64_t> over_budget;
+  std::int64_t uncommitted = 0;  ///< outcomes that are not on disk yet
+  std::int64_t bytes_in = 0;     ///< of frames
+  std::int64_t bytes_out = 0;
+  std::int64_t quarantined = 0;   ///< workers that are here and get nothing
+  std::int64_t gone_workers = 0;  ///< that were there within the last quarter of an hour
+  double uptime_s = 0;
+  double evaluations_per_s = 0;  ///< over the last seconds
+  double used_per_s = 0;         ///< experiments of budgets, over the last minute
+  SlotTimes slot_times;
+  SlotTimes slot_times_last_minute;
+  std::string trouble;      ///< why nothing can be written; empty when well
+  LauncherStatus launcher;  ///< of workers that this process starts; without name: none
+  /// Other hosts can connect without keys, because somebody insisted.
+  bool insecure_plaintext = false;
+  std::map<std::string, std::uint64_t> refused;  ///< connections, by reason
+  /// Refreshed once a second; shared, since each status is copied. Never null after the first.
+  std::shared_ptr<const std::vector<WorkerStatus>> fleet;
+  std::shared_ptr<const std::vector<CampaignStatus>> campaigns;
+};
+
+/// Seconds until the budgets are used at the rate of the last minute; negative when nothing moves,
+/// 0 when nothing is left.
+double seconds_left(const LiveStatus& status);
+
+/// One JSON object with the fields by name; docs/observability.md describes it.
+std::string to_json(const LiveStatus& status);
+/// The same back, without histograms. Errors: no such object.
+Expected<LiveStatus> live_status_of(const std::string& json);
+
+}  // namespace swarmsmith

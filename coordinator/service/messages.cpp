@@ -1,0 +1,188 @@
+#include "coordinator/service/messages.h"
+
+#include <algorithm>
+
+#include "proto/wire.h"
+
+namespace swarmsmith {
+namespace {
+
+std::int64_t milliseconds(Duration duration) {
+  return std::chrono::duration_cast<std::chrono::milliseconds>(duration).count();
+}
+
+pb::Reject::Reason reason_of(RejectReason reason) {
+  switch (reason) {
+    case RejectReason::Protocol:
+      return pb::Reject::REASON_PROTOCOL;
+    case RejectReason::Build:
+      return pb::Reject::REASON_BUILD;
+    case RejectReason::Limit:
+      return pb::Reject::REASON_LIMIT;
+  }
+  return pb::Reject::REASON_UNSPECIFIED;
+}
+
+}  // namespace
+
+WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uint64_t scenario) {
+  WorkerHello out{.identity = hello.worker_id(),
+                  .incarnation = incarnation,
+                  .build = hello.build(),
+                  .engine_version = hello.engine_version(),
+                  .self_test = hello.self_test(),
+                  .slots = static_cast<int>(hello.slots()),
+                  .host = hello.host(),
+                  .pid = hello.pid(),
+                  .job = hello.job(),
+                  .cpu = hello.cpu(),
+                  .client = {},
+                  .address = {},
+                  .same_scenario = hello.scenario() == scenario,
+                  .holds = {}};
+  out.holds.reserve(static_cast<std::size_t>(hello.holds_size()));
+  const bool is_signed = hello.signatures_size() == hello.holds_size();
+  for (int i = 0; i < hello.holds_size(); ++i) {
+    out.holds.push_back({.key = *pack(hello.holds(i)),
+                         .attempt = is_signed ? hello.attempts(i) : 0,
+                         .signature = is_signed ? hello.signatures(i) : 0});
+  }
+  return out;
+}
+
+void results_of(const pb::Results& results, std::vector<WorkerResult>& out) {
+  out.clear();
+  for (const pb::Result& result : results.results()) {
+    out.push_back({.key = *pack(result.key()),
+                   .attempt = result.attempt(),
+                   .score = result.score() + 0.0,  // stores know one zero only
+                   .state_digest = result.state_digest(),
+                   .wall_us = result.wall_us(),
+                   .rejected = result.rejected(),
+                   .time = result.time(),
+                   .failure = result.failure(),
+                   .details = {result.command(), result.output(), result.errors()},
+                   .signature = result.signature()});
+  }
+}
+
+void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out) {
+  out.clear();
+  for (const pb::Running& running : heartbeat.running()) {
+    out.push_back({*pack(running.key()), running.elapsed_ms()});
+  }
+}
+
+std::optional<SlotReport> slots_of(const pb::Heartbeat& heartbeat) {
+  // Ten years for every slot that a worker may have: what is more is not true.
+  constexpr std::uint64_t kMost = std::uint64_t{1} << 60U;
+  if (!heartbeat.has_slot_us() || heartbeat.slot_us() > kMost) return std::nullopt;
+  return SlotReport{
+      .slot_us = static_cast<std::int64_t>(heartbeat.slot_us()),
+      .busy_us = static_cast<std::int64_t>(std::min(heartbeat.busy_us(), heartbeat.slot_us()))};
+}
+
+std::vector<PackedKey> keys_of(const pb::Returned& returned) {
+  std::vector<PackedKey> keys;
+  for (const pb::Key& key : returned.keys())
+    keys.push_back(*pack(key));
+  return keys;
+}
+
+std::string frame_of(const SendWelcome& action, const PoolFacts& facts,
+                     const SchedulerOptions& options) {
+  pb::ToWorker message;
+  message.set_incarnation(action.incarnation);
+  pb::Welcome& welcome = *message.mutable_welcome();
+  for (const std::string& digest : facts.campaign_digests)
+    welcome.add_campaign_digests(digest);
+  welcome.set_scenario(facts.scenario_digest);
+  welcome.set_heartbeat_ms(milliseconds(options.heartbeat));
+  welcome.set_dead_after_ms(milliseconds(options.dead_after));
+  welcome.set_resend_ms(milliseconds(options.resend));
+  welcome.set_max_credit(options.max_credit);
+  return encode(message);
+}
+
+std::string frame_of(const SendReject& action) {
+  pb::ToWorker message;
+  message.set_incarnation(action.incarnation);
+  message.mutable_reject()->set_reason(reason_of(action.reason));
+  message.mutable_reject()->set_sentence(clipped_text(action.sentence));
+  return encode(message);
+}
+
+std::string frame_of(const SendTasks& action, const PoolFacts& facts,
+                     google::protobuf::Arena& arena) {
+  auto& message = *google::protobuf::Arena::CreateMessage<pb::ToWorker>(&arena);
+  message.set_incarnation(action.incarnation);
+  pb::Tasks& tasks = *message.mutable_tasks();
+  tasks.set_scenario(facts.scenario_digest);
+  for (const SendTasks::Leased& leased : action.tasks) {
+    const Task& task = leased.task;
+    pb::Task& out = *tasks.add_tasks();
+    unpack(key_of(task), *out.mutable_key());
+    out.set_attempt(leased.attempt);
+    out.set_signature(leased.signature);
+    out.set_alone(leased.alone);
+    out.set_mission(task.mission);
+    out.set_method(task.method);
+    out.set_instance(task.instance);
+    out.set_seed(task.seed);
+    out.set_machine(task.machine);
+    out.set_bound(task.bound);
+    for (const std::int64_t number : task.alive)
+      out.add_alive(number);
+  }
+  return encode(message);
+}
+
+std::string frame_of(const SendHeartbeat& action) {
+  pb::ToWorker message;
+  message.set_incarnation(action.incarnation);
+  message.mutable_heartbeat();
+  return encode(message);
+}
+
+std::string frame_of(const SendWhoAreYou&) {
+  pb::ToWorker message;
+  message.mutable_who_are_you();
+  return encode(message);
+}
+
+std::string frame_of(const SendDrain& action) {
+  pb::ToWorker message;
+  message.set_incarnation(action.incarnation);
+  message.mutable_drain();
+  return encode(message);
+}
+
+std::string acknowledgement_of(std::span<const PackedKey> keys, std::uint64_t incarnation) {
+  pb::ToWorker message;
+  message.set_incarnation(incarnation);
+  for (const PackedKey key : keys)
+    unpack(key, *message.mutable_acknowledged()->add_keys());
+  return encode(message);
+}
+
+std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation) {
+  pb::ToWorker message;
+  message.set_incarnation(incarnation);
+  message.mutable_scenario()->set_scenario(facts.scenario);
+  return encode(message);
+}
+
+std::string command_reply_of(bool done, const std::string& sentence) {
+  pb::ToWorker message;
+  message.mutable_command_reply()->set_done(done);
+  message.mutable_command_reply()->set_sentence(clipped_text(sentence));
+  return encode(message);
+}
+
+std::string status_reply_of(const std::string& json) {
+  pb::ToWorker message;
+  message.mutable_status_reply()->set_json(json);
+  return encode(message);
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "coordinator/pool/scheduler_types.h"
+#include "proto/wire.pb.h"
+
+namespace swarmsmith {
+
+/// Messages of workers as the scheduler's plain values, and its actions as frames. Messages come
+/// from `decode_to_coordinator`, so their keys are valid and their numbers within limits.
+
+WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uint64_t scenario);
+void results_of(const pb::Results& results, std::vector<WorkerResult>& out);
+void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out);
+/// Nothing of a worker that does not say it.
+std::optional<SlotReport> slots_of(const pb::Heartbeat& heartbeat);
+std::vector<PackedKey> keys_of(const pb::Returned& returned);
+
+/// What a worker is told about the campaigns.
+struct PoolFacts {
+  std::vector<std::string> campaign_digests;
+  std::string scenario;  ///< serialised
+  std::uint64_t scenario_digest = 0;
+};
+
+std::string frame_of(const SendWelcome& action, const PoolFacts& facts,
+                     const SchedulerOptions& options);
+std::string frame_of(const SendReject& action);
+std::string frame_of(const SendTasks& action, const PoolFacts& facts,
+                     google::protobuf::Arena& arena);
+std::string frame_of(const SendHeartbeat& action);
+std::string frame_of(const SendWhoAreYou& action);
+std::string frame_of(const SendDrain& action);
+/// One frame for at most kMaxItemsPerMessage keys.
+std::string acknowledgement_of(std::span<const PackedKey> keys, std::uint64_t incarnation);
+std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation);
+
+/// Answers to people's programs.
+std::string command_reply_of(bool done, const std::string& sentence);
+std::string status_reply_of(const std::string& json);
+
+}  // namespace swarmsmith

@@ -1,0 +1,276 @@
+#include "coordinator/service/referee.h"
+
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+#include <chrono>
+#include <condition_variable>
+#include <cstring>
+#include <deque>
+#include <mutex>
+#include <new>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "base/process/child_process.h"
+#include "coordinator/launchers/worker_program.h"
+#include "coordinator/pool/event_text.h"
+#include "coordinator/pool/task_key.h"
+#include "coordinator/service/messages.h"
+#include "proto/frame_pipe.h"
+#include "proto/wire.h"
+#include "storage/answer.h"
+
+namespace swarmsmith {
+namespace {
+
+using SteadyTime = std::chrono::steady_clock::time_point;
+
+/// For the start of the process and its self test, on a host that is busy.
+constexpr auto kReadyWithin = std::chrono::seconds(120);
+constexpr int kTries = 3;
+/// Deaths by its own fault that are the evaluation's.
+constexpr int kFaults = 2;
+
+/// Raised by what a program does, and not by somebody else.
+bool is_fault(int signal) {
+  return signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE ||
+         signal == SIGILL || signal == SIGTRAP || signal == SIGSYS;
+}
+
+std::string text_of_end(int status) {
+  if (WIFSIGNALED(status)) {
+    return std::string("was ended by signal ") + std::to_string(WTERMSIG(status)) + " (" +
+           strsignal(WTERMSIG(status)) + ")";
+  }
+  return "ended with exit code " + std::to_string(WEXITSTATUS(status));
+}
+
+class ProcessReferee final : public Referee {
+ public:
+  explicit ProcessReferee(RefereeOptions options)
+      : options_(std::move(options)), thread_([this] { work(); }) {}
+
+  ~ProcessReferee() override {
+    {
+      const std::scoped_lock lock(mutex_);
+      stopping_ = true;
+      child_.signal(SIGKILL);
+    }
+    asked_.notify_one();
+    thread_.join();
+  }
+
+  void judge(AskReferee ask) override {
+    {
+      const std::scoped_lock lock(mutex_);
+      asks_.push_back(std::move(ask));
+    }
+    asked_.notify_one();
+  }
+
+  std::vector<Ruling> take_rulings() override {
+    const std::scoped_lock lock(mutex_);
+    return std::exchange(rulings_, {});
+  }
+
+ private:
+  /// What one try gave: a ruling, or how the process ended.
+  struct Try {
+    std::optional<Ruling> ruling{};
+    bool began = false;
+    int status = 0;
+    std::string trouble{};
+  };
+
+  /// A thread of its own: it waits for the process, and the process dies with it.
+  void work() {
+    // A process that has ended is found by what is written to it.
+    sigset_t pipes;
+    sigemptyset(&pipes);
+    sigaddset(&pipes, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &pipes, nullptr);
+    while (true) {
+      AskReferee ask;
+      {
+        std::unique_lock lock(mutex_);
+        asked_.wait(lock, [this] { return stopping_ || !asks_.empty(); });
+        if (stopping_) break;
+        ask = std::move(asks_.front());
+        asks_.pop_front();
+      }
+      Ruling ruling = rule_on(ask);
+      ruling.key = key_of(ask.task);
+      {
+        const std::scoped_lock lock(mutex_);
+        if (stopping_) break;
+        rulings_.push_back(std::move(ruling));
+      }
+      if (options_.on_ruling) options_.on_ruling();
+    }
+    end_child();
+  }
+
+  bool stopping() {
+    const std::scoped_lock lock(mutex_);
+    return stopping_;
+  }
+
+  Ruling rule_on(const AskReferee& ask) {
+    int faults = 0;
+    std::string trouble;
+    for (int tries = 0; tries < kTries && !stopping(); ++tries) {
+      Try one = attempt(ask);
+      if (one.ruling) return std::move(*one.ruling);
+      trouble = one.trouble;
+      const bool is_its_own =
+          one.began && WIFSIGNALED(one.status) && is_fault(WTERMSIG(one.status));
+      if (is_its_own && ++faults == kFaults) {
+        return {.kind = Ruling::Kind::Rejected,
+                .reason = "its evaluation kills the process, which " + trouble};
+      }
+    }
+    return {.kind = Ruling::Kind::NoWord, .reason = trouble};
+  }
+
+  Try attempt(const AskReferee& ask) {
+    if (auto ready = be_ready(); !ready) return {.trouble = to_string(ready.error())};
+    google::protobuf::Arena arena;
+    SendTasks tasks;
+    tasks.tasks.push_back({.task = ask.task, .attempt = 1});
+    std::string frame = frame_of(tasks, {}, arena);
+    Try one;
+    if (!write_frame(child_.input(), frame)) return ended(false);
+    const SteadyTime begun = std::chrono::steady_clock::now();
+    if (read_frame_until(child_.output(), kMaxFrameBytes, frame, begun + kReadyWithin) !=
+        PipeRead::Frame) {
+      return ended(false);
+    }
+    switch (read_frame_until(child_.output(), kMaxFrameBytes, frame,
+                             std::chrono::steady_clock::now() + ask.timeout)) {
+      case PipeRead::Frame:
+        break;
+      case PipeRead::Ended:
+        return ended(true);
+      case PipeRead::TimedOut:
+        end_child();
+        return {.ruling = timed_out(ask)};
+    }
+    return understood(frame);
+  }
+
+  Try understood(const std::string& frame) {
+    google::protobuf::Arena arena;
+    const auto message = decode_to_coordinator(frame, arena);
+    std::vector<WorkerResult> results;
+    if (message) results_of((*message)->results(), results);
+    if (results.size() != 1) {
+      end_child();
+      return {.trouble = "the referee's process says what nobody understands"};
+    }
+    const WorkerResult& result = results.front();
+    // The host's trouble, and not the evaluation's.
+    if (result.failure == std::bad_alloc().what()) {
+      end_child();
+      return {.trouble = "the memory of this host is not enough for it"};
+    }
+    if (!result.failure.empty() || result.rejected) {
+      return {.ruling = Ruling{.kind = Ruling::Kind::Rejected, .reason = result.failure}};
+    }
+    return {.ruling = Ruling{.score = result.score,
+                             .state_digest = result.state_digest,
+                             .wall_us = result.wall_us}};
+  }
+
+  static Ruling timed_out(const AskReferee& ask) {
+    const auto limit = std::chrono::duration_cast<std::chrono::seconds>(ask.timeout);
+    return {.kind = Ruling::Kind::TimedOut,
+            .reason = "the evaluation of " + name_of(ask.task.key) + " took longer than " +
+                      std::to_string(limit.count()) +
+                      " s, on this host itself too: raise task_timeout_s"};
+  }
+
+  /// A process that waits for tasks.
+  Expected<void> be_ready() {
+    if (child_.runs()) return {};
+    std::filesystem::path program = options_.program;
+    if (program.empty()) {
+      Expected<std::filesystem::path> found = find_worker_program();
+      if (!found) return Unexpected(found.error());
+      program = std::move(*found);
+    }
+    {
+      const std::scoped_lock lock(mutex_);
+      if (stopping_) return unexpected(ErrorKind::Unavailable, "this program ends", "referee");
+      const auto started = child_.start({program.string(), "--referee", "--die-with-parent",
+                                         "--parent", std::to_string(getpid())},
+                                        ChildProcess::Streams::Spoken);
+      if (!started) return started;
+    }
+    std::string frame;
+    if (read_frame_until(child_.output(), kMaxFrameBytes, frame,
+                         std::chrono::steady_clock::now() + kReadyWithin) != PipeRead::Frame) {
+      return unexpected(ErrorKind::Unavailable, ended(false).trouble, program.string());
+    }
+    if (!is_ours(frame)) {
+      end_child();
+      return unexpected(ErrorKind::Conflict,
+                        "it is of another build: its self test gives other bits; install it again",
+                        program.string());
+    }
+    PoolFacts facts;
+    facts.scenario = options_.scenario;
+    if (!write_frame(child_.input(), scenario_reply_of(facts, 1))) {
+      return unexpected(ErrorKind::Unavailable, ended(false).trouble, program.string());
+    }
+    return {};
+  }
+
+  bool is_ours(const std::string& frame) const {
+    google::protobuf::Arena arena;
+    const auto message = decode_to_coordinator(frame, arena);
+    return message && (*message)->has_hello() &&
+           (*message)->hello().engine_version() == options_.engine_version &&
+           (*message)->hello().self_test() == options_.self_test;
+  }
+
+  /// Of a process that says nothing any more.
+  Try ended(bool began) {
+    const std::scoped_lock lock(mutex_);
+    std::optional<int> status;
+    const SystemClock clock;
+    const TimePoint until = clock.now() + std::chrono::seconds(2);
+    while (!(status = child_.ended()) && clock.now() < until)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    if (!status) {
+      child_.finish_by({});
+      return {.trouble = "the referee's process does not answer"};
+    }
+    return {.began = began,
+            .status = *status,
+            .trouble = "the referee's process " + text_of_end(*status)};
+  }
+
+  void end_child() {
+    const std::scoped_lock lock(mutex_);
+    child_.finish_by({});
+  }
+
+  RefereeOptions options_;
+  std::mutex mutex_;  ///< guards the next ones, and the start and the end of the child
+  std::condition_variable asked_;
+  std::deque<AskReferee> asks_;
+  std::vector<Ruling> rulings_;
+  bool stopping_ = false;
+  ChildProcess child_;
+  std::thread thread_;
+};
+
+}  // namespace
+
+std::unique_ptr<Referee> make_process_referee(RefereeOptions options) {
+  return std::make_unique<ProcessReferee>(std::move(options));
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,102 @@
+#include "proto/access/coordinator_file.h"
+
+#include <unistd.h>
+#include <ctime>
+
+#include "base/text/file_text.h"
+#include "base/text/table_reader.h"
+#include "base/text/toml_text.h"
+#include "proto/access/address.h"
+#include "proto/access/secret_file.h"
+#include "proto/curve.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr unsigned kMode = 0644;
+
+std::string line(const char* key, const std::string& value) {
+  return std::string(key) + " = " + value + "\n";
+}
+
+void read_endpoint(TableReader& root, CoordinatorFile& coordinator) {
+  if (!root.has("endpoint")) root.complain("endpoint", "the file needs an `endpoint`");
+  coordinator.endpoint = root.text("endpoint").value_or("");
+  const auto address = address_of(coordinator.endpoint);
+  if (!coordinator.endpoint.empty() &&
+      (!address || is_wildcard(*address) || address->port == "*")) {
+    root.complain("endpoint", "`endpoint` must be where to connect: \"tcp://HOST:PORT\"");
+  }
+}
+
+}  // namespace
+
+std::string text_of(const CoordinatorFile& coordinator) {
+  std::string text =
+      "# Where the coordinator of the campaign beside it is found, as long as it runs:\n"
+      "# swarmsmith worker --coordinator THIS_FILE\nformat = 1\n";
+  text += line("endpoint", quoted_text(coordinator.endpoint));
+  if (!coordinator.public_key.empty()) text += line("key", quoted_text(coordinator.public_key));
+  if (coordinator.insecure_plaintext) text += line("insecure_plaintext", "true");
+  text += line("pid", std::to_string(coordinator.pid));
+  text += line("host", quoted_text(coordinator.host));
+  text += line("started", quoted_text(coordinator.started));
+  if (!coordinator.http.empty()) text += line("http", quoted_text(coordinator.http));
+  return text;
+}
+
+Expected<CoordinatorFile> parse_coordinator_file(std::string_view text, const std::string& file) {
+  const auto document = parse_document(text, file);
+  if (!document) return Unexpected(document.error());
+  Complaints complaints(file);
+  TableReader root(*document, "", complaints);
+  read_format(root);
+  CoordinatorFile coordinator;
+  read_endpoint(root, coordinator);
+  if (const auto key = root.text("key")) {
+    coordinator.public_key = *key;
+    if (!is_key(*key)) root.complain("key", "`key` must be a public key of 40 characters");
+  }
+  coordinator.insecure_plaintext = root.boolean("insecure_plaintext").value_or(false);
+  coordinator.pid = root.integer("pid", {0, INT64_MAX}).value_or(0);
+  coordinator.host = root.text("host").value_or("");
+  coordinator.started = root.text("started").value_or("");
+  coordinator.http = root.text("http").value_or("");
+  // Keys that this version does not know are those of a newer coordinator.
+  if (!complaints.empty()) return Unexpected(complaints.take().front());
+  return coordinator;
+}
+
+Expected<CoordinatorFile> read_coordinator_file(const std::filesystem::path& file) {
+  Expected<std::string> text = read_private_file(file, "coordinator file", Privacy::Integral);
+  if (!text) return Unexpected(text.error());
+  return parse_coordinator_file(*text, file.string());
+}
+
+Expected<void> write_coordinator_file(const std::filesystem::path& file,
+                                      const CoordinatorFile& coordinator) {
+  return replace_file(file, text_of(coordinator), kMode);
+}
+
+void remove_coordinator_file(const std::filesystem::path& file, const CoordinatorFile& ours) {
+  const auto there = read_coordinator_file(file);
+  if (there && there->pid == ours.pid && there->host == ours.host &&
+      there->started == ours.started) {
+    ::unlink(file.c_str());
+  }
+}
+
+std::filesystem::path coordinator_file_of(const std::filesystem::path& store) {
+  return store.string() + ".coordinator";
+}
+
+std::string wall_clock_text() {
+  const std::time_t now = std::time(nullptr);
+  struct tm parts = {};
+  gmtime_r(&now, &parts);
+  char text[32];
+  std::strftime(text, sizeof text, "%Y-%m-%dT%H:%M:%SZ", &parts);
+  return text;
+}
+
+}  // namespace swarmsmith

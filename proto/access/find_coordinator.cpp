@@ -1,0 +1,77 @@
+#include "proto/access/find_coordinator.h"
+
+#include <cstdlib>
+
+#include "proto/access/address.h"
+#include "proto/access/coordinator_file.h"
+#include "proto/access/key_file.h"
+
+namespace swarmsmith {
+namespace {
+
+/// `server_key`: the coordinator's as its file has it; empty: not known.
+Expected<FoundCoordinator> with_key(const CoordinatorSearch& search, const std::string& endpoint,
+                                    const std::string& server_key) {
+  const bool own = !search.key.empty();
+  const std::filesystem::path file = own ? search.key : default_client_key(search.role);
+  const Expected<ClientKeyFile> key = read_client_key(file);
+  if (!key) {
+    Error error = key.error();
+    if (error.kind == ErrorKind::NotFound) {
+      error.message += own ? ""
+                           : ", and " + endpoint +
+                                 " needs one; copy it from where `swarmsmith keygen` made it, or "
+                                 "name another file with --key";
+    }
+    error.kind = ErrorKind::BadInput;
+    return Unexpected(std::move(error));
+  }
+  if (!server_key.empty() && server_key != key->server_key) {
+    return bad_input("this key belongs to another coordinator than " + search.file.string() +
+                         " tells of; take a key from that one's folder",
+                     file.string());
+  }
+  return FoundCoordinator{.endpoint = endpoint, .keys = key->keys()};
+}
+
+Expected<FoundCoordinator> in_plaintext(const CoordinatorSearch& search,
+                                        const std::string& endpoint) {
+  if (!search.key.empty()) {
+    return bad_input("the coordinator does not encrypt, and a key was given; leave out --key",
+                     search.file.string());
+  }
+  return FoundCoordinator{.endpoint = endpoint, .keys = std::nullopt};
+}
+
+bool is_on_loopback(const std::string& endpoint) {
+  const auto address = address_of(endpoint);
+  return address && is_loopback(*address);
+}
+
+}  // namespace
+
+std::filesystem::path default_client_key(const std::string& role) {
+  const char* named = std::getenv("SWARMSMITH_KEY");
+  if (named != nullptr && *named != '\0') return named;
+  return default_key_folder().client_key(role);
+}
+
+Expected<FoundCoordinator> find_coordinator(const CoordinatorSearch& search) {
+  if (!search.endpoint.empty()) {
+    const bool plain = search.insecure_plaintext || is_on_loopback(search.endpoint);
+    if (search.key.empty() && plain) return in_plaintext(search, search.endpoint);
+    return with_key(search, search.endpoint, "");
+  }
+  const Expected<CoordinatorFile> file = read_coordinator_file(search.file);
+  if (!file) return Unexpected(file.error());
+  if (!file->public_key.empty()) return with_key(search, file->endpoint, file->public_key);
+  if (!search.insecure_plaintext && !is_on_loopback(file->endpoint)) {
+    return bad_input(
+        "this coordinator does not encrypt; start it with keys (`swarmsmith keygen`), or accept it "
+        "with --insecure-plaintext",
+        search.file.string());
+  }
+  return in_plaintext(search, file->endpoint);
+}
+
+}  // namespace swarmsmith

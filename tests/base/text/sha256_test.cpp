@@ -1,0 +1,52 @@
+#include "base/text/sha256.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+void write(const std::filesystem::path& path, const std::string& bytes) {
+  std::ofstream(path, std::ios::binary) << bytes;
+}
+
+TEST(Sha256, OfAFileIsThatOfItsBytes) {
+  const TemporaryFolder folder;
+  // FIPS 180-4's example, the empty text, and more than one block of reading.
+  write(folder / "a", "abc");
+  EXPECT_EQ(*sha256_of_file(folder / "a"),
+            "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  for (const std::size_t size :
+       {std::size_t{0}, std::size_t{1} << 18, (std::size_t{1} << 20) + 7}) {
+    const std::string bytes(size, 'x');
+    write(folder / "b", bytes);
+    EXPECT_EQ(*sha256_of_file(folder / "b"), sha256_of(bytes));
+  }
+}
+
+TEST(Sha256, OfAFolderIsThatOfNamesAndBytes) {
+  const TemporaryFolder folder;
+  write(folder / "2.png", "two");
+  write(folder / "1.png", "one");
+  const std::string first = *sha256_of_file(folder.path());
+  EXPECT_EQ(first, sha256_of(sha256_of("one") + "  1.png\n" + sha256_of("two") + "  2.png\n"));
+  write(folder / ".hidden", "x");
+  EXPECT_EQ(*sha256_of_file(folder.path()), first);
+  std::filesystem::rename(folder / "2.png", folder / "3.png");
+  EXPECT_NE(*sha256_of_file(folder.path()), first);
+}
+
+TEST(Sha256, SaysWhatCannotBeRead) {
+  const TemporaryFolder folder;
+  const auto none = sha256_of_file(folder / "none.mp4");
+  ASSERT_FALSE(none);
+  EXPECT_EQ(none.error().kind, ErrorKind::NotFound);
+  EXPECT_NE(none.error().where.find("none.mp4"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

@@ -1,0 +1,58 @@
+#include "cli/run/campaign_warnings.h"
+
+#include <gmock/gmock.h>
+
+#include "coordinator/campaign/campaign_file.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+Campaign campaign_of(const std::string& method, const std::string& rest = "") {
+  const auto campaign =
+      parse_campaign("format = 1\n[[mission]]\nname = \"aggregation\"\n[[method]]\nname = \"m\"\n" +
+                         method + "[race]\nmax_experiments = 2000\n" + rest,
+                     "x.toml");
+  EXPECT_TRUE(campaign.has_value());
+  return *campaign;
+}
+
+TEST(CampaignWarnings, ThereAreNoneForWhatWorks) {
+  EXPECT_THAT(warnings_about(campaign_of("")), IsEmpty());
+  EXPECT_THAT(warnings_about(campaign_of("flavour = \"watermelon-argos3\"\n",
+                                         "[simulator]\nprofile = \"argos3\"\n")),
+              IsEmpty());
+}
+
+TEST(CampaignWarnings, NameSensorsThatSeeLessOrMoreFarThanTheFlavourReckonsWith) {
+  Campaign campaign = campaign_of("");
+  campaign.profile.proximity.range_m = 0.3;
+  EXPECT_THAT(warnings_about(campaign),
+              ElementsAre("method \"m\": flavour watermelon takes obstacles into account up to 0.4 "
+                          "m, but the proximity sensors of profile rvr see up to 0.3 m; obstacles "
+                          "between are never seen"));
+  campaign.profile.proximity.range_m = 2;
+  EXPECT_THAT(warnings_about(campaign),
+              ElementsAre(HasSubstr("see up to 2 m; what they see beyond is not heeded")));
+}
+
+TEST(CampaignWarnings, NameMissionsInTheDarkForModulesThatWantLight) {
+  Campaign campaign = campaign_of("flavour = \"chocolate\"\n");
+  EXPECT_THAT(warnings_about(campaign),
+              ElementsAre("method \"m\": mission aggregation has no light, so that phototaxis and "
+                          "anti_phototaxis only avoid obstacles there"));
+  campaign.missions[0].mission.arena.lights.push_back({});
+  EXPECT_THAT(warnings_about(campaign), IsEmpty());
+  EXPECT_THAT(warnings_about(campaign_of("flavour = \"chocolate\"\n"
+                                         "behaviours = [\"stop\", \"anti_phototaxis\"]\n")),
+              ElementsAre(HasSubstr("so that anti_phototaxis only avoids obstacles")));
+  EXPECT_THAT(warnings_about(campaign_of("flavour = \"chocolate\"\n"
+                                         "behaviours = [\"stop\", \"exploration\"]\n")),
+              IsEmpty());
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

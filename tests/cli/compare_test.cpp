@@ -1,0 +1,127 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "tests/cli/cli_support.h"
+#include "tests/storage/fixture.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::StartsWith;
+
+/// Twelve designs of one mission, six of each of two methods. Each winner got 1 in reality.
+struct Compare : testing::Test {
+  TemporaryFolder folder;
+  std::string store_ = (folder / "s.db").string();
+
+  Compare() {
+    SyntheticCampaign campaign = synthetic_campaign({.designs = 12, .tests = 4});
+    for (DesignRow& design : campaign.designs) {
+      design.mission = "aggregation";
+      design.method = design.id.value % 2 == 1 ? "chocolate" : "watermelon";
+    }
+    auto store = open_store(store_, campaign);
+    for (const auto& batch : campaign.batches) {
+      store->append(batch);
+      for (const Row& row : batch) {
+        const auto* end = std::get_if<DesignStateRow>(&row);
+        if (end != nullptr && end->state == DesignState::Finished) store->append(real_run(*end));
+      }
+    }
+  }
+
+  static std::vector<Row> real_run(const DesignStateRow& design) {
+    return {PairRow{.design = design.design,
+                    .purpose = Purpose::Score,
+                    .number = 1,
+                    .instance = 1,
+                    .seed = 1},
+            EvaluationRow{.key = {design.best, Purpose::Score, 1}, .score = 1, .source = "real"}};
+  }
+};
+
+TEST_F(Compare, BySourceIsTheDefault) {
+  const Ran ran = run({"compare", store_});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("aggregation  chocolate   rvr    real    6"));
+  EXPECT_THAT(ran.out, HasSubstr("aggregation  watermelon  rvr    real    6"));
+  EXPECT_THAT(ran.out, HasSubstr("Wilcoxon signed-rank test, two-sided"));
+  EXPECT_THAT(ran.out, HasSubstr("Ranks of mean scores over aggregation (12 blocks)"));
+}
+
+TEST_F(Compare, ByMethodIsWithinASource) {
+  const Ran ran = run({"compare", store_, "--by", "method"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("aggregation  rvr     chocolate  watermelon  6+6"));
+  EXPECT_THAT(ran.out, HasSubstr("aggregation  real    chocolate  watermelon  6+6"));
+}
+
+TEST_F(Compare, WritesJson) {
+  const Ran ran = run({"compare", store_, "--by", "method", "--source", "rvr", "--json"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  const json answer = json::parse(ran.out);
+  EXPECT_EQ(answer["by"], "method");
+  EXPECT_EQ(answer["groups"].size(), 2U);
+  ASSERT_EQ(answer["pairs"].size(), 1U);
+  const json& pair = answer["pairs"][0];
+  EXPECT_EQ(pair["test"], "rank-sum");
+  EXPECT_EQ(pair["n_first"], 6);
+  EXPECT_EQ(pair["p"], pair["p_holm"]);
+  EXPECT_DOUBLE_EQ(
+      pair["mean_difference"].get<double>(),
+      answer["groups"][0]["mean"].get<double>() - answer["groups"][1]["mean"].get<double>());
+  // Of one mission there are none by method.
+  EXPECT_EQ(answer["ranks"], json::array());
+  const json by_source = json::parse(run({"compare", store_, "--json"}).out);
+  EXPECT_EQ(by_source["ranks"][0]["names"], json({"rvr", "real"}));
+  EXPECT_EQ(answer["bootstrap"]["seed"], 1);
+}
+
+TEST_F(Compare, JsonHasNullWhereThereIsNoP) {
+  const json answer =
+      json::parse(run({"compare", store_, "--by", "method", "--source", "real", "--json"}).out);
+  EXPECT_TRUE(answer["pairs"][0]["p"].is_null());
+  EXPECT_EQ(answer["pairs"][0]["notes"][0], "all values are the same: there is no p");
+}
+
+TEST_F(Compare, WritesATableAsCsv) {
+  EXPECT_THAT(run({"compare", store_, "--csv"}).out,
+              StartsWith("mission,method,source,first,second,n_first,"));
+  EXPECT_THAT(run({"compare", store_, "--csv", "--table", "ranks"}).out,
+              StartsWith("source,name,mean_rank,"));
+  EXPECT_THAT(run({"compare", store_, "--csv", "--by", "mission"}).out,
+              StartsWith("mission,method,source,n,designs,"));
+}
+
+TEST_F(Compare, PurposeAndUnitSayWhatAValueIs) {
+  const auto runs_of = [&](const std::string& purpose) {
+    const Ran ran = run({"compare", store_, "--by", "mission", "--purpose", purpose, "--json"});
+    const json answer = json::parse(ran.out);
+    int runs = 0;
+    for (const json& group : answer["groups"])
+      runs += group["runs"].get<int>();
+    return runs;
+  };
+  EXPECT_EQ(runs_of("test"), 48);
+  EXPECT_EQ(runs_of("score"), 12);
+  EXPECT_EQ(runs_of("all"), 60);
+  const json by_run =
+      json::parse(run({"compare", store_, "--by", "method", "--per", "run", "--json"}).out);
+  EXPECT_EQ(by_run["pairs"][0]["n_first"], 24);
+  EXPECT_THAT(by_run["notes"].dump(), HasSubstr("not independent"));
+}
+
+TEST_F(Compare, WhatIsNotThereExitsWithFour) {
+  const Ran ran = run({"compare", store_, "--mission", "nowhere"});
+  EXPECT_EQ(ran.code, 4);
+  EXPECT_THAT(ran.err, HasSubstr("no scores of mission `nowhere`; there are aggregation"));
+  EXPECT_EQ(run({"compare", store_, "--table", "ranks"}).code, 2);
+  EXPECT_EQ(run({"compare", store_ + ".gone"}).code, 3);
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

@@ -1,0 +1,380 @@
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "cli/arguments/machine_words.h"
+#include "cli/arguments/seeds.h"
+#include "cli/output/mean_interval.h"
+#include "sim/control/machine_text.h"
+#include "sim/engine/simulate.h"
+#include "sim/files/profile_file.h"
+#include "tests/cli/cli_support.h"
+#include "tests/support/one_design.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using nlohmann::json;
+using testing::ElementsAre;
+using testing::HasSubstr;
+
+std::vector<json> lines_of(const std::string& text) {
+  std::vector<json> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);)
+    lines.push_back(json::parse(line));
+  return lines;
+}
+
+/// What the engine itself says of kExploreText on a built-in mission.
+double score_of(const std::string& mission_name, std::int64_t seed) {
+  const Mission mission = *built_in_mission(mission_name);
+  const Machine machine = *parse_machine(kExploreText, watermelon());
+  const Instance instance = *instance_of(mission, seed);
+  return simulate({.machine = machine,
+                   .flavour = watermelon(),
+                   .profile = *built_in_profile("rvr"),
+                   .mission = mission,
+                   .instance = instance,
+                   .seed = seed})
+      .score;
+}
+
+TEST(Evaluate, GivesOneJsonLineARunWithSeedAndScore) {
+  const Ran ran = run({"evaluate", kExploreText, "--flavour", "watermelon", "--profile", "rvr",
+                       "--mission", "grid_exploration", "--seeds", "4-5", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto lines = lines_of(ran.out);
+  ASSERT_EQ(lines.size(), 2U);
+  EXPECT_EQ(lines[0], (json{{"seed", 4}, {"score", score_of("grid_exploration", 4)}}));
+  EXPECT_EQ(lines[1]["score"], score_of("grid_exploration", 5));
+  EXPECT_LT(lines[0]["score"], 0);
+}
+
+TEST(Evaluate, TakesAMachineAsSeveralWordsBeforeAfterAndBehindDashes) {
+  const std::string wanted = run({"evaluate", kExploreText, "--flavour", "watermelon", "--mission",
+                                  "aggregation", "--seeds", "1-3"})
+                                 .out;
+  const std::vector<std::string> rest = {"--flavour",   "watermelon", "--mission",
+                                         "aggregation", "--seeds",    "1-3"};
+  const std::vector<std::string> machine = {"--nstates", "1", "--s0", "0", "--rwm0", "10"};
+  const auto in_order = [](std::vector<std::string> first, const std::vector<std::string>& then) {
+    first.insert(first.begin(), "evaluate");
+    first.insert(first.end(), then.begin(), then.end());
+    return first;
+  };
+  EXPECT_EQ(run(in_order(machine, rest)).out, wanted);
+  EXPECT_EQ(run(in_order(rest, machine)).out, wanted);
+  std::vector<std::string> dashed = machine;
+  dashed.insert(dashed.begin(), "--");
+  EXPECT_EQ(run(in_order(rest, dashed)).out, wanted);
+  std::vector<std::string> config = machine;
+  config.insert(config.begin(), "--fsm-config");
+  EXPECT_EQ(run(in_order(rest, config)).out, wanted);
+}
+
+TEST(Evaluate, TakesAMachineFromAFileWithComments) {
+  const TemporaryFolder folder;
+  write_file(folder / "best.fsm", "# d1 c1\n\n--fsm-config " + kExploreText + "\n");
+  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--flavour", "watermelon",
+                       "--mission", "aggregation"});
+  EXPECT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("seed 10  score "));
+  EXPECT_THAT(ran.out, HasSubstr("95 % interval"));
+}
+
+TEST(Evaluate, TakesTheWorldThatAFileSays) {
+  const TemporaryFolder folder;
+  const std::string file = (folder / "machines.fsm").string();
+  const std::string head =
+      "#: format = 1\n#: flavour = \"watermelon\"\n#: profile = \"rvr\"\n"
+      "#: mission = \"grid_exploration\"\n#: candidate = \"c7\"\n#: seeds = \"4,5\"\n";
+  write_file(file, head + kExploreText + "\n" + head + kStopText + "\n");
+  const Ran ran = run({"evaluate", file, "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const auto lines = lines_of(ran.out);
+  ASSERT_EQ(lines.size(), 4U);
+  EXPECT_EQ(lines[0],
+            (json{{"machine", "c7"}, {"seed", 4}, {"score", score_of("grid_exploration", 4)}}));
+  EXPECT_EQ(lines[1]["score"], score_of("grid_exploration", 5));
+  const Ran other = run({"evaluate", file, "--flavour", "chocolate"});
+  EXPECT_EQ(other.code, 2);
+  EXPECT_THAT(other.err, HasSubstr("the machine is of the flavour watermelon (" + file +
+                                   ":7), not chocolate"));
+  // Another mission or profile is a question that people have.
+  EXPECT_EQ(run({"evaluate", file, "--mission", "aggregation", "--profile", "argos3"}).code, 0);
+}
+
+TEST(Evaluate, AsksForAFlavourThatNobodySays) {
+  const TemporaryFolder folder;
+  write_file(folder / "best.fsm", kExploreText + "\n");
+  for (const std::string& machine : {kExploreText, (folder / "best.fsm").string()}) {
+    const Ran ran = run({"evaluate", machine, "--mission", "aggregation"});
+    EXPECT_EQ(ran.code, 2);
+    EXPECT_THAT(ran.err, HasSubstr("--flavour: in which flavour is the machine written? Add"));
+  }
+}
+
+TEST(Evaluate, TakesStartsFromATable) {
+  const TemporaryFolder folder;
+  write_file(folder / "starts.csv",
+             "seed,robot,x,y,theta\n5,0,0.1,0.2,0\n5,1,-0.6,0,1\n5,2,0.6,0.6,7\n");
+  const std::vector<std::string> command = {
+      "evaluate",  kStopText,     "--flavour", "watermelon",
+      "--mission", "aggregation", "--starts",  (folder / "starts.csv").string(),
+      "--json",    "--seeds"};
+  auto seeds = command;
+  seeds.emplace_back("5");
+  EXPECT_EQ(run(seeds).out, "{\"seed\":5,\"score\":1}\n");
+  seeds.back() = "5-6";
+  const Ran missing = run(seeds);
+  EXPECT_EQ(missing.code, 2);
+  EXPECT_EQ(missing.out, "");
+  EXPECT_THAT(missing.err, HasSubstr("the starts have no row for seed 6"));
+}
+
+TEST(Evaluate, TakesPatchesFromATable) {
+  const TemporaryFolder folder;
+  write_file(folder / "starts.csv",
+             "seed,robot,x,y,theta\n1,0,0.75,0.25,0\n1,1,-0.25,-0.25,0\n1,2,0.25,0.75,0\n");
+  write_file(folder / "patches.csv",
+             "seed,x,y,color\n1,0.75,0.25,yellow\n1,-0.25,-0.25,red\n1,0.25,0.75,green\n");
+  std::vector<std::string> command = {"evaluate",  kStopText,
+                                      "--flavour", "watermelon",
+                                      "--mission", "color_selection",
+                                      "--starts",  (folder / "starts.csv").string(),
+                                      "--patches", (folder / "patches.csv").string(),
+                                      "--json",    "--seeds",
+                                      "1"};
+  EXPECT_EQ(run(command).out, "{\"seed\":1,\"score\":3}\n");
+  write_file(folder / "patches.csv", "seed,x,y,color\n1,0.7,0.25,yellow\n");
+  const Ran ran = run(command);
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("patches, seed 1: there is no free place for a patch at (0.7"));
+}
+
+TEST(Evaluate, TakesMissionAndProfileFromFiles) {
+  const TemporaryFolder folder;
+  write_file(folder / "mine.toml", "format = 1\npreset = \"grid_exploration\"\n");
+  ASSERT_EQ(run({"profile", "rvr", "-o", (folder / "my_rvr.toml").string()}).code, 0);
+  const std::vector<std::string> command = {"evaluate",  kExploreText,
+                                            "--flavour", "watermelon",
+                                            "--mission", (folder / "mine.toml").string(),
+                                            "--profile", (folder / "my_rvr.toml").string(),
+                                            "--seeds",   "4",
+                                            "--json"};
+  const Ran ran = run(command);
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(lines_of(ran.out)[0]["score"], score_of("grid_exploration", 4));
+  write_file(folder / "mine.toml", "format = 1\nrobots = 0\nfloor = 1\n");
+  const Ran wrong = run(command);
+  EXPECT_EQ(wrong.code, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("mine.toml:2:10: `robots` must be from 1 to 100"));
+  EXPECT_THAT(wrong.err, HasSubstr("mine.toml:3:1: the file has no key `floor`"));
+}
+
+TEST(Profiles, AreListedPrintedAndWrittenButNotOver) {
+  EXPECT_EQ(run({"profile"}).out, "rvr\nargos3\npseudo-reality\n");
+  EXPECT_THAT(run({"profile", "pseudo-reality"}).out, HasSubstr("jitter = 0.05"));
+  EXPECT_EQ(json::parse(run({"profile", "--json"}).out)["profiles"].size(), 3U);
+  const TemporaryFolder folder;
+  const std::string file = (folder / "p.toml").string();
+  EXPECT_EQ(run({"profile", "rvr", "-o", file}).code, 0);
+  EXPECT_EQ(run({"profile", "rvr", "-o", file}).code, 2);
+  EXPECT_THAT(run({"profile", "rvx"}).err, HasSubstr("did you mean \"rvr\"?"));
+}
+
+TEST(Evaluate, WritesARunDown) {
+  const TemporaryFolder folder;
+  write_file(folder / "best.fsm", kExploreText + "\n");
+  const std::string svg = (folder / "run.svg").string();
+  const Ran ran = run({"evaluate", (folder / "best.fsm").string(), "--flavour", "watermelon",
+                       "--mission", "aggregation", "--seeds", "7", "--csv", "-", "--svg", svg});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_THAT(ran.out, testing::StartsWith("cycle,time_s,robot,x,y,theta,cmd_left,"));
+  EXPECT_THAT(ran.err, HasSubstr("seed 7  score "));
+  std::ostringstream drawn;
+  drawn << std::ifstream(svg).rdbuf();
+  EXPECT_THAT(drawn.str(), HasSubstr(">best.fsm \xc2\xb7 seed 7 \xc2\xb7 score "));
+}
+
+struct Misuse {
+  std::vector<std::string> words;
+  const char* sentence;
+};
+
+TEST(Evaluate, ExplainsWhatIsWrongWithItsArguments) {
+  const Misuse misuses[] = {
+      {{kStopText}, "--mission: on which mission?"},
+      {{kStopText, "--mission", "gird"}, "--mission: there is no mission `gird`"},
+      {{kStopText, "--mission", "aggregation", "--flavour", "melon"}, "--flavour: there is no"},
+      {{kStopText, "--mission", "aggregation", "--profile", "x"}, "--profile: "},
+      {{kStopText, "--mission", "aggregation", "--seeds", "3-1"}, "--seeds: seeds are written"},
+      {{kStopText, "--mission", "aggregation", "--csv", "x"}, "--seeds: tables and pictures are"},
+      {{kStopText, "--mission", "aggregation", "--at", "3"}, "add --svg FILE"},
+      {{"--nstates 1 --s0 9", "--mission", "aggregation"}, "MACHINE, token"},
+      {{"nothing.fsm", "--mission", "aggregation"}, "nothing.fsm: this is no machine"},
+      {{"c1", "--mission", "aggregation"}, "which store?"},
+  };
+  for (const Misuse& misuse : misuses) {
+    std::vector<std::string> words = misuse.words;
+    words.insert(words.begin(), "evaluate");
+    if (!words[1].starts_with("c") && std::ranges::find(words, "--flavour") == words.end()) {
+      words.insert(words.end(), {"--flavour", "watermelon"});
+    }
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 2) << misuse.sentence;
+    EXPECT_THAT(ran.err, HasSubstr(misuse.sentence));
+  }
+}
+
+using EvaluateFromStore = WithStore;
+
+TEST_F(EvaluateFromStore, TakesFlavourProfileAndMissionFromTheCandidatesCampaign) {
+  const Ran ran = run({"evaluate", "c1", "--store", store_, "--seeds", "1-2", "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(lines_of(ran.out)[1]["score"], score_of("aggregation", 2));
+}
+
+TEST_F(EvaluateFromStore, StoresTheScoreAndKnowsItAgain) {
+  const std::string before = (*StoreReader::open(store_))->digest();
+  const std::vector<std::string> words = {"evaluate", "c1", "--store", store_,
+                                          "--seeds",  "2",  "--json"};
+  const json first = lines_of(run(words).out).at(0);
+  EXPECT_EQ(first, (json{{"design", "d1"},
+                         {"candidate", "c1"},
+                         {"source", "rvr"},
+                         {"seed", 2},
+                         {"score", score_of("aggregation", 2)},
+                         {"id", "e100001s"},
+                         {"stored", "new"}}));
+  EXPECT_EQ(lines_of(run(words).out).at(0)["stored"], "known");
+  // Another candidate of the design gets the same pair.
+  EXPECT_EQ(lines_of(run({"evaluate", "c2", "--store", store_, "--seeds", "2", "--json"}).out)
+                .at(0)["id"],
+            "e200001s");
+  EXPECT_EQ((*StoreReader::open(store_))->digest(), before);
+}
+
+TEST_F(EvaluateFromStore, TakesASeedThatNoRaceAndNoTestHadAlwaysTheSame) {
+  const auto seed = [&] {
+    return lines_of(run({"evaluate", "best", "--store", store_, "--json"}).out).at(0)["seed"];
+  };
+  const json first = seed();
+  EXPECT_NE(first, 77);
+  EXPECT_NE(first, 99);
+  EXPECT_EQ(seed(), first);
+}
+
+TEST_F(EvaluateFromStore, ShoutsWhenTheBitsDifferFromWhatIsStored) {
+  {
+    auto store = Store::open(store_, campaign_row(one_design_campaign()),
+                             design_rows(one_design_campaign()));
+    (*store)->append(
+        {PairRow{.design = {1}, .purpose = Purpose::Score, .number = 1, .instance = 1, .seed = 2},
+         EvaluationRow{
+             .key = {{1}, Purpose::Score, 1}, .score = 77, .state_digest = 5, .source = "rvr"}});
+  }
+  const Ran ran = run({"evaluate", "c1", "--store", store_, "--seeds", "2"});
+  EXPECT_EQ(ran.code, 1);
+  EXPECT_THAT(ran.err, HasSubstr("e100001s: seed 2 gives score"));
+  EXPECT_THAT(run({"query", store_, "SELECT conflicts FROM v_campaign_status", "--csv"}).out,
+              HasSubstr("1"));
+}
+
+TEST_F(EvaluateFromStore, StoresNothingThatIsNoScoreOfTheDesign) {
+  const Misuse misuses[] = {
+      {{"--mission", "grid_exploration"}, "the design is one for the mission aggregation"},
+      {{"--flavour", "watermelon-argos3"}, "the design's machines are of the flavour watermelon"},
+      {{"--campaign", store_}, "the candidate has a campaign of its own"},
+      {{"--starts", "x.csv"}, "a stored score follows from its seed"},
+  };
+  for (const Misuse& misuse : misuses) {
+    std::vector<std::string> words = {"evaluate", "c1", "--store", store_, "--seeds", "2"};
+    words.insert(words.end(), misuse.words.begin(), misuse.words.end());
+    const Ran ran = run(words);
+    EXPECT_EQ(ran.code, 2) << misuse.sentence;
+    EXPECT_THAT(ran.err, HasSubstr(misuse.sentence));
+    EXPECT_THAT(ran.err, HasSubstr("--no-store"));
+  }
+  EXPECT_EQ(run({"evaluate", "c1", "--store", store_, "--seeds", "2", "--no-store"}).code, 0);
+  EXPECT_EQ(run({"evaluate", "best", "--design", "d2", "--store", store_}).code, 4);
+  EXPECT_EQ(run({"query", store_, "SELECT count(*) AS n FROM v_evaluations WHERE purpose = 'score'",
+                 "--csv"})
+                .out,
+            "n\n0\n");
+}
+
+TEST_F(EvaluateFromStore, StaysOutWhileACampaignWrites) {
+  const auto writer =
+      Store::open(store_, campaign_row(one_design_campaign()), design_rows(one_design_campaign()));
+  const Ran ran = run({"evaluate", "best", "--store", store_});
+  EXPECT_EQ(ran.code, 3);
+  EXPECT_THAT(ran.err, HasSubstr("--no-store"));
+  EXPECT_EQ(run({"evaluate", "best", "--store", store_, "--no-store"}).code, 0);
+}
+
+/// Final score of kExploreText where control cycles come too early.
+double hasty_score(const Flavour& flavour, std::int64_t seed) {
+  const Mission mission = *built_in_mission("grid_exploration");
+  const Machine machine = *parse_machine(kExploreText, flavour);
+  return simulate({.machine = machine,
+                   .flavour = flavour,
+                   .profile = *built_in_profile("pseudo-reality"),
+                   .mission = mission,
+                   .instance = *instance_of(mission, seed),
+                   .seed = seed})
+      .score;
+}
+
+TEST(EvaluateFromAStoreOfTimedTurns, TakesTheTurnClockOfTheCandidatesMethod) {
+  const TemporaryFolder folder;
+  const std::string store = (folder / "timed.db").string();
+  Campaign campaign = one_design_campaign();
+  campaign.methods[0].turn_clock = TurnClock::Seconds;
+  write_store(store, campaign);
+  const auto score = [&](const std::vector<std::string>& more) {
+    std::vector<std::string> words = {
+        "evaluate",         "c1",        "--store",        store,     "--mission",
+        "grid_exploration", "--profile", "pseudo-reality", "--seeds", "3",
+        "--json",           "--no-store"};
+    words.insert(words.end(), more.begin(), more.end());
+    return lines_of(run(words).out).at(0)["score"].get<double>();
+  };
+  const Flavour timed = find_flavour("watermelon", TurnClock::Seconds).value();
+  EXPECT_EQ(score({}), hasty_score(timed, 3));
+  EXPECT_EQ(score({"--flavour", "watermelon"}), hasty_score(timed, 3));
+  EXPECT_NE(score({}), hasty_score(watermelon(), 3));
+  EXPECT_EQ(score({"--flavour", "watermelon-argos3"}), hasty_score(watermelon_argos3(), 3));
+}
+
+TEST_F(EvaluateFromStore, ExitsWithFourForACandidateThatIsNotThere) {
+  EXPECT_EQ(run({"evaluate", "c99", "--store", store_}).code, 4);
+  EXPECT_EQ(run({"evaluate", "c1", "--store", store_ + "x"}).code, 3);
+}
+
+TEST(MachineWords, LeaveOtherWordsAlone) {
+  const std::vector<std::string> words = {"best.fsm", "--seeds", "1-3"};
+  EXPECT_EQ(with_machine_as_one_word(words), words);
+  EXPECT_THAT(with_machine_as_one_word({"--nstates", "1", "--s0", "1", "--seeds", "2", "--store"}),
+              ElementsAre(" --nstates 1 --s0 1", "--seeds", "2", "--store"));
+}
+
+TEST(Seeds, AreRangesAndLists) {
+  EXPECT_THAT(*parse_seeds("1,4,7-9"), ElementsAre(1, 4, 7, 8, 9));
+  for (const char* wrong : {"", "0", "1-", "-3", "a", "2147483648", "1,,2", "1-99999999999"}) {
+    EXPECT_FALSE(parse_seeds(wrong)) << wrong;
+  }
+}
+
+TEST(MeanInterval, IsStudents) {
+  const std::vector<double> values = {1, 2, 3, 4, 5};
+  const MeanInterval summary = mean_interval(values);
+  EXPECT_DOUBLE_EQ(summary.mean, 3);
+  // R: t.test(1:5)$conf.int is 1.036757 to 4.963243.
+  EXPECT_NEAR(summary.half_width, 1.963243, 0.01);
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

@@ -1,0 +1,82 @@
+#include <gmock/gmock.h>
+
+#include <filesystem>
+
+#include "tests/cli/cli_support.h"
+#include "tests/support/one_design.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using testing::HasSubstr;
+namespace fs = std::filesystem;
+
+constexpr const char* kTwoMissions =
+    "format = 1\n[[mission]]\nname = \"aggregation\"\n[[mission]]\nname = \"grid_exploration\"\n"
+    "[[method]]\nname = \"w\"\n[race]\nmax_experiments = 2000\n";
+
+class ExportIrace : public WithStore {
+ protected:
+  std::string folder() const { return (folder_ / "irace").string(); }
+};
+
+TEST_F(ExportIrace, WritesAFolderFromAStore) {
+  const Ran ran = run({"export", store_, "--format", "irace", "-o", folder()});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_EQ(ran.out, folder() + "\n");
+  for (const char* name : {"README", "campaign.toml", "instances.txt", "parameters.txt",
+                           "scenario.txt", "target-runner", "test-instances.txt"}) {
+    EXPECT_TRUE(fs::exists(fs::path(folder()) / name)) << name;
+  }
+  const auto permissions = fs::status(fs::path(folder()) / "target-runner").permissions();
+  EXPECT_NE(permissions & fs::perms::owner_exec, fs::perms::none);
+  // The campaign in it is the store's.
+  const Ran check = run({"check", folder() + "/campaign.toml", "--json"});
+  EXPECT_THAT(check.out, HasSubstr(campaign_digest(one_design_campaign())));
+}
+
+TEST_F(ExportIrace, NeverOverwrites) {
+  ASSERT_EQ(run({"export", store_, "--format", "irace", "-o", folder()}).code, 0);
+  const Ran again = run({"export", store_, "--format", "irace", "-o", folder()});
+  EXPECT_EQ(again.code, 2);
+  EXPECT_THAT(again.err, HasSubstr("is there already"));
+}
+
+TEST_F(ExportIrace, WantsToKnowWhichDesignWhereTheyDiffer) {
+  const std::string file = (folder_ / "two.toml").string();
+  write_file(file, kTwoMissions);
+  const Ran ran = run({"export", file, "--format", "irace", "-o", folder()});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("d1 aggregation w repetition 1, d2 grid_exploration w"));
+  EXPECT_FALSE(fs::exists(folder()));
+  const Ran none = run({"export", file, "--format", "irace", "--design", "d3", "-o", folder()});
+  EXPECT_EQ(none.code, 2);
+  EXPECT_THAT(none.err, HasSubstr("no design d3"));
+  EXPECT_EQ(run({"export", file, "--format", "irace", "--design", "d2", "-o", folder()}).code, 0);
+}
+
+TEST_F(ExportIrace, SaysWhatIsWrong) {
+  EXPECT_THAT(run({"export", store_, "--format", "irace"}).err, HasSubstr("-o FOLDER"));
+  const std::string file = (folder_ / "bad.toml").string();
+  write_file(file, "format = 1\n");
+  const Ran bad = run({"export", file, "--format", "irace", "-o", folder()});
+  EXPECT_EQ(bad.code, 2);
+  EXPECT_THAT(bad.err, HasSubstr("bad.toml:"));
+}
+
+TEST_F(ExportIrace, EvaluateTakesItsWorldFromACampaign) {
+  const std::string file = (folder_ / "two.toml").string();
+  write_file(file, kTwoMissions);
+  const Ran named = run({"evaluate", kExploreText, "--flavour", "watermelon", "--mission",
+                         "grid_exploration", "--seeds", "7-9", "--json"});
+  const Ran taken = run(
+      {"evaluate", kExploreText, "--campaign", file, "--design", "d2", "--seeds", "7-9", "--json"});
+  EXPECT_EQ(taken.code, 0) << taken.err;
+  EXPECT_EQ(taken.out, named.out);
+  const Ran unclear = run({"evaluate", kExploreText, "--campaign", file});
+  EXPECT_EQ(unclear.code, 2);
+  EXPECT_THAT(unclear.err, HasSubstr("which design?"));
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

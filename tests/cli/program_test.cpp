@@ -1,0 +1,158 @@
+#include <gmock/gmock.h>
+
+#include <chrono>
+#include <nlohmann/json.hpp>
+
+#include "cli/commands/commands.h"
+#include "tests/cli/cli_support.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using nlohmann::json;
+using testing::HasSubstr;
+using testing::IsEmpty;
+
+TEST(Program, WithoutACommandExplainsItselfAndExitsWithTwo) {
+  const Ran ran = run({});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.out, IsEmpty());
+  EXPECT_THAT(ran.err, HasSubstr("Commands:"));
+}
+
+TEST(Program, SuggestsTheCommandThatWasMeant) {
+  const Ran ran = run({"evalute"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("there is no command `evalute` (did you mean \"evaluate\"?)"));
+}
+
+TEST(Program, SuggestsTheOptionThatWasMeant) {
+  const Ran ran = run({"evaluate", "x", "--misson", "aggregation"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("`evaluate` has no option `--misson` (did you mean "
+                                 "\"--mission\"?)"));
+}
+
+TEST(Program, RefusesAWordTooMany) {
+  const Ran ran = run({"version", "now"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("`now` is one word too many"));
+}
+
+TEST(Program, TakesNumbersWithUnderscores) {
+  // The range complains about what remains.
+  const Ran ran = run({"ls", "designs", "--limit", "2_000_000_000"});
+  EXPECT_THAT(ran.err, HasSubstr("2000000000 not in range"));
+  EXPECT_THAT(run({"ls", "designs", "--limit", "1_000"}).err, HasSubstr("which store?"));
+}
+
+TEST(Program, NamesWhatIsMissing) {
+  const Ran ran = run({"check"});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("FILE is required"));
+}
+
+/// Help is wrapped; a blank between words.
+std::string on_one_line(std::string_view text) {
+  std::istringstream words{std::string(text)};
+  std::string line;
+  for (std::string word; words >> word;)
+    line += word + " ";
+  return line;
+}
+
+TEST(Program, ExplainsEveryCommandOnStandardOutput) {
+  int explained = 0;
+  for (const Command& command : commands()) {
+    if (command.name == "track") continue;  // becomes another program, in place of this one
+    const Ran ran = run({std::string(command.name), "--help"});
+    EXPECT_EQ(ran.code, 0) << command.name;
+    const std::string help = on_one_line(ran.out);
+    EXPECT_THAT(help, HasSubstr(on_one_line(command.summary)));
+    EXPECT_THAT(help, HasSubstr(on_one_line(command.details)));
+    EXPECT_THAT(help, HasSubstr("--json"));
+    ++explained;
+  }
+  EXPECT_GT(explained, 30);
+}
+
+TEST(Program, HasEveryCommandInItsManual) {
+  std::ifstream stream(std::filesystem::path(SWARMSMITH_SOURCE_DIR) / "docs" / "command-line.md");
+  std::ostringstream manual;
+  manual << stream.rdbuf();
+  for (const Command& command : commands()) {
+    EXPECT_THAT(manual.str(), HasSubstr("## `" + std::string(command.name)));
+  }
+}
+
+TEST(Program, SaysItsVersionAsJson) {
+  const json version = json::parse(run({"version", "--json"}).out);
+  EXPECT_EQ(version["name"], "swarmsmith");
+  EXPECT_TRUE(version["engine"].is_number_integer());
+}
+
+TEST(Init, WritesAFileThatCheckAccepts) {
+  const TemporaryFolder folder;
+  const std::string inside = (folder / "mine").string();
+  for (const char* mission : {"aggregation", "grid_exploration", "color_selection"}) {
+    const std::string place = inside + mission;
+    EXPECT_EQ(run({"init", place, "--mission", mission}).code, 0);
+    const auto campaign = read_campaign(place + "/campaign.toml");
+    ASSERT_TRUE(campaign) << to_string(campaign.error().front());
+    EXPECT_EQ(campaign->missions[0].mission.name, mission);
+  }
+}
+
+TEST(Init, NeverOverwrites) {
+  const TemporaryFolder folder;
+  write_file(folder / "campaign.toml", "mine");
+  const Ran ran = run({"init", folder.path().string()});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("is there already"));
+}
+
+TEST(Check, ShowsThePlanAsJson) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run({"init", folder.path().string()}).code, 0);
+  const Ran ran = run({"check", (folder / "campaign.toml").string(), "--json"});
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  const json plan = json::parse(ran.out);
+  EXPECT_EQ(plan["designs"], 1);
+  EXPECT_EQ(plan["experiments"], 10'000);
+  EXPECT_EQ(plan["tests"], 100);
+  EXPECT_GT(plan["evaluation_ms"], 0);
+}
+
+TEST(Check, SimulatesOnlyTheBeginningOfALongMission) {
+  const TemporaryFolder folder;
+  write_file(folder / "x.toml",
+             "format = 1\n[[mission]]\nname = \"day\"\npreset = \"aggregation\"\n"
+             "duration = \"24 h\"\nrobots = 100\n[mission.arena]\nshape = \"square\"\nside = 10\n"
+             "[[method]]\nname = \"watermelon\"\n[race]\nmax_experiments = 2000\n");
+  const auto begin = std::chrono::steady_clock::now();
+  const Ran ran = run({"check", (folder / "x.toml").string(), "--json"});
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(10));  // whole: minutes
+  ASSERT_EQ(ran.code, 0) << ran.err;
+  EXPECT_GT(json::parse(ran.out)["evaluation_ms"], 10'000);
+}
+
+TEST(Check, PrintsAllThatIsWrongAndExitsWithTwo) {
+  const TemporaryFolder folder;
+  write_file(folder / "x.toml", "format = 1\nseed = 3\n");
+  const Ran ran = run({"check", (folder / "x.toml").string()});
+  EXPECT_EQ(ran.code, 2);
+  EXPECT_THAT(ran.out, IsEmpty());
+  EXPECT_THAT(ran.err, HasSubstr("x.toml:2:1: the file has no key `seed`"));
+  EXPECT_THAT(ran.err, HasSubstr("no [[mission]]"));
+}
+
+TEST(Check, WarnsOfAFlavourThatNoiseBlinds) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run({"init", folder.path().string(), "--flavour", "watermelon-argos3"}).code, 0);
+  const Ran ran = run({"check", (folder / "campaign.toml").string()});
+  EXPECT_EQ(ran.code, 0);
+  EXPECT_THAT(ran.err, HasSubstr("black_floor hardly ever holds"));
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

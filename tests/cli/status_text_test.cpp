@@ -1,0 +1,90 @@
+#include "cli/output/status_text.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <numeric>
+
+namespace swarmsmith::cli {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A thousand workers on fifty hosts, one of which is bad, at thirty designs.
+LiveStatus cluster() {
+  LiveStatus status;
+  status.workers = 1000;
+  status.slots = 64'000;
+  status.used_per_s = 100;
+  std::vector<WorkerStatus> fleet;
+  for (int i = 0; i < 1000; ++i) {
+    fleet.push_back({.number = i + 1,
+                     .state = "connected",
+                     .host = "node" + std::to_string(i % 50),
+                     .slots = 64,
+                     .failed = i == 7 ? 12 : 0,
+                     .busy = 0.9});
+  }
+  status.fleet = std::make_shared<const std::vector<WorkerStatus>>(fleet);
+  CampaignStatus campaign{.name = "thesis", .used = 1000, .budget = 37'000};
+  for (int i = 0; i < 30; ++i) {
+    campaign.designs.push_back({.id = i + 1,
+                                .mission = "aggregation",
+                                .method = "argos3",
+                                .state = i < 20 ? "finished" : "racing",
+                                .used = 1000,
+                                .budget = 1000});
+  }
+  status.campaigns =
+      std::make_shared<const std::vector<CampaignStatus>>(std::vector<CampaignStatus>{campaign});
+  SlotTimes& times = status.slot_times_last_minute;
+  times.slots = 100;
+  times.busy = 75;
+  times.idle[static_cast<std::size_t>(IdleCause::Barrier)] = 20;
+  times.idle[static_cast<std::size_t>(IdleCause::Network)] = 5;
+  return status;
+}
+
+std::string joined(const std::vector<std::string>& lines) {
+  return std::accumulate(
+      lines.begin(), lines.end(), std::string(),
+      [](std::string text, const std::string& line) { return std::move(text) + line + "\n"; });
+}
+
+TEST(StatusText, FitsAScreenWithTheWorstHostFirst) {
+  const std::vector<std::string> lines = status_lines(cluster(), {80, 24});
+  EXPECT_LE(lines.size(), 24U);
+  for (const std::string& line : lines)
+    EXPECT_LE(line.size(), 80U) << line;
+  const auto headline = std::ranges::find_if(
+      lines, [](const std::string& line) { return line.starts_with("host "); });
+  ASSERT_NE(headline, lines.end());
+  EXPECT_THAT(*(headline + 1), HasSubstr("node7 "));
+  EXPECT_THAT(joined(lines), AllOf(HasSubstr("... and"), HasSubstr("d21")));
+}
+
+TEST(StatusText, SaysWhereTheTimeGoesAndWhenItEnds) {
+  const std::string text = joined(status_lines(cluster(), {200, 100}));
+  EXPECT_THAT(text, HasSubstr("last minute  busy 75 %  barrier 20 %  on the way 5 %\n"));
+  EXPECT_THAT(text, HasSubstr("[##############################bbbbbbbboo]"));
+  EXPECT_THAT(text, HasSubstr("designs 20/30  experiments 1000/37000 (3 %)"));
+  EXPECT_THAT(text, HasSubstr("ETA 6m00s"));
+}
+
+TEST(StatusText, PromisesNoEndWhenNothingMoves) {
+  LiveStatus status = cluster();
+  status.used_per_s = 0;
+  status.trouble = "disk full";
+  const std::string text = joined(status_lines(status, {200, 100}));
+  EXPECT_THAT(text, AllOf(Not(HasSubstr("ETA")), HasSubstr("NOTHING IS STORED: disk full")));
+  EXPECT_THAT(status_summary(status), HasSubstr("NOTHING IS STORED"));
+}
+
+TEST(StatusText, HasNothingToShowBeforeAnybodyCame) {
+  EXPECT_THAT(joined(status_lines({}, {80, 24})), HasSubstr("no heartbeats yet"));
+  EXPECT_THAT(status_lines(cluster(), {80, 2}), ::testing::SizeIs(2));
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

@@ -1,0 +1,460 @@
+// Who may answer for an evaluation, and whose word counts how much.
+
+#include <algorithm>
+
+#include "tests/coordinator/pool/schedulers.h"
+
+namespace swarmsmith {
+namespace {
+
+class Authority : public Schedulers {
+ protected:
+  std::vector<std::string> kinds() const {
+    std::vector<std::string> kinds;
+    for (const Noted& noted : all<Noted>())
+      kinds.push_back(noted.row.kind);
+    return kinds;
+  }
+  WorkerResult signed_result(std::int64_t candidate, const std::string& principal,
+                             std::int64_t attempt = 1) const {
+    return {.key = key(candidate),
+            .attempt = attempt,
+            .score = 1,
+            .state_digest = 5,
+            .wall_us = 100,
+            .signature = scheduler.signer().sign(task_of(candidate), attempt, principal)};
+  }
+};
+
+// --- a result needs its lease ---
+
+TEST_F(Authority, RefusesAResultThatWasNeverLeased) {
+  hello(1);
+  want(1, 1);
+  answer(1, 1, 99);
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  EXPECT_EQ(scheduler.counters().unleased, 1U);
+  EXPECT_EQ(all<SendAcknowledged>().size(), 1U) << "it need not be sent again";
+}
+
+TEST_F(Authority, RefusesAResultOfSomebodyElsesLease) {
+  hello(1), hello(2);
+  credit(1, 1);
+  want(1, 1);
+  answer(2, 1, 99);
+  answer(2, 1, 0, "because");
+  answer(2, {.key = key(1), .attempt = 1, .rejected = true});
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  EXPECT_FALSE(asked());
+  EXPECT_EQ(scheduler.counters().unleased, 3U);
+  EXPECT_EQ(scheduler.counters().failed, 0U);
+}
+
+TEST_F(Authority, ComparesNothingThatWasNeverLeased) {
+  hello(1), hello(2);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 2.5);
+  answer(2, 1, 99);
+  EXPECT_TRUE(all<ConflictFound>().empty());
+  EXPECT_EQ(scheduler.counters().conflicts, 0U);
+  EXPECT_EQ(scheduler.counters().duplicates, 0U);
+}
+
+TEST_F(Authority, TakesAResultWhoseLeaseHasExpired) {
+  hello(1), hello(2);
+  credit(1, 1);
+  want(1, 1);
+  const std::uint64_t signature = all<SendTasks>().back().tasks.back().signature;
+  const std::vector<PackedKey> keys{key(1)};
+  scheduler.on_returned({1, 1, ++sequence}, keys, now);
+  move();
+  credit(2, 1);
+  ASSERT_EQ(given[2].size(), 1U);
+  answer(1, {.key = key(1), .attempt = 1, .score = 2.5, .signature = signature});
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.worker, 1);
+}
+
+TEST_F(Authority, TakesALeaseOfAProcessThatCrashed) {
+  // The same secret, and nothing else that is known.
+  hello(1);
+  want(1, 2);
+  answer(1, signed_result(1, name_of(1), 7));
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(scheduler.counters().unleased, 0U);
+}
+
+TEST_F(Authority, RefusesALeaseOfAnotherTaskUnderTheSameKey) {
+  // A crash took a lie away, and with it why another machine had this key.
+  Task other = task_of(1);
+  other.machine = "another";
+  hello(1);
+  want(1, 1);
+  WorkerResult result = signed_result(1, name_of(1), 7);
+  result.signature = scheduler.signer().sign(other, 7, name_of(1));
+  answer(1, result);
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  EXPECT_EQ(scheduler.counters().unleased, 1U);
+  // The same, when the outcome is there.
+  credit(1, 1);
+  answer(1, 1, 3);
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  result.score = 99;
+  answer(1, result);
+  dispute(1);
+  EXPECT_TRUE(all<ConflictFound>().empty());
+  EXPECT_EQ(scheduler.counters().unleased, 2U);
+}
+
+TEST_F(Authority, AsksForADisputedResultAgainUntilTheRaceTellsTheTask) {
+  hello(1);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 3);
+  resend(1, 1, 4);
+  const std::size_t acknowledged = all<OutcomeRepeated>().size();
+  scheduler.on_disputed(key(1), std::nullopt, now);
+  move();
+  EXPECT_TRUE(all<ConflictFound>().empty());
+  EXPECT_EQ(all<OutcomeRepeated>().size(), acknowledged);
+  resend(1, 1, 4);
+  dispute(1);
+  EXPECT_EQ(all<ConflictFound>().size(), 1U);
+  EXPECT_EQ(all<OutcomeRepeated>().size(), acknowledged + 1);
+}
+
+TEST_F(Authority, AcknowledgesADisputedResultOfACampaignThatIsOver) {
+  hello(1);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 3);
+  scheduler.close(0, true);
+  resend(1, 1, 4);
+  scheduler.on_disputed(key(1), std::nullopt, now);
+  move();
+  EXPECT_EQ(all<OutcomeRepeated>().size(), 1U);
+  EXPECT_TRUE(all<ConflictFound>().empty());
+}
+
+TEST_F(Authority, RefusesALeaseThatIsNotTheSenders) {
+  hello(1), hello(2);
+  want(1, 2);
+  answer(2, signed_result(1, name_of(1)));
+  WorkerResult other_attempt = signed_result(1, name_of(2));
+  other_attempt.attempt = 2;
+  answer(2, other_attempt);
+  WorkerResult other_key = signed_result(1, name_of(2));
+  other_key.key = key(2);
+  answer(2, other_key);
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  EXPECT_EQ(scheduler.counters().unleased, 3U);
+}
+
+TEST_F(Authority, AdoptsOnlyWhatWasGiven) {
+  want(1, 2);
+  WorkerHello claimed;
+  claimed.identity = std::string(16, 'x');
+  claimed.incarnation = 1;
+  claimed.local = true;
+  claimed.same_scenario = true;
+  claimed.holds = {{key(1), 1, 0}, {key(2), 1, 12345}};
+  scheduler.on_hello(9, claimed, now);
+  move();
+  EXPECT_EQ(scheduler.leases().leased(), 0U);
+  hello(1, 1, 1, 0, {key(2)});
+  EXPECT_EQ(scheduler.leases().leased(), 1U);
+}
+
+TEST_F(Authority, KeepsTheIdsOfPrincipalsApart) {
+  enter(1, "10.0.0.1");
+  // The same id, and a later incarnation, from elsewhere.
+  WorkerHello thief;
+  thief.identity = std::string(15, 's') + static_cast<char>('a' + 1);
+  thief.incarnation = 9;
+  thief.address = "10.0.0.2";
+  scheduler.on_hello(2, thief, now);
+  take();
+  EXPECT_EQ(scheduler.workers().connected(), 2U);
+}
+
+// --- newcomers ---
+
+TEST_F(Authority, HoldsBackWhatANewcomerSaysUntilTheRefereeAgrees) {
+  enter(1, "10.0.0.1", 4);
+  credit(1, 4);
+  want(1, 4);
+  ASSERT_EQ(given[1].size(), 4U);
+  for (std::int64_t i = 1; i <= 4; ++i)
+    answer(1, i);
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  rule_score(1);
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
+  rule_score(2);
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 4U) << "it is known now";
+  EXPECT_EQ(all<OutcomeAccepted>()[3].outcome.worker, 1);
+}
+
+TEST_F(Authority, DropsEverythingThatALiarSaidWhenItsFirstWordIsWrong) {
+  hello(2);
+  enter(1, "10.0.0.1", 4);
+  credit(1, 4);
+  want(1, 4);
+  for (const std::int64_t i : given[1])
+    answer(1, i, 99);
+  const auto lies = static_cast<std::int64_t>(given[1].size());
+  ASSERT_GE(lies, 2);
+  rule_score(given[1][0]);
+  EXPECT_EQ(scheduler.counters().quarantined, 1U);
+  EXPECT_TRUE(all<StopCampaign>().empty()) << "nothing of it counts";
+  // The referee's own score is the outcome of what it made again, and others make the rest.
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.score, 1);
+  if (asked()) rule_score(given[1][1]);
+  for (int i = 0; i < 4; ++i)
+    credit(2, 4);
+  for (const std::int64_t i : given[2])
+    answer(2, i);
+  for (const OutcomeAccepted& accepted : all<OutcomeAccepted>())
+    EXPECT_EQ(accepted.outcome.score, 1);
+}
+
+TEST_F(Authority, StopsTheCampaignWhenAWorkerThatWasBelievedLies) {
+  options.campaigns[0].audit_every = 1;
+  scheduler = Scheduler(options);
+  enter(1, "10.0.0.1");
+  prove(1, 1);
+  credit(1, 1);
+  want(10, 1);
+  answer(1, 10, 99);
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 3U);
+  ASSERT_EQ(asked(), key(10));
+  rule_score(10);
+  ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
+  const std::string reason = all<StopCampaign>()[0].reason;
+  for (const char* part : {"10.0.0.1", "99", "1 results", "new store"})
+    EXPECT_NE(reason.find(part), std::string::npos) << reason;
+  EXPECT_EQ(std::ranges::count(kinds(), "a stored score is wrong"), 1);
+}
+
+TEST_F(Authority, GoesOnWhenTheRefereeFindsTheSameBits) {
+  options.campaigns[0].audit_every = 1;
+  scheduler = Scheduler(options);
+  hello(1);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 3);
+  EXPECT_TRUE(scheduler.is_auditing());
+  rule_score(1, 3);
+  EXPECT_FALSE(scheduler.is_auditing());
+  EXPECT_EQ(scheduler.counters().audited, 1U);
+  EXPECT_EQ(scheduler.counters().conflicts, 0U);
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
+}
+
+TEST_F(Authority, RemembersWhatWasMadeAgain) {
+  options.campaigns[0].audit_every = 1;
+  scheduler = Scheduler(options);
+  hello(1);
+  credit(1, 2);
+  want(1, 2);
+  answer(1, 1, 3), answer(1, 2, 4);
+  rule_score(1, 3);
+  const auto ended = all<AttemptEnded>();
+  ASSERT_EQ(ended.size(), 1U);
+  EXPECT_EQ(ended[0].row.outcome, "audited");
+  EXPECT_EQ(pack(ended[0].row.key, 0), key(1));
+}
+
+TEST_F(Authority, MakesAgainWhatAProcessThatCrashedHadChosen) {
+  options.campaigns[0].audit_every = 1;
+  scheduler = Scheduler(options);
+  const auto stored = [](std::int64_t candidate, std::int64_t worker) {
+    return StoredScore{
+        .key = unpack(key(candidate)), .score = 99, .state_digest = 5, .worker = worker};
+  };
+  const std::vector<StoredScore> known{stored(1, 1), stored(2, 1), stored(3, 2)};
+  // The second one was made again, and nobody knows whose the third one is.
+  const std::deque<StoredWord> words =
+      scheduler.know(0, known, {.principals = {{1, "10.0.0.1"}}, .audited = {unpack(key(2))}});
+  ASSERT_EQ(words.size(), 1U);
+  EXPECT_EQ(pack(words[0].key, 0), key(1));
+  scheduler.audit_stored({.key = words[0].key, .machine = "m"}, words[0].said);
+  move();
+  EXPECT_TRUE(scheduler.is_auditing());
+  ASSERT_EQ(asked(), key(1));
+  rule_score(1, 3);
+  ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
+}
+
+TEST_F(Authority, MakesNothingAgainWhereNobodyWantsAudits) {
+  options.campaigns[0].audit_every = 0;
+  scheduler = Scheduler(options);
+  enter(1, "10.0.0.1");
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 3);
+  EXPECT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_FALSE(asked());
+}
+
+TEST_F(Authority, MakesTheFirstResultsAgainMoreOften) {
+  options.campaigns[0].audit_every = 1'000'000;
+  scheduler = Scheduler(options);
+  enter(1, "10.0.0.1");
+  prove(1, 1);
+  std::size_t audited = ruled;
+  for (std::int64_t i = 10; i < 210; ++i) {
+    credit(1, 1);
+    want(i, 1);
+    answer(1, i);
+    if (asked()) rule_score(i);
+    credit(1, 0);
+  }
+  // The sum of 4/n from n = 3 is 15.6.
+  EXPECT_GT(ruled - audited, 5U);
+  EXPECT_LT(ruled - audited, 40U);
+}
+
+// --- nobody's word rejects an evaluation of the simulator ---
+
+TEST_F(Authority, BringsARejectionBeforeTheReferee) {
+  hello(1);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, {.key = key(1), .attempt = 1, .rejected = true});
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+  ASSERT_EQ(asked(), key(1));
+  rule_score(1, 2);
+  ASSERT_EQ(all<OutcomeAccepted>().size(), 1U);
+  EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.status, EvaluationStatus::Ok);
+}
+
+TEST_F(Authority, QuarantinesWhoClaimsFailuresThatAreNone) {
+  enter(1, "10.0.0.1");
+  for (std::int64_t i = 1; i <= 5; ++i) {
+    EXPECT_EQ(scheduler.counters().quarantined, 0U);
+    credit(1, 1);
+    want(i, 1);
+    answer(1, {.key = key(i), .attempt = 1, .rejected = true});
+    ASSERT_EQ(asked(), key(i));
+    rule_score(i);
+    credit(1, 0);
+  }
+  EXPECT_EQ(scheduler.counters().quarantined, 1U);
+  EXPECT_EQ(scheduler.counters().done, 5U);
+  EXPECT_EQ(scheduler.counters().rejected, 0U);
+}
+
+TEST_F(Authority, DoesNotQuarantineForEvaluationsThatFailEverywhere) {
+  hello(1);
+  for (std::int64_t i = 1; i <= 8; ++i) {
+    credit(1, 1);
+    want(i, 1);
+    answer(1, i, 0, "planted");
+    rule_rejected(i);
+    credit(1, 0);
+  }
+  EXPECT_EQ(scheduler.counters().quarantined, 0U);
+  EXPECT_EQ(scheduler.counters().rejected, 8U);
+}
+
+TEST_F(Authority, GivesNothingMoreToWhoHasManyClaimsPending) {
+  hello(1, 20);
+  enter(2, "10.0.0.1", 20);
+  credit(2, 100);
+  want(1, 40);
+  ASSERT_GE(given[2].size(), 10U);
+  for (std::size_t i = 0; i < given[2].size(); ++i)
+    answer(2, given[2][i], 0, "because");
+  EXPECT_EQ(scheduler.cases().size(), 8U);
+  EXPECT_EQ(scheduler.leases().leases_of(2).size(), 0U);
+  credit(1, 100);
+  EXPECT_GE(given[1].size(), 20U) << "what was over goes to others";
+}
+
+TEST_F(Authority, StopsWhereTheRefereeCannotSay) {
+  hello(1);
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 0, "not a number");
+  rule({.key = key(1), .kind = Ruling::Kind::NoWord, .reason = "no memory"});
+  ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  EXPECT_NE(all<StopCampaign>()[0].reason.find("no memory"), std::string::npos);
+  EXPECT_TRUE(all<OutcomeAccepted>().empty());
+}
+
+// --- trust goes by key and address ---
+
+TEST_F(Authority, KeepsALiarInQuarantineUnderEveryId) {
+  enter(1, "10.0.0.1", 1, 1, "node");
+  credit(1, 1);
+  want(1, 1);
+  answer(1, 1, 99);
+  rule_score(1);
+  ASSERT_EQ(scheduler.counters().quarantined, 1U);
+  for (PeerId peer = 2; peer < 6; ++peer)
+    enter(peer, "10.0.0.1", 1, 1, "node");
+  EXPECT_EQ(scheduler.workers().trusted(), 0U);
+  EXPECT_EQ(all<SendReject>().size(), 4U);
+  enter(7, "10.0.0.2", 1, 1, "node");
+  EXPECT_EQ(scheduler.workers().trusted(), 1U);
+}
+
+TEST_F(Authority, RemembersWhoWasInQuarantineBefore) {
+  options.quarantined = {"node@10.0.0.1"};
+  scheduler = Scheduler(options);
+  enter(1, "10.0.0.1", 1, 1, "node");
+  EXPECT_EQ(scheduler.workers().connected(), 0U);
+}
+
+TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
+  enter(1, "10.0.0.1");
+  prove(1, 1);
+  enter(2, "10.0.0.2");
+  prove(2, 3);
+  credit(1, 1);
+  want(10, 1);
+  const std::uint64_t signature = all<SendTasks>().back().tasks.back().signature;
+  const std::vector<PackedKey> keys{key(10)};
+  scheduler.on_returned({1, 1, ++sequence}, keys, now);
+  move();
+  credit(2, 1);
+  answer(2, 10, 1, "", 2);
+  if (asked()) rule_score(10);
+  ASSERT_TRUE(scheduler.principals().all().at("10.0.0.1").taken > 0);
+  // The first one comes with a lie.
+  answer(1, {.key = key(10), .attempt = 1, .score = 99, .signature = signature});
+  dispute(10);
+  ASSERT_EQ(all<ConflictFound>().size(), 1U);
+  ASSERT_EQ(asked(), key(10));
+  rule_score(10);
+  EXPECT_TRUE(scheduler.principals().all().at("10.0.0.1").quarantined);
+  EXPECT_FALSE(scheduler.principals().all().at("10.0.0.2").quarantined);
+  EXPECT_TRUE(all<StopCampaign>().empty()) << "all that it said before was made again";
+  EXPECT_TRUE(std::ranges::any_of(all<AttemptEnded>(), [](const AttemptEnded& ended) {
+    return pack(ended.row.key) == key(10) && ended.row.outcome == "audited";
+  })) << "what was kept was made again: the store is sound";
+}
+
+TEST_F(Authority, StopsWhenAStoredScoreIsWrong) {
+  hello(1), hello(2);
+  credit(1, 1);
+  want(1, 1);
+  const std::uint64_t signature = all<SendTasks>().back().tasks.back().signature;
+  const std::vector<PackedKey> keys{key(1)};
+  scheduler.on_returned({1, 1, ++sequence}, keys, now);
+  move();
+  credit(2, 1);
+  answer(2, 1, 99, "", 2);
+  answer(1, {.key = key(1), .attempt = 1, .score = 1, .state_digest = 5, .signature = signature});
+  dispute(1);
+  rule_score(1);
+  ASSERT_EQ(all<StopCampaign>().size(), 1U);
+  EXPECT_TRUE(all<StopCampaign>()[0].distrusted);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,19 @@
+#include "coordinator/pool/event_text.h"
+
+#include <gtest/gtest.h>
+
+namespace swarmsmith {
+namespace {
+
+TEST(EventText, IsJson) {
+  EXPECT_EQ(event_text({}), "{}");
+  EXPECT_EQ(event_text({{"worker", std::int64_t{3}}, {"host", "a\"b\\c"}}),
+            R"({"worker":3,"host":"a\"b\\c"})");
+}
+
+TEST(EventText, TakesAnyBytes) {
+  EXPECT_EQ(event_text({{"reason", std::string("a\n\x01\xff")}}), R"({"reason":"a\u000a\u0001?"})");
+}
+
+}  // namespace
+}  // namespace swarmsmith

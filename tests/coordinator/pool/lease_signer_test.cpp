@@ -1,0 +1,62 @@
+#include "coordinator/pool/lease_signer.h"
+
+#include <gtest/gtest.h>
+#include <set>
+#include <string>
+
+#include "coordinator/pool/task_key.h"
+
+namespace swarmsmith {
+namespace {
+
+Task task_of(std::int64_t candidate, const std::string& machine) {
+  return {.key = {{candidate}, Purpose::Race, 1}, .machine = machine};
+}
+
+TEST(LeaseSigner, SignsKeyAttemptAndPrincipal) {
+  const LeaseSigner signer(lease_secret_of("secret", 1));
+  const Task one = task_of(1, "m");
+  const std::set<std::uint64_t> signatures = {
+      signer.sign(one, 1, "a"), signer.sign(task_of(2, "m"), 1, "a"),
+      signer.sign(one, 2, "a"), signer.sign(one, 1, "b"),
+      signer.sign(one, 1, ""),  signer.draw(key_of(one))};
+  EXPECT_EQ(signatures.size(), 6U);
+  const std::uint64_t signature = signer.sign(one, 1, "a");
+  EXPECT_EQ(signature, LeaseSigner(lease_secret_of("secret", 1)).sign(one, 1, "a"));
+  EXPECT_TRUE(signer.is_ours(signature, key_of(one), 1, "a"));
+  EXPECT_FALSE(signer.is_ours(signature, key_of(one), 2, "a"));
+  EXPECT_FALSE(signer.is_ours(signature, key_of(one), 1, "b"));
+  EXPECT_FALSE(signer.is_ours(signature ^ 1, key_of(one), 1, "a"));
+  EXPECT_FALSE(signer.is_ours(signature ^ std::uint64_t{1} << 63, key_of(one), 1, "a"));
+  EXPECT_FALSE(signer.is_ours(0, key_of(one), 1, "a"));
+}
+
+TEST(LeaseSigner, TellsTasksOfOneKeyApart) {
+  const LeaseSigner signer(lease_secret_of("secret", 1));
+  const Task one = task_of(1, "m");
+  const std::uint64_t signature = signer.sign(one, 1, "a");
+  EXPECT_TRUE(signer.is_of(signature, one));
+  EXPECT_FALSE(signer.is_of(signature, task_of(1, "n")));
+  Task other_seed = one;
+  other_seed.seed = 7;
+  EXPECT_FALSE(signer.is_of(signature, other_seed));
+  EXPECT_TRUE(signer.is_ours(signer.sign(other_seed, 1, "a"), key_of(one), 1, "a"));
+}
+
+TEST(LeaseSigner, HasASecretAScenario) {
+  EXPECT_NE(lease_secret_of("secret", 1), lease_secret_of("secret", 2));
+  EXPECT_NE(lease_secret_of("secret", 1), lease_secret_of("another", 1));
+  EXPECT_NE(LeaseSigner(lease_secret_of("secret", 1)).sign(task_of(1, "m"), 1, "a"),
+            LeaseSigner(lease_secret_of("secret", 2)).sign(task_of(1, "m"), 1, "a"));
+}
+
+TEST(LeaseSigner, MakesSecretsThatDiffer) {
+  EXPECT_EQ(random_secret().size(), 64U);
+  EXPECT_NE(random_secret(), random_secret());
+  EXPECT_TRUE(same_secret("ab", "ab"));
+  EXPECT_FALSE(same_secret("ab", "ac"));
+  EXPECT_FALSE(same_secret("", "")) << "no secret is nobody's";
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,211 @@
+#include "proto/access/allow_list.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <atomic>
+#include <fstream>
+
+#include "proto/access/allow_list_file.h"
+#include "proto/access/allow_list_watch.h"
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::IsEmpty;
+
+constexpr std::chrono::sys_seconds kNoon =
+    std::chrono::sys_days(std::chrono::year(2027) / 1 / 31) + std::chrono::hours(12);
+
+const KeyPair kNode = make_key_pair();
+const KeyPair kDesk = make_key_pair();
+
+AllowedClient node() {
+  return {.name = "node",
+          .role = Role::Worker,
+          .public_key = kNode.public_key,
+          .expires = std::chrono::year(2027) / 1 / 31};
+}
+AllowedClient desk() {
+  return {.name = "desk", .role = Role::Operator, .public_key = kDesk.public_key, .expires = {}};
+}
+
+std::string list_of_both() {
+  return "format = 1\n" + text_of(node()) + "\n# a comment\n" + text_of(desk());
+}
+
+std::vector<std::string> complaints_about(const std::string& text) {
+  const AllowListOrErrors list = parse_allow_list(text, "clients.toml");
+  std::vector<std::string> all;
+  if (list) return all;
+  for (const Error& error : list.error())
+    all.push_back(to_string(error));
+  return all;
+}
+
+TEST(AllowList, ReadsWhatItPrints) {
+  const AllowListOrErrors list = parse_allow_list(list_of_both(), "clients.toml");
+  ASSERT_TRUE(list);
+  EXPECT_THAT(*list, ElementsAre(node(), desk()));
+}
+
+TEST(AllowList, MayBeEmpty) {
+  EXPECT_THAT(parse_allow_list("format = 1\n", "clients.toml").value(), IsEmpty());
+}
+
+TEST(AllowList, SaysWhereItIsNoToml) {
+  EXPECT_THAT(complaints_about("format = 1\n[[client]\n"),
+              ElementsAre(HasSubstr("clients.toml:2:")));
+}
+
+TEST(AllowList, SaysEverythingThatIsWrongAndWhere) {
+  const std::string text =
+      "format = 1\n"
+      "[[client]]\n"
+      "name = \"a b\"\n"
+      "role = \"work\"\n"
+      "key = \"short\"\n"
+      "expires = \"2027-01-31\"\n"
+      "until = 3\n"
+      "[[client]]\n"
+      "name = \"desk\"\n"
+      "rights = \"all\"\n";
+  EXPECT_THAT(
+      complaints_about(text),
+      ElementsAre(HasSubstr("clients.toml:3:8: a client's name has letters"),
+                  HasSubstr("clients.toml:4:8: `role` cannot be \"work\"; it is one of"),
+                  HasSubstr("clients.toml:5:7: `key` must be a public key"),
+                  HasSubstr("clients.toml:6:11: `expires` must be a date such as 2027-01-31"),
+                  HasSubstr("clients.toml:7:1: [[client]] has no key `until`"),
+                  HasSubstr("clients.toml:8:1: [[client]] needs a `role`"),
+                  HasSubstr("clients.toml:8:1: [[client]] needs a `key`"),
+                  HasSubstr("clients.toml:10:1: [[client]] has no key `rights`")));
+}
+
+TEST(AllowList, TakesNamesAndKeysOnce) {
+  AllowedClient twin = node();
+  EXPECT_THAT(
+      complaints_about("format = 1\n" + text_of(node()) + text_of(twin)),
+      ElementsAre(HasSubstr("another client \"node\""), HasSubstr("the key of \"node\", too")));
+}
+
+TEST(AllowList, KeysAreGoodThroughTheirLastDay) {
+  const AllowList list = {node(), desk()};
+  const auto expired_at = [&](std::chrono::sys_seconds now) {
+    const auto clients = clients_at(list, now);
+    EXPECT_FALSE(clients[1].expired);
+    return clients[0].expired;
+  };
+  EXPECT_FALSE(expired_at(kNoon));
+  EXPECT_FALSE(expired_at(kNoon + std::chrono::hours(12) - std::chrono::seconds(1)));
+  EXPECT_TRUE(expired_at(kNoon + std::chrono::hours(12)));
+}
+
+TEST(Dates, AreReadAsTheyArePrinted) {
+  EXPECT_EQ(text_of(date_of("2027-01-31").value()), "2027-01-31");
+  for (const char* wrong : {"", "2027-1-31", "2027-02-30", "31-01-2027", "2027-01-3a"})
+    EXPECT_FALSE(date_of(wrong)) << wrong;
+}
+
+class AllowListOnDisk : public ::testing::Test {
+ protected:
+  void write(const std::string& text) {
+    // In another file first: a new inode, whatever the clock's steps.
+    const std::filesystem::path fresh = folder / "fresh.toml";
+    std::ofstream(fresh) << text;
+    chmod(fresh.c_str(), 0644);
+    std::filesystem::rename(fresh, file);
+  }
+
+  TemporaryFolder folder;
+  const std::filesystem::path file = folder / "clients.toml";
+};
+
+TEST_F(AllowListOnDisk, SaysHowAMissingOneIsMade) {
+  const auto opened = AllowListFile::open(file, kNoon);
+  ASSERT_FALSE(opened);
+  EXPECT_THAT(opened.error().front().message, HasSubstr("swarmsmith keygen"));
+}
+
+TEST_F(AllowListOnDisk, IsRefusedWhenOthersMayWriteIt) {
+  write(list_of_both());
+  chmod(file.c_str(), 0664);
+  const auto opened = AllowListFile::open(file, kNoon);
+  ASSERT_FALSE(opened);
+  EXPECT_THAT(opened.error().front().message, HasSubstr("chmod go-w " + file.string()));
+}
+
+TEST_F(AllowListOnDisk, IsReadAgainWhenItChanges) {
+  write(list_of_both());
+  auto opened = AllowListFile::open(file, kNoon);
+  ASSERT_TRUE(opened);
+  EXPECT_EQ(opened->clients().size(), 2U);
+  EXPECT_FALSE(opened->look(kNoon).changed);
+  write("format = 1\n" + text_of(node()));
+  EXPECT_TRUE(opened->look(kNoon).changed);
+  EXPECT_EQ(opened->clients().size(), 1U);
+  EXPECT_FALSE(opened->look(kNoon).changed);
+}
+
+TEST_F(AllowListOnDisk, StaysAsItWasWhenANewOneIsFaulty) {
+  write(list_of_both());
+  auto opened = AllowListFile::open(file, kNoon);
+  ASSERT_TRUE(opened);
+  write("format = 1\n[[client]]\nname = 3\n");
+  AllowListFile::Look look = opened->look(kNoon);
+  EXPECT_FALSE(look.changed);
+  EXPECT_FALSE(look.faults.empty());
+  EXPECT_EQ(opened->clients().size(), 2U);
+  // Said once.
+  EXPECT_THAT(opened->look(kNoon).faults, IsEmpty());
+  std::filesystem::remove(file);
+  look = opened->look(kNoon);
+  EXPECT_FALSE(look.faults.empty());
+  EXPECT_EQ(opened->clients().size(), 2U);
+  write("format = 1\n");
+  EXPECT_TRUE(opened->look(kNoon).changed);
+  EXPECT_THAT(opened->clients(), IsEmpty());
+}
+
+TEST_F(AllowListOnDisk, ChangesWhenADayIsOver) {
+  write(list_of_both());
+  auto opened = AllowListFile::open(file, kNoon);
+  ASSERT_TRUE(opened);
+  EXPECT_TRUE(opened->look(kNoon + std::chrono::hours(12)).changed);
+  EXPECT_TRUE(opened->clients().front().expired);
+}
+
+TEST_F(AllowListOnDisk, IsWatched) {
+  write(list_of_both());
+  std::atomic<int> faults = 0;
+  std::atomic<bool> next_day = false;
+  AllowListWatch watch(
+      AllowListFile::open(file, kNoon).value(), [&](const std::vector<Error>&) { ++faults; },
+      [&] { return next_day ? kNoon + std::chrono::days(1) : kNoon; },
+      std::chrono::milliseconds(1));
+  const auto eventually = [](const std::function<bool()>& holds) {
+    for (int i = 0; i < 10'000 && !holds(); ++i)
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return holds();
+  };
+  std::optional<std::vector<ListedClient>> taken;
+  const auto take = [&] { return taken || (taken = watch.take()); };
+  next_day = true;
+  ASSERT_TRUE(eventually(take));
+  EXPECT_TRUE(taken->front().expired);
+  write("no list\n");
+  EXPECT_TRUE(eventually([&] { return faults > 0; }));
+  taken.reset();
+  write("format = 1\n" + text_of(desk()));
+  watch.look_now();
+  ASSERT_TRUE(eventually(take));
+  EXPECT_EQ(taken->size(), 1U);
+  EXPECT_EQ(taken->front().name, "desk");
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,90 @@
+#include "proto/access/coordinator_file.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <fstream>
+
+#include "proto/curve.h"
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::HasSubstr;
+
+CoordinatorFile example() {
+  return {.endpoint = "tcp://login1:5555",
+          .public_key = make_key_pair().public_key,
+          .insecure_plaintext = false,
+          .pid = 4711,
+          .host = "login1",
+          .started = "2026-11-21T15:37:00Z",
+          .http = "http://127.0.0.1:9347"};
+}
+
+std::string complaint_about(const std::string& text) {
+  const auto parsed = parse_coordinator_file(text, "c.db.coordinator");
+  return parsed ? "" : to_string(parsed.error());
+}
+
+TEST(CoordinatorFiles, ReadBackAsTheyArePrinted) {
+  CoordinatorFile file = example();
+  EXPECT_EQ(parse_coordinator_file(text_of(file), "f").value(), file);
+  file.public_key.clear();
+  file.insecure_plaintext = true;
+  file.http.clear();
+  EXPECT_EQ(parse_coordinator_file(text_of(file), "f").value(), file);
+}
+
+TEST(CoordinatorFiles, SayWhatIsWrongAndWhere) {
+  EXPECT_THAT(complaint_about("endpoint"), HasSubstr("c.db.coordinator:1:"));
+  EXPECT_THAT(complaint_about("format = 1\n"), HasSubstr("needs an `endpoint`"));
+  EXPECT_THAT(complaint_about("format = 1\nendpoint = \"login1:5555\"\n"),
+              HasSubstr("c.db.coordinator:2:12: `endpoint` must be where to connect"));
+  EXPECT_THAT(complaint_about("format = 1\nendpoint = \"tcp://0.0.0.0:5555\"\n"),
+              HasSubstr("where to connect"));
+  EXPECT_THAT(complaint_about("format = 1\nendpoint = \"tcp://a:1\"\nkey = \"x\"\n"),
+              HasSubstr("c.db.coordinator:3:7: `key` must be a public key"));
+  EXPECT_THAT(complaint_about("format = 2\nendpoint = \"tcp://a:1\"\n"), HasSubstr("newer"));
+}
+
+TEST(CoordinatorFiles, MayHaveKeysOfNewerVersions) {
+  EXPECT_EQ(complaint_about(text_of(example()) + "colour = \"blue\"\n"), "");
+}
+
+TEST(CoordinatorFiles, AreRemovedByWhoWroteThem) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = coordinator_file_of(folder / "c.db");
+  EXPECT_EQ(path.filename(), "c.db.coordinator");
+  const CoordinatorFile first = example();
+  CoordinatorFile second = example();
+  second.pid = 4712;
+  ASSERT_TRUE(write_coordinator_file(path, first));
+  ASSERT_TRUE(write_coordinator_file(path, second));
+  remove_coordinator_file(path, first);
+  EXPECT_EQ(read_coordinator_file(path).value(), second);
+  remove_coordinator_file(path, second);
+  EXPECT_FALSE(std::filesystem::exists(path));
+  // Nothing of the writing is left behind.
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+}
+
+TEST(CoordinatorFiles, AreRefusedWhenOthersMayWriteThem) {
+  const TemporaryFolder folder;
+  const std::filesystem::path path = folder / "f";
+  ASSERT_TRUE(write_coordinator_file(path, example()));
+  chmod(path.c_str(), 0666);
+  const auto read = read_coordinator_file(path);
+  ASSERT_FALSE(read);
+  EXPECT_THAT(read.error().message, HasSubstr("chmod go-w"));
+}
+
+TEST(CoordinatorFiles, ThatCannotBeWrittenSayWhy) {
+  const auto written = write_coordinator_file("/no-such-folder/f", example());
+  ASSERT_FALSE(written);
+  EXPECT_EQ(written.error().where, "/no-such-folder/f");
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,173 @@
+#include "proto/access/key_folder.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
+#include <cstdlib>
+#include <fstream>
+#include <sstream>
+
+#include "proto/access/allow_list_file.h"
+#include "proto/access/key_file.h"
+#include "tests/support/temporary_folder.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::ElementsAre;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+std::string text_in(const std::filesystem::path& file) {
+  std::ostringstream text;
+  text << std::ifstream(file).rdbuf();
+  return text.str();
+}
+
+unsigned mode_of(const std::filesystem::path& file) {
+  struct stat status = {};
+  EXPECT_EQ(stat(file.c_str(), &status), 0) << file;
+  return status.st_mode & 0777U;
+}
+
+class Keys : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto files = make_key_folder(folder);
+    ASSERT_TRUE(files) << to_string(files.error());
+    EXPECT_THAT(*files, ElementsAre(folder.server_key(), worker, folder.client_key("operator"),
+                                    folder.client_key("reader"), folder.clients()));
+  }
+
+  std::string refusal(const std::filesystem::path& file) {
+    const auto key = read_client_key(file);
+    return key ? "" : to_string(key.error());
+  }
+
+  TemporaryFolder temporary;
+  const KeyFolder folder{temporary / "keys"};
+  const std::filesystem::path worker = folder.client_key("worker");
+};
+
+TEST_F(Keys, AreForTheirOwnerOnly) {
+  EXPECT_EQ(mode_of(folder.path), 0700U);
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path))
+    EXPECT_EQ(mode_of(entry.path()), 0600U) << entry.path();
+}
+
+TEST_F(Keys, FitTogether) {
+  const auto server = read_server_key(folder.server_key());
+  ASSERT_TRUE(server) << to_string(server.error());
+  const auto key = read_client_key(worker);
+  ASSERT_TRUE(key) << to_string(key.error());
+  EXPECT_EQ(key->server_key, server->public_key);
+  EXPECT_EQ(key->name, "worker");
+  EXPECT_EQ(key->role, Role::Worker);
+  const auto list = AllowListFile::open(folder.clients(), {});
+  ASSERT_TRUE(list);
+  ASSERT_EQ(list->clients().size(), 3U);
+  EXPECT_EQ(list->clients()[0].public_key, key->pair.public_key);
+  EXPECT_EQ(list->clients()[1].role, Role::Operator);
+  EXPECT_EQ(list->clients()[2].role, Role::Reader);
+  EXPECT_THAT(text_in(folder.clients()), Not(HasSubstr(key->pair.secret_key)));
+}
+
+TEST_F(Keys, AreNeverOverwritten) {
+  const std::string before = text_in(worker);
+  const auto again = make_key_folder(folder);
+  ASSERT_FALSE(again);
+  EXPECT_EQ(again.error().kind, ErrorKind::Conflict);
+  EXPECT_EQ(text_in(worker), before);
+  // Nor one of them, and then none of the others is made.
+  std::filesystem::remove(folder.server_key());
+  EXPECT_FALSE(make_key_folder(folder));
+  EXPECT_FALSE(std::filesystem::exists(folder.server_key()));
+}
+
+TEST_F(Keys, OfFurtherClientsAreAdded) {
+  const auto file = add_client(
+      folder,
+      {.name = "node.7", .role = Role::Worker, .expires = std::chrono::year(2027) / 1 / 31});
+  ASSERT_TRUE(file) << to_string(file.error());
+  EXPECT_EQ(mode_of(*file), 0600U);
+  EXPECT_EQ(mode_of(folder.clients()), 0600U);
+  EXPECT_THAT(text_in(folder.clients()), HasSubstr("expires = 2027-01-31"));
+  EXPECT_THAT(text_in(folder.clients()), HasSubstr("# Who may connect"));
+  const auto list = AllowListFile::open(folder.clients(), {});
+  ASSERT_TRUE(list);
+  EXPECT_EQ(list->clients().back().public_key, read_client_key(*file)->pair.public_key);
+  for (const char* name : {"node.7", "../x", "", "server", ".x"})
+    EXPECT_FALSE(add_client(folder, {.name = name, .role = Role::Worker, .expires = {}})) << name;
+  EXPECT_EQ(AllowListFile::open(folder.clients(), {})->clients().size(), 4U);
+}
+
+TEST_F(Keys, ThatOthersMayReadAreRefused) {
+  for (const mode_t mode : {0640U, 0604U, 0660U, 0610U}) {
+    chmod(worker.c_str(), mode);
+    EXPECT_THAT(refusal(worker), HasSubstr("chmod 600 " + worker.string())) << mode;
+  }
+  chmod(worker.c_str(), 0400);
+  EXPECT_EQ(refusal(worker), "");
+}
+
+TEST_F(Keys, OfSomebodyElseAreRefused) {
+  if (geteuid() != 0) GTEST_SKIP() << "only root can give files away";
+  ASSERT_EQ(chown(worker.c_str(), 12345, static_cast<gid_t>(-1)), 0);
+  EXPECT_THAT(refusal(worker), HasSubstr("chown 0 " + worker.string()));
+}
+
+TEST_F(Keys, ThatAreDamagedAreRefusedWithoutShowingThem) {
+  const ClientKeyFile key = read_client_key(worker).value();
+  const std::string good = text_in(worker);
+  const std::string& secret = key.pair.secret_key;
+  const auto damaged = [&](const std::string& what, const std::string& by) {
+    std::string text = good;
+    text.replace(text.find(what), what.size(), by);
+    std::ofstream(worker) << text;
+    const std::string said = refusal(worker);
+    EXPECT_THAT(said, HasSubstr(worker.string() + ":")) << by;
+    EXPECT_THAT(said, Not(HasSubstr(secret))) << by;
+    EXPECT_THAT(said, Not(HasSubstr(secret.substr(5, 20)))) << by;
+    return said;
+  };
+  damaged("\"" + secret + "\"", secret);
+  damaged("secret = \"" + secret + "\"", secret);
+  damaged("secret = \"", "secret = \"x");
+  damaged("secret", "Secret");
+  damaged("role = \"worker\"", "role = 3");
+  damaged("role = \"worker\"", "role = \"worker\"\n\"" + secret + "\" = 1");
+  damaged(secret, make_key_pair().secret_key);
+  std::ofstream(worker) << good.substr(0, good.size() / 2);
+  EXPECT_NE(refusal(worker), "");
+}
+
+TEST_F(Keys, OfServerAndClientsAreToldApart) {
+  EXPECT_THAT(refusal(folder.server_key()), HasSubstr("the coordinator's own key"));
+  const auto server = read_server_key(worker);
+  ASSERT_FALSE(server);
+  EXPECT_THAT(to_string(server.error()), HasSubstr("a client's key"));
+}
+
+TEST_F(Keys, ThatAreMissingAreNamed) {
+  EXPECT_THAT(refusal(folder.client_key("nobody")), HasSubstr("nobody.key"));
+  const auto added = add_client({temporary / "other"}, {.name = "a", .role = {}, .expires = {}});
+  ASSERT_FALSE(added);
+  EXPECT_THAT(added.error().message, HasSubstr("swarmsmith keygen"));
+}
+
+TEST(KeyFolders, AreWhereTheEnvironmentSays) {
+  unsetenv("SWARMSMITH_KEYS");
+  setenv("HOME", "/home/mine", 1);
+  unsetenv("XDG_CONFIG_HOME");
+  EXPECT_EQ(default_key_folder().path, "/home/mine/.config/swarmsmith/keys");
+  setenv("XDG_CONFIG_HOME", "/config", 1);
+  EXPECT_EQ(default_key_folder().path, "/config/swarmsmith/keys");
+  setenv("XDG_CONFIG_HOME", "not-absolute", 1);
+  EXPECT_EQ(default_key_folder().path, "/home/mine/.config/swarmsmith/keys");
+  setenv("SWARMSMITH_KEYS", "/keys", 1);
+  EXPECT_EQ(default_key_folder().path, "/keys");
+}
+
+}  // namespace
+}  // namespace swarmsmith

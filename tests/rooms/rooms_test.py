@@ -1,0 +1,158 @@
+"""No library includes what it does not link, and no room includes a later one.
+
+Libraries are read from the CMakeLists.txt files (swarmsmith_component, swarmsmith_program), the order of the rooms
+from the table "Rooms" of docs/architecture.md.
+"""
+
+import pathlib
+import re
+import unittest
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+TOP = ("base", "irace_core", "programs", "sim", "proto", "storage", "worker", "analysis", "coordinator", "console", "cli",
+       "tracking")
+WORDS = ("SOURCES", "HEADERS", "PUBLIC", "PRIVATE")
+
+
+def libraries(texts):
+    """Name -> (files, linked names) of the libraries in {folder: text of its CMakeLists.txt}."""
+    found = {}
+    for folder, text in texts.items():
+        text = re.sub(r"#[^\n]*", "", text)
+        for kind, arguments in re.findall(r"swarmsmith_(component|program)\(([^)]*)\)", text):
+            name, *words = arguments.split()
+            lists = {word: [] for word in WORDS}
+            kept = None
+            for word in words:
+                if word in WORDS:
+                    kept = lists[word]
+                else:
+                    kept.append(word)
+            files = {(folder / file).as_posix() for file in lists["SOURCES"] + lists["HEADERS"]}
+            linked = set(lists["PUBLIC"] + lists["PRIVATE"])
+            found["swarmsmith_" + name if kind == "component" else name] = (files, linked)
+        for kinds in re.findall(r"set\(score_kinds\s+([^)]*)\)", text):
+            found["swarmsmith_mission"][0].update((folder / "scores" / (kind + ending)).as_posix()
+                                                  for kind in kinds.split() for ending in (".h", ".cpp"))
+        for name, arguments in re.findall(r"target_link_libraries\(([\w-]+)([^)]*)\)", text):
+            if name in found:
+                found[name][1].update(set(arguments.split()) - set(WORDS))
+    return found
+
+
+def includes_of(text):
+    return re.findall(r'^#include "([^"]+)"', text, re.M)
+
+
+def owner_of(file, owners, by_stem):
+    """A header that no list names, such as an internal one, belongs to the library of its source or of its folder."""
+    if file in owners:
+        return owners[file]
+    path = pathlib.PurePosixPath(file)
+    if (stem := path.with_suffix("").as_posix()) in by_stem:
+        return by_stem[stem]
+    folder = path.parent
+    while True:
+        near = {library for other, library in owners.items() if pathlib.PurePosixPath(other).parent == folder}
+        if len(near) == 1:
+            return near.pop()
+        if near or folder.name != "internal":
+            return None
+        folder = folder.parent
+
+
+def unlinked(found, text_of):
+    """What is included without being linked, a line each. `text_of`: file -> text."""
+    owners = {file: name for name, (files, _) in found.items() for file in files}
+    by_stem = {pathlib.PurePosixPath(file).with_suffix("").as_posix(): name for file, name in owners.items()}
+    lines = set()
+    for file, text in text_of.items():
+        library = owner_of(file, owners, by_stem)
+        if library is None:
+            continue
+        for included in includes_of(text):
+            other = owner_of(included, owners, by_stem)
+            if other is not None and other != library and other not in found[library][1]:
+                lines.add(f"{file} includes {included}, and {library} does not link {other}")
+    return sorted(lines)
+
+
+def rooms_of(page):
+    """The folders of the table "Rooms", first to last."""
+    table = page.split("## Rooms", 1)[1].split("\n## ", 1)[0]
+    return [folder.rstrip("/") for row in re.findall(r"^\| (`[^|]*) \|", table, re.M)
+            for folder in re.findall(r"`([^`]+)`", row)]
+
+
+def room_of(file, rooms):
+    """The innermost room that the file is in."""
+    return max((room for room in rooms if file.startswith(room + "/")), key=len, default=None)
+
+
+def upward(rooms, text_of):
+    """Includes of later rooms, a line each, and files in no room."""
+    lines = []
+    for file, text in sorted(text_of.items()):
+        room = room_of(file, rooms)
+        if room is None:
+            lines.append(f"{file} is in no room of docs/architecture.md")
+            continue
+        for included in includes_of(text):
+            other = room_of(included, rooms)
+            if other is not None and rooms.index(other) > rooms.index(room):
+                lines.append(f"{file} ({room}) includes {included} of a later room ({other})")
+    return lines
+
+
+class Rooms(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        lists = {file.parent.relative_to(SOURCE): file.read_text() for top in TOP
+                 for file in sorted((SOURCE / top).rglob("CMakeLists.txt"))}
+        cls.libraries = libraries(lists)
+        cls.texts = {file.relative_to(SOURCE).as_posix(): file.read_text() for top in TOP
+                     for file in (SOURCE / top).rglob("*") if file.suffix in (".h", ".cpp")}
+
+    def test_what_is_included_is_linked(self):
+        self.assertGreater(len(self.libraries), 40)
+        self.assertEqual(unlinked(self.libraries, self.texts), [])
+
+    def test_no_room_includes_a_later_one(self):
+        rooms = rooms_of((SOURCE / "docs/architecture.md").read_text())
+        self.assertGreater(len(rooms), 30)
+        for room in rooms:
+            self.assertTrue((SOURCE / room).is_dir(), f"docs/architecture.md: there is no {room}")
+        self.assertEqual(upward(rooms, self.texts), [])
+
+    def test_every_source_is_compiled(self):
+        listed = {file for files, _ in self.libraries.values() for file in files}
+        self.assertEqual(sorted({file for file in self.texts if file.endswith(".cpp")} - listed), [])
+
+
+class TheChecks(unittest.TestCase):
+    """They find what they are for."""
+
+    LISTS = {pathlib.PurePosixPath("a"): "swarmsmith_component(a\n  SOURCES a.cpp # one\n  HEADERS a.h)",
+             pathlib.PurePosixPath("b"): "swarmsmith_component(b\n  SOURCES b.cpp internal/c.cpp\n  PRIVATE {})"}
+
+    def test_of_links(self):
+        texts = {"a/a.cpp": '#include "a/a.h"\n', "a/a.h": "", "b/b.cpp": "", "b/internal/c.cpp": "",
+                 "b/internal/d.h": '#include <vector>\n#include "a/a.h"\n'}
+        lists = {folder: text.format("swarmsmith_a") for folder, text in self.LISTS.items()}
+        self.assertEqual(unlinked(libraries(lists), texts), [])
+        lists = {folder: text.format("") for folder, text in self.LISTS.items()}
+        self.assertEqual(unlinked(libraries(lists), texts),
+                         ["b/internal/d.h includes a/a.h, and swarmsmith_b does not link swarmsmith_a"])
+
+    def test_of_rooms(self):
+        page = "## Rooms\n\n| folder | is for |\n| --- | --- |\n| `a/` | x |\n| `b/`, `b/c/` | uses `a/` |\n\n## Then\n"
+        self.assertEqual(rooms_of(page), ["a", "b", "b/c"])
+        texts = {"a/x.h": '#include "b/y.h"\n', "b/y.h": '#include "b/c/z.h"\n', "b/c/z.h": '#include "a/x.h"\n',
+                 "d/w.h": ""}
+        self.assertEqual(upward(["a", "b", "b/c"], texts),
+                         ["a/x.h (a) includes b/y.h of a later room (b)", "b/y.h (b) includes b/c/z.h of a later room (b/c)",
+                          "d/w.h is in no room of docs/architecture.md"])
+
+
+if __name__ == "__main__":
+    unittest.main()

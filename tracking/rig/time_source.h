@@ -1,0 +1,17 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+namespace swarmsmith {
+
+/// Where a camera's frame times come from, best first.
+enum class TimeSource { Sidecar, Container, FrameRate };
+
+inline std::string_view name_of(TimeSource source) {
+  constexpr std::array<std::string_view, 3> kNames = {"sidecar", "container", "frame rate"};
+  return kNames.at(static_cast<std::size_t>(source));
+}
+
+}  // namespace swarmsmith
