@@ -66,7 +66,7 @@ double neighbour_strength(double distance_m, const ObstacleModel& model) {
 Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                         const ObstacleModel& model) {
   Vector2 sum;
-  if (neighbours.empty() && nothing_within(proximity, model.far_m)) return sum;
+  if (neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) return sum;
   sum = sum_along_sensors(obstacle_strengths(proximity, model));
   for (const Neighbour& neighbour : neighbours) {
     const double strength = neighbour_strength(neighbour.distance_m, model);

@@ -47,7 +47,8 @@ std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings
 
 /// Whether nothing is met up to the distance; then all strengths are 0 for a model whose `far_m` it
 /// is.
-inline bool nothing_within(const ProximityReadings& proximity, double far_m) {
+template <std::size_t N>
+bool nothing_within(std::span<const double, N> proximity, double far_m) {
   bool any = false;
   for (const double distance : proximity)
     any |= distance <= far_m;
