@@ -92,7 +92,7 @@ Vector2 light_vector(const LightReadings& lux, const LightModel& model) {
   return sum;
 }
 
-std::optional<HueSaturation> hue_and_saturation(Rgb color) {
+std::optional<HueSaturation> hue_and_saturation(const Rgb& color) {
   const int r = color.r;
   const int g = color.g;
   const int b = color.b;
@@ -111,7 +111,7 @@ std::optional<HueSaturation> hue_and_saturation(Rgb color) {
   return HueSaturation{60 * sixths, static_cast<double>(spread) / largest};
 }
 
-std::optional<ColorLabel> perceived_label(Rgb color, const FloorModel& model) {
+std::optional<ColorLabel> perceived_label(const Rgb& color, const FloorModel& model) {
   const std::optional<HueSaturation> seen = hue_and_saturation(color);
   if (!seen) return std::nullopt;
   std::optional<ColorLabel> nearest;

@@ -75,7 +75,7 @@ class Senses {
     return FrontProximity(proximity().data(), kFrontSensors);
   }
   /// Colour of the floor under the ground sensor, 0.05 m ahead of the centre.
-  virtual Rgb ground_color() = 0;
+  virtual const Rgb& ground_color() = 0;
   /// The robots nearer than `kNeighbourRange_m` (thesis 5.1, lidar clustering), in a fixed order.
   virtual std::span<const Neighbour> neighbours() = 0;
   virtual const LightReadings& light() = 0;

@@ -69,7 +69,7 @@ FrontProximity RobotSenses::front_proximity() {
   return front;
 }
 
-Rgb RobotSenses::ground_color() {
+const Rgb& RobotSenses::ground_color() {
   Rgb& ground = readings_.ground_color;
   if (!is_due(Sensor::GroundColor)) return ground;
   const Body& body = world_->body(robot_);
@@ -79,22 +79,26 @@ Rgb RobotSenses::ground_color() {
     floor_place_ = place;
     floor_ = floor_at(*arena_, place);
   }
-  Rgb seen = floor_;
   const GroundColorSensing& sensing = profile_->ground_color;
-  if (sensing.sd > 0 || sensing.bias_sd > 0) seen = with_noise(seen);
-  if (sensing.labeler) seen = nearest_label(seen, sensing.labels);
-  ground = seen;
-  return seen;
+  if (sensing.sd > 0 || sensing.bias_sd > 0) {
+    blur(floor_, ground);
+  } else {
+    ground = floor_;
+  }
+  if (sensing.labeler) ground = nearest_label(ground, sensing.labels);
+  return ground;
 }
 
-Rgb RobotSenses::with_noise(Rgb color) const {
+void RobotSenses::blur(const Rgb& floor, Rgb& ground) const {
   const double sd = profile_->ground_color.sd;
   const auto first = static_cast<std::uint64_t>(cycle_.number) * 3;
   const auto channel = [&](std::uint8_t value, std::uint64_t number) {
     const double noise = sd > 0 ? sd * ground_noise_.normal(first + number) : 0;
     return noisy_channel(value, ground_bias_ + noise);
   };
-  return {channel(color.r, 0), channel(color.g, 1), channel(color.b, 2)};
+  ground.r = channel(floor.r, 0);
+  ground.g = channel(floor.g, 1);
+  ground.b = channel(floor.b, 2);
 }
 
 std::span<const Neighbour> RobotSenses::neighbours() {

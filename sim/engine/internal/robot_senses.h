@@ -49,7 +49,7 @@ class RobotSenses final : public Senses {
 
   const ProximityReadings& proximity() override;
   FrontProximity front_proximity() override;
-  Rgb ground_color() override;
+  const Rgb& ground_color() override;
   std::span<const Neighbour> neighbours() override;
   const LightReadings& light() override;
   double time_s() override { return cycle_.time_s; }
@@ -66,8 +66,8 @@ class RobotSenses final : public Senses {
  private:
   /// Whether the sensor has not been read in this cycle; it counts as read from now on.
   bool is_due(Sensor sensor);
-  /// Bias and noise of the ground sensor in this cycle.
-  Rgb with_noise(Rgb color) const;
+  /// What the ground sensor makes of the floor in this cycle, by its bias and noise.
+  void blur(const Rgb& floor, Rgb& ground) const;
   void read_motion(Sensors sensors);
   void read_lidar();
   void drop_missed_neighbours();
