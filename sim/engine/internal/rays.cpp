@@ -6,6 +6,7 @@
 
 #include "sim/control/readings.h"
 #include "sim/engine/internal/crossing.h"
+#include "sim/engine/internal/two.h"
 
 namespace swarmsmith {
 namespace {
@@ -25,14 +26,6 @@ struct Line {
 constexpr std::array<Line, 4> kLines = {Line{1, 0, 1, 5}, Line{0, 1, 7, 3},
                                         Line{kSqrtHalf, kSqrtHalf, 0, 4},
                                         Line{-kSqrtHalf, kSqrtHalf, 6, 2}};
-
-/// Two numbers that are worked on at once, as two by two the lines are: left to itself, the
-/// compiler takes them one by one, and branches.
-using Two [[gnu::vector_size(16)]] = double;
-
-Two lesser(Two a, Two b) {
-  return b < a ? b : a;
-}
 
 /// A coordinate of all lines' unit vectors.
 using Coordinates = std::array<Two, 2>;
@@ -99,7 +92,7 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
     for (std::size_t i = 0; i < 2; ++i) {
       // Selected, not branched to: which lines meet a wall changes with every turn.
       const Two cosine = nx * kLinesX[i] + ny * kLinesY[i];
-      const Two size = cosine > 0 ? cosine : -cosine;
+      const Two size = size_of(cosine);
       const Two distance = depth / size - start_m;
       Two met = depth <= sight * size ? (distance > 0 ? distance : kZero) : kNone;
       if (!walls.convex) {
