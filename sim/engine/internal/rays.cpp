@@ -77,6 +77,7 @@ bool is_on_face(const Body& self, const WallPlane& wall, double depth, Vector2 n
 
 void meet_walls(const Body& self, double start_m, const Walls& walls, double range_m,
                 RayDistances& distances) {
+  if (walls.planes.empty()) return;
   const double sight = start_m + range_m;
   const double clear = walls.clear_radius_m - sight;
   if (clear > 0 && self.x * self.x + self.y * self.y < clear * clear) return;
