@@ -49,15 +49,17 @@ enum class Turn { None, Left, Right };
 Turn turn_from_front(Senses& senses, const Flavour& flavour) {
   const ExplorationModel& model = flavour.exploration;
   Front front;
-  const ProximityReadings& proximity = senses.proximity();
+  // The others are in front by no slope.
+  const FrontProximity proximity = senses.front_proximity();
   const std::span<const Neighbour> neighbours = neighbours_in_the_way(senses, flavour.obstacles);
   if (model.threshold > 0 && neighbours.empty() &&
       nothing_within(proximity, flavour.obstacles.far_m)) {
     return Turn::None;
   }
-  const auto strengths = obstacle_strengths(proximity, flavour.obstacles);
-  for (std::size_t i = 0; i < strengths.size(); ++i)
-    front.add(strengths[i], kProximityDirections[i], model.front_slope);
+  for (std::size_t i = 0; i < proximity.size(); ++i) {
+    front.add(obstacle_strength(proximity[i], flavour.obstacles), kProximityDirections[i],
+              model.front_slope);
+  }
   for (const Neighbour& neighbour : neighbours) {
     front.add(neighbour_strength(neighbour.distance_m, flavour.obstacles),
               {neighbour.direction_x, neighbour.direction_y}, model.front_slope);

@@ -66,7 +66,7 @@ double neighbour_strength(double distance_m, const ObstacleModel& model) {
 Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                         const ObstacleModel& model) {
   Vector2 sum;
-  if (neighbours.empty() && nothing_within(proximity, model.far_m)) return sum;
+  if (neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) return sum;
   sum = sum_along_sensors(obstacle_strengths(proximity, model));
   for (const Neighbour& neighbour : neighbours) {
     const double strength = neighbour_strength(neighbour.distance_m, model);
@@ -92,7 +92,7 @@ Vector2 light_vector(const LightReadings& lux, const LightModel& model) {
   return sum;
 }
 
-std::optional<HueSaturation> hue_and_saturation(Rgb color) {
+std::optional<HueSaturation> hue_and_saturation(const Rgb& color) {
   const int r = color.r;
   const int g = color.g;
   const int b = color.b;
@@ -111,7 +111,7 @@ std::optional<HueSaturation> hue_and_saturation(Rgb color) {
   return HueSaturation{60 * sixths, static_cast<double>(spread) / largest};
 }
 
-std::optional<ColorLabel> perceived_label(Rgb color, const FloorModel& model) {
+std::optional<ColorLabel> perceived_label(const Rgb& color, const FloorModel& model) {
   const std::optional<HueSaturation> seen = hue_and_saturation(color);
   if (!seen) return std::nullopt;
   std::optional<ColorLabel> nearest;

@@ -47,7 +47,8 @@ std::array<double, kProximitySensors> obstacle_strengths(const ProximityReadings
 
 /// Whether nothing is met up to the distance; then all strengths are 0 for a model whose `far_m` it
 /// is.
-inline bool nothing_within(const ProximityReadings& proximity, double far_m) {
+template <std::size_t N>
+bool nothing_within(std::span<const double, N> proximity, double far_m) {
   bool any = false;
   for (const double distance : proximity)
     any |= distance <= far_m;
@@ -65,8 +66,11 @@ Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neig
 /// Vector of the light: w_l of the thesis (eq. 5.1), each reading as light_i in [0, 1].
 Vector2 light_vector(const LightReadings& lux, const LightModel& model);
 
+/// Colours come as references: the three bytes that make one were often just written one by one, and
+/// who reads two of them at once then waits.
+
 /// Grey level in thousandths of 0..255: 0.299 R + 0.587 G + 0.114 B without rounding.
-constexpr int gray_level(Rgb color) {
+constexpr int gray_level(const Rgb& color) {
   return 299 * color.r + 587 * color.g + 114 * color.b;
 }
 
@@ -76,9 +80,9 @@ struct HueSaturation {
 };
 
 /// Nothing when the three channels are equal: greys have no hue.
-std::optional<HueSaturation> hue_and_saturation(Rgb color);
+std::optional<HueSaturation> hue_and_saturation(const Rgb& color);
 
 /// The label nearest in hue, if one is near enough.
-std::optional<ColorLabel> perceived_label(Rgb color, const FloorModel& model);
+std::optional<ColorLabel> perceived_label(const Rgb& color, const FloorModel& model);
 
 }  // namespace swarmsmith

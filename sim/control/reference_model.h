@@ -19,6 +19,9 @@ inline constexpr int kProximitySensors = 8;
 inline constexpr std::array<int, kProximitySensors> kProximityDirections_deg = {45,   0,   -45, -90,
                                                                                 -135, 180, 135, 90};
 
+/// So many of them, the first ones, look ahead; the others look to a side or back.
+inline constexpr int kFrontSensors = 3;
+
 /// A proximity sensor cannot measure what is nearer: then prox is 1 (thesis 4.2.9).
 inline constexpr double kBlindZone_m = 0.05;
 /// R, where prox becomes 0, unless a user tunes it: a profile for its sensors, a flavour for what
@@ -54,6 +57,9 @@ struct Neighbour {
 /// of table 5.1 is what a flavour makes of them (`obstacle_strength`).
 using ProximityReadings = std::array<double, kProximitySensors>;
 
+/// Those of the sensors that look ahead.
+using FrontProximity = std::span<const double, kFrontSensors>;
+
 /// Lux at the eight directions of the proximity sensors, up to `kMostLight_lux`; a ring of sensors
 /// that the RVR lacks and `chocolate` wants (thesis facts, section 6.1).
 using LightReadings = std::array<double, kProximitySensors>;
@@ -64,8 +70,12 @@ class Senses {
  public:
   virtual ~Senses() = default;
   virtual const ProximityReadings& proximity() = 0;
+  /// The same to the front alone, for who needs no more: a source may have less to do.
+  virtual FrontProximity front_proximity() {
+    return FrontProximity(proximity().data(), kFrontSensors);
+  }
   /// Colour of the floor under the ground sensor, 0.05 m ahead of the centre.
-  virtual Rgb ground_color() = 0;
+  virtual const Rgb& ground_color() = 0;
   /// The robots nearer than `kNeighbourRange_m` (thesis 5.1, lidar clustering), in a fixed order.
   virtual std::span<const Neighbour> neighbours() = 0;
   virtual const LightReadings& light() = 0;

@@ -15,6 +15,12 @@ namespace {
 constexpr int kSides = 12;
 constexpr double kWallThickness_m = 0.01;
 
+bool covers(const Disc& disc, Point point) {
+  const double dx = point.x - disc.centre.x;
+  const double dy = point.y - disc.centre.y;
+  return dx * dx + dy * dy <= disc.radius_m * disc.radius_m;
+}
+
 bool covers(const Rectangle& box, Point point) {
   return std::fabs(point.x - box.centre.x) <= 0.5 * box.width_m &&
          std::fabs(point.y - box.centre.y) <= 0.5 * box.height_m;
@@ -24,9 +30,7 @@ bool covers(const Rectangle& box, Point point) {
 
 std::optional<Rgb> color_at(const Patch& patch, Point point) {
   return std::visit(Overloaded{[&](const Disc& disc) -> std::optional<Rgb> {
-                                 const double dx = point.x - disc.centre.x;
-                                 const double dy = point.y - disc.centre.y;
-                                 if (dx * dx + dy * dy > disc.radius_m * disc.radius_m) return {};
+                                 if (!covers(disc, point)) return {};
                                  return patch.color;
                                },
                                [&](const Rectangle& box) -> std::optional<Rgb> {
@@ -45,7 +49,14 @@ std::optional<Rgb> color_at(const Patch& patch, Point point) {
 
 Rgb floor_at(const Arena& arena, Point point) {
   for (auto patch = arena.patches.rbegin(); patch != arena.patches.rend(); ++patch) {
-    if (const auto color = color_at(*patch, point)) return *color;
+    // Without a detour over what may be no colour: that would be most of the work.
+    if (const auto* disc = std::get_if<Disc>(&patch->shape)) {
+      if (covers(*disc, point)) return patch->color;
+    } else if (const auto* box = std::get_if<Rectangle>(&patch->shape)) {
+      if (covers(*box, point)) return patch->color;
+    } else if (const auto color = color_at(*patch, point)) {
+      return *color;
+    }
   }
   return arena.floor;
 }

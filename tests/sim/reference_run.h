@@ -39,7 +39,7 @@ class RecordedSenses final : public Senses {
   RecordedSenses(const std::vector<RecordedTick>& tick, std::size_t robot);
 
   const ProximityReadings& proximity() override { return tick_->proximity; }
-  Rgb ground_color() override { return tick_->floor; }
+  const Rgb& ground_color() override { return tick_->floor; }
   std::span<const Neighbour> neighbours() override { return neighbours_; }
   const LightReadings& light() override { return light_; }
   double time_s() override { return 0; }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "sim/engine/internal/two.h"
 
 namespace swarmsmith {
 namespace {
@@ -22,18 +23,24 @@ double ray_through(const Point& at) {
 /// Quick rays are wrong by less than half of this.
 constexpr double kQuickError = 3e-3;
 
-/// The same within `kQuickError`, without waiting for a long polynomial: the arc tangent of [0, 1]
-/// within 1e-5 (Abramowitz and Stegun, "Handbook of mathematical functions", 4.4.47).
-double quick_ray_through(const Point& at) {
-  const double ax = std::fabs(at.x);
-  const double ay = std::fabs(at.y);
-  const double u = std::min(ax, ay) / std::max({ax, ay, std::numeric_limits<double>::min()});
-  const double s = u * u;
-  const double arc =
+/// The same within `kQuickError`, for two points: the arc tangent of [0, 1] within 1e-5 (Abramowitz
+/// and Stegun, "Handbook of mathematical functions", 4.4.47).
+Two quick_rays_through(Two x, Two y) {
+  const Two ax = size_of(x);
+  const Two ay = size_of(y);
+  const Two u = lesser(ax, ay) / greater(greater(ax, ay), both(std::numeric_limits<double>::min()));
+  const Two s = u * u;
+  const Two arc =
       u * (0.9998660 + s * (-0.3302995 + s * (0.1801410 + s * (-0.0851330 + s * 0.0208351))));
-  double angle = ay <= ax ? arc : kPi / 2 - arc;
-  if (at.x < 0) angle = kPi - angle;
-  return std::copysign(angle, at.y) * kRaysPerRadian;
+  Two angle = ay <= ax ? arc : kPi / 2 - arc;
+  angle = x < 0 ? kPi - angle : angle;
+  return (y < 0 ? -angle : angle) * kRaysPerRadian;
+}
+
+/// How far numbers below 2^51 are from the nearest whole ones.
+Two beside_whole(Two x) {
+  constexpr double kUnitsAreLast = 0x1.8p52;  // beyond it there are no fractions
+  return size_of(x - ((x + kUnitsAreLast) - kUnitsAreLast));
 }
 
 /// Rays from one place counter-clockwise to another, which may be beyond the last ray.
@@ -56,25 +63,55 @@ int ceil_of(double x) {
   return whole < x ? whole + 1 : whole;
 }
 
-bool is_about_whole(double ray) {
-  return std::fabs(ray - floor_of(ray + 0.5)) < kQuickError;
-}
+/// Points in the scanning robot's frame, worked out two by two.
+class Corners {
+ public:
+  /// Forgets all, and makes room for so many.
+  void start(std::size_t corners) {
+    count_ = 0;
+    if (2 * pairs_.size() < corners) pairs_.resize((corners + 1) / 2);
+  }
+  /// Two points of the world, seen from there.
+  void add(const Body& self, Two x, Two y) {
+    const Two dx = x - self.x;
+    const Two dy = y - self.y;
+    Pair& pair = pairs_[count_ / 2];
+    pair.x = self.cos * dx + self.sin * dy;
+    pair.y = self.cos * dy - self.sin * dx;
+    pair.distance2 = pair.x * pair.x + pair.y * pair.y;
+    pair.quick_ray = quick_rays_through(pair.x, pair.y);
+    pair.beside_whole = beside_whole(pair.quick_ray);
+    count_ += 2;
+  }
 
-/// A point in the scanning robot's frame.
-struct Corner {
-  Point at;
-  double quick_ray = 0;
+  Point at(std::size_t i) const { return {pairs_[i / 2].x[i % 2], pairs_[i / 2].y[i % 2]}; }
+  double distance2(std::size_t i) const { return pairs_[i / 2].distance2[i % 2]; }
+
+  /// The rays between two of them. Only which whole numbers lie between matters, so that the quick
+  /// way does wherever no such number, and no other border, is too close to tell.
+  Sweep sweep_between(std::size_t from, std::size_t to) const {
+    const Sweep quick = swarmsmith::sweep_between(quick_ray(from), quick_ray(to));
+    const bool sure = is_sure(from) && is_sure(to) && quick.width > 2 * kQuickError &&
+                      quick.width < kLidarRays / 2.0 - 2 * kQuickError;
+    if (sure) return quick;
+    return swarmsmith::sweep_between(ray_through(at(from)), ray_through(at(to)));
+  }
+
+ private:
+  struct Pair {
+    Two x;
+    Two y;
+    Two distance2;
+    Two quick_ray;
+    Two beside_whole;
+  };
+
+  double quick_ray(std::size_t i) const { return pairs_[i / 2].quick_ray[i % 2]; }
+  bool is_sure(std::size_t i) const { return pairs_[i / 2].beside_whole[i % 2] >= kQuickError; }
+
+  std::vector<Pair> pairs_;
+  std::size_t count_ = 0;
 };
-
-/// The rays between two points. Only which whole numbers lie between matters, so that the quick way
-/// does wherever no such number, and no other border, is too close to tell.
-Sweep sweep_between(const Corner& from, const Corner& to) {
-  const Sweep quick = sweep_between(from.quick_ray, to.quick_ray);
-  const bool sure = !is_about_whole(quick.from) && !is_about_whole(quick.from + quick.width) &&
-                    quick.width > 2 * kQuickError &&
-                    quick.width < kLidarRays / 2.0 - 2 * kQuickError;
-  return sure ? quick : sweep_between(ray_through(from.at), ray_through(to.at));
-}
 
 /// The rays' directions, coordinate by coordinate, so that several rays are met at once.
 struct Directions {
@@ -97,99 +134,143 @@ const Directions& directions_by_coordinate() {
 /// One scan under way.
 class Scanner {
  public:
-  Scanner(const Body& self, std::span<double> ranges_m) : self_(self), ranges_m_(ranges_m) {
+  Scanner(const Body& self, std::span<double> ranges_m) : self_(self), ranges_(ranges_m.data()) {
     std::fill(ranges_m.begin(), ranges_m.end(), kInfinity);
   }
 
   /// Faces that can be seen from their left only, each from a corner to the next of its index.
   void meet_walls(const std::vector<WallPlane>& walls) {
-    corners_.clear();
-    for (const WallPlane& wall : walls)
-      corners_.push_back(seen_at(wall.from.x, wall.from.y));
-    for (std::size_t i = 0; i < corners_.size(); ++i)
-      meet_face(corners_[i], corners_[(i + 1) % corners_.size()]);
+    const std::size_t n = walls.size();
+    start_faces(n);
+    for (std::size_t i = 0; i < n; i += 2) {
+      const Point& first = walls[i].from;
+      const Point& second = walls[std::min(i + 1, n - 1)].from;
+      corners_.add(self_, Two{first.x, second.x}, Two{first.y, second.y});
+    }
+    for (std::size_t i = 0; i < n; ++i)
+      add_face(i, i + 1 < n ? i + 1 : 0);
+    meet_faces();
   }
 
   void meet_solid(const Form& form, const Body& at) {
     if (form.is_circle()) return meet_circle(at, form.radius_m);
-    corners_.clear();
-    for (const Point& local : form.corners) {
-      corners_.push_back(seen_at(at.x + at.cos * local.x - at.sin * local.y,
-                                 at.y + at.sin * local.x + at.cos * local.y));
+    const std::size_t n = form.corners.size();
+    start_faces(n);
+    for (std::size_t i = 0; i < n; i += 2) {
+      const Point& first = form.corners[i];
+      const Point& second = form.corners[std::min(i + 1, n - 1)];
+      const Two x = {first.x, second.x};
+      const Two y = {first.y, second.y};
+      corners_.add(self_, at.x + at.cos * x - at.sin * y, at.y + at.sin * x + at.cos * y);
     }
     // Counter-clockwise corners: seen from outside, on the right.
-    for (std::size_t i = 0; i < corners_.size(); ++i)
-      meet_face(corners_[(i + 1) % corners_.size()], corners_[i]);
+    for (std::size_t i = 0; i < n; ++i)
+      add_face(i + 1 < n ? i + 1 : 0, i);
+    meet_faces();
   }
 
   /// Not met from inside, as with polygons.
   void meet_circle(const Body& at, double radius_m) {
-    const Point centre = seen_at(at.x, at.y).at;
+    const double dx = at.x - self_.x;
+    const double dy = at.y - self_.y;
+    const Point centre = {self_.cos * dx + self_.sin * dy, self_.cos * dy - self_.sin * dx};
     const double distance2 = centre.x * centre.x + centre.y * centre.y;
     const double tangent2 = distance2 - radius_m * radius_m;
     if (tangent2 <= 0) return;
     const double half = atan2(radius_m, std::sqrt(tangent2)) * kRaysPerRadian;
     const double ray = ray_through(centre);
-    for_rays(ray - half, ray + half, [&](double ray_x, double ray_y) {
-      const double ahead = ray_x * centre.x + ray_y * centre.y;
-      const double aside = ray_x * centre.y - ray_y * centre.x;
-      return ahead - std::sqrt(std::max(0.0, radius_m * radius_m - aside * aside));
+    for_stretches(ray - half, ray + half, [&](int first, int last) {
+      for (int i = first; i <= last; ++i) {
+        const double ahead = x_[i] * centre.x + y_[i] * centre.y;
+        const double aside = x_[i] * centre.y - y_[i] * centre.x;
+        const double distance =
+            ahead - std::sqrt(std::max(0.0, radius_m * radius_m - aside * aside));
+        ranges_[i] = distance < ranges_[i] ? distance : ranges_[i];
+      }
     });
   }
 
  private:
-  /// A point in the robot's own frame.
-  Corner seen_at(double x, double y) const {
-    const double dx = x - self_.x;
-    const double dy = y - self_.y;
-    const Point at = {self_.cos * dx + self_.sin * dy, self_.cos * dy - self_.sin * dx};
-    return {at, quick_ray_through(at)};
+  /// The segment between two corners.
+  struct Face {
+    std::size_t first;
+    std::size_t second;
+    Point edge;
+    double area;
+  };
+
+  void start_faces(std::size_t most) {
+    corners_.start(most);
+    if (faces_.size() < most) faces_.resize(most);
+    seen_ = 0;
   }
 
-  /// The segment between two corners, when `to` lies counter-clockwise of `from`. Neighbouring
-  /// faces end at the same place between two rays, so that no ray slips between them.
-  void meet_face(const Corner& first, const Corner& second) {
-    const Point& from = first.at;
-    const Point& to = second.at;
-    const Point edge = {to.x - from.x, to.y - from.y};
-    const double area = from.x * edge.y - from.y * edge.x;
-    if (area <= 0) return;
-    const Sweep sweep = sweep_between(first, second);
+  /// One is seen when its second corner lies counter-clockwise of the first. Written anyway, and
+  /// counted when it is: which of a square's faces are seen is another matter with every robot.
+  void add_face(std::size_t first, std::size_t second) {
+    const Point from = corners_.at(first);
+    const Point to = corners_.at(second);
+    Face& face = faces_[seen_];
+    face.first = first;
+    face.second = second;
+    face.edge = {to.x - from.x, to.y - from.y};
+    face.area = from.x * face.edge.y - from.y * face.edge.x;
+    seen_ += face.area > 0 ? 1 : 0;
+  }
+
+  void meet_faces() {
+    for (std::size_t i = 0; i < seen_; ++i)
+      meet_face(faces_[i]);
+  }
+
+  /// Neighbouring faces end at the same place between two rays, so that no ray slips between them.
+  void meet_face(const Face& face) {
+    const Sweep sweep = corners_.sweep_between(face.first, face.second);
     // Seen end-on: rounding put the corners in wrong order.
     if (sweep.width > kLidarRays / 2.0) return;
+    const Point edge = face.edge;
+    const double area = face.area;
     // A ray along the face has no good quotient, but it ends at the farther corner at the latest.
-    const double farthest =
-        std::sqrt(std::max(from.x * from.x + from.y * from.y, to.x * to.x + to.y * to.y));
-    for_rays(sweep.from, sweep.from + sweep.width, [&](double ray_x, double ray_y) {
-      const double across = ray_x * edge.y - ray_y * edge.x;
-      const double distance = area / across;
-      const double nearer = farthest < distance ? farthest : distance;
-      return across > 0 ? nearer : farthest;
+    const Two farthest =
+        both(std::sqrt(std::max(corners_.distance2(face.first), corners_.distance2(face.second))));
+    const auto meet = [=](Two x, Two y, Two range) {
+      const Two across = x * edge.y - y * edge.x;
+      return lesser(range, across > 0 ? lesser(area / across, farthest) : farthest);
+    };
+    const auto meet_two = [=, this](int i) {
+      store_two(meet(load_two(x_ + i), load_two(y_ + i), load_two(ranges_ + i)), ranges_ + i);
+    };
+    for_stretches(sweep.from, sweep.from + sweep.width, [&](int first, int last) {
+      if (first == last) {
+        ranges_[last] = meet(both(x_[last]), both(y_[last]), both(ranges_[last]))[0];
+      } else {
+        for (int i = first; i < last - 1; i += 2)
+          meet_two(i);
+        meet_two(last - 1);  // one that was met before is met once more, and stays
+      }
     });
   }
 
-  /// Shortens the rays from one place to another, both included, to the distances given.
-  template <class Distance>
-  void for_rays(double from, double to, const Distance& distance_along) {
-    const int first = ceil_of(from);
-    const int last = floor_of(to);
-    double* const ranges = ranges_m_.data();
-    const double* const x = directions_.x.data();
-    const double* const y = directions_.y.data();
-    // Places count from -719 to twice 719, and stand for rays from 0 to 718.
-    for (const int around : {kLidarRays, 0, -kLidarRays}) {
-      const int end = std::min(last + around, kLidarRays - 1);
-      for (int i = std::max(first + around, 0); i <= end; ++i) {
-        const double distance = distance_along(x[i], y[i]);
-        ranges[i] = distance < ranges[i] ? distance : ranges[i];
-      }
-    }
+  /// Calls act(first, last) for the rays from one place, which is between -719 and 718, to another
+  /// less than a turn further, both included; twice where they go on behind the last ray.
+  template <class Act>
+  static void for_stretches(double from, double to, const Act& act) {
+    const int around = from > -1 ? 0 : kLidarRays;
+    const int first = ceil_of(from) + around;
+    const int last = floor_of(to) + around;
+    if (first > last) return;
+    act(first, std::min(last, kLidarRays - 1));
+    if (last >= kLidarRays) [[unlikely]]
+      act(0, last - kLidarRays);
   }
 
   const Body& self_;
-  std::span<double> ranges_m_;
-  const Directions& directions_ = directions_by_coordinate();
-  std::vector<Corner> corners_;  ///< of what is met now
+  double* ranges_;
+  const double* x_ = directions_by_coordinate().x.data();
+  const double* y_ = directions_by_coordinate().y.data();
+  Corners corners_;
+  std::vector<Face> faces_;
+  std::size_t seen_ = 0;  ///< the first of them
 };
 
 double limited_to_lidar(double distance_m) {

@@ -20,10 +20,7 @@ class NoiseStream {
   /// As many numbers as one index wants.
   Rng at(std::uint64_t index) const { return Rng(key_ + index); }
   /// Standard normal.
-  double normal(std::uint64_t index) const {
-    Rng rng = at(index);
-    return NormalNoise::instance().draw(rng);
-  }
+  double normal(std::uint64_t index) const { return NormalNoise::instance().draw(at(index)); }
 
  private:
   std::uint64_t key_ = 0;

@@ -27,18 +27,20 @@ NormalNoise::NormalNoise() {
   edge_[kLayers] = 0;
   for (std::size_t i = 0; i < kLayers; ++i)
     inside_[i] = edge_[i + 1] / edge_[i];
+  for (std::size_t i = 0; i < edge_.size(); ++i)
+    top_[i] = curve(edge_[i]);
 }
 
-double NormalNoise::draw_edge(Rng& rng, std::size_t layer, double u) const {
+double NormalNoise::draw_edge(Rng rng, std::size_t layer, double u) const {
   if (layer == 0) return draw_tail(rng, u < 0);
   const double x = u * edge_[layer];
-  const double top = curve(edge_[layer + 1]);
-  const double bottom = curve(edge_[layer]);
+  const double top = top_[layer + 1];
+  const double bottom = top_[layer];
   if (bottom + rng.uniform() * (top - bottom) < curve(x)) return x;
   return draw(rng);
 }
 
-double NormalNoise::draw_tail(Rng& rng, bool negative) {
+double NormalNoise::draw_tail(Rng rng, bool negative) {
   for (;;) {
     // 1 - uniform() is never 0.
     const double x = -log(1 - rng.uniform()) / kTail;

@@ -22,7 +22,8 @@ class NormalNoise {
     return noise;
   }
 
-  double draw(Rng& rng) const {
+  /// One number from a stream of its own, by value: its state stays in registers.
+  double draw(Rng rng) const {
     const std::uint64_t bits = rng.next();
     const std::size_t layer = bits % kLayers;
     const double u = share_of(bits);
@@ -37,11 +38,12 @@ class NormalNoise {
     return static_cast<double>(bits >> 11U) * 0x1.0p-52 - 1;
   }
   /// The rest of a draw that did not lie under the curve for sure: one in a hundred.
-  double draw_edge(Rng& rng, std::size_t layer, double u) const;
-  static double draw_tail(Rng& rng, bool negative);
+  double draw_edge(Rng rng, std::size_t layer, double u) const;
+  static double draw_tail(Rng rng, bool negative);
 
   static constexpr std::size_t kLayers = 128;
   std::array<double, kLayers + 1> edge_;  ///< right ends of the layers, the widest first
+  std::array<double, kLayers + 1> top_;   ///< height of the curve there
   std::array<double, kLayers> inside_;    ///< share of a layer that lies under the curve for sure
 };
 

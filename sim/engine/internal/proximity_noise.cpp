@@ -13,7 +13,9 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 ProximityNoise::ProximityNoise(const ProximitySensing& sensing, const Rng& run, int robot)
     : sensing_(&sensing),
       ideal_(sensing.sd_m == 0 && sensing.scale_sd == 0 && sensing.phantom_rate == 0 &&
-             sensing.largest_miss_rate == 0) {
+             sensing.largest_miss_rate == 0),
+      only_normal_(sensing.sd_m > 0 && sensing.scale_sd == 0 && sensing.phantom_rate == 0 &&
+                   sensing.largest_miss_rate == 0) {
   if (sensing.sd_m > 0) normal_ = NoiseStream(run, "proximity", robot);
   if (sensing.scale_sd > 0) scale_ = NoiseStream(run, "proximity scale", robot);
   if (sensing.phantom_rate > 0) phantom_ = NoiseStream(run, "proximity phantom", robot);
@@ -25,14 +27,19 @@ ProximityNoise::ProximityNoise(const ProximitySensing& sensing, const Rng& run, 
   }
 }
 
-void ProximityNoise::apply(RayDistances& readings, std::int64_t cycle) const {
+void ProximityNoise::apply(std::span<double> readings, std::int64_t cycle) const {
   const double range = sensing_->range_m;
   for (double& reading : readings)
     reading = limited(reading, range);
   if (ideal_) return;
+  const auto first = static_cast<std::uint64_t>(cycle) * kProximitySensors;
   for (std::size_t i = 0; i < readings.size(); ++i) {
-    const auto index = static_cast<std::uint64_t>(cycle) * kProximitySensors + i;
-    readings[i] = read(readings[i], i, index);
+    double& reading = readings[i];
+    if (!only_normal_) {
+      reading = read(reading, i, first + i);
+    } else if (std::isfinite(reading)) {
+      reading = limited(reading + sensing_->sd_m * normal_.normal(first + i), range);
+    }
   }
 }
 

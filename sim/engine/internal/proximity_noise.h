@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <span>
 
 #include "sim/engine/internal/noise_stream.h"
 #include "sim/engine/internal/rays.h"
@@ -17,14 +18,16 @@ class ProximityNoise {
 
   /// From physical distances to readings. A reading is a phantom, uniform in [0.05 m, R], whatever
   /// is there; or a hit that is missed, +infinity; or a finite distance times N(1, scale_sd) plus
-  /// N(0, sd). The sensor's limits hold before and after.
-  void apply(RayDistances& readings, std::int64_t cycle) const;
+  /// N(0, sd). The sensor's limits hold before and after. `readings` are the first sensors', up to
+  /// all of them.
+  void apply(std::span<double> readings, std::int64_t cycle) const;
 
  private:
   double read(double distance_m, std::size_t sensor, std::uint64_t index) const;
 
   const ProximitySensing* sensing_;
-  bool ideal_;  ///< only the limits apply
+  bool ideal_;        ///< only the limits apply
+  bool only_normal_;  ///< only they and N(0, sd)
   NoiseStream normal_;
   NoiseStream scale_;
   NoiseStream miss_;

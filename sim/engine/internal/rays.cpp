@@ -6,6 +6,7 @@
 
 #include "sim/control/readings.h"
 #include "sim/engine/internal/crossing.h"
+#include "sim/engine/internal/two.h"
 
 namespace swarmsmith {
 namespace {
@@ -25,6 +26,11 @@ struct Line {
 constexpr std::array<Line, 4> kLines = {Line{1, 0, 1, 5}, Line{0, 1, 7, 3},
                                         Line{kSqrtHalf, kSqrtHalf, 0, 4},
                                         Line{-kSqrtHalf, kSqrtHalf, 6, 2}};
+
+/// A coordinate of all lines' unit vectors.
+using Coordinates = std::array<Two, 2>;
+constexpr Coordinates kLinesX = {Two{1, 0}, Two{kSqrtHalf, -kSqrtHalf}};
+constexpr Coordinates kLinesY = {Two{0, 1}, Two{kSqrtHalf, kSqrtHalf}};
 
 /// A pose of one square in the frame of another.
 struct Relative {
@@ -71,30 +77,40 @@ bool is_on_face(const Body& self, const WallPlane& wall, double depth, Vector2 n
 
 void meet_walls(const Body& self, double start_m, const Walls& walls, double range_m,
                 RayDistances& distances) {
+  if (walls.planes.empty()) return;
   const double sight = start_m + range_m;
   const double clear = walls.clear_radius_m - sight;
   if (clear > 0 && self.x * self.x + self.y * self.y < clear * clear) return;
+  constexpr Two kNone = {kInfinity, kInfinity};
+  constexpr Two kZero = {0, 0};
+  std::array<Two, 2> ahead = {kNone, kNone};
+  std::array<Two, 2> back = {kNone, kNone};
   for (const WallPlane& wall : walls.planes) {
     const double depth = wall.depth_of(self.x, self.y);
     if (depth > sight || depth < 0) continue;
     const double nx = wall.nx * self.cos + wall.ny * self.sin;
     const double ny = wall.ny * self.cos - wall.nx * self.sin;
-    // Selected, not branched to: which lines meet a wall changes with every turn.
-    std::array<double, kLines.size()> cosines;
-    std::array<double, kLines.size()> met;
-    for (std::size_t i = 0; i < kLines.size(); ++i)
-      cosines[i] = nx * kLines[i].x + ny * kLines[i].y;
-    for (std::size_t i = 0; i < kLines.size(); ++i) {
-      const double cosine = std::fabs(cosines[i]);
-      const double distance = std::max(0.0, depth / cosine - start_m);  // 0 for no number
-      met[i] = depth <= sight * cosine ? distance : kInfinity;
+    for (std::size_t i = 0; i < 2; ++i) {
+      // Selected, not branched to: which lines meet a wall changes with every turn.
+      const Two cosine = nx * kLinesX[i] + ny * kLinesY[i];
+      const Two size = size_of(cosine);
+      const Two distance = depth / size - start_m;
+      Two met = depth <= sight * size ? (distance > 0 ? distance : kZero) : kNone;
+      if (!walls.convex) {
+        for (std::size_t k = 0; k < 2; ++k) {
+          if (!is_on_face(self, wall, depth, {nx, ny}, kLines[2 * i + k])) met[k] = kInfinity;
+        }
+      }
+      ahead[i] = lesser(ahead[i], cosine > 0 ? met : kNone);
+      back[i] = lesser(back[i], cosine > 0 ? kNone : met);
     }
-    for (std::size_t i = 0; i < kLines.size(); ++i) {
-      const Line& line = kLines[i];
-      if (!walls.convex && !is_on_face(self, wall, depth, {nx, ny}, line)) continue;
-      double& distance = distances[cosines[i] > 0 ? line.ahead : line.back];
-      distance = std::min(distance, met[i]);
-    }
+  }
+  for (std::size_t i = 0; i < kLines.size(); ++i) {
+    const auto shorten = [&](std::size_t ray, double met) {
+      distances[ray] = std::min(distances[ray], met);
+    };
+    shorten(kLines[i].ahead, ahead[i / 2][i % 2]);
+    shorten(kLines[i].back, back[i / 2][i % 2]);
   }
 }
 

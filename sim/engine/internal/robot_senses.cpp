@@ -12,7 +12,9 @@ namespace swarmsmith {
 namespace {
 
 std::uint8_t noisy_channel(std::uint8_t value, double noise) {
-  return static_cast<std::uint8_t>(std::clamp(value + noise + 0.5, 0.0, 255.0));
+  // As a whole number first: on black and on white floors nobody could guess the way of a branch.
+  const auto rounded = static_cast<int>(value + noise + 0.5);
+  return static_cast<std::uint8_t>(std::clamp(rounded, 0, 255));
 }
 
 /// Whether this robot has trouble for the whole run, and so how often it misses a neighbour.
@@ -59,7 +61,15 @@ const ProximityReadings& RobotSenses::proximity() {
   return readings_.proximity_m;
 }
 
-Rgb RobotSenses::ground_color() {
+FrontProximity RobotSenses::front_proximity() {
+  if (computed_.has(Sensor::Proximity)) return Senses::front_proximity();
+  proximity_rays_.cast(front_m_);
+  const auto front = std::span(front_m_).first<kFrontSensors>();
+  proximity_noise_.apply(front, cycle_.number);
+  return front;
+}
+
+const Rgb& RobotSenses::ground_color() {
   Rgb& ground = readings_.ground_color;
   if (!is_due(Sensor::GroundColor)) return ground;
   const Body& body = world_->body(robot_);
@@ -69,18 +79,26 @@ Rgb RobotSenses::ground_color() {
     floor_place_ = place;
     floor_ = floor_at(*arena_, place);
   }
-  ground = floor_;
   const GroundColorSensing& sensing = profile_->ground_color;
   if (sensing.sd > 0 || sensing.bias_sd > 0) {
-    auto index = static_cast<std::uint64_t>(cycle_.number) * 3;
-    for (std::uint8_t* channel : {&ground.r, &ground.g, &ground.b}) {
-      const double noise = sensing.sd > 0 ? sensing.sd * ground_noise_.normal(index) : 0;
-      *channel = noisy_channel(*channel, ground_bias_ + noise);
-      ++index;
-    }
+    blur(floor_, ground);
+  } else {
+    ground = floor_;
   }
   if (sensing.labeler) ground = nearest_label(ground, sensing.labels);
   return ground;
+}
+
+void RobotSenses::blur(const Rgb& floor, Rgb& ground) const {
+  const double sd = profile_->ground_color.sd;
+  const auto first = static_cast<std::uint64_t>(cycle_.number) * 3;
+  const auto channel = [&](std::uint8_t value, std::uint64_t number) {
+    const double noise = sd > 0 ? sd * ground_noise_.normal(first + number) : 0;
+    return noisy_channel(value, ground_bias_ + noise);
+  };
+  ground.r = channel(floor.r, 0);
+  ground.g = channel(floor.g, 1);
+  ground.b = channel(floor.b, 2);
 }
 
 std::span<const Neighbour> RobotSenses::neighbours() {

@@ -48,7 +48,8 @@ class RobotSenses final : public Senses {
   }
 
   const ProximityReadings& proximity() override;
-  Rgb ground_color() override;
+  FrontProximity front_proximity() override;
+  const Rgb& ground_color() override;
   std::span<const Neighbour> neighbours() override;
   const LightReadings& light() override;
   double time_s() override { return cycle_.time_s; }
@@ -65,6 +66,8 @@ class RobotSenses final : public Senses {
  private:
   /// Whether the sensor has not been read in this cycle; it counts as read from now on.
   bool is_due(Sensor sensor);
+  /// What the ground sensor makes of the floor in this cycle, by its bias and noise.
+  void blur(const Rgb& floor, Rgb& ground) const;
   void read_motion(Sensors sensors);
   void read_lidar();
   void drop_missed_neighbours();
@@ -84,8 +87,9 @@ class RobotSenses final : public Senses {
   Cycle cycle_;
   Sensors computed_;  ///< the others' readings are of an earlier cycle
   Readings readings_;
-  std::vector<int> room_;  ///< for numbers of movers
-  Point floor_place_;      ///< where the floor was last looked up, and what colour it has there
+  RayDistances front_m_{};  ///< front_proximity's, of which the first ones are readings
+  std::vector<int> room_;   ///< for numbers of movers
+  Point floor_place_;       ///< where the floor was last looked up, and what colour it has there
   Rgb floor_;
   std::vector<double> turret_ranges_m_;  ///< the scan that finds neighbours, if it is the lidar
 };

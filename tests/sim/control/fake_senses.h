@@ -24,7 +24,7 @@ class FakeSenses final : public Senses {
     ++proximity_asked;
     return distances;
   }
-  Rgb ground_color() override {
+  const Rgb& ground_color() override {
     ++ground_asked;
     return floor;
   }

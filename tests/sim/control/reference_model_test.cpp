@@ -36,6 +36,11 @@ TEST(ReferenceModel, StandsInTheRobotsPageLineByLine) {
   }
 }
 
+TEST(ReferenceModel, FrontSensorsAreThoseThatLookAhead) {
+  for (std::size_t i = 0; i < kProximityDirections.size(); ++i)
+    EXPECT_EQ(kProximityDirections[i].x > 0, i < kFrontSensors) << i;
+}
+
 TEST(ReferenceModel, HasTheVariablesOfTheThesisTable) {
   std::string variables;
   for (const ReferenceEntry& entry : reference_model())

@@ -56,6 +56,20 @@ TEST(Lidar, MeetsWallsAndRobotsAsThePlainWayDoes) {
   }
 }
 
+TEST(Lidar, MeetsManyRobotsAsThePlainWayDoes) {
+  // From touching to 6 m away, so that faces have from no ray to hundreds.
+  const Arena arena = regular_dodecagon(60);
+  Rng rng(4);
+  for (int i = 0; i < 50; ++i) {
+    std::vector<Pose> poses = {{rng.uniform(-1, 1), rng.uniform(-1, 1), rng.uniform(-kPi, kPi)}};
+    while (poses.size() < 30) {
+      const Pose pose = {rng.uniform(-3, 3), rng.uniform(-3, 3), rng.uniform(-kPi, kPi)};
+      if (hypot(pose.x - poses[0].x, pose.y - poses[0].y) > kCornerRadius_m) poses.push_back(pose);
+    }
+    expect_plain_scan(World(arena, kRvr, poses, ContactModel::Exact), arena, poses[0]);
+  }
+}
+
 TEST(Lidar, MeetsObstaclesObjectsAndWallsThatAreNotConvex) {
   Arena arena = notched_arena();
   furnish(arena);

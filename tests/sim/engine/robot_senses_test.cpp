@@ -114,6 +114,27 @@ TEST(RobotSenses, NoiseDoesNotDependOnWhatElseWasAsked) {
   }
 }
 
+TEST(RobotSenses, TheFrontAloneReadsAsItDoesAmongAll) {
+  Scene scene;
+  scene.profile.proximity = {
+      .sd_m = 0.01, .scale_sd = 0.1, .largest_miss_rate = 0.2, .phantom_rate = 0.05};
+  for (const bool only_normal : {false, true}) {
+    if (only_normal) scene.profile.proximity = {.sd_m = 0.01};
+    RobotSenses all = scene.senses(0);
+    RobotSenses front = scene.senses(0);
+    for (int cycle = 1; cycle <= 200; ++cycle) {
+      all.begin_cycle({.number = cycle});
+      front.begin_cycle({.number = cycle});
+      const FrontProximity seen = front.front_proximity();
+      for (std::size_t i = 0; i < seen.size(); ++i)
+        EXPECT_EQ(seen[i], all.proximity()[i]);
+      EXPECT_FALSE(front.computed().has(Sensor::Proximity));
+      EXPECT_EQ(front.proximity(), all.proximity());
+      EXPECT_EQ(front.front_proximity().data(), front.proximity().data());
+    }
+  }
+}
+
 TEST(RobotSenses, NoiseDependsOnSeedAndRobot) {
   Scene scene;
   scene.profile.ground_color.sd = 50;
