@@ -51,6 +51,7 @@ std::string summary_of(const std::vector<DesignRecord>& designs) {
     if (design.state == "finished") ++finished;
   }
   std::vector<std::int64_t> repetitions;
+  repetitions.reserve(groups.size());
   for (const auto& group : groups)
     repetitions.push_back(group.second);
   const bool is_one = *std::ranges::max_element(repetitions) == 1;
