@@ -3,17 +3,47 @@
 #include <fmt/format.h>
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <sstream>
 #include <system_error>
 #include <vector>
 
 #include "cli/irace/stored_configurations.h"
 #include "irace_core/files/configurations_file.h"
+#include "irace_core/iterated_race.h"
 
 namespace swarmsmith::cli {
 namespace {
 
 constexpr const char* kIdsOption = "--psrace-ids";
+constexpr const char* kBudgetOption = "--psrace-max-experiments";
+
+/// A number of experiments; up to 1 it is a share of the run's maxExperiments, rounded up.
+Expected<std::int64_t> budget_of(const IraceSettings& settings, const IraceSetup& setup) {
+  const auto text = settings.text(kBudgetOption);
+  if (!text || text->empty())
+    return bad_input("needs --psrace-max-experiments N: how many experiments the race may have",
+                     "--psrace");
+  double number = 0;
+  const char* end = text->data() + text->size();
+  const auto [rest, trouble] = std::from_chars(text->data(), end, number);
+  const bool is_share = number <= 1;
+  if (trouble != std::errc() || rest != end || !(number > 0) || number > 1e15 ||
+      (!is_share && number != std::floor(number)))
+    return bad_input(
+        "is a whole number of experiments, or a share of maxExperiments above 0 and up to 1, "
+        "found \"" +
+            *text + "\"",
+        kBudgetOption);
+  if (!is_share) return static_cast<std::int64_t>(number);
+  if (setup.race.max_experiments == 0)
+    return bad_input(
+        "is a share of maxExperiments, which this scenario does not set: give a number of "
+        "experiments, such as 200",
+        kBudgetOption);
+  return static_cast<std::int64_t>(
+      std::ceil(number * static_cast<double>(setup.race.max_experiments)));
+}
 
 /// Those that were asked for, else the best of every iteration and the elites of the last one, or
 /// all elites.
@@ -55,14 +85,8 @@ Expected<std::vector<std::int64_t>> contestants_of(const IraceSettings& settings
 ExitCode race_again(Output& output, const IraceSettings& settings, const IraceSetup& setup,
                     const std::filesystem::path& finished, const StorePlace& store,
                     const IraceSlots& slots) {
-  const auto budget = settings.number("--psrace-max-experiments");
-  if (!budget) {
-    return fail(output, ExitCode::Failed,
-                {ErrorKind::BadInput,
-                 "needs --psrace-max-experiments N: how many experiments the "
-                 "race may have",
-                 "--psrace"});
-  }
+  const auto budget = budget_of(settings, setup);
+  if (!budget) return fail(output, ExitCode::Failed, budget.error());
   const auto stored = read_stored_configurations(finished, setup.space);
   if (!stored) return fail(output, ExitCode::Failed, stored.error());
   const auto ids = contestants_of(settings, *stored);
@@ -88,6 +112,11 @@ ExitCode race_again(Output& output, const IraceSettings& settings, const IraceSe
   race.elitist = false;
   race.postselection = false;
   race.capping = false;
+  if (const auto fits = IteratedRace::start(again.space, race, again.initial); !fits) {
+    Error error = fits.error();
+    if (error.where == "max_experiments") error.where = kBudgetOption;
+    return fail(output, ExitCode::Failed, error);
+  }
   if (!output.json && !output.quiet) {
     output.out << fmt::format("# Post-selection race of {}\n", finished.string());
     for (std::size_t i = 0; i < ids->size(); ++i)

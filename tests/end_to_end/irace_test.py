@@ -5,6 +5,7 @@ import pathlib
 import random
 import re
 import signal
+import sqlite3
 import subprocess
 import tempfile
 import time
@@ -548,6 +549,15 @@ echo "Result of this algorithm run: {\\"status\\": \\"SUCCESS\\", \\"cost\\": $(
         self.assertIn("# 2 here is configuration 5 of the run", done.stdout)
         self.assertIn("no configuration 999", self.irace(
             "--psrace", "--psrace-ids", "2,999", "--psrace-max-experiments", "30", code=1).stderr)
+        self.assertIn("--psrace-max-experiments: a budget of 3", self.irace(
+            "--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", "3", code=1).stderr)
+        (self.folder / "irace-psrace.db").unlink()
+        self.irace("--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", "0.2")
+        with sqlite3.connect(self.folder / "irace-psrace.db") as store:
+            self.assertEqual(store.execute("SELECT budget FROM design").fetchall(), [(36,)])
+        for budget in ("1.5", "-3", "0", "nan", "inf", "many", "60x"):
+            self.assertIn("--psrace-max-experiments: is a whole number", self.irace(
+                "--psrace", "--psrace-ids", "2,5", "--psrace-max-experiments", budget, code=1).stderr, budget)
         for ids in ("3.5,2", "2,1e300", "2,nan", "2,-1", "2,", "two,2", "2,99999999999999999999"):
             self.assertIn("3,17,20", self.irace("--psrace", "--psrace-ids", ids, "--psrace-max-experiments", "30",
                                                 code=1).stderr, ids)
