@@ -120,7 +120,8 @@ Expected<void> DesignRunner::record_step(const RaceStep& step, std::vector<Row>&
                      .digest = step.digest},
          rows);
   // The race after the last takes candidates from anywhere.
-  alive_.insert(step.evaluated.begin(), step.evaluated.end());
+  for (const auto& [configuration, pair] : step.evaluated)
+    alive_.insert(configuration);
   for (const Elimination& elimination : step.eliminations) {
     alive_.erase(elimination.configuration);
     record(EliminationRow{.candidate = candidate(elimination.configuration),
@@ -149,8 +150,8 @@ Error DesignRunner::other_way() const {
 
 void DesignRunner::record_consumed(const RaceStep& step, std::vector<Row>& rows) {
   if (plan_.scenario.target_evaluator) return record_judged(rows);
-  for (const std::int64_t configuration : step.evaluated)
-    consume(configuration, step.pair, rows);
+  for (const auto& [configuration, pair] : step.evaluated)
+    consume(configuration, pair, rows);
 }
 
 void DesignRunner::consume(std::int64_t configuration, std::int64_t pair, std::vector<Row>& rows) {

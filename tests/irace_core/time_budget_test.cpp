@@ -230,7 +230,7 @@ TEST(TimedRace, LeavesOutWhatTheEstimateRejects) {
   for (const IterationStarted& started : only<IterationStarted>(run.events))
     EXPECT_THAT(started.elites, ::testing::Not(::testing::Contains(2)));
   for (const RaceStep& step : only<RaceStep>(run.events))
-    EXPECT_THAT(step.evaluated, ::testing::Not(::testing::Contains(2)));
+    EXPECT_THAT(step.evaluated, ::testing::Not(::testing::Contains(::testing::Key(2))));
 }
 
 TEST(TimedRace, AsksTheEvaluatorInTheEstimateToo) {
