@@ -1,0 +1,38 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "base/expected.h"
+#include "sim/control/machine.h"
+#include "sim/control/network.h"
+#include "sim/control/tree.h"
+
+namespace swarmsmith {
+
+/// The control software of one robot, as a value: what a method's architecture puts together.
+using Controller = std::variant<Machine, Tree, Network>;
+
+/// What is searched: state machines of modules, behaviour trees of modules, or the weights of a
+/// neural network.
+enum class Architecture { Machine, Tree, Network };
+
+/// `machine`, `tree` or `network`.
+std::string_view name_of(Architecture architecture);
+Architecture architecture_of(const Controller& controller);
+
+/// Reads a text of any architecture; its first switch says which: `--nstates` or `--fsm-config`,
+/// `--nroot` or `--bt-config`, `--network`.
+Expected<Controller> parse_controller(std::string_view text, const Flavour& flavour);
+/// Whether the text begins as one of a controller; nothing of the rest is looked at.
+std::optional<Architecture> architecture_of_text(std::string_view text);
+
+/// The canonical text. Throws std::invalid_argument when the controller does not fit the flavour.
+std::string print_controller(const Controller& controller, const Flavour& flavour);
+
+/// What is wrong with the controller, if anything.
+std::optional<Error> check(const Controller& controller, const Flavour& flavour);
+
+}  // namespace swarmsmith
