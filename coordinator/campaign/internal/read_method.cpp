@@ -27,6 +27,14 @@ std::vector<std::string> ids_of(const std::vector<ModuleSpec>& table) {
 
 /// Null, after a complaint, when the flavour is unknown: then its modules cannot be checked.
 const Flavour* read_flavour(TableReader& table, Method& method) {
+  const Node* said = table.has("flavour") ? table.take("flavour") : nullptr;
+  const auto* word = said != nullptr ? std::get_if<std::string>(&said->value) : nullptr;
+  if (word != nullptr && *word == "vanilla") {
+    table.complain("flavour",
+                   "vanilla is a way to search, and no flavour: write `method = \"vanilla\"` and "
+                   "the flavour that it searches");
+    return nullptr;
+  }
   std::vector<std::string> known;
   for (const Flavour* flavour : all_flavours())
     known.push_back(flavour->name);

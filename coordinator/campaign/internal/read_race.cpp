@@ -60,14 +60,6 @@ bool check_budgets(TableReader& race, const Scenario& scenario, bool has_target)
   return false;
 }
 
-bool has_races(const Campaign& campaign) {
-  return campaign.methods.empty() ||
-         std::ranges::any_of(campaign.methods, [](const Method& method) {
-           return method.search.kind == SearchKind::Irace ||
-                  method.search.kind == SearchKind::FRace;
-         });
-}
-
 /// The budget is everybody's; nobody would go by the rest.
 void refuse_options_of_races(TableReader& race) {
   std::vector<std::string_view> keys = {"min_experiments", "test_type", "capping", "capping_type",
@@ -86,6 +78,14 @@ void refuse_options_of_races(TableReader& race) {
 }
 
 }  // namespace
+
+bool has_races(const Campaign& campaign) {
+  return campaign.methods.empty() ||
+         std::ranges::any_of(campaign.methods, [](const Method& method) {
+           return method.search.kind == SearchKind::Irace ||
+                  method.search.kind == SearchKind::FRace;
+         });
+}
 
 void read_race(TableReader& root, const std::filesystem::path& folder, Campaign& campaign) {
   auto race = root.table("race");

@@ -75,14 +75,11 @@ SectionLine choice_line(std::string_view key, const std::vector<std::string>& na
   return {std::string(key), quoted_text(names.at(static_cast<std::size_t>(value)))};
 }
 
-/// [race] with every option, also those that have their defaults.
-Section race_section(const Campaign& campaign) {
-  const Scenario& race = campaign.race;
-  Section section{"[race]", "race.", {}};
+/// What only races go by.
+void add_race_options(const Scenario& race, Section& section) {
   for (const IntegerOption& option : kIntegerOptions) {
-    // A time in its place.
-    if (option.member == &Scenario::max_experiments && race.max_experiments == 0) continue;
-    section.lines.push_back({std::string(option.key), std::to_string(race.*option.member)});
+    if (option.member != &Scenario::max_experiments)
+      section.lines.push_back({std::string(option.key), std::to_string(race.*option.member)});
   }
   if (race.min_experiments) {
     section.lines.push_back({"min_experiments", std::to_string(*race.min_experiments)});
@@ -98,6 +95,16 @@ Section race_section(const Campaign& campaign) {
   for (const FlagOption& option : kFlagOptions) {
     section.lines.push_back({std::string(option.key), flag_text(race.*option.member)});
   }
+}
+
+/// [race] with every option, also those that have their defaults.
+Section race_section(const Campaign& campaign) {
+  const Scenario& race = campaign.race;
+  Section section{"[race]", "race.", {}};
+  // A time may be in its place.
+  if (race.max_experiments > 0)
+    section.lines.push_back({"max_experiments", std::to_string(race.max_experiments)});
+  if (has_races(campaign)) add_race_options(race, section);
   section.lines.push_back({"digits", std::to_string(campaign.digits)});
   section.lines.push_back({"test_nb_elites", std::to_string(campaign.test_nb_elites)});
   section.lines.push_back({"test_iteration_elites", flag_text(campaign.test_iteration_elites)});
