@@ -7,7 +7,7 @@
 
 #include "base/process/interrupt.h"
 #include "sim/messages/scenario_messages.h"
-#include "worker/work_item.h"
+#include "worker/evaluator.h"
 
 namespace swarmsmith {
 

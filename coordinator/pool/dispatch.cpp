@@ -214,7 +214,7 @@ void Scheduler::put_task(WorkerEntry& entry, const TaskRecord& record, SendTasks
                          TimePoint now) {
   const Lease& lease =
       record.second && record.second->worker == entry.number ? *record.second : *record.lease;
-  message.tasks.push_back({record.task, lease.attempt,
+  message.tasks.push_back({record.task, key_of(record.task), lease.attempt,
                            signer_.sign(record.task, lease.attempt, entry.principal->name),
                            lease.alone});
   message.bytes += record.task.machine.size() + kAliveBytes * record.task.alive.size() + kTaskBytes;

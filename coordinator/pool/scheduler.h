@@ -77,7 +77,7 @@ class Scheduler {
 
   void on_hello(PeerId peer, WorkerHello hello, TimePoint now);
   void on_credit(const Sender& sender, std::uint32_t tasks, TimePoint now);
-  void on_results(const Sender& sender, std::span<const WorkerResult> results, TimePoint now);
+  void on_results(const Sender& sender, std::span<const Result> results, TimePoint now);
   void on_heartbeat(const Sender& sender, std::uint32_t credit,
                     std::span<const RunningReport> running, TimePoint now,
                     const std::optional<SlotReport>& slots = {});
@@ -148,27 +148,27 @@ class Scheduler {
   Blame blame_of_program(WorkerEntry& entry, TaskRecord& record, Loss loss);
   std::size_t proven_present() const;
 
-  void on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now);
-  void on_failure(WorkerEntry& entry, const WorkerResult& result, TimePoint now);
+  void on_score(WorkerEntry& entry, const Result& result, TimePoint now);
+  void on_failure(WorkerEntry& entry, const Result& result, TimePoint now);
   void on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now);
   /// The result becomes the outcome.
-  void take(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result, TimePoint now);
+  void take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now);
   void note_attempt(TaskRecord& record, WorkerNumber worker, const char* outcome, TimePoint now);
   void note_attempt(PackedKey key, const Lease& lease, const char* outcome, TimePoint now);
   void note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now);
 
   // trust.cpp
   /// Whether the worker was given the task: it has a lease of it, or the result one that is signed.
-  bool may_answer(const WorkerEntry& entry, const WorkerResult& result);
+  bool may_answer(const WorkerEntry& entry, const Result& result);
   bool is_proven(const Principal& principal) const;
   /// Whether its results wait for what the referee says of its first ones.
   bool is_on_trial(const Principal& principal, std::uint32_t campaign) const;
-  void hold_back(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result, TimePoint now);
+  void hold_back(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now);
   void try_waiting(Principal& principal, TimePoint now);
   void take_waiting(Principal& principal, TimePoint now);
   bool is_drawn(PackedKey key, double share) const;
   /// Opens a case when the result is one of those that are made again.
-  void audit(const TaskRecord& record, const WorkerEntry& entry, const WorkerResult& result);
+  void audit(const TaskRecord& record, const WorkerEntry& entry, const Result& result);
   /// What its workers may hold now.
   void update_room(Principal& principal);
   /// Leases that a stranger's workers had ended without a result.
@@ -189,9 +189,9 @@ class Scheduler {
 
   /// It has an outcome, or is of a design that is over.
   bool is_done(PackedKey key) const { return done_.find(key) != nullptr || done_.is_closed(key); }
-  void dispute(WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result);
+  void dispute(WorkerEntry& entry, const DoneEntry& known, const Result& result);
   void accept(const Outcome& outcome);
-  void repeat(WorkerEntry& entry, const WorkerResult& result);
+  void repeat(WorkerEntry& entry, const Result& result);
   void reject(TaskRecord& record, WorkerNumber worker, const std::string& reason,
               const FailureDetails& details = {});
   void stop(std::uint32_t campaign, const std::string& reason, bool distrusted = false);

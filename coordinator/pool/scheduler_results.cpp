@@ -15,12 +15,11 @@ double value_of(const DoneEntry& entry) {
 
 }  // namespace
 
-void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> results,
-                           TimePoint now) {
+void Scheduler::on_results(const Sender& sender, std::span<const Result> results, TimePoint now) {
   WorkerEntry* entry = heard(sender, now);
   if (entry == nullptr) return;
   SendAcknowledged acknowledged{entry->peer, entry->hello.incarnation, {}};
-  for (const WorkerResult& result : results) {
+  for (const Result& result : results) {
     const bool may = may_answer(*entry, result);
     if (!may) ++counters_.unleased;
     if (!may || entry->quarantined || stopped_.contains(campaign_of(result.key))) {
@@ -37,7 +36,7 @@ void Scheduler::on_results(const Sender& sender, std::span<const WorkerResult> r
   if (!acknowledged.keys.empty()) actions_.emplace_back(std::move(acknowledged));
 }
 
-void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {
+void Scheduler::on_score(WorkerEntry& entry, const Result& result, TimePoint now) {
   TaskRecord* record = leases_.find(result.key);
   if (record != nullptr) {
     const bool is_claim = result.rejected && !options_.evaluates_programs;
@@ -61,8 +60,7 @@ void Scheduler::on_score(WorkerEntry& entry, const WorkerResult& result, TimePoi
   }
 }
 
-void Scheduler::take(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result,
-                     TimePoint now) {
+void Scheduler::take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
   const std::uint32_t campaign = record.task.campaign;
   ++entry.done;
   audit(record, entry, result);
@@ -110,7 +108,7 @@ void Scheduler::note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint 
   }
 }
 
-void Scheduler::repeat(WorkerEntry& entry, const WorkerResult& result) {
+void Scheduler::repeat(WorkerEntry& entry, const Result& result) {
   ++counters_.duplicates;
   const DoneEntry* known = done_.find(result.key);
   const auto status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok;
@@ -127,7 +125,7 @@ void Scheduler::repeat(WorkerEntry& entry, const WorkerResult& result) {
 /// Another result with other bits: of another task, when a crash took away why that one had the
 /// key; or the campaign is not deterministic, or somebody lies. That is seen when the campaign has
 /// told the task.
-void Scheduler::dispute(WorkerEntry& entry, const DoneEntry& known, const WorkerResult& result) {
+void Scheduler::dispute(WorkerEntry& entry, const DoneEntry& known, const Result& result) {
   if (++entry.principal->claims == Principal::kMostClaims) update_room(*entry.principal);
   const bool has_score = !DoneTable::same(known, EvaluationStatus::Rejected, 0, 0);
   disputed_[result.key].push_back(
@@ -144,7 +142,7 @@ void Scheduler::dispute(WorkerEntry& entry, const DoneEntry& known, const Worker
   actions_.emplace_back(TaskInDispute{campaign_of(result.key), unpack(result.key)});
 }
 
-void Scheduler::on_failure(WorkerEntry& entry, const WorkerResult& result, TimePoint now) {
+void Scheduler::on_failure(WorkerEntry& entry, const Result& result, TimePoint now) {
   TaskRecord* record = leases_.find(result.key);
   const Lease* lease = record == nullptr ? nullptr : record->lease_of(entry.number);
   if (lease == nullptr || (!lease->adopted && lease->attempt != result.attempt)) return;

@@ -44,7 +44,7 @@ void Scheduler::note_attempt(TaskRecord& record, WorkerNumber worker, const char
 
 // --- authority ---
 
-bool Scheduler::may_answer(const WorkerEntry& entry, const WorkerResult& result) {
+bool Scheduler::may_answer(const WorkerEntry& entry, const Result& result) {
   const bool lingered = leases_.loads().settle(entry.number, result.key);
   TaskRecord* record = leases_.find(result.key);
   const bool is_signed = result.signature != 0;  // by workers since minor version 2
@@ -66,7 +66,7 @@ bool Scheduler::is_on_trial(const Principal& principal, std::uint32_t campaign) 
 // --- trials and audits ---
 
 /// The result waits: for the referee's word on it, or on others of its principal.
-void Scheduler::hold_back(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result,
+void Scheduler::hold_back(WorkerEntry& entry, TaskRecord& record, const Result& result,
                           TimePoint now) {
   Principal& principal = *entry.principal;
   const Case* known = cases_.find(result.key);
@@ -124,8 +124,7 @@ bool Scheduler::is_drawn(PackedKey key, double share) const {
   return static_cast<double>(signer_.draw(key)) < share * 0x1p64;
 }
 
-void Scheduler::audit(const TaskRecord& record, const WorkerEntry& entry,
-                      const WorkerResult& result) {
+void Scheduler::audit(const TaskRecord& record, const WorkerEntry& entry, const Result& result) {
   const std::int64_t every = policy_of(record).audit_every;
   if (every == 0 || options_.evaluates_programs || result.rejected) return;
   const bool has_word = cases_.knows(result.key);

@@ -113,7 +113,8 @@ void Coordinator::append(std::uint32_t index) {
   rows.insert(rows.end(), pool_rows_.begin(), pool_rows_.end());
   std::vector<SendFrame> replies = std::exchange(campaign.replies, {});
   if (rows.empty()) {
-    std::ranges::move(replies, std::back_inserter(actions_));
+    for (SendFrame& reply : replies)
+      actions_.emplace_back(std::move(reply));
     return;
   }
   Unit unit{.replies = std::move(replies)};

@@ -10,7 +10,7 @@ class IdleSlots : public Schedulers {
   void look_ahead(std::int64_t first, std::int64_t count) {
     std::vector<Task> tasks;
     for (std::int64_t i = first; i < first + count; ++i)
-      tasks.push_back({.key = {{i}, Purpose::Race, 1}, .machine = "m", .ahead = true});
+      tasks.push_back({{.machine = "m"}, {{i}, Purpose::Race, 1}, 0, true});
     scheduler.add(std::move(tasks));
     move();
   }

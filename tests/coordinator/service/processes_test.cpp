@@ -33,7 +33,7 @@ std::vector<Task> tasks_of(std::int64_t count) {
   std::vector<Task> tasks;
   for (std::int64_t i = 1; i <= count; ++i) {
     tasks.push_back(
-        {.key = {{i}, Purpose::Race, 1}, .seed = i, .machine = "--nstates 1 --s0 0 --rwm0 20"});
+        {{.seed = i, .machine = "--nstates 1 --s0 0 --rwm0 20"}, {{i}, Purpose::Race, 1}});
   }
   return tasks;
 }

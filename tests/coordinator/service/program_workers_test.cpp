@@ -27,10 +27,8 @@ namespace {
 std::vector<Task> tasks_of(std::int64_t count) {
   std::vector<Task> tasks;
   for (std::int64_t i = 1; i <= count; ++i) {
-    tasks.push_back({.key = {{i}, Purpose::Race, 1},
-                     .instance = 1,
-                     .seed = i,
-                     .machine = "-n " + std::to_string(i)});
+    tasks.push_back({{.instance = 1, .seed = i, .machine = "-n " + std::to_string(i)},
+                     {{i}, Purpose::Race, 1}});
   }
   return tasks;
 }
