@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "sim/messages/scenario_messages.h"
+#include "proto/scenario/scenario.h"
 #include "worker/simulation_evaluator.h"
 
 namespace swarmsmith {

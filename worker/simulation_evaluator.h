@@ -1,6 +1,6 @@
 #pragma once
 
-#include "sim/messages/scenario_messages.h"
+#include "proto/scenario/scenario.h"
 #include "worker/evaluator.h"
 
 namespace swarmsmith {

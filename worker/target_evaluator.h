@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "base/process/interrupt.h"
-#include "sim/messages/scenario_messages.h"
+#include "proto/scenario/scenario.h"
 #include "worker/evaluator.h"
 
 namespace swarmsmith {

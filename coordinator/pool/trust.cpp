@@ -47,8 +47,7 @@ void Scheduler::note_attempt(TaskRecord& record, WorkerNumber worker, const char
 bool Scheduler::may_answer(const WorkerEntry& entry, const Result& result) {
   const bool lingered = leases_.loads().settle(entry.number, result.key);
   TaskRecord* record = leases_.find(result.key);
-  const bool is_signed = result.signature != 0;  // by workers since minor version 2
-  if (is_signed && record != nullptr && !signer_.is_of(result.signature, record->task))
+  if (result.signature != 0 && record != nullptr && !signer_.is_of(result.signature, record->task))
     return false;
   if (lingered || (record != nullptr && record->lease_of(entry.number) != nullptr)) return true;
   return signer_.is_ours(result.signature, result.key, result.attempt, entry.principal->name);

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "proto/scenario/scenario.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
-#include "sim/messages/scenario_messages.h"
 
 namespace swarmsmith {
 namespace {
