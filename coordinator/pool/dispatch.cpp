@@ -46,7 +46,7 @@ void Scheduler::on_tick(TimePoint now) {
   for (auto& [number, entry] : workers_.all()) {
     if (!entry.connected) continue;
     if (now - entry.last_heard > options_.dead_after) {
-      lose(entry, Loss::Silence, "lost", now);
+      lose(entry, Loss::Silence, WorkerState::Lost, now);
       continue;
     }
     if (now - entry.last_sent >= options_.heartbeat) {
@@ -94,7 +94,7 @@ void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
   for (auto key = late.rbegin(); key != late.rend(); ++key) {
     TaskRecord& record = *leases_.find(*key);
     if (record.second) record.copied = false;
-    note_attempt(record, entry.number, "expired", now);
+    note_attempt(record, entry.number, AttemptOutcome::Expired, now);
     ++counters_.expired;
     if (leases_.requeue(record, entry.number)) ++counters_.requeued;
   }

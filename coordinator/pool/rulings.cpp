@@ -184,7 +184,7 @@ void Scheduler::note_audited(const Said& said, Principal* principal, const Rulin
                                       .attempt = said.attempt,
                                       .worker = 0,
                                       .held_ms = ruling.wall_us / 1000,
-                                      .outcome = "audited"}});
+                                      .outcome = AttemptOutcome::Audited}});
 }
 
 /// The outcome that counts may be the wrong one, whoever gave it.

@@ -141,7 +141,7 @@ class Scheduler {
   void welcome(WorkerEntry& entry, TimePoint now);
   void adopt(WorkerEntry& entry, TimePoint now);
   void take_back_charges(WorkerEntry& entry);
-  void lose(WorkerEntry& entry, Loss loss, const std::string& state, TimePoint now);
+  void lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoint now);
   /// What a loss means for a task that may have run there.
   enum class Blame { Nobody, Task, Rejected };
   Blame blame(WorkerEntry& entry, TaskRecord& record, Loss loss);
@@ -153,8 +153,8 @@ class Scheduler {
   void on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now);
   /// The result becomes the outcome.
   void take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now);
-  void note_attempt(TaskRecord& record, WorkerNumber worker, const char* outcome, TimePoint now);
-  void note_attempt(PackedKey key, const Lease& lease, const char* outcome, TimePoint now);
+  void note_attempt(TaskRecord& record, WorkerNumber worker, AttemptOutcome outcome, TimePoint now);
+  void note_attempt(PackedKey key, const Lease& lease, AttemptOutcome outcome, TimePoint now);
   void note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now);
 
   // trust.cpp

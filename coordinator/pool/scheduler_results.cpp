@@ -104,7 +104,8 @@ void Scheduler::accept(const Outcome& outcome) {
 void Scheduler::note_second_copy(TaskRecord& record, WorkerNumber by, TimePoint now) {
   if (!record.second) return;
   for (const Lease* lease : {&*record.lease, &*record.second}) {
-    if (lease->worker != by) note_attempt(key_of(record.task), *lease, "second copy", now);
+    if (lease->worker != by)
+      note_attempt(key_of(record.task), *lease, AttemptOutcome::SecondCopy, now);
   }
 }
 
@@ -162,7 +163,7 @@ void Scheduler::on_failure(WorkerEntry& entry, const Result& result, TimePoint n
                                      .command = result.details.command,
                                      .output = result.details.output,
                                      .errors = result.details.errors}});
-  note_attempt(*record, entry.number, "failed", now);
+  note_attempt(*record, entry.number, AttemptOutcome::Failed, now);
   if (!options_.evaluates_programs) return claim(entry, *record, Said::What::NoScore, now);
   // A program's worker has tried again by itself, as often as the campaign allows.
   reject(*record, entry.number, result.failure, result.details);
@@ -202,7 +203,7 @@ void Scheduler::on_timeout(WorkerEntry& entry, TaskRecord& record, TimePoint now
   note("warning", "evaluation timed out",
        {{"evaluation", name_of(record.task.key)}, {"worker", entry.number}}, record.task.campaign,
        entry.principal, entry.number);
-  note_attempt(record, entry.number, "timed out", now);
+  note_attempt(record, entry.number, AttemptOutcome::TimedOut, now);
   record.avoid = entry.number;
   // Two copies that hang count once.
   const bool is_last = !record.second && ++record.timeouts > policy_of(record).retries;

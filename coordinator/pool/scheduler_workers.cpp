@@ -90,7 +90,7 @@ void Scheduler::welcome(WorkerEntry& entry, TimePoint now) {
   actions_.emplace_back(SendWelcome{entry.peer, entry.hello.incarnation});
   entry.last_sent = now;
   if (draining_) actions_.emplace_back(SendDrain{entry.peer, entry.hello.incarnation});
-  actions_.emplace_back(WorkerChanged{row_of(entry, "connected")});
+  actions_.emplace_back(WorkerChanged{row_of(entry, WorkerState::Connected)});
 }
 
 /// The worker is alive: what its disappearance counted against did not kill it.
@@ -167,7 +167,7 @@ void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> key
     leases_.loads().settle(entry->number, *key);
     TaskRecord* record = leases_.find(*key);
     if (record == nullptr || record->lease_of(entry->number) == nullptr) continue;
-    note_attempt(*record, entry->number, "returned", now);
+    note_attempt(*record, entry->number, AttemptOutcome::Returned, now);
     // It may be copied once more: nobody has failed.
     if (record->second) record->copied = false;
     if (leases_.requeue(*record, entry->number)) ++counters_.requeued;
@@ -176,7 +176,7 @@ void Scheduler::on_returned(const Sender& sender, std::span<const PackedKey> key
 
 void Scheduler::on_goodbye(const Sender& sender, TimePoint now) {
   WorkerEntry* entry = heard(sender, now);
-  if (entry != nullptr) lose(*entry, Loss::Left, "left", now);
+  if (entry != nullptr) lose(*entry, Loss::Left, WorkerState::Left, now);
 }
 
 void Scheduler::on_unreachable(PeerId peer, TimePoint now, std::span<const PackedKey> undelivered) {
@@ -191,15 +191,15 @@ void Scheduler::on_unreachable(PeerId peer, TimePoint now, std::span<const Packe
     if (leases_.requeue(*record, entry->number)) ++counters_.requeued;
   }
   const bool closed = now - entry->last_heard < options_.silence;
-  lose(*entry, closed ? Loss::Death : Loss::Silence, "lost", now);
+  lose(*entry, closed ? Loss::Death : Loss::Silence, WorkerState::Lost, now);
 }
 
 void Scheduler::on_refused(PeerId peer, TimePoint now) {
   WorkerEntry* entry = workers_.of_peer(peer);
-  if (entry != nullptr) lose(*entry, Loss::Left, "refused", now);
+  if (entry != nullptr) lose(*entry, Loss::Left, WorkerState::Refused, now);
 }
 
-void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state, TimePoint now) {
+void Scheduler::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoint now) {
   const std::list<PackedKey>& leases = leases_.leases_of(entry.number);
   const std::vector<PackedKey> keys(leases.begin(), leases.end());
   const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
@@ -212,7 +212,7 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state, Ti
     TaskRecord& record = *leases_.find(keys[i]);
     // What was merely queued there is nobody's affair.
     const bool may_have_run = i < suspects && loss != Loss::Left;
-    if (may_have_run) note_attempt(record, entry.number, "lost", now);
+    if (may_have_run) note_attempt(record, entry.number, AttemptOutcome::Lost, now);
     // While another worker has it too, nothing is held against the task: if it kills, it will do so
     // there, and there is no third copy then.
     Blame to = Blame::Nobody;
@@ -237,7 +237,7 @@ void Scheduler::lose(WorkerEntry& entry, Loss loss, const std::string& state, Ti
     }
   }
   actions_.emplace_back(WorkerChanged{row_of(entry, state)});
-  if (state == "left") return;
+  if (state == WorkerState::Left) return;
   ++counters_.lost_workers;
   note("warning", "worker lost",
        {{"worker", entry.number},

@@ -26,7 +26,7 @@ constexpr double kMostBacklogUs = 2e6;
 
 }  // namespace
 
-void Scheduler::note_attempt(PackedKey key, const Lease& lease, const char* outcome,
+void Scheduler::note_attempt(PackedKey key, const Lease& lease, AttemptOutcome outcome,
                              TimePoint now) {
   const auto held = std::chrono::duration_cast<std::chrono::milliseconds>(now - lease.granted);
   actions_.emplace_back(AttemptEnded{campaign_of(key),
@@ -37,7 +37,7 @@ void Scheduler::note_attempt(PackedKey key, const Lease& lease, const char* outc
                                       .outcome = outcome}});
 }
 
-void Scheduler::note_attempt(TaskRecord& record, WorkerNumber worker, const char* outcome,
+void Scheduler::note_attempt(TaskRecord& record, WorkerNumber worker, AttemptOutcome outcome,
                              TimePoint now) {
   note_attempt(key_of(record.task), *record.lease_of(worker), outcome, now);
 }
@@ -215,12 +215,12 @@ void Scheduler::quarantine(Principal& principal, const std::string& reason, Time
     const std::vector<PackedKey> keys(leases.rbegin(), leases.rend());
     for (const PackedKey key : keys) {
       TaskRecord& record = *leases_.find(key);
-      note_attempt(record, number, "returned", now);
+      note_attempt(record, number, AttemptOutcome::Returned, now);
       if (leases_.requeue(record, number)) ++counters_.requeued;
     }
     workers_.quarantine(entry);
     set_credit(entry, 0);
-    actions_.emplace_back(WorkerChanged{row_of(entry, "quarantined")});
+    actions_.emplace_back(WorkerChanged{row_of(entry, WorkerState::Quarantined)});
   }
   // What it said, and was not taken yet, is as if it had not been said.
   for (const auto& [key, one] : std::exchange(principal.waiting, {})) {

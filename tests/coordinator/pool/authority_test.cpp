@@ -263,7 +263,7 @@ TEST_F(Authority, RemembersWhatWasMadeAgain) {
   rule_score(1, 3);
   const auto ended = all<AttemptEnded>();
   ASSERT_EQ(ended.size(), 1U);
-  EXPECT_EQ(ended[0].row.outcome, "audited");
+  EXPECT_EQ(ended[0].row.outcome, AttemptOutcome::Audited);
   EXPECT_EQ(pack(ended[0].row.key, 0), key(1));
 }
 
@@ -435,7 +435,7 @@ TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
   EXPECT_FALSE(scheduler.principals().all().at("10.0.0.2").quarantined);
   EXPECT_TRUE(all<StopCampaign>().empty()) << "all that it said before was made again";
   EXPECT_TRUE(std::ranges::any_of(all<AttemptEnded>(), [](const AttemptEnded& ended) {
-    return pack(ended.row.key) == key(10) && ended.row.outcome == "audited";
+    return pack(ended.row.key) == key(10) && ended.row.outcome == AttemptOutcome::Audited;
   })) << "what was kept was made again: the store is sound";
 }
 

@@ -66,7 +66,7 @@ TEST_F(IdleSlots, TakeWhicheverCopyComesFirst) {
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.worker, 2);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.attempt, 2);
   ASSERT_EQ(all<AttemptEnded>().size(), 1U);
-  EXPECT_EQ(all<AttemptEnded>()[0].row.outcome, "second copy");
+  EXPECT_EQ(all<AttemptEnded>()[0].row.outcome, AttemptOutcome::SecondCopy);
   EXPECT_EQ(all<AttemptEnded>()[0].row.worker, 1);
   EXPECT_EQ(all<AttemptEnded>()[0].row.held_ms, 101);
   answer(1, 1, 2.5);
