@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {
@@ -21,7 +22,6 @@ constexpr int kStraysUntilRuled = 6;
 
 }  // namespace
 
-/// The worker is alive: what its disappearance counted against did not kill it.
 void LostWorkers::take_back_charges(WorkerEntry& entry) {
   for (const PackedKey key : std::exchange(entry.charged, {})) {
     TaskRecord* record = book_->leases.find(key);
@@ -30,6 +30,7 @@ void LostWorkers::take_back_charges(WorkerEntry& entry) {
 }
 
 void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoint now) {
+  SWARMSMITH_ASSERT(entry.connected, "a worker is lost once for each time that it comes");
   const std::list<PackedKey>& leases = book_->leases.leases_of(entry.number);
   const std::vector<PackedKey> keys(leases.begin(), leases.end());
   const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
@@ -38,6 +39,7 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
   workers_->disconnect(entry);
   book_->leases.loads().set_capacity(entry.number, 0, 0);
   trust_->go_astray(*entry.principal, keys.size(), now);
+  // From the last one, since each goes to the front of its queue: they are leased again in order.
   for (std::size_t i = keys.size(); i-- > 0;) {
     TaskRecord& record = *book_->leases.find(keys[i]);
     // What was merely queued there is nobody's affair.
@@ -63,6 +65,7 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
       trust_->rule_on_stray(record);
     }
   }
+  SWARMSMITH_ASSERT(book_->leases.leases_of(entry.number).empty(), "a lost worker has no leases");
   book_->act(WorkerChanged{row_of(entry, state)});
   if (state == WorkerState::Left) return;
   ++book_->counters.lost_workers;
@@ -76,6 +79,7 @@ void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoi
 
 /// Whether the loss says something of a task that only this worker had, and that may have run.
 LostWorkers::Blame LostWorkers::blame(WorkerEntry& entry, TaskRecord& record, Loss loss) {
+  SWARMSMITH_ASSERT(record.lease && !record.second, "only the only holder's loss says something");
   if (!trust_->is_proven(*entry.principal)) {
     ++record.strays;
     return Blame::Nobody;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 
+#include "base/assert.h"
 #include "coordinator/pool/scheduler.h"
 #include "proto/wire.h"
 
@@ -58,7 +59,8 @@ void Scheduler::on_tick(TimePoint now) {
   }
 }
 
-/// This process was stopped or starved, so that it is no wonder that nobody was heard.
+/// This process was stopped or starved, so that it is no wonder that nobody was heard: silence is
+/// measured by its clock (orchestration facts, 5 "Heartbeats, both ways").
 void Scheduler::pardon(TimePoint now) {
   for (auto& [number, entry] : workers_->all()) {
     if (!entry.connected) continue;
@@ -69,7 +71,8 @@ void Scheduler::pardon(TimePoint now) {
 }
 
 /// Workers hold little more than they run, so a task that is neither done nor running by now never
-/// arrived, or its result did not.
+/// arrived, or its result did not (orchestration facts, 5 "Leases"). The worker itself is alive: it
+/// is not lost, and keeps its other leases.
 void Scheduler::expire(WorkerEntry& entry, TimePoint now) {
   // A program is not run a second time while it may run. With a slot free, what the worker was
   // given either runs or never came, and a result that went astray was sent again by now.
@@ -125,8 +128,9 @@ void Scheduler::dispatch(TimePoint now) {
 
 void Scheduler::dispatch_wanted(TimePoint now) {
   if (book_->leases.wanted_ready() == 0) return;
-  // Guided self-scheduling: near the end of what there is, nobody holds more than half a share of
-  // it. A worker that is alone may have it all: its slots share what it holds.
+  // Guided self-scheduling (orchestration facts, 5 "Credit"): near the end of what there is, nobody
+  // holds more than half a share of it, or a step would wait for one worker's queue. A worker that
+  // is alone may have it all: its slots share what it holds.
   const auto remaining =
       static_cast<std::int64_t>(book_->leases.wanted_ready() + book_->leases.wanted_leased());
   const std::int64_t parts = workers_->trusted() > 1 ? 2 * workers_->slots() : workers_->slots();
@@ -135,7 +139,8 @@ void Scheduler::dispatch_wanted(TimePoint now) {
           [&](WorkerNumber number) { return fill(*workers_->of_number(number), share, now); });
 }
 
-/// Reserves workers for tasks that may have killed one, at most half of them at a time.
+/// Reserves workers for tasks that may have killed one, at most half of them at a time: a campaign
+/// of which every task kills must not bring all others to a stand.
 void Scheduler::dispatch_alone(TimePoint now) {
   if (!book_->leases.has_alone()) return;
   // A stranger's death would say nothing.
@@ -210,6 +215,7 @@ bool Scheduler::fill(WorkerEntry& entry, std::int64_t share, TimePoint now) {
 /// Sends what there is when a message is full.
 void Scheduler::put_task(WorkerEntry& entry, const TaskRecord& record, SendTasks& message,
                          TimePoint now) {
+  SWARMSMITH_ASSERT(entry.usable(), "leases go to workers that are there and believed");
   const Lease& lease =
       record.second && record.second->worker == entry.number ? *record.second : *record.lease;
   message.tasks.push_back({record.task, key_of(record.task), lease.attempt,

@@ -51,6 +51,7 @@ void TaskBook::note_attempt(TaskRecord& record, WorkerNumber worker, AttemptOutc
 
 void TaskBook::accept(const Outcome& outcome) {
   const PackedKey key = key_of(outcome);
+  SWARMSMITH_ASSERT(done.find(key) == nullptr, "a task has one outcome");
   leases.remove(key, outcome.worker);
   done.insert(key, outcome.status, outcome.score, outcome.state_digest);
   CampaignMeters& meters = leases.meters(outcome.campaign);
@@ -95,6 +96,7 @@ void TaskBook::reject(TaskRecord& record, WorkerNumber worker, const std::string
 void TaskBook::learn(std::uint32_t campaign, std::int64_t wall_us) {
   const auto spent_us = static_cast<double>(std::max<std::int64_t>(wall_us, 0));
   for (double* estimate : {&estimate_us, &estimates_us_[campaign]})
+    // The first time as it is, then a mean that forgets: some twenty of the latest count.
     *estimate += (*estimate == 0 ? 1.0 : 0.05) * (spent_us - *estimate);
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {
@@ -57,6 +58,8 @@ std::deque<StoredWord> Trust::know(std::uint32_t campaign, std::span<const Store
   return unaudited;
 }
 
+/// A lease of this process, or a signature of one: what was asked for can be told from what was
+/// guessed without remembering every lease that ever was, across a crash too.
 bool Trust::may_answer(const WorkerEntry& entry, const Result& result) {
   const bool lingered = book_->leases.loads().settle(entry.number, result.key);
   TaskRecord* record = book_->leases.find(result.key);
@@ -89,7 +92,9 @@ void Trust::on_score(WorkerEntry& entry, TaskRecord& record, const Result& resul
   take(entry, record, result, now);
 }
 
-/// The result waits: for the referee's word on it, or on others of its principal.
+/// The result waits: for the referee's word on it, or on others of its principal. Meanwhile the
+/// task is parked: another stranger's result would have to wait as well, and who is proven is not
+/// needed for what is being ruled on.
 void Trust::hold_back(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
   Principal& principal = *entry.principal;
   const Case* known = cases_.find(result.key);
@@ -142,7 +147,8 @@ void Trust::take_waiting(Principal& principal, TimePoint now) {
   update_room(principal);
 }
 
-/// A later process draws the same.
+/// A later process draws the same, since only the secret and the key count: what this one drew and
+/// could not make again before it ended, the next one finds. Workers cannot tell which it is.
 bool Trust::is_drawn(PackedKey key, double share) const {
   return static_cast<double>(signer_.draw(key)) < share * 0x1p64;
 }
@@ -150,6 +156,7 @@ bool Trust::is_drawn(PackedKey key, double share) const {
 void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Result& result) {
   const std::int64_t every = book_->policy_of(record).audit_every;
   if (every == 0 || book_->options.evaluates_programs || result.rejected) return;
+  // Where somebody's word is before the referee already, this one costs nothing more.
   const bool has_word = cases_.knows(result.key);
   const double backlog_us = referee_us_ * static_cast<double>(cases_.size());
   if (!has_word && cases_.audits() > 0 && backlog_us > kMostBacklogUs) return;
@@ -177,6 +184,7 @@ void Trust::update_room(Principal& principal) {
 
 void Trust::go_astray(Principal& principal, std::size_t leases, TimePoint now) {
   if (leases == 0 || is_proven(principal)) return;
+  // Who is alone does not wait: there is nobody whose turn it takes.
   principal.astray += static_cast<std::int64_t>(leases);
   if (principal.astray < kMostAstray || proven_present() == 0) return;
   principal.waits_until =
@@ -198,6 +206,8 @@ void Trust::set_credit(WorkerEntry& entry, std::uint32_t credit) {
 
 void Trust::strike(Principal& principal, TimePoint now) {
   if (book_->options.quarantine_after == 0) return;
+  // A share, and not only a number: a worker of a long campaign fails now and then (orchestration
+  // facts, 5 "Poison workers").
   ++principal.strikes;
   const std::int64_t tried = principal.taken + principal.strikes;
   const bool often =
@@ -241,6 +251,8 @@ void Trust::quarantine(Principal& principal, const std::string& reason, TimePoin
       book_->note_attempt(record, number, AttemptOutcome::Returned, now);
       if (book_->leases.requeue(record, number)) ++book_->counters.requeued;
     }
+    SWARMSMITH_ASSERT(book_->leases.leases_of(number).empty(),
+                      "a worker in quarantine holds no leases");
     workers_->quarantine(entry);
     set_credit(entry, 0);
     book_->act(WorkerChanged{row_of(entry, WorkerState::Quarantined)});
@@ -254,6 +266,7 @@ void Trust::quarantine(Principal& principal, const std::string& reason, TimePoin
 }
 
 void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
+  SWARMSMITH_ASSERT(!entry.quarantined, "nothing is taken from a worker in quarantine");
   const std::uint32_t campaign = record.task.campaign;
   ++entry.done;
   audit(record, entry, result);

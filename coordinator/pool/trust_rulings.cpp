@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <bit>
 
+#include "base/assert.h"
 #include "coordinator/pool/trust.h"
 #include "storage/answer.h"
 
@@ -31,8 +32,8 @@ std::string text_of(const Said& said) {
 
 }  // namespace
 
-/// The holder of a lease says that there is no score, or died with it: the referee tells, unless
-/// another worker has the task too.
+/// The lease ends in any case. With a second copy out nothing is claimed yet: its result will show.
+/// Nor beyond kMostClaims: the referee's time is what a liar could take from all others.
 void Trust::claim(WorkerEntry& entry, TaskRecord& record, Said::What what) {
   const Lease* lease = record.lease_of(entry.number);
   if (lease == nullptr) return;
@@ -250,14 +251,16 @@ void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
   }
 }
 
-/// It is before the referee no longer.
+/// It is before the referee no longer. Each word that was brought there was counted once.
 void Trust::let_go(const Said& said) {
   Principal* principal = principals_.find(said.principal);
   if (principal == nullptr || said.taken) return;
   if (said.on_trial) {
+    SWARMSMITH_ASSERT(principal->on_trial > 0, "a result on trial was counted");
     --principal->on_trial;
     return;
   }
+  SWARMSMITH_ASSERT(principal->claims > 0, "a claim before the referee was counted");
   if (principal->claims-- == Principal::kMostClaims) update_room(*principal);
 }
 
