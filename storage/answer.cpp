@@ -75,7 +75,7 @@ void visit_fields(const Row& row, Field&& field) {
           },
           [&](const CampaignStateRow& r) { field("state", r.state); },
           [&](const WorkerRow& r) {
-            field("id", r.id), field("host", r.host), field("state", r.state);
+            field("id", r.id), field("host", r.host), field("state", word_of(r.state));
           },
           [&](const ConflictRow& r) {
             field("candidate", r.key.candidate), field("purpose", r.key.purpose);
@@ -91,7 +91,8 @@ void visit_fields(const Row& row, Field&& field) {
           },
           [&](const AttemptRow& r) {
             field("candidate", r.key.candidate), field("purpose", r.key.purpose);
-            field("pair", r.key.pair), field("attempt", r.attempt), field("outcome", r.outcome);
+            field("pair", r.key.pair), field("attempt", r.attempt),
+                field("outcome", word_of(r.outcome));
           },
           [&](const CommandRow& r) {
             field("design", r.design), field("step", r.step), field("kind", r.kind);

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -198,6 +199,15 @@ struct CampaignStateRow {
   std::string state;
 };
 
+/// A worker of a principal in quarantine is quarantined whether it is there or not.
+enum class WorkerState : std::int8_t { Connected, Lost, Left, Refused, Quarantined };
+
+/// As in stores, logs and JSON.
+constexpr std::string_view word_of(WorkerState state) {
+  constexpr std::string_view kWords[] = {"connected", "lost", "left", "refused", "quarantined"};
+  return kWords[static_cast<std::size_t>(state)];
+}
+
 /// Not part of the answer.
 struct WorkerRow {
   std::int64_t id = 0;   ///< by order of arrival in this store
@@ -206,7 +216,7 @@ struct WorkerRow {
   std::int64_t pid = 0;
   std::int64_t slots = 0;
   std::string build;
-  std::string state;  ///< "connected", "lost", "left", "refused", "quarantined"
+  WorkerState state = WorkerState::Connected;
   std::int64_t done = 0;
   std::int64_t failed = 0;
   std::string job;     ///< of the batch system; empty outside of one
@@ -216,6 +226,23 @@ struct WorkerRow {
   std::string principal{};  ///< key's name and address, by which it is trusted or not
 };
 
+enum class AttemptOutcome : std::int8_t {
+  Lost,
+  Expired,
+  Returned,
+  Failed,
+  TimedOut,
+  SecondCopy,
+  Audited,
+};
+
+/// As in stores and logs.
+constexpr std::string_view word_of(AttemptOutcome outcome) {
+  constexpr std::string_view kWords[] = {"lost",      "expired",     "returned", "failed",
+                                         "timed out", "second copy", "audited"};
+  return kWords[static_cast<std::size_t>(outcome)];
+}
+
 /// A lease that did not simply end with the evaluation's result, or that was not the only one. Not
 /// part of the answer.
 struct AttemptRow {
@@ -223,8 +250,7 @@ struct AttemptRow {
   std::int64_t attempt = 1;
   std::int64_t worker = 0;
   std::int64_t held_ms = 0;
-  /// "lost", "expired", "returned", "failed", "timed out", "second copy", "audited", "conflict"
-  std::string outcome;
+  AttemptOutcome outcome = AttemptOutcome::Lost;
 };
 
 /// What a person asked of the campaign. "cancel" and "extend" are part of the answer once they act:

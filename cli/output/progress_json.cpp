@@ -98,7 +98,7 @@ std::string state_json(const DesignStateRow& row) {
 std::string worker_json(const WorkerRow& row) {
   return EventText("worker")
       .add("worker", row.id)
-      .add("state", row.state)
+      .add("state", word_of(row.state))
       .add("host", row.host)
       .add("pid", row.pid)
       .add("slots", row.slots)

@@ -206,13 +206,13 @@ void DesignRunner::want(std::size_t position, const EvaluationKey& key,
 }
 
 Task DesignRunner::task_of(const EvaluationKey& key, const Experiment& experiment) const {
-  return {.key = key,
-          .mission = plan_.mission,
-          .method = plan_.method,
-          .instance = experiment.instance,
-          .seed = experiment.seed,
-          .machine = call_of(experiment.configuration),
-          .bound = experiment.bound};
+  return {{.mission = plan_.mission,
+           .method = plan_.method,
+           .instance = experiment.instance,
+           .seed = experiment.seed,
+           .machine = call_of(experiment.configuration),
+           .bound = experiment.bound},
+          key};
 }
 
 /// The last race and the tests take candidates from anywhere.

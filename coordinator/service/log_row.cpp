@@ -61,7 +61,7 @@ std::string state_text(DesignState state) {
 }
 
 void write_worker(const WorkerRow& row) {
-  write(LogLevel::Info, "worker " + row.state,
+  write(LogLevel::Info, "worker " + std::string(word_of(row.state)),
         {{"worker", row.id},
          {"host", row.host},
          {"pid", row.pid},
@@ -93,7 +93,7 @@ void write_attempt(const std::string& campaign, const AttemptRow& row) {
          {"attempt", row.attempt},
          {"worker", row.worker},
          {"held_ms", row.held_ms},
-         {"outcome", row.outcome}});
+         {"outcome", std::string(word_of(row.outcome))}});
 }
 
 }  // namespace
@@ -107,7 +107,7 @@ void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, c
                  },
                  [&](const WorkerRow& worker) {
                    // Of a lost one there is an event.
-                   if (worker.state != "lost") write_worker(worker);
+                   if (worker.state != WorkerState::Lost) write_worker(worker);
                  },
                  [&](const DesignStateRow& state) {
                    const auto [known, is_new] =

@@ -14,7 +14,7 @@ namespace swarmsmith {
 /// from `decode_to_coordinator`, so their keys are valid and their numbers within limits.
 
 WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uint64_t scenario);
-void results_of(const pb::Results& results, std::vector<WorkerResult>& out);
+void results_of(const pb::Results& results, std::vector<Result>& out);
 void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out);
 /// Nothing of a worker that does not say it.
 std::optional<SlotReport> slots_of(const pb::Heartbeat& heartbeat);

@@ -39,7 +39,8 @@ class StoredCampaign : public ::testing::Test {
                           by_design((*store)->scores(), (*store)->steps(), ended), ended, commands);
     ASSERT_FALSE(runner.error()) << to_string(*runner.error());
     Memory memory;
-    memory.rows.emplace_back(WorkerRow{.id = 1, .identity = "w", .host = "h", .state = "left"});
+    memory.rows.emplace_back(
+        WorkerRow{.id = 1, .identity = "w", .host = "h", .state = WorkerState::Left});
     {
       IdlePool pool(runner, memory, Rng(seed), honest, looks);
       during(runner);

@@ -228,7 +228,7 @@ TEST_F(Coordinators, RefuseCommandsThatCannotBe) {
 TEST_F(Coordinators, WriteWhoCame) {
   hello();
   ASSERT_FALSE(rows.empty());
-  EXPECT_EQ(std::get<WorkerRow>(rows[0]).state, "connected");
+  EXPECT_EQ(std::get<WorkerRow>(rows[0]).state, WorkerState::Connected);
   EXPECT_EQ(std::get<WorkerRow>(rows[0]).identity.size(), 32U);
 }
 

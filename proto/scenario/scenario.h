@@ -42,8 +42,10 @@ using PoolScenario = std::vector<WorkerScenario>;
 /// The scenarios as they travel. Equal ones give equal bytes.
 std::string to_bytes(const PoolScenario& scenarios);
 
-/// Errors: bytes that are no scenarios (or of none, or too many), and what `from_message` refuses
-/// of a mission.
+/// Errors, with the field in `where`: bytes that are no scenarios (or of none, or too many); of a
+/// simulation what a campaign file would be refused for, with line and column, and a text that
+/// names a file; of programs paths that are not absolute, numbers out of their limits, texts that
+/// no command line may have.
 Expected<PoolScenario> scenarios_from_bytes(std::string_view bytes);
 
 }  // namespace swarmsmith

@@ -1,10 +1,13 @@
-#include "sim/messages/scenario_messages.h"
+#include "proto/scenario/scenario.h"
 
+#include "base/text/document.h"
+#include "base/text/table_reader.h"
+#include "base/text/toml_text.h"
 #include "proto/key.h"
 #include "proto/scenario.pb.h"
-#include "sim/messages/mission_messages.h"
-#include "sim/messages/profile_messages.h"
-#include "sim/messages/target_messages.h"
+#include "proto/scenario/target_message.h"
+#include "sim/files/mission_file.h"
+#include "sim/files/profile_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -24,34 +27,52 @@ Expected<WorkerMethod> read(const pb::Method& message) {
   return WorkerMethod{message.flavour(), cycles ? TurnClock::Cycles : TurnClock::Seconds};
 }
 
+/// Missions and profile as a campaign file has them, every field said: another version may have
+/// other presets.
+std::string simulation_text(const WorkerScenario& scenario) {
+  std::vector<Section> sections;
+  for (const Mission& mission : scenario.missions) {
+    for (Section& section : mission_sections({.mission = mission}))
+      sections.push_back(std::move(section));
+  }
+  for (Section& section : profile_sections(scenario.profile, "profile"))
+    sections.push_back(std::move(section));
+  return text_of(sections);
+}
+
+Expected<void> read_simulation(const std::string& text, WorkerScenario& scenario) {
+  constexpr const char* kName = "simulation";  // the field, for complaints
+  const auto document = parse_document(text, kName);
+  if (!document) return Unexpected(document.error());
+  Complaints complaints(kName);
+  TableReader root(*document, "", complaints);
+  for (MissionEntry& entry : read_sent_missions(root))
+    scenario.missions.push_back(std::move(entry.mission));
+  if (auto profile = root.table("profile")) {
+    scenario.profile = read_profile_table(*profile);
+  } else if (!root.has("profile")) {
+    root.complain("profile", "a simulation needs a [profile]");
+  }
+  root.finish();
+  if (complaints.empty()) return {};
+  return Unexpected(complaints.take().front());
+}
+
 void write(const WorkerScenario& scenario, pb::Scenario& message) {
   message.set_campaign_digest(scenario.campaign_digest);
   message.set_engine_version(scenario.engine_version);
-  for (const Mission& mission : scenario.missions)
-    to_message(mission, *message.add_missions());
   for (const WorkerMethod& method : scenario.methods)
     write(method, *message.add_methods());
-  if (scenario.target) {
-    to_message(*scenario.target, *message.mutable_target());
-    for (const InstanceTexts& instances : scenario.instances)
-      to_message(instances, *message.add_instances());
-  } else {
-    to_message(scenario.profile, *message.mutable_profile());
-  }
+  if (!scenario.target) return message.set_simulation(simulation_text(scenario));
+  to_message(*scenario.target, *message.mutable_target());
+  for (const InstanceTexts& instances : scenario.instances)
+    to_message(instances, *message.add_instances());
 }
 
 Expected<WorkerScenario> read(const pb::Scenario& message) {
   WorkerScenario scenario;
   scenario.campaign_digest = message.campaign_digest();
   scenario.engine_version = message.engine_version();
-  for (int i = 0; i < message.missions_size(); ++i) {
-    Expected<Mission> mission = from_message(message.missions(i));
-    if (!mission) {
-      const std::string path = "missions[" + std::to_string(i) + "].";
-      return bad_input(mission.error().message, path + mission.error().where);
-    }
-    scenario.missions.push_back(std::move(*mission));
-  }
   for (int i = 0; i < message.methods_size(); ++i) {
     Expected<WorkerMethod> method = read(message.methods(i));
     if (!method) {
@@ -71,9 +92,8 @@ Expected<WorkerScenario> read(const pb::Scenario& message) {
     scenario.target = std::move(*target);
     return scenario;
   }
-  Expected<Profile> profile = from_message(message.profile());
-  if (!profile) return bad_input(profile.error().message, "profile." + profile.error().where);
-  scenario.profile = std::move(*profile);
+  const Expected<void> simulation = read_simulation(message.simulation(), scenario);
+  if (!simulation) return Unexpected(simulation.error());
   return scenario;
 }
 

@@ -1,4 +1,4 @@
-#include "sim/messages/target_messages.h"
+#include "proto/scenario/target_message.h"
 
 #include <cmath>
 #include <cstddef>
