@@ -42,7 +42,7 @@ class Log {
     if (settings.unknown.empty()) return;
     const LogField fields[] = {{"word", settings.unknown},
                                {"known", std::string("debug info warning error none text json")}};
-    put(LogLevel::Warning, "log", "SWARMSMITH_LOG has a word that means nothing", fields);
+    put(LogLevel::Warning, "log", "SWARMSMITH_LOG has an unknown word", fields);
   }
   ~Log() { tell_left_out(true); }
 

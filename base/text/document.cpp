@@ -168,7 +168,8 @@ std::optional<Fault> fault_of(std::string_view text) {
   std::size_t values = 0;
   for (std::size_t i = begin; i < text.size();) {
     if (static_cast<unsigned char>(text[i]) >= 0x80) {
-      return fault_at(text, begin, i, "letters such as umlauts stand in quotes or comments only");
+      return fault_at(text, begin, i,
+                      "letters such as umlauts are allowed only in quotes or comments");
     }
     depth.add(text[i]);
     if (depth.levels() > kDeepest) {

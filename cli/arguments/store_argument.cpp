@@ -18,8 +18,7 @@ Expected<std::string> StoreArgument::path() const {
   const char* variable = std::getenv("SWARMSMITH_STORE");
   if (variable != nullptr && *variable != '\0') return std::string(variable);
   return bad_input(
-      "which store? Name its file, for instance `--store demo.db`, or set "
-      "SWARMSMITH_STORE");
+      "no store given; name its file, for instance `--store demo.db`, or set SWARMSMITH_STORE");
 }
 
 Expected<std::unique_ptr<StoreReader>> StoreArgument::open() const {

@@ -59,25 +59,25 @@ Expected<Wish> wish_of(const Arguments& arguments) {
     } else if (wish.store.empty()) {
       wish.store = word;
     } else {
-      return bad_input("`" + word +
-                       "` is one word too many: there is a store already, and a "
-                       "design is written d3");
+      return bad_input(
+          "`" + word +
+          "` is one word too many: a store is named already, and a design is written d3");
     }
   }
   if (wish.store.empty()) wish.store = environment("SWARMSMITH_STORE");
   const bool named =
       arguments.coordinator.is_named() || !environment("SWARMSMITH_COORDINATOR").empty();
   if (!wish.store.empty() || named) return wish;
-  return bad_input("of which campaign? Name its store, or its coordinator by --coordinator FILE");
+  return bad_input("no campaign given: name its store, or its coordinator with --coordinator FILE");
 }
 
 Expected<void> check(const Arguments& arguments, const Wish& wish) {
   const bool of_designs = arguments.kind == "cancel" || arguments.kind == "extend";
   if (of_designs && wish.designs.empty()) {
-    return bad_input("which design? Name it, d1, or several: each acts at a step of its own");
+    return bad_input("no design given: name at least one, such as d1");
   }
   if (arguments.kind == "extend" && !arguments.budget) {
-    return bad_input("how many experiments more? Say it by --budget N");
+    return bad_input("no budget given: name the number of further experiments with --budget N");
   }
   return {};
 }
@@ -112,7 +112,7 @@ class Control {
       return fail(output_, ExitCode::Store,
                   Error{ErrorKind::Conflict,
                         "the store holds " + std::to_string(all.size()) +
-                            " campaigns and is there to be read; name the campaign's own store",
+                            " campaigns and is read-only (merged); name the campaign's own store",
                         wish_.store});
     }
     campaign_ = (*reader)->campaign();
@@ -202,22 +202,22 @@ Run declare(const std::string& kind, Options& options) {
   arguments->kind = kind;
   const bool of_all = kind == "pause" || kind == "resume";
   options.words("STORE", arguments->words,
-                std::string("The campaign's store (else SWARMSMITH_STORE), and designs, d1 d2") +
-                    (of_all ? "; without any, all that are not over" : ""));
+                std::string("The campaign's store (else SWARMSMITH_STORE), and designs: d1 d2") +
+                    (of_all ? "; without any, all unfinished ones" : ""));
   options.text("--store", arguments->store, "The campaign's store");
   if (kind == "extend") {
-    options.integer("--budget", arguments->budget, {1, kLargestBudget}, "Experiments more");
+    options.integer("--budget", arguments->budget, {1, kLargestBudget}, "Further experiments");
   }
   CoordinatorArgument& coordinator = arguments->coordinator;
   options.text("--coordinator", coordinator.coordinator,
                "File of the coordinator that runs the campaign (default: STORE.coordinator, else "
                "SWARMSMITH_COORDINATOR)");
-  options.text("--connect", coordinator.connect, "In place of the file: its address, HOST:PORT");
+  options.text("--connect", coordinator.connect, "Its address, HOST:PORT, in place of the file");
   options.text("--key", coordinator.key,
                "Key file of an operator (default: SWARMSMITH_KEY, else operator.key in "
                "SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", coordinator.insecure_plaintext,
-               "Talk to a coordinator on another host that does not encrypt");
+               "Connect to a coordinator on another host without encryption");
   return [arguments](Output& output) {
     auto wish = wish_of(*arguments);
     if (!wish) return fail(output, ExitCode::Usage, wish.error());

@@ -230,7 +230,7 @@ ExitCode run(const EvaluateOptions& arguments, Output& output) {
   }
   if (arguments.recording.any() && runs_of(*plan) > 1) {
     return fail(output, ExitCode::Usage,
-                "--seeds: tables and pictures are of one run; name one seed");
+                "--seeds: tables and pictures show one run; name one seed");
   }
   return Evaluation(arguments, *plan, output).run();
 }
@@ -256,18 +256,17 @@ Run declare_evaluate(Options& options) {
       "aggregation, grid_exploration, color_selection or a file (default: the candidate's or the "
       "file's)");
   options.text("--campaign", arguments->campaign,
-               "Campaign file or store that says flavour, profile and mission");
+               "Campaign file or store with flavour, profile and mission");
   options.texts("--design", arguments->designs,
-                "Which of the campaign's designs (default: d1, when they differ in repetition "
-                "alone); with best as often as you like (default: all)");
-  options.text(
-      "--seeds", arguments->seeds,
-      "Seeds of the runs: 1-10 or 1,4,7-9 (default: those of the tests that the file names, else "
-      "1-10; for candidates one that no race or test of the store had)");
+                "Design of the campaign (default: d1, if they differ only in repetition); with "
+                "best repeatable (default: all)");
+  options.text("--seeds", arguments->seeds,
+               "Seeds of the runs: 1-10 or 1,4,7-9 (default: the seeds of the tests in the file, "
+               "else 1-10; for candidates one that no race or test of the store used)");
   options.text("--starts", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
   options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");
   options.flag("--no-store", arguments->no_store,
-               "Only print the scores of candidates, and do not store them");
+               "Print the scores of candidates without storing them");
   arguments->store.declare(options, true);
   arguments->recording.declare(options);
   return [arguments](Output& output) { return run(*arguments, output); };

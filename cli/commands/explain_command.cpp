@@ -171,7 +171,7 @@ ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
   const auto id = parse_thing_id(arguments.id);
   if (!id || id->letter != 'e') {
     return fail(output, ExitCode::Usage,
-                "\"" + arguments.id + "\" is no id of an evaluation; they look like e100000007");
+                "\"" + arguments.id + "\" is not the id of an evaluation, such as e100000007");
   }
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
@@ -180,7 +180,7 @@ ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
   const bool is_known = !history->evaluation.cells.empty() || !history->attempts.cells.empty() ||
                         !history->failures.cells.empty();
   if (!is_known) {
-    return fail(output, ExitCode::NoSuchId, "the store knows nothing of " + arguments.id);
+    return fail(output, ExitCode::NoSuchId, "the store has no " + arguments.id);
   }
   output.json ? write_json(output, arguments.id, *history)
               : write_text(output, arguments.id, *history);

@@ -135,7 +135,7 @@ bool is_picture(const std::string& format) {
 
 /// An option that says nothing in this format is no mistake to pass over.
 std::optional<Error> misplaced_option(const ExportArguments& arguments) {
-  const std::string with = " means nothing with --format " + arguments.format;
+  const std::string with = " has no effect with --format " + arguments.format;
   if (arguments.seed && arguments.format != "argos") {
     return Error{ErrorKind::BadInput, "it" + with, "--seed"};
   }
@@ -146,11 +146,11 @@ std::optional<Error> misplaced_option(const ExportArguments& arguments) {
                  arguments.candidate.empty() ? "--what" : "--candidate"};
   }
   if (!arguments.mission.empty() && !asks_for_table(arguments)) {
-    return Error{ErrorKind::BadInput, "it means nothing with --what " + arguments.what,
+    return Error{ErrorKind::BadInput, "it has no effect with --what " + arguments.what,
                  "--mission"};
   }
   if (!arguments.candidate.empty() && asks_for_table(arguments)) {
-    return Error{ErrorKind::BadInput, "it means nothing with --what " + arguments.what,
+    return Error{ErrorKind::BadInput, "it has no effect with --what " + arguments.what,
                  "--candidate"};
   }
   return std::nullopt;
@@ -237,7 +237,7 @@ ExitCode write_table(const ExportArguments& arguments, StoreReader& store, Outpu
   }
   if (missions->size() > 1) {
     return fail(output, ExitCode::Usage,
-                "a table is of one mission; name it with --mission, or a --design of it: " +
+                "a table has one mission; name it with --mission, or a --design of it: " +
                     names_of(*missions));
   }
   const auto text = patches ? patches_table(missions->front()) : starts_table(missions->front());
@@ -302,27 +302,25 @@ ExitCode run_export(const ExportArguments& arguments, Output& output) {
 Run declare_export(Options& options) {
   auto arguments = std::make_shared<ExportArguments>();
   arguments->store.declare(options);
-  options.choice(
-      "--what", arguments->what, {"best", "elites", "all", "starts", "patches"},
-      "Each design's best machine, its last elites, every candidate; or a table that "
-      "`evaluate` reads: where the robots started, or where the patches lay, in the runs "
-      "that scored a mission's winners");
+  options.choice("--what", arguments->what, {"best", "elites", "all", "starts", "patches"},
+                 "Each design's best machine, its last elites, or every candidate; or a table for "
+                 "`evaluate`: the starts of the robots, or the places of the patches, in the runs "
+                 "that scored a mission's winners");
   options.choice("--format", arguments->format,
                  {"fsm-config", "json", "svg", "pdf", "dot", "tikz", "argos", "irace", "rdata"},
-                 "Text of the grammar with lines that say what it was designed for, JSON, a "
-                 "picture, an experiment file of the "
-                 "original simulator, a folder in which R's irace does the same design, or what "
-                 "a design's race did as the log of R's irace, for iraceplot");
+                 "Text of the grammar with lines on its origin, JSON, a picture, an experiment "
+                 "file of the original simulator, a folder in which R's irace runs the same "
+                 "design, or a design's race as the log of R's irace, for iraceplot");
   options.text("-o,--output", arguments->file,
-               "Write to this file; to this folder, a file a machine, or the tables of a log");
-  options.text("--design", arguments->design, "Only this design's, such as d3");
-  options.text("--candidate", arguments->candidate, "This one, such as c812");
-  options.text("--mission", arguments->mission, "With --what starts or patches: of this mission");
-  options.text("--width", arguments->width, "Of a picture: 84mm (default), 8.4cm, 3.3in");
+               "File to write, or folder for one file per machine or for the tables of a log");
+  options.text("--design", arguments->design, "Only machines of this design, such as d3");
+  options.text("--candidate", arguments->candidate, "Only this candidate, such as c812");
+  options.text("--mission", arguments->mission, "Mission of --what starts or patches");
+  options.text("--width", arguments->width, "Width of a picture: 84mm (default), 8.4cm, 3.3in");
   options.integer("--seed", arguments->seed, {1, 4'294'967'295},
-                  "With --format argos: the experiment's seed (default 1)");
+                  "Seed of the experiment of --format argos (default 1)");
   options.choice("--irace", arguments->irace_version, {"3.5", "4"},
-                 "With --format irace: the irace that reads the files (default 4)");
+                 "Version of irace for --format irace (default 4)");
   return [arguments](Output& output) { return run_export(*arguments, output); };
 }
 

@@ -32,7 +32,7 @@ Expected<DesignId> wanted_design(StoreReader& store, const std::string& word) {
     }
   }
   if (designs->size() > 20) known += ", ...";
-  if (word.empty()) return bad_input("which design? The store has: " + known, "--design");
+  if (word.empty()) return bad_input("no design given; the store has: " + known, "--design");
   const auto id = parse_thing_id(word);
   if (!id || id->letter != 'd') {
     return bad_input("wants an id such as d3, not \"" + word + "\"", "--design");
@@ -85,7 +85,7 @@ ExitCode tell(const std::string& kind, const std::string& place, DesignId design
       log.parameters, [](const LogParameter& parameter) { return parameter.domain.empty(); });
   if (unknown > 0) {
     print_note(output, "the store does not know the domains of " + std::to_string(unknown) +
-                           " parameters: what was tried stands in their place");
+                           " parameters; their place has the values that were tried");
   }
   return ExitCode::Done;
 }

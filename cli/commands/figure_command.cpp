@@ -58,8 +58,7 @@ Expected<std::string> ending_of(const FigureArguments& arguments, const Output& 
   std::string ending = std::filesystem::path(arguments.file).extension().string();
   for (const char* known : {".svg", ".pdf", ".png", ".csv", ".tex"})
     if (ending == known) return ending;
-  return bad_input("the file's ending says what is written: .svg, .pdf, .png, .csv or .tex",
-                   arguments.file);
+  return bad_input("the file's ending must be .svg, .pdf, .png, .csv or .tex", arguments.file);
 }
 
 ExitCode exit_code_of(const Error& error) {
@@ -90,7 +89,7 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   if (!ending) return fail(output, ExitCode::Usage, ending.error());
   if ((*ending == ".csv" || *ending == ".tex") && (options->paper || !arguments.font.empty())) {
     return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput, "means nothing to a " + *ending + " file",
+                Error{ErrorKind::BadInput, "has no effect on a " + *ending + " file",
                       options->paper ? "--paper" : "--font"});
   }
   auto store = arguments.store.open();

@@ -208,11 +208,10 @@ ExitCode import_table_into(const ImportArguments& arguments, const std::string& 
     return import_machines_into(arguments, read_machine_table(*table), output);
   }
   if (has_scores(*table)) return import_scores_into(arguments, *table, output);
-  return fail(
-      output, ExitCode::Usage,
-      Error{ErrorKind::BadInput,
-            "neither scores nor machines: there is no column score, cost, fsm or fsm_config",
-            arguments.file});
+  return fail(output, ExitCode::Usage,
+              Error{ErrorKind::BadInput,
+                    "neither scores nor machines: no column score, cost, fsm or fsm_config",
+                    arguments.file});
 }
 
 }  // namespace

@@ -46,7 +46,7 @@ void write(Output& output, const Merged& merged, const std::string& file) {
 ExitCode run_merge(const MergeArguments& arguments, Output& output) {
   if (arguments.out.empty()) {
     return fail(output, ExitCode::Usage,
-                "into which file? Name it by -o: `swarmsmith merge a.db b.db -o all.db`");
+                "no new file given; name it with -o: `swarmsmith merge a.db b.db -o all.db`");
   }
   Counter counter(output, "merged", "stores");
   const auto merged =
@@ -66,7 +66,8 @@ ExitCode run_merge(const MergeArguments& arguments, Output& output) {
 
 Run declare_merge(Options& options) {
   auto arguments = std::make_shared<MergeArguments>();
-  options.words("STORE", arguments->stores, "The stores, in the order that their designs get",
+  options.words("STORE", arguments->stores,
+                "The stores, in the order of their designs in the new one",
                 Options::Need::Required);
   options.text("-o,--output", arguments->out, "The new store's file");
   return [arguments](Output& output) { return run_merge(*arguments, output); };

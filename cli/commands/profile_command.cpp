@@ -40,7 +40,7 @@ ExitCode run_profile(const ProfileArguments& arguments, Output& output) {
     if (!arguments.file.empty()) {
       return fail(output, ExitCode::Usage,
                   Error{ErrorKind::BadInput,
-                        "which profile? Name one of: " + joined(profile_names()), "--output"});
+                        "no profile given; name one of: " + joined(profile_names()), "--output"});
     }
     list(output);
     return ExitCode::Done;
@@ -64,8 +64,8 @@ ExitCode run_profile(const ProfileArguments& arguments, Output& output) {
 
 Run declare_profile(Options& options) {
   auto arguments = std::make_shared<ProfileArguments>();
-  options.text("NAME", arguments->name, "A built-in profile (none: lists them)");
-  options.text("-o,--output", arguments->file, "File to write it to; never overwritten");
+  options.text("NAME", arguments->name, "A built-in profile (default: list them)");
+  options.text("-o,--output", arguments->file, "File to write; never overwritten");
   return [arguments](Output& output) { return run_profile(*arguments, output); };
 }
 

@@ -30,7 +30,7 @@ Expected<double> width_of(const RecordingArguments& recording) {
         std::pair(&recording.objects_csv, "--objects-csv"), std::pair(&recording.at, "--at"),
         std::pair(&recording.from, "--from"), std::pair(&recording.to, "--to")}) {
     if (!text->empty())
-      return bad_input("is of simulations; a real run takes --svg, --csv and --width", option);
+      return bad_input("applies to simulations; a real run takes --svg, --csv and --width", option);
   }
   if (recording.width.empty()) return 174.0;
   const double width_mm = millimetres_from_text(recording.width);
@@ -76,7 +76,7 @@ std::string as_text(const RealReplay& replay, RealRunId id) {
             json_number(run.score) + "\n";
   }
   if (!replay.starts_as_real)
-    text += "the simulations start elsewhere: the real starts are no places for simulated robots\n";
+    text += "the simulations start elsewhere: simulated robots cannot start at the real places\n";
   return text;
 }
 

@@ -97,7 +97,7 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
   }
   if (found.unplaced > 0) output.out << found.unplaced << " rows might be of several tables\n";
   if (end.orphans > 0) {
-    output.out << end.orphans << " rows belong to what is lost, and were left out\n";
+    output.out << end.orphans << " rows belong to lost data and were left out\n";
   }
   for (const Rebuilt::Design& design : report.designs)
     output.out << as_shown(design_text(design), Layout::Escaped) << "\n";
@@ -121,7 +121,7 @@ Expected<void> rebuild_campaign(Recovery& recovery, const StoredCampaign& stored
   auto plans = plans_of(stored.row);
   if (!plans) {
     report.complaints.push_back(stored.row.name + ": " + to_string(plans.error()) +
-                                "; its rows are kept as they were found");
+                                "; its rows are kept as found");
     return {};
   }
   std::vector<DesignRow> designs;
@@ -145,8 +145,9 @@ Expected<void> rebuild_campaign(Recovery& recovery, const StoredCampaign& stored
 
 ExitCode run_recover(const RecoverArguments& arguments, Output& output) {
   if (arguments.out.empty()) {
-    return fail(output, ExitCode::Usage,
-                "into which file? Name it by -o: `swarmsmith recover damaged.db -o rescued.db`");
+    return fail(
+        output, ExitCode::Usage,
+        "no new file given; name it with -o: `swarmsmith recover damaged.db -o rescued.db`");
   }
   auto recovery = Recovery::begin(arguments.damaged, arguments.out);
   if (!recovery) {
@@ -175,7 +176,7 @@ Run declare_recover(Options& options) {
   options.text("DAMAGED", arguments->damaged, "The damaged store's file", Options::Need::Required);
   options.text("-o,--output", arguments->out, "The new store's file");
   options.text("--campaign", arguments->campaign,
-               "The campaign's file, where the store's own copy of it is lost");
+               "The campaign's file, if the store has lost its own copy");
   return [arguments](Output& output) { return run_recover(*arguments, output); };
 }
 

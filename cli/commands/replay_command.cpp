@@ -86,15 +86,15 @@ Expected<StoredRun> find_run(StoredRuns& runs, const ReplayArguments& arguments)
   const auto id = parse_thing_id(arguments.id);
   if (!id || id->letter == 'd') {
     return bad_input("\"" + arguments.id +
-                         "\" is no evaluation; replay wants one (e81200007, see `ls evaluations`), "
-                         "a candidate with a seed (c812 --seed 7), or a real run (r7)",
+                         "\" is not an evaluation (e81200007, see `ls evaluations`), a candidate "
+                         "with a seed (c812 --seed 7), or a real run (r7)",
                      "ID");
   }
   if (id->letter == 'e') {
     if (arguments.seed) return bad_input("an evaluation has its own seed", "--seed");
     return runs.evaluation(*id);
   }
-  if (!arguments.seed) return bad_input("on which seed? Add --seed 7", arguments.id);
+  if (!arguments.seed) return bad_input("no seed given; add one, such as --seed 7", arguments.id);
   return runs.candidate(*id, *arguments.seed);
 }
 
@@ -126,7 +126,7 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
 std::optional<Error> complaint_about(const ReplayArguments& arguments) {
   const bool has_company = arguments.beside || !arguments.seeds.empty();
   if (has_company && !arguments.real_run()) {
-    return Error{ErrorKind::BadInput, "is of a real run, such as r7",
+    return Error{ErrorKind::BadInput, "applies to a real run, such as r7",
                  arguments.beside ? "--beside" : "--seeds"};
   }
   if (arguments.real_run() && arguments.seed) {
@@ -139,7 +139,7 @@ std::optional<Error> complaint_about(const ReplayArguments& arguments) {
   }
   if (arguments.recording.any() || arguments.seed) {
     return Error{ErrorKind::BadInput,
-                 "replays many evaluations; --csv, --svg and --seed are of one", "--sample"};
+                 "replays many evaluations; --csv, --svg and --seed apply to one", "--sample"};
   }
   return std::nullopt;
 }
@@ -184,9 +184,9 @@ Run declare_replay(Options& options) {
   arguments->store.declare(options);
   options.integer("--seed", arguments->seed, {1, kLargest}, "Seed of a candidate's run");
   options.integer("--sample", arguments->sample, {1, kLargest},
-                  "Replay so many stored evaluations, evenly spaced, instead of one");
+                  "Replay N stored evaluations, evenly spaced, instead of one");
   options.integer("--beside", arguments->beside, {1, 1000},
-                  "Show so many simulations of its machine beside a real run");
+                  "Simulate a real run's machine N times beside it");
   options.text("--seeds", arguments->seeds, "Seeds of the simulations beside a real run: 1-4,9");
   arguments->recording.declare(options);
   return [arguments](Output& output) { return run_replay(*arguments, output); };

@@ -81,9 +81,8 @@ Run declare_report(Options& options) {
   options.text("-o,--output", arguments->file,
                "Write to this file (default report.html; - for "
                "standard output)");
-  options.texts(
-      "--design", arguments->designs,
-      "A design with a chapter of its own, such as d3, or all (default: all of up to three)");
+  options.texts("--design", arguments->designs,
+                "Design that gets a chapter, such as d3, or all (default: all of up to three)");
   return [arguments](Output& output) { return run_report(*arguments, output); };
 }
 

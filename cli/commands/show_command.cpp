@@ -133,7 +133,8 @@ ExitCode run_show(const ShowArguments& arguments, Output& output) {
   const auto id = parse_thing_id(arguments.id);
   if (!id) {
     return fail(output, ExitCode::Usage,
-                "\"" + arguments.id + "\" is no id; ids look like d3 (design), c812 (candidate), " +
+                "\"" + arguments.id +
+                    "\" is not an id; ids look like d3 (design), c812 (candidate), " +
                     "e81200007 (evaluation), r7 (real run)");
   }
   const auto store = arguments.store.open();

@@ -126,7 +126,7 @@ void write_text(Output& output, const Status& status) {
   }
   if (campaigns > 1) output.out << "failed " << failures << "\n";
   if (status.of_campaign(0, "state") == "interrupted")
-    output.out << "nobody works at it now; the command that began it goes on from here\n";
+    output.out << "no coordinator runs it now; the command that started it continues from here\n";
   output.out << "\n" << rows_as_text(status.designs);
   for (std::size_t i = 0; i < status.paused.cells.size(); ++i)
     output.out << (i == 0 ? "\npaused: " : ", ") << status.paused.cells[i].front().text;
@@ -262,15 +262,14 @@ Run declare_status(Options& options) {
   auto arguments = std::make_shared<StatusArguments>();
   arguments->store.declare(options);
   options.text("--connect", arguments->connect,
-               "Ask the coordinator at HOST:PORT, or the one whose file this is (default: "
+               "Ask the coordinator at HOST:PORT, or the one with this file (default: "
                "SWARMSMITH_COORDINATOR, else STORE.coordinator)");
-  options.text(
-      "--key", arguments->key,
-      "Key file, where the coordinator wants one (default: SWARMSMITH_KEY, else reader.key "
-      "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
+  options.text("--key", arguments->key,
+               "Key file, if the coordinator needs one (default: SWARMSMITH_KEY, else reader.key "
+               "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", arguments->insecure_plaintext,
-               "Ask a coordinator on another host that does not encrypt");
-  options.flag("--watch", arguments->watch, "Again and again, until the campaign ends");
+               "Ask a coordinator on another host without encryption");
+  options.flag("--watch", arguments->watch, "Repeat until the campaign ends");
   return [arguments](Output& output) { return run_status(*arguments, output); };
 }
 

@@ -64,7 +64,7 @@ void write_text(Output& output, const Verification& found, const std::optional<S
     return;
   }
   output.out << "clean: " << found.evaluations << " evaluations of " << found.designs
-             << " designs, " << found.finished << " finished; every race was played again" << again;
+             << " designs, " << found.finished << " finished; every race was replayed" << again;
   if (found.real_runs > 0) output.out << "; " << found.real_runs << " real runs scored again";
   output.out << "\n";
 }
@@ -124,11 +124,11 @@ ExitCode run_verify(const VerifyArguments& arguments, Output& output) {
 Run declare_verify(Options& options) {
   auto arguments = std::make_shared<VerifyArguments>();
   arguments->store.declare(options);
-  options.integer("--sample", arguments->sample, {0, kLargest},
-                  "Evaluate N scores again, and all tests of winners (all rejections always; 0: "
-                  "nothing at all)");
+  options.integer(
+      "--sample", arguments->sample, {0, kLargest},
+      "Evaluate N scores and all tests of winners again (rejections always; 0: nothing)");
   options.integer("--seed", arguments->seed, {0, kLargest},
-                  "Which scores are evaluated again (else others each time)");
+                  "Seed that selects the scores to evaluate again (default: a new one each time)");
   return [arguments](Output& output) { return run_verify(*arguments, output); };
 }
 

@@ -31,8 +31,8 @@ Expected<std::vector<NamedMachine>> machines_of_file(const std::string& file, Ou
   }
   if (!std::ifstream(file)) {
     return bad_input(
-        "this is no machine: neither a text that begins with --nstates, nor a file, "
-        "nor a candidate such as c812",
+        "not a machine: expected a text that begins with --nstates, a file, or a candidate such as "
+        "c812",
         file);
   }
   const auto text = read_file(file, "machine");
@@ -77,7 +77,7 @@ Expected<NamedMachine> machine_of_candidate(StoreReader& store, const DesignWorl
   if (!world || !*world) return machine;  // a file of another version: flags must say it
   if ((*world)->has_parameters) {
     return bad_input(to_string(candidate) +
-                     " is a configuration of the method's parameter file, and no machine");
+                     " is a configuration of the method's parameter file, not a machine");
   }
   machine.design_mission = (*world)->design.mission;
   machine.mission = std::move((*world)->mission);

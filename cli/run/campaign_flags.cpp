@@ -27,8 +27,7 @@ std::filesystem::path place_of(const std::filesystem::path& store) {
 Expected<void> check_one_store(const std::string& store, const std::string& where) {
   if (store.empty()) return {};
   return bad_input(
-      "names one store, and each campaign has one of its own: their files say which (key `store`)",
-      where);
+      "names one store, but each campaign needs its own: name it in its file (key `store`)", where);
 }
 
 }  // namespace
@@ -38,8 +37,8 @@ void CampaignFlags::declare(Options& options, Options::Need files_needed) {
                 "Campaign file; several campaigns share the workers, each with its own store",
                 files_needed);
   options.integer("--budget", budget, {1, kLargestBudget}, "Experiments of each design");
-  options.integer("--seed", seed, {0, INT64_MAX}, "Seed that everything derives from");
-  options.text("--store", store, "Where the results go");
+  options.integer("--seed", seed, {0, INT64_MAX}, "Seed of all random numbers");
+  options.text("--store", store, "The store, which keeps the results");
 }
 
 Expected<void> check_pool(const std::vector<Campaign>& campaigns) {
@@ -52,7 +51,7 @@ Expected<void> check_pool(const std::vector<Campaign>& campaigns) {
   for (const Campaign& campaign : campaigns) {
     // The second would be asked for its own answer again.
     if (!digests.insert(campaign_digest(campaign)).second) {
-      return bad_input("the campaign is there twice: its answer would be the same", campaign.name);
+      return bad_input("the campaign is given twice: its answer would be the same", campaign.name);
     }
     if (!stores.insert(place_of(campaign.store)).second) {
       return bad_input("two of the campaigns have this store: give each its own (key `store`)",
@@ -60,8 +59,8 @@ Expected<void> check_pool(const std::vector<Campaign>& campaigns) {
     }
     if (campaign.target.has_value() != campaigns.front().target.has_value()) {
       return bad_input(
-          "some of the campaigns run programs and others the simulator, for which other rules "
-          "hold: run them apart");
+          "some of the campaigns run programs and others the simulator, which have different "
+          "rules: run them separately");
     }
   }
   return {};

@@ -62,7 +62,7 @@ void warn_about_scores(const std::string& mission, const Measured& measured,
   if (!measured.finite) {
     warnings.push_back(
         "mission " + mission +
-        ": a random machine's score is no finite number; a race rejects such machines");
+        ": a random machine's score is not a finite number; a race rejects such machines");
   } else if (measured.runs >= kEnough && measured.least == measured.most) {
     warnings.push_back("mission " + mission + ": " + std::to_string(measured.runs) +
                        " runs of random machines all scored " + json_number(measured.most) +

@@ -125,7 +125,7 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
 
 void print_next_steps(Output& output, const std::string& store) {
   if (output.quiet) return;
-  output.err << "\nEverything is in " << store << ". How to go on:\n"
+  output.err << "\nEverything is in " << store << ". How to continue:\n"
              << "  swarmsmith ls elites " << store << "\n"
              << "  swarmsmith export " << store << " --design d1 -o best.fsm\n"
              << "  swarmsmith query " << store << "\n"

@@ -67,7 +67,7 @@ CoordinatorSearch CoordinatorArgument::search(const std::string& file) const {
 Expected<std::string> command_by_wire(const CoordinatorSearch& search, const std::string& campaign,
                                       const CommandRow& command, std::chrono::seconds patience) {
   if (!search.endpoint.empty() && !is_tcp_address(search.endpoint)) {
-    return bad_input("this is no address; it is written 127.0.0.1:5555, host and port",
+    return bad_input("invalid address; expected host and port, such as 127.0.0.1:5555",
                      search.endpoint);
   }
   auto found = find_coordinator(search);

@@ -51,7 +51,7 @@ class Reader {
       read_setting(words[i], host);
     const auto same = [&](const SshHost& other) { return other.name == host.name; };
     if (std::ranges::any_of(hosts_, same)) {
-      complain(words.front(), "`" + host.name + "` is there twice; give it more slots instead");
+      complain(words.front(), "`" + host.name + "` is given twice; give it more slots instead");
     }
     hosts_.push_back(std::move(host));
   }
@@ -59,8 +59,7 @@ class Reader {
   HostsOrErrors finish() {
     if (hosts_.empty() && errors_.empty()) {
       errors_.push_back({ErrorKind::BadInput,
-                         "there is no host in this file; write one a line, such as "
-                         "node1 slots=16",
+                         "the file has no host; write one per line, such as node1 slots=16",
                          file_});
     }
     if (!errors_.empty()) return tl::unexpected(std::move(errors_));

@@ -91,7 +91,7 @@ std::optional<std::string> irace_remark(const IraceOption& option, const IraceVa
     return title + " is read, but newer versions of irace refuse it: " + remark;
   }
   if (option.meaning == IraceMeaning::Ignored && !is_default(option, value)) {
-    return title + " means nothing here: " + std::string(option.remark);
+    return title + " has no effect here: " + std::string(option.remark);
   }
   const auto* share = std::get_if<double>(&value);
   if (option.name == "postselection" && share != nullptr && *share > 0 && *share < 1) {

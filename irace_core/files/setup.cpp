@@ -22,7 +22,7 @@ fs::path scenario_of(const IraceCommandLine& line, SetupWork& work) {
   const fs::path here = absolute_path(option.initial, work.around.folder);
   std::error_code ignored;
   if (!fs::exists(here, ignored)) return {};
-  work.warn(here.string() + " is read, because it is there; to say so, write --scenario " +
+  work.warn(here.string() + " is read, because it exists; to name it, write --scenario " +
             std::string(option.initial));
   return here;
 }

@@ -67,7 +67,7 @@ Expected<void> IteratedRace::State::check_bounds(std::span<const Measurement> me
     return bad_input("the run of configuration " + std::to_string(run.configuration) + " on pair " +
                      std::to_string(run.pair) + " took " + to_fixed_text(took) +
                      ", more than its bound of " + to_fixed_text(run.bound) +
-                     ": a target must stop by itself at the bound");
+                     ": a target must stop itself at the bound");
   }
   return {};
 }

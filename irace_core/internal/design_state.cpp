@@ -192,7 +192,7 @@ Expected<void> IteratedRace::State::may_be_extended() const {
   if (time) {
     return bad_input("its budget is time, and an extension is in experiments", "max_time");
   }
-  if (failure) return bad_input("there is nothing to go on from: " + to_string(*failure));
+  if (failure) return bad_input("there is nothing to continue from: " + to_string(*failure));
   return {};
 }
 

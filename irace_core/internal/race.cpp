@@ -135,7 +135,7 @@ void Race::take_run(const RaceRun& run, const Measurement& measurement) {
   }
   if (bound > 0 && time > bound + least) {
     return fail(run, "took " + std::to_string(time) + ", more than its bound of " +
-                         std::to_string(bound) + ": a target must stop by itself at the bound");
+                         std::to_string(bound) + ": a target must stop itself at the bound");
   }
   put(times_[c], run.task, time);
   if (settings_.target_evaluator) return;

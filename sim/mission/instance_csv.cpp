@@ -126,7 +126,7 @@ Expected<std::vector<Pose>> explicit_starts(const Mission& mission, std::int64_t
   }
   for (std::size_t i = 0; i < starts.size(); ++i) {
     if (!is_inside(mission.arena, starts[i].position())) {
-      return bad_input("robot " + std::to_string(i) + " stands outside of the arena", where);
+      return bad_input("robot " + std::to_string(i) + " is outside the arena", where);
     }
   }
   return starts;

@@ -115,7 +115,7 @@ class CampaignFile(BadInput):
             ('[arena]\nshape = "square"\nside = -3\n', "mine.toml:5:8: `side` must be from"),
             ('robots = 90\n', "mine.toml:3:10: mission \"mine\": arena too small for 90 robots"),
             ('arena.spots = [{ shape = "image", x = 0, y = 0, width = 1, height = 1, '
-             'file = "my_rvr.toml" }]\n', "my_rvr.toml: this is no PNG image"),
+             'file = "my_rvr.toml" }]\n', "my_rvr.toml: this is not a PNG image"),
             ('arena.spots = [{ shape = "image", x = 0, y = 0, width = 1, height = 1, '
              'file = "none.png" }]\n', "none.png: there is no such image file"),
         ]
@@ -341,7 +341,7 @@ class BadStore(BadInput):
         store = self.store()
         for name in ("c999999", "d2", "e1"):
             self.assert_refused(4, name, "show", name, store)
-        self.assert_refused(2, '"xyz" is no id', "show", "xyz", store)
+        self.assert_refused(2, '"xyz" is not an id', "show", "xyz", store)
         self.assert_refused(4, "c999999", "evaluate", "c999999", "--store", store)
 
     def test_sql_that_writes_or_is_none(self):
@@ -576,7 +576,7 @@ class Evaluate(BadInput):
         on = ["--mission", "aggregation"]
         self.refused("MACHINE, token 2, column 11", "--nstates", "x", *on)
         self.refused("MACHINE, token 4, column 18", "--nstates", "1", "--s0", "9", *on)
-        self.refused("this is no machine", "nofile", *on)
+        self.refused("not a machine", "nofile", *on)
         self.refused("--mission: there is no mission", *EXPLORE, "--mission", "agg")
         self.refused("--flavour", *EXPLORE, *on, "--flavour", "f")
         self.refused("--profile", *EXPLORE, *on, "--profile", "f")
@@ -590,7 +590,7 @@ class Evaluate(BadInput):
                  (["1,0,nan,0,0"], 'starts.csv:2: column x wants a finite number, not `nan`'),
                  (["1,0,0"], "starts.csv:2: expected 5 cells as in the header, found 3"),
                  (["1,3,0,0,0"], "starts.csv:2: column robot wants robot 0 of this seed"),
-                 (["1,0,9,9,0"] + good[1:], "seed 1: robot 0 stands outside of the arena")]
+                 (["1,0,9,9,0"] + good[1:], "seed 1: robot 0 is outside the arena")]
         for lines, sentence in cases:
             with self.subTest(sentence):
                 table = self.folder / "starts.csv"

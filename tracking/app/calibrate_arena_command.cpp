@@ -114,8 +114,8 @@ Expected<PlaceQuestion> question_of(const Arguments& arguments, const Rig& rig,
     const auto old = rig.places.find(camera.place_file);
     if (old == rig.places.end()) {
       return Unexpected(error_of(IssueCode::Config,
-                                 "--again needs the place that was found before, and there is "
-                                 "none; give a video of the empty arena instead",
+                                 "--again needs an earlier place, and there is none; give a video "
+                                 "of the empty arena instead",
                                  beside(arguments.arena, camera.place_file)));
     }
     return question_again(old->second, std::move(question));
@@ -180,10 +180,10 @@ Run declare_calibrate_arena(Options& options) {
   options.words("PICTURES", arguments->words,
                 "A video or bag of the arena with its floor tags, or pictures or folders of them");
   options.text("--arena", arguments->arena, "Arena file", Options::Need::Required);
-  options.text("--camera", arguments->camera, "Which camera, when the arena has several");
+  options.text("--camera", arguments->camera, "Camera, if the arena has several");
   options.flag("--again", arguments->again,
-               "Solve again from the last pictures' corners, after the survey or the camera's "
-               "calibration was mended");
+               "Solve again from the corners of the last pictures, after a correction of the "
+               "survey or a new lens calibration");
   options.text("--mission", arguments->mission,
                "Mission whose arena the tags must cover (default: the thesis' dodecagon)");
   options.text("-o,--output", arguments->file,

@@ -79,7 +79,7 @@ Expected<OffsetCalibration> solve(const Arguments& arguments, const Rig& rig,
 
 ExitCode run(const Arguments& arguments, Output& output) {
   if (arguments.reverse && arguments.straight.empty()) {
-    return fail(output, ExitCode::Usage, "--reverse speaks of a straight run: --straight VIDEO");
+    return fail(output, ExitCode::Usage, "--reverse applies to a straight run: --straight VIDEO");
   }
   const auto rig = read_rig(arguments.arena);
   if (!rig) return fail_all(output, rig.error());
@@ -92,7 +92,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
                     {error_of(IssueCode::Config,
                               "robot \"" + robot->name +
                                   "\" names no `offset` file; add one, such as offset = \"" +
-                                  robot->name + ".offset.toml\", or say -o FILE",
+                                  robot->name + ".offset.toml\", or use -o FILE",
                               rig->file)});
   }
   auto calibration = solve(arguments, *rig, *camera, *robot, output);
@@ -126,7 +126,7 @@ Run declare_calibrate_robot(Options& options) {
                "Video of it driving straight on for half a metre or more: gives its heading");
   options.flag("--reverse", arguments->reverse, "It drove backwards in --straight");
   options.text("--arena", arguments->arena, "Arena file", Options::Need::Required);
-  options.text("--camera", arguments->camera, "Which camera, when the arena has several");
+  options.text("--camera", arguments->camera, "Camera, if the arena has several");
   options.text("-o,--output", arguments->file,
                "File to write (default: the robot's `offset` of the arena file)");
   return [arguments](Output& output) { return run(*arguments, output); };

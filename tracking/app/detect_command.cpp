@@ -167,9 +167,9 @@ Run declare_detect(Options& options) {
   options.text("SOURCE", words->source, "Video, picture, folder of pictures or bag",
                Options::Need::Required);
   options.text("--family", words->family, "Family of the tags (default tag36h11)");
-  options.integer("--every", words->every, {1, 1'000'000}, "Look at each N-th frame (default 1)");
+  options.integer("--every", words->every, {1, 1'000'000}, "Use each N-th frame (default 1)");
   options.text("--csv", words->csv,
-               "Write a row a sighting: frame, time, tag, corners in pixels (- prints)");
+               "Write one row per sighting: frame, time, tag, corners in pixels (- prints)");
   return [words](Output& output) { return run(*words, output); };
 }
 

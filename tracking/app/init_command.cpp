@@ -42,10 +42,8 @@ ExitCode run(const std::string& folder, Output& output) {
   }
   output.out << files;
   const std::string arena = (std::filesystem::path(folder) / "arena.toml").string();
-  print_note(output,
-             "Write down what hangs, lies and drives in your arena; `swarmsmith track "
-             "check " +
-                 arena + "` then says what comes next.");
+  print_note(output, "Write your cameras, floor tags and robots into it; `swarmsmith track check " +
+                         arena + "` then says what comes next.");
   return ExitCode::Done;
 }
 

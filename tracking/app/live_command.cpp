@@ -276,13 +276,13 @@ Run declare_live(Options& options) {
   options.text("--camera", words->source,
                "What to watch: camera:0, an address, a video file, a folder of images, a bag",
                Options::Need::Required);
-  options.text("--view", words->view, "Which camera of the arena file that is, of several");
+  options.text("--view", words->view, "Camera of the arena file, if it has several");
   options.text("--mission", words->mission, "Mission whose floor is drawn in: a name or a file");
   options.integer("--port", words->port, {0, 65'535},
-                  "Of the preview, on 127.0.0.1 alone (default 8080; 0: a free one)");
+                  "Port of the preview on 127.0.0.1 (default 8080; 0: a free one)");
   options.text("--board", words->board,
-               "A board that is held before the camera: shows which parts of the frame its views "
-               "cover so far (as for calibrate camera)");
+               "Board held before the camera: shows which parts of the frame its views cover so "
+               "far (as for calibrate camera)");
   options.text("--record", words->record, "Record all frames, a .mkv, with their times beside it");
   return [words](Output& output) { return live(*words, output); };
 }

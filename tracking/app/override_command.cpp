@@ -27,15 +27,14 @@ ExitCode run(const Arguments& arguments, Output& output) {
   for (const auto& [option, text] :
        {std::pair("--who", arguments.who), std::pair("--reason", arguments.reason)}) {
     if (!is_blank(text)) continue;
-    return fail(
-        output, ExitCode::Usage,
-        Error{ErrorKind::BadInput,
-              "a word above the verdict needs a name and a reason that others can read", option});
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput,
+                      "an override needs a name and a reason that others can read", option});
   }
   const std::string path = store_word(arguments.store);
   if (path.empty()) {
     return fail(output, ExitCode::Usage,
-                "which store? Name its file by --store, or set SWARMSMITH_STORE");
+                "no store given; name its file with --store, or set SWARMSMITH_STORE");
   }
   const auto reader = read_store(path);
   if (!reader) return fail(output, reader.error());
@@ -55,8 +54,8 @@ ExitCode run(const Arguments& arguments, Output& output) {
                << ",\"who\":" << json_text(arguments.who)
                << ",\"reason\":" << json_text(arguments.reason) << "}\n";
   } else {
-    output.out << arguments.run << ": " << before->score.verdict << " by its measurement, "
-               << verdict << " by " << arguments.who << ": " << arguments.reason << "\n";
+    output.out << arguments.run << ": " << before->score.verdict << " measured, " << verdict
+               << " by " << arguments.who << ": " << arguments.reason << "\n";
   }
   return ExitCode::Done;
 }
@@ -67,7 +66,7 @@ Run declare_track_override(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   options.text("RUN", arguments->run, "Run of the store: r7", Options::Need::Required);
   options.choice("--verdict", arguments->verdict, {"valid", "degraded", "invalid"},
-                 "What counts from now on", Options::Need::Required);
+                 "The new verdict", Options::Need::Required);
   options.text("--who", arguments->who, "Your name", Options::Need::Required);
   options.text("--reason", arguments->reason, "Why, for those who read the results",
                Options::Need::Required);

@@ -32,7 +32,7 @@ Expected<Form> form_of(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (ending == ".pdf") return Form::Pdf;
   if (ending == ".svg") return Form::Svg;
-  return bad_input("the file's ending says what is written: .pdf or .svg", file);
+  return bad_input("the file's ending must be .pdf or .svg", file);
 }
 
 /// A file a page: tags.svg, or tags-1.svg, tags-2.svg, ...
@@ -159,7 +159,7 @@ void declare_tag_words(Options& options, TagArguments& arguments) {
 
 Run declare_print_tags(Options& options) {
   auto arguments = std::make_shared<TagArguments>();
-  options.text("--family", arguments->family, "Family of the tags, tag36h11 unless said");
+  options.text("--family", arguments->family, "Family of the tags (default tag36h11)");
   declare_tag_words(options, *arguments);
   return [arguments](Output& output) { return print_tags(*arguments, output); };
 }
@@ -177,8 +177,7 @@ Run declare_print_board(Options& options) {
 Run declare_print_survey(Options& options) {
   auto arguments = std::make_shared<TagArguments>();
   declare_tag_words(options, *arguments);
-  options.text("--area", arguments->area,
-               "Area of the dodecagon in square metres, 4.91 unless said");
+  options.text("--area", arguments->area, "Area of the dodecagon in square metres (default 4.91)");
   return [arguments](Output& output) { return print_survey(*arguments, output); };
 }
 

@@ -108,12 +108,12 @@ Run declare_record(Options& options) {
   options.text("SOURCE", words->source, "Camera, address, video file, folder of images or bag",
                Options::Need::Required);
   options.text("FILE", words->file, "Video to write, a .mkv", Options::Need::Required);
-  options.text("--seconds", words->seconds, "Stop after so long (default: until Ctrl-C)");
+  options.text("--seconds", words->seconds, "Stop after N seconds (default: until Ctrl-C)");
   options.text("--rate", words->rate, "Frames a second, for images and videos without times");
   options.choice("--codec", words->codec, {"h264", "mjpeg", "ffv1"},
-                 "How to pack the pictures (default h264)");
-  options.integer("--quality", words->quality, {1, 100}, "From 1 to 100 (default 80)");
-  options.flag("--realtime", words->realtime, "Play a video or folder as fast as it was taken");
+                 "Codec of the video (default h264)");
+  options.integer("--quality", words->quality, {1, 100}, "Quality, 1 to 100 (default 80)");
+  options.flag("--realtime", words->realtime, "Play a video or folder at its own speed");
   return [words](Output& output) { return record(*words, output); };
 }
 

@@ -47,7 +47,7 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   if (before.layout.source != RunLayout::Source::Measured) {
     return refused(error_of(IssueCode::LayoutMissing,
                             "the patches of this run were not measured when its video was here; "
-                            "say them by [[patch]], or score the video again",
+                            "give them by [[patch]], or score the video again",
                             file));
   }
   log.layout = before.layout;
@@ -128,7 +128,7 @@ ExitCode rescore_one(const Arguments& arguments, const std::string& word, Output
 ExitCode run(const Arguments& arguments, Output& output) {
   if (store_word(arguments.store).empty()) {
     return fail(output, ExitCode::Usage,
-                "which store? Name its file by --store, or set SWARMSMITH_STORE");
+                "no store given; name its file with --store, or set SWARMSMITH_STORE");
   }
   ExitCode code = ExitCode::Done;
   for (const std::string& word : arguments.runs) {

@@ -36,12 +36,10 @@ Expected<void> write_files(const ScoreArguments& arguments, const RunAnalysis& a
 std::string next_step(const std::string& id, const std::string& store, Verdict verdict) {
   const std::string at = id + " --store " + store;
   if (verdict != Verdict::Invalid) return "Next: `swarmsmith track report " + at + "`.";
-  return "An INVALID score is kept out of statistics. Next: mend what is wrong and `swarmsmith "
-         "track rescore " +
-         at +
-         "`; or film again; or take it upon you: `swarmsmith track "
-         "override " +
-         at + " --verdict valid --who NAME --reason TEXT`.";
+  return "Statistics leave out an INVALID score. Next: correct the cause and `swarmsmith track "
+         "rescore " +
+         at + "`; or film again; or decide yourself: `swarmsmith track override " + at +
+         " --verdict valid --who NAME --reason TEXT`.";
 }
 
 void print_result(const RunPlan& plan, const RunAnalysis& analysis,
@@ -58,11 +56,11 @@ void print_result(const RunPlan& plan, const RunAnalysis& analysis,
   }
   output.out << result_text(plan.log, analysis);
   if (!written) {
-    print_note(output, "It is not stored; --into STORE keeps it.");
+    print_note(output, "The run is not stored; --into STORE keeps it.");
     return;
   }
   if (!written->is_new) {
-    output.out << "It was there already, as " << id << " in " << plan.store
+    output.out << "It was stored already, as " << id << " in " << plan.store
                << "; nothing was added.\n";
     return;
   }

@@ -33,7 +33,7 @@ Mission read_log_mission(TableReader& root, const std::filesystem::path& folder)
     auto missions = read_missions(root, folder);
     if (missions.size() == 1) return std::move(missions.front().mission);
     root.complain("mission",
-                  "a run is of one mission, the file has " + std::to_string(missions.size()));
+                  "a run has one mission, the file has " + std::to_string(missions.size()));
     return {};
   }
   const auto word = root.text("mission");

@@ -133,7 +133,7 @@ Expected<std::vector<double>> parse_frame_times(std::string_view text) {
     auto time = number_of<double>(cells[columns->time]);
     if (time) *time *= columns->unit_s;
     if (!time || !std::isfinite(*time)) {
-      return bad_times(quoted(cells[columns->time]) + " is no time in seconds", where);
+      return bad_times(quoted(cells[columns->time]) + " is not a time in seconds", where);
     }
     if (!times.empty() && *time <= times.back()) {
       return bad_times(fmt::format("frame {} at {} s is not later than the frame before, at {} s",
@@ -148,7 +148,7 @@ Expected<std::vector<double>> parse_frame_times(std::string_view text) {
     }
     times.push_back(*time);
   }
-  if (times.empty()) return bad_times("there is no frame in it", "line 2");
+  if (times.empty()) return bad_times("it has no frame", "line 2");
   return times;
 }
 
@@ -175,9 +175,8 @@ Expected<FrameClock> FrameClock::of(const SourceInfo& source,
     return clock;
   }
   return bad_times(
-      "its frames have no times that can be trusted, and there is no constant rate with a number "
-      "of frames that agrees; give the camera's frame times as a file with the columns "
-      "`frame,time_s`",
+      "its frames have no reliable times, and no constant rate agrees with their number; give the "
+      "camera's frame times as a file with the columns `frame,time_s`",
       source.name);
 }
 
