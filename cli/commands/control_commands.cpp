@@ -5,11 +5,12 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <thread>
 
+#include "base/environment.h"
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
@@ -40,11 +41,6 @@ struct Wish {
   std::vector<DesignId> designs;
 };
 
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
-
 std::optional<DesignId> design_in(const std::string& word) {
   const auto id = parse_thing_id(word);
   if (!id || id->letter != 'd') return std::nullopt;
@@ -64,7 +60,7 @@ Expected<Wish> wish_of(const Arguments& arguments) {
           "` is one word too many: a store is named already, and a design is written d3");
     }
   }
-  if (wish.store.empty()) wish.store = environment("SWARMSMITH_STORE");
+  if (wish.store.empty()) wish.store = store_of_environment();
   const bool named =
       arguments.coordinator.is_named() || !environment("SWARMSMITH_COORDINATOR").empty();
   if (!wish.store.empty() || named) return wish;
@@ -186,9 +182,12 @@ class Control {
       output_.out << sentence << "\n";
       return;
     }
-    output_.out << "{\"command\":" << json_text(arguments_.kind)
-                << ",\"design\":" << (design ? json_text(to_string(design)) : "null")
-                << ",\"done\":" << json_text(sentence) << "}\n";
+    output_.out << JsonObject()
+                       .add("command", arguments_.kind)
+                       .add("design", design)
+                       .add("done", sentence)
+                       .text()
+                << "\n";
   }
 
   Output& output_;

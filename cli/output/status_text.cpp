@@ -8,17 +8,12 @@
 #include <numeric>
 #include <tuple>
 
+#include "cli/output/number_text.h"
+
 namespace swarmsmith::cli {
 namespace {
 
 constexpr std::size_t kBar = 40;
-
-std::string duration_text(double seconds) {
-  const auto s = std::llround(seconds);
-  if (s >= 86400) return fmt::format("{}d{:02}h", s / 86400, s % 86400 / 3600);
-  if (s >= 3600) return fmt::format("{}h{:02}m", s / 3600, s % 3600 / 60);
-  return s >= 60 ? fmt::format("{}m{:02}s", s / 60, s % 60) : fmt::format("{}s", s);
-}
 
 std::string percent(double part, double whole) {
   return whole > 0 ? fmt::format("{:.0f} %", 100 * part / whole) : "-";
@@ -71,7 +66,7 @@ std::string share_bar(const SlotTimes& times) {
 
 std::string eta(const LiveStatus& status) {
   const double left = seconds_left(status);
-  return left > 0 ? "  ETA " + duration_text(left) : "";
+  return left > 0 ? "  ETA " + duration_text(left, LongestUnit::Day) : "";
 }
 
 void add_head(std::vector<std::string>& lines, const LiveStatus& status) {

@@ -7,7 +7,8 @@
 
 #include "base/suggestion.h"
 #include "base/text/document.h"
-#include "base/text/file_text.h"
+#include "base/text/table_reader.h"
+#include "base/text/whole_file.h"
 #include "sim/files/internal/read_arena.h"
 #include "sim/files/internal/read_placement.h"
 #include "sim/files/internal/read_score.h"

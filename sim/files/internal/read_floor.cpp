@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/base64.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "sim/files/internal/read_color.h"
 #include "sim/files/read_place.h"
 
