@@ -193,7 +193,7 @@ Expected<void> CampaignRunner::carry_out(const CommandRow& command) {
 Expected<void> CampaignRunner::command_waiting(std::map<DesignId, Waiting>::iterator found,
                                                const CommandRow& command) {
   DesignPlan& plan = found->second.plan;
-  if (auto checked = check_command(plan, command); !checked) return checked;
+  if (auto checked = check_command(plan, plan.commands, command); !checked) return checked;
   plan.commands.push_back(command);
   plan.commands.back().step.reset();
   rows_.emplace_back(plan.commands.back());
@@ -259,7 +259,7 @@ std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& score
                   : score.key.purpose == Purpose::Evaluator ? &design.evaluator_scores
                                                             : nullptr;
     if (known == nullptr) continue;
-    known->emplace(DesignRunner::packed_key(score.key), score);
+    known->emplace(packed_key(score.key), score);
   }
   for (const StoredStep& step : steps) {
     if (skipped(step.design)) continue;

@@ -11,6 +11,7 @@
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/campaign_runner.h"
+#include "coordinator/design/design_runner.h"
 #include "coordinator/design/plans.h"
 #include "coordinator/design/verify_real_runs.h"
 #include "storage/answer.h"
