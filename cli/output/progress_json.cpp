@@ -86,7 +86,7 @@ std::string elite_json(const EliteRow& row) {
 std::string state_json(const DesignStateRow& row) {
   return EventText("design")
       .add("design", row.design)
-      .add("state", name_of(row.state))
+      .add("state", word_of(row.state))
       .add("iteration", row.iteration)
       .add("used", row.used)
       .add("best", row.best)
@@ -130,10 +130,10 @@ std::string conflict_json(const ConflictRow& row) {
 std::string command_json(const CommandRow& row) {
   return EventText("command")
       .add("number", row.number)
-      .add("kind", row.kind)
+      .add("kind", word_of(row.kind))
       .add("design", row.design)
       .raw("step", row.step ? std::to_string(*row.step) : "null")
-      .raw("budget", row.kind == "extend" ? std::to_string(row.budget) : "null")
+      .raw("budget", row.kind == CommandKind::Extend ? std::to_string(row.budget) : "null")
       .add("who", row.who)
       .str();
 }

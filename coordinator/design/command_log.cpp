@@ -14,14 +14,15 @@ namespace swarmsmith {
 Expected<void> check_command(const DesignPlan& plan, std::span<const CommandRow> earlier,
                              const CommandRow& command) {
   const std::string name = to_string(plan.row.id);
-  if (command.kind != "cancel" && command.kind != "extend") {
-    return bad_input("a design can be cancelled and extended, nothing else", command.kind);
+  if (!is_of_race(command.kind)) {
+    return bad_input("a design can be cancelled and extended, nothing else",
+                     std::string(word_of(command.kind)));
   }
   if (plan.only_test) return bad_input("it has no race: given configurations are tested", name);
   for (const CommandRow& before : earlier) {
-    if (before.kind == "cancel") return bad_input("it was cancelled before", name);
+    if (before.kind == CommandKind::Cancel) return bad_input("it was cancelled before", name);
   }
-  if (command.kind == "cancel") return {};
+  if (command.kind == CommandKind::Cancel) return {};
   if (plan.scenario.max_time > 0) {
     return bad_input("its budget is time (max_time), and an extension is in experiments", name);
   }
@@ -45,7 +46,7 @@ void CommandLog::add(const CommandRow& command) {
   commands_.back().step.reset();
 }
 
-const CommandRow* CommandLog::next(std::string_view kind, std::int64_t steps) const {
+const CommandRow* CommandLog::next(CommandKind kind, std::int64_t steps) const {
   const auto next = commands_.begin() + static_cast<std::ptrdiff_t>(acted_);
   if (next == commands_.end()) return nullptr;
   if (next->step) return next->kind == kind && *next->step == steps ? &*next : nullptr;

@@ -3,7 +3,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <string_view>
 #include <vector>
 
 #include "base/expected.h"
@@ -28,7 +27,7 @@ class CommandLog {
   /// One that waits from now on.
   void add(const CommandRow& command);
   /// The next of this kind that acts after `steps` steps, if it can act now; null if there is none.
-  const CommandRow* next(std::string_view kind, std::int64_t steps) const;
+  const CommandRow* next(CommandKind kind, std::int64_t steps) const;
   /// One that `next` gave acts after `steps` steps; its row.
   CommandRow act(CommandRow command, std::int64_t steps);
 

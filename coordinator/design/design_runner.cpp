@@ -84,7 +84,7 @@ Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks) {
 }
 
 Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks) {
-  const bool goes_on = commands_.next("extend", recorder_.steps()) != nullptr;
+  const bool goes_on = commands_.next(CommandKind::Extend, recorder_.steps()) != nullptr;
   if (recorder_.is_replaying() && !goes_on) return Unexpected(recorder_.other_step());
   if (race_->failure()) {
     recorder_.set_state(DesignState::Stopped);
@@ -110,7 +110,7 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
   const std::string name = to_string(id());
   if (state() == DesignState::Stopped)
     return bad_input("it is stopped: " + recorder_.design().reason, name);
-  if (command.kind == "cancel") {
+  if (command.kind == CommandKind::Cancel) {
     if (state() == DesignState::Finished) return bad_input("it is finished", name);
     if (state() == DesignState::Testing) {
       return bad_input("its race is over; only the tests of its elites are left", name);
@@ -134,7 +134,7 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
 /// what is stored has been played again, and until the calls of a targetEvaluator have given the
 /// step that they are for: those that were made count.
 bool DesignRunner::is_cancelled() const {
-  const CommandRow* command = commands_.next("cancel", recorder_.steps());
+  const CommandRow* command = commands_.next(CommandKind::Cancel, recorder_.steps());
   if (command == nullptr || recorder_.design().iteration == 0) return false;
   return command->step || (!batch_.is_complete() && !recorder_.is_replaying() &&
                            !batch_.experiments().front().is_evaluation);
@@ -161,7 +161,7 @@ void DesignRunner::cancel(std::vector<Task>& tasks) {
   for (const Experiment& experiment : batch_.let_go())
     ahead_.add(key_of(Purpose::Race, experiment), experiment.bound);
   ahead_.drop_all();
-  const CommandRow* command = commands_.next("cancel", recorder_.steps());
+  const CommandRow* command = commands_.next(CommandKind::Cancel, recorder_.steps());
   recorder_.record_command(commands_.act(*command, recorder_.steps()));
   recorder_.set_state(DesignState::Stopped);
   recorder_.set_reason("cancelled");
@@ -169,7 +169,7 @@ void DesignRunner::cancel(std::vector<Task>& tasks) {
 }
 
 Expected<bool> DesignRunner::extend(std::vector<Task>& tasks) {
-  const CommandRow* next = commands_.next("extend", recorder_.steps());
+  const CommandRow* next = commands_.next(CommandKind::Extend, recorder_.steps());
   if (next == nullptr) return false;
   if (!race_) {
     recorder_.record_warning("there is no race to extend");
