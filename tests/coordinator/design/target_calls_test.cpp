@@ -7,8 +7,11 @@ namespace {
 
 TEST(TargetCalls, AreMadeOneAfterTheOther) {
   TargetCalls calls;
-  calls.add({.seed = 1});
-  calls.add({.seed = 2});
+  for (const std::int64_t seed : {1, 2}) {
+    Task call;
+    call.seed = seed;
+    calls.add(call);
+  }
   EXPECT_EQ(calls.next()->seed, 1);
   EXPECT_FALSE(calls.next()) << "the first one is on its way";
   calls.finish();
