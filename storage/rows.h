@@ -37,6 +37,31 @@ enum class DesignState : std::int8_t {
   Stopped = 4
 };
 
+/// Nothing more comes of the design by itself.
+constexpr bool is_over(DesignState state) {
+  return state == DesignState::Finished || state == DesignState::Stopped;
+}
+/// "waiting", "racing", "testing", "finished", "stopped".
+std::string_view word_of(DesignState state);
+std::optional<DesignState> design_state_of(std::string_view word);
+
+/// What a person can ask of a campaign. Stores, messages and files keep the word. Unknown: of a
+/// version that this one does not know; nothing comes of it.
+enum class CommandKind : std::int8_t { Unknown, Pause, Resume, Cancel, Extend };
+
+/// "pause", "resume", "cancel", "extend"; "unknown".
+std::string_view word_of(CommandKind kind);
+/// Unknown for any other word.
+CommandKind command_kind_of(std::string_view word);
+/// Whether a design's race obeys it, so that it is part of the answer once it acts.
+constexpr bool is_of_race(CommandKind kind) {
+  return kind == CommandKind::Cancel || kind == CommandKind::Extend;
+}
+/// Whether it only says what is leased: it acts at once, and changes nothing of the answer.
+constexpr bool is_of_leases(CommandKind kind) {
+  return kind == CommandKind::Pause || kind == CommandKind::Resume;
+}
+
 /// Names an evaluation within a store: a candidate (its design follows from it), what for, and the
 /// pair (instance, seed) by its number in the design's list of that purpose, from 1.
 struct EvaluationKey {
@@ -257,8 +282,8 @@ struct AttemptRow {
 /// a campaign that is played again does the same at the same step.
 struct CommandRow {
   std::int64_t number = 0;  ///< in the store, from 1
-  std::string kind;         ///< "pause", "resume", "cancel", "extend"
-  DesignId design;          ///< none: every design
+  CommandKind kind = CommandKind::Unknown;
+  DesignId design;  ///< none: every design
   /// Of the race after which it acts (0: before the first); nothing until it does.
   std::optional<std::int64_t> step;
   std::int64_t budget = 0;  ///< experiments more, of "extend"

@@ -28,7 +28,7 @@ constexpr std::chrono::milliseconds kLookAgain{100};
 constexpr int kLooks = 100;
 
 struct Arguments {
-  std::string kind;
+  CommandKind kind = CommandKind::Unknown;
   std::vector<std::string> words;
   std::string store;
   CoordinatorArgument coordinator;
@@ -68,11 +68,10 @@ Expected<Wish> wish_of(const Arguments& arguments) {
 }
 
 Expected<void> check(const Arguments& arguments, const Wish& wish) {
-  const bool of_designs = arguments.kind == "cancel" || arguments.kind == "extend";
-  if (of_designs && wish.designs.empty()) {
+  if (is_of_race(arguments.kind) && wish.designs.empty()) {
     return bad_input("no design given: name at least one, such as d1");
   }
-  if (arguments.kind == "extend" && !arguments.budget) {
+  if (arguments.kind == CommandKind::Extend && !arguments.budget) {
     return bad_input("no budget given: name the number of further experiments with --budget N");
   }
   return {};
@@ -183,7 +182,7 @@ class Control {
       return;
     }
     output_.out << JsonObject()
-                       .add("command", arguments_.kind)
+                       .add("command", word_of(arguments_.kind))
                        .add("design", design)
                        .add("done", sentence)
                        .text()
@@ -196,15 +195,14 @@ class Control {
   CampaignRow campaign_;
 };
 
-Run declare(const std::string& kind, Options& options) {
+Run declare(CommandKind kind, Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->kind = kind;
-  const bool of_all = kind == "pause" || kind == "resume";
   options.words("STORE", arguments->words,
                 std::string("The campaign's store (else SWARMSMITH_STORE), and designs: d1 d2") +
-                    (of_all ? "; without any, all unfinished ones" : ""));
+                    (is_of_leases(kind) ? "; without any, all unfinished ones" : ""));
   options.text("--store", arguments->store, "The campaign's store");
-  if (kind == "extend") {
+  if (kind == CommandKind::Extend) {
     options.integer("--budget", arguments->budget, {1, kLargestBudget}, "Further experiments");
   }
   CoordinatorArgument& coordinator = arguments->coordinator;
@@ -230,19 +228,19 @@ Run declare(const std::string& kind, Options& options) {
 }  // namespace
 
 Run declare_pause(Options& options) {
-  return declare("pause", options);
+  return declare(CommandKind::Pause, options);
 }
 
 Run declare_resume(Options& options) {
-  return declare("resume", options);
+  return declare(CommandKind::Resume, options);
 }
 
 Run declare_cancel(Options& options) {
-  return declare("cancel", options);
+  return declare(CommandKind::Cancel, options);
 }
 
 Run declare_extend(Options& options) {
-  return declare("extend", options);
+  return declare(CommandKind::Extend, options);
 }
 
 }  // namespace swarmsmith::cli

@@ -60,7 +60,7 @@ std::string elite_json(const EliteRow& row) {
 std::string state_json(const DesignStateRow& row) {
   return event_object("design")
       .add("design", row.design)
-      .add("state", name_of(row.state))
+      .add("state", word_of(row.state))
       .add("iteration", row.iteration)
       .add("used", row.used)
       .add("best", row.best)
@@ -104,10 +104,10 @@ std::string conflict_json(const ConflictRow& row) {
 std::string command_json(const CommandRow& row) {
   return event_object("command")
       .add("number", row.number)
-      .add("kind", row.kind)
+      .add("kind", word_of(row.kind))
       .add("design", row.design)
       .add("step", row.step)
-      .add("budget", row.kind == "extend" ? std::optional(row.budget) : std::nullopt)
+      .add("budget", row.kind == CommandKind::Extend ? std::optional(row.budget) : std::nullopt)
       .add("who", row.who)
       .text();
 }

@@ -72,9 +72,8 @@ std::string eta(const LiveStatus& status) {
 void add_head(std::vector<std::string>& lines, const LiveStatus& status) {
   if (status.campaigns) {
     for (const CampaignStatus& one : *status.campaigns) {
-      const auto over = std::ranges::count_if(one.designs, [](const DesignStatus& design) {
-        return design.state == "finished" || design.state == "stopped";
-      });
+      const auto over = std::ranges::count_if(
+          one.designs, [](const DesignStatus& design) { return is_over(design.state); });
       lines.push_back(
           fmt::format("campaign {}  designs {}/{}  experiments {}/{} ({})", one.name, over,
                       one.designs.size(), one.used, one.budget,
@@ -128,13 +127,14 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
   for (const bool racing : {true, false}) {
     for (const CampaignStatus& campaign : *status.campaigns) {
       for (const DesignStatus& one : campaign.designs) {
-        const bool is_racing = one.state == "racing" || one.state == "testing";
+        const bool is_racing =
+            one.state == DesignState::Racing || one.state == DesignState::Testing;
         if (is_racing != racing) continue;
-        lines.push_back(fmt::format("{:<5} {:<8} {:>9}/{:<9} it {:<3} {:<9} {} {}{}",
-                                    "d" + std::to_string(one.id), one.paused ? "paused" : one.state,
-                                    one.used, one.budget, one.iteration,
-                                    one.best > 0 ? fmt::format("{:.4g}", one.best_mean) : "",
-                                    one.mission, one.method, several ? "  " + campaign.name : ""));
+        lines.push_back(fmt::format(
+            "{:<5} {:<8} {:>9}/{:<9} it {:<3} {:<9} {} {}{}", "d" + std::to_string(one.id),
+            one.paused ? "paused" : word_of(one.state), one.used, one.budget, one.iteration,
+            one.best > 0 ? fmt::format("{:.4g}", one.best_mean) : "", one.mission, one.method,
+            several ? "  " + campaign.name : ""));
       }
     }
   }

@@ -1,6 +1,5 @@
 #include "coordinator/service/log_row.h"
 
-#include <array>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -52,12 +51,6 @@ Fields fields_of(const EventRow& event) {
 template <class Id>
 std::string name_or_nothing(Id id) {
   return id ? to_string(id) : std::string();
-}
-
-std::string state_text(DesignState state) {
-  static constexpr std::array<const char*, 5> kNames = {"waiting", "racing", "testing", "finished",
-                                                        "stopped"};
-  return kNames[static_cast<std::size_t>(state)];
 }
 
 void write_worker(const WorkerRow& row) {
@@ -114,7 +107,7 @@ void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, c
                        states_.try_emplace({campaign.value_or(0), state.design}, state.state);
                    if (!is_new && known->second == state.state) return;
                    known->second = state.state;
-                   write(LogLevel::Info, "design " + state_text(state.state),
+                   write(LogLevel::Info, "design " + std::string(word_of(state.state)),
                          {{"campaign", name},
                           {"design", to_string(state.design)},
                           {"used", state.used},
@@ -136,7 +129,7 @@ void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, c
                  [&](const CommandRow& command) {
                    write(LogLevel::Info, "command",
                          {{"campaign", name},
-                          {"kind", command.kind},
+                          {"kind", std::string(word_of(command.kind))},
                           {"design", name_or_nothing(command.design)},
                           {"budget", command.budget},
                           {"who", command.who}});

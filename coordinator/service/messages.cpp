@@ -148,6 +148,30 @@ std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation)
   return encode(message);
 }
 
+CommandKind command_kind_of(pb::Command::Kind kind) {
+  for (const CommandKind known :
+       {CommandKind::Pause, CommandKind::Resume, CommandKind::Cancel, CommandKind::Extend}) {
+    if (message_kind_of(known) == kind) return known;
+  }
+  return CommandKind::Unknown;
+}
+
+pb::Command::Kind message_kind_of(CommandKind kind) {
+  switch (kind) {
+    case CommandKind::Pause:
+      return pb::Command::KIND_PAUSE;
+    case CommandKind::Resume:
+      return pb::Command::KIND_RESUME;
+    case CommandKind::Cancel:
+      return pb::Command::KIND_CANCEL;
+    case CommandKind::Extend:
+      return pb::Command::KIND_EXTEND;
+    case CommandKind::Unknown:
+      break;
+  }
+  return pb::Command::KIND_UNSPECIFIED;
+}
+
 std::string command_reply_of(bool done, const std::string& sentence) {
   pb::ToWorker message;
   message.mutable_command_reply()->set_done(done);

@@ -193,7 +193,7 @@ CandidateTotalsRow totals(const Statement& row) {
 
 CommandRow command(const Statement& row) {
   return {.number = row.integer(0),
-          .kind = row.text(1),
+          .kind = command_kind_of(row.text(1)),
           .design = design_at(row, 2),
           .step = row.is_null(3) ? std::nullopt : std::optional(row.integer(3)),
           .budget = row.integer(4),

@@ -205,7 +205,8 @@ void RowWriter::put(const AttemptRow& row) {
 }
 
 void RowWriter::put(const CommandRow& row) {
-  command_.run(row.number, row.kind, unless_zero(row.design.value), row.step, row.budget, row.who);
+  command_.run(row.number, word_of(row.kind), unless_zero(row.design.value), row.step, row.budget,
+               row.who);
 }
 
 std::int64_t RowWriter::source_id(const std::string& name) {

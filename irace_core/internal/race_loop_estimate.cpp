@@ -5,7 +5,7 @@
 
 #include "irace_core/expression.h"
 #include "irace_core/internal/capping.h"
-#include "irace_core/internal/design_state.h"
+#include "irace_core/internal/race_loop.h"
 #include "irace_core/internal/ranking.h"
 
 namespace swarmsmith {

@@ -1,4 +1,4 @@
-#include "irace_core/internal/design_state.h"
+#include "irace_core/internal/race_loop.h"
 
 #include <algorithm>
 #include <cmath>
@@ -144,7 +144,10 @@ void IteratedRace::State::advance() {
   }
 }
 
+/// The loop of irace facts, 2: the budget's rules (3.5), models (6), contestants, and the race.
 Expected<void> IteratedRace::State::begin_race() {
+  // A race that ran nothing leaves budget and results as they were: the next one would do the same,
+  // without end.
   const auto next =
       nothing_was_run_
           ? irace::NoMoreRaces{"not enough budget for the first task of a race"}
@@ -226,7 +229,7 @@ Expected<std::int64_t> IteratedRace::State::least_extension() const {
     enough *= 2;
     if (enough > kMost) return bad_input("its options allow no further iteration");
   }
-  // Rounding can make a little more too little again: no bisection.
+  // Rounding down (irace facts, 3.2 and 3.3) can make a little more too little again: no bisection.
   std::int64_t least = 1;
   while (!is_enough(least))
     ++least;

@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/assert.h"
-#include "irace_core/internal/design_state.h"
+#include "irace_core/internal/race_loop.h"
 
 namespace swarmsmith {
 
@@ -43,10 +43,13 @@ irace::RaceSettings IteratedRace::State::settings_of(const irace::RacePlan& plan
   return settings;
 }
 
-/// Elitist: first pairs that nobody has seen, then the past ones, then the other unused ones.
-/// Otherwise: the unused ones; of a deterministic target all, from the first (irace facts, 9.1).
+/// Elitist: first pairs that nobody has seen, so that elites cannot live on luck with the past
+/// ones; then the past ones, on which new configurations must beat them; then the other unused
+/// ones. Otherwise: the unused ones; of a deterministic target all, from the first (irace
+/// facts, 9.1).
 void IteratedRace::State::order_pairs(irace::RaceSettings& settings) {
-  // A task on a fresh pair costs one run of more than those that survive, once it may be the last.
+  // Enough pairs that the budget ends first: a task on a fresh pair costs one run of more than
+  // those that survive, once it may be the last (rule 9.3.2 a of irace facts).
   const std::int64_t fresh = settings.max_experiments / settings.min_survival + 1 +
                              settings.new_pairs + settings.first_test +
                              settings.pairs_between_tests;
@@ -216,6 +219,8 @@ void IteratedRace::State::reject(std::int64_t id) {
   forbidden_.add_rejected(candidate(id).configuration.get());
 }
 
+/// After a race pairs_seen_ pairs from the first on have been tried by somebody: tasks take unused
+/// pairs in the order of the list.
 void IteratedRace::State::take_over_results() {
   for (std::size_t column = 0; column < race->size(); ++column) {
     const std::int64_t id = race->contestant(column).id;
@@ -233,6 +238,8 @@ void IteratedRace::State::take_over_results() {
 void IteratedRace::State::end_race() {
   const std::int64_t used = race->used() - repeated_;
   used_before_race_ += used;
+  SWARMSMITH_ASSERT(time || used_before_race_ <= total_budget_,
+                    "a design never runs more than its budget");
   nothing_was_run_ = used == 0;
   take_over_results();
   choose_elites();
@@ -261,7 +268,8 @@ void IteratedRace::State::put_away_losers() {
   }
 }
 
-/// The survivors by rank, each configuration once, as many as survive (irace facts, 13).
+/// The survivors by rank, each configuration once, as many as survive (irace facts, 13): two elites
+/// that are copies would only narrow the models.
 void IteratedRace::State::choose_elites() {
   elites.clear();
   for (const Race::Survivor& survivor : race->survivors()) {

@@ -41,9 +41,9 @@ struct Candidate {
 };
 
 /// Everything behind an IteratedRace: the loop over races (irace facts, 2). Its parts are in
-/// design_state.cpp (the loop), design_sampling.cpp (who takes part), design_race.cpp (a race's
-/// beginning and end), design_estimate.cpp (the first estimate of max_time) and
-/// design_postselection.cpp.
+/// race_loop.cpp (the loop), race_loop_sampling.cpp (who takes part), race_loop_races.cpp (a race's
+/// beginning and end), race_loop_estimate.cpp (the first estimate of max_time) and
+/// race_loop_postselection.cpp.
 class IteratedRace::State {
  public:
   State(ParameterSpace space, Scenario scenario, std::vector<Configuration> initial, Repair repair);

@@ -3,8 +3,8 @@
 #include <set>
 #include <utility>
 
-#include "irace_core/internal/design_state.h"
 #include "irace_core/internal/postselection.h"
+#include "irace_core/internal/race_loop.h"
 
 namespace swarmsmith {
 
@@ -28,7 +28,8 @@ std::vector<std::int64_t> IteratedRace::State::preferred() const {
 bool IteratedRace::State::begin_postselection() {
   if (!scenario.postselection || !scenario.elitist || time) return false;
   const std::int64_t left = remaining();
-  if (left / std::max(scenario.block_size, scenario.each_test) <= 1) return false;
+  if (left / std::max(scenario.block_size, scenario.each_test) <= 1)
+    return false;  // irace facts, 14
   instances_.extend_to(pairs_seen_ + schedule_.pairs_between_tests());
   const bool asks = instances_.size() - pairs_seen_ >= schedule_.pairs_between_tests();
   const std::vector<std::int64_t> ids = preferred();
@@ -65,6 +66,7 @@ bool IteratedRace::State::begin_postselection() {
   return true;
 }
 
+/// irace ends without elites there; a design that had some keeps the next best ones.
 void IteratedRace::State::fall_back() {
   for (auto ended = ended_.rbegin(); ended != ended_.rend() && elites.empty(); ++ended) {
     std::copy_if(ended->begin(), ended->end(), std::back_inserter(elites),
