@@ -52,7 +52,7 @@ ExitCode unknown_command(const Program& program, const std::vector<std::string>&
   const std::string help = "`" + std::string(program.name) + " --help` lists all";
   if (!longer.empty()) {
     return fail(output, ExitCode::Usage,
-                "`" + words[0] + "` wants one more word: " + joined(longer) + "; " + help);
+                "`" + words[0] + "` needs one more word: " + joined(longer) + "; " + help);
   }
   return fail(
       output, ExitCode::Usage,
@@ -111,8 +111,8 @@ class PageFormatter : public CLI::Formatter {
 /// Flags that every command has.
 void declare_common(CLI::App& app, Output& output, bool& no_color) {
   app.add_flag("--json", output.json, "Write the answer as JSON");
-  app.add_flag("-q,--quiet", output.quiet, "Write nothing but answers and errors");
-  app.add_flag("-v,--verbose", output.verbose, "Write more about what goes on");
+  app.add_flag("-q,--quiet", output.quiet, "Write only answers and errors");
+  app.add_flag("-v,--verbose", output.verbose, "Write more about the progress");
   app.add_flag("--no-color", no_color, "Write without colours, as NO_COLOR=1 does");
 }
 

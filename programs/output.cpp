@@ -75,7 +75,7 @@ Unexpected wrong_count(const std::string& program, std::string_view output, bool
 Expected<Reading> check_bound(Reading reading, const Target& target, double bound) {
   if (bound <= 0 || reading.time <= bound + target.min_measurable_time) return reading;
   return bad_input("the targetRunner reports a time of " + plain_number(reading.time) +
-                   ", and was told to stop at " + plain_number(bound));
+                   ", but had to stop at " + plain_number(bound));
 }
 
 Expected<Reading> parse_numbers(std::string_view output, const Target& target) {
@@ -91,7 +91,7 @@ Expected<Reading> parse_numbers(std::string_view output, const Target& target) {
   // What is no number at all says more than how many there are.
   for (const std::string_view token : tokens) {
     if (!parse_number(token)) {
-      return bad_input("the targetRunner printed what is no number, " + shown(token) +
+      return bad_input("the targetRunner printed text that is not a number, " + shown(token) +
                        ": it has to print " + wanted_of_runner(target) + ", and nothing else");
     }
   }
@@ -141,7 +141,7 @@ Expected<Reading> parse_evaluator_output(std::string_view output, const Target& 
     return bad_input("the targetEvaluator printed nothing: it has to print " + wanted);
   for (const std::string_view token : tokens) {
     if (!parse_number(token)) {
-      return bad_input("the targetEvaluator printed what is no number, " + shown(token) +
+      return bad_input("the targetEvaluator printed text that is not a number, " + shown(token) +
                        ": it has to print " + wanted + ", and nothing else");
     }
   }
@@ -164,10 +164,8 @@ Expected<std::string> parse_job_id(std::string_view output) {
   const bool fine = tokens.size() == 1 && tokens[0][0] != '-' &&
                     tokens[0].find_first_not_of(kAllowed) == std::string_view::npos;
   if (fine) return std::string(tokens[0]);
-  return bad_input(
-      "in batch mode the targetRunner has to print the id of its job, and nothing "
-      "else; it printed " +
-      (tokens.empty() ? std::string("nothing") : shown(output)));
+  return bad_input("in batch mode the targetRunner must print only the id of its job; it printed " +
+                   (tokens.empty() ? std::string("nothing") : shown(output)));
 }
 
 std::string printable(std::string_view text, std::size_t longest) {

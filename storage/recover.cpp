@@ -219,7 +219,7 @@ Expected<Recovery::End> SqliteRecovery::finish() {
     if (campaigns().empty()) {
       return unexpected(ErrorKind::Corrupt,
                         "the campaign's own row is lost; name the campaign's file, so that the new "
-                        "store knows whose rows these are: `--campaign campaign.toml`");
+                        "store knows the owner of these rows: `--campaign campaign.toml`");
     }
     std::int64_t before = -1;
     while (before != orphans_) {
@@ -233,7 +233,7 @@ Expected<Recovery::End> SqliteRecovery::finish() {
     write_maker(connection_);
     if (const auto faults = faults_of(connection_); !faults.empty()) {
       return unexpected(ErrorKind::Corrupt,
-                        "what was recovered is no whole store: " + faults.front());
+                        "the recovered rows are not a whole store: " + faults.front());
     }
     {
       const Snapshot snapshot(connection_);

@@ -63,8 +63,8 @@ Expected<void> check_campaign(const Connection& connection, const fs::path& path
       all, [](const StoredCampaign& each) { return each.state != "imported"; });
   if (run_here > 1) {
     return unexpected(ErrorKind::Conflict,
-                      fmt::format("the store holds {} campaigns: it was merged, and is there to be "
-                                  "read; name the campaign's own store, or a new one",
+                      fmt::format("the store holds {} campaigns and is read-only (merged); name "
+                                  "the campaign's own store, or a new one",
                                   run_here),
                       path.string());
   }

@@ -153,10 +153,10 @@ Expected<void> SqliteAtRest::rescore_real_run(RealRunId id, const RealRunRows& r
 Expected<void> SqliteAtRest::add_override(const RealOverrideRow& row) {
   if (row.verdict != "VALID" && row.verdict != "DEGRADED" && row.verdict != "INVALID") {
     return bad_input(
-        fmt::format("'{}' is no verdict; say VALID, DEGRADED or INVALID", row.verdict));
+        fmt::format("'{}' is not a verdict; use VALID, DEGRADED or INVALID", row.verdict));
   }
   if (row.who.empty() || row.reason.empty()) {
-    return bad_input(row.who.empty() ? "nobody is named who overrides the verdict"
+    return bad_input(row.who.empty() ? "the person who overrides the verdict is not named"
                                      : "no reason is given to override the verdict");
   }
   return in_one_go([&]() -> Expected<void> {

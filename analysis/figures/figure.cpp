@@ -83,7 +83,7 @@ std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions&
     for (std::string_view rest = kind.options; !rest.empty();)
       takes += ", --" + std::string(next_word(rest));
     return Error{ErrorKind::BadInput,
-                 fmt::format("means nothing to the figure `{}`, which takes {}", kind.name, takes),
+                 fmt::format("has no effect on the figure `{}`, which takes {}", kind.name, takes),
                  "--" + std::string(name)};
   }
   return std::nullopt;

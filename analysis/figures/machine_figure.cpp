@@ -145,12 +145,12 @@ Expected<Figure> machine_sheet(StoreReader& store, const std::vector<CandidateId
 Expected<StoredMachine> machine_of(const MachineRecord& candidate) {
   const std::string id = to_string(candidate.candidate);
   if (!candidate.machine.starts_with("--nstates")) {
-    return bad_input(id + " is a configuration of a program, and no machine");
+    return bad_input(id + " is a configuration of a program, not a machine");
   }
   if (candidate.flavour.empty()) {
     return bad_input(
-        "the store is of an older version and does not say in which flavour its machines are "
-        "written; `swarmsmith backup OLD NEW` makes a copy that does");
+        "the store has an older version without the flavour of its machines; `swarmsmith backup "
+        "OLD NEW` makes a copy that has it");
   }
   const auto flavours = all_flavours();
   const auto flavour = std::ranges::find_if(

@@ -245,10 +245,10 @@ Expected<Figure> scores_figure(StoreReader& store, const FigureOptions& options)
   plot.details.front() += "; higher is better";
   const std::size_t groups = give_each_a_color(plot);
   if (groups > kDistinctColors) {
-    return bad_input(fmt::format("{} groups have no {} colours that can be told apart; choose a "
-                                 "--method or a --source",
-                                 groups, groups),
-                     "figure scores");
+    return bad_input(
+        fmt::format("{} groups need {} different colours; choose a --method or a --source", groups,
+                    groups),
+        "figure scores");
   }
   return Figure{.svg = draw(for_paper(plot, options)), .csv = std::move(scores->csv), .tex = {}};
 }

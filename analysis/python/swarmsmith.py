@@ -197,7 +197,7 @@ class Tuner:
         for name in options:
             if name.startswith(("test_instances", "train_instances", "target_", "log_file", "exec_dir")) or \
                     name.endswith("_file"):
-                raise Error(f"{name} means nothing here: a function, its instances and a store are given")
+                raise Error(f"{name} has no effect here: a function, its instances and a store are given")
         self._instances = list(instances)
         self._open, self._count, self._best, self.store = {}, 0, None, store
         self._folder = tempfile.TemporaryDirectory(prefix="swarmsmith-tuner-")

@@ -58,7 +58,7 @@ Expected<ListeningSocket> listen_for_requests(const std::string& host, int port)
   wanted.ai_flags = AI_PASSIVE;
   addrinfo* found = nullptr;
   if (getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found) != 0) {
-    return bad_input("nobody knows this host; name an address of this one", where);
+    return bad_input("unknown host; name an address of this host", where);
   }
   const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> addresses(found, freeaddrinfo);
   int why = 0;

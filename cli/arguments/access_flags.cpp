@@ -14,7 +14,7 @@ namespace {
 Error with_hint(Error error, const KeyFolder& folder, bool named) {
   if (error.kind != ErrorKind::NotFound) return error;
   error.message += "; `swarmsmith keygen" + (named ? " " + folder.path.string() : "") +
-                   "` makes keys, without which nobody from another host is let in";
+                   "` makes keys; without them nobody on another host may connect";
   return error;
 }
 
@@ -30,14 +30,14 @@ void log_faults(const std::vector<Error>& faults) {
 void AccessFlags::declare(Options& options) {
   options.text("--keys", keys,
                "Folder of `swarmsmith keygen`: connections are encrypted, and only clients in its "
-               "clients.toml come in (default beyond loopback: SWARMSMITH_KEYS, else "
+               "clients.toml may connect (default beyond loopback: SWARMSMITH_KEYS, else "
                "~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", insecure_plaintext,
-               "Listen beyond loopback without encryption and without asking who comes");
+               "Listen beyond loopback without encryption, to anybody");
   options.text("--coordinator-file", coordinator_file,
-               "Where to write how the coordinator is found (default: STORE.coordinator)");
+               "File for the coordinator's address (default: STORE.coordinator)");
   options.text("--advertise", advertise,
-               "Host that this file names (default: what is listened on, or this host's name)");
+               "Host name in this file (default: the address of --bind, or this host's name)");
 }
 
 tl::expected<Access, std::vector<Error>> open_access(const AccessFlags& flags,

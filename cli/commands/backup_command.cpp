@@ -1,3 +1,4 @@
+#include "base/text/json.h"
 #include "storage/backup.h"
 
 #include <memory>
@@ -41,10 +42,14 @@ ExitCode run_backup(BackupArguments& arguments, Output& output) {
     if (!named) return fail(output, ExitCode::Failed, named.error());
   }
   if (output.json) {
-    output.out << "{\"copy\":" << json_text(copy) << ",\"digest\":" << json_text(made->digest)
-               << ",\"schema\":" << made->schema
-               << ",\"from_schema\":" << (made->migrated == 0 ? made->schema : made->migrated)
-               << ",\"bytes\":" << made->bytes << "}\n";
+    output.out << JsonObject()
+                      .add("copy", copy)
+                      .add("digest", made->digest)
+                      .add("schema", made->schema)
+                      .add("from_schema", made->migrated == 0 ? made->schema : made->migrated)
+                      .add("bytes", made->bytes)
+                      .text()
+               << "\n";
     return ExitCode::Done;
   }
   output.out << copy << ": " << made->bytes << " bytes, digest " << made->digest;
@@ -59,7 +64,7 @@ ExitCode run_backup(BackupArguments& arguments, Output& output) {
 
 Run declare_backup(Options& options) {
   auto arguments = std::make_shared<BackupArguments>();
-  options.words("STORE_AND_COPY", arguments->words, "The store's file, and the copy's",
+  options.words("STORE_AND_COPY", arguments->words, "The store's file, then the copy's",
                 Options::Need::Required);
   arguments->store.declare(options, false);
   return [arguments](Output& output) { return run_backup(*arguments, output); };

@@ -9,11 +9,11 @@ namespace swarmsmith::cli {
 namespace {
 
 constexpr std::string_view kRunDetails =
-    R"(Designs control software as the campaign file says, with workers of its own, and prints the result.
-Without a file it runs a demo: color_selection, 2,000 experiments, beside a machine by hand and a random one, store demo.db. Every score is in the
-store as soon as it counts; Ctrl-C, kill -9, a power cut: the same command goes on where it was, and
-comes to the same answer. On a finished store it prints the result again. Several campaigns share the
-workers; each has the store that its file names, and the answer that it would have alone.
+    R"(Runs the design processes of a campaign file with its own workers, and prints the winners. Without a
+file it runs a demo: color_selection, 2,000 experiments, beside a machine by hand and a random one, store
+demo.db. Every score is stored as soon as it counts. After Ctrl-C, kill -9 or a power cut the same
+command continues, and comes to the same answer. On a finished store it prints the result again.
+Several campaigns share the workers; each has its own store, and the answer that it would have alone.
 
 Examples:
   swarmsmith run
@@ -23,10 +23,9 @@ Examples:
   swarmsmith run first.toml second.toml)";
 
 constexpr std::string_view kServeDetails =
-    R"(Like run, but starts no workers: they come from elsewhere by `swarmsmith worker`. Beyond loopback
-connections are encrypted, and only listed keys come in: `swarmsmith keygen` makes them, and
-docs/security.md tells the rest. How the coordinator is found stands in STORE.coordinator as long as
-it runs.
+    R"(Like run, but starts no workers: start them elsewhere with `swarmsmith worker`. Beyond loopback,
+connections are encrypted and only listed keys may connect. `swarmsmith keygen` makes the keys;
+docs/security.md explains them. While it runs, the coordinator's address is in STORE.coordinator.
 
 Examples:
   swarmsmith serve campaign.toml
@@ -34,8 +33,8 @@ Examples:
   swarmsmith serve campaign.toml --bind 0.0.0.0:5555 --keys thesis-keys --advertise login1)";
 
 constexpr std::string_view kWorkerDetails =
-    R"(Evaluates for a coordinator until there is nothing more to do. SIGTERM lets it finish what it is
-at; it can come and go at any time. Starts the program swarmsmith-worker.
+    R"(Evaluates for a coordinator until the campaign is over. Workers can come and go at any time. SIGTERM
+lets a worker finish its current evaluations. Starts the program swarmsmith-worker.
 
 Examples:
   swarmsmith worker --connect 127.0.0.1:5555 --slots 4
@@ -44,8 +43,8 @@ Examples:
 
 constexpr std::string_view kKeygenDetails =
     R"(Makes a folder with the coordinator's key (server.key), a key for each role (worker.key,
-operator.key, reader.key), and the list of those who may connect (clients.toml); or, with --client,
-one more key in such a folder. Nothing is overwritten, and secrets are in files of mode 0600 only.
+operator.key, reader.key), and the list of clients (clients.toml). With --client it adds one key to
+such a folder. It overwrites nothing. Only files of mode 0600 contain secrets.
 
 Examples:
   swarmsmith keygen
@@ -53,8 +52,8 @@ Examples:
   swarmsmith keygen thesis-keys --client guest --role reader --expires 2027-01-31)";
 
 constexpr std::string_view kPauseDetails =
-    R"(Nothing more of the designs is leased to workers; what runs ends, and counts. They stay paused, also
-when the coordinator is started again, until somebody resumes them. The answer does not change.
+    R"(Workers get no new evaluations of the designs; running ones end, and count. Designs stay paused until
+somebody resumes them, also when the coordinator restarts. The answer does not change.
 
 Examples:
   swarmsmith pause demo.db
@@ -65,24 +64,24 @@ constexpr std::string_view kResumeDetails = R"(Examples:
   swarmsmith resume d2 demo.db)";
 
 constexpr std::string_view kCancelDetails =
-    R"(The design stops after the step of its race that it has come to, with the best candidate so far; the
-others go on. The step is in the store: a campaign that is run again stops there, too. For good.
+    R"(The design stops for good after the current step of its race, with its best candidate so far. Other
+designs continue. The step is stored: if the campaign is run again, the design stops at the same step.
 
 Example:
   swarmsmith cancel d2 demo.db)";
 
 constexpr std::string_view kExtendDetails =
-    R"(A design whose race is over, or will be, goes on from its end with further iterations. That is another
-race than one that had the larger budget from the start (docs/irace.md). The designs of a campaign that
-nobody runs go on when it is run again.
+    R"(Continues a design from its end with further iterations, as soon as its race is over. The result differs
+from a design with the larger budget from the start (docs/irace.md). If no coordinator runs, the designs
+continue when the campaign is run again.
 
 Example:
   swarmsmith extend d1 demo.db --budget 5_000 && swarmsmith run)";
 
 constexpr std::string_view kVerifyDetails =
-    R"(Plays every race of the store again from its scores and compares candidates, tests, eliminations,
-budget and winner with what is stored; checks the file itself, too. Evaluates some of it again: all
-rejections and 64 scores, or as many as --sample says. Exit code 0 when all is clean.
+    R"(Replays every race of the store from its scores, and compares candidates, tests, eliminations, budget
+and winner with the stored ones. Checks the file itself. Evaluates a part of it again: all rejections
+and 64 scores, or as many as --sample says. Exit code 0 when all is clean.
 
 Examples:
   swarmsmith verify demo.db
@@ -93,8 +92,8 @@ constexpr std::string_view kInitDetails = R"(Examples:
   swarmsmith init mine --mission grid_exploration && swarmsmith run mine/campaign.toml)";
 
 constexpr std::string_view kCheckDetails =
-    R"(Reads the file, prints all that is wrong with it (exit code 2), or the plan. Simulates for about half
-a second to say how long the campaign will take on this machine.
+    R"(Reads the file, and prints all its errors (exit code 2) or the plan. Simulates for about half a second
+to estimate how long the campaign will take on this machine.
 
 Examples:
   swarmsmith check campaign.toml
@@ -102,8 +101,8 @@ Examples:
 
 constexpr std::string_view kEvaluateDetails =
     R"(Simulates the machine once for each seed, in this process. A larger score is better, in every mission.
-Scores of a store's candidates are stored there, with the profile as their source; `best` are the winners
-of the finished designs. With --json one line a run: {"seed":1,"score":2}.
+Scores of a store's candidates are stored, with the profile as their source. `best` stands for the
+winners of the finished designs. --json prints one line per run: {"seed":1,"score":2}.
 
 Examples:
   swarmsmith evaluate best demo.db
@@ -117,9 +116,9 @@ Examples:
 
 constexpr std::string_view kAssessDetails =
     R"(Runs each behaviour 5 times and each condition 10 times with three robots for 120 s, and compares what
-they do with what they promise; below that, how often conditions fired against their probability. Exit
-code 0 when all modules pass, 1 when one fails: under a profile with much noise some may, and a line
-says why. docs/assessment.md tells what is measured, and how.
+they do with what they promise. Then it compares how often conditions fired with their probability. Exit
+code 0 when all modules pass, 1 when one fails. Under a profile with much noise some may fail; a line
+says why. docs/assessment.md explains the measurements.
 
 Examples:
   swarmsmith assess
@@ -127,9 +126,9 @@ Examples:
   swarmsmith assess --json)";
 
 constexpr std::string_view kReplayDetails =
-    R"(Simulates a stored evaluation again and checks that score and final state have the same bits as
-stored; exit code 1 when they have not. Writes it down on the way: poses, commands, states and
-readings as CSV, a picture as SVG (docs/trajectories.md).
+    R"(Simulates a stored evaluation again, and checks that score and final state have the stored bits; exit
+code 1 when they differ. It can record the run: poses, commands, states and readings as CSV, a picture
+as SVG (docs/trajectories.md).
 
 Examples:
   swarmsmith replay e100001 demo.db
@@ -139,8 +138,8 @@ Examples:
   swarmsmith replay --sample 100 demo.db)";
 
 constexpr std::string_view kProfileDetails =
-    R"(A built-in profile as a commented file, to change and to name in a campaign file: profile =
-"my_rvr.toml". Without a name it lists the built-in ones.
+    R"(Prints a built-in profile as a commented file, to edit and to name in a campaign file: profile =
+"my_rvr.toml". Without a name it lists the built-in profiles.
 
 Examples:
   swarmsmith profile
@@ -148,9 +147,9 @@ Examples:
   swarmsmith profile rvr -o my_rvr.toml)";
 
 constexpr std::string_view kStatusDetails =
-    R"(Asks the running coordinator, where one is known: campaigns, why slots idle, designs, hosts with the
-worst first. Else it reads the store. On a terminal --watch redraws one screen until Ctrl-C or the end;
-elsewhere it writes a line every 5 s. docs/observability.md explains the numbers.
+    R"(Asks the running coordinator for campaigns, idle slots and their reasons, designs, and hosts, the worst
+first. If no coordinator is known, it reads the store. On a terminal --watch redraws one screen until
+Ctrl-C or the end; elsewhere it writes a line every 5 s. docs/observability.md explains the numbers.
 
 Examples:
   swarmsmith status demo.db
@@ -158,15 +157,15 @@ Examples:
   SWARMSMITH_STORE=demo.db swarmsmith status --watch)";
 
 constexpr std::string_view kExplainDetails =
-    R"(Which race asked for the evaluation and whether it counted there, who evaluated it, what went wrong on
-the way (lost, expired, failed, other results), and how to simulate it again.
+    R"(Shows which race asked for the evaluation and whether it counted, who evaluated it, what went wrong
+before (lost, expired, failed, other results), and how to simulate it again.
 
 Examples:
   swarmsmith explain e1000007 demo.db
   swarmsmith explain e1000007 demo.db --json)";
 
 constexpr std::string_view kLsDetails =
-    R"(Conditions and order are SQL over the columns, which --json shows all of.
+    R"(Conditions and order are SQL over the columns. --json shows all columns.
 
 Examples:
   swarmsmith ls designs demo.db
@@ -178,8 +177,8 @@ constexpr std::string_view kShowDetails = R"(Examples:
   swarmsmith show c812 demo.db --json)";
 
 constexpr std::string_view kQueryDetails =
-    R"(Without a statement it lists the views, which are the store's public schema (docs/storage.md).
-Statements may only read. Ids are numbers here: design 3, candidate 812.
+    R"(Statements may only read. Without a statement it lists the views, the store's public schema
+(docs/storage.md). Ids are numbers here: design 3, candidate 812.
 
 Examples:
   swarmsmith query demo.db
@@ -187,8 +186,8 @@ Examples:
   swarmsmith query "SELECT seed, score FROM v_design_scores" demo.db --csv > scores.csv)";
 
 constexpr std::string_view kFigureDetails =
-    R"(The ending of the file says what is written: the picture (.svg; .pdf and .png with librsvg2-bin; .tex of machines), or the
-numbers in it (.csv). docs/figures.md shows what each kind tells.
+    R"(The ending of the file selects the format: a picture (.svg; .pdf and .png with librsvg2-bin; .tex for
+machines), or its numbers (.csv). docs/figures.md explains each kind.
 
 Examples:
   swarmsmith figure box thesis.db -o performance.pdf
@@ -196,10 +195,10 @@ Examples:
   swarmsmith figure convergence thesis.db --mission aggregation > convergence.svg
   swarmsmith figure scores thesis.db -o scores.csv)";
 constexpr std::string_view kCompareDetails =
-    R"(Summaries and tests of what the designs' winners scored outside of the race. By source, the same designs
-are compared in simulation and reality (signed-rank); by method, designs of one mission and source
-(rank-sum); over missions, ranks (Friedman). What makes no sense is left out. docs/statistics.md has
-the formulas.
+    R"(Summarises and tests the scores of the designs' winners outside of the race. By source, it compares the
+same designs in simulation and reality (signed-rank); by method, designs of one mission and source
+(rank-sum); over missions, ranks (Friedman). It leaves out comparisons that make no sense.
+docs/statistics.md has the formulas.
 
 Examples:
   swarmsmith compare thesis.db
@@ -208,11 +207,11 @@ Examples:
   swarmsmith compare thesis.db --csv > p-values.csv)";
 
 constexpr std::string_view kExportDetails =
-    R"(The text form is what `evaluate` and AutoMoDe's programs read; lines with # say which machine it is.
-With --format irace the campaign, from its file or its store, becomes a folder of irace's files in which
-`irace --scenario scenario.txt` does one of its designs, with this simulator behind the target-runner.
-Pictures show states and conditions with their parameters (docs/machines.md); PDF needs rsvg-convert.
-With --format argos each machine becomes a file that the ARGoS of the thesis runs.
+    R"(`evaluate` and AutoMoDe's programs read the text form; its lines with # name the machine. With --format
+irace a campaign, from its file or its store, becomes a folder of irace's files: `irace --scenario
+scenario.txt` runs one of its designs there, with this simulator behind the target-runner. Pictures
+show states and conditions with their parameters (docs/machines.md); PDF needs rsvg-convert. With
+--format argos each machine becomes a file for the ARGoS of the thesis.
 
 Examples:
   swarmsmith export demo.db -o best.fsm
@@ -222,9 +221,9 @@ Examples:
 
 constexpr std::string_view kImportDetails =
     R"(Without --into: turns a scenario of irace, with the files that it names, into a campaign file that runs
-the same race. `swarmsmith irace` runs a scenario as it is.
+the same race. `swarmsmith irace` runs a scenario directly.
 
-With --into: takes results from elsewhere into a store, all or nothing, and a second time nothing.
+With --into: imports results into a store, all or nothing. Importing again changes nothing.
   scores    CSV with score (or cost), who (candidate, design, fsm_id, or mission, method, repetition), and
             source, seed, instance, time, note
   machines  a text a line, or CSV with fsm (or fsm_config), fsm_id, mission, method
@@ -237,61 +236,60 @@ Examples:
   swarmsmith import irace.Rdata --into tuning.db)";
 
 constexpr std::string_view kReportDetails =
-    R"(What was asked, results, statistics, a chapter a design with its machine and its race, and where it all
-comes from: one HTML file without scripts that opens offline and prints. docs/report.md tells what is
-in it.
+    R"(Writes the question, results, statistics, one chapter per design with its machine and its race, and the
+provenance: one HTML file without scripts that opens offline and prints. docs/report.md lists its parts.
 
 Examples:
   swarmsmith report demo.db
   swarmsmith report demo.db -o thesis.html --design d1 --design d3)";
 
 constexpr std::string_view kSupplementDetails =
-    R"(A new folder with what goes beside a paper: all scores, controllers as text, JSON and drawings, figures
-with their numbers, the report, campaign file, a README and checksums. The same store gives the same
-bytes. docs/report.md tells what is in it.
+    R"(Writes a new folder to publish beside a paper: all scores, controllers as text, JSON and drawings,
+figures with their numbers, the report, campaign file, a README and checksums. The same store gives the
+same bytes. docs/report.md lists its parts.
 
 Example:
   swarmsmith supplement thesis.db -o supplement && cd supplement && sha256sum -c SHA256SUMS)";
 
 constexpr std::string_view kDigestDetails =
-    R"(One hash over all that is part of the answer: two stores of one campaign have the same, whatever the
-number of workers and the history of crashes.
+    R"(Prints one hash over all that is part of the answer. Two stores of one campaign have the same hash, for
+any number of workers and any history of crashes.
 
 Example:
   swarmsmith digest demo.db)";
 
 constexpr std::string_view kBackupDetails =
-    R"(A whole copy of the store as it is now, also while a campaign runs; checked, and never over another
-file. The copy has this program's schema: so an old store is brought up to date without touching it.
+    R"(Makes a complete copy of the store as it is now, also while a campaign runs, and checks it. It never
+replaces another file. The copy has this program's schema: an old store is updated without touching it.
 
 Examples:
   swarmsmith backup demo.db demo-monday.db
   swarmsmith backup thesis-2024.db thesis.db)";
 
 constexpr std::string_view kMergeDetails =
-    R"(Puts the campaigns of several stores into a new one, to be read together: figures, tables, queries.
+    R"(Copies the campaigns of several stores into a new one, to read them together: figures, tables, queries.
 Designs are numbered on from store to store (c3 of the second store, after one with two designs, is
-c2000003), and the answer of each campaign stays as it was. The stores are not changed; the new one is
-for reading, campaigns go on in their own.
+c2000003). The answer of each campaign stays the same. The stores do not change. The new one is for
+reading; campaigns continue in their own.
 
 Examples:
   swarmsmith merge aggregation.db grid.db color.db -o thesis.db
   swarmsmith ls designs thesis.db)";
 
 constexpr std::string_view kRecoverDetails =
-    R"(Makes a new store of what can be read of a damaged one: every whole row of every page that is left,
-also without the file's header. What follows from scores is derived from them anew, and what is missing
-is said. Run the campaign on the new store: it evaluates what was lost, and comes to the same answer.
+    R"(Makes a new store from a damaged one: every whole row of every page that is left, also without the
+file's header. It derives anew what follows from scores, and reports what is missing. Run the campaign
+on the new store: it evaluates what was lost, and comes to the same answer.
 
 Examples:
   swarmsmith recover demo.db -o rescued.db && swarmsmith run --store rescued.db
   swarmsmith recover thesis.db -o rescued.db --campaign thesis.toml)";
 
 constexpr std::string_view kIraceDetails =
-    R"(Takes the place of irace: reads the same scenario, parameter, instance and configuration files, calls
-the same target-runner, means the same by the same options, and ends with the same report. All that
-happens is in the store that logFile names; after Ctrl-C, kill -9 or a failing target the same command
-goes on where it was, and comes to the same answer with any number of workers.
+    R"(Replaces irace: it reads the same scenario, parameter, instance and configuration files, calls the same
+target-runner, has the same options, and ends with the same report. It keeps everything in the store
+that logFile names. After Ctrl-C, kill -9 or a failing target the same command continues, and comes to
+the same answer with any number of workers.
 
 Examples:
   swarmsmith irace --init
@@ -303,51 +301,51 @@ Examples:
   swarmsmith irace -s scenario.txt | sed '1,/as commandlines/d')";
 
 constexpr std::array kCommands = {
-    Command{"run", "Run a campaign, or go on with it", kRunDetails, declare_run},
+    Command{"run", "Run or continue a campaign", kRunDetails, declare_run},
     Command{"init", "Write a commented campaign file", kInitDetails, declare_init},
     Command{"check", "Check a campaign file and show its plan", kCheckDetails, declare_check},
-    Command{"profile", "Print a simulator profile, to make one's own", kProfileDetails,
+    Command{"profile", "Print a simulator profile, as a starting point", kProfileDetails,
             declare_profile},
-    Command{"serve", "Run a campaign with workers from elsewhere", kServeDetails, declare_serve},
+    Command{"serve", "Run a campaign with workers on other hosts", kServeDetails, declare_serve},
     Command{"worker", "Evaluate for a coordinator", kWorkerDetails, declare_worker},
-    Command{"pause", "Pause a design, or all of a campaign", kPauseDetails, declare_pause},
-    Command{"resume", "Resume what was paused", kResumeDetails, declare_resume},
-    Command{"cancel", "End a design as it stands", kCancelDetails, declare_cancel},
+    Command{"pause", "Pause a design or a campaign", kPauseDetails, declare_pause},
+    Command{"resume", "Resume paused designs", kResumeDetails, declare_resume},
+    Command{"cancel", "Stop a design after its current step", kCancelDetails, declare_cancel},
     Command{"extend", "Give a design more budget", kExtendDetails, declare_extend},
     Command{"keygen", "Make keys for coordinator, workers and people", kKeygenDetails,
             declare_keygen},
-    Command{"irace", "Configure an algorithm as irace does, from irace's files", kIraceDetails,
+    Command{"irace", "Configure an algorithm from irace's files, as irace does", kIraceDetails,
             nullptr, run_irace},
     Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},
     Command{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
             declare_ls},
     Command{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
-    Command{"explain", "Tell the history of one evaluation", kExplainDetails, declare_explain},
+    Command{"explain", "Show the history of one evaluation", kExplainDetails, declare_explain},
     Command{"query", "Ask a store in SQL", kQueryDetails, declare_query},
     Command{"compare", "Compare sources or methods by statistical tests", kCompareDetails,
             declare_compare},
     Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate,
             nullptr, with_machine_as_one_word},
-    Command{"assess", "Measure whether each module does what it promises", kAssessDetails,
+    Command{"assess", "Test whether each module does what it promises", kAssessDetails,
             declare_assess},
     Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,
             declare_replay},
-    Command{"figure", "Draw a figure of a store, as SVG, PDF, PNG, CSV or TeX", kFigureDetails,
+    Command{"figure", "Draw a figure from a store: SVG, PDF, PNG, CSV or TeX", kFigureDetails,
             declare_figure},
-    Command{"export", "Write machines out of a store", kExportDetails, declare_export},
-    Command{"import", "Take in scenarios, scores, machines and logs from elsewhere", kImportDetails,
+    Command{"export", "Write machines of a store", kExportDetails, declare_export},
+    Command{"import", "Import scenarios, scores, machines and logs", kImportDetails,
             declare_import},
-    Command{"report", "Write all that a store tells as one HTML file", kReportDetails,
+    Command{"report", "Write the contents of a store as one HTML file", kReportDetails,
             declare_report},
     Command{"supplement", "Write a folder of files to publish beside a paper", kSupplementDetails,
             declare_supplement},
     Command{"digest", "Print the digest of a store's answer", kDigestDetails, declare_digest},
-    Command{"verify", "Check a store against its own scores", kVerifyDetails, declare_verify},
+    Command{"verify", "Check a store: replay its races, evaluate a sample", kVerifyDetails,
+            declare_verify},
     Command{"backup", "Copy a store, also while a campaign runs", kBackupDetails, declare_backup},
-    Command{"merge", "Put several stores into a new one, for reading", kMergeDetails,
+    Command{"merge", "Merge several stores into a new one, for reading", kMergeDetails,
             declare_merge},
-    Command{"recover", "Make a new store of what is left of a damaged one", kRecoverDetails,
-            declare_recover},
+    Command{"recover", "Make a new store from a damaged one", kRecoverDetails, declare_recover},
     Command{"track", "Score runs of real robots, filmed from above", "", nullptr, run_track},
     Command{"version", "Print the version", "", declare_version},
 };

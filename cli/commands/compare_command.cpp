@@ -70,15 +70,15 @@ Run declare_compare(Options& options) {
   auto arguments = std::make_shared<CompareArguments>();
   arguments->store.declare(options);
   options.choice("--by", arguments->by, {"source", "method", "mission"},
-                 "What is compared (default source)");
-  options.texts("--mission", arguments->options.missions, "Only this mission; several times");
+                 "What to compare (default source)");
+  options.texts("--mission", arguments->options.missions, "Only this mission; repeatable");
   options.text("--method", arguments->options.method, "Only this method");
   options.text("--source", arguments->options.source, "Only scores of this source");
   options.choice("--purpose", arguments->purpose, {"test", "score", "all"}, kPurposeHelp);
   options.choice("--per", arguments->per, {"run", "design"}, kPerHelp);
   options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
   options.choice("--table", arguments->table, {"groups", "pairs", "ranks"},
-                 "Which table as CSV (default pairs; groups by mission)");
+                 "Table for --csv (default pairs; by mission groups)");
   options.choice("--paper", arguments->paper, {"text", "latex"},
                  "Write sentences for a paper: n, means, test, p, effect, interval");
   return [arguments](Output& output) { return run_compare(*arguments, output); };

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/text/json.h"
 #include "cli/commands/commands.h"
 #include "cli/output/mean_interval.h"
 #include "cli/output/progress_text.h"
@@ -70,21 +71,21 @@ struct Told {
 using How = ScoreKeeper::Kept::How;
 
 std::string as_json(const Told& told) {
-  std::string text = "{";
+  JsonObject object;
   if (const CandidateId candidate = told.job->candidate) {
-    text += "\"design\":" + json_text(to_string(design_of(candidate))) +
-            ",\"candidate\":" + json_text(to_string(candidate)) +
-            ",\"source\":" + json_text(told.job->profile.name) + ",";
+    object.add("design", design_of(candidate))
+        .add("candidate", candidate)
+        .add("source", told.job->profile.name);
   } else if (!told.job->name.empty()) {
-    text += "\"machine\":" + json_text(told.job->name) + ",";
+    object.add("machine", told.job->name);
   }
-  text += "\"seed\":" + std::to_string(told.seed) + ",\"score\":" + json_number(told.score);
+  object.add("seed", told.seed).add("score", told.score);
   if (told.kept) {
     constexpr const char* kHow[] = {"new", "known", "conflict"};
-    text += ",\"id\":" + json_text(to_string(told.kept->key)) +
-            ",\"stored\":" + json_text(kHow[static_cast<std::size_t>(told.kept->how)]);
+    object.add("id", to_string(told.kept->key))
+        .add("stored", kHow[static_cast<std::size_t>(told.kept->how)]);
   }
-  return text + "}\n";
+  return object.text() + "\n";
 }
 
 std::string as_line(const Told& told) {
@@ -230,7 +231,7 @@ ExitCode run(const EvaluateOptions& arguments, Output& output) {
   }
   if (arguments.recording.any() && runs_of(*plan) > 1) {
     return fail(output, ExitCode::Usage,
-                "--seeds: tables and pictures are of one run; name one seed");
+                "--seeds: tables and pictures show one run; name one seed");
   }
   return Evaluation(arguments, *plan, output).run();
 }
@@ -256,18 +257,17 @@ Run declare_evaluate(Options& options) {
       "aggregation, grid_exploration, color_selection or a file (default: the candidate's or the "
       "file's)");
   options.text("--campaign", arguments->campaign,
-               "Campaign file or store that says flavour, profile and mission");
+               "Campaign file or store with flavour, profile and mission");
   options.texts("--design", arguments->designs,
-                "Which of the campaign's designs (default: d1, when they differ in repetition "
-                "alone); with best as often as you like (default: all)");
-  options.text(
-      "--seeds", arguments->seeds,
-      "Seeds of the runs: 1-10 or 1,4,7-9 (default: those of the tests that the file names, else "
-      "1-10; for candidates one that no race or test of the store had)");
+                "Design of the campaign (default: d1, if they differ only in repetition); with "
+                "best repeatable (default: all)");
+  options.text("--seeds", arguments->seeds,
+               "Seeds of the runs: 1-10 or 1,4,7-9 (default: the seeds of the tests in the file, "
+               "else 1-10; for candidates one that no race or test of the store used)");
   options.text("--starts", arguments->starts, "CSV of starting poses: seed,robot,x,y,theta");
   options.text("--patches", arguments->patches, "CSV of coloured patches: seed,x,y,color");
   options.flag("--no-store", arguments->no_store,
-               "Only print the scores of candidates, and do not store them");
+               "Print the scores of candidates without storing them");
   arguments->store.declare(options, true);
   arguments->recording.declare(options);
   return [arguments](Output& output) { return run(*arguments, output); };

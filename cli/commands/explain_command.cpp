@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
@@ -154,24 +155,29 @@ void write_text(Output& output, const std::string& id, const History& history) {
 /// Objects or null for what there is one of, arrays for the rest.
 void write_json(Output& output, const std::string& id, const History& history) {
   const auto one = [](const Rows& rows) {
-    return rows.cells.empty() ? std::string("null") : row_as_json(rows, 0);
+    return rows.cells.empty() ? std::nullopt : std::optional(row_as_json(rows, 0));
   };
   const bool has_outcome = !history.evaluation.cells.empty();
-  output.out << "{\"v\":1,\"id\":" << json_text(id) << ",\"candidate\":" << one(history.candidate)
-             << ",\"evaluation\":" << one(history.evaluation)
-             << ",\"asked_for\":" << (has_outcome ? json_text(why(history)) : "null")
-             << ",\"worker\":" << one(history.worker)
-             << ",\"steps\":" << rows_as_json(history.steps)
-             << ",\"attempts\":" << rows_as_json(history.attempts)
-             << ",\"failures\":" << rows_as_json(history.failures)
-             << ",\"conflicts\":" << rows_as_json(history.conflicts) << "}\n";
+  output.out << JsonObject()
+                    .add("v", 1)
+                    .add("id", id)
+                    .add("candidate", one(history.candidate))
+                    .add("evaluation", one(history.evaluation))
+                    .add("asked_for", has_outcome ? std::optional(why(history)) : std::nullopt)
+                    .add("worker", one(history.worker))
+                    .add("steps", rows_as_json(history.steps))
+                    .add("attempts", rows_as_json(history.attempts))
+                    .add("failures", rows_as_json(history.failures))
+                    .add("conflicts", rows_as_json(history.conflicts))
+                    .text()
+             << "\n";
 }
 
 ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
   const auto id = parse_thing_id(arguments.id);
   if (!id || id->letter != 'e') {
     return fail(output, ExitCode::Usage,
-                "\"" + arguments.id + "\" is no id of an evaluation; they look like e100000007");
+                "\"" + arguments.id + "\" is not the id of an evaluation, such as e100000007");
   }
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
@@ -180,7 +186,7 @@ ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
   const bool is_known = !history->evaluation.cells.empty() || !history->attempts.cells.empty() ||
                         !history->failures.cells.empty();
   if (!is_known) {
-    return fail(output, ExitCode::NoSuchId, "the store knows nothing of " + arguments.id);
+    return fail(output, ExitCode::NoSuchId, "the store has no " + arguments.id);
   }
   output.json ? write_json(output, arguments.id, *history)
               : write_text(output, arguments.id, *history);

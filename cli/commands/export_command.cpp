@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
@@ -14,7 +16,6 @@
 #include "cli/replay/machine_filer.h"
 #include "cli/replay/stored_instances.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -91,28 +92,29 @@ CandidateId candidate_of(const std::vector<StoreReader::Cell>& cells) {
 
 /// With parameters and modules, which are JSON already.
 Expected<std::string> as_json(const Rows& rows, MachineFiler& filer) {
-  std::string text = "{\"machines\":[";
-  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-    const auto& cells = rows.cells[i];
-    if (i > 0) text += ",";
+  JsonPiece machines{"["};
+  // Both are JSON objects in the store.
+  const auto object_or_empty = [](const std::string& json) {
+    return JsonPiece{json.empty() ? "{}" : json};
+  };
+  for (const auto& cells : rows.cells) {
     Rows plain{.columns = {rows.columns.begin(), rows.columns.begin() + kParameters},
                .cells = {{cells.begin(), cells.begin() + kParameters}},
                .truncated = false};
     letter_ids(plain);
-    std::string object = row_as_json(plain, 0);
-    object.pop_back();
-    // These two are JSON objects in the store.
-    const auto object_or_empty = [](const std::string& json) { return json.empty() ? "{}" : json; };
+    JsonObject object = row_as_json(plain, 0);
     const auto head = filer.head_of(candidate_of(cells));
     if (!head) return Unexpected(head.error());
-    if (!head->flavour.empty()) object += ",\"flavour\":" + json_text(head->flavour);
-    if (head->turn_clock) object += ",\"turn_clock\":" + json_text(name_of(*head->turn_clock));
-    if (head->profile) object += ",\"profile\":" + json_text(head->profile->name);
-    if (!head->seeds.empty()) object += ",\"seeds\":" + json_text(head->seeds);
-    text += object + ",\"parameters\":" + object_or_empty(cells[kParameters].text) +
-            ",\"modules\":" + object_or_empty(cells[kModules].text) + "}";
+    if (!head->flavour.empty()) object.add("flavour", head->flavour);
+    if (head->turn_clock) object.add("turn_clock", name_of(*head->turn_clock));
+    if (head->profile) object.add("profile", head->profile->name);
+    if (!head->seeds.empty()) object.add("seeds", head->seeds);
+    object.add("parameters", object_or_empty(cells[kParameters].text))
+        .add("modules", object_or_empty(cells[kModules].text));
+    machines.text += (machines.text.size() == 1 ? "" : ",") + object.text();
   }
-  return text + "]}\n";
+  machines.text += "]";
+  return JsonObject().add("machines", machines).text() + "\n";
 }
 
 ExitCode write_text(const ExportArguments& arguments, const std::string& text, Output& output) {
@@ -135,7 +137,7 @@ bool is_picture(const std::string& format) {
 
 /// An option that says nothing in this format is no mistake to pass over.
 std::optional<Error> misplaced_option(const ExportArguments& arguments) {
-  const std::string with = " means nothing with --format " + arguments.format;
+  const std::string with = " has no effect with --format " + arguments.format;
   if (arguments.seed && arguments.format != "argos") {
     return Error{ErrorKind::BadInput, "it" + with, "--seed"};
   }
@@ -146,11 +148,11 @@ std::optional<Error> misplaced_option(const ExportArguments& arguments) {
                  arguments.candidate.empty() ? "--what" : "--candidate"};
   }
   if (!arguments.mission.empty() && !asks_for_table(arguments)) {
-    return Error{ErrorKind::BadInput, "it means nothing with --what " + arguments.what,
+    return Error{ErrorKind::BadInput, "it has no effect with --what " + arguments.what,
                  "--mission"};
   }
   if (!arguments.candidate.empty() && asks_for_table(arguments)) {
-    return Error{ErrorKind::BadInput, "it means nothing with --what " + arguments.what,
+    return Error{ErrorKind::BadInput, "it has no effect with --what " + arguments.what,
                  "--candidate"};
   }
   return std::nullopt;
@@ -237,7 +239,7 @@ ExitCode write_table(const ExportArguments& arguments, StoreReader& store, Outpu
   }
   if (missions->size() > 1) {
     return fail(output, ExitCode::Usage,
-                "a table is of one mission; name it with --mission, or a --design of it: " +
+                "a table has one mission; name it with --mission, or a --design of it: " +
                     names_of(*missions));
   }
   const auto text = patches ? patches_table(missions->front()) : starts_table(missions->front());
@@ -302,27 +304,25 @@ ExitCode run_export(const ExportArguments& arguments, Output& output) {
 Run declare_export(Options& options) {
   auto arguments = std::make_shared<ExportArguments>();
   arguments->store.declare(options);
-  options.choice(
-      "--what", arguments->what, {"best", "elites", "all", "starts", "patches"},
-      "Each design's best machine, its last elites, every candidate; or a table that "
-      "`evaluate` reads: where the robots started, or where the patches lay, in the runs "
-      "that scored a mission's winners");
+  options.choice("--what", arguments->what, {"best", "elites", "all", "starts", "patches"},
+                 "Each design's best machine, its last elites, or every candidate; or a table for "
+                 "`evaluate`: the starts of the robots, or the places of the patches, in the runs "
+                 "that scored a mission's winners");
   options.choice("--format", arguments->format,
                  {"fsm-config", "json", "svg", "pdf", "dot", "tikz", "argos", "irace", "rdata"},
-                 "Text of the grammar with lines that say what it was designed for, JSON, a "
-                 "picture, an experiment file of the "
-                 "original simulator, a folder in which R's irace does the same design, or what "
-                 "a design's race did as the log of R's irace, for iraceplot");
+                 "Text of the grammar with lines on its origin, JSON, a picture, an experiment "
+                 "file of the original simulator, a folder in which R's irace runs the same "
+                 "design, or a design's race as the log of R's irace, for iraceplot");
   options.text("-o,--output", arguments->file,
-               "Write to this file; to this folder, a file a machine, or the tables of a log");
-  options.text("--design", arguments->design, "Only this design's, such as d3");
-  options.text("--candidate", arguments->candidate, "This one, such as c812");
-  options.text("--mission", arguments->mission, "With --what starts or patches: of this mission");
-  options.text("--width", arguments->width, "Of a picture: 84mm (default), 8.4cm, 3.3in");
+               "File to write, or folder for one file per machine or for the tables of a log");
+  options.text("--design", arguments->design, "Only machines of this design, such as d3");
+  options.text("--candidate", arguments->candidate, "Only this candidate, such as c812");
+  options.text("--mission", arguments->mission, "Mission of --what starts or patches");
+  options.text("--width", arguments->width, "Width of a picture: 84mm (default), 8.4cm, 3.3in");
   options.integer("--seed", arguments->seed, {1, 4'294'967'295},
-                  "With --format argos: the experiment's seed (default 1)");
+                  "Seed of the experiment of --format argos (default 1)");
   options.choice("--irace", arguments->irace_version, {"3.5", "4"},
-                 "With --format irace: the irace that reads the files (default 4)");
+                 "Version of irace for --format irace (default 4)");
   return [arguments](Output& output) { return run_export(*arguments, output); };
 }
 

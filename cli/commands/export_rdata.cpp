@@ -5,10 +5,11 @@
 #include <map>
 
 #include "base/output_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/irace_converter.h"
 #include "console/counter.h"
-#include "console/whole_file.h"
 #include "coordinator/results/irace_log.h"
 #include "coordinator/results/known_designs.h"
 #include "coordinator/results/stored_irace_log.h"
@@ -32,7 +33,7 @@ Expected<DesignId> wanted_design(StoreReader& store, const std::string& word) {
     }
   }
   if (designs->size() > 20) known += ", ...";
-  if (word.empty()) return bad_input("which design? The store has: " + known, "--design");
+  if (word.empty()) return bad_input("no design given; the store has: " + known, "--design");
   const auto id = parse_thing_id(word);
   if (!id || id->letter != 'd') {
     return bad_input("wants an id such as d3, not \"" + word + "\"", "--design");
@@ -75,9 +76,13 @@ ExitCode exit_code_of(const Error& error) {
 ExitCode tell(const std::string& kind, const std::string& place, DesignId design,
               const IraceLog& log, Output& output) {
   if (output.json) {
-    output.out << "{\"" << kind << "\":" << json_text(place) << ",\"design\":\""
-               << to_string(design) << "\",\"configurations\":" << log.configurations.size()
-               << ",\"experiments\":" << log.runs.size() << "}\n";
+    output.out << JsonObject()
+                      .add(kind, place)
+                      .add("design", design)
+                      .add("configurations", log.configurations.size())
+                      .add("experiments", log.runs.size())
+                      .text()
+               << "\n";
   } else {
     output.out << place << "\n";
   }
@@ -85,7 +90,7 @@ ExitCode tell(const std::string& kind, const std::string& place, DesignId design
       log.parameters, [](const LogParameter& parameter) { return parameter.domain.empty(); });
   if (unknown > 0) {
     print_note(output, "the store does not know the domains of " + std::to_string(unknown) +
-                           " parameters: what was tried stands in their place");
+                           " parameters; their place has the values that were tried");
   }
   return ExitCode::Done;
 }

@@ -41,24 +41,24 @@ void FigureArguments::declare(Options& words) {
   std::vector<std::string> kinds;
   for (const FigureKind& known : all_figure_kinds())
     kinds.emplace_back(known.name);
-  words.choice("KIND", kind, kinds, "What to draw; without it all kinds are told");
+  words.choice("KIND", kind, kinds, "What to draw; omit it to list all kinds");
   store.declare(words);
   words.text("-o,--output", file,
-             "Write to this .svg, .pdf, .png, .csv or .tex file (else SVG to standard output)");
+             "File to write: .svg, .pdf, .png, .csv or .tex (default: SVG to standard output)");
   words.text("--width", width, "Such as 84mm, 17.5cm or 3.3in (default 84mm)");
   words.flag("--paper", options.paper,
-             "Without title, details and explanations, which a paper has in the caption");
+             "Leave out title, details and explanations, which a paper has in the caption");
   words.text("--font", font, "Of the texts, where it is installed, such as \"Linux Libertine\"");
-  words.text("--mission", options.filter.mission, "Only of this mission");
-  words.text("--method", options.filter.method, "Only of this method");
+  words.text("--mission", options.filter.mission, "Only this mission");
+  words.text("--method", options.filter.method, "Only this method");
   words.text("--design", design, "Only of this design: d3");
   words.text("--candidate", candidate, "Of this candidate: c812");
-  words.integer("--iteration", options.iteration, {1, kLargest}, "Of this iteration of the race");
-  words.choice("--by", options.by, {"source", "method", "mission"}, "What is compared");
+  words.integer("--iteration", options.iteration, {1, kLargest}, "Iteration of the race");
+  words.choice("--by", options.by, {"source", "method", "mission"}, "What to compare");
   words.text("--source", options.source, "Only scores of this source: a profile, real, ...");
   words.choice("--purpose", purpose, {"test", "score", "all"}, kPurposeHelp);
   words.choice("--per", per, {"run", "design"}, kPerHelp);
-  words.text("--parameter", options.parameter, "Of this parameter: rwm0");
+  words.text("--parameter", options.parameter, "Parameter, such as rwm0");
   words.texts("--seed", seeds, "Of runs of this seed; once for each");
 }
 
@@ -95,7 +95,7 @@ Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments)
   constexpr std::int64_t kLargest = 2'147'483'647;
   std::vector<std::int64_t> seeds;
   if (!arguments.seeds.empty() && arguments.kind != kTrajectories)
-    return bad_input("means nothing to the figure `" + arguments.kind + "`", "--seed");
+    return bad_input("has no effect on the figure `" + arguments.kind + "`", "--seed");
   if (arguments.seeds.size() > kMostTrajectories) {
     return bad_input("at most " + std::to_string(kMostTrajectories) + " runs are drawn", "--seed");
   }

@@ -4,12 +4,13 @@
 
 #include "analysis/drawing/svg.h"
 #include "analysis/figures/figure.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/figure_arguments.h"
 #include "cli/commands/trajectories_figure.h"
 #include "console/pdf.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -30,12 +31,10 @@ std::string kinds_text() {
 }
 
 std::string kinds_json() {
-  std::string text;
-  for (const FigureKind& kind : all_figure_kinds()) {
-    text += std::string(text.empty() ? "" : ",") + "{\"kind\":" + json_text(kind.name) +
-            ",\"summary\":" + json_text(kind.summary) + "}";
-  }
-  return "{\"kinds\":[" + text + "]}\n";
+  const auto kind_json = [](const FigureKind& kind) {
+    return JsonObject().add("kind", kind.name).add("summary", kind.summary);
+  };
+  return JsonObject().add("kinds", json_list(all_figure_kinds(), kind_json)).text() + "\n";
 }
 
 /// Rows below the headline; a row may have line feeds in quotes.
@@ -58,8 +57,7 @@ Expected<std::string> ending_of(const FigureArguments& arguments, const Output& 
   std::string ending = std::filesystem::path(arguments.file).extension().string();
   for (const char* known : {".svg", ".pdf", ".png", ".csv", ".tex"})
     if (ending == known) return ending;
-  return bad_input("the file's ending says what is written: .svg, .pdf, .png, .csv or .tex",
-                   arguments.file);
+  return bad_input("the file's ending must be .svg, .pdf, .png, .csv or .tex", arguments.file);
 }
 
 ExitCode exit_code_of(const Error& error) {
@@ -90,7 +88,7 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   if (!ending) return fail(output, ExitCode::Usage, ending.error());
   if ((*ending == ".csv" || *ending == ".tex") && (options->paper || !arguments.font.empty())) {
     return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput, "means nothing to a " + *ending + " file",
+                Error{ErrorKind::BadInput, "has no effect on a " + *ending + " file",
                       options->paper ? "--paper" : "--font"});
   }
   auto store = arguments.store.open();
@@ -118,8 +116,12 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   if (const auto written = write_whole_file(arguments.file, *bytes); !written)
     return fail(output, ExitCode::Failed, written.error());
   if (output.json) {
-    output.out << "{\"figure\":" << json_text(arguments.kind)
-               << ",\"file\":" << json_text(arguments.file) << ",\"points\":" << points << "}\n";
+    output.out << JsonObject()
+                      .add("figure", arguments.kind)
+                      .add("file", arguments.file)
+                      .add("points", points)
+                      .text()
+               << "\n";
   }
   return ExitCode::Done;
 }

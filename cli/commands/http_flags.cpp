@@ -5,7 +5,7 @@ namespace swarmsmith::cli {
 void HttpFlags::declare(Options& options, const std::string& otherwise) {
   options.text("--http", http,
                "Address and port of /metrics, /healthz, /readyz, /status (" + otherwise + ")");
-  options.text("--http-token-file", token_file, "Secret that their readers must show");
+  options.text("--http-token-file", token_file, "File of the secret that their readers must show");
 }
 
 void HttpFlags::put(RunOptions& run, const std::string& otherwise) const {

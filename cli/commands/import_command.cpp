@@ -4,10 +4,10 @@
 #include <random>
 
 #include "base/text/toml_text.h"
+#include "base/text/whole_file.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/import_results.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/irace_campaign.h"
@@ -82,7 +82,7 @@ ExitCode run_import(const ImportOptions& arguments, Output& output) {
   if (!arguments.into.empty()) {
     if (arguments.out.empty()) return import_into_store(arguments, output);
     return fail(output, ExitCode::Usage,
-                Error{ErrorKind::BadInput, "is of scenarios; --into names the store", "--output"});
+                Error{ErrorKind::BadInput, "is for scenarios; --into names the store", "--output"});
   }
   const std::string ending = fs::path(arguments.file).extension().string();
   const bool has_store_words = !arguments.flavour.empty() || !arguments.missions.empty() ||
@@ -92,7 +92,7 @@ ExitCode run_import(const ImportOptions& arguments, Output& output) {
   if (ending == ".csv" || ending == ".Rdata" || has_store_words) {
     return fail(
         output, ExitCode::Usage,
-        Error{ErrorKind::BadInput, "into which store? Add --into results.db", arguments.file});
+        Error{ErrorKind::BadInput, "no store given; add --into results.db", arguments.file});
   }
   return import_scenario(arguments, output);
 }
@@ -106,21 +106,23 @@ Run declare_import(Options& options) {
                "line), or a log of irace (.Rdata)",
                Options::Need::Required);
   options.text("-o,--output", arguments->out,
-               "Of a scenario: the campaign file (default: standard output)");
+               "Campaign file to write from a scenario (default: standard output)");
   options.text("--into", arguments->into,
-               "The store; a new one is made for machines and logs, scores need their designs");
+               "Store to import into; made if needed for machines and logs, while scores need "
+               "their designs");
   options.text("--flavour", arguments->flavour,
-               "Flavour of machines whose file does not say it, or of a log's configurations: "
+               "Flavour of machines whose file names none, or of a log's configurations: "
                "watermelon, watermelon-argos3, chocolate");
   options.texts("--mission", arguments->missions,
                 "Mission of rows that name none; OLD=NEW renames one; may be repeated");
   options.text("--method", arguments->method,
                "Method of machines that name none (default: the flavour), or of a log (irace)");
   options.text("--name", arguments->name, "Name of the campaign that machines or a log become");
-  options.text("--source", arguments->source, "Who made scores that do not say it, such as real");
+  options.text("--source", arguments->source, "Source of scores that name none, such as real");
   options.texts("--cost-of", arguments->costs_of,
-                "A mission whose scores in the file are costs (smaller is better)");
-  options.flag("--replace", arguments->replace, "Scores give way to others of the same place");
+                "Mission whose scores in the file are costs (smaller is better)");
+  options.flag("--replace", arguments->replace,
+               "Replace stored scores of the same candidate, source, seed and instance");
   return [arguments](Output& output) { return run_import(*arguments, output); };
 }
 

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "base/text/json.h"
 #include "cli/commands/commands.h"
 #include "proto/access/allow_list.h"
 #include "proto/access/key_folder.h"
@@ -16,15 +17,13 @@ struct KeygenArguments {
 };
 
 void print_files(Output& output, const std::vector<std::filesystem::path>& files) {
-  if (!output.json) {
-    for (const std::filesystem::path& file : files)
-      output.out << file.string() << "\n";
+  if (output.json) {
+    const auto name_of = [](const std::filesystem::path& file) { return file.string(); };
+    output.out << JsonObject().add("files", json_list(files, name_of)).text() << "\n";
     return;
   }
-  output.out << "{\"files\":[";
-  for (std::size_t i = 0; i < files.size(); ++i)
-    output.out << (i > 0 ? "," : "") << json_text(files[i].string());
-  output.out << "]}\n";
+  for (const std::filesystem::path& file : files)
+    output.out << file.string() << "\n";
 }
 
 ExitCode fail_to_write(Output& output, const Error& error) {
@@ -38,7 +37,7 @@ ExitCode make_folder(const KeyFolder& folder, Output& output) {
   print_files(output, *files);
   print_note(output,
              "server.key and clients.toml stay with the coordinator; each worker's host needs "
-             "worker.key, whoever commands operator.key, whoever only looks reader.key");
+             "worker.key, people who give commands operator.key, people who only look reader.key");
   return ExitCode::Done;
 }
 
@@ -50,15 +49,15 @@ ExitCode make_client(const KeyFolder& folder, const KeygenArguments& arguments, 
     if (!client.expires) {
       return fail(
           output, ExitCode::Usage,
-          Error{ErrorKind::BadInput,
-                "`" + arguments.expires + "` is no date; it is written 2027-01-31", "--expires"});
+          Error{ErrorKind::BadInput, "`" + arguments.expires + "` is not a date such as 2027-01-31",
+                "--expires"});
     }
   }
   const auto file = add_client(folder, client);
   if (!file) return fail_to_write(output, file.error());
   print_files(output, {*file});
   print_note(output, "\"" + client.name + "\" is in " + folder.clients().string() +
-                         "; a coordinator that runs lets it in within a second");
+                         "; a running coordinator accepts it within a second");
   return ExitCode::Done;
 }
 
@@ -68,11 +67,10 @@ Run declare_keygen(Options& options) {
   auto arguments = std::make_shared<KeygenArguments>();
   options.text("DIR", arguments->folder,
                "Folder of the keys (default: SWARMSMITH_KEYS, else ~/.config/swarmsmith/keys)");
-  options.text("--client", arguments->client,
-               "Make one more key, for the client of this name, and list it");
+  options.text("--client", arguments->client, "Add a key for the client of this name, and list it");
   options.choice("--role", arguments->role, {kRoleNames.begin(), kRoleNames.end()},
-                 "What that client may do (default: worker)");
-  options.text("--expires", arguments->expires, "Its last day, in UTC: 2027-01-31");
+                 "Role of that client (default: worker)");
+  options.text("--expires", arguments->expires, "Last day of that key, in UTC: 2027-01-31");
   return [arguments](Output& output) {
     const KeyFolder folder =
         arguments->folder.empty() ? default_key_folder() : KeyFolder{arguments->folder};

@@ -93,7 +93,7 @@ Run declare_ls(Options& options) {
   options.text("--where", arguments->where, "Condition in SQL, such as \"mean > 2.5\"");
   options.text("--sort", arguments->sort, "Columns to sort by, such as \"mean DESC\"");
   options.integer("--limit", arguments->limit, {0, 1'000'000'000},
-                  "At most so many rows; 0 for all (default 100, all with --json)");
+                  "Maximum number of rows; 0 for all (default 100, all with --json)");
   return [arguments](Output& output) { return run_ls(*arguments, output); };
 }
 

@@ -1,4 +1,5 @@
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "storage/merge.h"
 
 #include <memory>
@@ -31,22 +32,26 @@ void write(Output& output, const Merged& merged, const std::string& file) {
                << "\n";
     return;
   }
-  std::string campaigns;
-  for (const StoredCampaign& campaign : merged.campaigns) {
-    campaigns += (campaigns.empty() ? "" : ",") + ("{\"campaign\":" + std::to_string(campaign.id)) +
-                 ",\"name\":" + json_text(campaign.row.name) +
-                 ",\"state\":" + json_text(campaign.state) +
-                 ",\"designs_before\":" + std::to_string(campaign.designs_before) +
-                 ",\"designs\":" + std::to_string(campaign.designs) + "}";
-  }
-  output.out << "{\"store\":" << json_text(file) << ",\"digest\":" << json_text(merged.digest)
-             << ",\"campaigns\":[" << campaigns << "]}\n";
+  const auto campaign_json = [](const StoredCampaign& campaign) {
+    return JsonObject()
+        .add("campaign", campaign.id)
+        .add("name", campaign.row.name)
+        .add("state", campaign.state)
+        .add("designs_before", campaign.designs_before)
+        .add("designs", campaign.designs);
+  };
+  output.out << JsonObject()
+                    .add("store", file)
+                    .add("digest", merged.digest)
+                    .add("campaigns", json_list(merged.campaigns, campaign_json))
+                    .text()
+             << "\n";
 }
 
 ExitCode run_merge(const MergeArguments& arguments, Output& output) {
   if (arguments.out.empty()) {
     return fail(output, ExitCode::Usage,
-                "into which file? Name it by -o: `swarmsmith merge a.db b.db -o all.db`");
+                "no new file given; name it with -o: `swarmsmith merge a.db b.db -o all.db`");
   }
   Counter counter(output, "merged", "stores");
   const auto merged =
@@ -66,7 +71,8 @@ ExitCode run_merge(const MergeArguments& arguments, Output& output) {
 
 Run declare_merge(Options& options) {
   auto arguments = std::make_shared<MergeArguments>();
-  options.words("STORE", arguments->stores, "The stores, in the order that their designs get",
+  options.words("STORE", arguments->stores,
+                "The stores, in the order of their designs in the new one",
                 Options::Need::Required);
   options.text("-o,--output", arguments->out, "The new store's file");
   return [arguments](Output& output) { return run_merge(*arguments, output); };

@@ -1,4 +1,5 @@
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "storage/recover.h"
 
 #include <memory>
@@ -53,39 +54,40 @@ std::string design_text(const Rebuilt::Design& design) {
   return text;
 }
 
-std::string table_json(const SalvagedTable& table) {
-  return "{\"name\":" + json_text(table.name) + ",\"rows\":" + std::to_string(table.rows) +
-         ",\"lost_pages\":" + std::to_string(table.lost_pages) +
-         ",\"broken\":" + std::to_string(table.broken) +
-         ",\"tree_lost\":" + (table.tree_is_lost ? "true" : "false") + "}";
+JsonObject table_json(const SalvagedTable& table) {
+  return JsonObject()
+      .add("name", table.name)
+      .add("rows", table.rows)
+      .add("lost_pages", table.lost_pages)
+      .add("broken", table.broken)
+      .add("tree_lost", table.tree_is_lost);
 }
 
-std::string design_json(const Rebuilt::Design& design) {
-  return "{\"design\":" + json_text(to_string(design.id)) +
-         ",\"used\":" + std::to_string(design.used) +
-         ",\"missing\":" + std::to_string(design.missing) +
-         ",\"ahead\":" + std::to_string(design.ahead) +
-         ",\"unasked\":" + std::to_string(design.unasked) + "}";
-}
-
-template <class Things, class Text>
-std::string json_list(const Things& things, Text text) {
-  std::string list;
-  for (const auto& thing : things)
-    list += (list.empty() ? "" : ",") + text(thing);
-  return "[" + list + "]";
+JsonObject design_json(const Rebuilt::Design& design) {
+  return JsonObject()
+      .add("design", design.id)
+      .add("used", design.used)
+      .add("missing", design.missing)
+      .add("ahead", design.ahead)
+      .add("unasked", design.unasked);
 }
 
 void write(Output& output, const Salvaged& found, const Report& report, const Recovery::End& end,
            const std::string& file) {
   if (output.json) {
-    output.out << "{\"store\":" << json_text(file) << ",\"digest\":" << json_text(end.digest)
-               << ",\"evaluations\":" << end.evaluations << ",\"schema\":" << found.schema
-               << ",\"header_damaged\":" << (found.header_is_damaged ? "true" : "false")
-               << ",\"unplaced\":" << found.unplaced << ",\"orphans\":" << end.orphans
-               << ",\"tables\":" << json_list(found.tables, table_json)
-               << ",\"designs\":" << json_list(report.designs, design_json)
-               << ",\"complaints\":" << json_list(report.complaints, json_text) << "}\n";
+    output.out << JsonObject()
+                      .add("store", file)
+                      .add("digest", end.digest)
+                      .add("evaluations", end.evaluations)
+                      .add("schema", found.schema)
+                      .add("header_damaged", found.header_is_damaged)
+                      .add("unplaced", found.unplaced)
+                      .add("orphans", end.orphans)
+                      .add("tables", json_list(found.tables, table_json))
+                      .add("designs", json_list(report.designs, design_json))
+                      .add("complaints", report.complaints)
+                      .text()
+               << "\n";
     return;
   }
   if (found.header_is_damaged) {
@@ -97,7 +99,7 @@ void write(Output& output, const Salvaged& found, const Report& report, const Re
   }
   if (found.unplaced > 0) output.out << found.unplaced << " rows might be of several tables\n";
   if (end.orphans > 0) {
-    output.out << end.orphans << " rows belong to what is lost, and were left out\n";
+    output.out << end.orphans << " rows belong to lost data and were left out\n";
   }
   for (const Rebuilt::Design& design : report.designs)
     output.out << as_shown(design_text(design), Layout::Escaped) << "\n";
@@ -121,7 +123,7 @@ Expected<void> rebuild_campaign(Recovery& recovery, const StoredCampaign& stored
   auto plans = plans_of(stored.row);
   if (!plans) {
     report.complaints.push_back(stored.row.name + ": " + to_string(plans.error()) +
-                                "; its rows are kept as they were found");
+                                "; its rows are kept as found");
     return {};
   }
   std::vector<DesignRow> designs;
@@ -145,8 +147,9 @@ Expected<void> rebuild_campaign(Recovery& recovery, const StoredCampaign& stored
 
 ExitCode run_recover(const RecoverArguments& arguments, Output& output) {
   if (arguments.out.empty()) {
-    return fail(output, ExitCode::Usage,
-                "into which file? Name it by -o: `swarmsmith recover damaged.db -o rescued.db`");
+    return fail(
+        output, ExitCode::Usage,
+        "no new file given; name it with -o: `swarmsmith recover damaged.db -o rescued.db`");
   }
   auto recovery = Recovery::begin(arguments.damaged, arguments.out);
   if (!recovery) {
@@ -175,7 +178,7 @@ Run declare_recover(Options& options) {
   options.text("DAMAGED", arguments->damaged, "The damaged store's file", Options::Need::Required);
   options.text("-o,--output", arguments->out, "The new store's file");
   options.text("--campaign", arguments->campaign,
-               "The campaign's file, where the store's own copy of it is lost");
+               "The campaign's file, if the store has lost its own copy");
   return [arguments](Output& output) { return run_recover(*arguments, output); };
 }
 

@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/compared_runs.h"
@@ -35,18 +38,27 @@ std::string hexadecimal(std::uint64_t digest) {
 }
 
 std::string as_json(const StoredRun& run, const SimulationResult& result) {
-  const auto or_null = [&](const std::string& text) { return run.outcome ? text : "null"; };
-  const StoredOutcome stored = run.outcome.value_or(StoredOutcome{});
-  const bool same = run.outcome && same_bits(stored, result);
-  return "{\"id\":" + (run.id.empty() ? "null" : json_text(run.id)) +
-         ",\"candidate\":" + json_text(run.candidate) + ",\"seed\":" + std::to_string(run.seed) +
-         ",\"score\":" + json_number(result.score) +
-         ",\"stored_score\":" + or_null(json_number(stored.score)) +
-         ",\"same_bits\":" + or_null(same ? "true" : "false") +
-         ",\"digest\":" + json_text(hexadecimal(result.state_digest)) +
-         ",\"stored_digest\":" + or_null(json_text(hexadecimal(stored.state_digest))) +
-         ",\"engine\":" + std::to_string(kEngineVersion) +
-         ",\"stored_engine\":" + std::to_string(run.engine_version) + "}\n";
+  JsonObject object;
+  object.add("id", run.id.empty() ? std::nullopt : std::optional(run.id))
+      .add("candidate", run.candidate)
+      .add("seed", run.seed)
+      .add("score", result.score);
+  std::optional<double> score;
+  std::optional<bool> same;
+  std::optional<std::string> digest;
+  if (run.outcome) {
+    score = run.outcome->score;
+    same = same_bits(*run.outcome, result);
+    digest = hexadecimal(run.outcome->state_digest);
+  }
+  return object.add("stored_score", score)
+             .add("same_bits", same)
+             .add("digest", hexadecimal(result.state_digest))
+             .add("stored_digest", digest)
+             .add("engine", kEngineVersion)
+             .add("stored_engine", run.engine_version)
+             .text() +
+         "\n";
 }
 
 /// The line that says how the comparison went.
@@ -86,15 +98,15 @@ Expected<StoredRun> find_run(StoredRuns& runs, const ReplayArguments& arguments)
   const auto id = parse_thing_id(arguments.id);
   if (!id || id->letter == 'd') {
     return bad_input("\"" + arguments.id +
-                         "\" is no evaluation; replay wants one (e81200007, see `ls evaluations`), "
-                         "a candidate with a seed (c812 --seed 7), or a real run (r7)",
+                         "\" is not an evaluation (e81200007, see `ls evaluations`), a candidate "
+                         "with a seed (c812 --seed 7), or a real run (r7)",
                      "ID");
   }
   if (id->letter == 'e') {
     if (arguments.seed) return bad_input("an evaluation has its own seed", "--seed");
     return runs.evaluation(*id);
   }
-  if (!arguments.seed) return bad_input("on which seed? Add --seed 7", arguments.id);
+  if (!arguments.seed) return bad_input("no seed given; add one, such as --seed 7", arguments.id);
   return runs.candidate(*id, *arguments.seed);
 }
 
@@ -106,15 +118,16 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
   Counter counter(output, "replayed", "evaluations");
   const auto different = compare_again(runs, *ids, counter);
   if (!different) return fail(output, ExitCode::Failed, different.error());
-  std::string different_json;
-  for (const Difference& difference : *different) {
-    different_json += (different_json.empty() ? "" : ",") + json_text(difference.id);
+  for (const Difference& difference : *different)
     print_error(output, {ErrorKind::Conflict, difference.sentence, ""});
-  }
   const std::size_t same = ids->size() - different->size();
   if (output.json) {
-    output.out << "{\"replayed\":" << ids->size() << ",\"same_bits\":" << same << ",\"different\":["
-               << different_json << "]}\n";
+    output.out << JsonObject()
+                      .add("replayed", ids->size())
+                      .add("same_bits", same)
+                      .add("different", json_list(*different, std::mem_fn(&Difference::id)))
+                      .text()
+               << "\n";
   } else {
     output.out << ids->size() << " evaluations replayed, " << same
                << " with the same bits as stored\n";
@@ -126,7 +139,7 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
 std::optional<Error> complaint_about(const ReplayArguments& arguments) {
   const bool has_company = arguments.beside || !arguments.seeds.empty();
   if (has_company && !arguments.real_run()) {
-    return Error{ErrorKind::BadInput, "is of a real run, such as r7",
+    return Error{ErrorKind::BadInput, "applies to a real run, such as r7",
                  arguments.beside ? "--beside" : "--seeds"};
   }
   if (arguments.real_run() && arguments.seed) {
@@ -139,7 +152,7 @@ std::optional<Error> complaint_about(const ReplayArguments& arguments) {
   }
   if (arguments.recording.any() || arguments.seed) {
     return Error{ErrorKind::BadInput,
-                 "replays many evaluations; --csv, --svg and --seed are of one", "--sample"};
+                 "replays many evaluations; --csv, --svg and --seed apply to one", "--sample"};
   }
   return std::nullopt;
 }
@@ -184,9 +197,9 @@ Run declare_replay(Options& options) {
   arguments->store.declare(options);
   options.integer("--seed", arguments->seed, {1, kLargest}, "Seed of a candidate's run");
   options.integer("--sample", arguments->sample, {1, kLargest},
-                  "Replay so many stored evaluations, evenly spaced, instead of one");
+                  "Replay N stored evaluations, evenly spaced, instead of one");
   options.integer("--beside", arguments->beside, {1, 1000},
-                  "Show so many simulations of its machine beside a real run");
+                  "Simulate a real run's machine N times beside it");
   options.text("--seeds", arguments->seeds, "Seeds of the simulations beside a real run: 1-4,9");
   arguments->recording.declare(options);
   return [arguments](Output& output) { return run_replay(*arguments, output); };

@@ -1,6 +1,8 @@
 #include <memory>
 
 #include "analysis/report/report.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/program_name.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
@@ -8,7 +10,6 @@
 #include "cli/commands/trajectories_figure.h"
 #include "console/counter.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -65,8 +66,8 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
   if (const auto written = write_whole_file(arguments.file, *report); !written)
     return fail(output, ExitCode::Failed, written.error());
   if (output.json) {
-    output.out << "{\"file\":" << json_text(arguments.file) << ",\"bytes\":" << report->size()
-               << "}\n";
+    output.out << JsonObject().add("file", arguments.file).add("bytes", report->size()).text()
+               << "\n";
   } else {
     output.out << arguments.file << "\n";
   }
@@ -81,9 +82,8 @@ Run declare_report(Options& options) {
   options.text("-o,--output", arguments->file,
                "Write to this file (default report.html; - for "
                "standard output)");
-  options.texts(
-      "--design", arguments->designs,
-      "A design with a chapter of its own, such as d3, or all (default: all of up to three)");
+  options.texts("--design", arguments->designs,
+                "Design that gets a chapter, such as d3, or all (default: all of up to three)");
   return [arguments](Output& output) { return run_report(*arguments, output); };
 }
 

@@ -22,13 +22,13 @@ Run declare_run(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Optional);
   options.text("--workers", arguments->workers,
-               "Who evaluates: auto (this host, all cores), N or local:N (that many processes "
-               "here, a core each), ssh:HOSTFILE, slurm or slurm:JOBSxCPUS");
+               "Who evaluates: auto (this host, all cores), N or local:N (N processes here, one "
+               "core each), ssh:HOSTFILE, slurm or slurm:JOBSxCPUS");
   options.integer(
       "--slots", arguments->slots, {1, 10'000},
-      "Evaluations at a time on this host (default: one a worker; with auto one a core)");
+      "Parallel evaluations on this host (default: one per worker; with auto one per core)");
   options.flag("--no-dashboard", arguments->no_dashboard,
-               "Accepted; this version has no dashboard to leave out");
+               "Accepted; this version has no dashboard");
   arguments->access.declare(options);
   arguments->http.declare(options, "default none");
   return [arguments](Output& output) {
@@ -49,8 +49,8 @@ Run declare_run(Options& options) {
       if (launch.kind != LaunchOptions::Kind::Local) {
         return fail(output, ExitCode::Usage,
                     Error{ErrorKind::BadInput,
-                          "is of workers on this host; of jobs write slurm:JOBSxCPUS, and hosts of "
-                          "a file say it themselves",
+                          "applies to workers on this host; for jobs write slurm:JOBSxCPUS; a host "
+                          "file has the slots of its hosts",
                           "--slots"});
       }
       launch.slots = *arguments->slots;

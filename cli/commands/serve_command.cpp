@@ -17,9 +17,8 @@ Run declare_serve(Options& options) {
   };
   auto arguments = std::make_shared<Arguments>();
   arguments->campaign.declare(options, Options::Need::Required);
-  options.text(
-      "--bind", arguments->bind,
-      "Address and port for workers (default 127.0.0.1:5555, or the next port that is free)");
+  options.text("--bind", arguments->bind,
+               "Address and port for workers (default 127.0.0.1:5555, or the next free port)");
   arguments->http.declare(options, "default 127.0.0.1:8347, or the next port that is free; none");
   arguments->access.declare(options);
   return [arguments](Output& output) {

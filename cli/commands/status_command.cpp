@@ -7,7 +7,9 @@
 #include <memory>
 #include <thread>
 
+#include "base/environment.h"
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
@@ -126,7 +128,7 @@ void write_text(Output& output, const Status& status) {
   }
   if (campaigns > 1) output.out << "failed " << failures << "\n";
   if (status.of_campaign(0, "state") == "interrupted")
-    output.out << "nobody works at it now; the command that began it goes on from here\n";
+    output.out << "no coordinator runs it now; the command that started it continues from here\n";
   output.out << "\n" << rows_as_text(status.designs);
   for (std::size_t i = 0; i < status.paused.cells.size(); ++i)
     output.out << (i == 0 ? "\npaused: " : ", ") << status.paused.cells[i].front().text;
@@ -137,14 +139,16 @@ void write_text(Output& output, const Status& status) {
 }
 
 void write_json(Output& output, const Status& status) {
-  output.out << "{\"campaign\":" << row_as_json(status.campaign, 0);
-  if (status.campaign.cells.size() > 1)
-    output.out << ",\"campaigns\":" << rows_as_json(status.campaign);
-  output.out << ",\"designs\":" << rows_as_json(status.designs)
-             << ",\"workers\":" << rows_as_json(status.workers)
-             << ",\"paused\":" << rows_as_json(status.paused)
-             << ",\"commands\":" << rows_as_json(status.commands)
-             << ",\"failures\":" << status.failures.cells.front().front().text << "}\n";
+  JsonObject object;
+  object.add("campaign", row_as_json(status.campaign, 0));
+  if (status.campaign.cells.size() > 1) object.add("campaigns", rows_as_json(status.campaign));
+  output.out << object.add("designs", rows_as_json(status.designs))
+                    .add("workers", rows_as_json(status.workers))
+                    .add("paused", rows_as_json(status.paused))
+                    .add("commands", rows_as_json(status.commands))
+                    .add("failures", JsonPiece{status.failures.cells.front().front().text})
+                    .text()
+             << "\n";
 }
 
 /// Where a coordinator is asked: at the address or by the file that a person names, else by the
@@ -154,9 +158,8 @@ Expected<FoundCoordinator> coordinator_of(const StatusArguments& arguments) {
   search.role = "reader";
   search.key = arguments.key;
   search.insecure_plaintext = arguments.insecure_plaintext;
-  std::string named = arguments.connect;
-  const char* variable = std::getenv("SWARMSMITH_COORDINATOR");
-  if (named.empty() && variable != nullptr) named = variable;
+  const std::string named =
+      arguments.connect.empty() ? environment("SWARMSMITH_COORDINATOR") : arguments.connect;
   if (named.empty()) {
     const auto store = arguments.store.path();
     if (!store) return unexpected(ErrorKind::NotFound, store.error().message);
@@ -262,15 +265,14 @@ Run declare_status(Options& options) {
   auto arguments = std::make_shared<StatusArguments>();
   arguments->store.declare(options);
   options.text("--connect", arguments->connect,
-               "Ask the coordinator at HOST:PORT, or the one whose file this is (default: "
+               "Ask the coordinator at HOST:PORT, or the one with this file (default: "
                "SWARMSMITH_COORDINATOR, else STORE.coordinator)");
-  options.text(
-      "--key", arguments->key,
-      "Key file, where the coordinator wants one (default: SWARMSMITH_KEY, else reader.key "
-      "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
+  options.text("--key", arguments->key,
+               "Key file, if the coordinator needs one (default: SWARMSMITH_KEY, else reader.key "
+               "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", arguments->insecure_plaintext,
-               "Ask a coordinator on another host that does not encrypt");
-  options.flag("--watch", arguments->watch, "Again and again, until the campaign ends");
+               "Ask a coordinator on another host without encryption");
+  options.flag("--watch", arguments->watch, "Repeat until the campaign ends");
   return [arguments](Output& output) { return run_status(*arguments, output); };
 }
 

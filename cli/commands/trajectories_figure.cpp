@@ -21,7 +21,7 @@ Expected<CandidateId> candidate_of(StoreReader& store, const FigureOptions& opti
   const auto found = designs(store, options.filter);
   if (!found) return Unexpected(found.error());
   if (found->size() != 1) {
-    return bad_input("of which machine? Add --candidate c812, or --design d3 for its winner",
+    return bad_input("no machine given; add --candidate c812, or --design d3 for its winner",
                      "figure trajectories");
   }
   if (found->front().best) return *found->front().best;

@@ -15,8 +15,8 @@ Expected<std::vector<std::string>> where_words(const std::string& connect,
                                                const std::string& coordinator) {
   if (connect.empty() == coordinator.empty()) {
     return bad_input(
-        "say where the coordinator is, by its address (--connect HOST:PORT) or by its file "
-        "(--coordinator FILE)");
+        "no coordinator given; name its address (--connect HOST:PORT) or its file (--coordinator "
+        "FILE)");
   }
   if (!coordinator.empty()) return std::vector<std::string>{"--coordinator", coordinator};
   const bool has_scheme = connect.find("://") != std::string::npos;
@@ -25,8 +25,8 @@ Expected<std::vector<std::string>> where_words(const std::string& connect,
     return std::vector<std::string>{"--connect", endpoint};
   }
   return bad_input("`" + connect +
-                       "` is no address; it is written 127.0.0.1:5555, host and port, as `serve` "
-                       "prints it",
+                       "` is not an address; write host and port, such as 127.0.0.1:5555, as "
+                       "`serve` prints them",
                    "--connect");
 }
 
@@ -45,22 +45,20 @@ Run declare_worker(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   options.text("--connect", arguments->connect, "Address and port of the coordinator");
   options.text("--coordinator", arguments->coordinator,
-               "In place of --connect: the file that the coordinator writes (STORE.coordinator); "
-               "one that moved is found");
-  options.text(
-      "--key", arguments->key,
-      "Key file, where the coordinator wants one (default: SWARMSMITH_KEY, else worker.key "
-      "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
+               "File that the coordinator writes (STORE.coordinator), in place of --connect; it "
+               "also finds a coordinator that has moved");
+  options.text("--key", arguments->key,
+               "Key file, if the coordinator needs one (default: SWARMSMITH_KEY, else worker.key "
+               "in SWARMSMITH_KEYS or ~/.config/swarmsmith/keys)");
   options.flag("--insecure-plaintext", arguments->insecure_plaintext,
-               "Talk to a coordinator on another host that does not encrypt");
+               "Connect to a coordinator on another host without encryption");
   options.integer("--slots", arguments->slots, {1, 1024},
-                  "Evaluations at the same time (default: SLURM_CPUS_PER_TASK, else the CPUs that "
-                  "this process may use)");
+                  "Parallel evaluations (default: SLURM_CPUS_PER_TASK, else the CPUs that this "
+                  "process may use)");
   options.texts("--allow", arguments->allow,
-                "A program that campaigns may run here in place of the simulator; repeatable");
+                "Program that campaigns may run here in place of the simulator; repeatable");
   options.flag("--allow-shell", arguments->allow_shell,
-               "Give command lines that only a shell understands to /bin/sh: then campaigns may "
-               "run anything");
+               "Run command lines that need a shell with /bin/sh: campaigns may then run anything");
   return [arguments](Output& output) {
     const auto program = find_worker_program();
     if (!program) return fail(output, ExitCode::Unreachable, program.error());

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "console/whole_file.h"
+#include "base/text/whole_file.h"
 #include "irace_core/files/templates.h"
 
 namespace swarmsmith::cli {
@@ -13,7 +13,7 @@ ExitCode write_templates(Output& output) {
   for (const IraceTemplate& file : irace_templates()) {
     const fs::path path = file.name;
     if (std::error_code none; fs::exists(path, none)) {
-      print_note(output, file.name + " is there already, and stays as it is");
+      print_note(output, file.name + " exists already and stays unchanged");
       continue;
     }
     if (path.has_parent_path()) {

@@ -75,7 +75,7 @@ class ScenarioRun {
     const std::int64_t more = ended == ExitCode::Store && !begins ? experiments_more() : 0;
     if (more > 0) {
       output_.err << fmt::format(
-          "It was made with maxExperiments = {}. To go on with more: `swarmsmith extend {} d1 "
+          "It was made with maxExperiments = {}. To continue with more: `swarmsmith extend {} d1 "
           "--budget {}`, then this command with the old number.\n",
           campaign_.race.max_experiments - more, place_.file().string(), more);
     }
@@ -192,9 +192,9 @@ class ScenarioRun {
       return;
     }
     const std::string file = place_.file().string();
-    print_note(output_, "\nEverything is in " + file + ". How to go on:\n  swarmsmith ls elites " +
-                            file + "\n  swarmsmith query " + file + "\n  swarmsmith verify " +
-                            file);
+    print_note(output_, "\nEverything is in " + file +
+                            ". How to continue:\n  swarmsmith ls elites " + file +
+                            "\n  swarmsmith query " + file + "\n  swarmsmith verify " + file);
   }
 
   Output& output_;

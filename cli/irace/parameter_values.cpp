@@ -105,7 +105,7 @@ Expected<ParameterValues> parse_parameter_values(std::string_view json) {
   auto values = Reader(json).object();
   if (!values) {
     return unexpected(ErrorKind::Corrupt,
-                      "a candidate's parameters are no JSON object of numbers and texts: " +
+                      "a candidate's parameters are not a JSON object of numbers and texts: " +
                           std::string(json.substr(0, 100)));
   }
   return std::move(*values);

@@ -55,7 +55,7 @@ Expected<DesignRow> find_design(const Campaign& campaign, const std::string& wor
       break;
     }
   }
-  return bad_input(word.empty() ? "which design? The campaign has: " + known
+  return bad_input(word.empty() ? "no design given; the campaign has: " + known
                                 : "the campaign has no design " + word + "; it has: " + known,
                    "--design");
 }

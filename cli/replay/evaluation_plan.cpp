@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/rng.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/seeds.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/arguments/world_argument.h"
@@ -27,8 +27,8 @@ Expected<Flavour> flavour_of(const EvaluateArguments& arguments, const NamedMach
   const std::string name = arguments.flavour.empty() ? named.flavour : arguments.flavour;
   if (name.empty()) {
     return bad_input(
-        "in which flavour is the machine written? Add --flavour watermelon, watermelon-argos3 or "
-        "chocolate; files that `swarmsmith export` writes say it themselves");
+        "the machine's flavour is unknown; add --flavour watermelon, watermelon-argos3 or "
+        "chocolate; files that `swarmsmith export` writes name it");
   }
   if (!named.candidate && !named.flavour.empty() && name != named.flavour) {
     return bad_input("the machine is of the flavour " + named.flavour + " (" + named.place +
@@ -47,7 +47,7 @@ Expected<Mission> mission_of(const EvaluateArguments& arguments, const NamedMach
   if (arguments.mission.empty()) {
     if (named.mission) return named.mission->mission;
     return bad_input(
-        "on which mission? Add --mission aggregation, grid_exploration, color_selection or a file",
+        "no mission given; add --mission aggregation, grid_exploration, color_selection or a file",
         "--mission");
   }
   if (named.mission && named.mission->mission.name == arguments.mission) {
@@ -133,7 +133,7 @@ Expected<std::vector<NamedMachine>> machines_of(const EvaluateArguments& argumen
   const bool of_store = arguments.machine == "best" || (id && id->letter == 'c');
   if (!of_store && !arguments.store.word.empty()) {
     return bad_input("`" + arguments.store.word +
-                     "` is one word too many: a store goes with a candidate of it, or with `best`");
+                     "` is one word too many: a store is only for a candidate (c812) or `best`");
   }
   if (arguments.machine == "best") {
     if (arguments.campaign.empty()) return winners_of(arguments);
@@ -203,8 +203,7 @@ std::optional<std::string> complaint_about(const EvaluationJob& job, const Named
   const bool is_campaigns = named.profile && named.profile->name == name;
   if (is_campaigns ? *named.profile != job.profile : built_in && *built_in != job.profile) {
     return "there is another profile " + name +
-           ", whose scores would be taken for these; give it "
-           "another name";
+           ", whose scores would be mixed up with these; give it another name";
   }
   return std::nullopt;
 }

@@ -1,9 +1,8 @@
 #include "cli/replay/machine_argument.h"
 
-#include <fstream>
 #include <utility>
 
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "cli/output/query_output.h"
 #include "console/terminal.h"
 #include "sim/files/machine_file.h"
@@ -29,13 +28,13 @@ Expected<std::vector<NamedMachine>> machines_of_file(const std::string& file, Ou
   if (is_database(file)) {
     return bad_input("this is a store; name one of its candidates, c812, with --store", file);
   }
-  if (!std::ifstream(file)) {
+  const auto text = read_file(file, "machine");
+  if (!text && text.error().kind == ErrorKind::NotFound) {
     return bad_input(
-        "this is no machine: neither a text that begins with --nstates, nor a file, "
-        "nor a candidate such as c812",
+        "not a machine: expected a text that begins with --nstates, a file, or a candidate such as "
+        "c812",
         file);
   }
-  const auto text = read_file(file, "machine");
   if (!text) return Unexpected(text.error());
   auto filed = parse_machine_file(*text, file);
   if (!filed) {
@@ -77,7 +76,7 @@ Expected<NamedMachine> machine_of_candidate(StoreReader& store, const DesignWorl
   if (!world || !*world) return machine;  // a file of another version: flags must say it
   if ((*world)->has_parameters) {
     return bad_input(to_string(candidate) +
-                     " is a configuration of the method's parameter file, and no machine");
+                     " is a configuration of the method's parameter file, not a machine");
   }
   machine.design_mission = (*world)->design.mission;
   machine.mission = std::move((*world)->mission);

@@ -63,8 +63,8 @@ Expected<Profile> profile_of(const DesignWorld& world, const std::string& source
   }
   if (world.has_programs || source == "command") {
     return bad_input(
-        "a program scored it: there is nothing to simulate again; `show` has its seed "
-        "and what was given to the program");
+        "a program scored it, so it cannot be simulated; `show` has its seed and the program's "
+        "arguments");
   }
   auto built_in = built_in_profile(source);
   if (built_in) return built_in;
@@ -161,11 +161,9 @@ Expected<StoredRun> StoredRuns::evaluation(const ThingId& id) {
   }
   StoredRun run = read_outcome(cells);
   if (run.outcome && run.outcome->state_digest == 0) {
-    return bad_input(
-        "it was imported, and its last state is not known: there is nothing to compare with; "
-        "`replay " +
-            run.candidate + " --seed " + std::to_string(run.seed) + "` simulates it",
-        name);
+    return bad_input("it was imported without its last state, so it cannot be compared; `replay " +
+                         run.candidate + " --seed " + std::to_string(run.seed) + "` simulates it",
+                     name);
   }
   run.profile = std::move(*profile);
   const auto completed = complete(run, *world, cells[7].text);
@@ -275,8 +273,8 @@ bool StoredRuns::has_machines() const {
 
 Error programs_scored(const std::string& where) {
   return {ErrorKind::BadInput,
-          "programs scored this store: their evaluations cannot be made again here; the races can "
-          "be checked, by `swarmsmith verify` without --sample",
+          "programs scored this store, so its evaluations cannot be repeated here; check the races "
+          "with `swarmsmith verify` without --sample",
           where};
 }
 

@@ -1,6 +1,5 @@
 #include "cli/run/campaign_flags.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -12,11 +11,6 @@
 namespace swarmsmith::cli {
 namespace {
 
-std::string store_of_environment() {
-  const char* variable = std::getenv("SWARMSMITH_STORE");
-  return variable == nullptr ? "" : variable;
-}
-
 /// The same file under any of its names.
 std::filesystem::path place_of(const std::filesystem::path& store) {
   std::error_code trouble;
@@ -27,8 +21,7 @@ std::filesystem::path place_of(const std::filesystem::path& store) {
 Expected<void> check_one_store(const std::string& store, const std::string& where) {
   if (store.empty()) return {};
   return bad_input(
-      "names one store, and each campaign has one of its own: their files say which (key `store`)",
-      where);
+      "names one store, but each campaign needs its own: name it in its file (key `store`)", where);
 }
 
 }  // namespace
@@ -38,8 +31,8 @@ void CampaignFlags::declare(Options& options, Options::Need files_needed) {
                 "Campaign file; several campaigns share the workers, each with its own store",
                 files_needed);
   options.integer("--budget", budget, {1, kLargestBudget}, "Experiments of each design");
-  options.integer("--seed", seed, {0, INT64_MAX}, "Seed that everything derives from");
-  options.text("--store", store, "Where the results go");
+  options.integer("--seed", seed, {0, INT64_MAX}, "Seed of all random numbers");
+  options.text("--store", store, "The store, which keeps the results");
 }
 
 Expected<void> check_pool(const std::vector<Campaign>& campaigns) {
@@ -52,7 +45,7 @@ Expected<void> check_pool(const std::vector<Campaign>& campaigns) {
   for (const Campaign& campaign : campaigns) {
     // The second would be asked for its own answer again.
     if (!digests.insert(campaign_digest(campaign)).second) {
-      return bad_input("the campaign is there twice: its answer would be the same", campaign.name);
+      return bad_input("the campaign is given twice: its answer would be the same", campaign.name);
     }
     if (!stores.insert(place_of(campaign.store)).second) {
       return bad_input("two of the campaigns have this store: give each its own (key `store`)",
@@ -60,8 +53,8 @@ Expected<void> check_pool(const std::vector<Campaign>& campaigns) {
     }
     if (campaign.target.has_value() != campaigns.front().target.has_value()) {
       return bad_input(
-          "some of the campaigns run programs and others the simulator, for which other rules "
-          "hold: run them apart");
+          "some of the campaigns run programs and others the simulator, which have different "
+          "rules: run them separately");
     }
   }
   return {};

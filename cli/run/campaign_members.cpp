@@ -150,7 +150,7 @@ std::string CampaignMembers::in_front(const Member& member, const std::string& m
 void CampaignMembers::print_resume(const Member& member) {
   if (!keeps_store_) return;
   print_note(output_, "everything so far is in " + member.campaign->store.string() +
-                          "; the same command goes on from there");
+                          "; the same command continues from there");
 }
 
 std::vector<ServiceCampaign> CampaignMembers::served() const {

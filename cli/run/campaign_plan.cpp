@@ -6,6 +6,7 @@
 #include <thread>
 #include <variant>
 
+#include "base/text/json.h"
 #include "cli/run/campaign_warnings.h"
 #include "console/output.h"
 #include "coordinator/campaign/campaign_rows.h"
@@ -62,7 +63,7 @@ void warn_about_scores(const std::string& mission, const Measured& measured,
   if (!measured.finite) {
     warnings.push_back(
         "mission " + mission +
-        ": a random machine's score is no finite number; a race rejects such machines");
+        ": a random machine's score is not a finite number; a race rejects such machines");
   } else if (measured.runs >= kEnough && measured.least == measured.most) {
     warnings.push_back("mission " + mission + ": " + std::to_string(measured.runs) +
                        " runs of random machines all scored " + json_number(measured.most) +

@@ -64,8 +64,8 @@ Expected<LoopFunctions> loop_functions_of(const Mission& mission) {
   }
   return bad_input(
       "the mission " + mission.name +
-      " is none of the thesis' three (aggregation, grid_exploration, color_selection): its arena, "
-      "floor, placement or score differ, and the original has no loop functions for it");
+      " is not one of the thesis' three (aggregation, grid_exploration, color_selection): its "
+      "arena, floor, placement or score differ, and the original has no loop functions for it");
 }
 
 /// Within a comment of XML two hyphens must not meet.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <optional>
 #include <utility>
 
 #include "base/suggestion.h"
+#include "base/text/whole_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -51,7 +51,7 @@ class Reader {
       read_setting(words[i], host);
     const auto same = [&](const SshHost& other) { return other.name == host.name; };
     if (std::ranges::any_of(hosts_, same)) {
-      complain(words.front(), "`" + host.name + "` is there twice; give it more slots instead");
+      complain(words.front(), "`" + host.name + "` is given twice; give it more slots instead");
     }
     hosts_.push_back(std::move(host));
   }
@@ -59,8 +59,7 @@ class Reader {
   HostsOrErrors finish() {
     if (hosts_.empty() && errors_.empty()) {
       errors_.push_back({ErrorKind::BadInput,
-                         "there is no host in this file; write one a line, such as "
-                         "node1 slots=16",
+                         "the file has no host; write one per line, such as node1 slots=16",
                          file_});
     }
     if (!errors_.empty()) return tl::unexpected(std::move(errors_));
@@ -121,20 +120,9 @@ HostsOrErrors parse_hosts(std::string_view text, const std::filesystem::path& fi
 }
 
 HostsOrErrors read_hosts(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code ignored;
-  if (!stream || std::filesystem::is_directory(file, ignored)) {
-    return tl::unexpected(std::vector<Error>{
-        {ErrorKind::NotFound, "there is no such host file that can be read", file.string()}});
-  }
-  std::string text(kMostBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kMostBytes) {
-    return tl::unexpected(std::vector<Error>{
-        {ErrorKind::BadInput, "the host file is larger than 1 MB", file.string()}});
-  }
-  return parse_hosts(text, file);
+  const auto text = read_file(file, "host", kMostBytes);
+  if (!text) return tl::unexpected(std::vector<Error>{text.error()});
+  return parse_hosts(*text, file);
 }
 
 }  // namespace swarmsmith

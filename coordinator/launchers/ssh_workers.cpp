@@ -27,7 +27,7 @@ std::string reason(int status, const std::string& said) {
     case 0:
       return "the worker was drained";
     case kRefused:
-      return "the worker there is of another build than the coordinator; it is not started again";
+      return "the worker there and the coordinator are different builds; it is not started again";
     case kNoProgram:
       return "there is no such program there (`program=PATH` in the host file names it)" + words;
     case kSshFailed:

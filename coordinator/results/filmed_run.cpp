@@ -34,7 +34,7 @@ Expected<FilmedRun> filmed_run(const RealRunRows& rows) {
   auto entry = parse_mission(rows.mission_file, "the run's mission");
   if (!entry) return broken(rows, to_string(entry.error().front()));
   if (!entry->mission.arena.objects.empty())
-    return broken(rows, "its mission has movable objects, which nobody follows");
+    return broken(rows, "its mission has movable objects, which tracking cannot follow");
   auto patches = patches_of(rows);
   if (!patches) return Unexpected(patches.error());
   FilmedRun run{.mission = std::move(entry->mission),

@@ -55,8 +55,8 @@ std::optional<std::string> complaint_about(const std::string& mission, const std
   }
   if (!is_name(mission)) {
     return "`" + mission +
-           "` is no name for a mission: letters, digits, _ - . are; rename it with "
-           "--mission OLD=NEW";
+           "` is not a valid mission name (letters, digits, _ - .); rename it with --mission "
+           "OLD=NEW";
   }
   if (!is_known) {
     constexpr std::array<const char*, 3> kBuiltIn{"aggregation", "grid_exploration",
@@ -65,8 +65,8 @@ std::optional<std::string> complaint_about(const std::string& mission, const std
         kBuiltIn, [&](const std::string& name) { return name.starts_with(mission); });
     return meant == kBuiltIn.end()
                ? fmt::format(
-                     "there is no mission `{0}` here; say which one it is: --mission "
-                     "{0}=NEW, or --mission {0}={0} to keep the name",
+                     "there is no mission `{0}` here; name the one that it is: --mission {0}=NEW, "
+                     "or --mission {0}={0} to keep the name",
                      mission)
                : fmt::format(
                      "there is no mission `{0}` here; is it {1}? Then --mission {0}={1}, "
@@ -74,7 +74,7 @@ std::optional<std::string> complaint_about(const std::string& mission, const std
                      mission, *meant);
   }
   if (!is_name(method)) {
-    return "`" + method + "` is no name for a method: letters, digits, _ - . are";
+    return "`" + method + "` is not a valid method name (letters, digits, _ - .)";
   }
   return std::nullopt;
 }
@@ -176,7 +176,7 @@ Expected<std::string> flavour_of(const std::vector<MachineText>& machines,
   const auto silent = std::ranges::find(machines, "", &MachineText::flavour);
   if (said.empty() && silent != machines.end()) {
     return bad_input(
-        "in which flavour is the machine written? Add --flavour watermelon, watermelon-argos3 or "
+        "the machine's flavour is unknown; add --flavour watermelon, watermelon-argos3 or "
         "chocolate",
         silent->place);
   }

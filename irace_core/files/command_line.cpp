@@ -24,7 +24,7 @@ class Reader {
  private:
   void read_option(const std::string& word) {
     if (!word.starts_with('-') || word == "-") {
-      complain(word, "is no option and belongs to none; values of options follow their names");
+      complain(word, "is not an option and belongs to none; values of options follow their names");
       return;
     }
     const std::size_t equals = word.starts_with("--") ? word.find('=') : std::string::npos;

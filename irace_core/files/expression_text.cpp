@@ -60,7 +60,7 @@ Expected<Expression> Reader::read(const r::Node& node) {
           [](const r::Logical& logical) -> Result {
             return logical.value ? Expression::logical(*logical.value) : Expression::missing();
           },
-          [&](const r::Null&) -> Result { return wrong("NULL means nothing here", node); },
+          [&](const r::Null&) -> Result { return wrong("NULL has no meaning here", node); },
           [&](const r::Call& call) { return read_call(node, call); },
       },
       node.what);
@@ -86,7 +86,7 @@ Expected<Expression> Reader::read_call(const r::Node& node, const r::Call& call)
   if (function == "&&" || function == "||") {
     const std::string single = function.substr(1);
     if (use_ == ExpressionUse::Value) {
-      return wrong("found '" + function + "': write '" + single + "', as irace wants it", node);
+      return wrong("found '" + function + "': write '" + single + "', as irace needs it", node);
     }
     warnings_.push_back({ErrorKind::BadInput, "'" + function + "' is read as '" + single + "'",
                          r::to_string(node.place)});
@@ -132,7 +132,7 @@ Expected<std::vector<Expression>> Reader::read_arguments(const r::Call& call) {
     nesting_ -= levels;
     const bool searched = call.function == "%in%" && !operands.empty();
     if (!searched && is_long_range(*operand)) {
-      return wrong("a range of 10000 numbers or more may only stand behind %in%", argument.value);
+      return wrong("a range of 10000 numbers or more is allowed only after %in%", argument.value);
     }
     operands.push_back(std::move(*operand));
   }

@@ -45,8 +45,8 @@ Expected<int> read_option(const LineReader& line) {
   const auto statements = r::parse_statements(line.rest());
   if (!statements || statements->size() != 1 || statements->front().name != "digits") {
     return line.expected(
-        "an option of [global]; there is one, 'digits = 4', and parameters stand "
-        "before the sections");
+        "an option of [global]; the only one is 'digits = 4', and parameters come before the "
+        "sections");
   }
   const auto* number = std::get_if<r::Number>(&statements->front().value.what);
   const double value = number == nullptr ? 0 : number->value;
@@ -80,7 +80,7 @@ Expected<Parts> cut(const IraceText& source) {
     }
   }
   if (parts.parameters.empty()) {
-    return bad_input("there is no parameter in this file", source.file + ":1:1");
+    return bad_input("the file has no parameter", source.file + ":1:1");
   }
   return parts;
 }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/environment.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -19,8 +21,8 @@ bool is_default(const IraceOption& option, const IraceValue& value) {
 /// `~` and `~/...` begin in the home folder, as in R, which does not leave that to the shell.
 std::filesystem::path with_home(std::string_view path) {
   const bool begins = path == "~" || path.starts_with("~/");
-  const char* home = begins ? std::getenv("HOME") : nullptr;
-  if (home == nullptr || *home == '\0') return path;
+  const std::string home = begins ? environment("HOME") : "";
+  if (home.empty()) return path;
   path.remove_prefix(std::min<std::size_t>(path.size(), 2));
   return std::filesystem::path(home) / path;
 }
@@ -91,7 +93,7 @@ std::optional<std::string> irace_remark(const IraceOption& option, const IraceVa
     return title + " is read, but newer versions of irace refuse it: " + remark;
   }
   if (option.meaning == IraceMeaning::Ignored && !is_default(option, value)) {
-    return title + " means nothing here: " + std::string(option.remark);
+    return title + " has no effect here: " + std::string(option.remark);
   }
   const auto* share = std::get_if<double>(&value);
   if (option.name == "postselection" && share != nullptr && *share > 0 && *share < 1) {

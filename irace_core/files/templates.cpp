@@ -153,10 +153,9 @@ std::string explained(const IraceOption& option) {
 
 std::string scenario() {
   std::string text =
-      "# Options of `swarmsmith irace`, which reads this file without being told when it is "
-      "called\n"
-      "# in this folder. A line that begins with # is a comment: remove the # to set an option.\n"
-      "# Paths are relative to this file's folder.\n";
+      "# Options of `swarmsmith irace`, which reads this file by default when it is called\n# in "
+      "this folder. A line that begins with # is a comment: remove the # to set an option.\n# "
+      "Paths are relative to this file's folder.\n";
   for (const IraceOption& option : irace_options()) {
     const bool is_listed = option.meaning == IraceMeaning::Supported && !option.name.empty() &&
                            option.name != "scenarioFile" && option.kind != IraceKind::Texts;

@@ -38,7 +38,7 @@ Expected<Reading> parse_aclib(std::string_view output, const Target& target) {
   }
   const nlohmann::json result = nlohmann::json::parse(line, nullptr, false);
   if (!result.is_object()) {
-    return bad_input("the result of the targetRunner is no JSON object: `" +
+    return bad_input("the result of the targetRunner is not a JSON object: `" +
                      printable(line.substr(0, 80), 320) + "`");
   }
   const auto found = result.find("status");

@@ -224,7 +224,7 @@ Behaviour make_behaviour(Module module, std::span<const double> parameters) {
     case Module::ColorDetection:
       break;
   }
-  throw std::invalid_argument(std::string(id_of(module)) + " is no behaviour");
+  throw std::invalid_argument(std::string(id_of(module)) + " is not a behaviour");
 }
 
 Command act(const Behaviour& behaviour, Senses& senses, const Flavour& flavour,

@@ -91,7 +91,7 @@ Condition make_condition(Module module, std::span<const double> parameters) {
     case Module::Repulsion:
       break;
   }
-  throw std::invalid_argument(std::string(id_of(module)) + " is no condition");
+  throw std::invalid_argument(std::string(id_of(module)) + " is not a condition");
 }
 
 double neighbour_sigmoid(double eta, int xi, int neighbours) {

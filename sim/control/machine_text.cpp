@@ -88,11 +88,11 @@ class Parser {
         if (!transitions.empty()) transitions.back().end_at(field.name);
         transitions.emplace_back(std::string(field.name.text.substr(3)), end);
       } else if (field.transition != next - 1) {
-        return error_at(field.name, quoted(field.name.text) +
-                                        " stands outside of the block of its transition, which "
-                                        "begins with " +
-                                        quoted("--n" + std::to_string(index) + "x" +
-                                               std::to_string(field.transition)));
+        return error_at(
+            field.name,
+            quoted(field.name.text) +
+                " is outside the block of its transition, which begins with " +
+                quoted("--n" + std::to_string(index) + "x" + std::to_string(field.transition)));
       }
       if (auto error = transitions.back().add(field)) return error;
     }

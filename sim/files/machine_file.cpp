@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/text/document.h"
-#include "base/text/file_text.h"
+#include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "sim/files/profile_file.h"
 
@@ -57,7 +57,7 @@ std::optional<MissionEntry> read_mission(TableReader& root) {
   }
   auto missions = read_missions(root, {});
   if (missions.size() == 1) return std::move(missions.front());
-  root.complain("mission", "a machine is of one mission");
+  root.complain("mission", "a machine has one mission");
   return std::nullopt;
 }
 

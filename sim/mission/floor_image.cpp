@@ -66,7 +66,7 @@ Expected<std::shared_ptr<const Picture>> Picture::from_png(std::string bytes,
   if (auto known = known_pictures().find(bytes)) return known;
   PngImage image;
   if (png_image_begin_read_from_memory(&image, bytes.data(), bytes.size()) == 0) {
-    return bad_input("this is no PNG image: " + std::string(image.message));
+    return bad_input("this is not a PNG image: " + std::string(image.message));
   }
   const std::int64_t pixels = std::int64_t{image.width} * std::int64_t{image.height};
   if (pixels > kMostPixels) {

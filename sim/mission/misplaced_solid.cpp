@@ -9,7 +9,7 @@ std::optional<std::string> misplaced_solid(const Arena& arena) {
   Ground ground(arena);
   for (std::size_t i = 0; i < arena.obstacles.size(); ++i) {
     if (!is_inside(arena, arena.obstacles[i].pose.position())) {
-      return "obstacle " + std::to_string(i + 1) + " stands outside of the walls";
+      return "obstacle " + std::to_string(i + 1) + " is outside the walls";
     }
   }
   for (std::size_t i = 0; i < arena.objects.size(); ++i) {

@@ -105,7 +105,7 @@ std::optional<std::string> flaw_of(std::span<const Point> corners) {
       if (distance(corners[i], corners[j]) > kSamePoint_m) continue;
       std::string flaw = "corners " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
                          " are the same point, " + point_text(corners[i]);
-      if (i == 0 && j == n - 1) flaw += "; the last corner is joined to the first by itself";
+      if (i == 0 && j == n - 1) flaw += "; the last corner joins the first automatically";
       return flaw;
     }
   }

@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "base/environment.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -50,10 +52,10 @@ Expected<void> check_database_file(const sqlite::Connection& connection,
   if (size == 0) return {};
   const std::string header = connection.file_bytes(0, kHeaderBytes);
   if (header.substr(0, kMagic.size()) != kMagic.substr(0, header.size())) {
-    return unexpected(ErrorKind::Corrupt,
-                      "this is no store: the file is no SQLite database; name another path, or "
-                      "move the file away",
-                      path.string());
+    return unexpected(
+        ErrorKind::Corrupt,
+        "not a store: the file is not an SQLite database; name another path, or move the file away",
+        path.string());
   }
   if (header.size() < kHeaderBytes) return truncated(path, size, kHeaderBytes);
   if (has_pending_log(connection.file())) return {};
@@ -92,14 +94,13 @@ Expected<void> check_folder(const std::filesystem::path& store) {
       store.parent_path().empty() ? std::filesystem::path(".") : store.parent_path();
   std::error_code trouble;
   if (!std::filesystem::is_directory(folder, trouble)) {
-    return bad_input(fmt::format("there is no folder {}; make it first", folder.string()),
+    return bad_input(fmt::format("the folder {} does not exist; make it first", folder.string()),
                      store.string());
   }
   if (std::filesystem::is_directory(store, trouble)) {
     return bad_input("this is a folder; a store is a file", store.string());
   }
-  const char* allowed = std::getenv("SWARMSMITH_ALLOW_NETWORK_FS");
-  if (allowed != nullptr && std::string_view(allowed) == "1") return {};
+  if (environment("SWARMSMITH_ALLOW_NETWORK_FS") == "1") return {};
   struct statfs about {};
   if (::statfs(folder.c_str(), &about) == 0 && is_network_file_system(about.f_type)) {
     return bad_input(

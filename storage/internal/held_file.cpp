@@ -82,8 +82,8 @@ Expected<void> check_only_name(const sqlite::Connection& connection, const fs::p
   struct stat file {};
   if (::fstat(connection.descriptor(), &file) != 0 || file.st_nlink <= 1) return {};
   return bad_input(
-      "the store has a second name (a hard link), and SQLite keeps a log for each name: what is in "
-      "the other's log would be missing here; remove the other name, or copy the file and use the "
+      "the store has a second name (a hard link), and SQLite keeps a log for each name: rows in "
+      "the other log would be missing here; remove the other name, or copy the file and use the "
       "copy",
       path.string());
 }
@@ -160,8 +160,7 @@ Expected<std::string> HeldFile::save(sqlite::Connection& connection) const {
   }
   return fmt::format(
       "everything so far is in {0}: `mv {0} {1}` gives it its name again, and the same command "
-      "goes "
-      "on from there",
+      "continues from there",
       copy->string(), path_.string());
 }
 

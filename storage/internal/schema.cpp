@@ -127,10 +127,10 @@ bool is_blank(const sqlite::Connection& connection) {
 Expected<void> check_identity(const sqlite::Connection& connection,
                               const std::filesystem::path& path) {
   if (sqlite::integer_of(connection, "PRAGMA application_id") != kApplicationId) {
-    return unexpected(ErrorKind::Corrupt,
-                      "this is a SQLite database of another program, and no store; name another "
-                      "path",
-                      path.string());
+    return unexpected(
+        ErrorKind::Corrupt,
+        "this is an SQLite database of another program, not a store; name another path",
+        path.string());
   }
   const std::int64_t version = sqlite::integer_of(connection, "PRAGMA user_version");
   if (version > kSchemaVersion) {

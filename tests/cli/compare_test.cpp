@@ -85,7 +85,7 @@ TEST_F(Compare, JsonHasNullWhereThereIsNoP) {
   const json answer =
       json::parse(run({"compare", store_, "--by", "method", "--source", "real", "--json"}).out);
   EXPECT_TRUE(answer["pairs"][0]["p"].is_null());
-  EXPECT_EQ(answer["pairs"][0]["notes"][0], "all values are the same: there is no p");
+  EXPECT_EQ(answer["pairs"][0]["notes"][0], "all values are the same: no p");
 }
 
 TEST_F(Compare, WritesATableAsCsv) {

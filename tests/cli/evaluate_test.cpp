@@ -112,7 +112,7 @@ TEST(Evaluate, AsksForAFlavourThatNobodySays) {
   for (const std::string& machine : {kExploreText, (folder / "best.fsm").string()}) {
     const Ran ran = run({"evaluate", machine, "--mission", "aggregation"});
     EXPECT_EQ(ran.code, 2);
-    EXPECT_THAT(ran.err, HasSubstr("--flavour: in which flavour is the machine written? Add"));
+    EXPECT_THAT(ran.err, HasSubstr("--flavour: the machine's flavour is unknown; add"));
   }
 }
 
@@ -206,15 +206,15 @@ struct Misuse {
 
 TEST(Evaluate, ExplainsWhatIsWrongWithItsArguments) {
   const Misuse misuses[] = {
-      {{kStopText}, "--mission: on which mission?"},
+      {{kStopText}, "--mission: no mission given"},
       {{kStopText, "--mission", "gird"}, "--mission: there is no mission `gird`"},
       {{kStopText, "--mission", "aggregation", "--flavour", "melon"}, "--flavour: there is no"},
       {{kStopText, "--mission", "aggregation", "--profile", "x"}, "--profile: "},
       {{kStopText, "--mission", "aggregation", "--seeds", "3-1"}, "--seeds: seeds are written"},
-      {{kStopText, "--mission", "aggregation", "--csv", "x"}, "--seeds: tables and pictures are"},
+      {{kStopText, "--mission", "aggregation", "--csv", "x"}, "--seeds: tables and pictures show"},
       {{kStopText, "--mission", "aggregation", "--at", "3"}, "add --svg FILE"},
       {{"--nstates 1 --s0 9", "--mission", "aggregation"}, "MACHINE, token"},
-      {{"nothing.fsm", "--mission", "aggregation"}, "nothing.fsm: this is no machine"},
+      {{"nothing.fsm", "--mission", "aggregation"}, "nothing.fsm: not a machine"},
       {{"c1", "--mission", "aggregation"}, "which store?"},
   };
   for (const Misuse& misuse : misuses) {

@@ -75,7 +75,7 @@ TEST_F(ExportIrace, EvaluateTakesItsWorldFromACampaign) {
   EXPECT_EQ(taken.out, named.out);
   const Ran unclear = run({"evaluate", kExploreText, "--campaign", file});
   EXPECT_EQ(unclear.code, 2);
-  EXPECT_THAT(unclear.err, HasSubstr("which design?"));
+  EXPECT_THAT(unclear.err, HasSubstr("no design given"));
 }
 
 }  // namespace

@@ -257,9 +257,9 @@ struct Misuse {
 TEST_F(Replay, ExplainsWhatIsWrongWithItsArguments) {
   const Misuse misuses[] = {
       {{}, "ID: is required"},
-      {{"best"}, "ID: \"best\" is no evaluation; replay wants one (e81200007"},
-      {{"d1"}, "is no evaluation"},
-      {{"c1"}, "c1: on which seed? Add --seed 7"},
+      {{"best"}, "ID: \"best\" is not an evaluation (e81200007"},
+      {{"d1"}, "is not an evaluation"},
+      {{"c1"}, "c1: no seed given; add one, such as --seed 7"},
       {{"e100001", "--seed", "3"}, "--seed: an evaluation has its own seed"},
       {{"c99", "--seed", "3"}, "the store has no candidate c99", 4},
       {{"e100009"}, "the store has no evaluation e100009", 4},

@@ -115,7 +115,7 @@ class CampaignFile(BadInput):
             ('[arena]\nshape = "square"\nside = -3\n', "mine.toml:5:8: `side` must be from"),
             ('robots = 90\n', "mine.toml:3:10: mission \"mine\": arena too small for 90 robots"),
             ('arena.spots = [{ shape = "image", x = 0, y = 0, width = 1, height = 1, '
-             'file = "my_rvr.toml" }]\n', "my_rvr.toml: this is no PNG image"),
+             'file = "my_rvr.toml" }]\n', "my_rvr.toml: this is not a PNG image"),
             ('arena.spots = [{ shape = "image", x = 0, y = 0, width = 1, height = 1, '
              'file = "none.png" }]\n', "none.png: there is no such image file"),
         ]
@@ -341,7 +341,7 @@ class BadStore(BadInput):
         store = self.store()
         for name in ("c999999", "d2", "e1"):
             self.assert_refused(4, name, "show", name, store)
-        self.assert_refused(2, '"xyz" is no id', "show", "xyz", store)
+        self.assert_refused(2, '"xyz" is not an id', "show", "xyz", store)
         self.assert_refused(4, "c999999", "evaluate", "c999999", "--store", store)
 
     def test_sql_that_writes_or_is_none(self):
@@ -428,7 +428,7 @@ class BadPeers(BadInput):
                 peer.sendall(noise)
             except OSError:
                 pass  # thrown out already
-        current = b"SWRM" + struct.pack("<HH", 3, 0)
+        current = b"SWRM" + struct.pack("<HH", 4, 0)
         future = zmtp(address, b"SWRM" + struct.pack("<HH", 99, 0) + b"\x01")
         self.addCleanup(future.close)
         self.assertIn(b"SWRM", answer(future))
@@ -452,7 +452,7 @@ class BadPeers(BadInput):
             hello = (field(1, os.urandom(16)) + field(2, b"other") + field(3, version) +
                      field(4, b"0123456789abcdef") + field(5, 1) + field(6, b"host") + field(7, 1))
             message = field(1, 1) + field(2, 1) + field(3, hello)
-            peer = zmtp(address, b"SWRM" + struct.pack("<HH", 3, 0) + message)
+            peer = zmtp(address, b"SWRM" + struct.pack("<HH", 4, 0) + message)
             self.addCleanup(peer.close)
             self.assertRegex(answer(peer), rb"self.test|version \d+ of the simulator")
         worker, _ = self.start_logged("worker", "--connect", address, name="worker")
@@ -576,7 +576,7 @@ class Evaluate(BadInput):
         on = ["--mission", "aggregation"]
         self.refused("MACHINE, token 2, column 11", "--nstates", "x", *on)
         self.refused("MACHINE, token 4, column 18", "--nstates", "1", "--s0", "9", *on)
-        self.refused("this is no machine", "nofile", *on)
+        self.refused("not a machine", "nofile", *on)
         self.refused("--mission: there is no mission", *EXPLORE, "--mission", "agg")
         self.refused("--flavour", *EXPLORE, *on, "--flavour", "f")
         self.refused("--profile", *EXPLORE, *on, "--profile", "f")
@@ -590,7 +590,7 @@ class Evaluate(BadInput):
                  (["1,0,nan,0,0"], 'starts.csv:2: column x wants a finite number, not `nan`'),
                  (["1,0,0"], "starts.csv:2: expected 5 cells as in the header, found 3"),
                  (["1,3,0,0,0"], "starts.csv:2: column robot wants robot 0 of this seed"),
-                 (["1,0,9,9,0"] + good[1:], "seed 1: robot 0 stands outside of the arena")]
+                 (["1,0,9,9,0"] + good[1:], "seed 1: robot 0 is outside the arena")]
         for lines, sentence in cases:
             with self.subTest(sentence):
                 table = self.folder / "starts.csv"

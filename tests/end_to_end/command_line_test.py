@@ -76,7 +76,7 @@ class CommandLine(ProgramTest):
             self.assertEqual([row["slots"] for row in rows], slots, words)
         done = self.run_campaign(self.folder / "far.db", "--workers", "slurm:2x4", "--slots", "2")
         self.assertEqual(done.returncode, 2)
-        self.assertIn("--slots: is of workers on this host", done.stderr)
+        self.assertIn("--slots: applies to workers on this host", done.stderr)
 
     def test_evaluate_takes_the_words_of_a_machine_as_they_are(self):
         done = call("evaluate", *EXPLORE, "--flavour", "watermelon", "--mission", "aggregation", "--seeds", "1-3", "--json")

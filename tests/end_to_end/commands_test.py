@@ -161,7 +161,7 @@ class Commands(ProgramTest):
         plain = self.digest(self.store)
         self.assertIn("no further iteration",
                       self.ask("extend", self.store, "d1", "--budget", "1", code=1))
-        self.assertIn("which design?", self.ask("extend", self.store, "--budget", "900", code=2))
+        self.assertIn("no design given", self.ask("extend", self.store, "--budget", "900", code=2))
         self.assertIn("no such design", self.ask("extend", self.store, "d9", "--budget", "900",
                                                  code=4))
         self.assertIn("experiments more when",

@@ -186,7 +186,7 @@ class Figure(unittest.TestCase):
         self.assertNotIn("Scores by", svg)
         for font in ("x'><script>", "a;b"):
             self.assertIn("a font's name", self.refused(2, "box", self.store, "--font", font))
-        self.assertIn("means nothing", self.refused(2, "box", self.store, "--paper", "-o", self.folder / "a.csv"))
+        self.assertIn("has no effect", self.refused(2, "box", self.store, "--paper", "-o", self.folder / "a.csv"))
         if shutil.which("rsvg-convert") is None:
             self.skipTest("rsvg-convert (package librsvg2-bin) is not there")
         file = self.folder / "a.png"
@@ -199,7 +199,7 @@ class Figure(unittest.TestCase):
     def test_what_cannot_be_meant_is_refused(self):
         for words, sentence in (
                 (("bxo", self.store), 'did you mean "box"?'),
-                (("modules", self.store, "--by", "source"), "means nothing to the figure `modules`"),
+                (("modules", self.store, "--by", "source"), "has no effect on the figure `modules`"),
                 (("convergence", self.store, "--source", "rvr"), "--source"),
                 (("box", self.store, "--iteration", "2"), "--iteration"),
                 (("box", self.store, "--by", "robot"), "source, method, mission"),

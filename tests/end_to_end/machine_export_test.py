@@ -251,7 +251,7 @@ class NoNumber(ProgramTest):
         self.assertNotIn("mean", done.stdout)
         self.file.write_text('format = 1\n[[mission]]\npreset = "nan.toml"\n[[method]]\nname = "watermelon"\n'
                              "[race]\nmax_experiments = 1400\n")
-        self.assertIn("no finite number", call("check", self.file).stderr)
+        self.assertIn("not a finite number", call("check", self.file).stderr)
         done = self.run_campaign(self.folder / "a.db", "--workers", "1", "-q")
         self.assertEqual(done.returncode, 1)
         self.assertRegex(done.stdout, "stopped after .*: every configuration was rejected")

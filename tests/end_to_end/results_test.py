@@ -272,9 +272,9 @@ class Results(ProgramTest):
         machines.write_text("--nstates 1 --s0 1\n--nstates 9\n")
         self.refused(2, "machines.txt:2, token", "import", machines, "--flavour", "watermelon",
                      "--mission", "aggregation", "--into", store)
-        self.refused(2, "in which flavour", "import", machines, "--into", store)
+        self.refused(2, "flavour is unknown", "import", machines, "--into", store)
         self.assertFalse(store.exists())
-        self.refused(2, "into which store?", "import", ARGOS / "argos-scores.csv")
+        self.refused(2, "no store given", "import", ARGOS / "argos-scores.csv")
         self.refused(3, "there is no such store", "import", ARGOS / "argos-scores.csv", "--into",
                      store)
         store = self.thesis()

@@ -135,7 +135,7 @@ class Target(ProgramTest):
         self.assert_clean(store)
         refused = call("import", "machines.csv")
         self.assertEqual(refused.returncode, 2)
-        self.assertIn("into which store?", refused.stderr)
+        self.assertIn("no store given", refused.stderr)
 
     def test_machines_by_a_program_have_the_scores_of_the_simulator(self):
         runner = self.scenario / "evaluate.sh"

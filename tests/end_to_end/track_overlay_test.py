@@ -133,7 +133,7 @@ class OverlayAndLive(unittest.TestCase):
                 (["r1", "-o", "x.mp4"], 2, "SWARMSMITH_STORE"),
                 (["r9", "--store", "runs.db", "-o", "x.mp4"], 4, "no real run r9"),
                 (["r1", "--store", "runs.db", "--video", "other.mkv", "-o", "x.mp4"], 1,
-                 "another video"),
+                 "not the video"),
                 (["r1", "--store", "runs.db", "--at", "soon", "-o", "x.png"], 2, "--at"),
                 (["r1", "--store", "runs.db", "--at", "99", "-o", "x.png"], 2, "no frame there"),
                 (["r1", "--store", "runs.db", "--camera", "west", "-o", "x.mp4"], 2, "west")):

@@ -93,7 +93,7 @@ class Printing(unittest.TestCase):
             self.assertIn('height="297mm"', (self.folder / "tags-2.svg").read_text())
             self.refused(2, "largest that fits has 151 mm", "print", "tags", "--edge", "0.2", "--ids", "1", "-o", "t.pdf")
             self.refused(2, ".pdf or .svg", *tags, "--ids", "1", "-o", "tags.png")
-            self.refused(2, '"x" is no id', *tags, "--ids", "x", "-o", "tags.pdf")
+            self.refused(2, '"x" is not an id', *tags, "--ids", "x", "-o", "tags.pdf")
             self.refused(2, "too large for A4", "print", "board", "chessboard:10x7:0.1", "-o", "b.pdf")
             self.refused(2, "no positive number", "print", "survey", "--ids", "1", "--edge", "-1", "-o", "s.pdf")
             self.refused(1, "cannot", *tags, "--ids", "1", "-o", "no/such/folder/tags.svg")

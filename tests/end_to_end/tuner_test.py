@@ -138,7 +138,7 @@ class TunerTest(unittest.TestCase):
     def test_what_is_wrong_is_said(self):
         for space, options, sentence in (({"a b": [1]}, {}, "no name of a parameter"),
                                          ({"a": ["x y", "x,y"]}, {}, "written alike"),
-                                         (SPACE, {**OPTIONS, "test_instances": ["a"]}, "means nothing here"),
+                                         (SPACE, {**OPTIONS, "test_instances": ["a"]}, "has no effect here"),
                                          (SPACE, {"max_experiments": 10}, "too small"),
                                          (SPACE, {**OPTIONS, "frist_test": 3}, "firstTest")):
             with self.assertRaisesRegex(swarmsmith.Error, sentence):

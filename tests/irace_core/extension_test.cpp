@@ -138,7 +138,7 @@ TEST(Extension, IsRefusedWithoutAnythingToGoOnFrom) {
     return std::numeric_limits<double>::infinity();
   });
   ASSERT_TRUE(race->failure());
-  EXPECT_THAT(to_string(race->extend(1000).error()), HasSubstr("nothing to go on from"));
+  EXPECT_THAT(to_string(race->extend(1000).error()), HasSubstr("nothing to continue from"));
   EXPECT_FALSE(race->least_extension());
 
   scenario.max_experiments = 0;

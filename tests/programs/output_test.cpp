@@ -125,7 +125,7 @@ TEST(Output, SaysWhatIsWrongWithIt) {
 
 TEST(Output, MayNotOverrunItsBound) {
   EXPECT_EQ(fault("1 5.01", plain(), 5), "");
-  EXPECT_TRUE(mentions(fault("1 5.1", plain(), 5), "told to stop at 5"));
+  EXPECT_TRUE(mentions(fault("1 5.1", plain(), 5), "had to stop at 5"));
 }
 
 TEST(Output, OfAnEvaluatorIsACost) {

@@ -56,7 +56,7 @@ TEST_F(OpeningTest, MakesAStoreInAnEmptyFileToo) {
 TEST_F(OpeningTest, RefusesAFileThatIsNoDatabase) {
   std::ofstream(path) << "candidate,score\n" << std::string(500, '1');
   EXPECT_EQ(refusal().kind, ErrorKind::Corrupt);
-  EXPECT_THAT(refusal().message, HasSubstr("no SQLite database"));
+  EXPECT_THAT(refusal().message, HasSubstr("not an SQLite database"));
   EXPECT_EQ(refusal().where, path.string());
   EXPECT_EQ(reader_refusal().kind, ErrorKind::Corrupt);
 }

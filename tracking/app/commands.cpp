@@ -13,7 +13,8 @@ constexpr std::string_view kPrintTagsDetails =
     "\n"
     "Print at 100 % (not \"fit to page\"), measure the ruler on each page, and the black edge of "
     "a\n"
-    "tag: what you measure goes into the arena file. Of several pages an .svg is a file a page.";
+    "tag: write what you measure into the arena file. An .svg of several pages is one file per "
+    "page.";
 constexpr std::string_view kPrintBoardDetails =
     "Examples:\n"
     "  swarmsmith track print board charuco:11x8:0.023:0.017:5x5_100 -o board.pdf\n"
@@ -42,9 +43,10 @@ constexpr std::string_view kDetectDetails =
     "  swarmsmith track detect pictures/ --csv tags.csv\n"
     "  swarmsmith track detect run07.bag:/ceiling/image_raw\n"
     "\n"
-    "Which tags are seen, in how many frames, how large (the shortest side) and how clear (the\n"
-    "detector's margin), whether bits had to be mended and whether a tag is there twice. Needs no\n"
-    "arena file and no calibration: try light, tags and camera with it.";
+    "Lists the tags: in how many frames, how large (the shortest side) and how clear (the "
+    "detector's\n"
+    "margin) they are, whether bits had to be corrected and whether a tag appears twice. Needs no\n"
+    "arena file and no calibration: use it to try light, tags and camera.";
 
 constexpr std::string_view kScoreDetails =
     "Examples:\n"
@@ -52,10 +54,11 @@ constexpr std::string_view kScoreDetails =
     "  swarmsmith track score run07.mp4 --arena arena.toml --design d3 --sync-hidden 99 \\\n"
     "      --into demo.db\n"
     "\n"
-    "Without a store the run is scored and not kept. The same video with the same begin is the "
+    "Without a store the run is scored and not kept. The same video with the same start is the "
     "same\n"
-    "run: it is stored once. `score` may be left out when the first word is a file. Exit code 6:\n"
-    "the run is INVALID, and is kept as that.";
+    "run: it is stored once. You may omit `score` if the first word is a file. Exit code 6: the "
+    "run\n"
+    "is INVALID, and is stored as INVALID.";
 constexpr std::string_view kCalibrateCameraDetails =
     "Examples:\n"
     "  swarmsmith track calibrate camera board/ --board charuco:11x8:0.03:0.022:5x5_100 \\\n"
@@ -66,7 +69,7 @@ constexpr std::string_view kCalibrateCameraDetails =
     "paper. Show the flat board in 15 views or more: in all nine thirds of the picture and into\n"
     "its corners, tilted by up to 40 degrees, filling a sixth to a half of the picture. Lock "
     "focus\n"
-    "and zoom before, and never touch them again. Of a video, sharp views that differ are picked.\n"
+    "and zoom before, and never touch them again. From a video it picks sharp views that differ.\n"
     "\n"
     "Refused with E_CALIB_QUALITY, and no file written: under 10 views, RMS over 0.3 px, corners'\n"
     "hull under 70 % of the frame, fx and fy over 2 % apart, principal point over 10 % off the\n"
@@ -77,8 +80,9 @@ constexpr std::string_view kCalibrateArenaDetails =
     "  swarmsmith track calibrate arena --again --arena arena.toml\n"
     "\n"
     "Film the empty arena for some seconds with the floor tags of the arena file on the floor.\n"
-    "--again takes the corners that the last calibration has kept: after a mistake of the survey\n"
-    "was mended in the arena file, or the camera was calibrated anew with the same focus.\n"
+    "--again uses the corners of the last calibration: after you corrected the survey in the "
+    "arena\n"
+    "file, or calibrated the camera again with the same focus.\n"
     "\n"
     "Refused, and no file written: E_REF_TAGS (fewer than 4 tags seen, in one line, or over less\n"
     "than half of the arena that the camera sees); E_EXTRINSICS (RMS over 0.3 px, a tag over 5 mm\n"
@@ -90,7 +94,7 @@ constexpr std::string_view kCalibrateRobotDetails =
     "\n"
     "Film the robot turning on the spot for two turns or more, in about 8 s, and driving straight\n"
     "on for half a metre or more (only for headings; scores need the spin alone). The spin shows\n"
-    "the centre of rotation, which is taken for the robot's origin: the centre of its tread base.\n"
+    "the centre of rotation, which becomes the robot's origin: the centre of its tread base.\n"
     "\n"
     "Refused with E_SPIN_QUALITY, and no file written: under 60 samples or 300 degrees, RMS over\n"
     "2 mm, offset not known to 0.5 mm or over 135 mm, centre creeping over 5 mm/s.";
@@ -102,29 +106,29 @@ constexpr std::string_view kOverlayDetails =
     "run07-overlay.mp4\n"
     "  swarmsmith track overlay r7 --store demo.db --at 119.5 -o end.png\n"
     "\n"
-    "Tags are where they were found; robots' bodies are at the height of their tags; the white\n"
-    "cross is a robot's centre on the floor, which is what the score sees. A robot that is not\n"
-    "filled was between measurements. Tiles that were visited say how long ago.";
+    "Tags are drawn where they were found, robots' bodies at the height of their tags. The white\n"
+    "cross is a robot's centre on the floor, which the score uses. A robot that is not filled was\n"
+    "between measurements. Visited tiles show how long ago.";
 constexpr std::string_view kLiveDetails =
     "Examples:\n"
     "  swarmsmith track live --arena arena.toml --camera camera:0 --mission aggregation\n"
     "  swarmsmith track live --arena arena.toml --camera run07.mp4 --port 8090\n"
     "\n"
-    "Open the address that it prints in a browser of this host; from another one through\n"
+    "Open the printed address in a browser of this host; from another one through\n"
     "`ssh -L 8080:127.0.0.1:8080 HOST`. There is no window: a camera's computer often has no\n"
-    "screen. A video file plays as fast as it was taken. Frames that come faster than they can be\n"
-    "looked at are dropped, and counted; a recording has them all. Ctrl-C ends it.";
+    "screen. A video file plays at its own speed. Frames that come too fast are dropped from view, "
+    "and\n"
+    "counted; a recording has them all. Ctrl-C ends it.";
 
 constexpr std::array kCommands = {
     Command{"init", "Write an arena.toml and a run.toml to begin with", "", declare_track_init},
-    Command{"check", "Say what an arena has, what is missing and what comes next", "",
+    Command{"check", "List what an arena has, what is missing and what comes next", "",
             declare_track_check},
     Command{"score", "Score a filmed run and keep it in a store", kScoreDetails,
             declare_track_score},
-    Command{"rescore", "Score stored runs again, with what was mended", "", declare_track_rescore},
-    Command{"override", "Put a person's word above a run's verdict", "", declare_track_override},
-    Command{"detect", "List the tags that are in a video or in pictures", kDetectDetails,
-            declare_detect},
+    Command{"rescore", "Score stored runs again, with corrected files", "", declare_track_rescore},
+    Command{"override", "Override a run's verdict", "", declare_track_override},
+    Command{"detect", "List the tags in a video or in pictures", kDetectDetails, declare_detect},
     Command{"calibrate camera", "Find a camera's lens from pictures of a board",
             kCalibrateCameraDetails, declare_calibrate_camera},
     Command{"calibrate arena", "Find where a camera hangs from the floor tags",
@@ -141,15 +145,17 @@ constexpr std::array kCommands = {
             kTrackReportDetails, declare_track_report},
     Command{"record", "Record a camera with the time of each frame",
             "A camera is `camera:0`, `camera:0:1920x1080@30`, an address (`rtsp://...`) or any\n"
-            "other word that OpenCV opens (`opencv:WORD`). Beside FILE.mkv stands FILE.times.csv\n"
-            "with the time of each frame in seconds from the first one. Ctrl-C ends a recording.\n"
-            "What was recorded stays readable whatever happens, all but the last half second.\n\n"
+            "other word that OpenCV opens (`opencv:WORD`). FILE.times.csv, beside FILE.mkv, has "
+            "the time\n"
+            "of each frame in seconds from the first one. Ctrl-C ends a recording. Whatever "
+            "happens, the\n"
+            "recording stays readable, except the last half second.\n"
+            "\n"
             "  swarmsmith track record camera:0:1920x1080@30 run07.mkv --seconds 130",
             declare_record},
-    Command{"overlay", "Draw what tracking made of a run over its video", kOverlayDetails,
+    Command{"overlay", "Draw the tracking of a run over its video", kOverlayDetails,
             declare_overlay},
-    Command{"live", "Watch a camera: robots and tags found as the frames come", kLiveDetails,
-            declare_live},
+    Command{"live", "Watch a camera: show robots and tags as it films", kLiveDetails, declare_live},
     Command{"version", "Print the versions of program and libraries", "", declare_track_version},
 };
 

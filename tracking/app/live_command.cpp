@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/text/json.h"
 #include "console/terminal.h"
 #include "sim/files/mission_file.h"
 #include "tracking/app/commands.h"
@@ -207,10 +208,14 @@ ExitCode answer(Watched& watched, Output& output) {
   const double late_ms = 1000 * watched.delays.quantile(0.95);
   const double most_ms = 1000 * watched.delays.quantile(1);
   if (output.json) {
-    output.out << "{\"frames\":" << watched.frames << ",\"dropped\":" << watched.dropped
-               << ",\"delay_ms\":{\"median\":" << json_number(median_ms)
-               << ",\"p95\":" << json_number(late_ms) << ",\"most\":" << json_number(most_ms)
-               << "}}\n";
+    const JsonObject delay =
+        JsonObject().add("median", median_ms).add("p95", late_ms).add("most", most_ms);
+    output.out << JsonObject()
+                      .add("frames", watched.frames)
+                      .add("dropped", watched.dropped)
+                      .add("delay_ms", delay)
+                      .text()
+               << "\n";
   } else {
     output.out << watched.frames << " frames, " << watched.dropped << " dropped; delay "
                << static_cast<int>(median_ms + 0.5) << " ms, 95 % within "
@@ -276,13 +281,13 @@ Run declare_live(Options& options) {
   options.text("--camera", words->source,
                "What to watch: camera:0, an address, a video file, a folder of images, a bag",
                Options::Need::Required);
-  options.text("--view", words->view, "Which camera of the arena file that is, of several");
+  options.text("--view", words->view, "Camera of the arena file, if it has several");
   options.text("--mission", words->mission, "Mission whose floor is drawn in: a name or a file");
   options.integer("--port", words->port, {0, 65'535},
-                  "Of the preview, on 127.0.0.1 alone (default 8080; 0: a free one)");
+                  "Port of the preview on 127.0.0.1 (default 8080; 0: a free one)");
   options.text("--board", words->board,
-               "A board that is held before the camera: shows which parts of the frame its views "
-               "cover so far (as for calibrate camera)");
+               "Board held before the camera: shows which parts of the frame its views cover so "
+               "far (as for calibrate camera)");
   options.text("--record", words->record, "Record all frames, a .mkv, with their times beside it");
   return [words](Output& output) { return live(*words, output); };
 }

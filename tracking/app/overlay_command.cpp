@@ -8,8 +8,9 @@
 #include <optional>
 
 #include "base/id.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "console/counter.h"
-#include "console/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
 #include "tracking/app/run_checks.h"
@@ -106,10 +107,11 @@ std::optional<Refusal> settle_video(const Words& words, DrawnRun& run) {
     return refused(std::move(error)).value();
   }
   if (*sha256 != run.observations.cameras.at(run.camera).sha256)
-    return refused(ExitCode::Failed,
-                   {ErrorKind::Conflict,
-                    "this is another video than the run was scored from; name that by --video",
-                    file.string()})
+    return refused(
+               ExitCode::Failed,
+               {ErrorKind::Conflict,
+                "this is not the video that the run was scored from; name that one with --video",
+                file.string()})
         .value();
   return std::nullopt;
 }
@@ -247,7 +249,7 @@ ExitCode overlay(const Words& words, Output& output) {
   const auto drawn = draw(*run, *at_s, words, output);
   if (!drawn) return fail(output, exit_code_of_tracking(drawn.error()), drawn.error());
   if (output.json)
-    output.out << "{\"file\":" << json_text(words.out) << ",\"frames\":" << *drawn << "}\n";
+    output.out << JsonObject().add("file", words.out).add("frames", *drawn).text() << "\n";
   else
     output.out << words.out << ": " << *drawn << (*drawn == 1 ? " frame\n" : " frames\n");
   return ExitCode::Done;
@@ -259,22 +261,25 @@ Run declare_overlay(Options& options) {
   auto words = std::make_shared<Words>();
   ScoreArguments& run = words->run;
   constexpr Options::Range kTags{0, 65'535};
-  options.words("RUN|VIDEO", run.videos, "A stored run, r7, or its videos, one a camera",
+  options.words("RUN|VIDEO", run.videos, "A stored run, r7, or its videos, one per camera",
                 Options::Need::Required);
   options.text("-o,--output", words->out, "Video (.mp4, .mkv), a folder (DIR/), or one .png",
                Options::Need::Required);
   options.text("--store", run.store, "Store of the run (else SWARMSMITH_STORE)");
   options.text("--video", words->video, "Where a stored run's video is now");
-  options.text("--camera", words->camera, "Whose picture, of several (default: the first)");
-  options.text("--at", words->at, "One picture alone, so many seconds after the run's begin");
-  options.text("--arena", run.arena, "Arena file, of a run that is not stored");
-  options.text("--run", run.run, "Run log, of a run that is not stored");
+  options.text("--camera", words->camera, "Camera, if there are several (default: the first)");
+  options.text("--at", words->at, "Write one picture, N seconds after the start of the run");
+  options.text("--arena", run.arena, "Arena file of a run that is not stored");
+  options.text("--run", run.run, "Run log of a run that is not stored");
   options.text("--mission", run.mission, "Mission, of a run that is not stored");
-  options.text("--start", run.start, "When the run begins on the clock of the first video: 12.4 s");
-  options.integer("--sync-hidden", run.sync_hidden, kTags, "It begins when this tag is covered");
-  options.integer("--sync-shown", run.sync_shown, kTags, "It begins when this tag is laid open");
+  options.text("--start", run.start, "Start of the run on the clock of the first video: 12.4 s");
+  options.integer("--sync-hidden", run.sync_hidden, kTags,
+                  "The run starts when this tag is covered");
+  options.integer("--sync-shown", run.sync_shown, kTags,
+                  "The run starts when this tag is uncovered");
   options.text("--patches", run.patches, "Colour patches: a CSV with seed,x,y,color");
-  options.texts("--times", run.times, "CSV with a time for each frame, one a video: frame,time_s");
+  options.texts("--times", run.times,
+                "CSV with a time for each frame, one per video: frame,time_s");
   options.flag("--accept-tag-as-centre", run.takes_tags_for_centres,
                "Draw robots without an offset calibration at their tags");
   return [words](Output& output) { return overlay(*words, output); };

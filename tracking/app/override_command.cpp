@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/id.h"
+#include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/result_text.h"
 #include "tracking/app/run_store.h"
@@ -27,15 +28,14 @@ ExitCode run(const Arguments& arguments, Output& output) {
   for (const auto& [option, text] :
        {std::pair("--who", arguments.who), std::pair("--reason", arguments.reason)}) {
     if (!is_blank(text)) continue;
-    return fail(
-        output, ExitCode::Usage,
-        Error{ErrorKind::BadInput,
-              "a word above the verdict needs a name and a reason that others can read", option});
+    return fail(output, ExitCode::Usage,
+                Error{ErrorKind::BadInput,
+                      "an override needs a name and a reason that others can read", option});
   }
   const std::string path = store_word(arguments.store);
   if (path.empty()) {
     return fail(output, ExitCode::Usage,
-                "which store? Name its file by --store, or set SWARMSMITH_STORE");
+                "no store given; name its file with --store, or set SWARMSMITH_STORE");
   }
   const auto reader = read_store(path);
   if (!reader) return fail(output, reader.error());
@@ -50,13 +50,17 @@ ExitCode run(const Arguments& arguments, Output& output) {
   const auto added = (*store)->add_override({id, verdict, arguments.who, arguments.reason});
   if (!added) return fail(output, ExitCode::Store, added.error());
   if (output.json) {
-    output.out << "{\"run\":" << json_text(arguments.run) << ",\"verdict\":" << json_text(verdict)
-               << ",\"measured\":" << json_text(before->score.verdict)
-               << ",\"who\":" << json_text(arguments.who)
-               << ",\"reason\":" << json_text(arguments.reason) << "}\n";
+    output.out << JsonObject()
+                      .add("run", arguments.run)
+                      .add("verdict", verdict)
+                      .add("measured", before->score.verdict)
+                      .add("who", arguments.who)
+                      .add("reason", arguments.reason)
+                      .text()
+               << "\n";
   } else {
-    output.out << arguments.run << ": " << before->score.verdict << " by its measurement, "
-               << verdict << " by " << arguments.who << ": " << arguments.reason << "\n";
+    output.out << arguments.run << ": " << before->score.verdict << " measured, " << verdict
+               << " by " << arguments.who << ": " << arguments.reason << "\n";
   }
   return ExitCode::Done;
 }
@@ -67,7 +71,7 @@ Run declare_track_override(Options& options) {
   auto arguments = std::make_shared<Arguments>();
   options.text("RUN", arguments->run, "Run of the store: r7", Options::Need::Required);
   options.choice("--verdict", arguments->verdict, {"valid", "degraded", "invalid"},
-                 "What counts from now on", Options::Need::Required);
+                 "The new verdict", Options::Need::Required);
   options.text("--who", arguments->who, "Your name", Options::Need::Required);
   options.text("--reason", arguments->reason, "Why, for those who read the results",
                Options::Need::Required);

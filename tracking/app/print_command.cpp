@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "console/pdf.h"
-#include "console/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/printing/board_sheet.h"
 #include "tracking/printing/survey_sheet.h"
@@ -32,7 +33,7 @@ Expected<Form> form_of(const std::string& file) {
   const std::string ending = std::filesystem::path(file).extension().string();
   if (ending == ".pdf") return Form::Pdf;
   if (ending == ".svg") return Form::Svg;
-  return bad_input("the file's ending says what is written: .pdf or .svg", file);
+  return bad_input("the file's ending must be .pdf or .svg", file);
 }
 
 /// A file a page: tags.svg, or tags-1.svg, tags-2.svg, ...
@@ -72,10 +73,7 @@ ExitCode write_pages(std::span<const std::string> pages, const std::string& file
                            "; print at 100 %, and measure the ruler");
     return ExitCode::Done;
   }
-  std::string list;
-  for (const std::string& name : names)
-    list += (list.empty() ? "" : ",") + json_text(name);
-  output.out << "{\"pages\":" << pages.size() << ",\"files\":[" << list << "]}\n";
+  output.out << JsonObject().add("pages", pages.size()).add("files", names).text() << "\n";
   return ExitCode::Done;
 }
 
@@ -159,7 +157,7 @@ void declare_tag_words(Options& options, TagArguments& arguments) {
 
 Run declare_print_tags(Options& options) {
   auto arguments = std::make_shared<TagArguments>();
-  options.text("--family", arguments->family, "Family of the tags, tag36h11 unless said");
+  options.text("--family", arguments->family, "Family of the tags (default tag36h11)");
   declare_tag_words(options, *arguments);
   return [arguments](Output& output) { return print_tags(*arguments, output); };
 }
@@ -177,8 +175,7 @@ Run declare_print_board(Options& options) {
 Run declare_print_survey(Options& options) {
   auto arguments = std::make_shared<TagArguments>();
   declare_tag_words(options, *arguments);
-  options.text("--area", arguments->area,
-               "Area of the dodecagon in square metres, 4.91 unless said");
+  options.text("--area", arguments->area, "Area of the dodecagon in square metres (default 4.91)");
   return [arguments](Output& output) { return print_survey(*arguments, output); };
 }
 

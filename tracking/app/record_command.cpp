@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/recording.h"
 #include "tracking/app/stop_signal.h"
@@ -48,10 +49,14 @@ std::optional<double> counting_rate(const SourceInfo& info, std::optional<double
 
 ExitCode answer(const Words& words, const Recording& recording, Output& output) {
   if (output.json) {
-    output.out << fmt::format(
-        "{{\"file\":{},\"times\":{},\"frames\":{},\"seconds\":{},\"dropped\":{}}}\n",
-        json_text(words.file), json_text(recording.times_file()), recording.frames(),
-        json_number(recording.seconds()), recording.dropped());
+    output.out << JsonObject()
+                      .add("file", words.file)
+                      .add("times", recording.times_file())
+                      .add("frames", recording.frames())
+                      .add("seconds", recording.seconds())
+                      .add("dropped", recording.dropped())
+                      .text()
+               << "\n";
   } else {
     output.out << words.file << ": " << recording.summary() << "\n"
                << recording.times_file() << ": the time of each\n";
@@ -108,12 +113,12 @@ Run declare_record(Options& options) {
   options.text("SOURCE", words->source, "Camera, address, video file, folder of images or bag",
                Options::Need::Required);
   options.text("FILE", words->file, "Video to write, a .mkv", Options::Need::Required);
-  options.text("--seconds", words->seconds, "Stop after so long (default: until Ctrl-C)");
+  options.text("--seconds", words->seconds, "Stop after N seconds (default: until Ctrl-C)");
   options.text("--rate", words->rate, "Frames a second, for images and videos without times");
   options.choice("--codec", words->codec, {"h264", "mjpeg", "ffv1"},
-                 "How to pack the pictures (default h264)");
-  options.integer("--quality", words->quality, {1, 100}, "From 1 to 100 (default 80)");
-  options.flag("--realtime", words->realtime, "Play a video or folder as fast as it was taken");
+                 "Codec of the video (default h264)");
+  options.integer("--quality", words->quality, {1, 100}, "Quality, 1 to 100 (default 80)");
+  options.flag("--realtime", words->realtime, "Play a video or folder at its own speed");
   return [words](Output& output) { return record(*words, output); };
 }
 

@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/output_file.h"
 #include "console/terminal.h"
 #include "tracking/app/stop_signal.h"
 #include "tracking/rig/issue.h"
@@ -29,7 +30,7 @@ Expected<void> check_recording_name(const std::string& file) {
   std::error_code ignored;
   for (const std::string& name : {file, sidecar_name(file)}) {
     if (!std::filesystem::exists(name, ignored)) continue;
-    return bad_input("is there already; a recording never overwrites one", name);
+    return bad_input("exists already; a recording never overwrites a file", name);
   }
   return {};
 }
@@ -112,7 +113,7 @@ Expected<double> Recording::time_of(const Frame& frame) const {
   if (frame.time_s) return *frame.time_s;
   if (options_.rate) return static_cast<double>(frame.number) / *options_.rate;
   return Unexpected(error_of(IssueCode::Timestamps,
-                             "its frames have no times; say with --rate how many a second",
+                             "its frames have no times; give the frames per second with --rate",
                              source_.info().name));
 }
 

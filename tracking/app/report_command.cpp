@@ -1,7 +1,7 @@
 #include <memory>
 
+#include "base/text/whole_file.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
 #include "tracking/app/run_checks.h"
@@ -73,9 +73,9 @@ ExitCode run(const ReportArguments& arguments, Output& output) {
   if (analysis->scored.score != rows->score.score ||
       name_of(analysis->scored.verdict) != rows->score.verdict) {
     print_note(output,
-               "The stored score or verdict is another one, by another version of this program (" +
+               "The stored score or verdict differs; another version of this program made it (" +
                    rows->score.program + "); `swarmsmith track rescore " + arguments.run +
-                   "` brings it up to date.");
+                   "` updates it.");
   }
   const ReportedRun reported{.rig = rig,
                              .log = stored->log,

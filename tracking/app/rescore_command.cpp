@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "base/id.h"
+#include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/result_text.h"
 #include "tracking/app/run_checks.h"
@@ -47,7 +48,7 @@ OrRefusal<RunLog> mended_log(const std::string& file, const RunLog& before) {
   if (before.layout.source != RunLayout::Source::Measured) {
     return refused(error_of(IssueCode::LayoutMissing,
                             "the patches of this run were not measured when its video was here; "
-                            "say them by [[patch]], or score the video again",
+                            "give them by [[patch]], or score the video again",
                             file));
   }
   log.layout = before.layout;
@@ -98,10 +99,11 @@ OrRefusal<Again> score_again(const Arguments& arguments, RealRunRows before) {
 void print_again(const std::string& word, const Again& again, Output& output) {
   const RealScoreRow& before = again.before.score;
   if (output.json) {
-    output.out << "{\"run\":" << json_text(word)
-               << ",\"before\":{\"score\":" << (before.score ? json_number(*before.score) : "null")
-               << ",\"verdict\":" << json_text(before.verdict) << "},"
-               << result_json(again.log, again.analysis) << "}\n";
+    JsonObject object;
+    object.add("run", word)
+        .add("before", JsonObject().add("score", before.score).add("verdict", before.verdict));
+    add_result(object, again.log, again.analysis);
+    output.out << object.text() << "\n";
     return;
   }
   output.out << word << " was: score " << score_text(before.score) << ", " << before.verdict << "\n"
@@ -128,7 +130,7 @@ ExitCode rescore_one(const Arguments& arguments, const std::string& word, Output
 ExitCode run(const Arguments& arguments, Output& output) {
   if (store_word(arguments.store).empty()) {
     return fail(output, ExitCode::Usage,
-                "which store? Name its file by --store, or set SWARMSMITH_STORE");
+                "no store given; name its file with --store, or set SWARMSMITH_STORE");
   }
   ExitCode code = ExitCode::Done;
   for (const std::string& word : arguments.runs) {

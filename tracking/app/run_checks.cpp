@@ -48,12 +48,12 @@ std::vector<Error> settle_names(RunLog& log, const Rig& rig) {
     std::string& camera = log.videos[i].camera;
     if (camera.empty() && log.videos.size() == cameras.size()) camera = cameras[i];
     if (camera.empty()) {
-      errors.push_back(error_of(IssueCode::Config,
-                                "which camera filmed " + log.videos[i].file +
-                                    "? Say it in a run log: [[video]] with camera and file; the "
-                                    "arena has: " +
-                                    joined(cameras),
-                                rig.file));
+      errors.push_back(
+          error_of(IssueCode::Config,
+                   "which camera filmed " + log.videos[i].file +
+                       "? Name it in a run log: [[video]] with camera and file; the arena has: " +
+                       joined(cameras),
+                   rig.file));
     } else if (std::ranges::find(cameras, camera) == cameras.end()) {
       errors.push_back(unknown("camera", camera, cameras, rig.file));
     }
@@ -98,11 +98,12 @@ std::vector<Error> faults_of_rig(const Rig& rig, const Mission& mission,
   for (Error& error : misfits(rig))
     errors.push_back(std::move(error));
   if (rig.robots.size() != static_cast<std::size_t>(mission.robots)) {
-    errors.push_back(error_of(IssueCode::Config,
-                              "mission " + mission.name + " has " + std::to_string(mission.robots) +
-                                  " robots, the run " + std::to_string(rig.robots.size()) +
-                                  "; say in the run log which took part: robots = [\"rvr1\", ...]",
-                              rig.file));
+    errors.push_back(
+        error_of(IssueCode::Config,
+                 "mission " + mission.name + " has " + std::to_string(mission.robots) +
+                     " robots, the run " + std::to_string(rig.robots.size()) +
+                     "; name in the run log those that took part: robots = [\"rvr1\", ...]",
+                 rig.file));
   }
   if (takes_tags_for_centres) return errors;
   for (const RobotSetup& robot : rig.robots) {

@@ -1,7 +1,7 @@
 #include "tracking/app/run_options.h"
 
 #include "base/id.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/mission/instance_csv.h"
 #include "tracking/rig/rig_file.h"
@@ -15,9 +15,7 @@ void take_start(const ScoreArguments& arguments, RunLog& log, std::vector<Error>
                     (arguments.sync_shown ? 1 : 0);
   if (given > 1) {
     errors.push_back(
-        wrong_option("only one of --start, --sync-hidden and --sync-shown says when "
-                     "the run begins",
-                     "--start"));
+        wrong_option("use only one of --start, --sync-hidden and --sync-shown", "--start"));
   }
   if (given > 0) log.start = {};
   if (!arguments.start.empty()) {
@@ -40,11 +38,10 @@ void take_start(const ScoreArguments& arguments, RunLog& log, std::vector<Error>
     log.start.sync = RunStart::Sync::Shown;
   }
   if (!log.start.time_s && log.start.sync == RunStart::Sync::None && errors.empty()) {
-    errors.push_back(
-        wrong_option("when does the run begin? Say it in the run log (`start` or "
-                     "`sync`) or by --start, --sync-hidden or --sync-shown; the first "
-                     "frame is not the begin",
-                     "--start"));
+    errors.push_back(wrong_option(
+        "the start of the run is unknown; give it in the run log (`start` or `sync`) or by "
+        "--start, --sync-hidden or --sync-shown; the first frame is not the start",
+        "--start"));
   }
 }
 
@@ -55,29 +52,23 @@ void take_control(const ScoreArguments& arguments, RunLog& log, std::vector<Erro
     return is_number ? letter + word : word;
   };
   if (!arguments.design.empty() && !arguments.candidate.empty()) {
-    errors.push_back(
-        wrong_option("a candidate has its design with it; give --design or "
-                     "--candidate",
-                     "--candidate"));
+    errors.push_back(wrong_option("a candidate implies its design; give --design or --candidate",
+                                  "--candidate"));
   }
   if (!arguments.design.empty()) {
     log.design = lettered(arguments.design, 'd');
     log.candidate.clear();
     if (!id_from_text<DesignTag>(log.design)) {
-      errors.push_back(wrong_option("\"" + arguments.design +
-                                        "\" is no design; designs are called "
-                                        "d3",
-                                    "--design"));
+      errors.push_back(
+          wrong_option("\"" + arguments.design + "\" is not a design such as d3", "--design"));
     }
   }
   if (!arguments.candidate.empty()) {
     log.candidate = lettered(arguments.candidate, 'c');
     log.design.clear();
     if (!id_from_text<CandidateTag>(log.candidate)) {
-      errors.push_back(wrong_option("\"" + arguments.candidate +
-                                        "\" is no candidate; candidates "
-                                        "are called c812",
-                                    "--candidate"));
+      errors.push_back(wrong_option(
+          "\"" + arguments.candidate + "\" is not a candidate such as c812", "--candidate"));
     }
   }
 }
@@ -98,11 +89,9 @@ void take_patches(const ScoreArguments& arguments, RunLog& log, std::vector<Erro
     return errors.push_back(std::move(error));
   }
   if (by_seed->size() != 1) {
-    return errors.push_back(
-        wrong_option("the patches of one run are wanted, the file has those "
-                     "of " +
-                         std::to_string(by_seed->size()) + " seeds",
-                     arguments.patches));
+    return errors.push_back(wrong_option("expected the patches of one run; the file has those of " +
+                                             std::to_string(by_seed->size()) + " seeds",
+                                         arguments.patches));
   }
   log.layout.source = RunLayout::Source::Log;
   log.layout.patches = by_seed->begin()->second;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_options.h"
 #include "tracking/app/run_store.h"
@@ -44,9 +44,9 @@ fs::path sidecar_beside(const fs::path& source) {
 OrRefusal<VideoFiles> files_of(const ScoreArguments& arguments, RunLog& log) {
   const auto count = log.videos.size();
   if (count == 0) {
-    return refused(ExitCode::Usage, wrong_option("which video? Name its file, or a run log with "
-                                                 "[[video]]",
-                                                 "VIDEO"));
+    return refused(
+        ExitCode::Usage,
+        wrong_option("no video given; name its file, or a run log with [[video]]", "VIDEO"));
   }
   if (!arguments.videos.empty() && arguments.videos.size() != count) {
     return refused(ExitCode::Usage, wrong_option("the run log has " + std::to_string(count) +
@@ -94,7 +94,7 @@ OrRefusal<void> settle_control(const ScoreArguments& arguments, RunPlan& plan) {
   if (says_control && plan.store.empty()) {
     return refused(
         ExitCode::Usage,
-        wrong_option("a design or candidate is one of a store: name it by --into", "--into"));
+        wrong_option("a design or candidate belongs to a store: name it with --into", "--into"));
   }
   if (says_control) {
     auto control = control_of(plan.store, log);
@@ -112,8 +112,8 @@ OrRefusal<void> settle_control(const ScoreArguments& arguments, RunPlan& plan) {
   }
   if (log.mission.name.empty()) {
     return refused(
-        wrong_option("which mission? Say it in the run log, by --mission, or by the "
-                     "design that ran: --design",
+        wrong_option("no mission given; name it in the run log, by --mission, or by the design "
+                     "that ran: --design",
                      "--mission"));
   }
   return {};
@@ -139,8 +139,8 @@ OrRefusal<void> open_videos(const VideoFiles& files, RunPlan& plan) {
     const SourceInfo& info = (*source)->info();
     if (info.is_live) {
       return refused(
-          wrong_option("a live camera is recorded first: `swarmsmith track record`; "
-                       "then its file is scored",
+          wrong_option("a live camera cannot be scored; record it with `swarmsmith track record`, "
+                       "then score the file",
                        info.name));
     }
     const CameraSetup& camera = plan.rig.cameras[i];
@@ -149,12 +149,11 @@ OrRefusal<void> open_videos(const VideoFiles& files, RunPlan& plan) {
       const auto text = [](ImageSize of) {
         return std::to_string(of.width) + "x" + std::to_string(of.height);
       };
-      return refused(error_of(IssueCode::CalibrationSize,
-                              "calibration " + camera.model_file + " is for " + text(size) +
-                                  ", the video has " + text(info.size) +
-                                  "; film with the size of picture that the camera was calibrated "
-                                  "with, or calibrate it again",
-                              files.videos[i].string()));
+      return refused(error_of(
+          IssueCode::CalibrationSize,
+          "calibration " + camera.model_file + " is for " + text(size) + ", the video has " +
+              text(info.size) + "; film at the picture size of the calibration, or calibrate again",
+          files.videos[i].string()));
     }
     std::optional<std::vector<double>> times;
     if (!files.times[i].empty()) {

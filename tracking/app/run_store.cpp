@@ -47,7 +47,7 @@ OrRefusal<Mission> mission_of_design(StoreReader& store, DesignId design, const 
 }
 
 Error no_such(const std::string& what, const std::string& store) {
-  return {ErrorKind::NotFound, what + "; `swarmsmith ls " + store + "` lists what there is", store};
+  return {ErrorKind::NotFound, what + "; `swarmsmith ls " + store + "` lists them", store};
 }
 
 /// The design's winner.
@@ -61,11 +61,11 @@ OrRefusal<CandidateId> winner_of(StoreReader& reader, const std::string& store, 
   }
   const StoreReader::Cell& best = (**row)[0];
   if (best.type != StoreReader::Cell::Type::Integer) {
-    return refused(ExitCode::NoSuchId, {ErrorKind::NotFound,
-                                        "design " + to_string(design) +
-                                            " has no winner yet; name what ran: "
-                                            "--candidate",
-                                        store});
+    return refused(ExitCode::NoSuchId,
+                   {ErrorKind::NotFound,
+                    "design " + to_string(design) +
+                        " has no winner yet; name the candidate that ran: --candidate",
+                    store});
   }
   return CandidateId{std::stoll(best.text)};
 }
@@ -120,7 +120,7 @@ OrRefusal<RealRunRows> find_run(StoreReader& store, const std::string& word) {
   const auto id = id_from_text<RealRunTag>(word);
   if (!id) {
     return refused(ExitCode::Usage,
-                   {ErrorKind::BadInput, "\"" + word + "\" is no run; runs are called r7", {}});
+                   {ErrorKind::BadInput, "\"" + word + "\" is not a run such as r7", {}});
   }
   auto run = store.real_run(*id);
   if (!run) return refused(ExitCode::NoSuchId, run.error());

@@ -1,39 +1,35 @@
 #include "tracking/app/score_arguments.h"
 
-#include <cstdlib>
-
 namespace swarmsmith::cli {
 
 std::string store_word(const std::string& option) {
-  if (!option.empty()) return option;
-  const char* variable = std::getenv("SWARMSMITH_STORE");
-  return variable != nullptr ? variable : "";
+  return option.empty() ? store_of_environment() : option;
 }
 
 void ScoreArguments::declare(Options& options) {
   constexpr Options::Range kTags{0, 65'535};
-  options.words("VIDEO", videos,
-                "Videos, folders of images or bags, one a camera (default: those of the run log)");
+  options.words(
+      "VIDEO", videos,
+      "Videos, folders of images or bags, one per camera (default: those of the run log)");
   options.text("--arena", arena, "Arena file", Options::Need::Required);
-  options.text("--run", run, "Run log; the options here win over it");
+  options.text("--run", run, "Run log; options win over it");
   options.text("--mission", mission,
                "aggregation, grid_exploration, color_selection or a file (default: the design's)");
   options.text("--design", design, "Design of the store whose winner ran: d3");
   options.text("--candidate", candidate, "Candidate of the store that ran: c812");
-  options.text("--start", start, "When the run begins on the clock of the first video: 12.4 s");
-  options.integer("--sync-hidden", sync_hidden, kTags, "It begins when this tag is covered");
-  options.integer("--sync-shown", sync_shown, kTags, "It begins when this tag is laid open");
-  options.text(
-      "--patches", patches,
-      "Colour patches of the run: a CSV with seed,x,y,color, of one seed; or measured: from "
-      "the picture");
-  options.texts("--times", times, "CSV with a time for each frame, one a video: frame,time_s");
+  options.text("--start", start, "Start of the run on the clock of the first video: 12.4 s");
+  options.integer("--sync-hidden", sync_hidden, kTags, "The run starts when this tag is covered");
+  options.integer("--sync-shown", sync_shown, kTags, "The run starts when this tag is uncovered");
+  options.text("--patches", patches,
+               "Colour patches of the run: a CSV with seed,x,y,color of one seed; or `measured`, "
+               "from the picture");
+  options.texts("--times", times, "CSV with a time for each frame, one per video: frame,time_s");
   options.text("--name", name, "Name of the run (default: the log's, else the video's)");
   options.text("--recorded", recorded, "Date of the run, 2026-11-21");
   options.flag("--accept-tag-as-centre", takes_tags_for_centres,
                "Score robots without an offset calibration; the score is then marked BIASED");
-  options.text("--into", into, "Store to keep the run in; made when it is not there");
-  options.text("--store", store, "The same for a store that is there (else SWARMSMITH_STORE)");
+  options.text("--into", into, "Store to keep the run in; made if needed");
+  options.text("--store", store, "The same for an existing store (else SWARMSMITH_STORE)");
   options.text("--csv", csv,
                "Write the trajectory: cycle,time_s,robot,x,y,theta (docs/trajectories.md)");
   options.text("--report", report, "Write the quality report, a page of HTML");

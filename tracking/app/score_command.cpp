@@ -1,7 +1,8 @@
 #include <memory>
 
 #include "base/id.h"
-#include "console/whole_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/result_text.h"
 #include "tracking/app/run_plan.h"
@@ -36,33 +37,29 @@ Expected<void> write_files(const ScoreArguments& arguments, const RunAnalysis& a
 std::string next_step(const std::string& id, const std::string& store, Verdict verdict) {
   const std::string at = id + " --store " + store;
   if (verdict != Verdict::Invalid) return "Next: `swarmsmith track report " + at + "`.";
-  return "An INVALID score is kept out of statistics. Next: mend what is wrong and `swarmsmith "
-         "track rescore " +
-         at +
-         "`; or film again; or take it upon you: `swarmsmith track "
-         "override " +
-         at + " --verdict valid --who NAME --reason TEXT`.";
+  return "Statistics leave out an INVALID score. Next: correct the cause and `swarmsmith track "
+         "rescore " +
+         at + "`; or film again; or decide yourself: `swarmsmith track override " + at +
+         " --verdict valid --who NAME --reason TEXT`.";
 }
 
 void print_result(const RunPlan& plan, const RunAnalysis& analysis,
                   const std::optional<RealRunWritten>& written, Output& output) {
   const std::string id = written ? to_string(written->id) : "";
   if (output.json) {
-    output.out << "{" << result_json(plan.log, analysis);
-    if (written) {
-      output.out << ",\"store\":" << json_text(plan.store) << ",\"run\":" << json_text(id)
-                 << ",\"new\":" << (written->is_new ? "true" : "false");
-    }
-    output.out << "}\n";
+    JsonObject object;
+    add_result(object, plan.log, analysis);
+    if (written) object.add("store", plan.store).add("run", id).add("new", written->is_new);
+    output.out << object.text() << "\n";
     return;
   }
   output.out << result_text(plan.log, analysis);
   if (!written) {
-    print_note(output, "It is not stored; --into STORE keeps it.");
+    print_note(output, "The run is not stored; --into STORE keeps it.");
     return;
   }
   if (!written->is_new) {
-    output.out << "It was there already, as " << id << " in " << plan.store
+    output.out << "It was stored already, as " << id << " in " << plan.store
                << "; nothing was added.\n";
     return;
   }

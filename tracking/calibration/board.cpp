@@ -125,7 +125,7 @@ Expected<Board> parse_board(std::string_view word) {
   const auto square = number_in<double>(parts[2]);
   const auto marker = charuco ? number_in<double>(parts[3]) : 0;
   if (!columns || !rows) return wrong(word, "has no COLUMNSxROWS in its second part");
-  if (!square || !marker) return wrong(word, "has an edge that is no number");
+  if (!square || !marker) return wrong(word, "has an edge that is not a number");
   board.columns = *columns;
   board.rows = *rows;
   board.square_m = *square;

@@ -193,8 +193,8 @@ Expected<CameraSolution> solve_camera(std::span<const BoardView> views, ImageSiz
     const std::optional<Fit> fit = best_fit(points, size, lens);
     if (!fit) {
       return Unexpected(error_of(IssueCode::CalibrationQuality,
-                                 "no camera explains the views; is the board the one that was "
-                                 "described, and are there views that tilt it?",
+                                 "no camera explains the views; is the board described correctly, "
+                                 "and do some views tilt it?",
                                  ""));
     }
     for (std::size_t k = 0; k < used.size(); ++k)

@@ -167,7 +167,7 @@ void LiveTracker::add_issues(const std::vector<Detection>& seen, LiveState& stat
           fmt::format("{} is not seen for {:.1f} s", who, state.time_s - *robot.seen_s));
     if (!robot.is_seen || !robot.pose.has_value()) continue;
     if (!rig_.offset_of(rig_.robots[i]).has_value())
-      state.issues.push_back(who + " has no offset calibration: its tag is taken for its centre");
+      state.issues.push_back(who + " has no offset calibration: its tag is used as its centre");
     if (std::abs(known_[i].scale - 1) > kScaleTolerance)
       state.issues.push_back(fmt::format(
           "{}: the tag looks {:.0f} % too {}; check its edge and height", who,
@@ -178,9 +178,9 @@ void LiveTracker::add_issues(const std::vector<Detection>& seen, LiveState& stat
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const bool again = i > 0 && seen[i - 1].tag == seen[i].tag;
     if (again && (i < 2 || seen[i - 2].tag != seen[i].tag))
-      state.issues.push_back(fmt::format("tag {} is there more than once", seen[i].tag));
+      state.issues.push_back(fmt::format("tag {} is visible more than once", seen[i].tag));
     if (!again && kind_of(rig_, seen[i].tag) == OverlayTag::Kind::Unknown)
-      state.issues.push_back(fmt::format("tag {} is nobody's", seen[i].tag));
+      state.issues.push_back(fmt::format("tag {} belongs to no robot", seen[i].tag));
   }
 }
 

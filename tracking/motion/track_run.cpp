@@ -91,7 +91,7 @@ Expected<TaggedRobot> tagged_robot(const RobotSetup& setup, const Rig& rig,
         rig.file));
   }
   issues.push_back({IssueCode::TagAsCentre,
-                    reason + "; its tag was taken for its centre and the score is biased",
+                    reason + "; its tag was used as its centre and the score is biased",
                     setup.name,
                     {},
                     {}});
@@ -129,8 +129,7 @@ void list_unknown(const SightingsByTag& sightings, const Rig& rig, const TrackOp
     list += fmt::format("{}{} ({} times)", list.empty() ? "" : ", ", tag, seen.size());
   }
   if (list.empty()) return;
-  issues.push_back(
-      {IssueCode::UnknownTags, "tags that nobody declared were seen: " + list, {}, {}, {}});
+  issues.push_back({IssueCode::UnknownTags, "undeclared tags were seen: " + list, {}, {}, {}});
 }
 
 /// Why a robot has no sample within the first seconds.

@@ -124,8 +124,8 @@ Expected<int> number_from(std::string_view text, std::string_view part) {
   int value = 0;
   const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc() && stop == text.data() + text.size() && value >= 0) return value;
-  return bad_input(fmt::format("\"{}\" is no id and no range of ids; write them as 1-3,100", part),
-                   "--ids");
+  return bad_input(
+      fmt::format("\"{}\" is not an id or a range of ids; write them as 1-3,100", part), "--ids");
 }
 
 /// The largest whole millimetre that fits, either way round.

@@ -63,7 +63,7 @@ void write_verdict(HtmlPage& page, const ReportedRun& run) {
   if (run.scored.reasons.empty()) page.paragraph("Nothing speaks against the score.");
   if (run.scored.biased) {
     page.paragraph(
-        "BIASED: a tag was taken for its robot's centre, which makes scores look better than they "
+        "BIASED: a tag was used as its robot's centre, which makes scores look better than they "
         "are.");
   }
   const RunLog& log = run.log;
@@ -99,7 +99,7 @@ void write_pictures(HtmlPage& page, const ReportedRun& run) {
   page.picture(draw(picture),
                "From above: hollow at the start, solid at the end, trails between them.");
   page.picture(timeline(run.tracked, run.scored.issues, kTimelineWidth_mm),
-               "How each robot's pose was come by, and when something was wrong.");
+               "How each robot's pose was obtained, and when something was wrong.");
 }
 
 std::string border_text(const ReportedRun& run, std::size_t robot) {
@@ -112,7 +112,7 @@ std::string border_text(const ReportedRun& run, std::size_t robot) {
 std::string offset_text(const ReportedRun& run, std::size_t robot) {
   if (robot >= run.rig.robots.size()) return "none";
   const auto found = run.rig.offsets.find(run.rig.robots[robot].offset_file);
-  if (found == run.rig.offsets.end()) return "none: tag taken for centre";
+  if (found == run.rig.offsets.end()) return "none: tag used as centre";
   const OffsetCalibration& made = found->second;
   return fmt::format("{}, {} ({})", in_mm(made.offset.x_m), in_mm(made.offset.y_m),
                      date_text(made.made));

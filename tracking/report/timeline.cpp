@@ -101,7 +101,7 @@ std::string timeline(const TrackedRun& run, const std::vector<Issue>& issues, do
   const FlowingLegend legend(entries, width_mm - 2 * kMargin);
   const double legend_top = area.bottom() + kHorizontalAxisRoom + 3;
   Svg svg(width_mm, legend_top + legend.height() + kMargin, "Timeline",
-          "How each robot's pose was come by, over the time of the run");
+          "How each robot's pose was obtained, over the time of the run");
   const double duration = std::max(run.trajectory.instants(), 1) * kControlPeriod_s;
   const Axis axis({0, duration}, area.left, area.right());
   for (std::size_t i = 0; i < run.robots.size(); ++i) {

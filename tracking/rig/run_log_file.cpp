@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "base/id.h"
-#include "base/text/file_text.h"
 #include "base/text/table_reader.h"
+#include "base/text/whole_file.h"
 #include "sim/files/color_text.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/read_place.h"
@@ -33,7 +33,7 @@ Mission read_log_mission(TableReader& root, const std::filesystem::path& folder)
     auto missions = read_missions(root, folder);
     if (missions.size() == 1) return std::move(missions.front().mission);
     root.complain("mission",
-                  "a run is of one mission, the file has " + std::to_string(missions.size()));
+                  "a run has one mission, the file has " + std::to_string(missions.size()));
     return {};
   }
   const auto word = root.text("mission");

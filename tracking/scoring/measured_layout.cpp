@@ -65,7 +65,7 @@ Expected<MeasuredPatch> measured_patch(const Rectangle& place,
                                        const Mission& mission) {
   const std::string where = "the patch at " + point_text(place.centre);
   if (ratios.empty()) {
-    return missing(where + " cannot be told: it is in no picture, or always hidden by a robot",
+    return missing(where + " cannot be measured: it is in no picture, or always hidden by a robot",
                    mission);
   }
   MeasuredPatch patch{
@@ -76,7 +76,7 @@ Expected<MeasuredPatch> measured_patch(const Rectangle& place,
   const bool is_bare = match.best == mission.arena.floor && !has_bare_places(mission);
   if (is_bare || match.distance > kMostDistance || match.confidence < kLeastConfidence) {
     return missing(
-        fmt::format("{} cannot be told: it has {}, between {} and {}", where,
+        fmt::format("{} cannot be measured: it has {}, between {} and {}", where,
                     ratio_text(patch.ratio), color_text(match.best), color_text(match.second)),
         mission);
   }

@@ -161,13 +161,13 @@ int run_command_line(int argc, char** argv) {
       "Exit codes: 0 drained, 2 usage, 5 no coordinator for ten minutes, 7 refused by the "
       "coordinator\n(another build), 143 interrupted twice. SIGTERM drains."};
   app.name("swarmsmith-worker");
-  CLI::Option_group* where = app.add_option_group("Where the coordinator is");
-  where->add_option("--connect", arguments.connect, "Where it listens")
+  CLI::Option_group* where = app.add_option_group("Address of the coordinator, one of");
+  where->add_option("--connect", arguments.connect, "Address of the coordinator")
       ->type_name("tcp://HOST:PORT");
   where
       ->add_option("--coordinator", arguments.coordinator,
-                   "The file that it writes (STORE.coordinator); read again before each try to "
-                   "connect, so that one that moved is found")
+                   "File that the coordinator writes (STORE.coordinator); read again before each "
+                   "try to connect, so it finds a coordinator that has moved")
       ->type_name("FILE");
   where
       ->add_flag("--referee", arguments.referee,
@@ -176,28 +176,26 @@ int run_command_line(int argc, char** argv) {
       ->group("");
   where->require_option(1);
   app.add_option("--key", arguments.key,
-                 "Key file; default, where one is needed: SWARMSMITH_KEY, else worker.key in "
+                 "Key file; default, if one is needed: SWARMSMITH_KEY, else worker.key in "
                  "SWARMSMITH_KEYS or ~/.config/swarmsmith/keys")
       ->type_name("FILE");
   app.add_flag("--insecure-plaintext", arguments.insecure_plaintext,
-               "Talk to a coordinator on another host that does not encrypt");
+               "Connect to a coordinator on another host without encryption");
   app.add_option("--slots", arguments.slots,
-                 "Evaluations at a time; default SLURM_CPUS_PER_TASK, then the CPUs it may use")
+                 "Parallel evaluations; default SLURM_CPUS_PER_TASK, then the CPUs it may use")
       ->check(CLI::Range(1, static_cast<int>(kMaxSlots)));
   app.add_flag("--die-with-parent", arguments.die_with_parent,
-               "Be killed when the process that started this one ends");
+               "Die when the process that started this one ends");
   app.add_option("--parent", arguments.parent, "Process id of that process")->group("");
-  app.add_flag(
-      "--watch-input", arguments.watch_input,
-      "Drain when standard input ends: for a worker that somebody holds by a pipe, as ssh");
+  app.add_flag("--watch-input", arguments.watch_input,
+               "Drain when standard input ends: for a worker behind a pipe, such as ssh");
   app.add_option("--allow", arguments.allow,
-                 "A program that campaigns may run here in place of the simulator; repeatable. "
-                 "It is run with whatever arguments the campaign has")
+                 "Program that campaigns may run here in place of the simulator, with any "
+                 "arguments; repeatable")
       ->type_name("PROGRAM")
       ->allow_extra_args(false);
   app.add_flag("--allow-shell", arguments.allow_shell,
-               "Give command lines that only a shell understands to /bin/sh: then campaigns may "
-               "run anything");
+               "Run command lines that need a shell with /bin/sh: campaigns may then run anything");
   app.set_version_flag("--version", SWARMSMITH_VERSION);
   try {
     app.parse(argc, argv);

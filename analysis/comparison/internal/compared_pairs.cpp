@@ -58,11 +58,11 @@ PairedValues pair_runs(const ScoredDesigns& first, const ScoredDesigns& second) 
 
 void add_notes(ComparedPair& pair) {
   if (!pair.test.p_value) {
-    pair.notes.emplace_back(pair.paired ? "all differences are zero: there is no p"
-                                        : "all values are the same: there is no p");
+    pair.notes.emplace_back(pair.paired ? "all differences are zero: no p"
+                                        : "all values are the same: no p");
   }
   if (pair.n_first < 2 || pair.n_second < 2)
-    pair.notes.emplace_back("of one value an interval has no width");
+    pair.notes.emplace_back("an interval of one value has no width");
   else if (pair.test.least_p <= kLevel && std::min(pair.n_first, pair.n_second) < kFewValues)
     pair.notes.push_back(
         fmt::format("n is small: an interval of fewer than {} values is too narrow", kFewValues));
@@ -108,7 +108,7 @@ void compare_sources(const ScoreTable::value_type& one, const ScoreTable::value_
                               .paired = true},
                              values.first, values.second);
   if (values.alone > 0) {
-    pair.notes.push_back(fmt::format("{} left out, since only one of both sources has them: {}",
+    pair.notes.push_back(fmt::format("{} left out, since only one of the two sources has them: {}",
                                      by_run ? "runs" : "designs", values.alone));
   }
   comparison.pairs.push_back(std::move(pair));

@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "base/csv.h"
 #include "base/suggestion.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {
@@ -129,8 +129,8 @@ Expected<GroupedScores> grouped_scores(StoreReader& store, const FigureOptions& 
     return unexpected(ErrorKind::NotFound,
                       options.choice.purpose == "test"
                           ? "the winners were not tested by their campaign"
-                          : "nobody has scored the winners after their races; `swarmsmith "
-                            "evaluate best --store STORE` does");
+                          : "the winners have no scores after their races; `swarmsmith evaluate "
+                            "best --store STORE` makes them");
   }
   const auto names = names_of(store);
   if (!names) return Unexpected(names.error());

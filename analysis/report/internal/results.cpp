@@ -23,7 +23,7 @@ void write_real_runs(ReportDraft& draft) {
   if (draft.store().schema() < 5) return;
   draft.table(
       "Real runs (v_real_runs). Those that count are among the scores above; the others are "
-      "INVALID, or biased since a tag was taken for its robot's centre.",
+      "INVALID, or biased since a tag was used as its robot's centre.",
       {{"run"},
        {"name"},
        {"mission", Show::Name},

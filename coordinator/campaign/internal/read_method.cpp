@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "base/suggestion.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "coordinator/campaign/internal/method_search.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/parameter_file.h"

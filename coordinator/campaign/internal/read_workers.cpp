@@ -89,8 +89,8 @@ void read_launcher(TableReader& table, const std::filesystem::path& folder, Laun
   if (!name) return;
   if (*name == "ssh" && !table.has("ssh")) {
     table.complain("launcher",
-                   "`launcher` is \"ssh\", and there is no table [workers.ssh] with "
-                   "`hosts`, the name of a host file");
+                   "`launcher` is \"ssh\", but the table [workers.ssh] with `hosts`, the name of a "
+                   "host file, is missing");
   }
   launch.kind = *name == "ssh"     ? LaunchOptions::Kind::Ssh
                 : *name == "slurm" ? LaunchOptions::Kind::Slurm

@@ -201,7 +201,7 @@ Expected<std::optional<Configuration>> ForeignBuilder::defaults(const ParameterS
     const ForeignParameter& foreign = known_[i].foreign;
     if (!foreign.initial) {
       warn(foreign.where, "'" + foreign.name +
-                              "' has no default, so that the defaults are no first configuration");
+                              "' has no default, so the defaults are not the first configuration");
       return std::nullopt;
     }
     const auto value = default_value(space, i, *foreign.initial, foreign.where);
@@ -221,7 +221,7 @@ Error ForeignBuilder::placed(Error error) const {
 }
 
 Expected<ForeignSpace> ForeignBuilder::build(const ForeignSpaceOptions& options) && {
-  if (known_.empty()) return bad_input("there is no parameter in this file", file_);
+  if (known_.empty()) return bad_input("the file has no parameter", file_);
   std::vector<Parameter> parameters;
   for (const Known& known : known_) {
     const std::string& text = known.foreign.switch_text;

@@ -83,15 +83,15 @@ void check_race(SetupWork& work) {
   const Scenario& race = work.setup.race;
   const bool tunes = work.action != IraceAction::OnlyTest;
   if (tunes && race.max_experiments == 0 && race.max_time <= 0) {
-    work.complain("maxExperiments",
-                  "there is no budget: set maxExperiments (--max-experiments) or maxTime "
-                  "(--max-time)");
+    work.complain(
+        "maxExperiments",
+        "no budget given: set maxExperiments (--max-experiments) or maxTime (--max-time)");
     return;
   }
   if (race.max_experiments > 0 && race.max_time > 0) {
-    work.complain(
-        "maxTime",
-        "stands beside `maxExperiments`: a budget is one of the two; set the other one to 0");
+    work.complain("maxTime",
+                  "is given together with `maxExperiments`: a budget is one of the two; set the "
+                  "other one to 0");
     return;
   }
   const auto checked = check(race);

@@ -83,10 +83,10 @@ void read_training(SetupWork& work) {
       }
     }
     if (training.empty() && work.action != IraceAction::OnlyTest) {
-      work.complain(kTraining.file,
-                    "there are no training instances: name a list of them (trainInstancesFile, "
-                    "--train-instances-file) or their folder (trainInstancesDir, "
-                    "--train-instances-dir)");
+      work.complain(
+          kTraining.file,
+          "no training instances given: name a list of them (trainInstancesFile, "
+          "--train-instances-file) or their folder (trainInstancesDir, --train-instances-dir)");
     }
   }
   if (!training.empty()) {

@@ -53,11 +53,11 @@ void read_launcher_arguments(SetupWork& work) {
   if (!arguments || arguments->empty()) return;
   if (work.settings.find("targetCmdline") != nullptr) {
     work.complain("targetRunnerLauncherArgs",
-                  "stands beside `targetCmdline`, which took its place: leave it out");
+                  "is given together with `targetCmdline`, which replaces it: leave it out");
     return;
   }
   if (work.setup.target_runner_launcher.empty()) {
-    work.warn("`targetRunnerLauncherArgs` means nothing without `targetRunnerLauncher`");
+    work.warn("`targetRunnerLauncherArgs` has no effect without `targetRunnerLauncher`");
     return;
   }
   constexpr std::string_view kAll = "{targetRunnerArgs}";
@@ -101,7 +101,7 @@ void apply_options(SetupWork& work) {
   if (setup.race.postselection && !setup.race.elitist) {
     setup.race.postselection = false;
     if (work.settings.find("postselection") != nullptr) {
-      work.warn("`postselection` means nothing without `elitist`: there is no last race");
+      work.warn("`postselection` has no effect without `elitist`: there is no last race");
     }
   }
 }

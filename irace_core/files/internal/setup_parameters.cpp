@@ -67,7 +67,7 @@ bool read_space(SetupWork& work) {
                                 work.settings.is_on("aclib") ? std::nullopt : sources.digits);
     }
     work.complain(sources.forbidden ? "forbiddenFile" : "dependencyFile",
-                  "stands beside parameters that are not in irace's format: leave it out, and "
+                  "is given with parameters that are not in irace's format: leave it out, and "
                   "forbid in the parameter file");
     return false;
   }

@@ -107,7 +107,7 @@ std::optional<ScoreRule> read_score(TableReader& score) {
   // For people coming from the examples of the literature; it has one value.
   if (score.boolean("maximize") == false) {
     score.complain("maximize",
-                   "scores are always maximised; let what is unwanted count negatively, as "
+                   "scores are always maximised; give unwanted things a negative weight, as "
                    "color_reward can, instead of `maximize = false`");
   }
   score.finish();

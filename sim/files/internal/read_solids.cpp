@@ -46,7 +46,7 @@ std::optional<Outline> read_polygon(TableReader& table, Pose& pose) {
            " are taken";
   }
   if (flaw) {
-    table.complain("corners", "this polygon cannot stand in an arena: " + *flaw);
+    table.complain("corners", "this polygon cannot be in an arena: " + *flaw);
     return std::nullopt;
   }
   centre_corners(corners, pose);

@@ -34,7 +34,7 @@ struct Formula {
            .required = true},
           rule.value);
     field({.key = "of",
-           .meaning = "for whom it is worked out: for each robot, each movable object, or once",
+           .meaning = "what it is computed for: each robot, each movable object, or once",
            .choices = kFormulaSubjects},
           rule.of);
     field({.key = "over",

@@ -74,7 +74,7 @@ TEST(Comparison, RunsArePairedBySeed) {
   ASSERT_EQ(comparison.pairs.size(), 1U);
   EXPECT_EQ(comparison.pairs.front().n_first, 6U);
   EXPECT_THAT(comparison.pairs.front().notes,
-              Contains("runs left out, since only one of both sources has them: 6"));
+              Contains("runs left out, since only one of the two sources has them: 6"));
   EXPECT_THAT(comparison.notes, Contains(HasSubstr("not independent")));
 }
 
@@ -85,7 +85,8 @@ TEST(Comparison, DesignsInOneSourceAloneAreLeftOutAndCounted) {
   });
   const ComparedPair pair = compare(scores, {.by = CompareBy::Source}).pairs.front();
   EXPECT_EQ(pair.n_first, 5U);
-  EXPECT_THAT(pair.notes, Contains("designs left out, since only one of both sources has them: 1"));
+  EXPECT_THAT(pair.notes,
+              Contains("designs left out, since only one of the two sources has them: 1"));
   EXPECT_THAT(pair.notes, Contains(HasSubstr("n is too small")));
 }
 
@@ -204,8 +205,9 @@ TEST(Comparison, IntervalsOfRanksEndWhereRanksEnd) {
 TEST(Comparison, WhatHasNothingBesideItIsSaid) {
   const Comparison comparison = compare(records_of({{.scores = {1}}, {.design = 2, .scores = {2}}}),
                                         {.by = CompareBy::Method});
-  EXPECT_THAT(comparison.notes,
-              ElementsAre("all scores are of the method watermelon: there is nothing to compare"));
+  EXPECT_THAT(
+      comparison.notes,
+      ElementsAre("all scores have the same method watermelon: there is nothing to compare"));
 }
 
 TEST(Comparison, TestsThatRHasNoPForSayWhy) {
@@ -215,7 +217,7 @@ TEST(Comparison, TestsThatRHasNoPForSayWhy) {
   const ComparedPair& pair = comparison.pairs.front();
   EXPECT_FALSE(pair.test.p_value);
   EXPECT_FALSE(pair.p_holm);
-  EXPECT_THAT(pair.notes, Contains("all values are the same: there is no p"));
+  EXPECT_THAT(pair.notes, Contains("all values are the same: no p"));
 }
 
 TEST(Comparison, TakesWhatTheOptionsAskFor) {

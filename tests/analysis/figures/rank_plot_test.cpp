@@ -85,7 +85,7 @@ TEST_F(RanksFigureTest, SaysWhyThereIsNothingToRank) {
   const auto figure = make(*store, {});
   ASSERT_FALSE(figure);
   EXPECT_EQ(figure.error().kind, ErrorKind::NotFound);
-  EXPECT_THAT(figure.error().message, HasSubstr("all scores are of the source rvr"));
+  EXPECT_THAT(figure.error().message, HasSubstr("all scores have the same source rvr"));
   EXPECT_THAT(make(*store, {.by = "method"}).error().message,
               HasSubstr("of the method watermelon"));
   EXPECT_EQ(make(*store, {.by = "mission"}).error().kind, ErrorKind::BadInput);

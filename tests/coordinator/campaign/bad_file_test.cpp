@@ -252,7 +252,7 @@ const Mistake kMistakes[] = {
      "local, ssh, slurm"},
     {"SshWithoutHosts",
      {.rest = "[workers]\nlauncher = \"ssh\"\n"},
-     "in/x.toml:10:12: `launcher` is \"ssh\", and there is no table [workers.ssh]"},
+     "in/x.toml:10:12: `launcher` is \"ssh\", but the table [workers.ssh]"},
     {"SshTableWithoutHosts",
      {.rest = "[workers.ssh]\noptions = [\"-4\"]\n"},
      "[workers.ssh] needs `hosts`"},

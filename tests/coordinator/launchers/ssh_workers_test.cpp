@@ -79,14 +79,16 @@ TEST_F(Ssh, AHostOfAnotherBuildIsLeftAlone) {
   SshWorkers workers =
       start("echo x >>" + log + "\ntest $host = old && exit 7\nexec cat\n", {{"old"}, {"new"}});
   ASSERT_TRUE(eventually(workers, [&] { return workers.status().running == 1 && starts() == 2; }));
-  EXPECT_THAT(workers.status().note, HasSubstr("old: the worker there is of another build"));
+  EXPECT_THAT(workers.status().note,
+              HasSubstr("old: the worker there and the coordinator are different builds"));
   EXPECT_EQ(trouble_of(workers), "");
 }
 
 TEST_F(Ssh, WhenAllAreRefusedNothingCanBeHad) {
   SshWorkers workers = start("exit 7\n", {{"a"}, {"b"}});
   ASSERT_TRUE(eventually(workers, [&] { return !trouble_of(workers).empty(); }));
-  EXPECT_THAT(trouble_of(workers), HasSubstr("ssh: a: the worker there is of another build"));
+  EXPECT_THAT(trouble_of(workers),
+              HasSubstr("ssh: a: the worker there and the coordinator are different builds"));
 }
 
 TEST(SshProgram, ThatIsMissingIsSaid) {

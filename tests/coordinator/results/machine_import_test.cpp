@@ -51,7 +51,7 @@ TEST(MachineImport, TakesTheFlavourThatFilesSay) {
             "--flavour out");
   const auto some = read_machine_lines(argos3 + machine + machine, "m.fsm");
   EXPECT_THAT(to_string(flavour_of(*some, "").error()),
-              HasSubstr("m.fsm:4: in which flavour is the machine written?"));
+              HasSubstr("m.fsm:4: the machine's flavour is unknown"));
   EXPECT_EQ(flavour_of(*some, "watermelon-argos3").value(), "watermelon-argos3");
   const auto two = read_machine_lines(
       argos3 + machine + "#: format = 1\n#: flavour = \"chocolate\"\n" + machine, "m.fsm");

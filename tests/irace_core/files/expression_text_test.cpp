@@ -56,8 +56,8 @@ TEST(ExpressionText, NamesOfParametersGoBeforeTAndF) {
 }
 
 TEST(ExpressionText, SaysWhatToWriteInstead) {
-  EXPECT_EQ(error_of("a && b.c"), "3:12: found '&&': write '&', as irace wants it");
-  EXPECT_EQ(error_of("a || b.c"), "3:12: found '||': write '|', as irace wants it");
+  EXPECT_EQ(error_of("a && b.c"), "3:12: found '&&': write '&', as irace needs it");
+  EXPECT_EQ(error_of("a || b.c"), "3:12: found '||': write '|', as irace needs it");
   EXPECT_EQ(error_of("a == xyz"),
             "3:15: there is no parameter 'xyz' (a text needs quotes: \"xyz\")");
   EXPECT_EQ(error_of("numstates > 1"),
@@ -65,7 +65,7 @@ TEST(ExpressionText, SaysWhatToWriteInstead) {
   EXPECT_EQ(error_of("paste0(a)").substr(0, 61),
             "3:10: there is no function 'paste0' here; there are c as.nume");
   EXPECT_EQ(error_of("a %o% 1"), "3:12: there is no operator %o% here; there are %in%, %% and %/%");
-  EXPECT_EQ(error_of("a == NULL"), "3:15: NULL means nothing here");
+  EXPECT_EQ(error_of("a == NULL"), "3:15: NULL has no meaning here");
   EXPECT_EQ(error_of("min(a, na.rm = TRUE)"),
             "3:25: the argument 'na.rm' of min() is not known here; give arguments by position");
   EXPECT_EQ(error_of("round(a, 1, 2)"), "3:10: round() takes 1 or 2 arguments, found 3");
@@ -93,7 +93,7 @@ TEST(ExpressionText, RangesAreSearchedWithoutListingThem) {
   EXPECT_EQ(value("a %in% c(1:6, 7)"), "TRUE");
   EXPECT_EQ(value("c('7', 'x') %in% c(5, a, 9)"), "TRUE");
   EXPECT_EQ(error_of("a %in% c(0, 1:20000)"),
-            "3:23: a range of 10000 numbers or more may only stand behind %in%");
+            "3:23: a range of 10000 numbers or more is allowed only after %in%");
 }
 
 TEST(ExpressionText, ForbiddenLinesMayHaveDoubledOperators) {

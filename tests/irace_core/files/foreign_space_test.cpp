@@ -79,7 +79,7 @@ TEST(PcsFile, SaysWhatItCannotRead) {
   const auto error = [](std::string text) {
     return text_of(pcs("a {x, y}[x]\nn [1,9][5]i\n" + std::move(text)));
   };
-  EXPECT_EQ(text_of(pcs("# nothing\n")), "p.pcs: there is no parameter in this file");
+  EXPECT_EQ(text_of(pcs("# nothing\n")), "p.pcs: the file has no parameter");
   EXPECT_THAT(error("b {x, y}\n"), HasSubstr("p.pcs:3:9: expected [...]"));
   EXPECT_THAT(error("b {x, y}[z]\n"), HasSubstr("p.pcs:3:1: 'z' is not a value of 'b': x, y"));
   EXPECT_THAT(error("b [1,2][3]\n"), HasSubstr("the default 3 of 'b' is not from 1 to 2"));

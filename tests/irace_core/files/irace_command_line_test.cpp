@@ -86,7 +86,7 @@ TEST(IraceCommandLine, EverythingWrongIsReportedTogether) {
       errors_of({"--max-experiment", "5", "6", "--seed", "x", "--elitist"}),
       ElementsAre("--max-experiment: is no option (did you mean \"--max-experiments\"?); --help "
                   "lists all of them",
-                  HasSubstr("6: is no option and belongs to none"),
+                  HasSubstr("6: is not an option and belongs to none"),
                   "--seed: must be a whole number, 0 or more, found \"x\"",
                   "--elitist: needs a value after it"));
 }
@@ -100,7 +100,7 @@ TEST(IraceCommandLine, NamesOfScenarioFilesLeadToSwitches) {
 
 TEST(IraceCommandLine, WhatCannotBeUsedHereIsRefusedWithAWayOut) {
   EXPECT_THAT(errors_of({"--recovery-file", "irace.Rdata"}),
-              ElementsAre(HasSubstr("give the same command again")));
+              ElementsAre(HasSubstr("the same command continues")));
   EXPECT_THAT(errors_of({"--mpi", "1"}), ElementsAre(HasSubstr("set `parallel`")));
   EXPECT_THAT(errors_of({"--hook-run", "x"}), ElementsAre(HasSubstr("write `targetRunner`")));
   EXPECT_THAT(errors_of({"--mpi", "0", "--recovery-file="}), IsEmpty());
@@ -108,7 +108,7 @@ TEST(IraceCommandLine, WhatCannotBeUsedHereIsRefusedWithAWayOut) {
 
 TEST(IraceCommandLine, WhatMeansNothingOrIsOldIsAWarning) {
   EXPECT_THAT(read({"--load-balancing", "0"}).warnings,
-              ElementsAre(HasSubstr("means nothing here")));
+              ElementsAre(HasSubstr("has no effect here")));
   EXPECT_THAT(read({"--load-balancing", "1"}).warnings, IsEmpty());
   EXPECT_THAT(read({"--digits", "2"}).warnings,
               ElementsAre(HasSubstr("write `digits = 2` under [global]")));

@@ -158,7 +158,7 @@ TEST(ParameterFileGolden, RefusesWhatRRefusesForTheSameReason) {
       {"e12_missing_paren", "1:8: expected the domain in parentheses, found \"1,5\""},
       {"e13_no_pipe", "1:14: expected '|' before the condition, found \"b > 1\""},
       {"e14_empty_condition", "1:15: expected a condition after '|', found the end of the line"},
-      {"e15_empty_file", "1:1: there is no parameter in this file"},
+      {"e15_empty_file", "1:1: the file has no parameter"},
       {"e16_digits", "the bound 0.00001 does not fit digits = 4; it needs digits = 5"},
       {"e17_forbidden_unknown", "3:1: there is no parameter 'zz'"},
       {"e18_global_unknown", "3:1: expected an option of [global]"},
@@ -172,8 +172,8 @@ TEST(ParameterFileGolden, RefusesWhatRRefusesForTheSameReason) {
       {"e26_dep_undefined", "1:12: there is no parameter 'zz'"},
       {"e27_space_in_type", "1:6: expected the type and a blank behind it"},
       {"e28_self_cycle", "1:1: parameter 'a', domain (1,5): depends on itself"},
-      {"e29_sections_only", "1:1: there is no parameter in this file"},
-      {"e30_andand_in_condition", "2:25: found '&&': write '&', as irace wants it"},
+      {"e29_sections_only", "1:1: the file has no parameter"},
+      {"e30_andand_in_condition", "2:25: found '&&': write '&', as irace needs it"},
   };
   std::size_t refused = 0;
   const nlohmann::json files = golden("parameters.json");

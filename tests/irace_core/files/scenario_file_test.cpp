@@ -144,7 +144,7 @@ TEST(ScenarioFile, ValuesThatGoNowhereAreErrors) {
 TEST(ScenarioFile, OptionsWithoutAMeaningHereAreRefusedOrIgnored) {
   const World world;
   EXPECT_THAT(world.errors("recoveryFile = \"irace.Rdata\""),
-              ElementsAre(HasSubstr("give the same command again")));
+              ElementsAre(HasSubstr("the same command continues")));
   EXPECT_THAT(world.errors("mpi = 1"), ElementsAre(HasSubstr("set `parallel`")));
   EXPECT_THAT(world.errors("initConfigurations = .x"),
               ElementsAre(HasSubstr("configurationsFile")));
@@ -156,7 +156,7 @@ TEST(ScenarioFile, OptionsWithoutAMeaningHereAreRefusedOrIgnored) {
   const auto file = world.parse("targetRunnerData = list(1)\nloadBalancing = 0\nmpi = 0");
   ASSERT_TRUE(file);
   EXPECT_THAT(file->warnings,
-              ElementsAre(HasSubstr("scenario.txt:1:1: `targetRunnerData` means nothing here"),
+              ElementsAre(HasSubstr("scenario.txt:1:1: `targetRunnerData` has no effect here"),
                           HasSubstr("scenario.txt:2:1: `loadBalancing`")));
 }
 

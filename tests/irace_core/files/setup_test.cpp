@@ -139,7 +139,7 @@ TEST_F(IraceSetupFiles, ParametersOfOtherToolsBecomeIracesAndTheirDefaultsComeFi
 }
 
 TEST_F(IraceSetupFiles, AScenarioThatNobodyNamedIsReadWithAWarning) {
-  EXPECT_THAT(setup().warnings, ElementsAre(HasSubstr("because it is there")));
+  EXPECT_THAT(setup().warnings, ElementsAre(HasSubstr("because it exists")));
   EXPECT_THAT(setup({"--scenario", "scenario.txt"}).warnings, IsEmpty());
 }
 
@@ -150,11 +150,11 @@ TEST_F(IraceSetupFiles, WithoutAScenarioTheCommandLineSaysAll) {
   EXPECT_EQ(read.race.max_experiments, 300);
   EXPECT_EQ(read.seed, std::nullopt);
   EXPECT_EQ(read.parallel, std::nullopt);
-  EXPECT_THAT(errors(), Contains(HasSubstr("there is no budget")));
+  EXPECT_THAT(errors(), Contains(HasSubstr("no budget given")));
 }
 
 TEST_F(IraceSetupFiles, AnEmptyScenarioNameMeansNone) {
-  EXPECT_THAT(errors({"--scenario="}), Contains(HasSubstr("there is no budget")));
+  EXPECT_THAT(errors({"--scenario="}), Contains(HasSubstr("no budget given")));
 }
 
 TEST_F(IraceSetupFiles, TheCommandLineWinsOverTheFile) {
@@ -238,7 +238,7 @@ TEST_F(IraceSetupFiles, TheFolderOfOlderVersionsIsUsedWithAWarning) {
   EXPECT_THAT(read.training, ElementsAre(path("Instances/i1")));
   EXPECT_THAT(read.warnings, ElementsAre(HasSubstr("as irace 3.5 does")));
   fs::remove_all(folder_ / "Instances");
-  EXPECT_THAT(errors(), ElementsAre(HasSubstr("there are no training instances")));
+  EXPECT_THAT(errors(), ElementsAre(HasSubstr("no training instances given")));
 }
 
 TEST_F(IraceSetupFiles, AListThatNeedsTheFolderOfOlderVersionsIsAWarning) {
@@ -316,7 +316,7 @@ TEST_F(IraceSetupFiles, LauncherArgumentsOfOlderVersionsBecomeATemplate) {
 
 TEST_F(IraceSetupFiles, ABudgetIsRunsOrTime) {
   EXPECT_THAT(errors({"--max-time", "60"}),
-              ElementsAre(HasSubstr("--max-time: stands beside `maxExperiments`")));
+              ElementsAre(HasSubstr("--max-time: is given together with `maxExperiments`")));
   EXPECT_EQ(setup({"--max-time", "60", "--max-experiments", "0"}).race.max_time, 60);
   EXPECT_EQ(setup({"--min-experiments", "900"}).race.max_experiments, 900);
 }

@@ -125,7 +125,7 @@ TEST(ArenaShapes, ThatMakeNoArenaAreExplained) {
        "side 1, from (0, 0), crosses or touches side 3, from (2, 0)"},
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0]]\n", "2 corners; a polygon has at least 3"},
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0, 1], [0, 0]]\n",
-       "corners 1 and 4 are the same point, (0, 0); the last corner is joined to the first"},
+       "corners 1 and 4 are the same point, (0, 0); the last corner joins the first"},
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [2, 0]]\n", "turns back on itself"},
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0, nan]]\n", "this is nan"},
       {"shape = \"polygon\"\ncorners = [[0, 0], [1, 0], [0, 1e9]]\n", "from -100 to 100"},
@@ -174,7 +174,7 @@ TEST(Solids, StandWhereTheFileSaysWithPolygonsAroundTheirCentreOfMass) {
 TEST(Solids, WithoutRoomOrSenseAreExplained) {
   const BadArena bad[] = {
       {"obstacles = [ { shape = \"circle\", x = 5, y = 0, diameter = 1 } ]\n",
-       "obstacle 1 stands outside of the walls"},
+       "obstacle 1 is outside the walls"},
       {"objects = [ { shape = \"circle\", x = 1.1, y = 0, diameter = 0.5, mass = 1, friction = 1 } "
        "]\n",
        "object 1 would stand in a wall"},
@@ -213,9 +213,9 @@ TEST(Images, ThatCannotBeReadAreExplained) {
               ElementsAre(HasSubstr("no.png: there is no such image file")));
   EXPECT_THAT(complaints(spot(", file = \"..\"")), ElementsAre(HasSubstr("this is a folder")));
   EXPECT_THAT(complaints(spot(", file = \"maze.toml\"")),
-              ElementsAre(HasSubstr("maze.toml: this is no PNG image")));
+              ElementsAre(HasSubstr("maze.toml: this is not a PNG image")));
   EXPECT_THAT(complaints(spot(", data = \"AAA\"")), ElementsAre(HasSubstr("no base64")));
-  EXPECT_THAT(complaints(spot(", data = \"AAAA\"")), ElementsAre(HasSubstr("no PNG image")));
+  EXPECT_THAT(complaints(spot(", data = \"AAAA\"")), ElementsAre(HasSubstr("not a PNG image")));
 }
 
 TEST(Placements, AreReadWithTheirKeys) {

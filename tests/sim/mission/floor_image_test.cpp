@@ -45,8 +45,8 @@ TEST(Picture, ThatIsNoneIsAnError) {
     const auto picture = Picture::from_png(std::move(bytes));
     return picture ? "" : picture.error().message;
   };
-  EXPECT_THAT(error(""), HasSubstr("no PNG image"));
-  EXPECT_THAT(error("GIF89a, really"), HasSubstr("no PNG image"));
+  EXPECT_THAT(error(""), HasSubstr("not a PNG image"));
+  EXPECT_THAT(error("GIF89a, really"), HasSubstr("not a PNG image"));
   EXPECT_THAT(error(kPng.substr(0, kPng.size() / 2)), HasSubstr("PNG image"));
   EXPECT_THAT(error(std::string(Picture::kMostBytes + 1, 'x')), HasSubstr("at most 1 MB"));
 }

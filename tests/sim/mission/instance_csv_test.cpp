@@ -124,7 +124,7 @@ TEST_F(ExplicitInstance, AnotherNumberOfRobotsIsAnError) {
 
 TEST_F(ExplicitInstance, AStartBehindAWallIsAnError) {
   given.starts->at(7)[1].x = 1.3;
-  EXPECT_EQ(error_of(7), "starts, seed 7: robot 1 stands outside of the arena");
+  EXPECT_EQ(error_of(7), "starts, seed 7: robot 1 is outside the arena");
 }
 
 TEST_F(ExplicitInstance, APatchBesideThePlacesOrASecondOneIsAnError) {

@@ -206,7 +206,7 @@ TEST(MisplacedSolid, IsNamed) {
   EXPECT_EQ(misplaced_solid(arena), std::nullopt);
   arena.obstacles[1].pose.x = 0.5;
   arena.obstacles[1].pose.y = 1.4;
-  EXPECT_EQ(misplaced_solid(arena), "obstacle 2 stands outside of the walls");
+  EXPECT_EQ(misplaced_solid(arena), "obstacle 2 is outside the walls");
   arena = crowded(CircleOutline{0.1}).arena;
   arena.objects.push_back({CircleOutline{0.1}, {1.6, -0.4, 0}});
   EXPECT_EQ(misplaced_solid(arena), "object 2 would stand in object 1; objects need room");

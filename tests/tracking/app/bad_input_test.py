@@ -327,7 +327,7 @@ class BadInput(unittest.TestCase):
 
     def test_run_without_a_begin(self):
         log = self.changed_log(LAB.film("good"), ('start = "1.2 s"\n', ""))
-        self.assert_refused(self.score(log), "E_CONFIG", "when does the run begin", exit_code=2)
+        self.assert_refused(self.score(log), "E_CONFIG", "the start of the run is unknown", exit_code=2)
 
     def test_same_run_twice(self):
         first = self.score(LAB.film("good"))
@@ -335,7 +335,7 @@ class BadInput(unittest.TestCase):
         self.assertIn("Stored as r1", first.stdout)
         again = self.score(LAB.film("good"))
         self.assertEqual(again.returncode, 0, again.stderr)
-        self.assertIn("there already, as r1", again.stdout)
+        self.assertIn("stored already, as r1", again.stdout)
         self.assertEqual(len(runs_in(self.store)), 1)
         nobody = self.score(LAB.film("good"), "--design", "d4")
         self.assertEqual(nobody.returncode, 4, nobody.stderr)

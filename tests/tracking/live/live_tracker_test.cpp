@@ -125,7 +125,7 @@ TEST(LiveTrackerTest, SaysWhatIsWrong) {
   EXPECT_THAT(state.issues, Contains("rvr3 (tag 3) has not been seen yet"));
   EXPECT_THAT(state.issues, Contains(HasSubstr("rvr1 (tag 1): the tag looks 11 % too large")));
   EXPECT_THAT(state.issues, Contains(HasSubstr("rvr2 (tag 2) has no offset calibration")));
-  EXPECT_THAT(state.issues, Contains("tag 100 is there more than once"));
+  EXPECT_THAT(state.issues, Contains("tag 100 is visible more than once"));
   EXPECT_THAT(state.issues, Contains("tag 33 is nobody's"));
   EXPECT_THAT(state.issues, Not(Contains(HasSubstr("outside"))));
 }

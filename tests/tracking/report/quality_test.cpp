@@ -71,7 +71,7 @@ TEST(QualityTest, PageSaysTheVerdictFirst) {
   ASSERT_NE(reason, std::string::npos);
   EXPECT_LT(reason, picture);
   for (const char* said : {"98.0 %", "0.7 %", "1.3 %", "TOO CLOSE TO CALL", "+210.0, black spot",
-                           "72.0, -4.0 (2026-11-20 10:30)", "tag taken for centre", "3 of 5",
+                           "72.0, -4.0 (2026-11-20 10:30)", "tag used as centre", "3 of 5",
                            "9 (0.5 %)", "14.50 / 30.00 / 31.00", "aaaaaaaaaaaaaaaa"})
     EXPECT_THAT(page, HasSubstr(said));
   EXPECT_THAT(page, Not(HasSubstr("BIASED")));

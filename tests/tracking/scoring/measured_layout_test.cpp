@@ -128,7 +128,7 @@ TEST_F(MeasuredLayoutTest, RefusesColoursThatAreNotTheMissions) {
   instance.patches[2].color = {0, 0, 255};
   const auto blue = measured({});
   ASSERT_FALSE(blue);
-  EXPECT_THAT(blue.error().message, HasSubstr("cannot be told"));
+  EXPECT_THAT(blue.error().message, HasSubstr("cannot be measured"));
   instance.patches[2].color = instance.patches.back().color;
   const auto too_many = measured({});
   ASSERT_FALSE(too_many);
@@ -206,7 +206,7 @@ TEST_F(MeasuredLayoutTest, SaysWhichPlaceIsNotInThePicture) {
   image = cut;
   const std::vector<FloorPicture> pictures{picture};
   EXPECT_THAT(measure_layout(pictures, mission).error().message,
-              HasSubstr("the patch at (0.75, -0.25) cannot be told: it is in no picture"));
+              HasSubstr("the patch at (0.75, -0.25) cannot be measured: it is in no picture"));
 }
 
 }  // namespace

@@ -373,11 +373,11 @@ TEST(BagFile, SaysWhatIsNoBag) {
   EXPECT_THAT(message_of(read_video(folder / "none.bag")),
               HasSubstr("E_VIDEO_UNREADABLE: cannot be opened: No such file"));
   write_bytes(folder / "empty.bag", "");
-  EXPECT_THAT(message_of(read_video(folder / "empty.bag")), HasSubstr("no bag of ROS 1"));
+  EXPECT_THAT(message_of(read_video(folder / "empty.bag")), HasSubstr("not a bag of ROS 1"));
   write_bytes(folder / "old.bag", "#ROSBAG V1.2\n and so on");
   EXPECT_THAT(message_of(read_video(folder / "old.bag")), HasSubstr("format 2.0"));
   write_bytes(folder / "long", "#ROSBAG" + std::string(5000, 'x'));
-  EXPECT_THAT(message_of(read_video(folder / "long")), HasSubstr("no bag of ROS 1"));
+  EXPECT_THAT(message_of(read_video(folder / "long")), HasSubstr("not a bag of ROS 1"));
   write_bag(folder / "run.bag");
   std::string bytes = bytes_of(folder / "run.bag");
   write_bytes(folder / "cut.bag", bytes.substr(0, bytes.size() / 2));

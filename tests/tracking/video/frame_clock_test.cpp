@@ -31,8 +31,8 @@ TEST(FrameTimes, NamesTheLineThatIsWrong) {
   EXPECT_THAT(refusal("frame,time_s\n"), HasSubstr("no frame"));
   EXPECT_THAT(refusal("frame,time_s\n0,1\n2,2\n"), HasSubstr("line 3: E_TIMESTAMPS: frame 1"));
   EXPECT_THAT(refusal("frame,time_s\n0,1\n1\n"), HasSubstr("line 3: E_TIMESTAMPS: 1 cells"));
-  EXPECT_THAT(refusal("frame,time_s\n0,nan\n"), HasSubstr("`nan` is no time"));
-  EXPECT_THAT(refusal("frame,time_s\n0,1s\n"), HasSubstr("`1s` is no time"));
+  EXPECT_THAT(refusal("frame,time_s\n0,nan\n"), HasSubstr("`nan` is not a time"));
+  EXPECT_THAT(refusal("frame,time_s\n0,1s\n"), HasSubstr("`1s` is not a time"));
   EXPECT_THAT(refusal("frame,time_s\n0,1\n\n1,1\n"),
               HasSubstr("line 4: E_TIMESTAMPS: frame 1 at 1 s is not later"));
 }

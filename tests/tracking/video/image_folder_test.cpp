@@ -107,7 +107,7 @@ TEST(ImageFolder, KeepsEveryBitOfPngAndItsColours) {
 TEST(ImageFolder, NamesWhatDoesNotFit) {
   const TemporaryFolder folder;
   std::filesystem::create_directory(folder / "empty");
-  EXPECT_THAT(to_string(*read_video(folder / "empty").error), HasSubstr("no image in this folder"));
+  EXPECT_THAT(to_string(*read_video(folder / "empty").error), HasSubstr("the folder has no image"));
 
   std::filesystem::create_directory(folder / "mixed");
   write_image(folder / "mixed" / "1.png", 1);

@@ -139,7 +139,7 @@ TEST(VideoFile, RefusesWhatIsNoVideo) {
   EXPECT_THAT(error_of(read_video(folder / "empty.mp4")), HasSubstr("empty"));
   write_bytes(folder / "text.mp4", "This is a letter to my grandmother.\n");
   EXPECT_THAT(error_of(read_video(folder / "text.mp4")),
-              HasSubstr("E_VIDEO_UNREADABLE: is no video that can be read"));
+              HasSubstr("E_VIDEO_UNREADABLE: is not a readable video"));
   // Its decoder's own words are told.
   make_video(folder / "a.mp4", even_times(9, 10), {});
   const std::string bytes = bytes_of(folder / "a.mp4");
@@ -201,7 +201,7 @@ std::string sound_only() {
 TEST(VideoFile, RefusesSoundAloneAndVideosWithoutAFrame) {
   const TemporaryFolder folder;
   write_bytes(folder / "sound.avi", sound_only());
-  EXPECT_THAT(error_of(read_video(folder / "sound.avi")), HasSubstr("no video in it"));
+  EXPECT_THAT(error_of(read_video(folder / "sound.avi")), HasSubstr("it has no video"));
   for (const std::string name : {"none.mkv", "none.mp4", "none.avi"}) {
     make_video(folder / name, {}, {.codec = "mjpeg"});
     EXPECT_THAT(error_of(read_video(folder / name)), HasSubstr("E_VIDEO_UNREADABLE")) << name;

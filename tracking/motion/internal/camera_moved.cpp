@@ -90,7 +90,7 @@ std::optional<Issue> unchecked(const std::vector<Span>& spans, const std::string
   // A camera that was pushed stays where it is, so that a later look tells of earlier ones.
   constexpr double kTail_s = 10;
   constexpr const char* kWhatToDo =
-      "nobody can tell whether the camera moved; keep the floor tags free, lit and in the picture";
+      "a moved camera would not be noticed; keep the floor tags free, lit and in the picture";
   const auto last =
       std::ranges::find_if(spans.rbegin(), spans.rend(), [](const Span& s) { return s.tags >= 2; });
   if (last != spans.rend() && last->time_s >= duration_s - kTail_s) return std::nullopt;

@@ -191,7 +191,7 @@ void check_tag(const TaggedRobot& robot, const RobotSamples& samples, const Trac
   if (frames.size() < kPersistent || 100 * frames.size() < samples.samples.size()) return;
   complaints.add(IssueCode::DuplicateId,
                  fmt::format("was seen twice in {} frames, from frame {} to frame {}; in {} of "
-                             "them it could not be told which is the robot: take one tag away",
+                             "them the robot's own could not be identified: take one tag away",
                              frames.size(), std::ranges::min(frames), std::ranges::max(frames),
                              samples.twice_unresolved));
 }

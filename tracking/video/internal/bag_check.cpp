@@ -125,7 +125,8 @@ class Check {
   Expected<void> run() {
     const auto version = read(0, static_cast<std::int64_t>(kVersion.size()));
     if (!version || *version != kVersion) {
-      return unreadable("is no bag of ROS 1 in format 2.0: it does not begin with `#ROSBAG V2.0`");
+      return unreadable(
+          "is not a bag of ROS 1 in format 2.0: it does not begin with `#ROSBAG V2.0`");
     }
     const auto head = record(kVersion.size());
     const auto index = head && head->op == Op::File

@@ -365,7 +365,7 @@ Expected<std::unique_ptr<FrameSource>> open_bag(const BagWord& word) {
     bag->open(word.file);
     topics = topics_of(*bag);
   } catch (const std::exception& error) {
-    return unreadable(std::string("is no bag that can be read: ") + error.what(), word.file);
+    return unreadable(std::string("is not a readable bag: ") + error.what(), word.file);
   }
   const auto name = topic_of(topics, word);
   if (!name) return Unexpected(name.error());

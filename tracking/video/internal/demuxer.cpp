@@ -99,14 +99,14 @@ Expected<Demuxer> Demuxer::open(ByteStream bytes, const std::string& name) {
   // On failure the library frees the context.
   const int code = avformat_open_input(&opened, nullptr, nullptr, nullptr);
   if (code < 0) {
-    return unreadable(
-        "is no video that can be read: " + reason(code) + "; .mp4, .mkv, .avi and .ts are", name);
+    return unreadable("is not a readable video: " + reason(code) + "; .mp4, .mkv, .avi and .ts are",
+                      name);
   }
   Format format(opened);
   const int found = find_streams(format.get());
   if (found < 0) return unreadable("its streams cannot be read: " + reason(found), name);
   const int stream = av_find_best_stream(format.get(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-  if (stream < 0) return unreadable("there is no video in it, only other streams", name);
+  if (stream < 0) return unreadable("it has no video, only other streams", name);
   take_message();  // what the search for streams grumbled about is no error
   Demuxer demuxer(std::move(bytes), std::move(format), stream);
   demuxer.broke_off_ = cut;

@@ -172,8 +172,7 @@ Expected<std::unique_ptr<FrameSource>> open_image_folder(const std::string& path
   }
   if (error) return unreadable("cannot be listed: " + error.message(), path);
   if (files.empty()) {
-    return unreadable("there is no image in this folder (.png, .jpg, .bmp, .tif, .pgm, .ppm)",
-                      path);
+    return unreadable("the folder has no image (.png, .jpg, .bmp, .tif, .pgm, .ppm)", path);
   }
   std::sort(files.begin(), files.end(), comes_before);
   return open_files(path, std::move(files));

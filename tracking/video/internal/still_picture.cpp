@@ -41,7 +41,8 @@ Expected<FramePtr> decode_still(const AVPacket& bytes, const std::string& name) 
   take_message();
   const AVCodecID codec =
       codec_of({reinterpret_cast<const char*>(bytes.data), static_cast<std::size_t>(bytes.size)});
-  if (codec == AV_CODEC_ID_NONE) return unreadable("is no PNG, JPEG, BMP, TIFF, PGM or PPM", name);
+  if (codec == AV_CODEC_ID_NONE)
+    return unreadable("is not a PNG, JPEG, BMP, TIFF, PGM or PPM", name);
   std::unique_ptr<AVCodecParameters, void (*)(AVCodecParameters*)> about(
       avcodec_parameters_alloc(), [](AVCodecParameters* p) { avcodec_parameters_free(&p); });
   about->codec_type = AVMEDIA_TYPE_VIDEO;

@@ -50,7 +50,7 @@ Expected<VideoChoice> video_choice(const std::string& path, ImageSize size,
                         path);
   }
   if (options.codec == "h264" && (size.width % 2 != 0 || size.height % 2 != 0)) {
-    return config_error(fmt::format("h264 wants an even width and height, not {} x {}; take mjpeg "
+    return config_error(fmt::format("h264 needs an even width and height, not {} x {}; use mjpeg "
                                     "or ffv1, or cut a row or column",
                                     size.width, size.height),
                         path);
