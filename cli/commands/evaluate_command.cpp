@@ -165,7 +165,7 @@ class Evaluation {
   void run_one(const EvaluationJob& job, std::size_t i, Recorder recorder) {
     Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(job.seeds[i]));
     const auto begin = std::chrono::steady_clock::now();
-    const SimulationResult result = simulate({.machine = job.machine,
+    const SimulationResult result = simulate({.controller = job.machine,
                                               .flavour = job.flavour,
                                               .profile = job.profile,
                                               .mission = job.mission,

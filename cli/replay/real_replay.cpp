@@ -67,7 +67,7 @@ ShownRun simulated(const StoredRun& stored, const FilmedRun& filmed, Instance in
       run.objects[i].push_back(snapshot.objects[i]);
   };
   run.instance = std::move(instance);
-  run.score = simulate({.machine = stored.machine,
+  run.score = simulate({.controller = stored.machine,
                         .flavour = stored.flavour,
                         .profile = stored.profile,
                         .mission = filmed.mission,

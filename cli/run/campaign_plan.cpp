@@ -92,7 +92,7 @@ Measured measure(const Campaign& campaign, const Method& method, const Mission& 
     const auto instance = instance_of(mission, seed);
     if (!instance) continue;
     const auto begin = SteadyClock::now();
-    const double score = simulate({.machine = machine,
+    const double score = simulate({.controller = machine,
                                    .flavour = flavour,
                                    .profile = campaign.profile,
                                    .mission = piece,
