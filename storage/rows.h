@@ -227,13 +227,13 @@ struct AttemptRow {
   std::string outcome;
 };
 
-/// What a person asked of the campaign. "cancel" and "extend" are part of the answer once they act:
-/// a campaign that is played again does the same at the same step.
+/// A person's command to the campaign. "cancel" and "extend" are part of the answer once they act:
+/// a replayed campaign does the same at the same step.
 struct CommandRow {
   std::int64_t number = 0;  ///< in the store, from 1
   std::string kind;         ///< "pause", "resume", "cancel", "extend"
   DesignId design;          ///< none: every design
-  /// Of the race after which it acts (0: before the first); nothing until it does.
+  /// Step of the race after which it acts (0: before the first); nothing until it does.
   std::optional<std::int64_t> step;
   std::int64_t budget = 0;  ///< experiments more, of "extend"
   std::string who;          ///< user@host; not part of the answer
@@ -249,7 +249,7 @@ struct ConflictRow {
   std::int64_t other_worker = 0;
 };
 
-/// An attempt that gave no score: what was run, and what it wrote. Not part of the answer.
+/// An attempt without a score: the command that was run, and its output. Not part of the answer.
 struct FailureRow {
   EvaluationKey key;
   std::int64_t attempt = 1;
@@ -272,7 +272,7 @@ using Row =
                  EliminationRow, EliteRow, CandidateTotalsRow, DesignStateRow, CampaignStateRow,
                  WorkerRow, ConflictRow, FailureRow, EventRow, AttemptRow, CommandRow>;
 
-/// What a resumed campaign needs of an evaluation.
+/// The part of an evaluation that a resumed campaign needs.
 struct StoredScore {
   EvaluationKey key;
   EvaluationStatus status = EvaluationStatus::Ok;
@@ -284,7 +284,7 @@ struct StoredScore {
   std::int64_t worker = 0;
 };
 
-/// What is compared while a campaign is replayed.
+/// The part of an evaluation that a replay compares.
 struct StoredStep {
   DesignId design;
   std::int64_t step = 0;

@@ -40,7 +40,7 @@ struct StoredRun {
   std::string who;          ///< answers for the worker: its key and address
 
   SimulationSetup setup() const { return {machine, flavour, profile, mission, instance, seed}; }
-  /// "; given by worker 3 on lab7 (lab@10.0.0.7)", empty when nobody knows.
+  /// "; given by worker 3 on lab7 (lab@10.0.0.7)", empty when unknown.
   std::string given_by() const;
 };
 

@@ -15,7 +15,7 @@ namespace swarmsmith {
 
 /// What a machine was designed for. A text of the grammar does not say it, and means something else
 /// under another flavour; so a file has it before the text, as TOML in lines that begin with `#:`
-/// (docs/machines.md). What is not said is empty.
+/// (docs/machines.md). Missing values are empty.
 struct MachineHead {
   std::string flavour;
   std::optional<TurnClock> turn_clock;
