@@ -11,6 +11,7 @@
 #include <mutex>
 
 #include "base/clock.h"
+#include "base/environment.h"
 #include "base/log_limiter.h"
 #include "base/log_line.h"
 
@@ -32,8 +33,8 @@ std::string time_text() {
 class Log {
  public:
   Log() {
-    const char* words = std::getenv("SWARMSMITH_LOG");
-    asked_for_ = words != nullptr && *words != '\0';
+    const std::string words = environment("SWARMSMITH_LOG");
+    asked_for_ = !words.empty();
     if (!asked_for_) return;
     const LogSettings settings = parse_log_settings(words);
     json_ = settings.json;

@@ -178,4 +178,18 @@ Expected<fs::path> output_place(const fs::path& file, FileKind kind) {
   return place;
 }
 
+Error cannot_write(const std::string& file, int reason) {
+  Error error{ErrorKind::Unavailable, "cannot be written", file};
+  std::error_code trouble;
+  const fs::path folder = fs::path(file).parent_path();
+  if (fs::is_directory(file, trouble)) {
+    error.message += ": this is a folder; name a file";
+  } else if (!folder.empty() && !fs::exists(folder, trouble) && !trouble) {
+    error.message += ": there is no folder " + folder.string();
+  } else if (reason != 0) {
+    error.message += ": " + std::generic_category().message(reason);
+  }
+  return error;
+}
+
 }  // namespace swarmsmith

@@ -1,6 +1,8 @@
 #pragma once
 
+#include <cerrno>
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 #include "base/expected.h"
@@ -24,5 +26,8 @@ std::string_view name_of(FileKind kind);  ///< "a store", "a table (CSV)"
 /// that does not exist yet. BadInput: a file that this process has read, or an existing one of
 /// another kind. Empty files, pipes and devices count as any kind.
 Expected<std::filesystem::path> output_place(const std::filesystem::path& file, FileKind kind);
+
+/// Unavailable: the file cannot be written, and why: what can be seen, else the system's `reason`.
+Error cannot_write(const std::string& file, int reason = errno);
 
 }  // namespace swarmsmith

@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <system_error>
 
+#include "base/environment.h"
+
 namespace swarmsmith {
 
 namespace fs = std::filesystem;
@@ -27,8 +29,7 @@ std::optional<fs::path> program_in(std::string_view search_path, std::string_vie
 }
 
 std::filesystem::path sibling_program(const char* variable, std::string_view name) {
-  const char* named = std::getenv(variable);
-  if (named != nullptr && *named != '\0') return named;
+  if (const std::string named = environment(variable); !named.empty()) return named;
   std::error_code failed;
   return std::filesystem::read_symlink("/proc/self/exe", failed).parent_path() / name;
 }

@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include "base/environment.h"
 #include "base/suggestion.h"
 
 namespace swarmsmith::cli {
@@ -13,6 +14,10 @@ void need_it(CLI::Option* option, Options::Need need) {
 }
 
 }  // namespace
+
+std::string store_of_environment() {
+  return environment("SWARMSMITH_STORE");
+}
 
 void Options::flag(const std::string& names, bool& value, const std::string& help) {
   app_->add_flag(names, value, help);

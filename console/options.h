@@ -16,6 +16,9 @@ class App;
 
 namespace swarmsmith::cli {
 
+/// The store that SWARMSMITH_STORE names; empty when it names none.
+std::string store_of_environment();
+
 /// What a command reads from its arguments. Names are "--budget", "-o,--output" or, for a word
 /// without dashes, "FILE". The referenced values must live until the command has run.
 class Options {

@@ -37,12 +37,4 @@ void print_note(Output& output, std::string_view text);
 ExitCode fail(Output& output, ExitCode code, const std::string& message);
 ExitCode fail(Output& output, ExitCode code, const Error& error);
 
-/// Unavailable: the file cannot be written, and why: what can be seen, else the system's `reason`.
-Error cannot_write(const std::string& file, int reason = errno);
-
-/// A text as a JSON string, in quotes.
-std::string json_text(std::string_view text);
-/// A number in the shortest form that reads back to the same value; null for what JSON lacks.
-std::string json_number(double value);
-
 }  // namespace swarmsmith::cli

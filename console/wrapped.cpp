@@ -3,14 +3,10 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/text/text_table.h"
+
 namespace swarmsmith::cli {
 namespace {
-
-/// Columns, of UTF-8 text without wide letters.
-std::size_t columns_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char c) { return (c & 0xc0) != 0x80; }));
-}
 
 /// A line of the result that words are put into.
 class Filler {
@@ -29,7 +25,7 @@ class Filler {
   void take(std::size_t columns) { column_ += columns; }
 
   void add(std::string_view word, std::size_t blanks) {
-    const std::size_t size = columns_of(word);
+    const std::size_t size = width_of(word);
     if (at_begin_) blanks = 0;
     if (!at_begin_ && column_ + blanks + size + joint_.size() > width_) {
       *text_ += joint_;

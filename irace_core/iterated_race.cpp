@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "irace_core/internal/design_state.h"
+#include "irace_core/internal/race_loop.h"
 #include "irace_core/internal/schedule.h"
 
 namespace swarmsmith {

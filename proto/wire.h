@@ -19,8 +19,8 @@ namespace swarmsmith {
 /// version understand each other; a minor version adds fields and bodies that the other ignores.
 inline constexpr std::string_view kFrameMagic = "SWRM";
 inline constexpr std::size_t kFrameHeaderBytes = 8;
-inline constexpr std::uint16_t kProtocolMajor = 3;
-inline constexpr std::uint16_t kProtocolMinor = 2;
+inline constexpr std::uint16_t kProtocolMajor = 4;
+inline constexpr std::uint16_t kProtocolMinor = 0;
 
 /// What a receiver puts up with; senders keep far below.
 inline constexpr std::size_t kMaxFrameBytes = 1U << 20U;

@@ -75,7 +75,7 @@ void visit_fields(const Row& row, Field&& field) {
           },
           [&](const CampaignStateRow& r) { field("state", r.state); },
           [&](const WorkerRow& r) {
-            field("id", r.id), field("host", r.host), field("state", r.state);
+            field("id", r.id), field("host", r.host), field("state", word_of(r.state));
           },
           [&](const ConflictRow& r) {
             field("candidate", r.key.candidate), field("purpose", r.key.purpose);
@@ -91,10 +91,11 @@ void visit_fields(const Row& row, Field&& field) {
           },
           [&](const AttemptRow& r) {
             field("candidate", r.key.candidate), field("purpose", r.key.purpose);
-            field("pair", r.key.pair), field("attempt", r.attempt), field("outcome", r.outcome);
+            field("pair", r.key.pair), field("attempt", r.attempt),
+                field("outcome", word_of(r.outcome));
           },
           [&](const CommandRow& r) {
-            field("design", r.design), field("step", r.step), field("kind", r.kind);
+            field("design", r.design), field("step", r.step), field("kind", word_of(r.kind));
             field("budget", r.budget);
           },
       },
@@ -190,27 +191,27 @@ Digest digest_of(const Row& row) {
 }  // namespace
 
 bool in_answer(const Row& row) {
-  return std::visit(
-      Overloaded{
-          [](const auto&) { return true; },
-          [](const EvaluationRow& r) {
-            return r.key.purpose == Purpose::Test || r.key.purpose == Purpose::Evaluator ||
-                   (r.key.purpose == Purpose::Race && r.iteration != 0);
-          },
-          [](const PairRow& r) {
-            return r.purpose == Purpose::Test || r.purpose == Purpose::Race ||
-                   r.purpose == Purpose::Evaluator;
-          },
-          [](const UnusedRow&) { return false; },
-          [](const CampaignStateRow&) { return false; },
-          [](const WorkerRow&) { return false; },
-          [](const ConflictRow&) { return false; },
-          [](const FailureRow&) { return false; },
-          [](const EventRow&) { return false; },
-          [](const AttemptRow&) { return false; },
-          [](const CommandRow& r) { return r.step && (r.kind == "cancel" || r.kind == "extend"); },
-      },
-      row);
+  return std::visit(Overloaded{
+                        [](const auto&) { return true; },
+                        [](const EvaluationRow& r) {
+                          return r.key.purpose == Purpose::Test ||
+                                 r.key.purpose == Purpose::Evaluator ||
+                                 (r.key.purpose == Purpose::Race && r.iteration != 0);
+                        },
+                        [](const PairRow& r) {
+                          return r.purpose == Purpose::Test || r.purpose == Purpose::Race ||
+                                 r.purpose == Purpose::Evaluator;
+                        },
+                        [](const UnusedRow&) { return false; },
+                        [](const CampaignStateRow&) { return false; },
+                        [](const WorkerRow&) { return false; },
+                        [](const ConflictRow&) { return false; },
+                        [](const FailureRow&) { return false; },
+                        [](const EventRow&) { return false; },
+                        [](const AttemptRow&) { return false; },
+                        [](const CommandRow& r) { return r.step && is_of_race(r.kind); },
+                    },
+                    row);
 }
 
 void add_answer(Digest& digest, const Row& row) {

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -35,6 +36,31 @@ enum class DesignState : std::int8_t {
   Finished = 3,
   Stopped = 4
 };
+
+/// Nothing more comes of the design by itself.
+constexpr bool is_over(DesignState state) {
+  return state == DesignState::Finished || state == DesignState::Stopped;
+}
+/// "waiting", "racing", "testing", "finished", "stopped".
+std::string_view word_of(DesignState state);
+std::optional<DesignState> design_state_of(std::string_view word);
+
+/// What a person can ask of a campaign. Stores, messages and files keep the word. Unknown: of a
+/// version that this one does not know; nothing comes of it.
+enum class CommandKind : std::int8_t { Unknown, Pause, Resume, Cancel, Extend };
+
+/// "pause", "resume", "cancel", "extend"; "unknown".
+std::string_view word_of(CommandKind kind);
+/// Unknown for any other word.
+CommandKind command_kind_of(std::string_view word);
+/// Whether a design's race obeys it, so that it is part of the answer once it acts.
+constexpr bool is_of_race(CommandKind kind) {
+  return kind == CommandKind::Cancel || kind == CommandKind::Extend;
+}
+/// Whether it only says what is leased: it acts at once, and changes nothing of the answer.
+constexpr bool is_of_leases(CommandKind kind) {
+  return kind == CommandKind::Pause || kind == CommandKind::Resume;
+}
 
 /// Names an evaluation within a store: a candidate (its design follows from it), what for, and the
 /// pair (instance, seed) by its number in the design's list of that purpose, from 1.
@@ -198,6 +224,15 @@ struct CampaignStateRow {
   std::string state;
 };
 
+/// A worker of a principal in quarantine is quarantined whether it is there or not.
+enum class WorkerState : std::int8_t { Connected, Lost, Left, Refused, Quarantined };
+
+/// As in stores, logs and JSON.
+constexpr std::string_view word_of(WorkerState state) {
+  constexpr std::string_view kWords[] = {"connected", "lost", "left", "refused", "quarantined"};
+  return kWords[static_cast<std::size_t>(state)];
+}
+
 /// Not part of the answer.
 struct WorkerRow {
   std::int64_t id = 0;   ///< by order of arrival in this store
@@ -206,7 +241,7 @@ struct WorkerRow {
   std::int64_t pid = 0;
   std::int64_t slots = 0;
   std::string build;
-  std::string state;  ///< "connected", "lost", "left", "refused", "quarantined"
+  WorkerState state = WorkerState::Connected;
   std::int64_t done = 0;
   std::int64_t failed = 0;
   std::string job;     ///< of the batch system; empty outside of one
@@ -216,6 +251,23 @@ struct WorkerRow {
   std::string principal{};  ///< key's name and address, by which it is trusted or not
 };
 
+enum class AttemptOutcome : std::int8_t {
+  Lost,
+  Expired,
+  Returned,
+  Failed,
+  TimedOut,
+  SecondCopy,
+  Audited,
+};
+
+/// As in stores and logs.
+constexpr std::string_view word_of(AttemptOutcome outcome) {
+  constexpr std::string_view kWords[] = {"lost",      "expired",     "returned", "failed",
+                                         "timed out", "second copy", "audited"};
+  return kWords[static_cast<std::size_t>(outcome)];
+}
+
 /// A lease that did not simply end with the evaluation's result, or that was not the only one. Not
 /// part of the answer.
 struct AttemptRow {
@@ -223,16 +275,15 @@ struct AttemptRow {
   std::int64_t attempt = 1;
   std::int64_t worker = 0;
   std::int64_t held_ms = 0;
-  /// "lost", "expired", "returned", "failed", "timed out", "second copy", "audited", "conflict"
-  std::string outcome;
+  AttemptOutcome outcome = AttemptOutcome::Lost;
 };
 
 /// A person's command to the campaign. "cancel" and "extend" are part of the answer once they act:
 /// a replayed campaign does the same at the same step.
 struct CommandRow {
   std::int64_t number = 0;  ///< in the store, from 1
-  std::string kind;         ///< "pause", "resume", "cancel", "extend"
-  DesignId design;          ///< none: every design
+  CommandKind kind = CommandKind::Unknown;
+  DesignId design;  ///< none: every design
   /// Step of the race after which it acts (0: before the first); nothing until it does.
   std::optional<std::int64_t> step;
   std::int64_t budget = 0;  ///< experiments more, of "extend"

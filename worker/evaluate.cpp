@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "sim/messages/scenario_messages.h"
+#include "proto/scenario/scenario.h"
 #include "worker/simulation_evaluator.h"
 
 namespace swarmsmith {
@@ -15,11 +15,10 @@ using SharedScenario = std::shared_ptr<const WorkerScenario>;
 /// Items go to the evaluator of their campaign.
 Evaluator by_campaign(std::vector<Evaluator> evaluators) {
   if (evaluators.size() == 1) return std::move(evaluators.front());
-  return [evaluators =
-              std::move(evaluators)](const WorkItem& item) -> tl::expected<Measured, Failure> {
+  return [evaluators = std::move(evaluators)](const LeasedTask& item) -> Result {
     const std::uint32_t campaign = campaign_of(item.key);
     if (campaign < evaluators.size()) return evaluators[campaign](item);
-    return tl::unexpected(Failure{"no such campaign in the scenario"});
+    return {.failure = "no such campaign in the scenario"};
   };
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "worker/evaluator.h"
 #include "worker/target_evaluator.h"
-#include "worker/work_item.h"
 
 namespace swarmsmith {
 

@@ -7,32 +7,23 @@
 
 namespace swarmsmith {
 
-Evaluated evaluate(const Evaluator& evaluator, const WorkItem& item) {
-  Evaluated evaluated{.key = item.key, .attempt = item.attempt};
+Result evaluate(const Evaluator& evaluator, const LeasedTask& item) {
+  Result result;
   const auto begin = std::chrono::steady_clock::now();
   try {
-    const auto measured = evaluator(item);
-    if (!measured) {
-      evaluated.failure = measured.error().reason;
-      evaluated.details = measured.error().details;
-    } else if (measured->rejected) {
-      evaluated.rejected = true;
-      evaluated.time = measured->time;
-    } else if (!std::isfinite(measured->score)) {
-      evaluated.failure = "the score is not finite";
-    } else {
-      evaluated.score = measured->score;
-      evaluated.state_digest = measured->state_digest;
-      evaluated.time = measured->time;
-    }
+    result = evaluator(item);
+    if (!std::isfinite(result.score)) result = {.failure = "the score is not finite"};
   } catch (const std::exception& error) {
-    evaluated.failure = error.what();
+    result.failure = error.what();
   } catch (...) {
-    evaluated.failure = "an exception without a text";
+    result.failure = "an exception without a text";
   }
   const auto spent = std::chrono::steady_clock::now() - begin;
-  evaluated.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(spent).count();
-  return evaluated;
+  result.wall_us = std::chrono::duration_cast<std::chrono::microseconds>(spent).count();
+  result.key = item.key;
+  result.attempt = item.attempt;
+  result.signature = item.signature;
+  return result;
 }
 
 Pool::Pool(int slots, EvaluatorFactory make_evaluator, std::function<void()> wake)
@@ -64,10 +55,10 @@ Expected<void> Pool::use(const std::string& scenario) {
   return {};
 }
 
-void Pool::run(std::vector<WorkItem> items) {
+void Pool::run(std::vector<LeasedTask> items) {
   {
     const std::scoped_lock lock(mutex_);
-    for (WorkItem& item : items)
+    for (LeasedTask& item : items)
       waiting_.push_back(std::move(item));
   }
   has_work_.notify_all();
@@ -76,7 +67,7 @@ void Pool::run(std::vector<WorkItem> items) {
 std::vector<PackedKey> Pool::take_back() {
   const std::scoped_lock lock(mutex_);
   std::vector<PackedKey> keys;
-  for (const WorkItem& item : waiting_)
+  for (const LeasedTask& item : waiting_)
     keys.push_back(item.key);
   waiting_.clear();
   return keys;
@@ -91,7 +82,7 @@ std::vector<PoolEvent> Pool::take_events() {
 
 void Pool::work(const std::stop_token& stop, std::size_t slot) {
   while (true) {
-    WorkItem item;
+    LeasedTask item;
     std::shared_ptr<Generation> generation;
     std::uint64_t number = 0;
     {
@@ -110,13 +101,13 @@ void Pool::work(const std::stop_token& stop, std::size_t slot) {
   }
 }
 
-void Pool::finish(std::uint64_t generation, Evaluated evaluated) {
+void Pool::finish(std::uint64_t generation, Result result) {
   bool wake = false;
   {
     const std::scoped_lock lock(mutex_);
     --running_;
     if (generation != generation_) return;
-    events_.emplace_back(std::move(evaluated));
+    events_.emplace_back(std::move(result));
     ++results_;
     const bool first = results_ == 1 && !owner_comes_;
     const bool dry = waiting_.size() + running_ <= static_cast<std::size_t>(slots_);

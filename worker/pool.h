@@ -12,19 +12,18 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "worker/work_item.h"
+#include "worker/evaluator.h"
 
 namespace swarmsmith {
 
-/// Runs an item: an exception, an error and a score that is no number are all failures with a
-/// sentence.
-Evaluated evaluate(const Evaluator& evaluator, const WorkItem& item);
+/// Evaluates a task: an exception and a score that is no number are failures with a sentence.
+Result evaluate(const Evaluator& evaluator, const LeasedTask& item);
 
 /// What slots did since somebody asked, in order.
 struct ItemStarted {
   PackedKey key = 0;
 };
-using PoolEvent = std::variant<ItemStarted, Evaluated>;
+using PoolEvent = std::variant<ItemStarted, Result>;
 
 /// The slots: threads that take items in the order in which they came. All members may be called
 /// from the owner's thread only.
@@ -41,7 +40,7 @@ class Pool {
 
   /// Replaces the scenario; items that wait are dropped, the results of running ones too.
   Expected<void> use(const std::string& scenario);
-  void run(std::vector<WorkItem> items);
+  void run(std::vector<LeasedTask> items);
   /// Items that were not started; they are not run any more.
   std::vector<PackedKey> take_back();
   /// After a call that gave results the owner comes again within a few milliseconds by itself, and
@@ -57,14 +56,14 @@ class Pool {
   };
 
   void work(const std::stop_token& stop, std::size_t slot);
-  void finish(std::uint64_t generation, Evaluated evaluated);
+  void finish(std::uint64_t generation, Result result);
 
   int slots_;
   EvaluatorFactory make_evaluator_;
   std::function<void()> wake_;
   std::mutex mutex_;
   std::condition_variable_any has_work_;
-  std::deque<WorkItem> waiting_;
+  std::deque<LeasedTask> waiting_;
   std::vector<PoolEvent> events_;
   std::size_t results_ = 0;  ///< in `events_`
   std::size_t running_ = 0;

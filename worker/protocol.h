@@ -13,8 +13,8 @@
 #include "base/clock.h"
 #include "base/rng.h"
 #include "proto/wire.h"
+#include "worker/evaluator.h"
 #include "worker/exit_code.h"
-#include "worker/work_item.h"
 
 namespace swarmsmith {
 
@@ -58,7 +58,7 @@ struct UseScenario {
   std::string scenario;
 };
 struct RunItems {
-  std::vector<WorkItem> items;
+  std::vector<LeasedTask> items;
 };
 /// Give back what is not started: `on_taken_back` with the keys.
 struct TakeBack {};
@@ -71,9 +71,6 @@ struct Leave {
 };
 using WorkerAction = std::variant<OpenConnection, SendToCoordinator, UseScenario, RunItems,
                                   TakeBack, DropItems, Leave>;
-
-/// A task of a message; the caller has checked its key.
-WorkItem work_item_of(const pb::Task& task);
 
 /// A worker's side of the protocol. Pure: events in with the time, actions out.
 ///
@@ -91,7 +88,7 @@ class WorkerProtocol {
   void on_frame(std::string_view frame, TimePoint now);
   void on_connection_lost(TimePoint now);
   void on_started(PackedKey key, TimePoint now);
-  void on_evaluated(Evaluated evaluated, TimePoint now);
+  void on_evaluated(Result result, TimePoint now);
   void on_taken_back(std::span<const PackedKey> keys, TimePoint now);
   void on_bad_scenario(const std::string& reason);
   /// SIGTERM: finish what runs, give back the rest, say goodbye.
@@ -116,8 +113,7 @@ class WorkerProtocol {
     std::optional<TimePoint> started{};
   };
   struct Finished {
-    Evaluated evaluated;
-    std::uint64_t signature = 0;
+    Result result;
     bool queued = false;  ///< in `unsent_`
     TimePoint sent;
   };
@@ -129,7 +125,7 @@ class WorkerProtocol {
   void on_welcome(const pb::Welcome& welcome, TimePoint now);
   void on_reject(const pb::Reject& reject);
   void on_tasks(const pb::Tasks& tasks, TimePoint now);
-  void announce(WorkItem item, TimePoint now);
+  void announce(LeasedTask item, TimePoint now);
   void begin_alone(TimePoint now);
   void on_scenario(const pb::ScenarioReply& reply, TimePoint now);
   void be_ready(TimePoint now);
@@ -177,8 +173,8 @@ class WorkerProtocol {
   TimePoint welcomed_;
   Duration busy_{0};  ///< slot time since then that finished evaluations took
   std::unordered_map<PackedKey, Held> held_;
-  std::vector<std::pair<TimePoint, WorkItem>> announced_;  ///< to begin then
-  std::unordered_map<PackedKey, Finished> finished_;       ///< until acknowledged
+  std::vector<std::pair<TimePoint, LeasedTask>> announced_;  ///< to begin then
+  std::unordered_map<PackedKey, Finished> finished_;         ///< until acknowledged
   std::vector<PackedKey> unsent_;
   TimePoint oldest_unsent_;
   std::deque<std::pair<TimePoint, PackedKey>> sent_;  ///< in order of sending, stale ones too

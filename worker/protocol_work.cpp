@@ -7,19 +7,6 @@
 
 namespace swarmsmith {
 
-WorkItem work_item_of(const pb::Task& task) {
-  return {.key = *pack(task.key()),
-          .attempt = task.attempt(),
-          .signature = task.signature(),
-          .mission = task.mission(),
-          .method = task.method(),
-          .instance = task.instance(),
-          .seed = task.seed(),
-          .machine = task.machine(),
-          .bound = task.bound(),
-          .alive = {task.alive().begin(), task.alive().end()}};
-}
-
 void WorkerProtocol::on_tasks(const pb::Tasks& tasks, TimePoint now) {
   if (state_ != State::Active || !has_scenario_ || tasks.scenario() != scenario_) return;
   RunItems run;
@@ -27,12 +14,12 @@ void WorkerProtocol::on_tasks(const pb::Tasks& tasks, TimePoint now) {
   for (const pb::Task& task : tasks.tasks()) {
     const PackedKey key = *pack(task.key());
     if (const auto finished = finished_.find(key); finished != finished_.end()) {
-      const Evaluated& known = finished->second.evaluated;
+      Result& known = finished->second.result;
       const bool again = !known.failure.empty() && task.attempt() > known.attempt;
       if (!again) {
         if (known.failure.empty()) {
-          finished->second.signature = task.signature();
-          finished->second.evaluated.attempt = task.attempt();
+          known.signature = task.signature();
+          known.attempt = task.attempt();
         }
         queue_result(key, finished->second, now);
         continue;
@@ -48,16 +35,16 @@ void WorkerProtocol::on_tasks(const pb::Tasks& tasks, TimePoint now) {
     held->second.signature = task.signature();
     if (!is_new) continue;
     if (task.alone()) {
-      announce(work_item_of(task), now);
+      announce(task_of(task), now);
     } else {
-      run.items.push_back(work_item_of(task));
+      run.items.push_back(task_of(task));
     }
   }
   if (!run.items.empty()) actions_.emplace_back(std::move(run));
   if (!refused.empty()) on_taken_back(refused, now);
 }
 
-void WorkerProtocol::announce(WorkItem item, TimePoint now) {
+void WorkerProtocol::announce(LeasedTask item, TimePoint now) {
   pb::ToCoordinator message;
   unpack(item.key, *message.mutable_began()->mutable_key());
   send(message, now);
@@ -79,20 +66,21 @@ void WorkerProtocol::on_started(PackedKey key, TimePoint now) {
   if (held != held_.end()) held->second.started = now;
 }
 
-void WorkerProtocol::on_evaluated(Evaluated evaluated, TimePoint now) {
-  const PackedKey key = evaluated.key;
+void WorkerProtocol::on_evaluated(Result result, TimePoint now) {
+  const PackedKey key = result.key;
   const auto held = held_.find(key);
   if (held == held_.end()) return;  // of a campaign that is over
   // What ends this worker ends its programs too: such a failure says nothing of the evaluation.
-  if (drain_until_ && !evaluated.failure.empty()) return on_taken_back({&key, 1}, now);
-  evaluated.attempt = held->second.attempt;
-  const std::uint64_t signature = held->second.signature;
-  count_busy(held->second, evaluated.wall_us, now);
+  if (drain_until_ && !result.failure.empty()) return on_taken_back({&key, 1}, now);
+  // Those of its last lease: it may have been leased to this worker again meanwhile.
+  result.attempt = held->second.attempt;
+  result.signature = held->second.signature;
+  count_busy(held->second, result.wall_us, now);
   held_.erase(held);
-  const auto spent_us = static_cast<double>(evaluated.wall_us);
+  const auto spent_us = static_cast<double>(result.wall_us);
   estimate_us_ += (estimate_us_ == 0 ? 1.0 : 0.05) * (spent_us - estimate_us_);
   Finished& finished = finished_[key];
-  finished = Finished{std::move(evaluated), signature, false, {}};
+  finished = Finished{std::move(result), false, {}};
   queue_result(key, finished, now);
   if (must_flush(now)) flush(now);
   if (drain_until_) finish_draining(now);
@@ -132,21 +120,7 @@ void WorkerProtocol::send_results(std::span<const PackedKey> keys, TimePoint now
     at->second.queued = false;
     at->second.sent = now;
     sent_.emplace_back(now, key);
-    const Evaluated& evaluated = at->second.evaluated;
-    pb::Result& out = *results.add_results();
-    unpack(key, *out.mutable_key());
-    out.set_attempt(evaluated.attempt);
-    out.set_signature(at->second.signature);
-    out.set_score(evaluated.score);
-    out.set_state_digest(evaluated.state_digest);
-    out.set_wall_us(evaluated.wall_us);
-    out.set_time(evaluated.time);
-    out.set_rejected(evaluated.rejected);
-    if (evaluated.failure.empty()) continue;
-    out.set_failure(clipped_text(evaluated.failure));
-    out.set_command(clipped_text(evaluated.details.command));
-    out.set_output(clipped_text(evaluated.details.output));
-    out.set_errors(clipped_text(evaluated.details.errors));
+    write(at->second.result, *results.add_results());
   }
   if (results.results_size() > 0) send(message, now);
 }

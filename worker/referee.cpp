@@ -26,15 +26,9 @@ pb::ToCoordinator began_of(PackedKey key) {
   return message;
 }
 
-pb::ToCoordinator result_of(const Evaluated& evaluated) {
+pb::ToCoordinator results_of(const Result& result) {
   pb::ToCoordinator message;
-  pb::Result& out = *message.mutable_results()->add_results();
-  unpack(evaluated.key, *out.mutable_key());
-  out.set_score(evaluated.score);
-  out.set_state_digest(evaluated.state_digest);
-  out.set_wall_us(evaluated.wall_us);
-  out.set_rejected(evaluated.rejected);
-  out.set_failure(clipped_text(evaluated.failure));
+  write(result, *message.mutable_results()->add_results());
   return message;
 }
 
@@ -59,9 +53,9 @@ int serve_as_referee(const WorkerIdentity& identity, const EvaluatorFactory& mak
     }
     for (const pb::Task& task : (*message)->tasks().tasks()) {
       if (!evaluator) return static_cast<int>(ExitCode::Usage);
-      const WorkItem item = work_item_of(task);
+      const LeasedTask item = task_of(task);
       const bool told = write_frame(output, encode(began_of(item.key))) &&
-                        write_frame(output, encode(result_of(evaluate(*evaluator, item))));
+                        write_frame(output, encode(results_of(evaluate(*evaluator, item))));
       if (!told) return 1;
     }
     arena.Reset();

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "worker/evaluator.h"
 #include "worker/protocol.h"
-#include "worker/work_item.h"
 
 namespace swarmsmith {
 

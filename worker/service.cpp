@@ -118,9 +118,9 @@ class Loop {
     for (PoolEvent& event : events) {
       std::visit(
           Overloaded{[&](const ItemStarted& started) { protocol_.on_started(started.key, now); },
-                     [&](Evaluated& evaluated) {
+                     [&](Result& result) {
                        any_result = true;
-                       protocol_.on_evaluated(std::move(evaluated), now);
+                       protocol_.on_evaluated(std::move(result), now);
                      }},
           event);
     }

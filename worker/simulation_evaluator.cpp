@@ -21,14 +21,14 @@ class Simulation {
         flavours_(std::move(flavours)),
         machines_(flavours_.size()) {}
 
-  tl::expected<Measured, Failure> operator()(const WorkItem& item) {
-    auto measured = simulate_item(item);
-    if (!measured) return tl::unexpected(Failure{to_string(measured.error())});
-    return *measured;
+  Result operator()(const LeasedTask& item) {
+    Expected<Result> result = simulate_item(item);
+    if (!result) return {.failure = to_string(result.error())};
+    return std::move(*result);
   }
 
  private:
-  Expected<Measured> simulate_item(const WorkItem& item) {
+  Expected<Result> simulate_item(const LeasedTask& item) {
     if (item.mission >= scenario_.missions.size() || item.method >= flavours_.size()) {
       return bad_input("a task for a mission or method that the scenario does not have");
     }
@@ -44,10 +44,10 @@ class Simulation {
                                               .mission = mission,
                                               .instance = *instance,
                                               .seed = item.seed});
-    return Measured{.score = result.score, .state_digest = result.state_digest};
+    return Result{.score = result.score, .state_digest = result.state_digest};
   }
 
-  Expected<const Machine*> machine_of(const WorkItem& item) {
+  Expected<const Machine*> machine_of(const LeasedTask& item) {
     auto& known = machines_[item.method];
     if (const auto at = known.find(item.machine); at != known.end()) return &at->second;
     Expected<Machine> machine = parse_machine(item.machine, flavours_[item.method]);

@@ -1,7 +1,7 @@
 #pragma once
 
-#include "sim/messages/scenario_messages.h"
-#include "worker/work_item.h"
+#include "proto/scenario/scenario.h"
+#include "worker/evaluator.h"
 
 namespace swarmsmith {
 

@@ -86,22 +86,22 @@ class Programs {
                       target_.folder);
   }
 
-  tl::expected<Measured, Failure> operator()(const WorkItem& item) const {
+  Result operator()(const LeasedTask& item) const {
     const Expected<NamedInstance> instance = instance_of(item);
-    if (!instance) return tl::unexpected(Failure{to_string(instance.error())});
+    if (!instance) return {.failure = to_string(instance.error())};
     const auto result = evaluate(item, *instance);
-    if (result) return measured(item, *result);
+    if (result) return result_of(item, *result);
     if (result.error().from_outside) interrupt_->wait_ms(kOutsideGraceMs);
     log_call(item, result.error().reason);
-    return tl::unexpected(Failure{result.error().reason, result.error().details});
+    return {.failure = result.error().reason, .details = result.error().details};
   }
 
  private:
-  static bool is_evaluator_call(const WorkItem& item) {
+  static bool is_evaluator_call(const LeasedTask& item) {
     return purpose_of(item.key) == kEvaluatorPurpose;
   }
 
-  Expected<NamedInstance> instance_of(const WorkItem& item) const {
+  Expected<NamedInstance> instance_of(const LeasedTask& item) const {
     if (item.mission < scenario_->instances.size()) {
       const InstanceTexts& texts = scenario_->instances[item.mission];
       // Calls of the evaluator have one purpose for both lists: there the sign tells.
@@ -117,7 +117,7 @@ class Programs {
     return bad_input("a task for an instance that the scenario does not have");
   }
 
-  tl::expected<TargetResult, TargetFailure> evaluate(const WorkItem& item,
+  tl::expected<TargetResult, TargetFailure> evaluate(const LeasedTask& item,
                                                      const NamedInstance& instance) const {
     if (is_evaluator_call(item)) {
       return runner_.evaluate({.configuration = number_of(item.key),
@@ -134,15 +134,15 @@ class Programs {
                         .switches = item.machine});
   }
 
-  Measured measured(const WorkItem& item, const TargetResult& result) const {
+  Result result_of(const LeasedTask& item, const TargetResult& result) const {
     log_call(item, "fine");
-    if (result.rejected) return {.time = result.reading.time, .rejected = true};
+    if (result.rejected) return {.rejected = true, .time = result.reading.time};
     return {.score = to_score(result.reading.cost),
             .state_digest = digest_of(result.reading),
             .time = result.reading.time};
   }
 
-  void log_call(const WorkItem& item, const std::string& outcome) const {
+  void log_call(const LeasedTask& item, const std::string& outcome) const {
     if (target_.debug_level < kLogsCalls) return;
     log(LogLevel::Info, "target",
         is_evaluator_call(item) ? "targetEvaluator called" : "targetRunner called",

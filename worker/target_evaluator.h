@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "base/process/interrupt.h"
-#include "sim/messages/scenario_messages.h"
-#include "worker/work_item.h"
+#include "proto/scenario/scenario.h"
+#include "worker/evaluator.h"
 
 namespace swarmsmith {
 

@@ -6,7 +6,7 @@
 #include <fmt/ranges.h>
 
 #include "analysis/statistics/effect_size.h"
-#include "base/csv.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

@@ -10,43 +10,10 @@
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/statistics/effect_size.h"
 #include "base/shown_text.h"
+#include "base/text/text_table.h"
 
 namespace swarmsmith {
 namespace {
-
-/// Rows of texts below a headline; the first `left` columns stand on the left.
-struct TextTable {
-  std::size_t left = 0;
-  std::vector<std::vector<std::string>> rows;
-};
-
-/// Bytes that begin a character, so that UTF-8 is padded right.
-std::size_t width_of(std::string_view text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char letter) { return (letter & '\xc0') != '\x80'; }));
-}
-
-std::string aligned(TextTable table) {
-  for (auto& row : table.rows)
-    std::ranges::transform(row, row.begin(),
-                           [](const auto& cell) { return as_shown(cell, Layout::Escaped); });
-  std::vector<std::size_t> widths(table.rows.front().size());
-  for (const auto& row : table.rows) {
-    for (std::size_t i = 0; i < row.size(); ++i)
-      widths[i] = std::max(widths[i], width_of(row[i]));
-  }
-  std::string text;
-  for (const auto& row : table.rows) {
-    std::string line;
-    for (std::size_t i = 0; i < row.size(); ++i) {
-      const std::string padding(widths[i] - width_of(row[i]), ' ');
-      line += (i == 0 ? "" : "  ") + (i < table.left ? row[i] + padding : padding + row[i]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  }
-  return text;
-}
 
 std::string shown(double value) {
   return std::isfinite(value) ? fmt::format("{:.6g}", value) : "-";
@@ -58,7 +25,7 @@ std::string shown_p(std::optional<double> p) {
 }
 
 std::string groups_text(const Comparison& comparison) {
-  TextTable table{.left = 3,
+  TextTable table{.aligns = std::vector<Align>(3, Align::Left),
                   .rows = {{"mission", "method", "source", "n", "designs", "runs", "mean", "sd",
                             "min", "q1", "median", "q3", "max"}}};
   for (const ComparedGroup& group : comparison.groups) {
@@ -69,7 +36,7 @@ std::string groups_text(const Comparison& comparison) {
                           shown(summary.lower_quartile), shown(summary.median),
                           shown(summary.upper_quartile), shown(summary.most)});
   }
-  return aligned(table);
+  return aligned(std::move(table));
 }
 
 /// Each note once, and the numbers by which rows refer to them.
@@ -100,7 +67,7 @@ class Footnotes {
 std::string pairs_text(const Comparison& comparison) {
   const bool paired = comparison.options.by == CompareBy::Source;
   TextTable table{
-      .left = 4,
+      .aligns = std::vector<Align>(4, Align::Left),
       .rows = {{"mission", paired ? "method" : "source", "first", "second", "n", paired ? "V" : "W",
                 "p", "Holm's p", "p is", "A12", "effect", "difference", "95 % interval", "notes"}}};
   Footnotes footnotes;
@@ -115,12 +82,13 @@ std::string pairs_text(const Comparison& comparison) {
          fmt::format("[{}, {}]", shown(pair.difference.low), shown(pair.difference.high)),
          footnotes.numbers_of(pair.notes)});
   }
-  return aligned(table) + footnotes.text();
+  return aligned(std::move(table)) + footnotes.text();
 }
 
 std::string ranks_text(const ComparedRanks& ranks) {
   const FriedmanTest& test = ranks.test;
-  TextTable table{.left = 1, .rows = {{"", "mean rank", "95 % interval"}}};
+  TextTable table{.aligns = std::vector<Align>(1, Align::Left),
+                  .rows = {{"", "mean rank", "95 % interval"}}};
   for (std::size_t i = 0; i < ranks.names.size(); ++i) {
     const double mean = test.mean_ranks[i];
     const auto interval = test.interval(i);
@@ -135,7 +103,7 @@ std::string ranks_text(const ComparedRanks& ranks) {
       test.blocks,
       ranks.incomplete == 0 ? "" : fmt::format(", {} incomplete ones left out", ranks.incomplete),
       shown(test.statistic), test.degrees, test.degrees == 1 ? "" : "s", shown_p(test.p_value));
-  return text + aligned(table);
+  return text + aligned(std::move(table));
 }
 
 std::string how_it_was_tested(const Comparison& comparison) {

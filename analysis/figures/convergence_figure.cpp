@@ -9,7 +9,7 @@
 #include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/internal/store_names.h"
 #include "analysis/figures/makers.h"
-#include "base/csv.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

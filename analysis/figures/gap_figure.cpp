@@ -17,7 +17,7 @@
 #include "analysis/records/names.h"
 #include "analysis/statistics/summary.h"
 #include "analysis/statistics/wilcoxon.h"
-#include "base/csv.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

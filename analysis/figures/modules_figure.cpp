@@ -9,7 +9,7 @@
 #include "analysis/figures/makers.h"
 #include "analysis/figures/module_chart.h"
 #include "analysis/records/names.h"
-#include "base/csv.h"
+#include "base/text/csv.h"
 #include "sim/control/module.h"
 
 namespace swarmsmith {

@@ -11,7 +11,7 @@
 #include "analysis/figures/internal/for_paper.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/race_plot.h"
-#include "base/csv.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

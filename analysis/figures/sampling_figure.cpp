@@ -11,7 +11,7 @@
 #include "analysis/figures/internal/parameter_table.h"
 #include "analysis/figures/makers.h"
 #include "analysis/figures/sampling_plot.h"
-#include "base/csv.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

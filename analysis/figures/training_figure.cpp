@@ -11,7 +11,7 @@
 #include "analysis/figures/makers.h"
 #include "analysis/figures/scatter_plot.h"
 #include "analysis/records/chosen_scores.h"
-#include "base/csv.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

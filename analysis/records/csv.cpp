@@ -3,7 +3,7 @@
 #include <limits>
 #include <vector>
 
-#include "base/csv.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

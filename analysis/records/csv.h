@@ -7,9 +7,8 @@
 
 namespace swarmsmith {
 
-/// The rows of a statement over the store's views as CSV (base/csv.h): a header, full precision,
-/// null empty.
-/// Errors: as in records.h.
+/// The rows of a statement over the store's views as CSV (base/text/csv.h): a header, full
+/// precision, null empty. Errors: as in records.h.
 Expected<std::string> csv_of_rows(StoreReader& store, const std::string& sql);
 
 }  // namespace swarmsmith

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <optional>
 
+#include "base/environment.h"
 #include "base/process/guard.h"
 #include "base/process/internal/spawn.h"
 #include "base/program_path.h"
@@ -149,8 +150,7 @@ void keep_end(Captured& captured, std::size_t keep) {
 
 Expected<std::string> find_program(const std::string& name) {
   if (name.find('/') != std::string::npos) return name;
-  const char* path = std::getenv("PATH");
-  const auto file = program_in(path == nullptr ? "/usr/local/bin:/usr/bin:/bin" : path, name);
+  const auto file = program_in(environment("PATH", "/usr/local/bin:/usr/bin:/bin"), name);
   if (file) return file->string();
   return unexpected(ErrorKind::NotFound, "there is no program " + name + " in PATH");
 }

@@ -71,6 +71,10 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
 /// whoever walks its tree call themselves for each.
 constexpr std::size_t kDeepest = 64;
 
+/// Values of a text, far more than any file of ours has: the trees of parser and reader take some
+/// hundred bytes for each, of which a text from elsewhere may have one in two letters.
+constexpr std::size_t kMostValues = 1'000'000;
+
 /// How deep the tree is at each letter of a file, counted from the letters outside of strings and
 /// comments without reading the file: never too few.
 class Depth {
@@ -155,11 +159,13 @@ Fault fault_at(std::string_view text, std::size_t begin, std::size_t at, std::st
 
 /// The first thing that the parser must not see. Letters that are none of ASCII outside of strings
 /// and comments: TOML has none there, and the parser relies on it (what it does with them is not
-/// defined: version 3.3 of toml++). Depth that would take more stack than there is.
+/// defined: version 3.3 of toml++). Depth that would take more stack than there is, and more values
+/// than memory should be spent on: each is behind a letter that is counted.
 std::optional<Fault> fault_of(std::string_view text) {
   constexpr std::string_view kMark = "\xef\xbb\xbf";
   const std::size_t begin = text.starts_with(kMark) ? kMark.size() : 0;
   Depth depth;
+  std::size_t values = 0;
   for (std::size_t i = begin; i < text.size();) {
     if (static_cast<unsigned char>(text[i]) >= 0x80) {
       return fault_at(text, begin, i,
@@ -170,6 +176,10 @@ std::optional<Fault> fault_of(std::string_view text) {
       return fault_at(text, begin, i,
                       "keys, tables and lists are nested deeper than " + std::to_string(kDeepest) +
                           " levels here");
+    }
+    if (std::string_view("=,[{").find(text[i]) != std::string_view::npos) ++values;
+    if (values > kMostValues) {
+      return fault_at(text, begin, i, "more than " + std::to_string(kMostValues) + " values");
     }
     if (text[i] == '"' || text[i] == '\'') {
       i = end_of_string(text, i);

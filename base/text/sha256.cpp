@@ -13,7 +13,7 @@
 
 #include "base/output_file.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 namespace fs = std::filesystem;
@@ -81,4 +81,4 @@ Expected<std::string> sha256_of_file(const std::string& path) {
   return sha256_of(lines);
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -5,7 +5,7 @@
 
 #include "base/expected.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// SHA-256 (FIPS 180-4) as 64 hexadecimal digits, as `sha256sum` prints it.
 std::string sha256_of(std::string_view bytes);
@@ -16,4 +16,4 @@ std::string sha256_of(std::string_view bytes);
 /// read.
 Expected<std::string> sha256_of_file(const std::string& path);
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

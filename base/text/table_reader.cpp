@@ -332,4 +332,20 @@ void TableReader::finish(std::span<const std::string> not_yet) {
   }
 }
 
+bool names_a_file(const std::string& word) {
+  return word.ends_with(".toml") || word.find('/') != std::string::npos;
+}
+
+void read_format(TableReader& root) {
+  // Of the files that this program reads; raised when an old file would mean something else.
+  constexpr std::int64_t kFormat = 1;
+  const auto format = root.integer("format", {1, 1'000'000});
+  if (!root.has("format")) {
+    root.complain("format", "the file begins with its format: format = 1");
+  } else if (format && *format != kFormat) {
+    root.complain("format", "format " + std::to_string(*format) +
+                                " is newer than this program, which reads format 1");
+  }
+}
+
 }  // namespace swarmsmith

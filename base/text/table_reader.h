@@ -111,4 +111,11 @@ class TableReader {
   std::set<std::string, std::less<>> asked_;
 };
 
+/// Whether a word that could be a name is meant as a file: it ends in .toml or has a slash.
+bool names_a_file(const std::string& word);
+
+/// Files begin with `format = 1`; one of a later format is refused before its unknown keys confuse
+/// anybody.
+void read_format(TableReader& root);
+
 }  // namespace swarmsmith

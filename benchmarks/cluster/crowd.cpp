@@ -56,7 +56,7 @@ class Member {
  private:
   struct Running {
     TimePoint until;
-    WorkItem item;
+    LeasedTask item;
     bool operator<(const Running& other) const { return other.until < until; }
   };
 
@@ -96,12 +96,12 @@ class Member {
                           },
                           [&](const UseScenario& use) { take_work(use.scenario); },
                           [&](RunItems& run) {
-                            for (WorkItem& item : run.items)
+                            for (LeasedTask& item : run.items)
                               waiting_.push_back(std::move(item));
                           },
                           [&](TakeBack) {
                             std::vector<PackedKey> keys;
-                            for (const WorkItem& item : waiting_)
+                            for (const LeasedTask& item : waiting_)
                               keys.push_back(item.key);
                             waiting_.clear();
                             protocol_.on_taken_back(keys, now);
@@ -141,7 +141,7 @@ class Member {
   zmq::socket_t socket_;
   Work work_;
   std::int64_t us_ = 0;
-  std::deque<WorkItem> waiting_;
+  std::deque<LeasedTask> waiting_;
   std::priority_queue<Running> running_;
   bool left_ = false;
 };

@@ -25,9 +25,8 @@ std::vector<Task> FlatCampaign::take_tasks() {
       row.parameters = "{}";
       row.modules = "{}";
     }
-    tasks.push_back({.key = {candidate, Purpose::Race, i % kPerCandidate + 1},
-                     .seed = i,
-                     .machine = std::string(kMachineBytes, 'x')});
+    tasks.push_back({{.seed = i, .machine = std::string(kMachineBytes, 'x')},
+                     {candidate, Purpose::Race, i % kPerCandidate + 1}});
   }
   return tasks;
 }

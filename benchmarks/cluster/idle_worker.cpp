@@ -40,13 +40,13 @@ void spend(const Work& work, std::int64_t seed) {
 Expected<Evaluator> make_evaluator(const std::string& scenario) {
   const Expected<Work> work = work_of(scenario);
   if (!work) return Unexpected(work.error());
-  return Evaluator([work = *work](const WorkItem& item) -> tl::expected<Measured, Failure> {
+  return Evaluator([work = *work](const LeasedTask& item) -> Result {
     // Sleeps end on time, and not when it suits the kernel to end several together. The wish is
     // the thread's; it costs a tenth of a microsecond.
     if (work.kind == Work::Kind::Sleep) prctl(PR_SET_TIMERSLACK, 1000UL);
     spend(work, item.seed);
-    return Measured{.score = synthetic_score(item.machine, item.seed),
-                    .state_digest = mix64(static_cast<std::uint64_t>(item.seed))};
+    return Result{.score = synthetic_score(item.machine, item.seed),
+                  .state_digest = mix64(static_cast<std::uint64_t>(item.seed))};
   });
 }
 

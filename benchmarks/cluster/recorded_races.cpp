@@ -108,9 +108,9 @@ std::vector<Task> RecordedRaces::tasks_of(std::size_t number, std::size_t test,
     std::ranges::sort(who);
     const std::int64_t pair = design.first_pair[test] + p;
     for (const std::int64_t candidate : who) {
-      tasks.push_back({.key = {candidate_id(id, candidate + 1), Purpose::Race, pair},
-                       .seed = static_cast<std::int64_t>(number) << 40U | candidate << 20U | pair,
-                       .machine = std::string(kMachineBytes, 'x')});
+      tasks.push_back({{.seed = static_cast<std::int64_t>(number) << 40U | candidate << 20U | pair,
+                        .machine = std::string(kMachineBytes, 'x')},
+                       {candidate_id(id, candidate + 1), Purpose::Race, pair}});
     }
   }
   return tasks;

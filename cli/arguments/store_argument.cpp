@@ -1,7 +1,5 @@
 #include "cli/arguments/store_argument.h"
 
-#include <cstdlib>
-
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 
@@ -15,8 +13,7 @@ void StoreArgument::declare(Options& options, bool with_word) {
 Expected<std::string> StoreArgument::path() const {
   if (!word.empty()) return word;
   if (!option.empty()) return option;
-  const char* variable = std::getenv("SWARMSMITH_STORE");
-  if (variable != nullptr && *variable != '\0') return std::string(variable);
+  if (std::string store = store_of_environment(); !store.empty()) return store;
   return bad_input(
       "no store given; name its file, for instance `--store demo.db`, or set SWARMSMITH_STORE");
 }

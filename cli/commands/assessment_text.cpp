@@ -2,7 +2,9 @@
 
 #include <fmt/format.h>
 
-#include "console/output.h"
+#include <optional>
+
+#include "base/text/json.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -77,41 +79,35 @@ std::string rates(const Report& report) {
          text;
 }
 
-std::string check_json(const Check& check) {
-  std::string values;
-  for (const double value : check.values)
-    values += (values.empty() ? "" : ",") + json_number(value);
-  return "{\"setting\":" + json_text(check.setting) + ",\"runs\":" + std::to_string(check.runs) +
-         ",\"passes\":" + (check.passes ? "true" : "false") +
-         ",\"measured\":" + json_text(check.measured) +
-         ",\"expected\":" + json_text(check.expected) +
-         ",\"quantity\":" + json_text(check.quantity) + ",\"values\":[" + values + "]" +
-         ",\"note\":" + json_text(check.note) + "}";
+JsonObject check_json(const Check& check) {
+  return JsonObject()
+      .add("setting", check.setting)
+      .add("runs", check.runs)
+      .add("passes", check.passes)
+      .add("measured", check.measured)
+      .add("expected", check.expected)
+      .add("quantity", check.quantity)
+      .add("values", check.values)
+      .add("note", check.note);
 }
 
-std::string rate_json(const Rate& rate) {
-  const std::string measured =
-      rate.trials == 0
-          ? "null"
-          : json_number(static_cast<double>(rate.firings) / static_cast<double>(rate.trials));
-  return "{\"setting\":" + json_text(rate.setting) + ",\"trials\":" + std::to_string(rate.trials) +
-         ",\"measured\":" + measured + ",\"expected\":" + json_number(rate.expected) +
-         ",\"low\":" + json_number(rate.low) + ",\"high\":" + json_number(rate.high) + "}";
+JsonObject rate_json(const Rate& rate) {
+  const double measured = static_cast<double>(rate.firings) / static_cast<double>(rate.trials);
+  return JsonObject()
+      .add("setting", rate.setting)
+      .add("trials", rate.trials)
+      .add("measured", rate.trials == 0 ? std::nullopt : std::optional(measured))
+      .add("expected", rate.expected)
+      .add("low", rate.low)
+      .add("high", rate.high);
 }
 
-template <class T>
-std::string array_json(const std::vector<T>& items, std::string (*item_json)(const T&)) {
-  std::string text;
-  for (const T& item : items)
-    text += (text.empty() ? "" : ",") + item_json(item);
-  return "[" + text + "]";
-}
-
-std::string module_json(const ModuleReport& module) {
-  return "{\"module\":" + json_text(id_of(module.module)) +
-         ",\"passes\":" + (module.passes() ? "true" : "false") +
-         ",\"checks\":" + array_json(module.checks, check_json) +
-         ",\"rates\":" + array_json(module.rates, rate_json) + "}";
+JsonObject module_json(const ModuleReport& module) {
+  return JsonObject()
+      .add("module", id_of(module.module))
+      .add("passes", module.passes())
+      .add("checks", json_list(module.checks, check_json))
+      .add("rates", json_list(module.rates, rate_json));
 }
 
 }  // namespace
@@ -131,9 +127,13 @@ std::string assessment_text(const Report& report, std::string_view flavour,
 
 std::string assessment_json(const Report& report, std::string_view flavour,
                             std::string_view profile) {
-  return "{\"flavour\":" + json_text(flavour) + ",\"profile\":" + json_text(profile) +
-         ",\"passed\":" + std::to_string(report.passed()) +
-         ",\"modules\":" + array_json(report.modules, module_json) + "}\n";
+  return JsonObject()
+             .add("flavour", flavour)
+             .add("profile", profile)
+             .add("passed", report.passed())
+             .add("modules", json_list(report.modules, module_json))
+             .text() +
+         "\n";
 }
 
 }  // namespace swarmsmith::cli

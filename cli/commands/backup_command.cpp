@@ -1,3 +1,4 @@
+#include "base/text/json.h"
 #include "storage/backup.h"
 
 #include <memory>
@@ -41,10 +42,14 @@ ExitCode run_backup(BackupArguments& arguments, Output& output) {
     if (!named) return fail(output, ExitCode::Failed, named.error());
   }
   if (output.json) {
-    output.out << "{\"copy\":" << json_text(copy) << ",\"digest\":" << json_text(made->digest)
-               << ",\"schema\":" << made->schema
-               << ",\"from_schema\":" << (made->migrated == 0 ? made->schema : made->migrated)
-               << ",\"bytes\":" << made->bytes << "}\n";
+    output.out << JsonObject()
+                      .add("copy", copy)
+                      .add("digest", made->digest)
+                      .add("schema", made->schema)
+                      .add("from_schema", made->migrated == 0 ? made->schema : made->migrated)
+                      .add("bytes", made->bytes)
+                      .text()
+               << "\n";
     return ExitCode::Done;
   }
   output.out << copy << ": " << made->bytes << " bytes, digest " << made->digest;

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "base/text/json.h"
 #include "cli/arguments/campaign_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/output/number_text.h"
@@ -67,20 +68,27 @@ void write_text(Output& output, const Campaign& campaign, const CampaignPlan& pl
 
 /// The plan for programs.
 void write_json(Output& output, const Campaign& campaign, const CampaignPlan& plan) {
-  std::string warnings;
-  for (const std::string& warning : plan.warnings) {
-    warnings += (warnings.empty() ? "" : ",") + json_text(warning);
+  std::optional<double> evaluation_ms;
+  std::optional<double> time_s;
+  if (plan.evaluation_s) {
+    evaluation_ms = *plan.evaluation_s * 1e3;
+    time_s = plan.time_s;
   }
-  output.out << "{\"campaign\":" << json_text(campaign.name)
-             << ",\"store\":" << json_text(campaign.store.string())
-             << ",\"digest\":" << json_text(campaign_digest(campaign))
-             << ",\"designs\":" << plan.designs << ",\"experiments\":" << plan.experiments
-             << ",\"tests\":" << plan.tests << ",\"slots\":" << plan.slots << ",\"evaluation_ms\":"
-             << (plan.evaluation_s ? json_number(*plan.evaluation_s * 1e3) : "null")
-             << ",\"time_s\":" << (plan.evaluation_s ? json_number(plan.time_s) : "null")
-             << ",\"disk_bytes\":" << json_number(plan.disk_bytes)
-             << ",\"log_bytes\":" << json_number(plan.log_bytes) << ",\"warnings\":[" << warnings
-             << "]}\n";
+  output.out << JsonObject()
+                    .add("campaign", campaign.name)
+                    .add("store", campaign.store.string())
+                    .add("digest", campaign_digest(campaign))
+                    .add("designs", plan.designs)
+                    .add("experiments", plan.experiments)
+                    .add("tests", plan.tests)
+                    .add("slots", plan.slots)
+                    .add("evaluation_ms", evaluation_ms)
+                    .add("time_s", time_s)
+                    .add("disk_bytes", plan.disk_bytes)
+                    .add("log_bytes", plan.log_bytes)
+                    .add("warnings", plan.warnings)
+                    .text()
+             << "\n";
 }
 
 ExitCode run_check(const std::string& file, Output& output) {

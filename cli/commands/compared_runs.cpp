@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "base/text/json.h"
+
 namespace swarmsmith::cli {
 namespace {
 

@@ -5,11 +5,12 @@
 #include <cerrno>
 #include <chrono>
 #include <csignal>
-#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <thread>
 
+#include "base/environment.h"
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
@@ -27,7 +28,7 @@ constexpr std::chrono::milliseconds kLookAgain{100};
 constexpr int kLooks = 100;
 
 struct Arguments {
-  std::string kind;
+  CommandKind kind = CommandKind::Unknown;
   std::vector<std::string> words;
   std::string store;
   CoordinatorArgument coordinator;
@@ -39,11 +40,6 @@ struct Wish {
   std::string store;  ///< empty: only the coordinator is named
   std::vector<DesignId> designs;
 };
-
-std::string environment(const char* name) {
-  const char* value = std::getenv(name);
-  return value == nullptr ? "" : value;
-}
 
 std::optional<DesignId> design_in(const std::string& word) {
   const auto id = parse_thing_id(word);
@@ -64,7 +60,7 @@ Expected<Wish> wish_of(const Arguments& arguments) {
           "` is one word too many: a store is named already, and a design is written d3");
     }
   }
-  if (wish.store.empty()) wish.store = environment("SWARMSMITH_STORE");
+  if (wish.store.empty()) wish.store = store_of_environment();
   const bool named =
       arguments.coordinator.is_named() || !environment("SWARMSMITH_COORDINATOR").empty();
   if (!wish.store.empty() || named) return wish;
@@ -72,11 +68,10 @@ Expected<Wish> wish_of(const Arguments& arguments) {
 }
 
 Expected<void> check(const Arguments& arguments, const Wish& wish) {
-  const bool of_designs = arguments.kind == "cancel" || arguments.kind == "extend";
-  if (of_designs && wish.designs.empty()) {
+  if (is_of_race(arguments.kind) && wish.designs.empty()) {
     return bad_input("no design given: name at least one, such as d1");
   }
-  if (arguments.kind == "extend" && !arguments.budget) {
+  if (arguments.kind == CommandKind::Extend && !arguments.budget) {
     return bad_input("no budget given: name the number of further experiments with --budget N");
   }
   return {};
@@ -186,9 +181,12 @@ class Control {
       output_.out << sentence << "\n";
       return;
     }
-    output_.out << "{\"command\":" << json_text(arguments_.kind)
-                << ",\"design\":" << (design ? json_text(to_string(design)) : "null")
-                << ",\"done\":" << json_text(sentence) << "}\n";
+    output_.out << JsonObject()
+                       .add("command", word_of(arguments_.kind))
+                       .add("design", design)
+                       .add("done", sentence)
+                       .text()
+                << "\n";
   }
 
   Output& output_;
@@ -197,15 +195,14 @@ class Control {
   CampaignRow campaign_;
 };
 
-Run declare(const std::string& kind, Options& options) {
+Run declare(CommandKind kind, Options& options) {
   auto arguments = std::make_shared<Arguments>();
   arguments->kind = kind;
-  const bool of_all = kind == "pause" || kind == "resume";
   options.words("STORE", arguments->words,
                 std::string("The campaign's store (else SWARMSMITH_STORE), and designs: d1 d2") +
-                    (of_all ? "; without any, all unfinished ones" : ""));
+                    (is_of_leases(kind) ? "; without any, all unfinished ones" : ""));
   options.text("--store", arguments->store, "The campaign's store");
-  if (kind == "extend") {
+  if (kind == CommandKind::Extend) {
     options.integer("--budget", arguments->budget, {1, kLargestBudget}, "Further experiments");
   }
   CoordinatorArgument& coordinator = arguments->coordinator;
@@ -231,19 +228,19 @@ Run declare(const std::string& kind, Options& options) {
 }  // namespace
 
 Run declare_pause(Options& options) {
-  return declare("pause", options);
+  return declare(CommandKind::Pause, options);
 }
 
 Run declare_resume(Options& options) {
-  return declare("resume", options);
+  return declare(CommandKind::Resume, options);
 }
 
 Run declare_cancel(Options& options) {
-  return declare("cancel", options);
+  return declare(CommandKind::Cancel, options);
 }
 
 Run declare_extend(Options& options) {
-  return declare("extend", options);
+  return declare(CommandKind::Extend, options);
 }
 
 }  // namespace swarmsmith::cli

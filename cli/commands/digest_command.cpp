@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 
@@ -11,23 +12,28 @@ void write(Output& output, StoreReader& store) {
   const std::string digest = store.digest();
   const std::vector<StoredCampaign> campaigns = store.campaigns();
   const bool several = campaigns.size() > 1;
-  std::string lines;
-  std::string objects;
-  for (const StoredCampaign& campaign : campaigns) {
-    const std::string own = several ? store.alone(campaign.id)->digest() : digest;
-    lines += own + "  " + campaign.row.name + "\n";
-    objects += (objects.empty() ? "{" : ",{") + ("\"name\":" + json_text(campaign.row.name)) +
-               ",\"digest\":" + json_text(own) + ",\"campaign\":" + json_text(campaign.row.digest) +
-               "}";
-  }
+  const auto own_digest = [&](const StoredCampaign& campaign) {
+    return several ? store.alone(campaign.id)->digest() : digest;
+  };
   if (!output.json) {
-    output.out << digest << "\n" << (several ? lines : "");
-  } else if (several) {
-    output.out << "{\"digest\":" << json_text(digest) << ",\"campaigns\":[" << objects << "]}\n";
-  } else {
-    output.out << "{\"digest\":" << json_text(digest)
-               << ",\"campaign\":" << json_text(campaigns.front().row.digest) << "}\n";
+    output.out << digest << "\n";
+    for (const StoredCampaign& campaign : campaigns)
+      if (several) output.out << own_digest(campaign) << "  " << campaign.row.name << "\n";
+    return;
   }
+  JsonObject object;
+  object.add("digest", digest);
+  if (several) {
+    object.add("campaigns", json_list(campaigns, [&](const StoredCampaign& campaign) {
+                 return JsonObject()
+                     .add("name", campaign.row.name)
+                     .add("digest", own_digest(campaign))
+                     .add("campaign", campaign.row.digest);
+               }));
+  } else {
+    object.add("campaign", campaigns.front().row.digest);
+  }
+  output.out << object.text() << "\n";
 }
 
 }  // namespace

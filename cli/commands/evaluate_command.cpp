@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/text/json.h"
 #include "cli/commands/commands.h"
 #include "cli/output/mean_interval.h"
 #include "cli/output/progress_text.h"
@@ -70,21 +71,21 @@ struct Told {
 using How = ScoreKeeper::Kept::How;
 
 std::string as_json(const Told& told) {
-  std::string text = "{";
+  JsonObject object;
   if (const CandidateId candidate = told.job->candidate) {
-    text += "\"design\":" + json_text(to_string(design_of(candidate))) +
-            ",\"candidate\":" + json_text(to_string(candidate)) +
-            ",\"source\":" + json_text(told.job->profile.name) + ",";
+    object.add("design", design_of(candidate))
+        .add("candidate", candidate)
+        .add("source", told.job->profile.name);
   } else if (!told.job->name.empty()) {
-    text += "\"machine\":" + json_text(told.job->name) + ",";
+    object.add("machine", told.job->name);
   }
-  text += "\"seed\":" + std::to_string(told.seed) + ",\"score\":" + json_number(told.score);
+  object.add("seed", told.seed).add("score", told.score);
   if (told.kept) {
     constexpr const char* kHow[] = {"new", "known", "conflict"};
-    text += ",\"id\":" + json_text(to_string(told.kept->key)) +
-            ",\"stored\":" + json_text(kHow[static_cast<std::size_t>(told.kept->how)]);
+    object.add("id", to_string(told.kept->key))
+        .add("stored", kHow[static_cast<std::size_t>(told.kept->how)]);
   }
-  return text + "}\n";
+  return object.text() + "\n";
 }
 
 std::string as_line(const Told& told) {

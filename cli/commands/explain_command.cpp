@@ -2,6 +2,7 @@
 #include <optional>
 
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
@@ -154,17 +155,22 @@ void write_text(Output& output, const std::string& id, const History& history) {
 /// Objects or null for what there is one of, arrays for the rest.
 void write_json(Output& output, const std::string& id, const History& history) {
   const auto one = [](const Rows& rows) {
-    return rows.cells.empty() ? std::string("null") : row_as_json(rows, 0);
+    return rows.cells.empty() ? std::nullopt : std::optional(row_as_json(rows, 0));
   };
   const bool has_outcome = !history.evaluation.cells.empty();
-  output.out << "{\"v\":1,\"id\":" << json_text(id) << ",\"candidate\":" << one(history.candidate)
-             << ",\"evaluation\":" << one(history.evaluation)
-             << ",\"asked_for\":" << (has_outcome ? json_text(why(history)) : "null")
-             << ",\"worker\":" << one(history.worker)
-             << ",\"steps\":" << rows_as_json(history.steps)
-             << ",\"attempts\":" << rows_as_json(history.attempts)
-             << ",\"failures\":" << rows_as_json(history.failures)
-             << ",\"conflicts\":" << rows_as_json(history.conflicts) << "}\n";
+  output.out << JsonObject()
+                    .add("v", 1)
+                    .add("id", id)
+                    .add("candidate", one(history.candidate))
+                    .add("evaluation", one(history.evaluation))
+                    .add("asked_for", has_outcome ? std::optional(why(history)) : std::nullopt)
+                    .add("worker", one(history.worker))
+                    .add("steps", rows_as_json(history.steps))
+                    .add("attempts", rows_as_json(history.attempts))
+                    .add("failures", rows_as_json(history.failures))
+                    .add("conflicts", rows_as_json(history.conflicts))
+                    .text()
+             << "\n";
 }
 
 ExitCode run_explain(const ExplainArguments& arguments, Output& output) {

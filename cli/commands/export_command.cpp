@@ -4,6 +4,8 @@
 #include <memory>
 #include <optional>
 
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
@@ -14,7 +16,6 @@
 #include "cli/replay/machine_filer.h"
 #include "cli/replay/stored_instances.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -91,28 +92,29 @@ CandidateId candidate_of(const std::vector<StoreReader::Cell>& cells) {
 
 /// With parameters and modules, which are JSON already.
 Expected<std::string> as_json(const Rows& rows, MachineFiler& filer) {
-  std::string text = "{\"machines\":[";
-  for (std::size_t i = 0; i < rows.cells.size(); ++i) {
-    const auto& cells = rows.cells[i];
-    if (i > 0) text += ",";
+  JsonPiece machines{"["};
+  // Both are JSON objects in the store.
+  const auto object_or_empty = [](const std::string& json) {
+    return JsonPiece{json.empty() ? "{}" : json};
+  };
+  for (const auto& cells : rows.cells) {
     Rows plain{.columns = {rows.columns.begin(), rows.columns.begin() + kParameters},
                .cells = {{cells.begin(), cells.begin() + kParameters}},
                .truncated = false};
     letter_ids(plain);
-    std::string object = row_as_json(plain, 0);
-    object.pop_back();
-    // These two are JSON objects in the store.
-    const auto object_or_empty = [](const std::string& json) { return json.empty() ? "{}" : json; };
+    JsonObject object = row_as_json(plain, 0);
     const auto head = filer.head_of(candidate_of(cells));
     if (!head) return Unexpected(head.error());
-    if (!head->flavour.empty()) object += ",\"flavour\":" + json_text(head->flavour);
-    if (head->turn_clock) object += ",\"turn_clock\":" + json_text(name_of(*head->turn_clock));
-    if (head->profile) object += ",\"profile\":" + json_text(head->profile->name);
-    if (!head->seeds.empty()) object += ",\"seeds\":" + json_text(head->seeds);
-    text += object + ",\"parameters\":" + object_or_empty(cells[kParameters].text) +
-            ",\"modules\":" + object_or_empty(cells[kModules].text) + "}";
+    if (!head->flavour.empty()) object.add("flavour", head->flavour);
+    if (head->turn_clock) object.add("turn_clock", name_of(*head->turn_clock));
+    if (head->profile) object.add("profile", head->profile->name);
+    if (!head->seeds.empty()) object.add("seeds", head->seeds);
+    object.add("parameters", object_or_empty(cells[kParameters].text))
+        .add("modules", object_or_empty(cells[kModules].text));
+    machines.text += (machines.text.size() == 1 ? "" : ",") + object.text();
   }
-  return text + "]}\n";
+  machines.text += "]";
+  return JsonObject().add("machines", machines).text() + "\n";
 }
 
 ExitCode write_text(const ExportArguments& arguments, const std::string& text, Output& output) {

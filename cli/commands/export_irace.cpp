@@ -2,8 +2,10 @@
 
 #include <filesystem>
 
+#include "base/output_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/replay/design_argument.h"
-#include "console/whole_file.h"
 #include "coordinator/campaign/irace_folder.h"
 
 namespace swarmsmith::cli {
@@ -56,7 +58,7 @@ ExitCode export_irace(const std::string& source, const IraceExport& what, const 
   for (const std::string& remark : made->remarks)
     print_note(output, remark);
   if (output.json) {
-    output.out << "{\"folder\":" << json_text(folder) << "}\n";
+    output.out << JsonObject().add("folder", folder).text() << "\n";
   } else {
     output.out << folder << "\n";
     print_note(output,

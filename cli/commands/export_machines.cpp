@@ -6,9 +6,11 @@
 
 #include "analysis/figures/machine_figure.h"
 #include "analysis/machines/machine_drawing.h"
+#include "base/output_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "console/pdf.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 #include "coordinator/campaign/argos_experiment.h"
 #include "coordinator/campaign/campaign_file.h"
 
@@ -147,10 +149,7 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& can
   }
   if (what.format == "argos") remark_flavours(store, candidates.front(), output);
   if (!output.json) return ExitCode::Done;
-  std::string list;
-  for (const std::string& file : files)
-    list += (list.empty() ? "" : ",") + json_text(file);
-  output.out << "{\"files\":[" << list << "]}\n";
+  output.out << JsonObject().add("files", files).text() << "\n";
   return ExitCode::Done;
 }
 

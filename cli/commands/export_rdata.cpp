@@ -5,10 +5,11 @@
 #include <map>
 
 #include "base/output_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/irace_converter.h"
 #include "console/counter.h"
-#include "console/whole_file.h"
 #include "coordinator/results/irace_log.h"
 #include "coordinator/results/known_designs.h"
 #include "coordinator/results/stored_irace_log.h"
@@ -75,9 +76,13 @@ ExitCode exit_code_of(const Error& error) {
 ExitCode tell(const std::string& kind, const std::string& place, DesignId design,
               const IraceLog& log, Output& output) {
   if (output.json) {
-    output.out << "{\"" << kind << "\":" << json_text(place) << ",\"design\":\""
-               << to_string(design) << "\",\"configurations\":" << log.configurations.size()
-               << ",\"experiments\":" << log.runs.size() << "}\n";
+    output.out << JsonObject()
+                      .add(kind, place)
+                      .add("design", design)
+                      .add("configurations", log.configurations.size())
+                      .add("experiments", log.runs.size())
+                      .text()
+               << "\n";
   } else {
     output.out << place << "\n";
   }

@@ -4,12 +4,13 @@
 
 #include "analysis/drawing/svg.h"
 #include "analysis/figures/figure.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/figure_arguments.h"
 #include "cli/commands/trajectories_figure.h"
 #include "console/pdf.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -30,12 +31,10 @@ std::string kinds_text() {
 }
 
 std::string kinds_json() {
-  std::string text;
-  for (const FigureKind& kind : all_figure_kinds()) {
-    text += std::string(text.empty() ? "" : ",") + "{\"kind\":" + json_text(kind.name) +
-            ",\"summary\":" + json_text(kind.summary) + "}";
-  }
-  return "{\"kinds\":[" + text + "]}\n";
+  const auto kind_json = [](const FigureKind& kind) {
+    return JsonObject().add("kind", kind.name).add("summary", kind.summary);
+  };
+  return JsonObject().add("kinds", json_list(all_figure_kinds(), kind_json)).text() + "\n";
 }
 
 /// Rows below the headline; a row may have line feeds in quotes.
@@ -117,8 +116,12 @@ ExitCode draw_figure(const FigureKind& kind, const FigureArguments& arguments, O
   if (const auto written = write_whole_file(arguments.file, *bytes); !written)
     return fail(output, ExitCode::Failed, written.error());
   if (output.json) {
-    output.out << "{\"figure\":" << json_text(arguments.kind)
-               << ",\"file\":" << json_text(arguments.file) << ",\"points\":" << points << "}\n";
+    output.out << JsonObject()
+                      .add("figure", arguments.kind)
+                      .add("file", arguments.file)
+                      .add("points", points)
+                      .text()
+               << "\n";
   }
   return ExitCode::Done;
 }

@@ -4,10 +4,10 @@
 #include <random>
 
 #include "base/text/toml_text.h"
+#include "base/text/whole_file.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/import_results.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/irace_campaign.h"

@@ -6,7 +6,8 @@
 #include <optional>
 #include <utility>
 
-#include "base/text/file_text.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/irace_converter.h"
 #include "coordinator/results/irace_log_rows.h"
@@ -62,14 +63,20 @@ EventRow note_of(const ImportArguments& arguments, const std::string& what, std:
   const std::string file = fs::path(arguments.file).filename().string();
   return {.severity = "info",
           .kind = "imported",
-          .text = "{\"file\":" + json_text(file) + ",\"what\":" + json_text(what) +
-                  ",\"count\":" + std::to_string(count) + "}"};
+          .text = JsonObject().add("file", file).add("what", what).add("count", count).text()};
 }
 
 /// "d3", or "d3 to d5".
 std::string range_of(const std::vector<ImportedDesign>& designs) {
   const std::string first = to_string(designs.front().row.id);
   return designs.size() == 1 ? first : first + " to " + to_string(designs.back().row.id);
+}
+
+void print_imported(const std::string& what, const std::vector<ImportedDesign>& designs,
+                    Output& output) {
+  const auto id_of = [](const ImportedDesign& design) { return design.row.id; };
+  output.out << JsonObject().add("imported", what).add("designs", json_list(designs, id_of)).text()
+             << "\n";
 }
 
 /// Adds a campaign, unless the store has the same one already.
@@ -80,7 +87,7 @@ ExitCode add_campaign(const ImportArguments& arguments, Target target, Addition 
     if (!digests) return fail(output, ExitCode::Store, digests.error());
     if (std::ranges::find(*digests, addition.campaign->digest) != digests->end()) {
       print_note(output, "the store has imported the same before: nothing to add");
-      if (output.json) output.out << "{\"imported\":" << json_text(what) << ",\"designs\":[]}\n";
+      if (output.json) print_imported(what, {}, output);
       return ExitCode::Done;
     }
   }
@@ -89,10 +96,7 @@ ExitCode add_campaign(const ImportArguments& arguments, Target target, Addition 
     return fail(output, ExitCode::Store, added.error());
   }
   if (output.json) {
-    std::string designs;
-    for (const ImportedDesign& design : addition.designs)
-      designs += (designs.empty() ? "" : ",") + json_text(to_string(design.row.id));
-    output.out << "{\"imported\":" << json_text(what) << ",\"designs\":[" << designs << "]}\n";
+    print_imported(what, addition.designs, output);
   } else {
     output.out << what << " imported: " << range_of(addition.designs) << " of campaign "
                << addition.campaign->name << " in " << arguments.into << "\n";
@@ -191,8 +195,13 @@ ExitCode import_scores_into(const ImportArguments& arguments, const CsvTable& ta
     }
   }
   if (output.json) {
-    output.out << "{\"imported\":\"scores\",\"added\":" << scores->added
-               << ",\"replaced\":" << scores->replaced << ",\"known\":" << scores->known << "}\n";
+    output.out << JsonObject()
+                      .add("imported", "scores")
+                      .add("added", scores->added)
+                      .add("replaced", scores->replaced)
+                      .add("known", scores->known)
+                      .text()
+               << "\n";
   } else {
     output.out << scores->added << " scores imported into " << arguments.into << ", "
                << scores->replaced << " replaced, " << scores->known << " were there before\n";

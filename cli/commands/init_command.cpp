@@ -1,9 +1,10 @@
 #include <filesystem>
 #include <memory>
 
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/commands/campaign_template.h"
 #include "cli/commands/commands.h"
-#include "console/whole_file.h"
 #include "sim/control/flavour.h"
 #include "sim/mission/mission.h"
 
@@ -29,7 +30,7 @@ ExitCode run_init(const InitArguments& arguments, Output& output) {
     return fail(output, ExitCode::Failed, written.error());
   }
   if (output.json) {
-    output.out << "{\"file\":" << json_text(file.string()) << "}\n";
+    output.out << JsonObject().add("file", file.string()).text() << "\n";
   } else {
     output.out << file.string() << "\n";
     print_note(output, "`swarmsmith check " + file.string() + "` shows the plan, `swarmsmith run " +

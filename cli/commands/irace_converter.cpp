@@ -4,14 +4,13 @@
 #include <sys/wait.h>
 
 #include <chrono>
-#include <fstream>
-#include <sstream>
 #include <string_view>
 #include <system_error>
 #include <thread>
 #include <utility>
 
 #include "base/process/child_process.h"
+#include "base/text/whole_file.h"
 #include "console/counter.h"
 #include "coordinator/results/irace_log.h"
 #include "embedded/kIraceLogScript.h"
@@ -47,6 +46,8 @@ class ScratchFolder {
   fs::path path_;
 };
 
+constexpr std::size_t kLargestLog = std::size_t{4} << 30U;  // bytes
+
 /// A script of ours, with two files or folders.
 struct Script {
   std::string name;
@@ -61,7 +62,8 @@ struct Script {
 Expected<std::string> run_script(const Script& script, const fs::path& folder, const fs::path& log,
                                  Output& output) {
   const fs::path file = folder / script.name;
-  std::ofstream(file) << script.text;
+  if (auto written = write_whole_file(file.string(), script.text); !written)
+    return Unexpected(written.error());
   ChildProcess process;
   // Texts are UTF-8, whatever the user's language is.
   const auto started = process.start(
@@ -91,11 +93,8 @@ Expected<std::string> run_script(const Script& script, const fs::path& folder, c
 std::map<std::string, std::string> read_log_folder(const fs::path& folder) {
   std::map<std::string, std::string> texts;
   for (const std::string& name : irace_log_files()) {
-    std::ifstream stream(folder / name, std::ios::binary);
-    if (!stream) continue;
-    std::ostringstream text;
-    text << stream.rdbuf();
-    texts.emplace(name, text.str());
+    if (auto text = read_file(folder / name, "table", kLargestLog))
+      texts.emplace(name, std::move(*text));
   }
   return texts;
 }
@@ -121,8 +120,10 @@ Expected<std::string> make_irace_log(const std::map<std::string, std::string>& t
                                      const fs::path& log, Output& output) {
   const auto folder = ScratchFolder::make();
   if (!folder) return Unexpected(folder.error());
-  for (const auto& [name, text] : tables)
-    std::ofstream(folder->path() / name, std::ios::binary) << text;
+  for (const auto& [name, text] : tables) {
+    const auto written = write_whole_file((folder->path() / name).string(), text);
+    if (!written) return Unexpected(written.error());
+  }
   const fs::path made = folder->path() / "irace.Rdata";
   const auto refused =
       run_script({.name = "irace_rdata.R",
@@ -134,10 +135,7 @@ Expected<std::string> make_irace_log(const std::map<std::string, std::string>& t
                              "(docs/command-line.md, export)"},
                  folder->path(), log, output);
   if (!refused) return Unexpected(refused.error());
-  std::ifstream stream(made, std::ios::binary);
-  std::ostringstream bytes;
-  bytes << stream.rdbuf();
-  if (refused->empty() && stream) return bytes.str();
+  if (auto bytes = read_file(made, "log", kLargestLog); refused->empty() && bytes) return *bytes;
   return unexpected(ErrorKind::Conflict, "R could not write the log: " + *refused, log.string());
 }
 

@@ -1,5 +1,6 @@
 #include <memory>
 
+#include "base/text/json.h"
 #include "cli/commands/commands.h"
 #include "proto/access/allow_list.h"
 #include "proto/access/key_folder.h"
@@ -16,15 +17,13 @@ struct KeygenArguments {
 };
 
 void print_files(Output& output, const std::vector<std::filesystem::path>& files) {
-  if (!output.json) {
-    for (const std::filesystem::path& file : files)
-      output.out << file.string() << "\n";
+  if (output.json) {
+    const auto name_of = [](const std::filesystem::path& file) { return file.string(); };
+    output.out << JsonObject().add("files", json_list(files, name_of)).text() << "\n";
     return;
   }
-  output.out << "{\"files\":[";
-  for (std::size_t i = 0; i < files.size(); ++i)
-    output.out << (i > 0 ? "," : "") << json_text(files[i].string());
-  output.out << "]}\n";
+  for (const std::filesystem::path& file : files)
+    output.out << file.string() << "\n";
 }
 
 ExitCode fail_to_write(Output& output, const Error& error) {

@@ -1,4 +1,5 @@
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "storage/merge.h"
 
 #include <memory>
@@ -31,16 +32,20 @@ void write(Output& output, const Merged& merged, const std::string& file) {
                << "\n";
     return;
   }
-  std::string campaigns;
-  for (const StoredCampaign& campaign : merged.campaigns) {
-    campaigns += (campaigns.empty() ? "" : ",") + ("{\"campaign\":" + std::to_string(campaign.id)) +
-                 ",\"name\":" + json_text(campaign.row.name) +
-                 ",\"state\":" + json_text(campaign.state) +
-                 ",\"designs_before\":" + std::to_string(campaign.designs_before) +
-                 ",\"designs\":" + std::to_string(campaign.designs) + "}";
-  }
-  output.out << "{\"store\":" << json_text(file) << ",\"digest\":" << json_text(merged.digest)
-             << ",\"campaigns\":[" << campaigns << "]}\n";
+  const auto campaign_json = [](const StoredCampaign& campaign) {
+    return JsonObject()
+        .add("campaign", campaign.id)
+        .add("name", campaign.row.name)
+        .add("state", campaign.state)
+        .add("designs_before", campaign.designs_before)
+        .add("designs", campaign.designs);
+  };
+  output.out << JsonObject()
+                    .add("store", file)
+                    .add("digest", merged.digest)
+                    .add("campaigns", json_list(merged.campaigns, campaign_json))
+                    .text()
+             << "\n";
 }
 
 ExitCode run_merge(const MergeArguments& arguments, Output& output) {

@@ -2,8 +2,9 @@
 #include <memory>
 
 #include "base/suggestion.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/commands/commands.h"
-#include "console/whole_file.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith::cli {
@@ -16,10 +17,12 @@ struct ProfileArguments {
 
 /// One name a line, or the names as JSON.
 void list(Output& output) {
-  std::string names;
+  if (output.json) {
+    output.out << JsonObject().add("profiles", profile_names()).text() << "\n";
+    return;
+  }
   for (const std::string& name : profile_names())
-    names += output.json ? (names.empty() ? "" : ",") + json_text(name) : name + "\n";
-  output.out << (output.json ? "{\"profiles\":[" + names + "]}\n" : names);
+    output.out << name << "\n";
 }
 
 ExitCode write(const ProfileArguments& arguments, std::string_view text, Output& output) {
@@ -52,8 +55,7 @@ ExitCode run_profile(const ProfileArguments& arguments, Output& output) {
   const std::string_view text = built_in_profile_text(arguments.name);
   if (!arguments.file.empty()) return write(arguments, text, output);
   if (output.json) {
-    output.out << "{\"profile\":" << json_text(arguments.name)
-               << ",\"text\":" << json_text(std::string(text)) << "}\n";
+    output.out << JsonObject().add("profile", arguments.name).add("text", text).text() << "\n";
   } else {
     output.out << text;
   }

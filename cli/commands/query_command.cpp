@@ -2,7 +2,7 @@
 #include <limits>
 #include <memory>
 
-#include "base/csv.h"
+#include "base/text/csv.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"

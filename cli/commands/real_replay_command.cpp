@@ -1,16 +1,19 @@
 #include "cli/commands/real_replay_command.h"
 
 #include <numeric>
+#include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
 #include "analysis/arena/arena_picture.h"
 #include "analysis/drawing/svg.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/seeds.h"
 #include "cli/output/progress_text.h"
 #include "cli/replay/real_replay.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -47,22 +50,21 @@ Expected<void> write(const std::string& file, const std::string& bytes, Output& 
 }
 
 std::string as_json(const RealReplay& replay, RealRunId id, bool same) {
-  const RealScoreRow& stored = replay.rows.score;
-  std::string beside;
-  for (const ShownRun& run : replay.runs) {
-    if (&run == &replay.runs.front()) continue;
-    beside += (beside.empty() ? "" : ",") + ("{\"source\":" + json_text(run.source)) +
-              ",\"seed\":" + std::to_string(run.seed) + ",\"score\":" + json_number(run.score) +
-              "}";
-  }
-  return "{\"id\":" + json_text(to_string(id)) + ",\"candidate\":" +
-         (replay.rows.candidate ? json_text(to_string(replay.rows.candidate)) : "null") +
-         ",\"score\":" + json_number(replay.score) +
-         ",\"stored_score\":" + (stored.score ? json_number(*stored.score) : "null") +
-         ",\"same_bits\":" + (stored.score ? (same ? "true" : "false") : "null") +
-         ",\"verdict\":" + json_text(replay.verdict) +
-         ",\"starts_as_real\":" + (replay.starts_as_real ? "true" : "false") + ",\"beside\":[" +
-         beside + "]}\n";
+  const std::optional<double> stored = replay.rows.score.score;
+  const auto run_json = [](const ShownRun& run) {
+    return JsonObject().add("source", run.source).add("seed", run.seed).add("score", run.score);
+  };
+  return JsonObject()
+             .add("id", id)
+             .add("candidate", replay.rows.candidate)
+             .add("score", replay.score)
+             .add("stored_score", stored)
+             .add("same_bits", stored ? std::optional(same) : std::nullopt)
+             .add("verdict", replay.verdict)
+             .add("starts_as_real", replay.starts_as_real)
+             .add("beside", json_list(std::span(replay.runs).subspan(1), run_json))
+             .text() +
+         "\n";
 }
 
 std::string as_text(const RealReplay& replay, RealRunId id) {

@@ -1,4 +1,5 @@
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "storage/recover.h"
 
 #include <memory>
@@ -53,39 +54,40 @@ std::string design_text(const Rebuilt::Design& design) {
   return text;
 }
 
-std::string table_json(const SalvagedTable& table) {
-  return "{\"name\":" + json_text(table.name) + ",\"rows\":" + std::to_string(table.rows) +
-         ",\"lost_pages\":" + std::to_string(table.lost_pages) +
-         ",\"broken\":" + std::to_string(table.broken) +
-         ",\"tree_lost\":" + (table.tree_is_lost ? "true" : "false") + "}";
+JsonObject table_json(const SalvagedTable& table) {
+  return JsonObject()
+      .add("name", table.name)
+      .add("rows", table.rows)
+      .add("lost_pages", table.lost_pages)
+      .add("broken", table.broken)
+      .add("tree_lost", table.tree_is_lost);
 }
 
-std::string design_json(const Rebuilt::Design& design) {
-  return "{\"design\":" + json_text(to_string(design.id)) +
-         ",\"used\":" + std::to_string(design.used) +
-         ",\"missing\":" + std::to_string(design.missing) +
-         ",\"ahead\":" + std::to_string(design.ahead) +
-         ",\"unasked\":" + std::to_string(design.unasked) + "}";
-}
-
-template <class Things, class Text>
-std::string json_list(const Things& things, Text text) {
-  std::string list;
-  for (const auto& thing : things)
-    list += (list.empty() ? "" : ",") + text(thing);
-  return "[" + list + "]";
+JsonObject design_json(const Rebuilt::Design& design) {
+  return JsonObject()
+      .add("design", design.id)
+      .add("used", design.used)
+      .add("missing", design.missing)
+      .add("ahead", design.ahead)
+      .add("unasked", design.unasked);
 }
 
 void write(Output& output, const Salvaged& found, const Report& report, const Recovery::End& end,
            const std::string& file) {
   if (output.json) {
-    output.out << "{\"store\":" << json_text(file) << ",\"digest\":" << json_text(end.digest)
-               << ",\"evaluations\":" << end.evaluations << ",\"schema\":" << found.schema
-               << ",\"header_damaged\":" << (found.header_is_damaged ? "true" : "false")
-               << ",\"unplaced\":" << found.unplaced << ",\"orphans\":" << end.orphans
-               << ",\"tables\":" << json_list(found.tables, table_json)
-               << ",\"designs\":" << json_list(report.designs, design_json)
-               << ",\"complaints\":" << json_list(report.complaints, json_text) << "}\n";
+    output.out << JsonObject()
+                      .add("store", file)
+                      .add("digest", end.digest)
+                      .add("evaluations", end.evaluations)
+                      .add("schema", found.schema)
+                      .add("header_damaged", found.header_is_damaged)
+                      .add("unplaced", found.unplaced)
+                      .add("orphans", end.orphans)
+                      .add("tables", json_list(found.tables, table_json))
+                      .add("designs", json_list(report.designs, design_json))
+                      .add("complaints", report.complaints)
+                      .text()
+               << "\n";
     return;
   }
   if (found.header_is_damaged) {

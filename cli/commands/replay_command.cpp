@@ -1,7 +1,10 @@
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
+#include <optional>
 
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/compared_runs.h"
@@ -35,18 +38,27 @@ std::string hexadecimal(std::uint64_t digest) {
 }
 
 std::string as_json(const StoredRun& run, const SimulationResult& result) {
-  const auto or_null = [&](const std::string& text) { return run.outcome ? text : "null"; };
-  const StoredOutcome stored = run.outcome.value_or(StoredOutcome{});
-  const bool same = run.outcome && same_bits(stored, result);
-  return "{\"id\":" + (run.id.empty() ? "null" : json_text(run.id)) +
-         ",\"candidate\":" + json_text(run.candidate) + ",\"seed\":" + std::to_string(run.seed) +
-         ",\"score\":" + json_number(result.score) +
-         ",\"stored_score\":" + or_null(json_number(stored.score)) +
-         ",\"same_bits\":" + or_null(same ? "true" : "false") +
-         ",\"digest\":" + json_text(hexadecimal(result.state_digest)) +
-         ",\"stored_digest\":" + or_null(json_text(hexadecimal(stored.state_digest))) +
-         ",\"engine\":" + std::to_string(kEngineVersion) +
-         ",\"stored_engine\":" + std::to_string(run.engine_version) + "}\n";
+  JsonObject object;
+  object.add("id", run.id.empty() ? std::nullopt : std::optional(run.id))
+      .add("candidate", run.candidate)
+      .add("seed", run.seed)
+      .add("score", result.score);
+  std::optional<double> score;
+  std::optional<bool> same;
+  std::optional<std::string> digest;
+  if (run.outcome) {
+    score = run.outcome->score;
+    same = same_bits(*run.outcome, result);
+    digest = hexadecimal(run.outcome->state_digest);
+  }
+  return object.add("stored_score", score)
+             .add("same_bits", same)
+             .add("digest", hexadecimal(result.state_digest))
+             .add("stored_digest", digest)
+             .add("engine", kEngineVersion)
+             .add("stored_engine", run.engine_version)
+             .text() +
+         "\n";
 }
 
 /// The line that says how the comparison went.
@@ -106,15 +118,16 @@ ExitCode replay_sample(StoredRuns& runs, std::int64_t count, Output& output) {
   Counter counter(output, "replayed", "evaluations");
   const auto different = compare_again(runs, *ids, counter);
   if (!different) return fail(output, ExitCode::Failed, different.error());
-  std::string different_json;
-  for (const Difference& difference : *different) {
-    different_json += (different_json.empty() ? "" : ",") + json_text(difference.id);
+  for (const Difference& difference : *different)
     print_error(output, {ErrorKind::Conflict, difference.sentence, ""});
-  }
   const std::size_t same = ids->size() - different->size();
   if (output.json) {
-    output.out << "{\"replayed\":" << ids->size() << ",\"same_bits\":" << same << ",\"different\":["
-               << different_json << "]}\n";
+    output.out << JsonObject()
+                      .add("replayed", ids->size())
+                      .add("same_bits", same)
+                      .add("different", json_list(*different, std::mem_fn(&Difference::id)))
+                      .text()
+               << "\n";
   } else {
     output.out << ids->size() << " evaluations replayed, " << same
                << " with the same bits as stored\n";

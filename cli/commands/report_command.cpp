@@ -1,6 +1,8 @@
 #include <memory>
 
 #include "analysis/report/report.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/program_name.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
@@ -8,7 +10,6 @@
 #include "cli/commands/trajectories_figure.h"
 #include "console/counter.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -65,8 +66,8 @@ ExitCode run_report(const ReportArguments& arguments, Output& output) {
   if (const auto written = write_whole_file(arguments.file, *report); !written)
     return fail(output, ExitCode::Failed, written.error());
   if (output.json) {
-    output.out << "{\"file\":" << json_text(arguments.file) << ",\"bytes\":" << report->size()
-               << "}\n";
+    output.out << JsonObject().add("file", arguments.file).add("bytes", report->size()).text()
+               << "\n";
   } else {
     output.out << arguments.file << "\n";
   }

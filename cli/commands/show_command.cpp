@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
@@ -122,11 +123,11 @@ void write_text(Output& output, const std::vector<Part>& parts, const std::vecto
 
 /// One object, a key a part.
 void write_json(Output& output, const std::vector<Part>& parts, const std::vector<Rows>& rows) {
-  output.out << "{" << json_text(parts.front().name) << ":" << row_as_json(rows.front(), 0);
-  for (std::size_t i = 1; i < parts.size(); ++i) {
-    output.out << "," << json_text(parts[i].name) << ":" << rows_as_json(rows[i]);
-  }
-  output.out << "}\n";
+  JsonObject object;
+  object.add(parts.front().name, row_as_json(rows.front(), 0));
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    object.add(parts[i].name, rows_as_json(rows[i]));
+  output.out << object.text() << "\n";
 }
 
 ExitCode run_show(const ShowArguments& arguments, Output& output) {

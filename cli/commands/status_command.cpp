@@ -7,7 +7,9 @@
 #include <memory>
 #include <thread>
 
+#include "base/environment.h"
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
@@ -137,14 +139,16 @@ void write_text(Output& output, const Status& status) {
 }
 
 void write_json(Output& output, const Status& status) {
-  output.out << "{\"campaign\":" << row_as_json(status.campaign, 0);
-  if (status.campaign.cells.size() > 1)
-    output.out << ",\"campaigns\":" << rows_as_json(status.campaign);
-  output.out << ",\"designs\":" << rows_as_json(status.designs)
-             << ",\"workers\":" << rows_as_json(status.workers)
-             << ",\"paused\":" << rows_as_json(status.paused)
-             << ",\"commands\":" << rows_as_json(status.commands)
-             << ",\"failures\":" << status.failures.cells.front().front().text << "}\n";
+  JsonObject object;
+  object.add("campaign", row_as_json(status.campaign, 0));
+  if (status.campaign.cells.size() > 1) object.add("campaigns", rows_as_json(status.campaign));
+  output.out << object.add("designs", rows_as_json(status.designs))
+                    .add("workers", rows_as_json(status.workers))
+                    .add("paused", rows_as_json(status.paused))
+                    .add("commands", rows_as_json(status.commands))
+                    .add("failures", JsonPiece{status.failures.cells.front().front().text})
+                    .text()
+             << "\n";
 }
 
 /// Where a coordinator is asked: at the address or by the file that a person names, else by the
@@ -154,9 +158,8 @@ Expected<FoundCoordinator> coordinator_of(const StatusArguments& arguments) {
   search.role = "reader";
   search.key = arguments.key;
   search.insecure_plaintext = arguments.insecure_plaintext;
-  std::string named = arguments.connect;
-  const char* variable = std::getenv("SWARMSMITH_COORDINATOR");
-  if (named.empty() && variable != nullptr) named = variable;
+  const std::string named =
+      arguments.connect.empty() ? environment("SWARMSMITH_COORDINATOR") : arguments.connect;
   if (named.empty()) {
     const auto store = arguments.store.path();
     if (!store) return unexpected(ErrorKind::NotFound, store.error().message);

@@ -6,8 +6,11 @@
 #include <unistd.h>
 
 #include "analysis/report/supplement.h"
+#include "base/output_file.h"
 #include "base/process/process.h"
+#include "base/text/json.h"
 #include "base/text/sha256.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/program_name.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
@@ -16,7 +19,6 @@
 #include "cli/replay/stored_instances.h"
 #include "console/counter.h"
 #include "console/pdf.h"
-#include "console/whole_file.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -137,8 +139,12 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
   if (const auto written = write_folder(folder, *files); !written)
     return fail(output, ExitCode::Failed, written.error());
   if (output.json) {
-    output.out << "{\"folder\":" << json_text(folder.string()) << ",\"files\":" << files->size()
-               << ",\"pdfs\":" << (with_pdfs ? "true" : "false") << "}\n";
+    output.out << JsonObject()
+                      .add("folder", folder.string())
+                      .add("files", files->size())
+                      .add("pdfs", with_pdfs)
+                      .text()
+               << "\n";
   } else {
     output.out << folder.string() << "\n";
   }

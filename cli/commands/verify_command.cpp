@@ -1,11 +1,13 @@
 #include <fmt/format.h>
 
+#include <functional>
 #include <memory>
 #include <optional>
 #include <random>
 #include <utility>
 
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/compared_runs.h"
@@ -32,23 +34,23 @@ struct Sampled {
 };
 
 void write_json(Output& output, const Verification& found, const std::optional<Sampled>& sampled) {
-  std::string complaints;
-  for (const std::string& complaint : found.complaints)
-    complaints += (complaints.empty() ? "" : ",") + json_text(complaint);
-  output.out << "{\"clean\":" << (found.complaints.empty() ? "true" : "false")
-             << ",\"designs\":" << found.designs << ",\"finished\":" << found.finished
-             << ",\"evaluations\":" << found.evaluations << ",\"real_runs\":" << found.real_runs;
+  std::optional<JsonObject> again;
   if (sampled) {
-    std::string different;
-    for (const Difference& difference : sampled->different)
-      different += (different.empty() ? "" : ",") + json_text(difference.id);
-    output.out << ",\"evaluated_again\":{\"seed\":" << sampled->seed
-               << ",\"evaluations\":" << sampled->evaluations << ",\"different\":[" << different
-               << "]}";
-  } else {
-    output.out << ",\"evaluated_again\":null";
+    again = JsonObject()
+                .add("seed", sampled->seed)
+                .add("evaluations", sampled->evaluations)
+                .add("different", json_list(sampled->different, std::mem_fn(&Difference::id)));
   }
-  output.out << ",\"complaints\":[" << complaints << "]}\n";
+  output.out << JsonObject()
+                    .add("clean", found.complaints.empty())
+                    .add("designs", found.designs)
+                    .add("finished", found.finished)
+                    .add("evaluations", found.evaluations)
+                    .add("real_runs", found.real_runs)
+                    .add("evaluated_again", again)
+                    .add("complaints", found.complaints)
+                    .text()
+             << "\n";
 }
 
 void write_text(Output& output, const Verification& found, const std::optional<Sampled>& sampled) {

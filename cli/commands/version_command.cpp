@@ -1,3 +1,4 @@
+#include "base/text/json.h"
 #include "cli/arguments/program_name.h"
 #include "cli/commands/commands.h"
 #include "sim/engine/simulate.h"
@@ -12,14 +13,19 @@ Run declare_version(Options&) {
   return [](Output& output) {
     constexpr std::string_view kVersion = SWARMSMITH_VERSION;
     constexpr std::string_view kBuild = SWARMSMITH_BUILD;
-    const std::string engine = std::to_string(kEngineVersion);
     if (output.json) {
-      output.out << "{\"name\":\"swarmsmith\",\"version\":" << json_text(kVersion)
-                 << ",\"engine\":" << engine << ",\"campaign_format\":1,\"events\":1"
-                 << ",\"build\":" << json_text(kBuild) << ",\"compiler\":" << json_text(__VERSION__)
-                 << "}\n";
+      output.out << JsonObject()
+                        .add("name", "swarmsmith")
+                        .add("version", kVersion)
+                        .add("engine", kEngineVersion)
+                        .add("campaign_format", 1)
+                        .add("events", 1)
+                        .add("build", kBuild)
+                        .add("compiler", __VERSION__)
+                        .text()
+                 << "\n";
     } else {
-      output.out << "swarmsmith " << kVersion << " (engine " << engine << ", " << kBuild
+      output.out << "swarmsmith " << kVersion << " (engine " << kEngineVersion << ", " << kBuild
                  << ", compiler " << __VERSION__ << ")\n";
     }
     return ExitCode::Done;

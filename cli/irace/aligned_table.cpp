@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "base/text/text_table.h"
+
 namespace swarmsmith::cli {
 namespace {
 
@@ -56,17 +58,6 @@ Format format_of(std::span<const std::optional<double>> values) {
   return format;
 }
 
-/// Characters, not bytes.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(std::count_if(text.begin(), text.end(), [](char letter) {
-    return (static_cast<unsigned char>(letter) & 0xc0U) != 0x80;
-  }));
-}
-
-std::string padding(const std::string& text, std::size_t width) {
-  return std::string(width - std::min(width, width_of(text)), ' ');
-}
-
 }  // namespace
 
 std::vector<std::string> real_cells(std::span<const std::optional<double>> values) {
@@ -93,14 +84,14 @@ std::string aligned_table(const std::vector<std::string>& row_names,
     names_width = std::max(names_width, width_of(name));
   std::vector<std::string> lines{std::string(names_width, ' ')};
   for (const std::string& name : row_names)
-    lines.push_back(name + padding(name, names_width));
+    lines.push_back(padded(name, names_width, Align::Left));
   for (const TableColumn& column : columns) {
     std::size_t width = width_of(column.name);
     for (const std::string& cell : column.cells)
       width = std::max(width, width_of(cell));
-    lines[0] += ' ' + padding(column.name, width) + column.name;
+    lines[0] += ' ' + padded(column.name, width, Align::Right);
     for (std::size_t row = 0; row < column.cells.size(); ++row)
-      lines[row + 1] += ' ' + padding(column.cells[row], width) + column.cells[row];
+      lines[row + 1] += ' ' + padded(column.cells[row], width, Align::Right);
   }
   std::string text;
   for (const std::string& line : lines)

@@ -10,14 +10,14 @@
 #include <thread>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/process/guard.h"
 #include "base/rng.h"
+#include "base/text/csv.h"
+#include "base/text/whole_file.h"
 #include "cli/irace/candidate_table.h"
 #include "cli/irace/irace_console.h"
 #include "cli/irace/stored_configurations.h"
 #include "console/counter.h"
-#include "console/whole_file.h"
 #include "coordinator/campaign/method_space.h"
 #include "irace_core/ablation.h"
 #include "irace_core/files/command_line_text.h"

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "console/whole_file.h"
+#include "base/text/whole_file.h"
 #include "irace_core/files/templates.h"
 
 namespace swarmsmith::cli {

@@ -6,6 +6,7 @@
 #include <set>
 #include <variant>
 
+#include "base/text/json.h"
 #include "cli/irace/aligned_table.h"
 #include "cli/irace/irace_console.h"
 #include "console/output.h"
@@ -86,18 +87,6 @@ std::set<std::int64_t> tested(const IraceResult& result) {
   return numbers;
 }
 
-/// JSON has no infinity: a rejection is null.
-std::string tests_json(const IraceResult& result) {
-  std::string text;
-  for (const auto& [key, cost] : result.tests) {
-    const auto seed = result.test_seeds.find(key.second);
-    text += fmt::format(R"({}{{"id":{},"instance":"{}t","seed":{},"cost":{}}})",
-                        text.empty() ? "" : ",", key.first, key.second,
-                        seed == result.test_seeds.end() ? 0 : seed->second, json_number(cost));
-  }
-  return "[" + text + "]";
-}
-
 }  // namespace
 
 Expected<IraceResult> read_irace_result(StoreReader& store, const ParameterSpace& space) {
@@ -137,21 +126,36 @@ std::string testing_text(const IraceResult& result) {
 }
 
 std::string result_json(const IraceResult& result, const std::string& store, std::int64_t seed) {
-  std::string best;
-  for (const IraceResult::Best& each : result.best) {
-    const std::string parameters = result.candidates.parameters(each.number);
-    best +=
-        fmt::format(R"({}{{"id":{},"mean_cost":{},"pairs":{},"parameters":{},"command_line":{}}})",
-                    best.empty() ? "" : ",", each.number, json_number(each.mean), each.pairs,
-                    parameters.empty() ? "{}" : parameters,
-                    json_text(result.candidates.command_line(each.number)));
-  }
-  return fmt::format(
-      R"({{"v":1,"event":"done","store":{},"seed":{},"experiments":{},"reason":{},"best":[{}],)"
-      R"("tests":{}}})"
-      "\n",
-      json_text(store), seed, result.state.used, json_text(result.state.reason), best,
-      tests_json(result));
+  const auto best_json = [&](const IraceResult::Best& best) {
+    const std::string parameters = result.candidates.parameters(best.number);
+    return JsonObject()
+        .add("id", best.number)
+        .add("mean_cost", best.mean)
+        .add("pairs", best.pairs)
+        .add("parameters", JsonPiece{parameters.empty() ? "{}" : parameters})
+        .add("command_line", result.candidates.command_line(best.number));
+  };
+  // JSON has no infinity: a rejection is null.
+  const auto test_json = [&](const auto& test) {
+    const auto& [key, cost] = test;
+    const auto drawn = result.test_seeds.find(key.second);
+    return JsonObject()
+        .add("id", key.first)
+        .add("instance", fmt::format("{}t", key.second))
+        .add("seed", drawn == result.test_seeds.end() ? 0 : drawn->second)
+        .add("cost", cost);
+  };
+  return JsonObject()
+             .add("v", 1)
+             .add("event", "done")
+             .add("store", store)
+             .add("seed", seed)
+             .add("experiments", result.state.used)
+             .add("reason", result.state.reason)
+             .add("best", json_list(result.best, best_json))
+             .add("tests", json_list(result.tests, test_json))
+             .text() +
+         "\n";
 }
 
 }  // namespace swarmsmith::cli

@@ -2,45 +2,19 @@
 #include <optional>
 
 #include "base/overloaded.h"
+#include "base/text/json.h"
 #include "cli/output/progress_text.h"
-#include "console/output.h"
 
 namespace swarmsmith::cli {
 namespace {
 
-/// Puts {"v":1,"event":NAME,...} together.
-class EventText {
- public:
-  explicit EventText(std::string_view event) : text_("{\"v\":1,\"event\":" + json_text(event)) {}
-
-  EventText& add(std::string_view key, std::int64_t value) {
-    return raw(key, std::to_string(value));
-  }
-  EventText& add(std::string_view key, double value) { return raw(key, json_number(value)); }
-  EventText& add(std::string_view key, const std::optional<double>& value) {
-    return raw(key, value ? json_number(*value) : "null");
-  }
-  EventText& add(std::string_view key, bool value) { return raw(key, value ? "true" : "false"); }
-  EventText& add(std::string_view key, std::string_view value) {
-    return raw(key, json_text(value));
-  }
-  template <class Tag>
-  EventText& add(std::string_view key, Id<Tag> id) {
-    return raw(key, id ? json_text(to_string(id)) : "null");
-  }
-  /// `value` is JSON.
-  EventText& raw(std::string_view key, std::string_view value) {
-    text_ += "," + json_text(key) + ":" + std::string(value);
-    return *this;
-  }
-  std::string str() const { return text_ + "}"; }
-
- private:
-  std::string text_;
-};
+/// {"v":1,"event":NAME,...
+JsonObject event_object(std::string_view name) {
+  return JsonObject().add("v", 1).add("event", name);
+}
 
 std::string iteration_json(const IterationRow& row) {
-  return EventText("iteration")
+  return event_object("iteration")
       .add("design", row.design)
       .add("iteration", row.number)
       .add("of", row.of)
@@ -48,11 +22,11 @@ std::string iteration_json(const IterationRow& row) {
       .add("configurations", row.configurations)
       .add("elites", row.elites)
       .add("soft_restart", row.soft_restart)
-      .str();
+      .text();
 }
 
 std::string step_json(const RaceStepRow& row) {
-  return EventText("race_step")
+  return event_object("race_step")
       .add("design", row.design)
       .add("iteration", row.iteration)
       .add("step", row.step)
@@ -69,81 +43,81 @@ std::string step_json(const RaceStepRow& row) {
       .add("kendall_w", row.kendall_w)
       .add("spearman_rho", row.spearman_rho)
       .add("qvar", row.qvar)
-      .str();
+      .text();
 }
 
 std::string elite_json(const EliteRow& row) {
-  return EventText("elite")
+  return event_object("elite")
       .add("design", row.design)
       .add("iteration", row.iteration)
       .add("rank", row.rank)
       .add("candidate", row.candidate)
       .add("mean", row.mean)
       .add("runs", row.runs)
-      .str();
+      .text();
 }
 
 std::string state_json(const DesignStateRow& row) {
-  return EventText("design")
+  return event_object("design")
       .add("design", row.design)
-      .add("state", name_of(row.state))
+      .add("state", word_of(row.state))
       .add("iteration", row.iteration)
       .add("used", row.used)
       .add("best", row.best)
       .add("best_mean", row.best ? std::optional(row.best_mean) : std::nullopt)
       .add("reason", row.reason)
-      .str();
+      .text();
 }
 
 std::string worker_json(const WorkerRow& row) {
-  return EventText("worker")
+  return event_object("worker")
       .add("worker", row.id)
-      .add("state", row.state)
+      .add("state", word_of(row.state))
       .add("host", row.host)
       .add("pid", row.pid)
       .add("slots", row.slots)
       .add("done", row.done)
       .add("failed", row.failed)
-      .str();
+      .text();
 }
 
 std::string failure_json(const EvaluationRow& row) {
   if (row.status == EvaluationStatus::Ok) return "";
-  return EventText("failure")
+  return event_object("failure")
       .add("candidate", row.key.candidate)
       .add("pair", row.key.pair)
       .add("attempt", row.attempt)
       .add("worker", row.worker)
-      .str();
+      .text();
 }
 
 std::string conflict_json(const ConflictRow& row) {
-  return EventText("conflict")
+  return event_object("conflict")
       .add("candidate", row.key.candidate)
       .add("pair", row.key.pair)
       .add("kept_score", row.kept_score)
       .add("other_score", row.other_score)
       .add("worker", row.other_worker)
-      .str();
+      .text();
 }
 
 std::string command_json(const CommandRow& row) {
-  return EventText("command")
+  return event_object("command")
       .add("number", row.number)
-      .add("kind", row.kind)
+      .add("kind", word_of(row.kind))
       .add("design", row.design)
-      .raw("step", row.step ? std::to_string(*row.step) : "null")
-      .raw("budget", row.kind == "extend" ? std::to_string(row.budget) : "null")
+      .add("step", row.step)
+      .add("budget", row.kind == CommandKind::Extend ? std::optional(row.budget) : std::nullopt)
       .add("who", row.who)
-      .str();
+      .text();
 }
 
 std::string event_row_json(const EventRow& row) {
-  return EventText("event")
+  return event_object("event")
       .add("severity", row.severity)
       .add("kind", row.kind)
-      .raw("data", row.text.empty() ? "{}" : row.text)
-      .str();
+      .add("data", JsonPiece{row.text.empty() ? "{}" : row.text})
+      .text();
 }
 
 }  // namespace
@@ -160,7 +134,7 @@ std::string event_json(const Row& row) {
                  [](const ConflictRow& conflict) { return conflict_json(conflict); },
                  [](const EventRow& event) { return event_row_json(event); },
                  [](const CampaignStateRow& campaign) {
-                   return EventText("campaign").add("state", campaign.state).str();
+                   return event_object("campaign").add("state", campaign.state).text();
                  },
                  [&](const CandidateRow& row_) { return no_event(row_); },
                  [&](const FailureRow& row_) { return no_event(row_); },
@@ -181,7 +155,7 @@ std::string of_campaign(std::string event, const std::string& name) {
 
 std::string progress_json(const ProgressModel& model, const LiveStatus& live, std::int64_t left) {
   const bool known = live.evaluations_per_s > 0;
-  return EventText("progress")
+  return event_object("progress")
       .add("designs", model.designs())
       .add("designs_finished", model.finished())
       .add("used", model.used())
@@ -204,7 +178,7 @@ std::string progress_json(const ProgressModel& model, const LiveStatus& live, st
       .add("malformed", live.malformed)
       .add("trouble", live.trouble)
       .add("launcher", live.launcher.name.empty() ? "" : to_text(live.launcher))
-      .str();
+      .text();
 }
 
 }  // namespace swarmsmith::cli

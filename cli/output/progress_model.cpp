@@ -10,7 +10,7 @@ namespace swarmsmith::cli {
 namespace {
 
 bool has_ended(const DesignProgress& progress) {
-  return progress.state == DesignState::Finished || progress.state == DesignState::Stopped;
+  return is_over(progress.state);
 }
 
 /// A design that is over has used what it will use; what its budget had left does not count.
@@ -60,9 +60,10 @@ void ProgressModel::add(const Row& row) {
 
 void ProgressModel::add_command(const CommandRow& row) {
   DesignProgress& progress = designs_.at(row.design);
-  if (row.kind == "pause" || row.kind == "resume") progress.paused = row.kind == "pause";
+  if (is_of_leases(row.kind)) progress.paused = row.kind == CommandKind::Pause;
   // Its row comes twice: when it is asked for, and when it acts.
-  if (row.kind != "extend" || !row.step || !extensions_.insert(row.number).second) return;
+  if (row.kind != CommandKind::Extend || !row.step || !extensions_.insert(row.number).second)
+    return;
   progress.design.budget += row.budget;
 }
 

@@ -122,12 +122,6 @@ std::string score_text(double score) {
   return {buffer, static_cast<std::size_t>(size)};
 }
 
-std::string_view name_of(DesignState state) {
-  static constexpr std::array<std::string_view, 5> kNames = {"waiting", "racing", "testing",
-                                                             "finished", "stopped"};
-  return kNames[static_cast<std::size_t>(state)];
-}
-
 std::string status_line(std::span<const ProgressModel> models, const LiveStatus& live,
                         std::size_t width) {
   std::vector<Piece> pieces = pieces_of(models, live);
@@ -181,7 +175,7 @@ std::string elite_line(const EliteRow& elite, const std::string& mean) {
 
 std::string state_line(const DesignStateRow& state, const DesignProgress& progress,
                        const std::string& best_mean) {
-  std::string text = to_string(state.design) + " " + std::string(name_of(state.state)) + "  " +
+  std::string text = to_string(state.design) + " " + std::string(word_of(state.state)) + "  " +
                      progress.design.mission + " " + progress.design.method + " " +
                      std::to_string(progress.design.repetition);
   // Without a budget there is no race.
@@ -196,8 +190,9 @@ std::string state_line(const DesignStateRow& state, const DesignProgress& progre
 }
 
 std::string command_line(const CommandRow& command) {
-  std::string text = command.kind + " " + to_string(command.design);
-  if (command.kind == "extend") text += " by " + grouped(command.budget) + " experiments";
+  std::string text = std::string(word_of(command.kind)) + " " + to_string(command.design);
+  if (command.kind == CommandKind::Extend)
+    text += " by " + grouped(command.budget) + " experiments";
   if (!command.who.empty()) text += ", asked by " + command.who;
   // Its row comes when it is asked for, and when it acts.
   if (command.step) text += ": done after step " + std::to_string(*command.step);

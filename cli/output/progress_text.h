@@ -41,9 +41,6 @@ std::string command_line(const CommandRow& command);
 /// Something happened that a person may want to know.
 std::string event_line(const EventRow& event);
 
-/// As stores and events call it.
-std::string_view name_of(DesignState state);
-
 /// The row as one event, {"v":1,"event":"race_step",...}; empty for rows that are none
 /// (candidates, pairs, single evaluations, totals).
 std::string event_json(const Row& row);

@@ -4,11 +4,13 @@
 #include <array>
 #include <charconv>
 #include <cstdio>
+#include <iterator>
+#include <ranges>
 #include <string_view>
 #include <utility>
 
-#include "base/csv.h"
-#include "base/shown_text.h"
+#include "base/text/csv.h"
+#include "base/text/text_table.h"
 #include "console/terminal.h"
 
 namespace swarmsmith::cli {
@@ -17,50 +19,34 @@ namespace {
 using Cell = StoreReader::Cell;
 using Type = StoreReader::Cell::Type;
 
-/// Bytes that begin a character, so that UTF-8 is padded right.
-std::size_t width_of(const std::string& text) {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(text, [](char letter) { return (letter & '\xc0') != '\x80'; }));
-}
-
 /// For people six significant digits of a real are enough.
 std::string shown(const Cell& cell) {
   if (cell.type == Type::Null) return "-";
-  if (cell.type != Type::Real) return as_shown(cell.text, Layout::Escaped);
+  if (cell.type != Type::Real) return cell.text;
   char buffer[32];
   const int size =
       std::snprintf(buffer, sizeof buffer, "%.6g", std::strtod(cell.text.c_str(), nullptr));
   return {buffer, static_cast<std::size_t>(size)};
 }
 
-/// Columns are aligned up to here: one long text would widen each row.
-constexpr std::size_t kWidestColumn = 200;
-
 /// Numbers stand on the right of their column.
 bool is_number(const Cell& cell) {
   return cell.type == Type::Integer || cell.type == Type::Real;
 }
 
-/// Pads by characters, not bytes.
-void append_padded(std::string& line, const std::string& text, std::size_t width, bool right) {
-  const std::size_t used = width_of(text);
-  const std::string padding(width > used ? width - used : 0, ' ');
-  line += right ? padding + text : text + padding;
-}
-
 /// Numbers in full precision.
-std::string json_value(const Cell& cell) {
+JsonPiece json_value(const Cell& cell) {
   switch (cell.type) {
     case Type::Null:
-      return "null";
+      return {"null"};
     case Type::Integer:
-      return cell.text;
+      return {cell.text};
     case Type::Real:
-      return json_number(std::strtod(cell.text.c_str(), nullptr));
+      return {json_number(std::strtod(cell.text.c_str(), nullptr))};
     case Type::Text:
       break;
   }
-  return json_text(cell.text);
+  return {json_text(cell.text)};
 }
 
 char letter_of(const std::string& column) {
@@ -135,31 +121,14 @@ void as_costs(Rows& rows) {
 }
 
 std::string rows_as_text(const Rows& rows) {
-  std::vector<std::size_t> widths;
-  std::vector<bool> right;
+  TextTable table{.aligns = {}, .rows = {rows.columns}};
   for (std::size_t column = 0; column < rows.columns.size(); ++column) {
-    widths.push_back(width_of(as_shown(rows.columns[column], Layout::Escaped)));
-    right.push_back(!rows.cells.empty() && is_number(rows.cells.front()[column]));
-    for (const auto& cells : rows.cells) {
-      widths[column] = std::max(widths[column], width_of(shown(cells[column])));
-    }
-    widths[column] = std::min(widths[column], kWidestColumn);
+    const bool right = !rows.cells.empty() && is_number(rows.cells.front()[column]);
+    table.aligns.push_back(right ? Align::Right : Align::Left);
   }
-  std::string text;
-  const auto add_line = [&](const auto& text_of) {
-    std::string line;
-    for (std::size_t column = 0; column < rows.columns.size(); ++column) {
-      if (column > 0) line += "  ";
-      append_padded(line, text_of(column), widths[column], right[column]);
-    }
-    line.erase(line.find_last_not_of(' ') + 1);
-    text += line + "\n";
-  };
-  add_line([&](std::size_t column) { return as_shown(rows.columns[column], Layout::Escaped); });
-  for (const auto& cells : rows.cells) {
-    add_line([&](std::size_t column) { return shown(cells[column]); });
-  }
-  return text;
+  for (const auto& cells : rows.cells)
+    std::ranges::transform(cells, std::back_inserter(table.rows.emplace_back()), shown);
+  return aligned(std::move(table));
 }
 
 std::string cells_as_csv(const std::vector<Cell>& cells) {
@@ -176,22 +145,16 @@ std::string rows_as_csv(const Rows& rows) {
   return text;
 }
 
-std::string row_as_json(const Rows& rows, std::size_t row) {
-  std::string text = "{";
-  for (std::size_t column = 0; column < rows.columns.size(); ++column) {
-    if (column > 0) text += ",";
-    text += json_text(rows.columns[column]) + ":" + json_value(rows.cells[row][column]);
-  }
-  return text + "}";
+JsonObject row_as_json(const Rows& rows, std::size_t row) {
+  JsonObject object;
+  for (std::size_t column = 0; column < rows.columns.size(); ++column)
+    object.add(rows.columns[column], json_value(rows.cells[row][column]));
+  return object;
 }
 
-std::string rows_as_json(const Rows& rows) {
-  std::string text = "[";
-  for (std::size_t row = 0; row < rows.cells.size(); ++row) {
-    if (row > 0) text += ",";
-    text += row_as_json(rows, row);
-  }
-  return text + "]";
+JsonPiece rows_as_json(const Rows& rows) {
+  return json_list(std::views::iota(std::size_t{0}, rows.cells.size()),
+                   [&](std::size_t row) { return row_as_json(rows, row); });
 }
 
 void write_rows(Output& output, const Rows& rows, Form form) {
@@ -202,15 +165,14 @@ void write_rows(Output& output, const Rows& rows, Form form) {
     case Form::Csv:
       write_data(output, rows_as_csv(rows));
       break;
-    case Form::Json: {
-      std::string columns;
-      for (const std::string& column : rows.columns) {
-        columns += (columns.empty() ? "" : ",") + json_text(column);
-      }
-      output.out << "{\"columns\":[" << columns << "],\"rows\":" << rows_as_json(rows)
-                 << ",\"truncated\":" << (rows.truncated ? "true" : "false") << "}\n";
+    case Form::Json:
+      output.out << JsonObject()
+                        .add("columns", rows.columns)
+                        .add("rows", rows_as_json(rows))
+                        .add("truncated", rows.truncated)
+                        .text()
+                 << "\n";
       break;
-    }
   }
   if (rows.truncated) note_truncated(output, rows.cells.size());
 }

@@ -5,12 +5,13 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "base/text/json.h"
 #include "console/output.h"
 #include "storage/store.h"
 
 namespace swarmsmith::cli {
 
-/// How rows are written: aligned columns for people, CSV (base/csv.h), or one JSON object
+/// How rows are written: aligned columns for people, CSV (base/text/csv.h), or one JSON object
 /// {"columns":[...],"rows":[{...}],"truncated":false}.
 enum class Form { Text, Csv, Json };
 
@@ -37,14 +38,14 @@ void as_costs(Rows& rows);
 
 /// Aligned columns below a headline, numbers on the right, six digits of reals.
 std::string rows_as_text(const Rows& rows);
-/// One line of CSV (base/csv.h), with its end.
+/// One line of CSV (base/text/csv.h), with its end.
 std::string cells_as_csv(const std::vector<StoreReader::Cell>& cells);
 /// CSV with a headline; null is empty; full precision.
 std::string rows_as_csv(const Rows& rows);
 /// The "rows" array alone.
-std::string rows_as_json(const Rows& rows);
-/// One row as an object.
-std::string row_as_json(const Rows& rows, std::size_t row);
+JsonPiece rows_as_json(const Rows& rows);
+/// One row, to which keys may be added.
+JsonObject row_as_json(const Rows& rows, std::size_t row);
 
 void write_rows(Output& output, const Rows& rows, Form form);
 /// That there would be more than these.

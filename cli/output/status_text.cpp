@@ -8,17 +8,12 @@
 #include <numeric>
 #include <tuple>
 
+#include "cli/output/number_text.h"
+
 namespace swarmsmith::cli {
 namespace {
 
 constexpr std::size_t kBar = 40;
-
-std::string duration_text(double seconds) {
-  const auto s = std::llround(seconds);
-  if (s >= 86400) return fmt::format("{}d{:02}h", s / 86400, s % 86400 / 3600);
-  if (s >= 3600) return fmt::format("{}h{:02}m", s / 3600, s % 3600 / 60);
-  return s >= 60 ? fmt::format("{}m{:02}s", s / 60, s % 60) : fmt::format("{}s", s);
-}
 
 std::string percent(double part, double whole) {
   return whole > 0 ? fmt::format("{:.0f} %", 100 * part / whole) : "-";
@@ -71,15 +66,14 @@ std::string share_bar(const SlotTimes& times) {
 
 std::string eta(const LiveStatus& status) {
   const double left = seconds_left(status);
-  return left > 0 ? "  ETA " + duration_text(left) : "";
+  return left > 0 ? "  ETA " + duration_text(left, LongestUnit::Day) : "";
 }
 
 void add_head(std::vector<std::string>& lines, const LiveStatus& status) {
   if (status.campaigns) {
     for (const CampaignStatus& one : *status.campaigns) {
-      const auto over = std::ranges::count_if(one.designs, [](const DesignStatus& design) {
-        return design.state == "finished" || design.state == "stopped";
-      });
+      const auto over = std::ranges::count_if(
+          one.designs, [](const DesignStatus& design) { return is_over(design.state); });
       lines.push_back(
           fmt::format("campaign {}  designs {}/{}  experiments {}/{} ({})", one.name, over,
                       one.designs.size(), one.used, one.budget,
@@ -133,13 +127,14 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
   for (const bool racing : {true, false}) {
     for (const CampaignStatus& campaign : *status.campaigns) {
       for (const DesignStatus& one : campaign.designs) {
-        const bool is_racing = one.state == "racing" || one.state == "testing";
+        const bool is_racing =
+            one.state == DesignState::Racing || one.state == DesignState::Testing;
         if (is_racing != racing) continue;
-        lines.push_back(fmt::format("{:<5} {:<8} {:>9}/{:<9} it {:<3} {:<9} {} {}{}",
-                                    "d" + std::to_string(one.id), one.paused ? "paused" : one.state,
-                                    one.used, one.budget, one.iteration,
-                                    one.best > 0 ? fmt::format("{:.4g}", one.best_mean) : "",
-                                    one.mission, one.method, several ? "  " + campaign.name : ""));
+        lines.push_back(fmt::format(
+            "{:<5} {:<8} {:>9}/{:<9} it {:<3} {:<9} {} {}{}", "d" + std::to_string(one.id),
+            one.paused ? "paused" : word_of(one.state), one.used, one.budget, one.iteration,
+            one.best > 0 ? fmt::format("{:.4g}", one.best_mean) : "", one.mission, one.method,
+            several ? "  " + campaign.name : ""));
       }
     }
   }

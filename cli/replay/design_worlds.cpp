@@ -1,10 +1,11 @@
 #include "cli/replay/design_worlds.h"
 
 #include <algorithm>
-#include <cstdlib>
+#include <nlohmann/json.hpp>
 #include <string_view>
 #include <utility>
 
+#include "base/text/csv.h"
 #include "cli/output/query_output.h"
 #include "coordinator/campaign/campaign_file.h"
 
@@ -13,9 +14,9 @@ namespace {
 
 /// From the JSON object of what decides the campaign, whose values are texts.
 int engine_version_in(const std::string& deciding) {
-  constexpr std::string_view kKey = R"("engine.version":")";
-  const std::size_t at = deciding.find(kKey);
-  return at == std::string::npos ? 0 : std::atoi(deciding.c_str() + at + kKey.size());
+  const auto json = nlohmann::json::parse(deciding, nullptr, false);
+  const std::string version = json.is_object() ? json.value("engine.version", "") : "";
+  return static_cast<int>(integer_in(version).value_or(0));
 }
 
 /// A mission whose name is a built-in one's.

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "base/rng.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "cli/arguments/seeds.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/arguments/world_argument.h"

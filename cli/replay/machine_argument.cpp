@@ -1,9 +1,8 @@
 #include "cli/replay/machine_argument.h"
 
-#include <fstream>
 #include <utility>
 
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "cli/output/query_output.h"
 #include "console/terminal.h"
 #include "sim/files/machine_file.h"
@@ -29,13 +28,13 @@ Expected<std::vector<NamedMachine>> machines_of_file(const std::string& file, Ou
   if (is_database(file)) {
     return bad_input("this is a store; name one of its candidates, c812, with --store", file);
   }
-  if (!std::ifstream(file)) {
+  const auto text = read_file(file, "machine");
+  if (!text && text.error().kind == ErrorKind::NotFound) {
     return bad_input(
         "not a machine: expected a text that begins with --nstates, a file, or a candidate such as "
         "c812",
         file);
   }
-  const auto text = read_file(file, "machine");
   if (!text) return Unexpected(text.error());
   auto filed = parse_machine_file(*text, file);
   if (!filed) {

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/arena/arena_panels.h"
-#include "base/csv.h"
+#include "base/text/csv.h"
 #include "cli/output/progress_text.h"
 #include "cli/replay/stored_runs.h"
 #include "sim/control/module.h"

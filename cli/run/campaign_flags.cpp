@@ -1,6 +1,5 @@
 #include "cli/run/campaign_flags.h"
 
-#include <cstdlib>
 #include <filesystem>
 #include <set>
 
@@ -11,11 +10,6 @@
 
 namespace swarmsmith::cli {
 namespace {
-
-std::string store_of_environment() {
-  const char* variable = std::getenv("SWARMSMITH_STORE");
-  return variable == nullptr ? "" : variable;
-}
 
 /// The same file under any of its names.
 std::filesystem::path place_of(const std::filesystem::path& store) {

@@ -6,6 +6,7 @@
 #include <thread>
 #include <variant>
 
+#include "base/text/json.h"
 #include "cli/run/campaign_warnings.h"
 #include "console/output.h"
 #include "coordinator/campaign/campaign_rows.h"

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/shown_text.h"
+#include "base/text/json.h"
 #include "cli/output/mean_interval.h"
 #include "cli/output/progress_text.h"
 #include "cli/output/query_output.h"
@@ -109,9 +110,10 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
   add_tests(*rows, *tests);
   letter_ids(*rows);
   if (output.json) {
-    const std::string event =
-        "{\"v\":1,\"event\":\"done\",\"designs\":" + rows_as_json(*rows) + "}";
-    output.out << of_campaign(event, name) << "\n";
+    JsonObject event;
+    event.add("v", 1).add("event", "done").add("designs", rows_as_json(*rows));
+    if (!name.empty()) event.add("campaign", name);
+    output.out << event.text() << "\n";
   } else {
     if (!name.empty()) output.out << "campaign " << as_shown(name, Layout::Escaped) << "\n";
     write_text(output, *rows, *costs);

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "console/output.h"
+#include "base/text/json.h"
 #include "sim/control/flavour.h"
 
 namespace swarmsmith::cli {

@@ -26,22 +26,13 @@ std::vector<DesignId> unfinished(const std::vector<DesignStateRow>& states,
 /// A row for each design that it changes.
 Expected<std::vector<CommandRow>> pauses(Store& store, const std::vector<CommandRow>& commands,
                                          const CommandRow& command) {
-  std::vector<DesignId> designs = unfinished(store.design_states(), commands);
-  if (command.design) {
-    if (std::ranges::find(designs, command.design) == designs.end()) {
-      return bad_input("it is over; designs that are not: " + listed(designs),
-                       to_string(command.design));
-    }
-    designs = {command.design};
+  const std::vector<DesignId> designs = unfinished(store.design_states(), commands);
+  auto rows = rows_of_pause(command, designs, paused_designs(commands));
+  if (!rows) {
+    return bad_input("it is over; designs that are not: " + listed(designs),
+                     to_string(command.design));
   }
-  const std::set<DesignId> paused = paused_designs(commands);
-  std::vector<CommandRow> rows;
-  for (const DesignId design : designs) {
-    if (paused.contains(design) == (command.kind == "pause")) continue;
-    rows.push_back(command);
-    rows.back().design = design;
-  }
-  return rows;
+  return std::move(*rows);
 }
 
 /// What the design says of the command, as far as it has come.
@@ -86,16 +77,13 @@ Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
                                       const CommandRow& command) {
   const std::vector<CommandRow> commands = store.commands();
   const std::int64_t last = commands.empty() ? 0 : commands.back().number;
-  if (command.kind == "pause" || command.kind == "resume") {
+  if (is_of_leases(command.kind)) {
     const auto rows = pauses(store, commands, command);
     if (!rows) return Unexpected(rows.error());
-    std::vector<DesignId> designs;
-    for (const CommandRow& row : *rows)
-      designs.push_back(row.design);
     if (!rows->empty()) {
       if (auto written = write(store, *rows, last); !written) return Unexpected(written.error());
     }
-    return sentence_of_pause(command.kind, designs);
+    return sentence_of_pause(command.kind, *rows);
   }
   const auto campaign = parse_campaign(known.file, path.string());
   if (!campaign) return Unexpected(campaign.error().front());
@@ -104,7 +92,7 @@ Expected<std::string> command_at_rest(Store& store, const CampaignRow& known,
   }
   if (auto written = write(store, {command}, last); !written) return Unexpected(written.error());
   const std::string name = to_string(command.design);
-  if (command.kind == "cancel") return name + " ends when the campaign is run again";
+  if (command.kind == CommandKind::Cancel) return name + " ends when the campaign is run again";
   return name + " gets " + std::to_string(command.budget) +
          " experiments more when the campaign is run again";
 }

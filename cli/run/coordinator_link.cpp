@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "base/clock.h"
+#include "coordinator/service/messages.h"
 #include "proto/access/address.h"
 #include "proto/socket.h"
 #include "proto/wakeup.h"
@@ -14,18 +15,11 @@ namespace {
 
 constexpr std::chrono::milliseconds kLookAgain{200};
 
-pb::Command::Kind kind_of(const std::string& kind) {
-  if (kind == "pause") return pb::Command::KIND_PAUSE;
-  if (kind == "resume") return pb::Command::KIND_RESUME;
-  if (kind == "cancel") return pb::Command::KIND_CANCEL;
-  return pb::Command::KIND_EXTEND;
-}
-
 std::string frame_of(const std::string& campaign, const CommandRow& command) {
   pb::ToCoordinator message;
   message.set_sequence(1);
   pb::Command& wish = *message.mutable_command();
-  wish.set_kind(kind_of(command.kind));
+  wish.set_kind(message_kind_of(command.kind));
   wish.set_campaign(campaign);
   wish.set_design(command.design.value);
   wish.set_budget(command.budget);

@@ -1,9 +1,9 @@
 #include "cli/run/pool_setup.h"
 
 #include "coordinator/campaign/campaign_rows.h"
+#include "proto/scenario/scenario.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
-#include "sim/messages/scenario_messages.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -3,8 +3,8 @@
 #include <cctype>
 #include <limits>
 
-#include "base/text/file_text.h"
 #include "base/text/table_reader.h"
+#include "base/text/whole_file.h"
 #include "coordinator/campaign/internal/read_method.h"
 #include "coordinator/campaign/internal/read_target.h"
 #include "coordinator/campaign/internal/read_workers.h"

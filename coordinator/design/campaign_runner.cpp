@@ -113,8 +113,7 @@ void CampaignRunner::advance(DesignRunner& design) {
     return;
   }
   if (auto passed = design.take_passed()) passed_.push_back(std::move(*passed));
-  if (design.state() == DesignState::Finished || design.state() == DesignState::Stopped)
-    put_away(design.id());
+  if (is_over(design.state())) put_away(design.id());
 }
 
 void CampaignRunner::put_away(DesignId id) {
@@ -168,7 +167,9 @@ std::vector<DesignId> CampaignRunner::unfinished() const {
 Expected<void> CampaignRunner::carry_out(const CommandRow& command) {
   const DesignId id = command.design;
   if (error_) return Unexpected(*error_);
-  if (!id) return bad_input("it must name a design: each acts at a step of its own", command.kind);
+  if (!id)
+    return bad_input("it must name a design: each acts at a step of its own",
+                     std::string(word_of(command.kind)));
   if (const auto waiting = waiting_.find(id); waiting != waiting_.end())
     return command_waiting(waiting, command);
   if (const auto kept = kept_.find(id); kept != kept_.end()) {
@@ -193,11 +194,11 @@ Expected<void> CampaignRunner::carry_out(const CommandRow& command) {
 Expected<void> CampaignRunner::command_waiting(std::map<DesignId, Waiting>::iterator found,
                                                const CommandRow& command) {
   DesignPlan& plan = found->second.plan;
-  if (auto checked = check_command(plan, command); !checked) return checked;
+  if (auto checked = check_command(plan, plan.commands, command); !checked) return checked;
   plan.commands.push_back(command);
   plan.commands.back().step.reset();
   rows_.emplace_back(plan.commands.back());
-  if (command.kind == "cancel") open(found);
+  if (command.kind == CommandKind::Cancel) open(found);
   open_designs();
   if (error_) return Unexpected(*error_);
   return {};
@@ -219,7 +220,7 @@ Error CampaignRunner::no_such_design(DesignId id) const {
 
 bool waits_for_extension(const std::vector<CommandRow>& commands) {
   return std::ranges::any_of(commands, [](const CommandRow& command) {
-    return command.kind == "extend" && !command.step;
+    return command.kind == CommandKind::Extend && !command.step;
   });
 }
 
@@ -228,7 +229,7 @@ std::vector<DesignId> ended_designs(const std::vector<DesignStateRow>& states,
   std::vector<DesignId> ended;
   for (const DesignStateRow& state : states) {
     const bool goes_on = std::ranges::any_of(commands, [&](const CommandRow& command) {
-      return command.kind == "extend" && command.design == state.design && !command.step;
+      return command.kind == CommandKind::Extend && command.design == state.design && !command.step;
     });
     if (state.state == DesignState::Finished && !goes_on) ended.push_back(state.design);
   }
@@ -238,7 +239,7 @@ std::vector<DesignId> ended_designs(const std::vector<DesignStateRow>& states,
 std::vector<CommandRow> commands_to(DesignId design, const std::vector<CommandRow>& commands) {
   std::vector<CommandRow> found;
   std::ranges::copy_if(commands, std::back_inserter(found), [&](const CommandRow& command) {
-    return command.design == design && (command.kind == "cancel" || command.kind == "extend");
+    return command.design == design && (is_of_race(command.kind));
   });
   return found;
 }
@@ -259,7 +260,7 @@ std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& score
                   : score.key.purpose == Purpose::Evaluator ? &design.evaluator_scores
                                                             : nullptr;
     if (known == nullptr) continue;
-    known->emplace(DesignRunner::packed_key(score.key), score);
+    known->emplace(packed_key(score.key), score);
   }
   for (const StoredStep& step : steps) {
     if (skipped(step.design)) continue;

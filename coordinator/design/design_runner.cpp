@@ -1,37 +1,15 @@
 #include "coordinator/design/design_runner.h"
 
+#include <fmt/format.h>
 #include <algorithm>
-#include <limits>
+#include <set>
 #include <utility>
 
 #include "base/assert.h"
+#include "base/overloaded.h"
 #include "programs/cost.h"
 
 namespace swarmsmith {
-namespace {
-
-constexpr double kRejected = std::numeric_limits<double>::infinity();
-
-StoredScore score_of(const Outcome& outcome, double bound) {
-  return {outcome.key, outcome.status, outcome.score, outcome.state_digest, outcome.time, bound};
-}
-
-}  // namespace
-
-EvaluationRow evaluation_row(const Outcome& outcome, std::int64_t iteration, double bound,
-                             const std::string& source) {
-  return {.key = outcome.key,
-          .iteration = iteration,
-          .status = outcome.status,
-          .score = outcome.score,
-          .state_digest = outcome.state_digest,
-          .time = outcome.time,
-          .bound = bound,
-          .source = source,
-          .wall_us = outcome.wall_us,
-          .worker = outcome.worker,
-          .attempt = outcome.attempt};
-}
 
 Expected<DesignRunner> DesignRunner::start(DesignPlan plan, StoredDesign stored) {
   if (plan.only_test) return DesignRunner(std::move(plan), std::move(stored), std::nullopt);
@@ -41,210 +19,426 @@ Expected<DesignRunner> DesignRunner::start(DesignPlan plan, StoredDesign stored)
 }
 
 DesignRunner::DesignRunner(DesignPlan plan, StoredDesign stored, std::optional<IteratedRace> race)
-    : plan_(std::move(plan)), stored_(std::move(stored)), race_(std::move(race)) {
-  sort_commands();
-}
+    : plan_(std::move(plan)),
+      race_(std::move(race)),
+      commands_(std::exchange(plan_.commands, {})),
+      scores_(std::move(stored)),
+      tests_(plan_),
+      recorder_(plan_.row.id, plan_.source, scores_.unasked().step_digests) {}
 
 Expected<void> DesignRunner::advance(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  if (auto gone_on = go_on(tasks, rows); !gone_on) return gone_on;
-  if (!is_calling_ && !calls_.empty()) {
-    is_calling_ = true;
-    tasks.push_back(std::move(calls_.front()));
-    calls_.pop_front();
-  }
+  const auto gone_on = go_on(tasks);
+  recorder_.move_rows_to(rows);
+  if (!gone_on) return gone_on;
+  if (auto call = calls_.next()) tasks.push_back(std::move(*call));
   return {};
 }
 
-Expected<void> DesignRunner::go_on(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  if (state_ == DesignState::Waiting) {
-    if (auto begun = begin(tasks, rows); !begun) return begun;
+Expected<void> DesignRunner::go_on(std::vector<Task>& tasks) {
+  if (state() == DesignState::Waiting) {
+    if (auto begun = begin(tasks); !begun) return begun;
   }
   for (;;) {
-    if (state_ == DesignState::Racing) {
-      if (auto raced = go_on_racing(tasks, rows); !raced) return raced;
+    if (state() == DesignState::Racing) {
+      if (auto raced = go_on_racing(tasks); !raced) return raced;
     }
     if (fault_) return Unexpected(*fault_);
-    if (state_ != DesignState::Finished) {
-      if (state_ != DesignState::Testing) return {};
-      const bool tested = finish_tests(tasks, rows);
+    if (state() != DesignState::Finished) {
+      if (state() != DesignState::Testing) return {};
+      const bool tested = finish_tests(tasks);
       if (fault_) return Unexpected(*fault_);
       if (!tested) return {};
-      state_ = DesignState::Finished;
-      record_state(rows);
+      recorder_.set_state(DesignState::Finished);
+      recorder_.record_state();
     }
-    const auto extended = extend(tasks, rows);
+    const auto extended = extend(tasks);
     if (!extended) return Unexpected(extended.error());
     if (!*extended) return {};
   }
 }
 
-Expected<void> DesignRunner::begin(std::vector<Task>& tasks, std::vector<Row>& rows) {
+Expected<void> DesignRunner::begin(std::vector<Task>& tasks) {
   if (plan_.only_test) {
-    test_the_given(tasks, rows);
+    test_the_given(tasks);
     return {};
   }
-  state_ = DesignState::Racing;
-  if (auto recorded = record_events(rows); !recorded) return recorded;
-  want_batch(tasks, rows);
+  recorder_.set_state(DesignState::Racing);
+  if (auto taken = take_events(); !taken) return taken;
+  want_batch(tasks);
   return {};
 }
 
-Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks, std::vector<Row>& rows) {
+Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks) {
   for (;;) {
     if (is_cancelled()) {
-      cancel(tasks, rows);
+      cancel(tasks);
       return {};
     }
-    if (!awaited_.empty()) return {};
+    if (!batch_.is_complete()) return {};
     if (fault_) return Unexpected(*fault_);
-    if (race_->finished()) return finish_race(tasks, rows);
-    // Runs before a targetEvaluator are all used; the step comes with its word on them.
-    if (!plan_.scenario.target_evaluator) {
-      for (std::size_t i = 0; i < batch_.size(); ++i)
-        given_.push_back({batch_[i].configuration, batch_[i].pair, scores_[i]});
-    }
-    reported_ = false;
-    race_->tell(measurements_);
-    if (auto recorded = record_events(rows); !recorded) return recorded;
-    // A task may take several batches (capping): nothing of it is unused before its step.
-    if (reported_ || race_->finished()) {
-      record_unused(given_.size(), rows);
-      given_.clear();
-      consumed_ = 0;
-    }
-    want_batch(tasks, rows);
-    drop_void();
+    if (race_->finished()) return finish_race(tasks);
+    if (auto told = tell_race(); !told) return told;
+    want_batch(tasks);
+    ahead_.end_step(race_->alive());
   }
 }
 
-Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks, std::vector<Row>& rows) {
-  const bool goes_on = next_command("extend") != nullptr;
-  if (steps_ < stored_.step_digests.size() && !goes_on) return Unexpected(other_way());
+Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks) {
+  const bool goes_on = commands_.next(CommandKind::Extend, recorder_.steps()) != nullptr;
+  if (recorder_.is_replaying() && !goes_on) return Unexpected(recorder_.other_step());
   if (race_->failure()) {
-    state_ = DesignState::Stopped;
-    reason_ = to_string(*race_->failure());
-    record_state(rows);
+    recorder_.set_state(DesignState::Stopped);
+    recorder_.set_reason(to_string(*race_->failure()));
+    recorder_.record_state();
     return {};
   }
-  state_ = DesignState::Testing;
-  record_state(rows);
-  want_tests(tasks, rows);
+  recorder_.set_state(DesignState::Testing);
+  recorder_.record_state();
+  want_tests(tasks);
   return {};
 }
 
-void DesignRunner::begin_batch(std::vector<Experiment> batch) {
-  batch_ = std::move(batch);
-  measurements_.assign(batch_.size(), {});
-  scores_.assign(batch_.size(), {});
+bool DesignRunner::finish_tests(std::vector<Task>& tasks) {
+  if (!batch_.is_complete()) return false;
+  if (!plan_.scenario.target_evaluator) return true;
+  if (!calls_.are_tests_begun()) want_test_calls(tasks);
+  return batch_.is_complete();
 }
 
-void DesignRunner::want_batch(std::vector<Task>& tasks, std::vector<Row>& rows) {
+Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>& rows) {
+  if (auto checked = check_command(plan_, commands_.all(), command); !checked) return checked;
+  const std::string name = to_string(id());
+  if (state() == DesignState::Stopped)
+    return bad_input("it is stopped: " + recorder_.design().reason, name);
+  if (command.kind == CommandKind::Cancel) {
+    if (state() == DesignState::Finished) return bad_input("it is finished", name);
+    if (state() == DesignState::Testing) {
+      return bad_input("its race is over; only the tests of its elites are left", name);
+    }
+  } else if (state() == DesignState::Finished) {
+    const auto least = race_->least_extension();
+    if (!least) return Unexpected(least.error());
+    if (command.budget < *least) {
+      return bad_input(fmt::format("{} experiments more give no further iteration; the least that "
+                                   "do are {}",
+                                   command.budget, *least),
+                       name);
+    }
+  }
+  commands_.add(command);
+  rows.emplace_back(commands_.all().back());
+  return {};
+}
+
+/// Not in the first estimate of max_time, which has no steps to be named. A new one waits until
+/// what is stored has been played again, and until the calls of a targetEvaluator have given the
+/// step that they are for: those that were made count.
+bool DesignRunner::is_cancelled() const {
+  const CommandRow* command = commands_.next(CommandKind::Cancel, recorder_.steps());
+  if (command == nullptr || recorder_.design().iteration == 0) return false;
+  return command->step || (!batch_.is_complete() && !recorder_.is_replaying() &&
+                           !batch_.experiments().front().is_evaluation);
+}
+
+/// What came of the runs after the last step depends on who was how quick: it counts nowhere.
+void DesignRunner::cancel(std::vector<Task>& tasks) {
+  std::set<EvaluationKey> unused = scores_.discard_race();
+  for (const StoredScore& score : given_)
+    unused.insert(score.key);
+  for (const StoredScore& score : batch_.scores()) {
+    if (score.key.candidate) unused.insert(score.key);
+  }
+  for (const EvaluationKey& key : unused) {
+    if (key.purpose == Purpose::Race) recorder_.record_unused(key);
+  }
+  // Tasks that nobody has taken yet go at once, the others are let go.
+  std::erase_if(tasks, [&](const Task& task) {
+    if (design_of(task.key.candidate) != id()) return false;
+    const bool was_awaited = batch_.let_go(task.key);
+    const bool was_ahead = ahead_.remove(task.key).has_value();
+    return was_awaited || was_ahead;
+  });
+  for (const Experiment& experiment : batch_.let_go())
+    ahead_.add(key_of(Purpose::Race, experiment), experiment.bound);
+  ahead_.drop_all();
+  const CommandRow* command = commands_.next(CommandKind::Cancel, recorder_.steps());
+  recorder_.record_command(commands_.act(*command, recorder_.steps()));
+  recorder_.set_state(DesignState::Stopped);
+  recorder_.set_reason("cancelled");
+  recorder_.record_state();
+}
+
+Expected<bool> DesignRunner::extend(std::vector<Task>& tasks) {
+  const CommandRow* next = commands_.next(CommandKind::Extend, recorder_.steps());
+  if (next == nullptr) return false;
+  if (!race_) {
+    recorder_.record_warning("there is no race to extend");
+    return false;
+  }
+  if (auto extended = race_->extend(next->budget); !extended) {
+    recorder_.record_warning("it cannot be extended: " + to_string(extended.error()));
+    return false;
+  }
+  recorder_.record_command(commands_.act(*next, recorder_.steps()));
+  recorder_.set_state(DesignState::Racing);
+  recorder_.set_reason("");
+  calls_.go_on();
+  if (auto taken = take_events(); !taken) return Unexpected(taken.error());
+  recorder_.record_state();
+  want_batch(tasks);
+  return true;
+}
+
+void DesignRunner::want_batch(std::vector<Task>& tasks) {
   const auto wanted = race_->wanted();
-  begin_batch({wanted.begin(), wanted.end()});
-  for (std::size_t i = 0; i < batch_.size(); ++i) {
-    const Experiment& experiment = batch_[i];
-    const CandidateId id = candidate(experiment.configuration);
+  batch_ = Batch({wanted.begin(), wanted.end()});
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    Experiment experiment = wanted[i];
+    const Purpose purpose = experiment.is_evaluation ? Purpose::Evaluator : Purpose::Race;
     if (experiment.is_evaluation) {
-      Experiment call = experiment;
-      call.pair = experiment.task + test_calls_;
-      if (call.pair > calls_known_) {
-        calls_known_ = call.pair;
-        record_pair(Purpose::Evaluator, call, rows);
-      }
-      want(i, {id, Purpose::Evaluator, call.pair}, call, tasks, rows);
-      continue;
+      experiment.pair = calls_.pair_in_race(experiment.task);
+    } else {
+      pairs_.try_emplace(experiment.pair, experiment);
     }
-    if (experiment.pair > pairs_known_) {
-      pairs_known_ = experiment.pair;
-      record_pair(Purpose::Race, experiment, rows);
-    }
-    want(i, {id, Purpose::Race, experiment.pair}, experiment, tasks, rows);
+    recorder_.record_pair(purpose, experiment);
+    want(i, key_of(purpose, experiment), experiment, tasks);
   }
 }
 
-void DesignRunner::record_pair(Purpose purpose, const Experiment& experiment,
-                               std::vector<Row>& rows) {
-  if (purpose == Purpose::Race) pairs_.emplace(experiment.pair, experiment);
-  record(PairRow{.design = plan_.row.id,
-                 .purpose = purpose,
-                 .number = experiment.pair,
-                 .instance = experiment.instance,
-                 .seed = experiment.seed},
-         rows);
+void DesignRunner::test_the_given(std::vector<Task>& tasks) {
+  std::vector<std::int64_t> numbers;
+  for (const Configuration& configuration : plan_.initial) {
+    numbers.push_back(static_cast<std::int64_t>(numbers.size()) + 1);
+    add_candidate({.id = numbers.back(), .configuration = configuration});
+  }
+  // A machine to compare with stands for its method as a race's winner does.
+  if (!plan_.row.flavour.empty()) recorder_.set_best(numbers.front());
+  tests_.test_all(std::move(numbers));
+  recorder_.set_state(DesignState::Testing);
+  recorder_.record_state();
+  want_tests(tasks);
 }
 
-std::unordered_map<std::uint64_t, StoredScore>& DesignRunner::known(Purpose purpose) {
-  if (purpose == Purpose::Race) return stored_.race_scores;
-  return purpose == Purpose::Test ? stored_.test_scores : stored_.evaluator_scores;
+void DesignRunner::want_tests(std::vector<Task>& tasks) {
+  batch_ = Batch(tests_.begin());
+  for (std::size_t i = 0; i < batch_.experiments().size(); ++i) {
+    const Experiment& run = batch_.experiments()[i];
+    recorder_.record_pair(Purpose::Test, run);
+    want(i, key_of(Purpose::Test, run), run, tasks);
+  }
+}
+
+/// Their tasks follow those of the race.
+void DesignRunner::want_test_calls(std::vector<Task>& tasks) {
+  std::vector<Experiment> calls = tests_.calls();
+  for (Experiment& call : calls)
+    call.pair = call.task = calls_.pair_in_tests(call.pair);
+  calls_.begin_tests(tests_.count());
+  batch_ = Batch(std::move(calls));
+  for (std::size_t i = 0; i < batch_.experiments().size(); ++i) {
+    const Experiment& call = batch_.experiments()[i];
+    recorder_.record_pair(Purpose::Evaluator, call);
+    want(i, key_of(Purpose::Evaluator, call), call, tasks);
+  }
 }
 
 void DesignRunner::want(std::size_t position, const EvaluationKey& key,
-                        const Experiment& experiment, std::vector<Task>& tasks,
-                        std::vector<Row>& rows) {
-  const std::uint64_t packed = packed_key(key);
-  auto score = known(key.purpose).extract(packed);
-  if (score && score.mapped().bound != experiment.bound && !fault_) fault_ = other_way();
-  if (!score && key.purpose == Purpose::Race) score = unused_.extract(packed);
-  if (score) {
-    put(position, score.mapped());
-    if (key.purpose == Purpose::Race) record_use(score.mapped(), rows);
-    if (key.purpose == Purpose::Test) tested_scores_.insert(std::move(score));
+                        const Experiment& experiment, std::vector<Task>& tasks) {
+  const StoredScore* stored = scores_.stored(key);
+  if (stored != nullptr && stored->bound != experiment.bound && !fault_)
+    fault_ = recorder_.other_step();
+  if (const auto score = scores_.take(key)) {
+    batch_.put(position, *score);
+    if (key.purpose == Purpose::Race) recorder_.record_use(*score);
     return;
   }
-  if (key.purpose == Purpose::Test) {
-    if (const auto tested = tested_scores_.find(packed); tested != tested_scores_.end())
-      return put(position, tested->second);
-  }
-  awaited_.emplace(packed, position);
-  if (key.purpose == Purpose::Race && ahead_.erase(packed) > 0) std::erase(dropped_, key);
+  batch_.await(position, key);
+  if (key.purpose == Purpose::Race) ahead_.want(key);
   Task task = task_of(key, experiment);
   if (experiment.is_evaluation) {
-    task.alive = state_ == DesignState::Testing ? testing_ : race_->alive();
-    return calls_.push_back(std::move(task));
+    task.alive = state() == DesignState::Testing ? tests_.tested() : race_->alive();
+    return calls_.add(std::move(task));
   }
   tasks.push_back(std::move(task));
 }
 
+EvaluationKey DesignRunner::key_of(Purpose purpose, const Experiment& experiment) const {
+  return {recorder_.candidate(experiment.configuration), purpose, experiment.pair};
+}
+
+std::optional<Task> DesignRunner::task_of(const EvaluationKey& key) const {
+  const std::int64_t number = number_of(key.candidate);
+  if (number > recorder_.n_candidates()) return std::nullopt;
+  if (key.purpose == Purpose::Test && key.pair <= tests_.count())
+    return task_of(key, tests_.run(number, key.pair));
+  const auto pair = pairs_.find(key.pair);
+  if (key.purpose != Purpose::Race || pair == pairs_.end()) return std::nullopt;
+  Experiment experiment = pair->second;
+  experiment.configuration = number;
+  return task_of(key, experiment);
+}
+
 Task DesignRunner::task_of(const EvaluationKey& key, const Experiment& experiment) const {
-  return {.key = key,
-          .mission = plan_.mission,
-          .method = plan_.method,
-          .instance = experiment.instance,
-          .seed = experiment.seed,
-          .machine = call_of(experiment.configuration),
-          .bound = experiment.bound};
+  return {{.mission = plan_.mission,
+           .method = plan_.method,
+           .instance = experiment.instance,
+           .seed = experiment.seed,
+           .machine = call_of(experiment.configuration),
+           .bound = experiment.bound},
+          key};
 }
 
 /// The last race and the tests take candidates from anywhere.
 std::string DesignRunner::call_of(std::int64_t number) const {
-  const auto known = calls_of_.find(number);
-  return known != calls_of_.end() ? known->second
-                                  : plan_.describe(race_->configuration(number)).call;
-}
-
-void DesignRunner::put(std::size_t position, const StoredScore& score) {
-  scores_[position] = score;
-  measurements_[position] = {
-      score.status == EvaluationStatus::Ok ? to_cost(score.score) : kRejected, score.time};
+  const auto known = call_texts_.find(number);
+  return known != call_texts_.end() ? known->second
+                                    : plan_.describe(race_->configuration(number)).call;
 }
 
 void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
-  const std::uint64_t packed = packed_key(outcome.key);
   if (outcome.key.purpose == Purpose::Race) {
-    if (const auto ahead = ahead_.extract(packed))
-      return keep_ahead(outcome, ahead.mapped().bound, rows);
+    if (const auto bound = ahead_.remove(outcome.key)) {
+      scores_.keep(score_of(outcome, *bound));
+      rows.emplace_back(evaluation_row(outcome, 0, *bound, plan_.source));
+      return;
+    }
   }
-  const auto found = awaited_.find(packed);
-  SWARMSMITH_ASSERT(found != awaited_.end(), "an outcome is told once, and only when wanted");
-  const StoredScore score = score_of(outcome, batch_[found->second].bound);
-  put(found->second, score);
-  if (outcome.key.purpose == Purpose::Test) tested_scores_.emplace(packed, score);
-  awaited_.erase(found);
-  if (outcome.key.purpose == Purpose::Evaluator) is_calling_ = false;
-  // The first estimate of max_time is made before the first iteration, and counts to it.
-  const std::int64_t iteration = std::max<std::int64_t>(1, iteration_);
-  rows.emplace_back(evaluation_row(outcome, outcome.key.purpose == Purpose::Race ? iteration : 0,
+  const StoredScore score = batch_.answer(outcome);
+  if (outcome.key.purpose == Purpose::Test) scores_.keep(score);
+  if (outcome.key.purpose == Purpose::Evaluator) calls_.finish();
+  const bool is_raced = outcome.key.purpose == Purpose::Race;
+  rows.emplace_back(evaluation_row(outcome, is_raced ? recorder_.counted_iteration() : 0,
                                    score.bound, plan_.source));
+}
+
+void DesignRunner::look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks,
+                              std::vector<Row>& rows) {
+  if (state() != DesignState::Racing) return;
+  if (pairs > ahead_.pairs_expected()) ahead_.expect(race_->ahead(pairs), pairs);
+  while (count > 0) {
+    const Experiment* experiment = ahead_.next();
+    if (experiment == nullptr) break;
+    pairs_.try_emplace(experiment->pair, *experiment);
+    recorder_.record_pair(Purpose::Race, *experiment);
+    const EvaluationKey key = key_of(Purpose::Race, *experiment);
+    // What was dropped may still be run by somebody, so that it is not given again either.
+    if (scores_.contains(key) || ahead_.contains(key)) continue;
+    ahead_.add(key, experiment->bound);
+    tasks.push_back(task_of(key, *experiment));
+    tasks.back().ahead = true;
+    --count;
+  }
+  recorder_.move_rows_to(rows);
+}
+
+Expected<void> DesignRunner::tell_race() {
+  // Runs before a targetEvaluator are all used; the step comes with its word on them.
+  if (!plan_.scenario.target_evaluator)
+    given_.insert(given_.end(), batch_.scores().begin(), batch_.scores().end());
+  race_->tell(batch_.measurements());
+  return take_events();
+}
+
+Expected<void> DesignRunner::take_events() {
+  bool is_reported = race_->finished();
+  for (const RaceEvent& event : race_->take_events()) {
+    auto taken = std::visit(Overloaded{[&](const ConfigurationSampled& sampled) -> Expected<void> {
+                                         add_candidate(sampled);
+                                         return {};
+                                       },
+                                       [&](const IterationStarted& started) -> Expected<void> {
+                                         recorder_.record_iteration(started);
+                                         return {};
+                                       },
+                                       [&](const RaceStep& step) {
+                                         is_reported = true;
+                                         std::vector<std::pair<std::int64_t, std::int64_t>> used;
+                                         for (const std::int64_t configuration : step.evaluated)
+                                           used.emplace_back(configuration, step.pair);
+                                         count_used(used);
+                                         return recorder_.record_step(step);
+                                       },
+                                       [&](const IterationEnded& ended) -> Expected<void> {
+                                         end_iteration(ended);
+                                         return {};
+                                       },
+                                       [&](const TimeEstimated& estimated) -> Expected<void> {
+                                         is_reported = true;
+                                         if (!estimated.evaluated.empty())
+                                           count_used(estimated.evaluated);
+                                         recorder_.record_estimate(estimated);
+                                         return {};
+                                       },
+                                       [&](const RaceWarning& warning) -> Expected<void> {
+                                         recorder_.record_warning(warning.text);
+                                         return {};
+                                       },
+                                       [&](const RaceFinished& finished) -> Expected<void> {
+                                         recorder_.set_reason(finished.reason);
+                                         return {};
+                                       }},
+                            event);
+    if (!taken) return taken;
+  }
+  // A task may take several batches (capping): nothing of it is unused before its step.
+  if (!is_reported) return {};
+  for (const StoredScore& score : std::exchange(given_, {}))
+    leave_unused(score);
+  return {};
+}
+
+void DesignRunner::add_candidate(const ConfigurationSampled& sampled) {
+  CandidateText text = plan_.describe(sampled.configuration);
+  call_texts_[sampled.id] = text.call;
+  recorder_.record_candidate(sampled, std::move(text));
+}
+
+/// What a race needs is kept of the elites alone: memory does not grow with the budget.
+void DesignRunner::end_iteration(const IterationEnded& ended) {
+  recorder_.record_end(ended);
+  std::vector<std::int64_t> elites;
+  for (const Elite& elite : ended.elites)
+    elites.push_back(elite.configuration);
+  passed_ =
+      PassedCandidates{.design = id(), .before = recorder_.candidate(recorder_.n_candidates() + 1)};
+  const std::set<std::int64_t> kept(elites.begin(), elites.end());
+  for (const std::int64_t number : kept)
+    passed_->kept.push_back(recorder_.candidate(number));
+  std::erase_if(call_texts_, [&](const auto& known) { return !kept.contains(known.first); });
+  tests_.add_elites(std::move(elites));
+}
+
+void DesignRunner::count_used(const std::vector<std::pair<std::int64_t, std::int64_t>>& used) {
+  if (plan_.scenario.target_evaluator) return count_judged();
+  for (const auto& [configuration, pair] : used) {
+    const EvaluationKey key{recorder_.candidate(configuration), Purpose::Race, pair};
+    while (!given_.empty() && given_.front().key != key) {
+      leave_unused(given_.front());
+      given_.pop_front();
+    }
+    SWARMSMITH_ASSERT(!given_.empty(), "a race uses what it asked for, in that order");
+    const StoredScore score = given_.front();
+    given_.pop_front();
+    if (score.status == EvaluationStatus::Ok)
+      recorder_.record_run(configuration, to_score(to_cost(score.score)));
+  }
+}
+
+/// Costs that replace those of earlier tasks.
+void DesignRunner::count_judged() {
+  for (std::size_t i = 0; i < batch_.experiments().size(); ++i) {
+    const Experiment& experiment = batch_.experiments()[i];
+    const StoredScore& score = batch_.scores()[i];
+    if (!experiment.is_evaluation || score.status != EvaluationStatus::Ok) continue;
+    recorder_.record_judged(experiment.configuration, experiment.pair,
+                            to_score(to_cost(score.score)));
+  }
+}
+
+/// The race may want it again, in a later iteration.
+void DesignRunner::leave_unused(const StoredScore& score) {
+  recorder_.record_unused(score.key);
+  scores_.keep(score);
 }
 
 }  // namespace swarmsmith

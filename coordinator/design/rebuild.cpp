@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "coordinator/design/campaign_runner.h"
+#include "coordinator/design/design_runner.h"
 
 namespace swarmsmith {
 namespace {

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "coordinator/design/design_runner.h"
+#include "coordinator/design/plans.h"
 #include "storage/recover.h"
 
 namespace swarmsmith {

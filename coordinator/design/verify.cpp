@@ -11,6 +11,7 @@
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/campaign_runner.h"
+#include "coordinator/design/design_runner.h"
 #include "coordinator/design/plans.h"
 #include "coordinator/design/verify_real_runs.h"
 #include "storage/answer.h"
@@ -152,8 +153,9 @@ bool is_over(const std::optional<DesignStateRow>& state, const DesignPlan& plan)
   if (!state) return false;
   if (state->state == DesignState::Finished) return true;
   return state->state == DesignState::Stopped &&
-         std::ranges::any_of(plan.commands,
-                             [](const CommandRow& command) { return command.kind == "cancel"; });
+         std::ranges::any_of(plan.commands, [](const CommandRow& command) {
+           return command.kind == CommandKind::Cancel;
+         });
 }
 
 void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,

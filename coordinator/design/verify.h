@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "coordinator/design/design_runner.h"
+#include "coordinator/design/plans.h"
 #include "storage/store.h"
 
 namespace swarmsmith {

@@ -48,7 +48,7 @@ class WorkSource {
   /// Carries out "cancel" or "extend"; its row comes by `take_rows`, with the step at which it
   /// acts. Errors: no such design, or one of which it cannot be asked, with what can.
   virtual Expected<void> carry_out(const CommandRow& command) {
-    return bad_input("this campaign knows no such command", command.kind);
+    return bad_input("this campaign knows no such command", std::string(word_of(command.kind)));
   }
 
   /// The task of an evaluation that was asked for, to be made again; nothing when it cannot be told

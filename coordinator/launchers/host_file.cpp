@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
 #include <optional>
 #include <utility>
 
 #include "base/suggestion.h"
+#include "base/text/whole_file.h"
 
 namespace swarmsmith {
 namespace {
@@ -120,20 +120,9 @@ HostsOrErrors parse_hosts(std::string_view text, const std::filesystem::path& fi
 }
 
 HostsOrErrors read_hosts(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::error_code ignored;
-  if (!stream || std::filesystem::is_directory(file, ignored)) {
-    return tl::unexpected(std::vector<Error>{
-        {ErrorKind::NotFound, "there is no such host file that can be read", file.string()}});
-  }
-  std::string text(kMostBytes + 1, '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(text.size()));
-  text.resize(static_cast<std::size_t>(stream.gcount()));
-  if (text.size() > kMostBytes) {
-    return tl::unexpected(std::vector<Error>{
-        {ErrorKind::BadInput, "the host file is larger than 1 MB", file.string()}});
-  }
-  return parse_hosts(text, file);
+  const auto text = read_file(file, "host", kMostBytes);
+  if (!text) return tl::unexpected(std::vector<Error>{text.error()});
+  return parse_hosts(*text, file);
 }
 
 }  // namespace swarmsmith

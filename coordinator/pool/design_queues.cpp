@@ -42,20 +42,26 @@ void DesignQueues::put(Order& order, std::optional<Order::iterator>& at, bool re
   at = order.insert(std::move(node)).position;
 }
 
+/// Ranks are keys of the orders and must not change while a design is in one: so every change goes
+/// through here, and the orders and totals agree with the designs before and after it.
 template <class Change>
 void DesignQueues::change(Design& design, const Change& make) {
   if (!design.held) {
+    SWARMSMITH_ASSERT(wanted_ >= design.wanted.size() && ahead_ >= design.ahead.size(),
+                      "the totals have every ready task");
     wanted_ -= design.wanted.size();
     ahead_ -= design.ahead.size();
   }
   make();
   const bool is_ready = !design.held && !design.wanted.empty();
-  // Who comes again begins where the others are.
+  // Who comes again begins where the others are: time without tasks is no credit, or a design that
+  // waited at a barrier would then keep all others from their turn.
   if (is_ready && !design.by_had) design.had_us = std::max(design.had_us, had_us_);
   put(by_had_, design.by_had, is_ready, design.had_us, design);
   put(by_outstanding_, design.by_outstanding, is_ready, design.outstanding(), design);
   put(by_ahead_, design.by_ahead, !design.held && !design.ahead.empty(), design.ahead_leased,
       design);
+  SWARMSMITH_ASSERT(by_had_.size() == by_outstanding_.size(), "both orders have the ready designs");
   if (!design.held) {
     wanted_ += design.wanted.size();
     ahead_ += design.ahead.size();
@@ -80,7 +86,8 @@ void DesignQueues::erase(Design& design, bool ahead, Place place) {
   change(design, [&] { (ahead ? design.ahead : design.wanted).erase(place); });
 }
 
-/// Look-ahead is not charged: it takes what nobody else wants.
+/// Look-ahead is not charged: it takes what nobody else wants. `had_us_` is the virtual time of
+/// start-time fair queueing, which never goes back.
 void DesignQueues::on_leased(Design& design, bool ahead, std::uint64_t cost_us) {
   if (!ahead && !by_had_.empty()) had_us_ = std::max(had_us_, by_had_.begin()->rank);
   change(design, [&] {
@@ -148,6 +155,8 @@ bool DesignQueues::is_urgent(const Design& design, std::size_t free,
 
 std::optional<PackedKey> DesignQueues::next(std::size_t free, std::uint64_t allowance_us,
                                             const Fits& fits) const {
+  // Before a barrier every worker of the design's step waits for its last task, so these go first
+  // (orchestration facts, 5 "Order"); charged like all leases, they cannot starve other designs.
   int seen = 0;
   for (auto at = by_outstanding_.begin(); at != by_outstanding_.end() && seen < kNearest;
        ++at, ++seen) {

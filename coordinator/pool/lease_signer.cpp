@@ -50,7 +50,7 @@ std::uint64_t LeaseSigner::sign(PackedKey key, std::int64_t attempt, std::string
   return std::max<std::uint64_t>(word, 1) | mark << (64 - kMarkBits);
 }
 
-std::uint64_t LeaseSigner::mark_of(const Task& task) const {
+std::uint64_t LeaseSigner::mark_of(const EvaluationInput& task) const {
   std::array<unsigned char, 5 * kWord> words;
   put_word(words.data(), static_cast<std::uint64_t>(task.mission) << 32 | task.method);
   put_word(words.data() + kWord, static_cast<std::uint64_t>(task.instance));
@@ -73,7 +73,7 @@ bool LeaseSigner::is_ours(std::uint64_t signature, PackedKey key, std::int64_t a
          signature == sign(key, attempt, principal, signature >> (64 - kMarkBits));
 }
 
-bool LeaseSigner::is_of(std::uint64_t signature, const Task& task) const {
+bool LeaseSigner::is_of(std::uint64_t signature, const EvaluationInput& task) const {
   return signature >> (64 - kMarkBits) == mark_of(task);
 }
 

@@ -28,7 +28,7 @@ class LeaseSigner {
   bool is_ours(std::uint64_t signature, PackedKey key, std::int64_t attempt,
                std::string_view principal) const;
   /// Whether one of ours is of a lease of this very task.
-  bool is_of(std::uint64_t signature, const Task& task) const;
+  bool is_of(std::uint64_t signature, const EvaluationInput& task) const;
   /// A number of 64 uniform bits that nobody can foretell who does not know the secret.
   std::uint64_t draw(PackedKey key) const;
 
@@ -36,7 +36,7 @@ class LeaseSigner {
   std::uint64_t hash(std::span<const unsigned char> bytes) const;
   std::uint64_t sign(PackedKey key, std::int64_t attempt, std::string_view principal,
                      std::uint64_t mark) const;
-  std::uint64_t mark_of(const Task& task) const;
+  std::uint64_t mark_of(const EvaluationInput& task) const;
 
   LeaseSecret secret_;
 };

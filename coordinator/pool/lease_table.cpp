@@ -42,6 +42,7 @@ std::list<PackedKey>& LeaseTable::special_queue(const TaskRecord& record) {
 }
 
 void LeaseTable::enter_queue(TaskRecord& record, bool at_front) {
+  SWARMSMITH_ASSERT(!record.lease, "a task in a queue has no lease");
   const PackedKey key = key_of(record.task);
   const bool ahead = record.task.ahead;
   if (!is_special(record)) {
@@ -54,6 +55,7 @@ void LeaseTable::enter_queue(TaskRecord& record, bool at_front) {
 }
 
 void LeaseTable::leave_queue(TaskRecord& record) {
+  SWARMSMITH_ASSERT(!record.lease, "a task in a queue has no lease");
   if (!is_special(record)) {
     queues_.erase(*record.design, record.task.ahead, record.place);
   } else {
@@ -71,12 +73,14 @@ void LeaseTable::remove(PackedKey key, WorkerNumber by) {
     for (const std::optional<Lease>* lease : {&record.second, &record.lease}) {
       if (!*lease) continue;
       end(record, **lease);
+      // The other worker runs it still: its slot is not free before it says so.
       if ((*lease)->worker != by) loads_.linger((*lease)->worker, key, (*lease)->renewed);
     }
     if (record.second) --copies_;
     by_age_.erase(record.place);
     queues_.on_unleased(*record.design, record.task.ahead);
     if (!record.task.ahead) --wanted_leased_;
+    SWARMSMITH_ASSERT(wanted_leased_ <= leased(), "leases of what is wanted are counted");
   }
   records_.erase(at);
 }
@@ -157,7 +161,8 @@ Lease LeaseTable::leased_to(TaskRecord& record, WorkerNumber worker, TimePoint n
 
 void LeaseTable::grant(TaskRecord& record, WorkerNumber worker, TimePoint now,
                        std::uint64_t cost_us) {
-  SWARMSMITH_ASSERT(!record.lease, "a task that is granted has no lease");
+  SWARMSMITH_ASSERT(!record.lease && !record.parked,
+                    "a task that is granted has no lease, and is not before the referee");
   queues_.on_leased(*record.design, record.task.ahead, cost_us);
   leave_queue(record);
   if (record.attempts == 0 && !record.task.ahead) {
@@ -187,6 +192,7 @@ bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker, bool at_front)
   end(record, *lease);
   if (record.second) {
     if (lease == &*record.lease) {
+      // As the youngest of all: the copy has had its time only since it was made.
       record.lease = std::move(record.second);
       by_age_.splice(by_age_.end(), by_age_, record.place);
     }
@@ -199,6 +205,8 @@ bool LeaseTable::requeue(TaskRecord& record, WorkerNumber worker, bool at_front)
   by_age_.erase(record.place);
   queues_.on_unleased(*record.design, record.task.ahead);
   if (!record.task.ahead) --wanted_leased_;
+  SWARMSMITH_ASSERT(wanted_leased_ <= leased(), "leases of what is wanted are counted");
+  // At the front as a rule: of all that its race waits for it was asked for first.
   enter_queue(record, at_front);
   return true;
 }

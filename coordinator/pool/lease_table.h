@@ -64,6 +64,12 @@ struct TaskRecord {
 /// (`grant`, `copy`, `requeue`), at least once to somebody. Queues: those that may only run alone;
 /// those that a race waits for, by design; look-ahead, by design; look-ahead that waits until it is
 /// wanted, since it may not run beside others or would end its campaign; and what is parked.
+///
+/// A record is in one place at any time: in one queue while it has no lease, in the order of age
+/// while it has one. So every task that is in the table is offered again until it leaves, however
+/// often workers are lost (orchestration facts, 5 "Leases"), and none is in two workers' hands but
+/// by `copy`. A lease only says who was given the task: any result is welcome, since evaluations
+/// are pure, so nothing has to be taken back from a worker before the task goes to another.
 class LeaseTable {
  public:
   /// At the end of its queue. False when the key is there already. `now` is for the meters.

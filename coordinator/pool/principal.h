@@ -26,7 +26,7 @@ struct Principal {
   /// A result of a worker that is not known yet, which waits for the referee's word on others.
   struct Waiting {
     WorkerNumber worker = 0;
-    WorkerResult result;
+    Result result;
   };
 
   /// Before the referee; with so many it is given nothing more.

@@ -10,7 +10,7 @@
 #include "coordinator/design/task.h"
 #include "coordinator/pool/lease_signer.h"
 #include "coordinator/pool/task_key.h"
-#include "programs/failure_details.h"
+#include "proto/result.h"
 #include "proto/socket.h"
 
 namespace swarmsmith {
@@ -41,20 +41,6 @@ struct WorkerHello {
   bool local = false;          ///< this process started it
   bool same_scenario = false;  ///< whether `holds` are of this campaign
   std::vector<Hold> holds;
-};
-
-/// One evaluation as a worker reports it: a score, or the reason why there is none.
-struct WorkerResult {
-  PackedKey key = 0;
-  std::int64_t attempt = 0;
-  double score = 0;
-  std::uint64_t state_digest = 0;
-  std::int64_t wall_us = 0;
-  bool rejected = false;
-  double time = 0;
-  std::string failure;
-  FailureDetails details;
-  std::uint64_t signature = 0;  ///< of the lease under which it ran
 };
 
 /// The referee's word: what an evaluation gives in a process of the coordinator's own.
@@ -105,15 +91,9 @@ struct SendReject {
   std::string sentence;
 };
 struct SendTasks {
-  struct Leased {
-    Task task;
-    std::int64_t attempt = 0;
-    std::uint64_t signature = 0;
-    bool alone = false;  ///< the worker says when it begins
-  };
   PeerId peer = 0;
   std::uint64_t incarnation = 0;
-  std::vector<Leased> tasks;
+  std::vector<LeasedTask> tasks;
   std::size_t bytes = 0;  ///< about, on the wire
 };
 /// The worker may forget these results: there is nothing to write for them.

@@ -1,9 +1,11 @@
-// The scheduler's view of who can be believed: authority over a task, trials of newcomers, audits,
-// strikes, quarantine; attempts for the record.
+// Who can be believed: authority over a task, trials of newcomers, audits, strikes, quarantine.
+
+#include "coordinator/pool/trust.h"
 
 #include <algorithm>
+#include <utility>
 
-#include "coordinator/pool/scheduler.h"
+#include "base/assert.h"
 #include "storage/answer.h"
 
 namespace swarmsmith {
@@ -26,66 +28,92 @@ constexpr double kMostBacklogUs = 2e6;
 
 }  // namespace
 
-void Scheduler::note_attempt(PackedKey key, const Lease& lease, const char* outcome,
-                             TimePoint now) {
-  const auto held = std::chrono::duration_cast<std::chrono::milliseconds>(now - lease.granted);
-  actions_.emplace_back(AttemptEnded{campaign_of(key),
-                                     {.key = unpack(key),
-                                      .attempt = lease.attempt,
-                                      .worker = lease.worker,
-                                      .held_ms = held.count(),
-                                      .outcome = outcome}});
+Trust::Trust(TaskBook& book, WorkerRegistry& workers)
+    : book_(&book), workers_(&workers), signer_(book.options.lease_secret) {
+  for (const std::string& name : book.options.quarantined)
+    principals_.at(name).quarantined = true;
 }
 
-void Scheduler::note_attempt(TaskRecord& record, WorkerNumber worker, const char* outcome,
-                             TimePoint now) {
-  note_attempt(key_of(record.task), *record.lease_of(worker), outcome, now);
+std::deque<StoredWord> Trust::know(std::uint32_t campaign, std::span<const StoredScore> known,
+                                   const StoredTrust& trust) {
+  const std::int64_t every =
+      book_->options.evaluates_programs ? 0 : book_->options.campaigns[campaign].audit_every;
+  std::deque<StoredWord> unaudited;
+  for (const StoredScore& score : known) {
+    const PackedKey key = pack(score.key, campaign);
+    book_->done.insert(key, score.status, score.score, score.state_digest);
+    const auto name = trust.principals.find(score.worker);
+    if (name == trust.principals.end() || trust.audited.contains(score.key)) continue;
+    ++principals_.at(name->second).unchecked_of(campaign);
+    if (every == 0 || score.status != EvaluationStatus::Ok) continue;
+    if (!is_drawn(key, 1.0 / static_cast<double>(every))) continue;
+    unaudited.push_back({score.key,
+                         {.what = Said::What::Score,
+                          .worker = static_cast<WorkerNumber>(score.worker),
+                          .principal = name->second,
+                          .score = score.score,
+                          .state_digest = score.state_digest,
+                          .taken = true}});
+  }
+  return unaudited;
 }
 
-// --- authority ---
-
-bool Scheduler::may_answer(const WorkerEntry& entry, const WorkerResult& result) {
-  const bool lingered = leases_.loads().settle(entry.number, result.key);
-  TaskRecord* record = leases_.find(result.key);
-  const bool is_signed = result.signature != 0;  // by workers since minor version 2
-  if (is_signed && record != nullptr && !signer_.is_of(result.signature, record->task))
+/// A lease of this process, or a signature of one: what was asked for can be told from what was
+/// guessed without remembering every lease that ever was, across a crash too.
+bool Trust::may_answer(const WorkerEntry& entry, const Result& result) {
+  const bool lingered = book_->leases.loads().settle(entry.number, result.key);
+  TaskRecord* record = book_->leases.find(result.key);
+  if (result.signature != 0 && record != nullptr && !signer_.is_of(result.signature, record->task))
     return false;
   if (lingered || (record != nullptr && record->lease_of(entry.number) != nullptr)) return true;
   return signer_.is_ours(result.signature, result.key, result.attempt, entry.principal->name);
 }
 
-bool Scheduler::is_proven(const Principal& principal) const {
+bool Trust::is_proven(const Principal& principal) const {
   return principal.local || principal.taken > 0;
 }
 
-bool Scheduler::is_on_trial(const Principal& principal, std::uint32_t campaign) const {
-  const bool audits = !options_.evaluates_programs && options_.campaigns[campaign].audit_every > 0;
+bool Trust::is_on_trial(const Principal& principal, std::uint32_t campaign) const {
+  const bool audits =
+      !book_->options.evaluates_programs && book_->options.campaigns[campaign].audit_every > 0;
   return audits && !principal.local && principal.confirmed < kTrial;
 }
 
-// --- trials and audits ---
+void Trust::on_score(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
+  const bool is_claim = result.rejected && !book_->options.evaluates_programs;
+  if (is_claim) {
+    // Nothing will be written for its word.
+    book_->act(SendAcknowledged{entry.peer, entry.hello.incarnation, {result.key}});
+    return claim(entry, record, Said::What::NoScore);
+  }
+  if (is_on_trial(*entry.principal, record.task.campaign)) {
+    return hold_back(entry, record, result, now);
+  }
+  take(entry, record, result, now);
+}
 
-/// The result waits: for the referee's word on it, or on others of its principal.
-void Scheduler::hold_back(WorkerEntry& entry, TaskRecord& record, const WorkerResult& result,
-                          TimePoint now) {
+/// The result waits: for the referee's word on it, or on others of its principal. Meanwhile the
+/// task is parked: another stranger's result would have to wait as well, and who is proven is not
+/// needed for what is being ruled on.
+void Trust::hold_back(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
   Principal& principal = *entry.principal;
   const Case* known = cases_.find(result.key);
   const bool is_said = known != nullptr && std::ranges::any_of(known->said, [&](const Said& said) {
                          return said.principal == principal.name;
                        });
-  if (record.lease_of(entry.number) != nullptr) leases_.requeue(record, entry.number);
-  if (!record.lease) leases_.park(record);
+  if (record.lease_of(entry.number) != nullptr) book_->leases.requeue(record, entry.number);
+  if (!record.lease) book_->leases.park(record);
   if (is_said) return;
   principal.waiting.try_emplace(result.key, Principal::Waiting{entry.number, result});
   try_waiting(principal, now);
 }
 
 /// Brings as many of its results before the referee as its trial takes.
-void Scheduler::try_waiting(Principal& principal, TimePoint now) {
+void Trust::try_waiting(Principal& principal, TimePoint now) {
   while (!principal.waiting.empty() && principal.confirmed + principal.on_trial < kTrial) {
     const Principal::Waiting one =
         std::move(principal.waiting.extract(principal.waiting.begin()).mapped());
-    const TaskRecord* record = leases_.find(one.result.key);
+    const TaskRecord* record = book_->leases.find(one.result.key);
     // Somebody else was faster: it is compared when it is sent again.
     if (record == nullptr) continue;
     ++principal.on_trial;
@@ -105,29 +133,30 @@ void Scheduler::try_waiting(Principal& principal, TimePoint now) {
 }
 
 /// It is known now: what waited counts.
-void Scheduler::take_waiting(Principal& principal, TimePoint now) {
+void Trust::take_waiting(Principal& principal, TimePoint now) {
   for (const auto& [key, one] : std::exchange(principal.waiting, {})) {
-    TaskRecord* record = leases_.find(key);
-    WorkerEntry* entry = workers_.of_number(one.worker);
+    TaskRecord* record = book_->leases.find(key);
+    WorkerEntry* entry = workers_->of_number(one.worker);
     if (record == nullptr) continue;
     if (entry != nullptr) {
       take(*entry, *record, one.result, now);
     } else {
-      leases_.unpark(*record);
+      book_->leases.unpark(*record);
     }
   }
   update_room(principal);
 }
 
-/// A later process draws the same.
-bool Scheduler::is_drawn(PackedKey key, double share) const {
+/// A later process draws the same, since only the secret and the key count: what this one drew and
+/// could not make again before it ended, the next one finds. Workers cannot tell which it is.
+bool Trust::is_drawn(PackedKey key, double share) const {
   return static_cast<double>(signer_.draw(key)) < share * 0x1p64;
 }
 
-void Scheduler::audit(const TaskRecord& record, const WorkerEntry& entry,
-                      const WorkerResult& result) {
-  const std::int64_t every = policy_of(record).audit_every;
-  if (every == 0 || options_.evaluates_programs || result.rejected) return;
+void Trust::audit(const TaskRecord& record, const WorkerEntry& entry, const Result& result) {
+  const std::int64_t every = book_->policy_of(record).audit_every;
+  if (every == 0 || book_->options.evaluates_programs || result.rejected) return;
+  // Where somebody's word is before the referee already, this one costs nothing more.
   const bool has_word = cases_.knows(result.key);
   const double backlog_us = referee_us_ * static_cast<double>(cases_.size());
   if (!has_word && cases_.audits() > 0 && backlog_us > kMostBacklogUs) return;
@@ -146,17 +175,16 @@ void Scheduler::audit(const TaskRecord& record, const WorkerEntry& entry,
               true);
 }
 
-// --- strikes and quarantine ---
-
-void Scheduler::update_room(Principal& principal) {
+void Trust::update_room(Principal& principal) {
   for (const WorkerNumber number : principal.workers) {
-    WorkerEntry& entry = *workers_.of_number(number);
+    WorkerEntry& entry = *workers_->of_number(number);
     set_credit(entry, entry.credit);
   }
 }
 
-void Scheduler::go_astray(Principal& principal, std::size_t leases, TimePoint now) {
+void Trust::go_astray(Principal& principal, std::size_t leases, TimePoint now) {
   if (leases == 0 || is_proven(principal)) return;
+  // Who is alone does not wait: there is nobody whose turn it takes.
   principal.astray += static_cast<std::int64_t>(leases);
   if (principal.astray < kMostAstray || proven_present() == 0) return;
   principal.waits_until =
@@ -164,72 +192,132 @@ void Scheduler::go_astray(Principal& principal, std::size_t leases, TimePoint no
   update_room(principal);
 }
 
-void Scheduler::set_credit(WorkerEntry& entry, std::uint32_t credit) {
-  entry.credit = std::min(credit, options_.max_credit);
+void Trust::set_credit(WorkerEntry& entry, std::uint32_t credit) {
+  entry.credit = std::min(credit, book_->options.max_credit);
   entry.asked |= credit > 0;
   const Principal& principal = *entry.principal;
   std::size_t most = entry.credit;
   if (principal.claims >= Principal::kMostClaims) most = 0;
-  const bool is_new = !options_.evaluates_programs && !is_proven(principal);
-  if (is_new) most = std::min(most, latest_ < principal.waits_until ? 0 : kRoomOnTrial);
+  const bool is_new = !book_->options.evaluates_programs && !is_proven(principal);
+  if (is_new) most = std::min(most, book_->now < principal.waits_until ? 0 : kRoomOnTrial);
   const auto slots = static_cast<std::size_t>(entry.usable() ? entry.hello.slots : 0);
-  leases_.loads().set_capacity(entry.number, slots, slots > 0 ? most : 0);
+  book_->leases.loads().set_capacity(entry.number, slots, slots > 0 ? most : 0);
 }
 
-void Scheduler::strike(Principal& principal, TimePoint now) {
-  if (options_.quarantine_after == 0) return;
+void Trust::strike(Principal& principal, TimePoint now) {
+  if (book_->options.quarantine_after == 0) return;
+  // A share, and not only a number: a worker of a long campaign fails now and then (orchestration
+  // facts, 5 "Poison workers").
   ++principal.strikes;
   const std::int64_t tried = principal.taken + principal.strikes;
   const bool often =
-      principal.strikes >= options_.quarantine_after && principal.strikes * kOneOf >= tried;
+      principal.strikes >= book_->options.quarantine_after && principal.strikes * kOneOf >= tried;
   if (often) quarantine(principal, "fails at evaluations that succeed elsewhere", now);
 }
 
 /// Its word is wrong. What it said before and nobody made again cannot be believed either.
-void Scheduler::convict(Principal& principal, const std::string& evidence, TimePoint now) {
+void Trust::convict(Principal& principal, const std::string& evidence, TimePoint now) {
   if (principal.quarantined) return;
   quarantine(principal, evidence, now);
   for (std::uint32_t campaign = 0; campaign < principal.unchecked.size(); ++campaign) {
     const std::int64_t unchecked = principal.unchecked[campaign];
-    if (unchecked == 0 || stopped_.contains(campaign)) continue;
-    stop(campaign,
-         "scores in the store are not to be believed: " + evidence + ", and " +
-             std::to_string(unchecked) + " results of " + principal.name +
-             " are stored that nobody made again. Run the campaign again into a new store, without "
-             "the workers of " +
-             principal.name,
-         true);
+    if (unchecked == 0 || book_->is_stopped(campaign)) continue;
+    book_->stop(
+        campaign,
+        "scores in the store are not to be believed: " + evidence + ", and " +
+            std::to_string(unchecked) + " results of " + principal.name +
+            " are stored that nobody made again. Run the campaign again into a new store, without "
+            "the workers of " +
+            principal.name,
+        true);
   }
 }
 
-void Scheduler::quarantine(Principal& principal, const std::string& reason, TimePoint now) {
+void Trust::quarantine(Principal& principal, const std::string& reason, TimePoint now) {
   if (principal.quarantined) return;
   principal.quarantined = true;
-  ++counters_.quarantined;
-  note("error", "workers in quarantine",
-       {{"who", principal.name},
-        {"reason", reason},
-        {"results in the store", principal.taken},
-        {"made again", principal.confirmed}});
+  ++book_->counters.quarantined;
+  book_->note("error", "workers in quarantine",
+              {{"who", principal.name},
+               {"reason", reason},
+               {"results in the store", principal.taken},
+               {"made again", principal.confirmed}});
   for (const WorkerNumber number : principal.workers) {
-    WorkerEntry& entry = *workers_.of_number(number);
-    const std::list<PackedKey>& leases = leases_.leases_of(number);
+    WorkerEntry& entry = *workers_->of_number(number);
+    const std::list<PackedKey>& leases = book_->leases.leases_of(number);
     const std::vector<PackedKey> keys(leases.rbegin(), leases.rend());
     for (const PackedKey key : keys) {
-      TaskRecord& record = *leases_.find(key);
-      note_attempt(record, number, "returned", now);
-      if (leases_.requeue(record, number)) ++counters_.requeued;
+      TaskRecord& record = *book_->leases.find(key);
+      book_->note_attempt(record, number, AttemptOutcome::Returned, now);
+      if (book_->leases.requeue(record, number)) ++book_->counters.requeued;
     }
-    workers_.quarantine(entry);
+    SWARMSMITH_ASSERT(book_->leases.leases_of(number).empty(),
+                      "a worker in quarantine holds no leases");
+    workers_->quarantine(entry);
     set_credit(entry, 0);
-    actions_.emplace_back(WorkerChanged{row_of(entry, "quarantined")});
+    book_->act(WorkerChanged{row_of(entry, WorkerState::Quarantined)});
   }
   // What it said, and was not taken yet, is as if it had not been said.
   for (const auto& [key, one] : std::exchange(principal.waiting, {})) {
-    TaskRecord* record = leases_.find(key);
-    if (record != nullptr && !cases_.knows(key)) leases_.unpark(*record);
+    TaskRecord* record = book_->leases.find(key);
+    if (record != nullptr && !cases_.knows(key)) book_->leases.unpark(*record);
   }
-  if (workers_.trusted() == 0) note("error", "no worker left that is trusted", {});
+  if (workers_->trusted() == 0) book_->note("error", "no worker left that is trusted", {});
+}
+
+void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {
+  SWARMSMITH_ASSERT(!entry.quarantined, "nothing is taken from a worker in quarantine");
+  const std::uint32_t campaign = record.task.campaign;
+  ++entry.done;
+  audit(record, entry, result);
+  Principal& principal = *entry.principal;
+  ++principal.unchecked_of(campaign);
+  if (++principal.taken == 1) update_room(principal);
+  const bool failed_elsewhere =
+      book_->options.evaluates_programs && record.avoid != 0 && record.avoid != entry.number;
+  if (failed_elsewhere) {
+    if (const WorkerEntry* other = workers_->of_number(record.avoid))
+      strike(*other->principal, now);
+  }
+  book_->learn(campaign, result.wall_us);
+  book_->note_second_copy(record, entry.number, now);
+  const Lease* lease = record.lease_of(entry.number);
+  CampaignMeters& meters = book_->leases.meters(campaign);
+  meters.evaluation.observe(std::chrono::microseconds(std::max<std::int64_t>(result.wall_us, 0)));
+  if (lease != nullptr) meters.round_trip.observe(now - lease->granted);
+  book_->accept(
+      {.key = record.task.key,
+       .campaign = campaign,
+       .status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok,
+       .score = result.rejected ? 0 : result.score,
+       .state_digest = result.state_digest,
+       .wall_us = result.wall_us,
+       .worker = entry.number,
+       .attempt = lease != nullptr ? lease->attempt : std::max<std::int64_t>(record.attempts, 1),
+       .time = result.time});
+}
+
+/// Principals that have proved themselves and are there.
+std::size_t Trust::proven_present() const {
+  return static_cast<std::size_t>(std::ranges::count_if(principals_.all(), [&](const auto& each) {
+    return is_proven(each.second) && std::ranges::any_of(each.second.workers, [&](auto number) {
+             const auto at = workers_->all().find(number);
+             return at != workers_->all().end() && at->second.usable();
+           });
+  }));
+}
+
+void Trust::forget(std::uint32_t campaign) {
+  const auto is_of = [&](PackedKey key) { return campaign_of(key) == campaign; };
+  std::erase_if(disputed_, [&](const auto& each) { return is_of(each.first); });
+  for (const Case& one : cases_.forget(campaign)) {
+    for (const Said& said : one.said)
+      let_go(said);
+  }
+  for (auto& [name, principal] : principals_.all()) {
+    std::erase_if(principal.waiting, [&](const auto& each) { return is_of(each.first); });
+    try_waiting(principal, book_->now);
+  }
 }
 
 }  // namespace swarmsmith

@@ -25,6 +25,7 @@ void WorkerLoads::change(WorkerNumber worker, const Change& make) {
   const std::size_t room = load.room();
   const std::size_t idle = load.idle();
   make(load);
+  SWARMSMITH_ASSERT(load.ahead <= load.leases.size(), "look-ahead is among the leases");
   room_ += load.room() - room;
   idle_ += load.idle() - idle;
   put(with_room_, worker, room > 0, load.room() > 0);
@@ -53,6 +54,7 @@ WorkerLoads::Place WorkerLoads::lease(WorkerNumber worker, PackedKey key, bool a
 void WorkerLoads::end(WorkerNumber worker, Place place, bool ahead) {
   change(worker, [&](WorkerLoad& load) {
     load.leases.erase(place);
+    SWARMSMITH_ASSERT(!ahead || load.ahead > 0, "a lease that ends is what it was");
     if (ahead) --load.ahead;
   });
 }

@@ -103,14 +103,14 @@ void WorkerRegistry::forget_old(TimePoint now) {
   }
 }
 
-WorkerRow row_of(const WorkerEntry& entry, const std::string& state) {
+WorkerRow row_of(const WorkerEntry& entry, WorkerState state) {
   return {.id = entry.number,
           .identity = hexadecimal(entry.hello.identity),
           .host = entry.hello.host,
           .pid = entry.hello.pid,
           .slots = entry.hello.slots,
           .build = entry.hello.build,
-          .state = entry.quarantined ? "quarantined" : state,
+          .state = entry.quarantined ? WorkerState::Quarantined : state,
           .done = entry.done,
           .failed = entry.failed,
           .job = entry.hello.job,

@@ -89,8 +89,8 @@ class WorkerRegistry {
   std::size_t quarantined_ = 0;  ///< connected ones
 };
 
-/// The row that says how a worker is: "connected", "lost", "left" or "refused"; of one in
-/// quarantine always "quarantined", so that a later process knows it.
-WorkerRow row_of(const WorkerEntry& entry, const std::string& state);
+/// The row that says how a worker is; of one in quarantine always that, so that a later process
+/// knows it.
+WorkerRow row_of(const WorkerEntry& entry, WorkerState state);
 
 }  // namespace swarmsmith

@@ -6,8 +6,8 @@
 #include <set>
 #include <utility>
 
-#include "base/csv.h"
 #include "base/hash.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

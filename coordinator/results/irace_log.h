@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "coordinator/results/csv_table.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 

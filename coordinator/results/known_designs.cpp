@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "coordinator/results/csv_table.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "base/expected.h"
-#include "coordinator/results/csv_table.h"
+#include "base/text/csv.h"
 #include "coordinator/results/import_words.h"
 #include "coordinator/results/known_designs.h"
 #include "sim/control/flavour.h"

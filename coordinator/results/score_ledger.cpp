@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "base/assert.h"
-#include "coordinator/results/csv_table.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

@@ -10,10 +10,10 @@
 #include <utility>
 
 #include "base/overloaded.h"
+#include "base/text/csv.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/irace_folder.h"
 #include "coordinator/campaign/method_space.h"
-#include "coordinator/results/csv_table.h"
 #include "irace_core/files/expression_text.h"
 #include "irace_core/files/number_text.h"
 #include "irace_core/files/scenario_text.h"

@@ -63,8 +63,8 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
           [&](const SendReject& a) { send(a.peer, frame_of(a)); },
           [&](const SendTasks& a) {
             std::vector<PackedKey> leases;
-            for (const SendTasks::Leased& leased : a.tasks)
-              leases.push_back(key_of(leased.task));
+            for (const LeasedTask& task : a.tasks)
+              leases.push_back(task.key);
             actions_.emplace_back(
                 SendFrame{a.peer, frame_of(a, facts_, arena_), std::move(leases)});
             arena_.Reset();

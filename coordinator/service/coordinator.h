@@ -230,7 +230,7 @@ class Coordinator {
   std::map<std::string, std::uint64_t> malformed_;
   std::uint64_t malformed_count_ = 0;
   google::protobuf::Arena arena_;
-  std::vector<WorkerResult> results_;   ///< reused
+  std::vector<Result> results_;         ///< reused
   std::vector<RunningReport> running_;  ///< reused
 };
 

@@ -7,18 +7,6 @@
 #include "coordinator/service/paused_designs.h"
 
 namespace swarmsmith {
-namespace {
-
-/// As rows call it; empty when this version does not know it.
-std::string kind_of(pb::Command::Kind kind) {
-  if (kind == pb::Command::KIND_PAUSE) return "pause";
-  if (kind == pb::Command::KIND_RESUME) return "resume";
-  if (kind == pb::Command::KIND_CANCEL) return "cancel";
-  if (kind == pb::Command::KIND_EXTEND) return "extend";
-  return "";
-}
-
-}  // namespace
 
 void Coordinator::on_command(const Peer& peer, const pb::Command& command, TimePoint now) {
   if (!budgets_.may_command(now)) {
@@ -50,51 +38,41 @@ Expected<std::uint32_t> Coordinator::campaign_of(const pb::Command& command) con
 Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& command) {
   Campaign& campaign = campaigns_[index];
   const CommandRow row{.number = campaign.commands + 1,
-                       .kind = kind_of(command.kind()),
+                       .kind = command_kind_of(command.kind()),
                        .design = {command.design()},
                        .budget = command.budget(),
                        .who = command.who()};
-  if (row.kind.empty()) return bad_input("a command that this version does not know");
+  if (row.kind == CommandKind::Unknown)
+    return bad_input("a command that this version does not know");
   if (campaign.stopped) return bad_input("the campaign has stopped: " + *campaign.stopped);
-  if (row.kind == "pause" || row.kind == "resume") return pause(index, row);
+  if (is_of_leases(row.kind)) return pause(index, row);
   if (auto done = campaign.source->carry_out(row); !done) return Unexpected(done.error());
   ++campaign.commands;
   campaign.told = true;
   campaign.sees_no_further = false;
   const std::string name = to_string(row.design);
-  if (row.kind == "cancel") return name + " is cancelled";
+  if (row.kind == CommandKind::Cancel) return name + " is cancelled";
   return name + " gets " + std::to_string(row.budget) + " experiments more";
 }
 
 /// Pauses or resumes; asking twice changes nothing. What runs already ends, and counts.
 Expected<std::string> Coordinator::pause(std::uint32_t index, const CommandRow& command) {
   Campaign& campaign = campaigns_[index];
-  const bool pausing = command.kind == "pause";
-  std::vector<DesignId> designs = campaign.source->unfinished();
-  if (command.design) {
-    if (std::ranges::find(designs, command.design) == designs.end()) {
-      return unexpected(
-          ErrorKind::NotFound,
-          "the campaign has no such design, or it is over; those that are not: " + listed(designs),
-          to_string(command.design));
-    }
-    designs = {command.design};
+  const std::vector<DesignId> unfinished = campaign.source->unfinished();
+  auto rows = rows_of_pause(command, unfinished, campaign.paused);
+  if (!rows) {
+    return unexpected(
+        ErrorKind::NotFound,
+        "the campaign has no such design, or it is over; those that are not: " + listed(unfinished),
+        to_string(command.design));
   }
-  std::erase_if(designs,
-                [&](DesignId design) { return campaign.paused.contains(design) == pausing; });
-  for (const DesignId design : designs) {
-    CommandRow row = command;
+  for (CommandRow& row : *rows) {
     row.number = ++campaign.commands;
-    row.design = design;
-    campaign.own_rows.emplace_back(std::move(row));
-    if (pausing) {
-      campaign.paused.insert(design);
-    } else {
-      campaign.paused.erase(design);
-    }
-    scheduler_.hold_design(index, design.value, pausing);
+    apply_pause(row, campaign.paused);
+    scheduler_.hold_design(index, row.design.value, row.kind == CommandKind::Pause);
+    campaign.own_rows.emplace_back(row);
   }
-  return sentence_of_pause(command.kind, designs);
+  return sentence_of_pause(command.kind, *rows);
 }
 
 /// A campaign that waits for a person says so, once.

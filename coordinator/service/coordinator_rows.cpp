@@ -53,7 +53,8 @@ void Coordinator::name_worker(WorkerNumber worker) {
   }
   const auto at = scheduler_.workers().all().find(worker);
   if (at == scheduler_.workers().all().end()) return;
-  write_worker(row_of(at->second, at->second.connected ? "connected" : "left"));
+  write_worker(
+      row_of(at->second, at->second.connected ? WorkerState::Connected : WorkerState::Left));
 }
 
 void Coordinator::put_event(Noted& noted, TimePoint now) {
@@ -71,10 +72,10 @@ void Coordinator::put_worker(const WorkerRow& row, TimePoint now) {
   const Principal* principal = scheduler_.principals().find(row.principal);
   const bool is_local = principal != nullptr && principal->local;
   const bool is_new = !written_.contains(row.id);
-  const bool is_quarantined = row.state == "quarantined";
+  const bool is_quarantined = row.state == WorkerState::Quarantined;
   // One such row of a principal tells a later process.
   if (is_quarantined && told_in_quarantine_.insert(row.principal).second) return write_worker(row);
-  const bool is_here = row.state == "connected" || is_quarantined;
+  const bool is_here = row.state == WorkerState::Connected || is_quarantined;
   if (!is_local && is_new && !is_here && row.done == 0 && row.failed == 0) {
     late_.erase(row.id);
     budgets_.leave_out("worker");
@@ -113,7 +114,8 @@ void Coordinator::append(std::uint32_t index) {
   rows.insert(rows.end(), pool_rows_.begin(), pool_rows_.end());
   std::vector<SendFrame> replies = std::exchange(campaign.replies, {});
   if (rows.empty()) {
-    std::ranges::move(replies, std::back_inserter(actions_));
+    for (SendFrame& reply : replies)
+      actions_.emplace_back(std::move(reply));
     return;
   }
   Unit unit{.replies = std::move(replies)};

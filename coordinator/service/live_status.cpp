@@ -6,6 +6,13 @@
 namespace swarmsmith {
 
 // For nlohmann, which finds them by their names.
+inline void to_json(nlohmann::json& json, DesignState state) {
+  json = std::string(word_of(state));
+}
+inline void from_json(const nlohmann::json& json, DesignState& state) {
+  // A word of another version says nothing.
+  state = design_state_of(json.get<std::string>()).value_or(DesignState::Waiting);
+}
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkerStatus, number, state, host, job, client, slots, held,
                                    running, done, failed, connections, done_per_s, busy,
                                    last_heard_s)

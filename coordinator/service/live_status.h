@@ -10,6 +10,7 @@
 #include "coordinator/launchers/launcher.h"
 #include "coordinator/pool/campaign_meters.h"
 #include "coordinator/pool/slot_times.h"
+#include "storage/rows.h"
 
 namespace swarmsmith {
 
@@ -36,7 +37,7 @@ struct DesignStatus {
   std::string mission;
   std::string method;
   std::int64_t repetition = 0;
-  std::string state;  ///< "waiting", "racing", "testing", "finished", "stopped"
+  DesignState state = DesignState::Waiting;
   std::int64_t used = 0;
   std::int64_t budget = 0;
   std::int64_t iteration = 0;

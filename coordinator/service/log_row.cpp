@@ -1,6 +1,5 @@
 #include "coordinator/service/log_row.h"
 
-#include <array>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -54,14 +53,8 @@ std::string name_or_nothing(Id id) {
   return id ? to_string(id) : std::string();
 }
 
-std::string state_text(DesignState state) {
-  static constexpr std::array<const char*, 5> kNames = {"waiting", "racing", "testing", "finished",
-                                                        "stopped"};
-  return kNames[static_cast<std::size_t>(state)];
-}
-
 void write_worker(const WorkerRow& row) {
-  write(LogLevel::Info, "worker " + row.state,
+  write(LogLevel::Info, "worker " + std::string(word_of(row.state)),
         {{"worker", row.id},
          {"host", row.host},
          {"pid", row.pid},
@@ -93,7 +86,7 @@ void write_attempt(const std::string& campaign, const AttemptRow& row) {
          {"attempt", row.attempt},
          {"worker", row.worker},
          {"held_ms", row.held_ms},
-         {"outcome", row.outcome}});
+         {"outcome", std::string(word_of(row.outcome))}});
 }
 
 }  // namespace
@@ -107,14 +100,14 @@ void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, c
                  },
                  [&](const WorkerRow& worker) {
                    // Of a lost one there is an event.
-                   if (worker.state != "lost") write_worker(worker);
+                   if (worker.state != WorkerState::Lost) write_worker(worker);
                  },
                  [&](const DesignStateRow& state) {
                    const auto [known, is_new] =
                        states_.try_emplace({campaign.value_or(0), state.design}, state.state);
                    if (!is_new && known->second == state.state) return;
                    known->second = state.state;
-                   write(LogLevel::Info, "design " + state_text(state.state),
+                   write(LogLevel::Info, "design " + std::string(word_of(state.state)),
                          {{"campaign", name},
                           {"design", to_string(state.design)},
                           {"used", state.used},
@@ -136,7 +129,7 @@ void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, c
                  [&](const CommandRow& command) {
                    write(LogLevel::Info, "command",
                          {{"campaign", name},
-                          {"kind", command.kind},
+                          {"kind", std::string(word_of(command.kind))},
                           {"design", name_or_nothing(command.design)},
                           {"budget", command.budget},
                           {"who", command.who}});

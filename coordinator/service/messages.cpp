@@ -50,20 +50,10 @@ WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uin
   return out;
 }
 
-void results_of(const pb::Results& results, std::vector<WorkerResult>& out) {
+void results_of(const pb::Results& results, std::vector<Result>& out) {
   out.clear();
-  for (const pb::Result& result : results.results()) {
-    out.push_back({.key = *pack(result.key()),
-                   .attempt = result.attempt(),
-                   .score = result.score() + 0.0,  // stores know one zero only
-                   .state_digest = result.state_digest(),
-                   .wall_us = result.wall_us(),
-                   .rejected = result.rejected(),
-                   .time = result.time(),
-                   .failure = result.failure(),
-                   .details = {result.command(), result.output(), result.errors()},
-                   .signature = result.signature()});
-  }
+  for (const pb::Result& result : results.results())
+    out.push_back(result_of(result));
 }
 
 void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out) {
@@ -118,22 +108,8 @@ std::string frame_of(const SendTasks& action, const PoolFacts& facts,
   message.set_incarnation(action.incarnation);
   pb::Tasks& tasks = *message.mutable_tasks();
   tasks.set_scenario(facts.scenario_digest);
-  for (const SendTasks::Leased& leased : action.tasks) {
-    const Task& task = leased.task;
-    pb::Task& out = *tasks.add_tasks();
-    unpack(key_of(task), *out.mutable_key());
-    out.set_attempt(leased.attempt);
-    out.set_signature(leased.signature);
-    out.set_alone(leased.alone);
-    out.set_mission(task.mission);
-    out.set_method(task.method);
-    out.set_instance(task.instance);
-    out.set_seed(task.seed);
-    out.set_machine(task.machine);
-    out.set_bound(task.bound);
-    for (const std::int64_t number : task.alive)
-      out.add_alive(number);
-  }
+  for (const LeasedTask& task : action.tasks)
+    write(task, *tasks.add_tasks());
   return encode(message);
 }
 
@@ -170,6 +146,30 @@ std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation)
   message.set_incarnation(incarnation);
   message.mutable_scenario()->set_scenario(facts.scenario);
   return encode(message);
+}
+
+CommandKind command_kind_of(pb::Command::Kind kind) {
+  for (const CommandKind known :
+       {CommandKind::Pause, CommandKind::Resume, CommandKind::Cancel, CommandKind::Extend}) {
+    if (message_kind_of(known) == kind) return known;
+  }
+  return CommandKind::Unknown;
+}
+
+pb::Command::Kind message_kind_of(CommandKind kind) {
+  switch (kind) {
+    case CommandKind::Pause:
+      return pb::Command::KIND_PAUSE;
+    case CommandKind::Resume:
+      return pb::Command::KIND_RESUME;
+    case CommandKind::Cancel:
+      return pb::Command::KIND_CANCEL;
+    case CommandKind::Extend:
+      return pb::Command::KIND_EXTEND;
+    case CommandKind::Unknown:
+      break;
+  }
+  return pb::Command::KIND_UNSPECIFIED;
 }
 
 std::string command_reply_of(bool done, const std::string& sentence) {

@@ -14,7 +14,7 @@ namespace swarmsmith {
 /// from `decode_to_coordinator`, so their keys are valid and their numbers within limits.
 
 WorkerHello hello_of(const pb::Hello& hello, std::uint64_t incarnation, std::uint64_t scenario);
-void results_of(const pb::Results& results, std::vector<WorkerResult>& out);
+void results_of(const pb::Results& results, std::vector<Result>& out);
 void running_of(const pb::Heartbeat& heartbeat, std::vector<RunningReport>& out);
 /// Nothing of a worker that does not say it.
 std::optional<SlotReport> slots_of(const pb::Heartbeat& heartbeat);
@@ -39,7 +39,11 @@ std::string frame_of(const SendDrain& action);
 std::string acknowledgement_of(std::span<const PackedKey> keys, std::uint64_t incarnation);
 std::string scenario_reply_of(const PoolFacts& facts, std::uint64_t incarnation);
 
-/// Answers to people's programs.
+/// What people's programs ask, as rows have it: Unknown for what this version does not know.
+CommandKind command_kind_of(pb::Command::Kind kind);
+/// The same back; not of Unknown.
+pb::Command::Kind message_kind_of(CommandKind kind);
+/// Answers to them.
 std::string command_reply_of(bool done, const std::string& sentence);
 std::string status_reply_of(const std::string& json);
 

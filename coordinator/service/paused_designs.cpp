@@ -1,14 +1,35 @@
 #include "coordinator/service/paused_designs.h"
 
+#include <algorithm>
+
 namespace swarmsmith {
 
 std::set<DesignId> paused_designs(std::span<const CommandRow> commands) {
   std::set<DesignId> paused;
-  for (const CommandRow& command : commands) {
-    if (command.kind == "pause") paused.insert(command.design);
-    if (command.kind == "resume") paused.erase(command.design);
-  }
+  for (const CommandRow& command : commands)
+    apply_pause(command, paused);
   return paused;
+}
+
+void apply_pause(const CommandRow& command, std::set<DesignId>& paused) {
+  if (command.kind == CommandKind::Pause) paused.insert(command.design);
+  if (command.kind == CommandKind::Resume) paused.erase(command.design);
+}
+
+std::optional<std::vector<CommandRow>> rows_of_pause(const CommandRow& command,
+                                                     std::vector<DesignId> unfinished,
+                                                     const std::set<DesignId>& paused) {
+  if (command.design) {
+    if (std::ranges::find(unfinished, command.design) == unfinished.end()) return std::nullopt;
+    unfinished = {command.design};
+  }
+  std::vector<CommandRow> rows;
+  for (const DesignId design : unfinished) {
+    if (paused.contains(design) == (command.kind == CommandKind::Pause)) continue;
+    rows.push_back(command);
+    rows.back().design = design;
+  }
+  return rows;
 }
 
 std::string listed(std::span<const DesignId> designs) {
@@ -18,9 +39,13 @@ std::string listed(std::span<const DesignId> designs) {
   return text.empty() ? "none" : text;
 }
 
-std::string sentence_of_pause(const std::string& kind, std::span<const DesignId> designs) {
-  const std::string state = kind == "pause" ? "paused" : "resumed";
-  return designs.empty() ? "nothing to do: " + state + " before" : state + ": " + listed(designs);
+std::string sentence_of_pause(CommandKind kind, std::span<const CommandRow> rows) {
+  const std::string state = kind == CommandKind::Pause ? "paused" : "resumed";
+  if (rows.empty()) return "nothing to do: " + state + " before";
+  std::vector<DesignId> designs;
+  for (const CommandRow& row : rows)
+    designs.push_back(row.design);
+  return state + ": " + listed(designs);
 }
 
 }  // namespace swarmsmith

@@ -138,7 +138,7 @@ class ProcessReferee final : public Referee {
     if (auto ready = be_ready(); !ready) return {.trouble = to_string(ready.error())};
     google::protobuf::Arena arena;
     SendTasks tasks;
-    tasks.tasks.push_back({.task = ask.task, .attempt = 1});
+    tasks.tasks.push_back({ask.task, key_of(ask.task), 1});
     std::string frame = frame_of(tasks, {}, arena);
     Try one;
     if (!write_frame(child_.input(), frame)) return ended(false);
@@ -163,13 +163,11 @@ class ProcessReferee final : public Referee {
   Try understood(const std::string& frame) {
     google::protobuf::Arena arena;
     const auto message = decode_to_coordinator(frame, arena);
-    std::vector<WorkerResult> results;
-    if (message) results_of((*message)->results(), results);
-    if (results.size() != 1) {
+    if (!message || (*message)->results().results_size() != 1) {
       end_child();
       return {.trouble = "the referee's process says what nobody understands"};
     }
-    const WorkerResult& result = results.front();
+    const Result result = result_of((*message)->results().results(0));
     // The host's trouble, and not the evaluation's.
     if (result.failure == std::bad_alloc().what()) {
       end_child();

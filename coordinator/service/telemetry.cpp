@@ -1,23 +1,12 @@
 #include "coordinator/service/telemetry.h"
 
 #include <algorithm>
-#include <array>
 
 namespace swarmsmith {
 namespace {
 
 constexpr Duration kRenewEvery = std::chrono::seconds(1);
 constexpr Duration kPointEvery = std::chrono::milliseconds(90);
-
-const char* name_of(DesignState state) {
-  static constexpr std::array<const char*, 5> kNames = {"waiting", "racing", "testing", "finished",
-                                                        "stopped"};
-  return kNames[static_cast<std::size_t>(state)];
-}
-
-bool is_over(const DesignStatus& design) {
-  return design.state == "finished" || design.state == "stopped";
-}
 
 }  // namespace
 
@@ -41,7 +30,7 @@ Telemetry::Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint 
                                          .mission = row.mission,
                                          .method = row.method,
                                          .repetition = row.repetition,
-                                         .state = name_of(DesignState::Waiting),
+                                         .state = DesignState::Waiting,
                                          .budget = row.budget});
     }
     for (const DesignStateRow& row : campaigns[i].states)
@@ -53,7 +42,7 @@ void Telemetry::add_state(Campaign& campaign, const DesignStateRow& row) {
   const auto place = campaign.place_of.find(row.design.value);
   if (place == campaign.place_of.end()) return;
   DesignStatus& design = campaign.status.designs[place->second];
-  design.state = name_of(row.state);
+  design.state = row.state;
   design.used = row.used;
   design.iteration = row.iteration;
   design.best = row.best.value;
@@ -112,7 +101,7 @@ void Telemetry::renew_lists(const Coordinator& coordinator, TimePoint now) {
     if (i < meters.size()) status.meters = meters[i];
     const std::set<DesignId>& paused = coordinator.paused(static_cast<std::uint32_t>(i));
     for (DesignStatus& design : status.designs)
-      design.paused = paused.contains({design.id}) && !is_over(design);
+      design.paused = paused.contains({design.id}) && !is_over(design.state);
     status.queued_units = static_cast<std::int64_t>(campaigns_[i].uncommitted.size());
     if (const auto& stopped = coordinator.stopped(static_cast<std::uint32_t>(i)); stopped) {
       status.trouble = *stopped;
@@ -131,7 +120,7 @@ LiveStatus Telemetry::status(const Coordinator& coordinator, TimePoint now, bool
     status.used = 0;
     status.budget = 0;
     for (const DesignStatus& design : status.designs) {
-      const bool is_raced = design.state == "testing" || is_over(design);
+      const bool is_raced = design.state == DesignState::Testing || is_over(design.state);
       status.used += design.used;
       status.budget += is_raced ? design.used : design.budget;
     }

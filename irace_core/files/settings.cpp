@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "base/environment.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -19,8 +21,8 @@ bool is_default(const IraceOption& option, const IraceValue& value) {
 /// `~` and `~/...` begin in the home folder, as in R, which does not leave that to the shell.
 std::filesystem::path with_home(std::string_view path) {
   const bool begins = path == "~" || path.starts_with("~/");
-  const char* home = begins ? std::getenv("HOME") : nullptr;
-  if (home == nullptr || *home == '\0') return path;
+  const std::string home = begins ? environment("HOME") : "";
+  if (home.empty()) return path;
   path.remove_prefix(std::min<std::size_t>(path.size(), 2));
   return std::filesystem::path(home) / path;
 }

@@ -1,9 +1,9 @@
 #include "irace_core/files/setup.h"
 
-#include <cstdlib>
 #include <system_error>
 #include <utility>
 
+#include "base/environment.h"
 #include "irace_core/files/internal/setup_work.h"
 #include "irace_core/files/scenario_file.h"
 
@@ -30,8 +30,7 @@ fs::path scenario_of(const IraceCommandLine& line, SetupWork& work) {
 }  // namespace
 
 SetupSurroundings surroundings_of_process() {
-  const char* search_path = std::getenv("PATH");
-  return {fs::current_path(), search_path == nullptr ? "" : search_path};
+  return {fs::current_path(), environment("PATH")};
 }
 
 IraceSetupOrErrors read_irace_setup(const IraceCommandLine& line,

@@ -76,6 +76,8 @@ UpdateStrength update_strength(std::int64_t iteration, std::int64_t iterations,
           .most = elitist ? pow(0.2, root) : 1};
 }
 
+/// irace facts, 6.2, categorical. Without the cap all weight would end on one value, and no other
+/// could be sampled again.
 void update_probabilities(std::span<double> probabilities, std::size_t chosen,
                           const UpdateStrength& strength) {
   for (double& p : probabilities)
@@ -94,6 +96,7 @@ void restart_probabilities(std::span<double> probabilities) {
   normalise(probabilities);
 }
 
+/// irace facts, 7: as it was two updates ago, and no wider than after the first update.
 double restart_sd(double sd, double initial, std::int64_t new_configurations,
                   int variable_parameters) {
   const auto n = static_cast<double>(new_configurations);
@@ -101,6 +104,8 @@ double restart_sd(double sd, double initial, std::int64_t new_configurations,
                   initial * pow(1 / n, 1.0 / variable_parameters));
 }
 
+/// irace facts, 6.3: E - r + 1 of E (E + 1) / 2 tickets for rank r. In integers, so that no bit of
+/// a sum decides.
 std::size_t draw_parent(std::size_t elites, Rng& rng) {
   auto ticket = static_cast<std::int64_t>(rng.below(elites * (elites + 1) / 2));
   for (std::size_t rank = 0;; ++rank) {
@@ -145,6 +150,8 @@ SamplingModels::Model SamplingModels::fresh_model(const Configuration& elite) co
   return model;
 }
 
+/// Its own model, else its parent's, else a fresh one (irace facts, 6.2): a new elite goes on from
+/// the model that it was drawn from. Former models are kept for elites that come back.
 SamplingModels::Model SamplingModels::source_of(const EliteLine& elite) const {
   for (const std::int64_t id : {elite.id, elite.parent}) {
     for (const auto* models : {&models_, &former_}) {

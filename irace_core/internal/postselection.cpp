@@ -6,6 +6,7 @@
 namespace swarmsmith::irace {
 namespace {
 
+/// Of those that need runs (irace facts, 14); irace tries all subsets of so many.
 constexpr std::size_t kMostConsidered = 16;
 
 std::int64_t sum_of_smallest(std::span<const std::int64_t> needs, std::size_t count) {
@@ -19,6 +20,7 @@ std::int64_t sum_of_smallest(std::span<const std::int64_t> needs, std::size_t co
 
 std::vector<std::size_t> largest_set_that_fits(std::span<const std::int64_t> needs,
                                                std::int64_t budget) {
+  // The largest size that fits is that of the cheapest ones, whoever they are.
   std::size_t size = needs.size();
   while (size > 0 && sum_of_smallest(needs, size) > budget)
     --size;
@@ -44,7 +46,7 @@ std::vector<std::size_t> choose_for_postselection(
     const bool asks = step > 0 || candidates[i].missing > 0;
     if (asks && considered.size() < kMostConsidered) considered.push_back(i);
   }
-  if (step > 0) {
+  if (step > 0) {  // 14.1: new pairs can be had
     const auto q = static_cast<std::size_t>(remaining / step);
     if (q > 1 && complete.size() >= q) {
       complete.resize(q);
@@ -54,6 +56,7 @@ std::vector<std::size_t> choose_for_postselection(
   std::vector<std::int64_t> needs;
   for (const std::size_t i : considered)
     needs.push_back(candidates[i].missing + step);
+  // 14.2 takes whoever misses nothing for nothing.
   std::vector<std::size_t> chosen = step > 0 ? std::vector<std::size_t>{} : complete;
   for (const std::size_t i : largest_set_that_fits(needs, remaining))
     chosen.push_back(considered[i]);

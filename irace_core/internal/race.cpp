@@ -47,6 +47,7 @@ Race::Race(RaceSettings settings, std::vector<Contestant> contestants)
     progress_.results.push_back(known);
   }
   find_uncovered();
+  // Tasks on which nobody has to be run need no answer: the race may be past them at once.
   tell({});
 }
 
@@ -68,6 +69,8 @@ void Race::tell(std::span<const Measurement> measurements) {
   if (!stop_) plan();
 }
 
+/// Rules 9.3.1 and 9.3.2 of irace facts. Rule 9.3.2 is not looked at where nobody has to be run:
+/// such a task costs nothing.
 bool Race::open_task() {
   if (progress_.task == settings_.pairs.size()) {
     stop_ = "no pairs left";
@@ -85,6 +88,8 @@ bool Race::open_task() {
   task.step.alive_before = static_cast<std::int64_t>(alive_.size());
   task.bounds.resize(contestants_.size(), 0);
   if (settings_.capping) {
+    // The elites' times on this pair are the standard of the others' bounds (irace facts, 17), so
+    // they are run first.
     const auto others = std::stable_partition(columns.begin(), columns.end(),
                                               [&](auto c) { return progress_.protection[c] > 0; });
     task.later.assign(others, columns.end());
@@ -110,6 +115,8 @@ void Race::take_in(std::span<const Measurement> measurements, std::size_t& at) {
     }
   }
   if (stop_) return;
+  // Asked for were all who were alive then, of whom those rejected since are left out on both
+  // sides.
   SWARMSMITH_ASSERT(answered == open_->due, "all that is due was asked for");
   if (!open_->evaluates) {
     std::vector<std::size_t>& ran = open_->ran;
@@ -175,7 +182,7 @@ void Race::close_task() {
   const std::vector<std::size_t> ran = std::move(open_->ran);
   const bool only_elites = open_->only_elites;
   open_.reset();
-  pass(progress_, ran);
+  pass(progress_, ran);  // 9.3.4; rejections (9.3.5) were taken out as their costs came
   used_ = progress_.used;
   step.experiments_used = used_;
   if (alive_.empty()) {
@@ -184,14 +191,17 @@ void Race::close_task() {
     return;
   }
   add_ranked_row(progress_.task - 1);
-  describe_best(step);
+  describe_best(step);  // 9.3.10: before the test
   if (ran.empty()) {
     step.marker = '.';
   } else if (only_elites) {
     step.marker = ':';
   } else {
-    eliminate(step);
+    eliminate(step);  // 9.3.6 to 9.3.8
+    SWARMSMITH_ASSERT(!alive_.empty(), "a test drops some of those alive, and never all");
   }
+  // 9.3.9. A task on which only elites were run has no test, and counts no more than one without
+  // runs.
   const bool counts = !ran.empty() && !only_elites && !anybody_protected(progress_) &&
                       step.task > settings_.first_test && is_test_point(progress_.task);
   const bool dropped = step.marker == '-' || step.marker == 'c';

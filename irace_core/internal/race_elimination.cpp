@@ -2,6 +2,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/hash.h"
 #include "irace_core/internal/means.h"
 #include "irace_core/internal/race.h"
@@ -26,6 +27,8 @@ void Race::eliminate(RaceStep& step) {
   if (caps) slower = worse_by_times();
   std::vector<std::size_t> worse;
   if (tests) worse = worse_by_test(step);
+  // Capping comes first in irace's loop (rule 9.3.6, before 9.3.7), but both look at the same rows,
+  // those of the task with all who are alive: neither sees what the other dropped.
   // Where nobody passes both, capping alone counts (irace facts, 17).
   std::vector<std::size_t> losers = united(worse, slower);
   if (losers.size() == alive_.size()) losers = slower;
@@ -34,12 +37,15 @@ void Race::eliminate(RaceStep& step) {
   std::vector<std::size_t> dropped;
   for (std::size_t i = 0; i < alive_.size(); ++i) {
     const std::size_t c = alive_[i];
+    // A protected one has not been seen on all its known pairs: dropped now, it would have lost to
+    // runs on fewer pairs than those that made it an elite (rule 9.3.7).
     if (!contains(losers, c) || progress_.protection[c] > 0) continue;
     dropped.push_back(c);
     step.eliminations.push_back(
         {contestants_[c].id, ranks.empty() ? ranks_.rank_sum(c) : ranks[i],
          contains(worse, c) ? EliminationReason::Test : EliminationReason::Capping});
   }
+  // 9.3.8.
   step.marker = losers.empty() ? '=' : (dropped.empty() ? '!' : (worse.empty() ? 'c' : '-'));
   if (!dropped.empty()) drop(dropped);
 }
@@ -95,7 +101,9 @@ bool Race::is_capping_point() const {
          (!settings_.capping_after_first_test || task >= settings_.first_test);
 }
 
+/// Without a gap: protected ones have their known results, all others were run on every task.
 std::span<const double> Race::costs_so_far(std::size_t column) const {
+  SWARMSMITH_ASSERT(costs_[column].size() >= progress_.task, "who is alive has seen every task");
   return std::span(costs_[column]).first(progress_.task);
 }
 
@@ -107,6 +115,7 @@ std::vector<double> Race::means() const {
   return means;
 }
 
+/// Whoever is alive has a cost here, known or run: the ranks of a row are those among all of them.
 void Race::add_ranked_row(std::size_t task) {
   std::vector<Entry> row;
   row.reserve(alive_.size());
@@ -124,6 +133,7 @@ void Race::drop(const std::vector<std::size_t>& columns) {
     keeps[c] = true;
   ranks_.keep(keeps);
   find_uncovered();
+  // Unlike sums of ranks, standardised rows cannot be shrunk: they are made again.
   quality_.reset();
   std::vector<Entry> row;
   for (std::size_t task = 0; task < static_cast<std::size_t>(ranks_.rows()); ++task) {
@@ -135,6 +145,8 @@ void Race::drop(const std::vector<std::size_t>& columns) {
   }
 }
 
+/// A rejection can take away the only results on past pairs (irace facts, 9.3.2: they must have a
+/// result of somebody alive before a race may stop).
 void Race::find_uncovered() {
   uncovered_ = static_cast<std::size_t>(settings_.new_pairs + settings_.past_pairs);
   const auto anybody_has = [&](std::size_t task) {
@@ -145,6 +157,7 @@ void Race::find_uncovered() {
     --uncovered_;
 }
 
+/// irace facts, 9.3.10: the least rank (11), the first of equals.
 void Race::describe_best(RaceStep& step) const {
   std::size_t best = alive_.front();
   if (settings_.test_type == TestType::FTest) {
@@ -168,6 +181,8 @@ void Race::describe_agreement(RaceStep& step) const {
   step.qvar = quality_.value(alive_);
 }
 
+/// What the rest of the race follows from. Two replays that agree here step by step have told the
+/// race the same costs, as far as they decide.
 std::uint64_t Race::digest(const RaceStep& step) const {
   Digest digest;
   digest.add(step.task);

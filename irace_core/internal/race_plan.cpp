@@ -53,8 +53,9 @@ bool Race::is_test_point(std::size_t task) const {
   return t >= settings_.first_test && t % settings_.pairs_between_tests == 0;
 }
 
-/// The last pair that the elites brought along, or that comes first as a new one, must have been
-/// seen by somebody alive, and everybody must have seen whole steps between tests.
+/// Rule 9.3.2 of irace facts, its first sentences. The last pair that the elites brought along, or
+/// that comes first as a new one, must have been seen by somebody alive, and everybody must have
+/// seen whole steps between tests.
 bool Race::elites_are_done(const Progress& progress) const {
   if (settings_.past_pairs == 0) return true;  // the first race, or not an elitist one
   if (progress.task < uncovered_) return false;
@@ -78,16 +79,18 @@ std::optional<std::string> Race::reason_to_stop(const Progress& progress, std::s
 
 std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::size_t runs) const {
   const auto alive = static_cast<std::int64_t>(alive_.size());
-  if (alive <= settings_.min_survival) {
+  if (alive <= settings_.min_survival) {  // 9.3.2 a
     return compared("configurations alive", alive, "<=", "those that survive",
                     settings_.min_survival);
   }
   const std::int64_t next_test =
       progress.used + static_cast<std::int64_t>(runs) * settings_.pairs_between_tests;
+  // 9.3.2 b. A race that could not pay for the next test would spend runs that decide nothing.
   if (is_test_point(progress.task) && next_test > settings_.max_experiments) {
     return compared("experiments up to the next test", next_test, ">", "budget of the race",
                     settings_.max_experiments);
   }
+  // 9.3.2 c.
   if (settings_.elitist && settings_.elitist_limit > 0 &&
       tests_without_drop_ >= settings_.elitist_limit) {
     return compared("tests without elimination", tests_without_drop_, ">=", "limit",
@@ -97,7 +100,8 @@ std::optional<std::string> Race::rule_to_stop(const Progress& progress, std::siz
 }
 
 /// Counts a task on which `ran` (ascending) were run; protected ones that were not have used up a
-/// known pair.
+/// known pair (rules 9.3.1 and 9.3.4 of irace facts). Protection never grows: behind the last past
+/// pair nobody is protected.
 void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
   for (const std::size_t c : alive_) {
     if (contains(ran, c)) {
@@ -111,7 +115,8 @@ void Race::pass(Progress& progress, std::span<const std::size_t> ran) const {
 }
 
 /// Asks for all that is due, and, where nothing that follows depends on it, for all runs up to the
-/// next test, supposing that none of them is a rejection.
+/// next test, supposing that none of them is a rejection. `ahead` is what `progress_` will be then,
+/// so that the rules to stop say now what they will say there.
 void Race::plan() {
   for (const std::size_t c : open_->due) {
     wanted_.push_back({progress_.task, c, open_->bounds[c], open_->evaluates});

@@ -108,11 +108,12 @@ std::int64_t Schedule::race_size_for(std::int64_t budget, std::int64_t elites,
                             .most = scenario_.max_configurations_per_race};
   std::int64_t size = race_size(question);
   if (size > min_survival_ || !scenario_.elitist) return size;
-  // The shortage rules.
+  // irace facts, 3.3.1: what new pairs cost goes to configurations, for the rest of the run.
   new_pairs_ = 0;
   question.new_pairs = 0;
   size = race_size(question);
   if (size > min_survival_) return size;
+  // 3.3.2: as small a race as there can be, so that at least one test is possible.
   question.iteration = 1;
   question.mu = 1;
   return race_size(question);
@@ -149,6 +150,7 @@ std::variant<RacePlan, NoMoreRaces> Schedule::next(std::int64_t remaining, std::
 std::variant<RacePlan, NoMoreRaces> Schedule::plan(std::int64_t remaining, std::int64_t elites,
                                                    std::int64_t old_pairs) {
   for (;; ++iteration_) {
+    // The rules of irace facts, 3.5, in their order; 3.5.2 is the caller's.
     if (remaining <= 0) return NoMoreRaces{"budget exhausted"};
     if (iteration_ > iterations_) {
       if (scenario_.nb_iterations > 0) return NoMoreRaces{"limit of iterations"};

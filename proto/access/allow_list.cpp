@@ -4,7 +4,6 @@
 #include <map>
 #include <set>
 
-#include "base/text/file_text.h"
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "proto/access/role_text.h"

@@ -3,7 +3,6 @@
 #include <unistd.h>
 #include <ctime>
 
-#include "base/text/file_text.h"
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "proto/access/address.h"

@@ -3,7 +3,6 @@
 #include <array>
 #include <optional>
 
-#include "base/text/file_text.h"
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "proto/access/role_text.h"

@@ -98,13 +98,10 @@ struct Command {
 /// Wheels go up to 155 cm/s, either way (thesis table 5.1; thesis facts, section 5).
 inline constexpr double kMaxWheelSpeed_mps = 1.55;
 
-/// The command within the wheels' range.
-constexpr Command clamped(const Command& command) {
-  const auto within = [](double speed_mps) {
-    if (speed_mps > kMaxWheelSpeed_mps) return kMaxWheelSpeed_mps;
-    return speed_mps < -kMaxWheelSpeed_mps ? -kMaxWheelSpeed_mps : speed_mps;
-  };
-  return {within(command.left_mps), within(command.right_mps), command.leds};
+/// A speed within the wheels' range.
+constexpr double within_wheel_speed(double speed_mps) {
+  if (speed_mps > kMaxWheelSpeed_mps) return kMaxWheelSpeed_mps;
+  return speed_mps < -kMaxWheelSpeed_mps ? -kMaxWheelSpeed_mps : speed_mps;
 }
 
 /// A line of table 5.1, in SI units.

@@ -26,11 +26,11 @@ struct LateCommand {
   Command command;
 };
 
-/// `to` becomes `from`. Part by part, and LEDs only when they change: after a copy in one piece,
-/// whoever reads a speed next waits for all of it.
+/// `to` becomes `from`, within the wheels' range. Part by part, and LEDs only when they change:
+/// after a copy in one piece, whoever reads a part of it next waits for all of it.
 void renew(Command& to, const Command& from) {
-  to.left_mps = from.left_mps;
-  to.right_mps = from.right_mps;
+  to.left_mps = within_wheel_speed(from.left_mps);
+  to.right_mps = within_wheel_speed(from.right_mps);
   if (std::memcmp(&to.leds, &from.leds, sizeof to.leds) != 0) to.leds = from.leds;
 }
 
@@ -140,7 +140,7 @@ class Run {
     agent.senses.begin_cycle({.number = agent.cycle,
                               .time_s = kSubStep_s * static_cast<double>(now),
                               .acted = agent.acting});
-    renew(agent.command, clamped(agent.control.step(agent.senses)));
+    renew(agent.command, agent.control.step(agent.senses));
     if (!recorder_.sensors.empty()) agent.readings = &agent.senses.read(recorder_.sensors);
     const std::int64_t arrival = agent.clock.arrival_of_command(now);
     if (arrival == now && agent.late.empty()) {

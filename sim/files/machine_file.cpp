@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/text/document.h"
-#include "base/text/file_text.h"
+#include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
 #include "sim/files/profile_file.h"
 

@@ -7,7 +7,8 @@
 
 #include "base/suggestion.h"
 #include "base/text/document.h"
-#include "base/text/file_text.h"
+#include "base/text/table_reader.h"
+#include "base/text/whole_file.h"
 #include "sim/files/internal/read_arena.h"
 #include "sim/files/internal/read_placement.h"
 #include "sim/files/internal/read_score.h"
@@ -24,7 +25,7 @@ const std::vector<std::string> kPresets = {"aggregation", "grid_exploration", "c
 
 /// Where files that a mission names are, and whether it may begin with another mission's.
 struct ReadingPlace {
-  std::filesystem::path folder;
+  ImageSource images;
   bool takes_files = false;
 };
 
@@ -51,7 +52,7 @@ std::optional<MissionEntry> read_preset_file(TableReader& table, const std::stri
         "preset", "a mission in a file of its own begins with a built-in one: " + joined(kPresets));
     return std::nullopt;
   }
-  auto mission = read_mission_file(place.folder / preset);
+  auto mission = read_mission_file(*place.images.folder / preset);
   if (mission) return std::move(*mission);
   for (const Error& error : mission.error())
     table.complain_foreign("preset", error);
@@ -121,7 +122,7 @@ void read_keys(TableReader& table, const ReadingPlace& place, MissionEntry& entr
   }
   const std::size_t before = table.complaints();
   if (auto robot = table.table("robot")) read_body(*robot, mission);
-  if (auto arena = table.table("arena")) read_arena(*arena, place.folder, mission);
+  if (auto arena = table.table("arena")) read_arena(*arena, place.images, mission);
   if (auto instances = table.table("instances")) read_instances(*instances, entry);
   if (table.complaints() == before) check_room(table, mission);
   table.finish();
@@ -146,6 +147,22 @@ MissionEntry read_mission(TableReader& table, const std::vector<std::string>& ta
   entry->mission.name = name;
   read_keys(table, place, *entry);
   return std::move(*entry);
+}
+
+/// The [[mission]] tables.
+std::vector<MissionEntry> read_missions(TableReader& root, const ReadingPlace& place) {
+  std::vector<MissionEntry> missions;
+  std::vector<std::string> names;
+  for (TableReader& table : root.tables("mission")) {
+    missions.push_back(read_mission(table, names, place));
+    names.push_back(missions.back().mission.name);
+  }
+  if (!root.has("mission")) {
+    root.complain("mission",
+                  "the file has no [[mission]]; the shortest is [[mission]] with name = "
+                  "\"aggregation\"");
+  }
+  return missions;
 }
 
 }  // namespace
@@ -176,18 +193,12 @@ bool check_name(TableReader& reader, const std::string& name,
 }
 
 std::vector<MissionEntry> read_missions(TableReader& root, const std::filesystem::path& folder) {
-  std::vector<MissionEntry> missions;
-  std::vector<std::string> names;
-  for (TableReader& table : root.tables("mission")) {
-    missions.push_back(read_mission(table, names, {folder, true}));
-    names.push_back(missions.back().mission.name);
-  }
-  if (!root.has("mission")) {
-    root.complain("mission",
-                  "the file has no [[mission]]; the shortest is [[mission]] with name = "
-                  "\"aggregation\"");
-  }
-  return missions;
+  return read_missions(root, ReadingPlace{{folder}, true});
+}
+
+std::vector<MissionEntry> read_sent_missions(TableReader& root) {
+  // Those of the scenario that was there before may be in use still.
+  return read_missions(root, {{std::nullopt, 2 * Picture::kMostPixelsInUse}, false});
 }
 
 MissionOrErrors parse_mission(std::string_view text, const std::filesystem::path& file) {
@@ -198,7 +209,7 @@ MissionOrErrors parse_mission(std::string_view text, const std::filesystem::path
   read_format(root);
   const std::string name = root.text("name").value_or(file.stem().string());
   MissionEntry entry;
-  const ReadingPlace place{file.parent_path(), false};
+  const ReadingPlace place{{file.parent_path()}, false};
   if (check_name(root, name, {})) {
     if (auto base = read_base(root, name, place)) {
       entry = std::move(*base);

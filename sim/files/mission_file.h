@@ -41,6 +41,9 @@ MissionOrErrors find_mission(const std::string& word, const std::filesystem::pat
 /// complaints.
 std::vector<MissionEntry> read_missions(TableReader& root, const std::filesystem::path& folder);
 
+/// The same of a text that came from another process: it may name no file.
+std::vector<MissionEntry> read_sent_missions(TableReader& root);
+
 /// The lines of a [[mission]], whole: a preset may change in a later version, a stored text must
 /// not. Reads back to the same bits.
 std::vector<Section> mission_sections(const MissionEntry& entry);

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "base/math.h"
+#include "base/text/csv.h"
 #include "sim/mission/colors.h"
 
 namespace swarmsmith {
@@ -19,26 +20,15 @@ namespace {
 /// Centres in files are rounded; a place is meant when they differ by less.
 constexpr double kSamePlace_m = 1e-3;
 
-/// Cuts at every separator: one part more than there are separators.
-std::vector<std::string_view> split(std::string_view text, char separator) {
-  std::vector<std::string_view> parts;
-  while (true) {
-    const std::size_t at = text.find(separator);
-    parts.push_back(text.substr(0, at));
-    if (at == std::string_view::npos) return parts;
-    text.remove_prefix(at + 1);
-  }
-}
-
 /// A row's cells, its header and its line number: enough to read a cell or say what is wrong.
 struct Row {
   std::span<const std::string_view> columns;
-  std::vector<std::string_view> cells;
+  std::vector<std::string> cells;
   std::size_t line = 0;
 
   Unexpected wrong(std::size_t column, std::string_view wanted) const {
     return bad_input("column " + std::string(columns[column]) + " wants " + std::string(wanted) +
-                         ", not `" + std::string(cells[column]) + "`",
+                         ", not `" + cells[column] + "`",
                      std::to_string(line));
   }
 
@@ -65,7 +55,7 @@ struct Row {
 
 /// Where each wanted column is in the header.
 Expected<std::vector<std::size_t>> places_of(std::span<const std::string_view> columns,
-                                             std::span<const std::string_view> header) {
+                                             std::span<const std::string> header) {
   std::vector<std::size_t> places;
   for (const std::string_view column : columns) {
     const auto found = std::find(header.begin(), header.end(), column);
@@ -82,26 +72,24 @@ Expected<std::vector<std::size_t>> places_of(std::span<const std::string_view> c
 }
 
 /// The rows below the header, with the cells of `columns` in their order, whatever it is in the
-/// text; other columns are left out. Lines may end in CR LF; empty ones are skipped.
+/// text; other columns are left out, and blank lines.
 Expected<std::vector<Row>> rows_of(std::string_view text,
                                    std::span<const std::string_view> columns) {
-  std::vector<std::string_view> lines = split(text, '\n');
-  for (std::string_view& line : lines) {
-    if (line.ends_with('\r')) line.remove_suffix(1);
-  }
-  const std::vector<std::string_view> header = split(lines[0], ',');
+  CsvReader reader(text);
+  const std::vector<std::string> header = reader.next().value_or(std::vector<std::string>());
   const auto places = places_of(columns, header);
   if (!places) return Unexpected(places.error());
   std::vector<Row> rows;
-  for (std::size_t i = 1; i < lines.size(); ++i) {
-    if (lines[i].empty()) continue;
-    const std::vector<std::string_view> cells = split(lines[i], ',');
+  while (!reader.at_end()) {
+    const std::size_t line = reader.line();
+    std::vector<std::string> cells = reader.next().value_or(std::vector<std::string>());
+    if (cells == std::vector<std::string>{""}) continue;
     if (cells.size() != header.size()) {
       return bad_input("expected " + std::to_string(header.size()) +
                            " cells as in the header, found " + std::to_string(cells.size()),
-                       std::to_string(i + 1));
+                       std::to_string(line));
     }
-    rows.push_back({columns, {}, i + 1});
+    rows.push_back({columns, {}, line});
     for (const std::size_t place : *places)
       rows.back().cells.push_back(cells[place]);
   }

@@ -5,41 +5,26 @@
 #include <charconv>
 #include <cmath>
 #include <cstddef>
-#include <optional>
 #include <system_error>
 #include <type_traits>
+#include <vector>
+
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {
 
 constexpr std::array<std::string_view, 5> kRead = {"cycle", "robot", "x", "y", "theta"};
-using Cells = std::array<std::string_view, kRead.size()>;
+using Cells = std::vector<std::string>;
 
-std::string line_place(int line) {
+std::string line_place(std::size_t line) {
   return "line " + std::to_string(line);
-}
-
-/// Takes the text up to the separator, and the separator with it.
-std::string_view take(std::string_view& text, char separator) {
-  const std::size_t end = std::min(text.find(separator), text.size());
-  const std::string_view part = text.substr(0, end);
-  text.remove_prefix(std::min(end + 1, text.size()));
-  return part;
-}
-
-std::string_view take_line(std::string_view& text) {
-  std::string_view line = take(text, '\n');
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return line;
 }
 
 /// Where the columns that are read stand in the header.
 using Places = std::array<std::size_t, kRead.size()>;
 
-Expected<Places> find_columns(std::string_view header) {
-  std::vector<std::string_view> names;
-  while (!header.empty())
-    names.push_back(take(header, ','));
+Expected<Places> find_columns(const Cells& names) {
   Places places{};
   for (std::size_t i = 0; i < kRead.size(); ++i) {
     const auto found = std::ranges::find(names, kRead[i]);
@@ -53,26 +38,9 @@ Expected<Places> find_columns(std::string_view header) {
   return places;
 }
 
-/// The cells that are read; nothing when the line is too short.
-std::optional<Cells> cells_of(std::string_view line, const Places& places) {
-  Cells cells;
-  std::size_t found = 0;
-  for (std::size_t column = 0; !line.empty() && found < kRead.size(); ++column) {
-    const std::string_view cell = take(line, ',');
-    for (std::size_t i = 0; i < kRead.size(); ++i) {
-      if (places[i] != column) continue;
-      cells[i] = cell;
-      ++found;
-    }
-  }
-  if (found < kRead.size()) return std::nullopt;
-  return cells;
-}
-
 template <class Number>
-Expected<Number> number_in(const Cells& cells, std::size_t column, int line) {
+Expected<Number> number_of(std::string_view cell, std::size_t column, std::size_t line) {
   Number value{};
-  const std::string_view cell = cells[column];
   const auto [stop, error] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
   bool good = error == std::errc() && stop == cell.data() + cell.size();
   if constexpr (std::is_floating_point_v<Number>) good = good && std::isfinite(value);
@@ -86,7 +54,7 @@ Expected<Number> number_in(const Cells& cells, std::size_t column, int line) {
 /// Takes rows in their order and sees that none is missing.
 class Collector {
  public:
-  Expected<void> add(int cycle, int robot, const Pose& pose, int line) {
+  Expected<void> add(int cycle, int robot, const Pose& pose, std::size_t line) {
     if (rows_ == 0 && (cycle == 0 || cycle == 1)) cycle_ = cycle;
     const bool next_instant = robot == 0 && rows_ > 0 && cycle == cycle_ + 1;
     if (next_instant) {
@@ -108,7 +76,7 @@ class Collector {
     return {};
   }
 
-  Expected<RecordedTrajectory> finish(int line) {
+  Expected<RecordedTrajectory> finish(std::size_t line) {
     if (robots_ == 0) robots_ = robot_;
     if (robot_ != robots_) return incomplete(line);
     result_.trajectory.robots = robots_;
@@ -116,7 +84,7 @@ class Collector {
   }
 
  private:
-  Unexpected incomplete(int line) const {
+  Unexpected incomplete(std::size_t line) const {
     return bad_input("cycle " + std::to_string(cycle_) + " has " + std::to_string(robot_) +
                          " robots, the one before it " + std::to_string(robots_),
                      line_place(line));
@@ -149,21 +117,24 @@ void append_pose_cells(std::string& line, int cycle, int robot, const Pose& pose
 }
 
 Expected<RecordedTrajectory> parse_trajectory_csv(std::string_view text) {
-  const Expected<Places> places = find_columns(take_line(text));
+  CsvReader reader(text);
+  const Expected<Places> places = find_columns(reader.next().value_or(Cells()));
   if (!places) return Unexpected(places.error());
   Collector collector;
-  int line = 1;
-  while (!text.empty()) {
-    ++line;
-    const auto cells = cells_of(take_line(text), *places);
-    if (!cells) return bad_input("the line is too short", line_place(line));
-    const auto cycle = number_in<int>(*cells, 0, line);
+  std::size_t line = 1;
+  while (!reader.at_end()) {
+    line = reader.line();
+    const Cells cells = reader.next().value_or(Cells());
+    if (cells.size() <= std::ranges::max(*places)) {
+      return bad_input("the line is too short", line_place(line));
+    }
+    const auto cycle = number_of<int>(cells[(*places)[0]], 0, line);
     if (!cycle) return Unexpected(cycle.error());
-    const auto robot = number_in<int>(*cells, 1, line);
+    const auto robot = number_of<int>(cells[(*places)[1]], 1, line);
     if (!robot) return Unexpected(robot.error());
     std::array<double, 3> pose{};
     for (std::size_t i = 0; i < pose.size(); ++i) {
-      const auto value = number_in<double>(*cells, 2 + i, line);
+      const auto value = number_of<double>(cells[(*places)[2 + i]], 2 + i, line);
       if (!value) return Unexpected(value.error());
       pose[i] = *value;
     }

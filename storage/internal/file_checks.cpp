@@ -9,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "base/environment.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -98,8 +100,7 @@ Expected<void> check_folder(const std::filesystem::path& store) {
   if (std::filesystem::is_directory(store, trouble)) {
     return bad_input("this is a folder; a store is a file", store.string());
   }
-  const char* allowed = std::getenv("SWARMSMITH_ALLOW_NETWORK_FS");
-  if (allowed != nullptr && std::string_view(allowed) == "1") return {};
+  if (environment("SWARMSMITH_ALLOW_NETWORK_FS") == "1") return {};
   struct statfs about {};
   if (::statfs(folder.c_str(), &about) == 0 && is_network_file_system(about.f_type)) {
     return bad_input(

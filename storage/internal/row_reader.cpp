@@ -193,7 +193,7 @@ CandidateTotalsRow totals(const Statement& row) {
 
 CommandRow command(const Statement& row) {
   return {.number = row.integer(0),
-          .kind = row.text(1),
+          .kind = command_kind_of(row.text(1)),
           .design = design_at(row, 2),
           .step = row.is_null(3) ? std::nullopt : std::optional(row.integer(3)),
           .budget = row.integer(4),
@@ -313,7 +313,8 @@ StoredTrust read_trust(const sqlite::Connection& connection) {
   Statement worker(connection, "SELECT id, principal, state FROM worker WHERE principal <> ''");
   while (worker.step()) {
     trust.principals.emplace(worker.integer(0), worker.text(1));
-    if (worker.text(2) == "quarantined") trust.quarantined.push_back(worker.text(1));
+    if (worker.text(2) == word_of(WorkerState::Quarantined))
+      trust.quarantined.push_back(worker.text(1));
   }
   Statement audited(connection,
                     "SELECT candidate, purpose, pair FROM attempt WHERE outcome = 'audited'");

@@ -181,8 +181,8 @@ void RowWriter::put(const CampaignStateRow& row) {
 }
 
 void RowWriter::put(const WorkerRow& row) {
-  worker_.run(row.id, row.identity, row.host, row.pid, row.slots, row.build, row.state, row.done,
-              row.failed, row.job, row.cpu, row.client, row.connections, row.principal);
+  worker_.run(row.id, row.identity, row.host, row.pid, row.slots, row.build, word_of(row.state),
+              row.done, row.failed, row.job, row.cpu, row.client, row.connections, row.principal);
 }
 
 void RowWriter::put(const ConflictRow& row) {
@@ -201,11 +201,12 @@ void RowWriter::put(const EventRow& row) {
 
 void RowWriter::put(const AttemptRow& row) {
   attempt_.run(row.key.candidate.value, number(row.key.purpose), row.key.pair, row.attempt,
-               row.worker, row.held_ms, row.outcome);
+               row.worker, row.held_ms, word_of(row.outcome));
 }
 
 void RowWriter::put(const CommandRow& row) {
-  command_.run(row.number, row.kind, unless_zero(row.design.value), row.step, row.budget, row.who);
+  command_.run(row.number, word_of(row.kind), unless_zero(row.design.value), row.step, row.budget,
+               row.who);
 }
 
 std::int64_t RowWriter::source_id(const std::string& name) {

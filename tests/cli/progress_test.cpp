@@ -299,7 +299,7 @@ TEST(Progress, OfSeveralCampaignsNamesThemAndAddsThemUp) {
   EXPECT_EQ(
       err.str(),
       "second: d1 finished  aggregation m 1  50 000/50 000  best c812 2.75  (budget exhausted)\n");
-  progress.restore(0, CommandRow{.number = 1, .kind = "pause", .design = {1}});
+  progress.restore(0, CommandRow{.number = 1, .kind = CommandKind::Pause, .design = {1}});
   err.str("");
   progress.finish(fleet());
   EXPECT_THAT(err.str(), testing::StartsWith("campaigns 0/2  designs 1/4  50 000/200 000  "));
@@ -314,7 +314,8 @@ TEST(Progress, OfSeveralCampaignsNamesThemAndAddsThemUp) {
 }
 
 TEST(ProgressModel, CountsAnExtensionOnce) {
-  CommandRow extension{.number = 3, .kind = "extend", .design = {1}, .step = {}, .budget = 500};
+  CommandRow extension{
+      .number = 3, .kind = CommandKind::Extend, .design = {1}, .step = {}, .budget = 500};
   ProgressModel model(kDesigns);
   model.add(extension);
   EXPECT_EQ(model.budget(), 100'000);

@@ -32,7 +32,7 @@ LiveStatus cluster() {
     campaign.designs.push_back({.id = i + 1,
                                 .mission = "aggregation",
                                 .method = "argos3",
-                                .state = i < 20 ? "finished" : "racing",
+                                .state = i < 20 ? DesignState::Finished : DesignState::Racing,
                                 .used = 1000,
                                 .budget = 1000});
   }

@@ -34,7 +34,7 @@ CandidateText text_of(const Configuration& configuration) {
 }
 
 Outcome outcome_of(const CampaignShape& shape, const Task& task) {
-  const Truth truth = truth_of(shape, {task.mission, task.machine, task.seed});
+  const Truth truth = truth_of(shape, task);
   const bool ok = truth.kind == Truth::Kind::Score;
   return {.key = task.key,
           .status = ok ? EvaluationStatus::Ok : EvaluationStatus::Rejected,
@@ -52,13 +52,13 @@ std::vector<DesignId> finished_on(const SimulatedDisk& disk) {
 
 }  // namespace
 
-Truth truth_of(const CampaignShape& shape, const Evaluand& evaluand) {
+Truth truth_of(const CampaignShape& shape, const EvaluationInput& input) {
   Digest text;
-  text.add(evaluand.machine);
+  text.add(input.machine);
   const std::uint64_t machine = text.value64();
   const std::uint64_t bits =
-      mix64(machine ^ mix64(static_cast<std::uint64_t>(evaluand.seed) + mix64(shape.seed)));
-  if (evaluand.mission == kHopeless) return {.kind = Truth::Kind::Fails};
+      mix64(machine ^ mix64(static_cast<std::uint64_t>(input.seed) + mix64(shape.seed)));
+  if (input.mission == kHopeless) return {.kind = Truth::Kind::Fails};
   if (shape.failing && bits % 24 == 0) return {.kind = Truth::Kind::Fails};
   if (shape.killing && bits % 80 == 1) return {.kind = Truth::Kind::Kills};
   const double quality = Rng(machine).uniform();
@@ -128,8 +128,7 @@ std::vector<Task> RacedCampaign::take_more(std::size_t count, std::size_t slots)
 /// Once ahead and once wanted; it may have been told between the two.
 void RacedCampaign::note(const Task& task) {
   if (truths_ != nullptr) {
-    truths_->insert_or_assign(pack(task.key),
-                              truth_of(shape_, {task.mission, task.machine, task.seed}));
+    truths_->insert_or_assign(pack(task.key), truth_of(shape_, task));
   }
   const auto [at, is_new] = asked_.try_emplace(pack(task.key), Asked{.ahead = task.ahead});
   if (is_new) return;

@@ -24,15 +24,8 @@ struct CampaignShape {
   bool hopeless = false;     ///< every evaluation of the last design fails
 };
 
-/// What is evaluated by a task, as workers see it.
-struct Evaluand {
-  std::uint32_t mission = 0;
-  std::string_view machine;
-  std::int64_t seed = 0;
-};
-
 /// The outcome of an evaluation: a pure function.
-Truth truth_of(const CampaignShape& shape, const Evaluand& evaluand);
+Truth truth_of(const CampaignShape& shape, const EvaluationInput& input);
 
 /// The designs of the campaign: real races over three parameters.
 std::vector<DesignPlan> plans_of(const CampaignShape& shape);

@@ -76,7 +76,7 @@ void SimulatedCluster::check_answer(Running& running) {
   }
   if (!disk.finished()) fail("the end of the campaign is not on disk");
   for (const DesignStateRow& design : disk.design_states()) {
-    const bool over = design.state == DesignState::Finished || design.state == DesignState::Stopped;
+    const bool over = is_over(design.state);
     if (!over) fail("a design is not finished");
     if (design.used > running.shape.budget) fail("a design used more than its budget");
   }

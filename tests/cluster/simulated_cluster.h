@@ -125,7 +125,7 @@ class SimulatedCluster {
     int slots = 1;
     int slowness = 1;
     PeerId connection = 0;
-    std::deque<WorkItem> waiting;
+    std::deque<LeasedTask> waiting;
     int running = 0;
     TimePoint tick_at;
   };
@@ -213,7 +213,7 @@ class SimulatedCluster {
   void settle_worker(int index);
   void carry_out(int index, WorkerAction& action);
   void start_items(int index);
-  void finish_item(int index, const WorkItem& item);
+  void finish_item(int index, const LeasedTask& item);
   void schedule_tick(int index);
   bool workers_are_quiet() const;
 

@@ -128,7 +128,7 @@ void SimulatedCluster::settle_coordinator() {
 void SimulatedCluster::judge(const AskReferee& ask) {
   const PackedKey key = key_of(ask.task);
   const CampaignShape& shape = campaigns_.at(ask.task.campaign).shape;
-  const Truth truth = truth_of(shape, {ask.task.mission, ask.task.machine, ask.task.seed});
+  const Truth truth = truth_of(shape, ask.task);
   const bool has_score = truth.kind == Truth::Kind::Score;
   const Ruling ruling{.key = key,
                       .kind = has_score ? Ruling::Kind::Score : Ruling::Kind::Rejected,

@@ -193,10 +193,10 @@ StoredTrust SimulatedDisk::trust() const {
   for (const WorkerRow& row : rows_of<WorkerRow>()) {
     if (row.principal.empty()) continue;
     trust.principals.emplace(row.id, row.principal);
-    if (row.state == "quarantined") trust.quarantined.push_back(row.principal);
+    if (row.state == WorkerState::Quarantined) trust.quarantined.push_back(row.principal);
   }
   for (const AttemptRow& row : rows_of<AttemptRow>()) {
-    if (row.outcome == "audited") trust.audited.insert(row.key);
+    if (row.outcome == AttemptOutcome::Audited) trust.audited.insert(row.key);
   }
   const std::vector<CampaignStateRow> states = rows_of<CampaignStateRow>();
   trust.distrusted = !states.empty() && states.back().state == "distrusted";

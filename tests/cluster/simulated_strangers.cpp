@@ -25,7 +25,7 @@ void SimulatedCluster::invite_strangers() {
   for (std::size_t i = 0; i < schedule_.hostile.size(); ++i) {
     const Oracle oracle = [this](const pb::Task& task) {
       const CampaignShape& shape = campaigns_.at(task.key().campaign()).shape;
-      return truth_of(shape, {task.mission(), task.machine(), task.seed()});
+      return truth_of(shape, task_of(task));
     };
     strangers_.push_back(
         {.peer = HostilePeer(schedule_.hostile[i], rng_.split("stranger", i), oracle)});

@@ -72,12 +72,12 @@ void SimulatedCluster::carry_out(int index, WorkerAction& action) {
                    if (use.scenario != kScenario) fail("another scenario");
                  },
                  [&](RunItems& run) {
-                   for (WorkItem& item : run.items)
+                   for (LeasedTask& item : run.items)
                      worker.waiting.push_back(std::move(item));
                  },
                  [&](TakeBack) {
                    std::vector<PackedKey> keys;
-                   for (const WorkItem& item : worker.waiting)
+                   for (const LeasedTask& item : worker.waiting)
                      keys.push_back(item.key);
                    worker.waiting.clear();
                    worker.protocol->on_taken_back(keys, clock(index));
@@ -95,7 +95,7 @@ void SimulatedCluster::carry_out(int index, WorkerAction& action) {
 void SimulatedCluster::start_items(int index) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
   while (worker.running < worker.slots && !worker.waiting.empty()) {
-    const WorkItem item = std::move(worker.waiting.front());
+    const LeasedTask item = std::move(worker.waiting.front());
     worker.waiting.pop_front();
     ++worker.running;
     worker.protocol->on_started(item.key, clock(index));
@@ -104,10 +104,10 @@ void SimulatedCluster::start_items(int index) {
   }
 }
 
-void SimulatedCluster::finish_item(int index, const WorkItem& item) {
+void SimulatedCluster::finish_item(int index, const LeasedTask& item) {
   Worker& worker = workers_[static_cast<std::size_t>(index)];
   const CampaignShape& shape = campaigns_.at(campaign_of(item.key)).shape;
-  const Truth truth = truth_of(shape, {item.mission, item.machine, item.seed});
+  const Truth truth = truth_of(shape, item);
   if (truth.kind == Truth::Kind::Kills) {
     killers_.insert(item.key);
     return crash_worker(index);

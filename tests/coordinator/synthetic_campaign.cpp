@@ -51,7 +51,7 @@ void SyntheticCampaign::ask(std::size_t design) {
   for (const std::int64_t candidate : race.alive) {
     const EvaluationKey key = key_of(design, candidate);
     asked_[pack(key)] = false;
-    tasks_.push_back({.key = key, .seed = key.pair, .machine = "--nstates 1 --s0 1"});
+    tasks_.push_back({{.seed = key.pair, .machine = "--nstates 1 --s0 1"}, key});
   }
 }
 

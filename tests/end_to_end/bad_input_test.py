@@ -428,7 +428,7 @@ class BadPeers(BadInput):
                 peer.sendall(noise)
             except OSError:
                 pass  # thrown out already
-        current = b"SWRM" + struct.pack("<HH", 3, 0)
+        current = b"SWRM" + struct.pack("<HH", 4, 0)
         future = zmtp(address, b"SWRM" + struct.pack("<HH", 99, 0) + b"\x01")
         self.addCleanup(future.close)
         self.assertIn(b"SWRM", answer(future))
@@ -452,7 +452,7 @@ class BadPeers(BadInput):
             hello = (field(1, os.urandom(16)) + field(2, b"other") + field(3, version) +
                      field(4, b"0123456789abcdef") + field(5, 1) + field(6, b"host") + field(7, 1))
             message = field(1, 1) + field(2, 1) + field(3, hello)
-            peer = zmtp(address, b"SWRM" + struct.pack("<HH", 3, 0) + message)
+            peer = zmtp(address, b"SWRM" + struct.pack("<HH", 4, 0) + message)
             self.addCleanup(peer.close)
             self.assertRegex(answer(peer), rb"self.test|version \d+ of the simulator")
         worker, _ = self.start_logged("worker", "--connect", address, name="worker")

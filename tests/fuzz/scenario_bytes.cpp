@@ -1,4 +1,4 @@
-#include "sim/messages/scenario_messages.h"
+#include "proto/scenario/scenario.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace swarmsmith::fuzz {

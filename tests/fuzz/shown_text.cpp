@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "base/csv.h"
+#include "base/text/csv.h"
 #include "tests/fuzz/fuzz.h"
 
 namespace swarmsmith::fuzz {

@@ -3,7 +3,8 @@
 #include <limits>
 
 #include "coordinator/campaign/campaign_text.h"
-#include "sim/messages/score_messages.h"
+#include "proto/scenario/scenario.h"
+#include "sim/files/profile_file.h"
 #include "sim/mission/score.h"
 #include "sim/mission/trajectory.h"
 #include "tests/coordinator/campaign/campaign_support.h"
@@ -57,12 +58,12 @@ TEST(NewScore, IsRefusedWithLineAndColumn) {
 }
 
 TEST(NewScore, GoesToAWorkerAndBack) {
-  const ScoreRule rule = Spread{.free_m = 1.0 / 3, .at = When::Sum};
-  pb::ScoreRule message;
-  to_message(rule, message);
-  EXPECT_EQ(from_message(message), rule);
-  message.mutable_fields(0)->set_number(std::numeric_limits<double>::quiet_NaN());
-  EXPECT_EQ(from_message(message).error().where, "rule.free");
+  WorkerScenario scenario{.missions = {built_in_mission("aggregation").value()},
+                          .profile = *built_in_profile("rvr")};
+  scenario.missions[0].rule = Spread{.free_m = 1.0 / 3, .at = When::Sum};
+  EXPECT_EQ(scenarios_from_bytes(to_bytes({scenario})), PoolScenario{scenario});
+  scenario.missions[0].rule = Spread{.free_m = std::numeric_limits<double>::quiet_NaN()};
+  EXPECT_FALSE(scenarios_from_bytes(to_bytes({scenario})));
 }
 
 TEST(NewScore, ScoresATrajectory) {

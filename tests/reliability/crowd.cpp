@@ -27,7 +27,7 @@ EvaluatorFactory sleeping_evaluators(std::chrono::milliseconds sleep) {
   return [real = make_evaluators(), sleep](const std::string& scenario) -> Expected<Evaluator> {
     Expected<Evaluator> made = real(scenario);
     if (!made) return made;
-    return [evaluate = std::move(*made), sleep](const WorkItem& item) {
+    return [evaluate = std::move(*made), sleep](const LeasedTask& item) {
       std::this_thread::sleep_for(sleep);
       return evaluate(item);
     };

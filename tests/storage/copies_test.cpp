@@ -37,7 +37,7 @@ SyntheticCampaign campaign_of_all_kinds(std::uint64_t seed, std::int64_t designs
     WorkerRow row;
     row.id = worker;
     row.host = "host of " + std::to_string(seed);
-    row.state = "left";
+    row.state = WorkerState::Left;
     rows.emplace_back(row);
   }
   EvaluationRow scored;
@@ -48,10 +48,10 @@ SyntheticCampaign campaign_of_all_kinds(std::uint64_t seed, std::int64_t designs
   rows.emplace_back(scored);
   rows.emplace_back(ConflictRow{.key = key, .other_score = 3, .other_worker = 2});
   rows.emplace_back(FailureRow{.key = key, .worker = 1, .reason = "no output"});
-  rows.emplace_back(AttemptRow{.key = key, .worker = 2, .outcome = "lost"});
+  rows.emplace_back(AttemptRow{.key = key, .worker = 2, .outcome = AttemptOutcome::Lost});
   rows.emplace_back(EventRow{.severity = "info", .kind = "look-ahead", .text = "{}"});
-  rows.emplace_back(
-      CommandRow{.number = 1, .kind = "extend", .design = {designs}, .step = 3, .budget = 10});
+  rows.emplace_back(CommandRow{
+      .number = 1, .kind = CommandKind::Extend, .design = {designs}, .step = 3, .budget = 10});
   made.batches.push_back(std::move(rows));
   return made;
 }

@@ -100,8 +100,10 @@ TEST_P(MigrationTest, AMigratedStoreTakesCommandsAndAttempts) {
   {
     const auto store = opened_for_writing();
     const EvaluationKey key{candidate_id({1}, 1), Purpose::Race, 1};
-    CommandRow command{.number = 1, .kind = "extend", .design = {1}, .budget = 200, .who = "a@b"};
-    store->append({Row(AttemptRow{.key = key, .held_ms = 12, .outcome = "lost"}), Row(command)});
+    CommandRow command{
+        .number = 1, .kind = CommandKind::Extend, .design = {1}, .budget = 200, .who = "a@b"};
+    store->append({Row(AttemptRow{.key = key, .held_ms = 12, .outcome = AttemptOutcome::Lost}),
+                   Row(command)});
     command.step = 7;
     store->append({Row(command)});
     store->flush();

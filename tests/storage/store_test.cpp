@@ -213,9 +213,9 @@ TEST_F(StoreTest, KeepsWorkersConflictsAndEventsForPeople) {
   WorkerRow worker;
   worker.id = 1;
   worker.host = "node3";
-  worker.state = "connected";
+  worker.state = WorkerState::Connected;
   store->append({worker});
-  worker.state = "lost";
+  worker.state = WorkerState::Lost;
   worker.done = 12;
   store->append({worker, evaluation(1.0)});
   const ConflictRow conflict{.key = evaluation(1).key, .kept_score = 1, .other_score = 2};
@@ -235,11 +235,11 @@ TEST_F(StoreTest, RemembersWhoIsNotBelieved) {
   WorkerRow worker;
   worker.id = 4;
   worker.principal = "node@10.0.0.5";
-  worker.state = "quarantined";
+  worker.state = WorkerState::Quarantined;
   const EvaluationKey audited{{7}, Purpose::Race, 3};
   store->append({worker, CampaignStateRow{"distrusted"},
-                 AttemptRow{.key = audited, .outcome = "audited"},
-                 AttemptRow{.key = {{8}, Purpose::Race, 3}, .outcome = "lost"}});
+                 AttemptRow{.key = audited, .outcome = AttemptOutcome::Audited},
+                 AttemptRow{.key = {{8}, Purpose::Race, 3}, .outcome = AttemptOutcome::Lost}});
   store->flush();
   const StoredTrust trust = store->trust();
   EXPECT_EQ(trust.audited, std::set<EvaluationKey>{audited});

@@ -2,11 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include "proto/scenario/scenario.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
-#include "sim/messages/scenario_messages.h"
 
 namespace swarmsmith {
 namespace {
@@ -23,8 +23,8 @@ WorkerScenario short_aggregation() {
   return scenario;
 }
 
-WorkItem item(std::int64_t seed, const std::string& machine = kMachine) {
-  WorkItem it;
+LeasedTask item(std::int64_t seed, const std::string& machine = kMachine) {
+  LeasedTask it;
   it.key = 8;
   it.seed = seed;
   it.machine = machine;
@@ -44,10 +44,10 @@ TEST(Evaluate, GivesWhatTheSimulatorGives) {
                                               .mission = scenario.missions[0],
                                               .instance = instance,
                                               .seed = seed});
-    const auto measured = (*evaluator)(item(seed));
-    ASSERT_TRUE(measured);
-    EXPECT_EQ(measured->score, wanted.score);
-    EXPECT_EQ(measured->state_digest, wanted.state_digest);
+    const Result result = (*evaluator)(item(seed));
+    ASSERT_EQ(result.failure, "");
+    EXPECT_EQ(result.score, wanted.score);
+    EXPECT_EQ(result.state_digest, wanted.state_digest);
   }
 }
 
@@ -71,19 +71,19 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
                   .mission = scenario.missions[0],
                   .instance = instance,
                   .seed = 1});
-    WorkItem work = item(1);
+    LeasedTask work = item(1);
     work.method = static_cast<std::uint32_t>(method);
-    EXPECT_EQ((*evaluator)(work)->state_digest, wanted.state_digest);
+    EXPECT_EQ((*evaluator)(work).state_digest, wanted.state_digest);
   }
 }
 
 TEST(Evaluate, FailsWithASentence) {
   const Expected<Evaluator> evaluator = make_evaluators()(to_bytes({short_aggregation()}));
   ASSERT_TRUE(evaluator);
-  EXPECT_FALSE((*evaluator)(item(1, "--nstates nonsense")));
-  WorkItem strange = item(1);
+  EXPECT_NE((*evaluator)(item(1, "--nstates nonsense")).failure, "");
+  LeasedTask strange = item(1);
   strange.mission = 5;
-  EXPECT_FALSE((*evaluator)(strange));
+  EXPECT_NE((*evaluator)(strange).failure, "");
 }
 
 TEST(Evaluate, RefusesScenariosThatItCannotRun) {

@@ -14,18 +14,18 @@ namespace {
 /// Does what the item's machine says.
 Expected<Evaluator> make_obedient(const std::string& scenario) {
   if (scenario == "bad") return bad_input("a bad scenario");
-  return Evaluator([](const WorkItem& item) -> tl::expected<Measured, Failure> {
+  return Evaluator([](const LeasedTask& item) -> Result {
     if (item.machine == "throw") throw std::runtime_error("thrown");
-    if (item.machine == "error") return tl::unexpected(Failure{"an error"});
-    if (item.machine == "nan") return Measured{.score = std::numeric_limits<double>::quiet_NaN()};
-    return Measured{.score = static_cast<double>(item.seed) * 2, .state_digest = 9};
+    if (item.machine == "error") return Result{.failure = "an error"};
+    if (item.machine == "nan") return Result{.score = std::numeric_limits<double>::quiet_NaN()};
+    return Result{.score = static_cast<double>(item.seed) * 2, .state_digest = 9};
   });
 }
 
-std::vector<WorkItem> items(int count, const std::string& machine = "") {
-  std::vector<WorkItem> made;
+std::vector<LeasedTask> items(int count, const std::string& machine = "") {
+  std::vector<LeasedTask> made;
   for (int i = 1; i <= count; ++i) {
-    WorkItem item;
+    LeasedTask item;
     item.key = static_cast<PackedKey>(i);
     item.seed = i;
     item.machine = machine;
@@ -36,12 +36,12 @@ std::vector<WorkItem> items(int count, const std::string& machine = "") {
 
 class Pools : public ::testing::Test {
  protected:
-  std::map<PackedKey, Evaluated> wait_for(Pool& pool, std::size_t count) {
-    std::map<PackedKey, Evaluated> results;
+  std::map<PackedKey, Result> wait_for(Pool& pool, std::size_t count) {
+    std::map<PackedKey, Result> results;
     while (results.size() < count) {
       if (!woken.try_acquire_for(std::chrono::milliseconds(2)) && ++tries > 10'000) break;
       for (PoolEvent& event : pool.take_events()) {
-        if (auto* result = std::get_if<Evaluated>(&event)) results[result->key] = *result;
+        if (auto* result = std::get_if<Result>(&event)) results[result->key] = *result;
       }
     }
     return results;
@@ -77,10 +77,10 @@ TEST_F(Pools, GiveBackWhatIsNotStarted) {
   Pool pool(
       1,
       [&](const std::string&) -> Expected<Evaluator> {
-        return Evaluator([&](const WorkItem&) -> tl::expected<Measured, Failure> {
+        return Evaluator([&](const LeasedTask&) -> Result {
           started.release();
           go.acquire();
-          return Measured{.score = 1, .state_digest = 1};
+          return Result{.score = 1, .state_digest = 1};
         });
       },
       [this] { woken.release(); });

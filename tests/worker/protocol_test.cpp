@@ -31,7 +31,7 @@ class Protocol : public ::testing::Test {
         incarnation = (*message)->incarnation();
       }
       if (auto* run = std::get_if<RunItems>(&action)) {
-        for (WorkItem& item : run->items)
+        for (LeasedTask& item : run->items)
           given.push_back(item.key);
       }
       if (std::holds_alternative<OpenConnection>(action)) ++connections;

@@ -31,9 +31,9 @@ class TargetEvaluators : public ::testing::Test {
     std::filesystem::permissions(folder / name, std::filesystem::perms::owner_all);
   }
   Expected<Evaluator> make() { return make_evaluators(allowed)(to_bytes({scenario})); }
-  tl::expected<Measured, Failure> evaluate(const WorkItem& item) {
+  Result evaluate(const LeasedTask& item) {
     const auto evaluator = make();
-    if (!evaluator) return tl::unexpected(Failure{to_string(evaluator.error()), {}});
+    if (!evaluator) return {.failure = to_string(evaluator.error())};
     return (*evaluator)(item);
   }
   std::string log() const {
@@ -41,8 +41,8 @@ class TargetEvaluators : public ::testing::Test {
     return {std::istreambuf_iterator<char>(in), {}};
   }
   /// Of the third configuration of the second design.
-  static WorkItem item(std::int32_t purpose = 0) {
-    WorkItem made;
+  static LeasedTask item(std::int32_t purpose = 0) {
+    LeasedTask made;
     made.key = pack(kMostCandidates + 3, purpose, 1);
     made.instance = 2;
     made.seed = 11;
@@ -56,37 +56,38 @@ class TargetEvaluators : public ::testing::Test {
 };
 
 TEST_F(TargetEvaluators, GiveTheNegativeOfTheCost) {
-  const auto measured = evaluate(item());
-  ASSERT_TRUE(measured) << measured.error().reason;
-  EXPECT_EQ(measured->score, -2.5);
-  EXPECT_EQ(measured->time, 7);
-  EXPECT_FALSE(measured->rejected);
+  const Result result = evaluate(item());
+  ASSERT_EQ(result.failure, "");
+  EXPECT_EQ(result.score, -2.5);
+  EXPECT_EQ(result.time, 7);
+  EXPECT_FALSE(result.rejected);
   EXPECT_EQ(log(), "[3][2][11][two][-a][1]");
 }
 
 TEST_F(TargetEvaluators, DigestWhatWasPrinted) {
-  const auto first = evaluate(item());
-  EXPECT_EQ(evaluate(item())->state_digest, first->state_digest);
+  const Result first = evaluate(item());
+  ASSERT_EQ(first.failure, "");
+  EXPECT_EQ(evaluate(item()).state_digest, first.state_digest);
   script("target-runner", "echo 2.5 8\n");
-  EXPECT_NE(evaluate(item())->state_digest, first->state_digest);
+  EXPECT_NE(evaluate(item()).state_digest, first.state_digest);
 }
 
 TEST_F(TargetEvaluators, NameTheInstance) {
-  WorkItem test = item(kTestPurpose);
+  LeasedTask test = item(kTestPurpose);
   test.instance = 1;
-  ASSERT_TRUE(evaluate(test));
+  ASSERT_EQ(evaluate(test).failure, "");
   EXPECT_EQ(log(), "[3][1t][11][three][-a][1]");
   // A mission without instances for tests is tested on those of the training.
   test.mission = 1;
-  ASSERT_TRUE(evaluate(test));
+  ASSERT_EQ(evaluate(test).failure, "");
   EXPECT_EQ(log(), "[3][1][11][other][-a][1]");
-  WorkItem unknown = item();
+  LeasedTask unknown = item();
   unknown.instance = 3;
-  EXPECT_TRUE(mentions(evaluate(unknown).error().reason, "does not have"));
+  EXPECT_TRUE(mentions(evaluate(unknown).failure, "does not have"));
   unknown.instance = 0;
-  EXPECT_FALSE(evaluate(unknown));
+  EXPECT_NE(evaluate(unknown).failure, "");
   unknown.mission = 9;
-  EXPECT_FALSE(evaluate(unknown));
+  EXPECT_NE(evaluate(unknown).failure, "");
 }
 
 TEST_F(TargetEvaluators, CallTheEvaluatorForItsPurpose) {
@@ -94,35 +95,34 @@ TEST_F(TargetEvaluators, CallTheEvaluatorForItsPurpose) {
   scenario.target->evaluator = (folder / "target-evaluator").string();
   allowed.programs.push_back(*allowed_program(scenario.target->evaluator));
   script("target-runner", "echo 7\n");
-  const auto run = evaluate(item());
-  ASSERT_TRUE(run) << run.error().reason;
-  EXPECT_EQ(run->score, 0);
-  EXPECT_EQ(run->time, 7);
-  WorkItem call = item(kEvaluatorPurpose);
+  const Result run = evaluate(item());
+  ASSERT_EQ(run.failure, "");
+  EXPECT_EQ(run.score, 0);
+  EXPECT_EQ(run.time, 7);
+  LeasedTask call = item(kEvaluatorPurpose);
   call.alive = {1, 3};
-  EXPECT_EQ(evaluate(call)->score, -4);
+  EXPECT_EQ(evaluate(call).score, -4);
   EXPECT_EQ(log(), "[3][2][11][two][2][1][3]");
   call.instance = -1;
-  ASSERT_TRUE(evaluate(call));
+  ASSERT_EQ(evaluate(call).failure, "");
   EXPECT_EQ(log(), "[3][1t][11][three][2][1][3]");
 }
 
 TEST_F(TargetEvaluators, RejectAnInfiniteCost) {
   script("target-runner", "echo Inf 3\n");
-  const auto measured = evaluate(item());
-  ASSERT_TRUE(measured);
-  EXPECT_TRUE(measured->rejected);
-  EXPECT_EQ(measured->time, 3);
+  const Result result = evaluate(item());
+  ASSERT_EQ(result.failure, "");
+  EXPECT_TRUE(result.rejected);
+  EXPECT_EQ(result.time, 3);
 }
 
 TEST_F(TargetEvaluators, KeepTheStoryOfAFailure) {
   script("target-runner", "echo apples; echo pears >&2\n");
-  const auto measured = evaluate(item());
-  ASSERT_FALSE(measured);
-  EXPECT_TRUE(mentions(measured.error().reason, "`apples`"));
-  EXPECT_EQ(measured.error().details.output, "apples\n");
-  EXPECT_EQ(measured.error().details.errors, "pears\n");
-  EXPECT_TRUE(mentions(measured.error().details.command, "3 2 11 two  -a 1"));
+  const Result result = evaluate(item());
+  EXPECT_TRUE(mentions(result.failure, "`apples`"));
+  EXPECT_EQ(result.details.output, "apples\n");
+  EXPECT_EQ(result.details.errors, "pears\n");
+  EXPECT_TRUE(mentions(result.details.command, "3 2 11 two  -a 1"));
 }
 
 TEST_F(TargetEvaluators, RunNothingThatIsNotAllowed) {
@@ -144,13 +144,11 @@ TEST_F(TargetEvaluators, SeeThroughLinks) {
   scenario.target->runner = (folder / "link").string();
   const auto evaluator = make();
   ASSERT_TRUE(evaluator);
-  EXPECT_TRUE((*evaluator)(item()));
+  EXPECT_EQ((*evaluator)(item()).failure, "");
   // What the link means is looked at before every call.
   std::filesystem::remove(folder / "link");
   std::filesystem::create_symlink("/bin/true", folder / "link");
-  const auto measured = (*evaluator)(item());
-  ASSERT_FALSE(measured);
-  EXPECT_TRUE(mentions(measured.error().reason, "may not"));
+  EXPECT_TRUE(mentions((*evaluator)(item()).failure, "may not"));
 }
 
 /// Makes the link mean the one and the other in turn, as fast as it can.
@@ -186,12 +184,12 @@ TEST_F(TargetEvaluators, RunTheFileThatWasCheckedWhateverALinkMeansThen) {
     int ran = 0;
     int refused = 0;
     while (ran < 100 || refused < 100) {
-      const auto measured = (*evaluator)(item());
-      measured ? ++ran : ++refused;
-      if (measured) {
-        ASSERT_EQ(measured->score, -2.5);
+      const Result result = (*evaluator)(item());
+      result.failure.empty() ? ++ran : ++refused;
+      if (result.failure.empty()) {
+        ASSERT_EQ(result.score, -2.5);
       } else {
-        ASSERT_TRUE(mentions(measured.error().reason, "may not")) << measured.error().reason;
+        ASSERT_TRUE(mentions(result.failure, "may not")) << result.failure;
       }
       ASSERT_FALSE(std::filesystem::exists(folder / "stranger-ran"));
     }
@@ -213,7 +211,7 @@ TEST_F(TargetEvaluators, TellALauncherTheFileThatWasChecked) {
   int ran = 0;
   int refused = 0;
   while (ran < 100 || refused < 100) {
-    (*evaluator)(item()) ? ++ran : ++refused;
+    (*evaluator)(item()).failure.empty() ? ++ran : ++refused;
     ASSERT_FALSE(std::filesystem::exists(folder / "stranger-ran"));
   }
 }
@@ -229,7 +227,7 @@ TEST_F(TargetEvaluators, GiveUpWhatRunsWhenAnotherScenarioComes) {
   const auto evaluator = factory(to_bytes({scenario}));
   ASSERT_TRUE(evaluator);
   std::string reason;
-  std::jthread slot([&] { reason = (*evaluator)(item()).error().reason; });
+  std::jthread slot([&] { reason = (*evaluator)(item()).failure; });
   ASSERT_TRUE(factory(to_bytes({scenario})));  // the next slot's: nothing happens
   scenario.campaign_digest = "other";
   ASSERT_TRUE(factory(to_bytes({scenario})));

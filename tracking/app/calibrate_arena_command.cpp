@@ -5,7 +5,8 @@
 #include <span>
 
 #include "base/output_file.h"
-#include "console/whole_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "sim/files/mission_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
@@ -86,19 +87,24 @@ std::optional<Error> repeated(const std::vector<std::vector<TagLook>>& looks,
   return std::nullopt;
 }
 
-std::string json_of(const PlaceCalibration& calibration, const std::string& file) {
-  std::string tags;
-  for (const PlaceCalibration::Seen& seen : calibration.tags) {
-    tags += (tags.empty() ? "" : ",") + fmt::format("{{\"tag\":{},\"rms_px\":", seen.tag.tag) +
-            json_number(seen.rms_px) + ",\"left_out_m\":" + json_number(seen.left_out_m) + "}";
-  }
+std::string place_json(const PlaceCalibration& calibration, const std::string& file) {
+  const auto tag_json = [](const PlaceCalibration::Seen& seen) {
+    return JsonObject()
+        .add("tag", seen.tag.tag)
+        .add("rms_px", seen.rms_px)
+        .add("left_out_m", seen.left_out_m);
+  };
   const Point3 centre = calibration.place.centre();
-  return "{\"file\":" + json_text(file) + ",\"camera\":[" + json_number(centre.x) + "," +
-         json_number(centre.y) + "," + json_number(centre.z) +
-         "],\"rms_px\":" + json_number(calibration.rms_px) +
-         ",\"worst_left_out_m\":" + json_number(calibration.worst_left_out_m) +
-         ",\"worst_tag\":" + std::to_string(calibration.worst_tag) +
-         ",\"coverage\":" + json_number(calibration.coverage) + ",\"tags\":[" + tags + "]}\n";
+  return JsonObject()
+             .add("file", file)
+             .add("camera", std::array{centre.x, centre.y, centre.z})
+             .add("rms_px", calibration.rms_px)
+             .add("worst_left_out_m", calibration.worst_left_out_m)
+             .add("worst_tag", calibration.worst_tag)
+             .add("coverage", calibration.coverage)
+             .add("tags", json_list(calibration.tags, tag_json))
+             .text() +
+         "\n";
 }
 
 /// What is asked, from pictures or from the last calibration's medians.
@@ -148,7 +154,7 @@ ExitCode solve(const Arguments& arguments, const Rig& rig, const CameraSetup& ca
   const std::string file = arguments.file.empty() ? made : arguments.file;
   if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
-  output.out << (output.json ? json_of(*calibration, file) : report_text(*calibration));
+  output.out << (output.json ? place_json(*calibration, file) : report_text(*calibration));
   print_cautions(output, cautions_of(*calibration, question->limits));
   print_note(output, "wrote " + file);
   return ExitCode::Done;

@@ -3,7 +3,8 @@
 #include <memory>
 
 #include "base/output_file.h"
-#include "console/whole_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/complaints.h"
@@ -84,33 +85,37 @@ Expected<bool> look(const PictureSource& source, const FrameSource& frames, cons
   return true;
 }
 
-std::string json_of(const CameraSolution& solution, const std::vector<BoardView>& views,
-                    const std::string& file) {
+std::string solution_json(const CameraSolution& solution, const std::vector<BoardView>& views,
+                          const std::string& file) {
   const CameraCalibration& calibration = solution.calibration;
   const CameraModel& model = calibration.model;
-  std::string list;
-  for (std::size_t i = 0; i < views.size(); ++i) {
-    list += (i > 0 ? "," : "") + std::string("{\"name\":") + json_text(views[i].name) +
-            ",\"corners\":" + std::to_string(views[i].seen.size()) +
-            ",\"rms_px\":" + json_number(solution.views[i].rms_px) +
-            ",\"dropped\":" + (solution.views[i].dropped ? "true" : "false") + "}";
-  }
-  std::string distortion;
-  for (const double value : model.distortion)
-    distortion += (distortion.empty() ? "" : ",") + json_number(value);
-  return "{\"file\":" + json_text(file) + ",\"width\":" + std::to_string(model.size.width) +
-         ",\"height\":" + std::to_string(model.size.height) +
-         ",\"lens\":" + json_text(model.lens == Lens::Fisheye ? "fisheye" : "pinhole") +
-         ",\"fx\":" + json_number(model.fx) + ",\"fy\":" + json_number(model.fy) +
-         ",\"cx\":" + json_number(model.cx) + ",\"cy\":" + json_number(model.cy) +
-         ",\"distortion\":[" + distortion + "],\"rms_px\":" + json_number(calibration.rms_px) +
-         ",\"worst_view_px\":" + json_number(calibration.worst_view_px) +
-         ",\"focal_sigma_px\":" + json_number(calibration.focal_sigma_px) +
-         ",\"coverage\":" + json_number(calibration.coverage) +
-         ",\"ninths\":" + fmt::format("[{}]", fmt::join(solution.ninths, ",")) +
-         ",\"views_used\":" + std::to_string(calibration.views) +
-         ",\"views_dropped\":" + std::to_string(calibration.views_dropped) + ",\"views\":[" + list +
-         "]}\n";
+  const auto view_json = [&](std::size_t i) {
+    return JsonObject()
+        .add("name", views[i].name)
+        .add("corners", views[i].seen.size())
+        .add("rms_px", solution.views[i].rms_px)
+        .add("dropped", solution.views[i].dropped);
+  };
+  return JsonObject()
+             .add("file", file)
+             .add("width", model.size.width)
+             .add("height", model.size.height)
+             .add("lens", model.lens == Lens::Fisheye ? "fisheye" : "pinhole")
+             .add("fx", model.fx)
+             .add("fy", model.fy)
+             .add("cx", model.cx)
+             .add("cy", model.cy)
+             .add("distortion", model.distortion)
+             .add("rms_px", calibration.rms_px)
+             .add("worst_view_px", calibration.worst_view_px)
+             .add("focal_sigma_px", calibration.focal_sigma_px)
+             .add("coverage", calibration.coverage)
+             .add("ninths", solution.ninths)
+             .add("views_used", calibration.views)
+             .add("views_dropped", calibration.views_dropped)
+             .add("views", json_list(std::views::iota(std::size_t{0}, views.size()), view_json))
+             .text() +
+         "\n";
 }
 
 /// Report and map are there also for what is refused: they show why.
@@ -140,7 +145,7 @@ ExitCode solve(const Arguments& arguments, const Target& target, const Board& bo
   if (!faults.empty()) return fail_all(output, faults);
   if (const auto written = write_whole_file(target.file, calibration_text(calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
-  if (output.json) output.out << json_of(*solution, views, target.file);
+  if (output.json) output.out << solution_json(*solution, views, target.file);
   print_cautions(output, cautions_of(calibration));
   print_note(output, "wrote " + target.file);
   if (target.has_place) {

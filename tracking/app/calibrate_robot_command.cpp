@@ -3,7 +3,8 @@
 
 #include "base/output_file.h"
 #include "base/suggestion.h"
-#include "console/whole_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/complaints.h"
@@ -36,19 +37,23 @@ Expected<RobotSetup> robot_of(const Rig& rig, const std::string& name) {
                              rig.file));
 }
 
-std::string json_of(const OffsetCalibration& calibration, const std::string& file) {
-  return "{\"file\":" + json_text(file) + ",\"robot\":" + json_text(calibration.robot) +
-         ",\"tag\":" + std::to_string(calibration.tag) +
-         ",\"x_m\":" + json_number(calibration.offset.x_m) +
-         ",\"y_m\":" + json_number(calibration.offset.y_m) +
-         ",\"has_yaw\":" + (calibration.has_yaw ? "true" : "false") +
-         ",\"yaw_rad\":" + json_number(calibration.offset.yaw_rad) +
-         ",\"rms_m\":" + json_number(calibration.rms_m) +
-         ",\"sigma_x_m\":" + json_number(calibration.sigma_x_m) +
-         ",\"sigma_y_m\":" + json_number(calibration.sigma_y_m) +
-         ",\"drift_m_s\":" + json_number(calibration.drift_m_s) +
-         ",\"turned_rad\":" + json_number(calibration.turned_rad) +
-         ",\"samples\":" + std::to_string(calibration.samples) + "}\n";
+std::string offset_json(const OffsetCalibration& calibration, const std::string& file) {
+  return JsonObject()
+             .add("file", file)
+             .add("robot", calibration.robot)
+             .add("tag", calibration.tag)
+             .add("x_m", calibration.offset.x_m)
+             .add("y_m", calibration.offset.y_m)
+             .add("has_yaw", calibration.has_yaw)
+             .add("yaw_rad", calibration.offset.yaw_rad)
+             .add("rms_m", calibration.rms_m)
+             .add("sigma_x_m", calibration.sigma_x_m)
+             .add("sigma_y_m", calibration.sigma_y_m)
+             .add("drift_m_s", calibration.drift_m_s)
+             .add("turned_rad", calibration.turned_rad)
+             .add("samples", calibration.samples)
+             .text() +
+         "\n";
 }
 
 /// Offset of the spin, yaw of the straight run.
@@ -108,7 +113,7 @@ ExitCode run(const Arguments& arguments, Output& output) {
   const std::string file = arguments.file.empty() ? made : arguments.file;
   if (const auto written = write_whole_file(file, calibration_text(*calibration)); !written)
     return fail(output, ExitCode::Failed, written.error());
-  if (output.json) output.out << json_of(*calibration, file);
+  if (output.json) output.out << offset_json(*calibration, file);
   print_cautions(output, cautions_of(*calibration));
   print_note(output, "wrote " + file);
   return ExitCode::Done;

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "base/suggestion.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "console/counter.h"
 #include "tracking/geometry/tag_pose.h"
 #include "tracking/observing/observe.h"

@@ -2,6 +2,7 @@
 
 #include <memory>
 
+#include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/complaints.h"
 #include "tracking/rig/calibration_limits.h"
@@ -91,15 +92,18 @@ std::string line_of(const std::string& what, const Part& part) {
   return head + part.file + ", made " + part.made + ": " + part.text + "\n";
 }
 
-std::string json_of(const Part& part) {
-  if (!part.is_there) return "{\"file\":" + json_text(part.file) + ",\"there\":false}";
-  return "{\"file\":" + json_text(part.file) + ",\"there\":true,\"made\":" + json_text(part.made) +
-         ",\"sha256\":" + json_text(part.sha256) + ",\"quality\":" + json_text(part.text) + "}";
+JsonObject part_json(const Part& part) {
+  JsonObject object;
+  object.add("file", part.file).add("there", part.is_there);
+  if (!part.is_there) return object;
+  return object.add("made", part.made).add("sha256", part.sha256).add("quality", part.text);
 }
 
 /// What is there, as both answers, and what is not.
 struct Inventory {
-  std::string text, cameras, robots;  ///< the latter as items of JSON arrays
+  std::string text;
+  std::vector<JsonObject> cameras;
+  std::vector<JsonObject> robots;
   Missing missing;
 };
 
@@ -111,9 +115,10 @@ Inventory inventory_of(const Rig& rig) {
     if (!lens.is_there) all.missing.lenses.push_back(camera.name);
     if (!place.is_there) all.missing.places.push_back(camera.name);
     all.text += "camera " + camera.name + "\n" + line_of("lens", lens) + line_of("place", place);
-    all.cameras += std::string(all.cameras.empty() ? "" : ",") +
-                   "{\"name\":" + json_text(camera.name) + ",\"model\":" + json_of(lens) +
-                   ",\"place\":" + json_of(place) + "}";
+    all.cameras.push_back(JsonObject()
+                              .add("name", camera.name)
+                              .add("model", part_json(lens))
+                              .add("place", part_json(place)));
   }
   for (const RobotSetup& robot : rig.robots) {
     const Part offset = offset_part_of(rig, robot);
@@ -121,9 +126,10 @@ Inventory inventory_of(const Rig& rig) {
     all.text += fmt::format("robot {}: tag {}, edge {}, height {}\n", robot.name, robot.tag,
                             millimetres(robot.edge_m), millimetres(robot.height_m)) +
                 line_of("offset", offset);
-    all.robots += std::string(all.robots.empty() ? "" : ",") +
-                  "{\"name\":" + json_text(robot.name) + ",\"tag\":" + std::to_string(robot.tag) +
-                  ",\"offset\":" + json_of(offset) + "}";
+    all.robots.push_back(JsonObject()
+                             .add("name", robot.name)
+                             .add("tag", robot.tag)
+                             .add("offset", part_json(offset)));
   }
   return all;
 }
@@ -140,17 +146,21 @@ ExitCode run(const std::string& file, Output& output) {
   const std::string next =
       wrong.empty() ? next_step(all.missing, *rig, file) : "mend what is wrong, as said above";
   if (output.json) {
-    std::string errors;
-    for (const Error& error : wrong)
-      errors += (errors.empty() ? "" : ",") + json_text(to_string(error));
+    const auto text_of = [](const Error& error) { return to_string(error); };
     const bool is_ready = wrong.empty() && all.missing.lenses.empty() &&
                           all.missing.places.empty() && all.missing.offsets.empty() &&
                           !rig->robots.empty();
-    output.out << "{\"file\":" << json_text(file) << ",\"family\":" << json_text(rig->family)
-               << ",\"references\":" << rig->references.size() << ",\"cameras\":[" << all.cameras
-               << "],\"robots\":[" << all.robots << "],\"misfits\":[" << errors
-               << "],\"ready\":" << (is_ready ? "true" : "false") << ",\"next\":" << json_text(next)
-               << "}\n";
+    output.out << JsonObject()
+                      .add("file", file)
+                      .add("family", rig->family)
+                      .add("references", rig->references.size())
+                      .add("cameras", all.cameras)
+                      .add("robots", all.robots)
+                      .add("misfits", json_list(wrong, text_of))
+                      .add("ready", is_ready)
+                      .add("next", next)
+                      .text()
+               << "\n";
   } else {
     output.out << file << ": family " << rig->family << ", " << rig->references.size()
                << " floor tags\n"

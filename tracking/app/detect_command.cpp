@@ -6,9 +6,10 @@
 #include <map>
 #include <memory>
 
-#include "base/csv.h"
+#include "base/text/csv.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "console/counter.h"
-#include "console/whole_file.h"
 #include "sim/mission/trajectory_csv.h"
 #include "tracking/app/commands.h"
 #include "tracking/detection/tag_detector.h"
@@ -113,16 +114,22 @@ Expected<Finds> look(const Words& words, Output& output) {
 
 void print(const Finds& finds, Output& output) {
   if (output.json) {
-    std::string tags;
-    for (const auto& [tag, seen] : finds.tags) {
-      tags += fmt::format(
-          "{}{{\"tag\":{},\"frames\":{},\"twice\":{},\"corrected\":{},\"edge_px\":{},\"margin\":{}}"
-          "}",
-          tags.empty() ? "" : ",", tag, seen.frames, seen.twice, seen.corrected,
-          json_number(median(seen.edges_px)), json_number(median(seen.margins)));
-    }
-    output.out << fmt::format("{{\"frames\":{},\"mirrored\":{},\"tags\":[{}]}}\n", finds.frames,
-                              finds.is_mirrored, tags);
+    const auto tag_json = [](const auto& found) {
+      const auto& [tag, seen] = found;
+      return JsonObject()
+          .add("tag", tag)
+          .add("frames", seen.frames)
+          .add("twice", seen.twice)
+          .add("corrected", seen.corrected)
+          .add("edge_px", median(seen.edges_px))
+          .add("margin", median(seen.margins));
+    };
+    output.out << JsonObject()
+                      .add("frames", finds.frames)
+                      .add("mirrored", finds.is_mirrored)
+                      .add("tags", json_list(finds.tags, tag_json))
+                      .text()
+               << "\n";
     return;
   }
   output.out << "   tag  frames   of  edge px  margin  bits mended  twice\n";

@@ -3,7 +3,8 @@
 #include <memory>
 #include <string_view>
 
-#include "console/whole_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "embedded/kArenaTemplate.h"
 #include "embedded/kRunTemplate.h"
 #include "tracking/app/commands.h"
@@ -28,19 +29,20 @@ ExitCode run(const std::string& folder, Output& output) {
     return fail(output, ExitCode::Usage,
                 Error{ErrorKind::BadInput, "is there already; name another folder", file});
   }
-  std::string files;
+  std::vector<std::string> files;
   for (const Template& each : kTemplates) {
     const std::string file = (std::filesystem::path(folder) / each.name).string();
     if (const auto written = write_whole_file(file, each.text); !written) {
       return fail(output, ExitCode::Failed, written.error());
     }
-    files += output.json ? (files.empty() ? "" : ",") + json_text(file) : file + "\n";
+    files.push_back(file);
   }
   if (output.json) {
-    output.out << "{\"files\":[" << files << "]}\n";
+    output.out << JsonObject().add("files", files).text() << "\n";
     return ExitCode::Done;
   }
-  output.out << files;
+  for (const std::string& file : files)
+    output.out << file << "\n";
   const std::string arena = (std::filesystem::path(folder) / "arena.toml").string();
   print_note(output, "Write your cameras, floor tags and robots into it; `swarmsmith track check " +
                          arena + "` then says what comes next.");

@@ -4,6 +4,7 @@
 #include <memory>
 #include <optional>
 
+#include "base/text/json.h"
 #include "console/terminal.h"
 #include "sim/files/mission_file.h"
 #include "tracking/app/commands.h"
@@ -207,10 +208,14 @@ ExitCode answer(Watched& watched, Output& output) {
   const double late_ms = 1000 * watched.delays.quantile(0.95);
   const double most_ms = 1000 * watched.delays.quantile(1);
   if (output.json) {
-    output.out << "{\"frames\":" << watched.frames << ",\"dropped\":" << watched.dropped
-               << ",\"delay_ms\":{\"median\":" << json_number(median_ms)
-               << ",\"p95\":" << json_number(late_ms) << ",\"most\":" << json_number(most_ms)
-               << "}}\n";
+    const JsonObject delay =
+        JsonObject().add("median", median_ms).add("p95", late_ms).add("most", most_ms);
+    output.out << JsonObject()
+                      .add("frames", watched.frames)
+                      .add("dropped", watched.dropped)
+                      .add("delay_ms", delay)
+                      .text()
+               << "\n";
   } else {
     output.out << watched.frames << " frames, " << watched.dropped << " dropped; delay "
                << static_cast<int>(median_ms + 0.5) << " ms, 95 % within "

@@ -8,8 +8,9 @@
 #include <optional>
 
 #include "base/id.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "console/counter.h"
-#include "console/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
 #include "tracking/app/run_checks.h"
@@ -248,7 +249,7 @@ ExitCode overlay(const Words& words, Output& output) {
   const auto drawn = draw(*run, *at_s, words, output);
   if (!drawn) return fail(output, exit_code_of_tracking(drawn.error()), drawn.error());
   if (output.json)
-    output.out << "{\"file\":" << json_text(words.out) << ",\"frames\":" << *drawn << "}\n";
+    output.out << JsonObject().add("file", words.out).add("frames", *drawn).text() << "\n";
   else
     output.out << words.out << ": " << *drawn << (*drawn == 1 ? " frame\n" : " frames\n");
   return ExitCode::Done;

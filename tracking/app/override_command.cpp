@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "base/id.h"
+#include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/result_text.h"
 #include "tracking/app/run_store.h"
@@ -49,10 +50,14 @@ ExitCode run(const Arguments& arguments, Output& output) {
   const auto added = (*store)->add_override({id, verdict, arguments.who, arguments.reason});
   if (!added) return fail(output, ExitCode::Store, added.error());
   if (output.json) {
-    output.out << "{\"run\":" << json_text(arguments.run) << ",\"verdict\":" << json_text(verdict)
-               << ",\"measured\":" << json_text(before->score.verdict)
-               << ",\"who\":" << json_text(arguments.who)
-               << ",\"reason\":" << json_text(arguments.reason) << "}\n";
+    output.out << JsonObject()
+                      .add("run", arguments.run)
+                      .add("verdict", verdict)
+                      .add("measured", before->score.verdict)
+                      .add("who", arguments.who)
+                      .add("reason", arguments.reason)
+                      .text()
+               << "\n";
   } else {
     output.out << arguments.run << ": " << before->score.verdict << " measured, " << verdict
                << " by " << arguments.who << ": " << arguments.reason << "\n";

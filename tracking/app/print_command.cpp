@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "console/pdf.h"
-#include "console/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/printing/board_sheet.h"
 #include "tracking/printing/survey_sheet.h"
@@ -72,10 +73,7 @@ ExitCode write_pages(std::span<const std::string> pages, const std::string& file
                            "; print at 100 %, and measure the ruler");
     return ExitCode::Done;
   }
-  std::string list;
-  for (const std::string& name : names)
-    list += (list.empty() ? "" : ",") + json_text(name);
-  output.out << "{\"pages\":" << pages.size() << ",\"files\":[" << list << "]}\n";
+  output.out << JsonObject().add("pages", pages.size()).add("files", names).text() << "\n";
   return ExitCode::Done;
 }
 

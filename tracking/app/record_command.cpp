@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/recording.h"
 #include "tracking/app/stop_signal.h"
@@ -48,10 +49,14 @@ std::optional<double> counting_rate(const SourceInfo& info, std::optional<double
 
 ExitCode answer(const Words& words, const Recording& recording, Output& output) {
   if (output.json) {
-    output.out << fmt::format(
-        "{{\"file\":{},\"times\":{},\"frames\":{},\"seconds\":{},\"dropped\":{}}}\n",
-        json_text(words.file), json_text(recording.times_file()), recording.frames(),
-        json_number(recording.seconds()), recording.dropped());
+    output.out << JsonObject()
+                      .add("file", words.file)
+                      .add("times", recording.times_file())
+                      .add("frames", recording.frames())
+                      .add("seconds", recording.seconds())
+                      .add("dropped", recording.dropped())
+                      .text()
+               << "\n";
   } else {
     output.out << words.file << ": " << recording.summary() << "\n"
                << recording.times_file() << ": the time of each\n";

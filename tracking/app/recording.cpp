@@ -9,6 +9,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/output_file.h"
 #include "console/terminal.h"
 #include "tracking/app/stop_signal.h"
 #include "tracking/rig/issue.h"

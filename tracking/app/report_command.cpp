@@ -1,7 +1,7 @@
 #include <memory>
 
+#include "base/text/whole_file.h"
 #include "console/terminal.h"
-#include "console/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/run_analysis.h"
 #include "tracking/app/run_checks.h"

@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "base/id.h"
+#include "base/text/json.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/result_text.h"
 #include "tracking/app/run_checks.h"
@@ -98,10 +99,11 @@ OrRefusal<Again> score_again(const Arguments& arguments, RealRunRows before) {
 void print_again(const std::string& word, const Again& again, Output& output) {
   const RealScoreRow& before = again.before.score;
   if (output.json) {
-    output.out << "{\"run\":" << json_text(word)
-               << ",\"before\":{\"score\":" << (before.score ? json_number(*before.score) : "null")
-               << ",\"verdict\":" << json_text(before.verdict) << "},"
-               << result_json(again.log, again.analysis) << "}\n";
+    JsonObject object;
+    object.add("run", word)
+        .add("before", JsonObject().add("score", before.score).add("verdict", before.verdict));
+    add_result(object, again.log, again.analysis);
+    output.out << object.text() << "\n";
     return;
   }
   output.out << word << " was: score " << score_text(before.score) << ", " << before.verdict << "\n"

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "base/text/json.h"
 #include "base/text/toml_text.h"
 #include "console/output.h"
 #include "sim/mission/trajectory_csv.h"
@@ -64,32 +65,6 @@ Result result_of(const RunLog& log, const RunAnalysis& analysis) {
   return result;
 }
 
-Result result_of(const RealRunRows& rows) {
-  Result result{.name = rows.name,
-                .mission = rows.mission,
-                .verdict = rows.score.verdict,
-                .score = rows.score.score,
-                .biased = rows.score.biased,
-                .reasons = {},
-                .robots = {},
-                .issues = {}};
-  for (const RealRobotRow& row : rows.robots) {
-    RobotLine line{.name = row.name, .tag = row.tag};
-    line.cycles = row.measured + row.interpolated + row.degraded + row.missing;
-    line.measured = static_cast<double>(row.measured) /
-                    static_cast<double>(std::max<std::int64_t>(line.cycles, 1));
-    line.missing = row.missing;
-    line.longest_gap_s = row.longest_gap_s;
-    line.sigma_m = row.sigma_m;
-    line.border_m = row.border_m;
-    line.too_close = row.too_close;
-    result.robots.push_back(line);
-  }
-  for (const RealIssueRow& row : rows.issues)
-    result.issues.emplace_back(row.code, row.text);
-  return result;
-}
-
 std::string robot_text(const RobotLine& robot, std::size_t width) {
   std::string text = fmt::format(
       "  {:<{}}  tag {:>3}  seen {:>5.1f} %  longest gap {:.2f} s  sigma {}", robot.name, width,
@@ -122,25 +97,29 @@ std::string text_of(const Result& result) {
   return text;
 }
 
-std::string json_of(const Result& result) {
+void add_to(JsonObject& object, const Result& result) {
   const auto robot_json = [](const RobotLine& robot) {
-    return fmt::format(
-        R"({{"name":{},"tag":{},"measured":{},"missing_cycles":{},"longest_gap_s":{},"sigma_m":{},)"
-        R"("border_m":{},"too_close":{}}})",
-        json_text(robot.name), robot.tag, json_number(robot.measured), robot.missing,
-        json_number(robot.longest_gap_s), json_number(robot.sigma_m),
-        robot.border_m ? json_number(*robot.border_m) : "null", robot.too_close);
+    return JsonObject()
+        .add("name", robot.name)
+        .add("tag", robot.tag)
+        .add("measured", robot.measured)
+        .add("missing_cycles", robot.missing)
+        .add("longest_gap_s", robot.longest_gap_s)
+        .add("sigma_m", robot.sigma_m)
+        .add("border_m", robot.border_m)
+        .add("too_close", robot.too_close);
   };
   const auto issue_json = [](const std::pair<std::string, std::string>& issue) {
-    return "{\"code\":" + json_text(issue.first) + ",\"text\":" + json_text(issue.second) + "}";
+    return JsonObject().add("code", issue.first).add("text", issue.second);
   };
-  return fmt::format(
-      R"("name":{},"mission":{},"score":{},"verdict":{},"biased":{},"reasons":[{}],"robots":[{}],)"
-      R"("issues":[{}])",
-      json_text(result.name), json_text(result.mission),
-      result.score ? json_number(*result.score) : "null", json_text(result.verdict), result.biased,
-      list_of(result.reasons, json_text), list_of(result.robots, robot_json),
-      list_of(result.issues, issue_json));
+  object.add("name", result.name)
+      .add("mission", result.mission)
+      .add("score", result.score)
+      .add("verdict", result.verdict)
+      .add("biased", result.biased)
+      .add("reasons", result.reasons)
+      .add("robots", json_list(result.robots, robot_json))
+      .add("issues", json_list(result.issues, issue_json));
 }
 
 }  // namespace
@@ -152,14 +131,8 @@ std::string score_text(const std::optional<double>& score) {
 std::string result_text(const RunLog& log, const RunAnalysis& analysis) {
   return text_of(result_of(log, analysis));
 }
-std::string result_json(const RunLog& log, const RunAnalysis& analysis) {
-  return json_of(result_of(log, analysis));
-}
-std::string result_text(const RealRunRows& rows) {
-  return text_of(result_of(rows));
-}
-std::string result_json(const RealRunRows& rows) {
-  return json_of(result_of(rows));
+void add_result(JsonObject& object, const RunLog& log, const RunAnalysis& analysis) {
+  add_to(object, result_of(log, analysis));
 }
 
 std::string trajectory_csv(const TrackedRun& tracked) {

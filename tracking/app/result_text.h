@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "storage/real_runs.h"
+#include "base/text/json.h"
 #include "tracking/app/run_analysis.h"
 
 namespace swarmsmith::cli {
@@ -11,12 +11,8 @@ namespace swarmsmith::cli {
 /// seen.
 std::string result_text(const RunLog& log, const RunAnalysis& analysis);
 
-/// The same as the keys of a JSON object, without its braces.
-std::string result_json(const RunLog& log, const RunAnalysis& analysis);
-
-/// Of a run that is stored, from its rows.
-std::string result_text(const RealRunRows& rows);
-std::string result_json(const RealRunRows& rows);
+/// The same as keys of the object.
+void add_result(JsonObject& object, const RunLog& log, const RunAnalysis& analysis);
 
 /// "12", "-3.25", "no score".
 std::string score_text(const std::optional<double>& score);

@@ -1,7 +1,7 @@
 #include "tracking/app/run_options.h"
 
 #include "base/id.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/mission/instance_csv.h"
 #include "tracking/rig/rig_file.h"

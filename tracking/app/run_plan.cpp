@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "tracking/app/run_checks.h"
 #include "tracking/app/run_options.h"
 #include "tracking/app/run_store.h"

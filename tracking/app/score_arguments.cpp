@@ -1,13 +1,9 @@
 #include "tracking/app/score_arguments.h"
 
-#include <cstdlib>
-
 namespace swarmsmith::cli {
 
 std::string store_word(const std::string& option) {
-  if (!option.empty()) return option;
-  const char* variable = std::getenv("SWARMSMITH_STORE");
-  return variable != nullptr ? variable : "";
+  return option.empty() ? store_of_environment() : option;
 }
 
 void ScoreArguments::declare(Options& options) {

@@ -1,7 +1,8 @@
 #include <memory>
 
 #include "base/id.h"
-#include "console/whole_file.h"
+#include "base/text/json.h"
+#include "base/text/whole_file.h"
 #include "tracking/app/commands.h"
 #include "tracking/app/result_text.h"
 #include "tracking/app/run_plan.h"
@@ -46,12 +47,10 @@ void print_result(const RunPlan& plan, const RunAnalysis& analysis,
                   const std::optional<RealRunWritten>& written, Output& output) {
   const std::string id = written ? to_string(written->id) : "";
   if (output.json) {
-    output.out << "{" << result_json(plan.log, analysis);
-    if (written) {
-      output.out << ",\"store\":" << json_text(plan.store) << ",\"run\":" << json_text(id)
-                 << ",\"new\":" << (written->is_new ? "true" : "false");
-    }
-    output.out << "}\n";
+    JsonObject object;
+    add_result(object, plan.log, analysis);
+    if (written) object.add("store", plan.store).add("run", id).add("new", written->is_new);
+    output.out << object.text() << "\n";
     return;
   }
   output.out << result_text(plan.log, analysis);

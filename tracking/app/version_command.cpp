@@ -1,5 +1,6 @@
 #include <opencv2/core/version.hpp>
 
+#include "base/text/json.h"
 #include "tracking/app/commands.h"
 
 extern "C" {
@@ -16,10 +17,14 @@ std::string track_program_name() {
 Run declare_track_version(Options&) {
   return [](Output& output) {
     if (output.json) {
-      output.out << "{\"name\":\"swarmsmith-track\",\"version\":" << json_text(SWARMSMITH_VERSION)
-                 << ",\"opencv\":" << json_text(CV_VERSION)
-                 << ",\"apriltag\":" << json_text(SWARMSMITH_APRILTAG)
-                 << ",\"libavformat\":" << json_text(AV_STRINGIFY(LIBAVFORMAT_VERSION)) << "}\n";
+      output.out << JsonObject()
+                        .add("name", "swarmsmith-track")
+                        .add("version", SWARMSMITH_VERSION)
+                        .add("opencv", CV_VERSION)
+                        .add("apriltag", SWARMSMITH_APRILTAG)
+                        .add("libavformat", AV_STRINGIFY(LIBAVFORMAT_VERSION))
+                        .text()
+                 << "\n";
     } else {
       output.out << track_program_name() << "\n";
     }

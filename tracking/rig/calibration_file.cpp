@@ -1,7 +1,6 @@
 #include <Eigen/LU>
 #include <cmath>
 
-#include "base/text/file_text.h"
 #include "base/text/table_reader.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"

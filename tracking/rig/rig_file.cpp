@@ -4,9 +4,9 @@
 #include <array>
 #include <utility>
 
-#include "base/text/file_text.h"
 #include "base/text/sha256.h"
 #include "base/text/table_reader.h"
+#include "base/text/whole_file.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/read_place.h"
 #include "sim/mission/polygon.h"
@@ -128,7 +128,7 @@ void read_calibration(TableReader& table, std::string_view key, const std::strin
       table.complain_foreign(key, std::move(error));
     return;
   }
-  rig.files[file] = {file, **text, cli::sha256_of(**text), calibration->made};
+  rig.files[file] = {file, **text, sha256_of(**text), calibration->made};
   into[file] = std::move(*calibration);
 }
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "base/id.h"
-#include "base/text/file_text.h"
 #include "base/text/table_reader.h"
+#include "base/text/whole_file.h"
 #include "sim/files/color_text.h"
 #include "sim/files/mission_file.h"
 #include "sim/files/read_place.h"

@@ -32,7 +32,7 @@ std::string key_of(const RunToStore& run) {
     // To the millisecond: what is nearer is the same begin.
     text += fmt::format("{} {:.3f}\n", run.observations.cameras[i].sha256, run.starts_s[i]);
   }
-  return cli::sha256_of(text);
+  return sha256_of(text);
 }
 
 std::string sha256_of(const Rig& rig, const std::string& file) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string_view>
 
+#include "base/text/csv.h"
 #include "tracking/rig/issue.h"
 
 namespace swarmsmith {
@@ -13,16 +14,6 @@ namespace {
 
 Unexpected bad_times(const std::string& text, const std::string& where) {
   return Unexpected(error_of(IssueCode::Timestamps, text, where));
-}
-
-/// The next line without its end; false when there is none.
-bool take_line(std::string_view& text, std::string_view& line) {
-  if (text.empty()) return false;
-  const std::size_t end = text.find('\n');
-  line = text.substr(0, end);
-  text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  return true;
 }
 
 std::string_view trimmed(std::string_view text) {
@@ -36,14 +27,12 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::vector<std::string_view> cells_of(std::string_view line) {
-  std::vector<std::string_view> cells;
-  while (true) {
-    const std::size_t end = line.find(',');
-    cells.push_back(trimmed(line.substr(0, end)));
-    if (end == std::string_view::npos) return cells;
-    line.remove_prefix(end + 1);
-  }
+/// The next row's cells; none when a quote is never closed.
+std::vector<std::string> next_cells(CsvReader& reader) {
+  std::vector<std::string> cells = reader.next().value_or(std::vector<std::string>());
+  for (std::string& cell : cells)
+    cell = trimmed(cell);
+  return cells;
 }
 
 template <class Number>
@@ -73,8 +62,7 @@ struct Columns {
   double unit_s = 1;  ///< of the times
 };
 
-Expected<Columns> columns_of(std::string_view header) {
-  const std::vector<std::string_view> names = cells_of(header);
+Expected<Columns> columns_of(const std::vector<std::string>& names, std::string_view header) {
   std::optional<std::size_t> frame;
   std::optional<std::size_t> time;
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -107,17 +95,15 @@ bool is_in_milliseconds(const std::vector<double>& times, double frame_rate) {
 }  // namespace
 
 Expected<std::vector<double>> parse_frame_times(std::string_view text) {
-  constexpr std::string_view kByteOrderMark = "\xef\xbb\xbf";
-  if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
-  std::string_view line;
-  if (!take_line(text, line)) return bad_times("the file of frame times is empty", "line 1");
-  const auto columns = columns_of(line);
+  CsvReader reader(text);
+  if (reader.at_end()) return bad_times("the file of frame times is empty", "line 1");
+  const auto columns = columns_of(next_cells(reader), text.substr(0, text.find_first_of("\r\n")));
   if (!columns) return Unexpected(columns.error());
   std::vector<double> times;
-  for (int number = 2; take_line(text, line); ++number) {
-    if (trimmed(line).empty()) continue;
-    const std::string where = fmt::format("line {}", number);
-    const std::vector<std::string_view> cells = cells_of(line);
+  while (!reader.at_end()) {
+    const std::string where = fmt::format("line {}", reader.line());
+    const std::vector<std::string> cells = next_cells(reader);
+    if (cells == std::vector<std::string>{""}) continue;
     if (cells.size() != columns->count) {
       return bad_times(
           fmt::format("{} cells where the first line has {}", cells.size(), columns->count), where);

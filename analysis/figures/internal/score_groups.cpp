@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
-#include "base/csv.h"
 #include "base/suggestion.h"
+#include "base/text/csv.h"
 
 namespace swarmsmith {
 namespace {

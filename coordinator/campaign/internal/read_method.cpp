@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "base/suggestion.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/parameter_file.h"
 #include "sim/control/flavour.h"

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
+#include "base/environment.h"
 #include "base/program_path.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "irace_core/files/instances_file.h"
 #include "sim/files/mission_file.h"
 
@@ -95,8 +95,7 @@ void read_tests(TableReader& instances, const fs::path& folder, CampaignMission&
 std::string program_path(const std::string& name, const fs::path& folder) {
   fs::path here = absolute_in(folder, name);
   if (name.find('/') != std::string::npos || may_be_run(here)) return here.string();
-  const char* search_path = std::getenv("PATH");
-  return program_in(search_path != nullptr ? search_path : "", name).value_or(here).string();
+  return program_in(environment("PATH"), name).value_or(here).string();
 }
 
 Target read_target(TableReader& simulator, const fs::path& folder) {

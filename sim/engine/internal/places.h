@@ -15,9 +15,11 @@ inline double distance2_of(const Body& a, const Body& b) {
   return dx * dx + dy * dy;
 }
 
-/// Where all movers are, for whoever asks what is near a place. A few are looked at one by one;
-/// more are sorted into the cells of a grid, so that an answer costs what is near and not how many
-/// there are.
+/// Where all movers are, for whoever asks what is near a place. A few are looked at one by one. Of
+/// more, each has a list of those near it (Verlet, "Computer experiments on classical fluids I",
+/// Phys. Rev. 159, 1967): it reaches a little further than is asked for, and holds until somebody
+/// has moved half as far. Lists are made through a grid, so that their price is what is near and
+/// not how many there are; so are answers about more than what they reach.
 class Places {
  public:
   explicit Places(std::size_t movers);
@@ -42,8 +44,14 @@ class Places {
       }
       return;
     }
+    if (radius_m <= kListed_m) {
+      for (const int other : near_[mover]) {
+        if (is_near(static_cast<std::size_t>(other))) visit(other);
+      }
+      return;
+    }
     room.clear();
-    for_cells(self, radius_m, [&](std::size_t other) {
+    for_cells(self, radius_m + kSkin_m, [&](std::size_t other) {
       if (is_near(other)) room.push_back(static_cast<int>(other));
     });
     std::sort(room.begin(), room.end());
@@ -52,11 +60,15 @@ class Places {
   }
 
  private:
-  static constexpr std::size_t kFew = 32;
-  /// Side of a cell: about what sensors and contacts reach.
+  static constexpr std::size_t kFew = 16;
+  /// What lists are for: about what sensors and contacts reach.
+  static constexpr double kListed_m = 0.9;
+  /// How much further lists reach, and how far two movers may come nearer to each other before
+  /// lists and grid are made anew.
+  static constexpr double kSkin_m = 0.3;
   static constexpr double kCell_m = 0.75;
 
-  /// All movers of the cells that a circle may meet.
+  /// All movers of the cells that a circle met when the grid was laid.
   template <class Take>
   void for_cells(const Body& self, double radius_m, const Take& take) const {
     const std::size_t left = column_of(self.x - radius_m);
@@ -76,16 +88,21 @@ class Places {
     if (!(place >= 1)) return 0;
     return place < static_cast<double>(cells) ? static_cast<std::size_t>(place) : cells - 1;
   }
+  bool is_valid(std::span<const Mover> movers) const;
   void lay_grid(std::span<const Mover> movers);
+  void sort_into_cells(std::span<const Mover> movers);
+  void list_near(std::span<const Mover> movers);
 
   double left_m_ = 0;
   double bottom_m_ = 0;
   double cell_m_ = kCell_m;
   std::size_t columns_ = 1;
   std::size_t rows_ = 1;
-  std::vector<std::size_t> cell_;    ///< of each mover
-  std::vector<std::size_t> begin_;   ///< of each cell in `sorted_`, and the end of the last
-  std::vector<std::size_t> sorted_;  ///< movers, cell by cell
+  std::vector<std::size_t> cell_;       ///< of each mover
+  std::vector<std::size_t> begin_;      ///< of each cell in `sorted_`, and the end of the last
+  std::vector<std::size_t> sorted_;     ///< movers, cell by cell
+  std::vector<Point> made_at_;          ///< where each mover was then
+  std::vector<std::vector<int>> near_;  ///< each mover's list, ascending
 };
 
 }  // namespace swarmsmith

@@ -1,17 +1,16 @@
 #include "sim/files/internal/read_arena.h"
 
-#include "sim/files/internal/read_floor.h"
 #include "sim/files/internal/read_solids.h"
 #include "sim/files/internal/read_walls.h"
 
 namespace swarmsmith {
 
-void read_arena(TableReader& table, const std::filesystem::path& folder, Mission& mission) {
+void read_arena(TableReader& table, const ImageSource& images, Mission& mission) {
   const std::size_t before = table.complaints();
   read_walls(table, mission);
   const auto height = table.number("wall_height", {0.001, 100});
   mission.arena.wall_height_m = height.value_or(mission.arena.wall_height_m);
-  read_floor(table, folder, mission);
+  read_floor(table, images, mission);
   read_solids(table, mission.arena);
   table.finish();
   // What is wrong by itself need not be told to stand in the way of others, too.

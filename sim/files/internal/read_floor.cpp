@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "base/base64.h"
-#include "base/text/file_text.h"
+#include "base/text/whole_file.h"
 #include "sim/files/internal/read_color.h"
 #include "sim/files/read_place.h"
 
@@ -12,25 +12,26 @@ namespace swarmsmith {
 namespace {
 
 /// The bytes of an image: in a `file`, or, as the program writes them, in the text itself.
-Expected<std::string> read_image_bytes(TableReader& table, const std::filesystem::path& folder) {
+Expected<std::string> read_image_bytes(TableReader& table, const ImageSource& images) {
   if (const auto data = table.text("data")) return bytes_from_base64(*data);
+  if (!images.folder) return bad_input("an image needs its `data` here");
   if (const auto file = table.text("file")) {
-    return read_file(folder / *file, "image", Picture::kMostBytes);
+    return read_file(*images.folder / *file, "image", Picture::kMostBytes);
   }
   return bad_input("an image needs a `file`, such as file = \"floor.png\"");
 }
 
 /// A spot of shape "image".
-std::optional<Patch> read_image(TableReader& table, const std::filesystem::path& folder) {
+std::optional<Patch> read_image(TableReader& table, const ImageSource& images) {
   const Rectangle area = read_rectangle(table, false);
-  auto bytes = read_image_bytes(table, folder);
+  auto bytes = read_image_bytes(table, images);
   const std::string key = table.has("data") ? "data" : "file";
   table.take("file");
   if (!bytes) {
     table.complain(key, to_string(bytes.error()));
     return std::nullopt;
   }
-  auto picture = Picture::from_png(std::move(*bytes));
+  auto picture = Picture::from_png(std::move(*bytes), images.most_pixels_in_use);
   if (!picture) {
     const std::string name = key == "file" ? table.text(key).value_or("") + ": " : "";
     table.complain(key, name + picture.error().message);
@@ -40,7 +41,7 @@ std::optional<Patch> read_image(TableReader& table, const std::filesystem::path&
 }
 
 /// One entry of `spots`.
-std::optional<Patch> read_spot(TableReader& table, const std::filesystem::path& folder) {
+std::optional<Patch> read_spot(TableReader& table, const ImageSource& images) {
   static const std::vector<std::string> kShapes = {"circle", "square", "rectangle", "image"};
   const auto shape = table.choice("shape", kShapes);
   if (!table.has("shape")) {
@@ -49,7 +50,7 @@ std::optional<Patch> read_spot(TableReader& table, const std::filesystem::path& 
   if (!shape) return std::nullopt;
   std::optional<Patch> patch;
   if (*shape == "image") {
-    patch = read_image(table, folder);
+    patch = read_image(table, images);
   } else if (*shape == "circle") {
     const Point centre = need_point(table);
     patch = Patch{Disc{.centre = centre, .radius_m = need(table, "diameter", kSize) / 2}, {}};
@@ -97,14 +98,14 @@ Rectangle read_rectangle(TableReader& table, bool square) {
   return shape;
 }
 
-void read_floor(TableReader& arena, const std::filesystem::path& folder, Mission& mission) {
+void read_floor(TableReader& arena, const ImageSource& images, Mission& mission) {
   if (arena.has("floor")) mission.arena.floor = read_color(arena, "floor").value_or(Rgb{});
   arena.take("floor");
   if (arena.has("spots")) {
     mission.arena.patches.clear();
     mission.shuffled = {};
     for (TableReader& spot : arena.tables("spots")) {
-      if (auto patch = read_spot(spot, folder)) mission.arena.patches.push_back(std::move(*patch));
+      if (auto patch = read_spot(spot, images)) mission.arena.patches.push_back(std::move(*patch));
     }
   }
   arena.take("spots");

@@ -10,11 +10,14 @@ namespace {
 using ::testing::HasSubstr;
 
 CommandRow cancel(std::int64_t number, std::int64_t design = 1) {
-  return {.number = number, .kind = "cancel", .design = {design}, .who = "ann@lab"};
+  return {.number = number, .kind = CommandKind::Cancel, .design = {design}, .who = "ann@lab"};
 }
 CommandRow extend(std::int64_t number, std::int64_t budget, std::int64_t design = 1) {
-  return {
-      .number = number, .kind = "extend", .design = {design}, .budget = budget, .who = "ann@lab"};
+  return {.number = number,
+          .kind = CommandKind::Extend,
+          .design = {design},
+          .budget = budget,
+          .who = "ann@lab"};
 }
 
 DesignStateRow last_state(const Memory& memory) {
@@ -117,7 +120,8 @@ TEST(Commands, AreRefusedWithWhatCanBeDone) {
   };
   EXPECT_THAT(refusal(cancel(1, 0)), HasSubstr("must name a design"));
   EXPECT_THAT(refusal(cancel(1, 7)), HasSubstr("d7: the campaign has no such design; it has d1"));
-  EXPECT_THAT(refusal({.number = 1, .kind = "pause", .design = {1}}), HasSubstr("nothing else"));
+  EXPECT_THAT(refusal({.number = 1, .kind = CommandKind::Pause, .design = {1}}),
+              HasSubstr("nothing else"));
   EXPECT_THAT(refusal(extend(1, 0)), HasSubstr("and not 0"));
   do {
     for (const Task& task : runner.take_tasks())

@@ -39,7 +39,8 @@ class StoredCampaign : public ::testing::Test {
                           by_design((*store)->scores(), (*store)->steps(), ended), ended, commands);
     ASSERT_FALSE(runner.error()) << to_string(*runner.error());
     Memory memory;
-    memory.rows.emplace_back(WorkerRow{.id = 1, .identity = "w", .host = "h", .state = "left"});
+    memory.rows.emplace_back(
+        WorkerRow{.id = 1, .identity = "w", .host = "h", .state = WorkerState::Left});
     {
       IdlePool pool(runner, memory, Rng(seed), honest, looks);
       during(runner);
@@ -65,7 +66,7 @@ class StoredCampaign : public ::testing::Test {
   TemporaryFolder folder_;
 };
 
-CommandRow command(std::int64_t number, const char* kind, std::int64_t design,
+CommandRow command(std::int64_t number, CommandKind kind, std::int64_t design,
                    std::int64_t budget = 0) {
   return {.number = number, .kind = kind, .design = {design}, .budget = budget, .who = "ann@lab"};
 }
@@ -91,8 +92,8 @@ TEST_F(StoredCampaign, LookingAheadLeavesTheDigest) {
 TEST_F(StoredCampaign, CommandsAreReplayedAndVerified) {
   go_on("first", 1, 0.3, 700);
   go_on("first", 2, 0.3, 100, [](CampaignRunner& runner) {
-    ASSERT_TRUE(runner.carry_out(command(1, "extend", 2, 1500)));
-    ASSERT_TRUE(runner.carry_out(command(2, "cancel", 1)));
+    ASSERT_TRUE(runner.carry_out(command(1, CommandKind::Extend, 2, 1500)));
+    ASSERT_TRUE(runner.carry_out(command(2, CommandKind::Cancel, 1)));
   });
   expect_clean("first");
   go_on("first", 3, 0.3, 1200);
@@ -104,7 +105,7 @@ TEST_F(StoredCampaign, CommandsAreReplayedAndVerified) {
     std::vector<Row> rows;
     for (CommandRow& row : (*StoreReader::open(folder_ / "first"))->commands()) {
       EXPECT_TRUE(row.step);
-      if (row.kind == "extend") row.step.reset();  // it acts at the end anyway
+      if (row.kind == CommandKind::Extend) row.step.reset();  // it acts at the end anyway
       rows.emplace_back(row);
     }
     (*store)->append(std::move(rows));
@@ -126,7 +127,7 @@ TEST_F(StoredCampaign, AFinishedStoreGoesOnWithMoreBudget) {
     auto store = Store::open(folder_ / "first", campaign_row(campaign_), design_rows(campaign_));
     EXPECT_TRUE((*store)->finished());
     EXPECT_FALSE(waits_for_extension((*store)->commands()));
-    (*store)->append({command(1, "extend", 2, 1500)});
+    (*store)->append({command(1, CommandKind::Extend, 2, 1500)});
     (*store)->flush();
     EXPECT_TRUE(waits_for_extension((*store)->commands()));
   }

@@ -15,8 +15,8 @@ class Authority : public Schedulers {
       kinds.push_back(noted.row.kind);
     return kinds;
   }
-  WorkerResult signed_result(std::int64_t candidate, const std::string& principal,
-                             std::int64_t attempt = 1) const {
+  Result signed_result(std::int64_t candidate, const std::string& principal,
+                       std::int64_t attempt = 1) const {
     return {.key = key(candidate),
             .attempt = attempt,
             .score = 1,
@@ -91,7 +91,7 @@ TEST_F(Authority, RefusesALeaseOfAnotherTaskUnderTheSameKey) {
   other.machine = "another";
   hello(1);
   want(1, 1);
-  WorkerResult result = signed_result(1, name_of(1), 7);
+  Result result = signed_result(1, name_of(1), 7);
   result.signature = scheduler.signer().sign(other, 7, name_of(1));
   answer(1, result);
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
@@ -141,10 +141,10 @@ TEST_F(Authority, RefusesALeaseThatIsNotTheSenders) {
   hello(1), hello(2);
   want(1, 2);
   answer(2, signed_result(1, name_of(1)));
-  WorkerResult other_attempt = signed_result(1, name_of(2));
+  Result other_attempt = signed_result(1, name_of(2));
   other_attempt.attempt = 2;
   answer(2, other_attempt);
-  WorkerResult other_key = signed_result(1, name_of(2));
+  Result other_key = signed_result(1, name_of(2));
   other_key.key = key(2);
   answer(2, other_key);
   EXPECT_TRUE(all<OutcomeAccepted>().empty());
@@ -263,7 +263,7 @@ TEST_F(Authority, RemembersWhatWasMadeAgain) {
   rule_score(1, 3);
   const auto ended = all<AttemptEnded>();
   ASSERT_EQ(ended.size(), 1U);
-  EXPECT_EQ(ended[0].row.outcome, "audited");
+  EXPECT_EQ(ended[0].row.outcome, AttemptOutcome::Audited);
   EXPECT_EQ(pack(ended[0].row.key, 0), key(1));
 }
 
@@ -280,7 +280,7 @@ TEST_F(Authority, MakesAgainWhatAProcessThatCrashedHadChosen) {
       scheduler.know(0, known, {.principals = {{1, "10.0.0.1"}}, .audited = {unpack(key(2))}});
   ASSERT_EQ(words.size(), 1U);
   EXPECT_EQ(pack(words[0].key, 0), key(1));
-  scheduler.audit_stored({.key = words[0].key, .machine = "m"}, words[0].said);
+  scheduler.audit_stored({{.machine = "m"}, words[0].key}, words[0].said);
   move();
   EXPECT_TRUE(scheduler.is_auditing());
   ASSERT_EQ(asked(), key(1));
@@ -435,7 +435,7 @@ TEST_F(Authority, LetsTheRefereeJudgeWhoContradictsAStoredScore) {
   EXPECT_FALSE(scheduler.principals().all().at("10.0.0.2").quarantined);
   EXPECT_TRUE(all<StopCampaign>().empty()) << "all that it said before was made again";
   EXPECT_TRUE(std::ranges::any_of(all<AttemptEnded>(), [](const AttemptEnded& ended) {
-    return pack(ended.row.key) == key(10) && ended.row.outcome == "audited";
+    return pack(ended.row.key) == key(10) && ended.row.outcome == AttemptOutcome::Audited;
   })) << "what was kept was made again: the store is sound";
 }
 

@@ -61,7 +61,7 @@ constexpr std::int64_t kPrograms = 500;
 std::vector<Task> programs_of(std::int64_t count) {
   std::vector<Task> tasks;
   for (std::int64_t i = 1; i <= count; ++i)
-    tasks.push_back({.key = {{i}, Purpose::Race, 1}, .instance = 1, .seed = i, .machine = "-n 1"});
+    tasks.push_back({{.instance = 1, .seed = i, .machine = "-n 1"}, {{i}, Purpose::Race, 1}});
   return tasks;
 }
 

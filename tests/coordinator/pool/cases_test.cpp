@@ -8,7 +8,7 @@ namespace swarmsmith {
 namespace {
 
 Task task(std::int64_t candidate) {
-  return {.key = {{candidate}, Purpose::Race, 1}};
+  return {{}, {{candidate}, Purpose::Race, 1}};
 }
 PackedKey key(std::int64_t candidate) {
   return key_of(task(candidate));

@@ -10,7 +10,7 @@ class IdleSlots : public Schedulers {
   void look_ahead(std::int64_t first, std::int64_t count) {
     std::vector<Task> tasks;
     for (std::int64_t i = first; i < first + count; ++i)
-      tasks.push_back({.key = {{i}, Purpose::Race, 1}, .machine = "m", .ahead = true});
+      tasks.push_back({{.machine = "m"}, {{i}, Purpose::Race, 1}, 0, true});
     scheduler.add(std::move(tasks));
     move();
   }
@@ -66,7 +66,7 @@ TEST_F(IdleSlots, TakeWhicheverCopyComesFirst) {
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.worker, 2);
   EXPECT_EQ(all<OutcomeAccepted>()[0].outcome.attempt, 2);
   ASSERT_EQ(all<AttemptEnded>().size(), 1U);
-  EXPECT_EQ(all<AttemptEnded>()[0].row.outcome, "second copy");
+  EXPECT_EQ(all<AttemptEnded>()[0].row.outcome, AttemptOutcome::SecondCopy);
   EXPECT_EQ(all<AttemptEnded>()[0].row.worker, 1);
   EXPECT_EQ(all<AttemptEnded>()[0].row.held_ms, 101);
   answer(1, 1, 2.5);

@@ -10,7 +10,7 @@ namespace swarmsmith {
 namespace {
 
 Task task_of(std::int64_t candidate, const std::string& machine) {
-  return {.key = {{candidate}, Purpose::Race, 1}, .machine = machine};
+  return {{.machine = machine}, {{candidate}, Purpose::Race, 1}};
 }
 
 TEST(LeaseSigner, SignsKeyAttemptAndPrincipal) {

@@ -6,7 +6,7 @@ namespace swarmsmith {
 namespace {
 
 Task task(std::int64_t candidate) {
-  return {.key = {{candidate}, Purpose::Race, 1}, .machine = {}};
+  return {{}, {{candidate}, Purpose::Race, 1}};
 }
 
 class Leases : public ::testing::Test {

@@ -24,7 +24,7 @@ class ProgramSchedulers : public Schedulers {
       pass(seconds(1));
     }
   }
-  static WorkerResult failed(std::int64_t candidate, std::int64_t attempt = 1) {
+  static Result failed(std::int64_t candidate, std::int64_t attempt = 1) {
     return {.key = key(candidate),
             .attempt = attempt,
             .failure = "it printed apples",

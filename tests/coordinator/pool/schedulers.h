@@ -88,7 +88,7 @@ class Schedulers : public ::testing::Test {
     move();
   }
   static Task task_of(std::int64_t candidate) { return task_of({{candidate}, Purpose::Race, 1}); }
-  static Task task_of(const EvaluationKey& key) { return {.key = key, .machine = "m"}; }
+  static Task task_of(const EvaluationKey& key) { return {{.machine = "m"}, key}; }
   /// The campaign tells the task.
   void dispute(std::int64_t candidate) {
     ASSERT_FALSE(all<TaskInDispute>().empty());
@@ -102,12 +102,12 @@ class Schedulers : public ::testing::Test {
   static PackedKey key(std::int64_t candidate) { return pack(candidate, 0, 1); }
   void answer(PeerId peer, std::int64_t candidate, double score = 1, std::string failure = "",
               std::int64_t attempt = 1) {
-    const WorkerResult result{.key = key(candidate),
-                              .attempt = attempt,
-                              .score = score,
-                              .state_digest = 5,
-                              .wall_us = 100,
-                              .failure = std::move(failure)};
+    const Result result{.key = key(candidate),
+                        .attempt = attempt,
+                        .score = score,
+                        .state_digest = 5,
+                        .wall_us = 100,
+                        .failure = std::move(failure)};
     scheduler.on_results({peer, 1, 0}, {&result, 1}, now);
     move();
   }
@@ -122,7 +122,7 @@ class Schedulers : public ::testing::Test {
             .signature = scheduler.signer().sign(task_of(candidate), attempt, name_of(peer))});
   }
   /// Any result.
-  void answer(PeerId peer, const WorkerResult& result) {
+  void answer(PeerId peer, const Result& result) {
     scheduler.on_results({peer, 1, 0}, {&result, 1}, now);
     move();
   }
@@ -143,7 +143,7 @@ class Schedulers : public ::testing::Test {
     for (SchedulerAction& action : scheduler.take_actions()) {
       if (auto* tasks = std::get_if<SendTasks>(&action)) {
         for (const auto& leased : tasks->tasks) {
-          given[tasks->peer].push_back(leased.task.key.candidate.value);
+          given[tasks->peer].push_back(candidate_of(leased.key));
         }
       }
       actions.push_back(std::move(action));

@@ -116,7 +116,7 @@ TEST_F(SlotAccounts, LookAheadThatNobodyTookIsNoReasonToIdle) {
   hello(1, 2);
   credit(1, 4);
   scheduler.hold_design(0, 1, true);
-  scheduler.add({{.key = {{1}, Purpose::Race, 1}, .machine = "m", .ahead = true}});
+  scheduler.add({{{.machine = "m"}, {{1}, Purpose::Race, 1}, 0, true}});
   account.sample(scheduler, Holding::No, now);
   second(1, 2000, 0);
   EXPECT_EQ(scheduler.leases().queued(), 1U);

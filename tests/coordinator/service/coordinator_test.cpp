@@ -206,9 +206,9 @@ TEST_F(Coordinators, LeaseNothingOfWhatIsPausedUntilItIsResumed) {
 }
 
 TEST_F(Coordinators, KeepPausesOfTheirStore) {
-  const std::vector<CommandRow> commands{{.number = 1, .kind = "pause", .design = {1}},
-                                         {.number = 2, .kind = "pause", .design = {2}},
-                                         {.number = 3, .kind = "resume", .design = {2}}};
+  const std::vector<CommandRow> commands{{.number = 1, .kind = CommandKind::Pause, .design = {1}},
+                                         {.number = 2, .kind = CommandKind::Pause, .design = {2}},
+                                         {.number = 3, .kind = CommandKind::Resume, .design = {2}}};
   Coordinator again(options, {{.digest = "d", .source = &campaign, .commands = commands}});
   EXPECT_EQ(again.paused(), std::set<DesignId>{{1}});
 }
@@ -228,7 +228,7 @@ TEST_F(Coordinators, RefuseCommandsThatCannotBe) {
 TEST_F(Coordinators, WriteWhoCame) {
   hello();
   ASSERT_FALSE(rows.empty());
-  EXPECT_EQ(std::get<WorkerRow>(rows[0]).state, "connected");
+  EXPECT_EQ(std::get<WorkerRow>(rows[0]).state, WorkerState::Connected);
   EXPECT_EQ(std::get<WorkerRow>(rows[0]).identity.size(), 32U);
 }
 

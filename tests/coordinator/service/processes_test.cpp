@@ -14,13 +14,13 @@
 #include "coordinator/service/messages.h"
 #include "coordinator/service/referee.h"
 #include "coordinator/service/service.h"
+#include "proto/scenario/scenario.h"
 #include "proto/wire.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
-#include "sim/messages/scenario_messages.h"
 #include "tests/support/flat_campaign.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temporary_folder.h"
@@ -33,7 +33,7 @@ std::vector<Task> tasks_of(std::int64_t count) {
   std::vector<Task> tasks;
   for (std::int64_t i = 1; i <= count; ++i) {
     tasks.push_back(
-        {.key = {{i}, Purpose::Race, 1}, .seed = i, .machine = "--nstates 1 --s0 0 --rwm0 20"});
+        {{.seed = i, .machine = "--nstates 1 --s0 0 --rwm0 20"}, {{i}, Purpose::Race, 1}});
   }
   return tasks;
 }
@@ -207,7 +207,7 @@ TEST_F(Referees, RejectWhatHasNoScore) {
 }
 
 TEST_F(Referees, MakeNoScoreOfATime) {
-  start(1'000'000);
+  start(800'000);
   const Ruling ruling = ruling_on(tasks_of(1)[0], std::chrono::milliseconds(5));
   EXPECT_EQ(ruling.kind, Ruling::Kind::TimedOut);
 }

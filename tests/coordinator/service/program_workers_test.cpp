@@ -13,9 +13,9 @@
 #include "coordinator/launchers/local_workers.h"
 #include "coordinator/launchers/worker_program.h"
 #include "coordinator/service/service.h"
+#include "proto/scenario/scenario.h"
 #include "sim/engine/self_test.h"
 #include "sim/engine/simulate.h"
-#include "sim/messages/scenario_messages.h"
 #include "tests/support/flat_campaign.h"
 #include "tests/support/memory_store.h"
 #include "tests/support/temporary_folder.h"
@@ -27,10 +27,8 @@ namespace {
 std::vector<Task> tasks_of(std::int64_t count) {
   std::vector<Task> tasks;
   for (std::int64_t i = 1; i <= count; ++i) {
-    tasks.push_back({.key = {{i}, Purpose::Race, 1},
-                     .instance = 1,
-                     .seed = i,
-                     .machine = "-n " + std::to_string(i)});
+    tasks.push_back({{.instance = 1, .seed = i, .machine = "-n " + std::to_string(i)},
+                     {{i}, Purpose::Race, 1}});
   }
   return tasks;
 }

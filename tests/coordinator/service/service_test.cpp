@@ -21,11 +21,11 @@ using cluster::SyntheticCampaign;
 /// Evaluates a synthetic campaign in this process; not while it is `paused`.
 EvaluatorFactory honest(const CampaignShape& shape, const std::atomic<bool>& paused) {
   return [shape, &paused](const std::string&) -> Expected<Evaluator> {
-    return Evaluator([shape, &paused](const WorkItem& item) -> tl::expected<Measured, Failure> {
+    return Evaluator([shape, &paused](const LeasedTask& item) -> Result {
       paused.wait(true);
       const cluster::Truth truth = cluster::truth_of(shape, unpack(item.key));
-      if (truth.kind != cluster::Truth::Kind::Score) return tl::unexpected(Failure{"planted"});
-      return Measured{.score = truth.score, .state_digest = truth.state_digest};
+      if (truth.kind != cluster::Truth::Kind::Score) return Result{.failure = "planted"};
+      return Result{.score = truth.score, .state_digest = truth.state_digest};
     });
   };
 }

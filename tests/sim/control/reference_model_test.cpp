@@ -62,10 +62,10 @@ TEST(ReferenceModel, ProxOfTheThesisKeepsToItsRange) {
 
 TEST(ReferenceModel, CommandsAreCutToTheWheelsRange) {
   const ReferenceEntry& wheels = reference_model()[8];
-  const Command cut = clamped({-2, 3});
-  EXPECT_EQ(cut.left_mps, wheels.least);
-  EXPECT_EQ(cut.right_mps, wheels.most);
-  EXPECT_EQ(clamped({0.3, -0.3}), (Command{0.3, -0.3}));
+  EXPECT_EQ(within_wheel_speed(-2), wheels.least);
+  EXPECT_EQ(within_wheel_speed(3), wheels.most);
+  EXPECT_EQ(within_wheel_speed(0.3), 0.3);
+  EXPECT_EQ(within_wheel_speed(-0.3), -0.3);
   EXPECT_EQ(wheels.most, 1.55);  // 155 cm/s
 }
 

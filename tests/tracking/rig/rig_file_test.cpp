@@ -81,7 +81,7 @@ PlaceCalibration place_calibration(const std::string& camera_text) {
     seen.tag = {tag, {tag % 2 == 0 ? 1.0 : -1.0, tag < 102 ? 1.0 : -1.0, 0}, 0.1};
     place.tags.push_back(seen);
   }
-  place.camera_sha256 = cli::sha256_of(camera_text);
+  place.camera_sha256 = sha256_of(camera_text);
   place.made = "2026-11-20T11:00:00Z";
   return place;
 }
@@ -151,7 +151,7 @@ TEST(RigFile, TakesTheCalibrationsThatAreThere) {
   EXPECT_FALSE(rig->offset_of(rig->robots[1]));
   const CalibrationFile& file = rig->files.at("rvr1.offset.toml");
   EXPECT_EQ(file.text, texts.at("rvr1.offset.toml"));
-  EXPECT_EQ(file.sha256, cli::sha256_of(file.text));
+  EXPECT_EQ(file.sha256, sha256_of(file.text));
   EXPECT_EQ(file.made, "2026-11-20T12:00:00Z");
   EXPECT_THAT(misfits(*rig), IsEmpty());
 }

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <concepts>
+#include <functional>
+#include <ranges>
+#include <string>
+#include <string_view>
+#include <type_traits>
+
+namespace swarmsmith {
+
+/// JSON as all programs here write it: on one line, without blanks, keys in the order of writing.
+/// nlohmann's writer is for what others read as any JSON; it puts 1.0 for 1, and the bytes of
+/// `--json` are promised.
+
+/// A text in quotes. Bytes that are no UTF-8 become U+FFFD, one for each.
+std::string json_text(std::string_view text);
+/// A number in the shortest form that reads back to the same value; null for what JSON lacks.
+std::string json_number(double value);
+
+/// What is JSON already.
+struct JsonPiece {
+  std::string text;
+};
+
+template <class T>
+std::string json_of(const T& value);
+
+/// An object, put together key by key.
+class JsonObject {
+ public:
+  template <class T>
+  JsonObject& add(std::string_view key, const T& value) {
+    text_ += (text_.size() == 1 ? "" : ",") + json_text(key) + ":" + json_of(value);
+    return *this;
+  }
+  std::string text() const { return text_ + "}"; }
+
+ private:
+  std::string text_ = "{";
+};
+
+/// An array of what `of` makes of each item.
+template <std::ranges::input_range Items, class Of>
+JsonPiece json_list(const Items& items, const Of& of) {
+  std::string text = "[";
+  for (const auto& item : items)
+    text += (text.size() == 1 ? "" : ",") + json_of(of(item));
+  return {text + "]"};
+}
+
+/// Any value: booleans, numbers, texts, what is optional (else null), ids (null for none), and
+/// ranges of these.
+template <class T>
+std::string json_of(const T& value) {
+  if constexpr (std::same_as<T, JsonPiece>) {
+    return value.text;
+  } else if constexpr (std::same_as<T, JsonObject>) {
+    return value.text();
+  } else if constexpr (std::same_as<T, bool>) {
+    return value ? "true" : "false";
+  } else if constexpr (std::integral<T>) {
+    return std::to_string(value);
+  } else if constexpr (std::floating_point<T>) {
+    return json_number(value);
+  } else if constexpr (std::convertible_to<const T&, std::string_view>) {
+    return json_text(value);
+  } else if constexpr (std::ranges::input_range<T>) {
+    return json_list(value, std::identity()).text;
+  } else if constexpr (requires { value.has_value(); }) {
+    return value ? json_of(*value) : "null";
+  } else {
+    return value ? json_text(to_string(value)) : "null";
+  }
+}
+
+}  // namespace swarmsmith

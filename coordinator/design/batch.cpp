@@ -1,0 +1,60 @@
+#include "coordinator/design/batch.h"
+
+#include <limits>
+#include <utility>
+
+#include "base/assert.h"
+#include "coordinator/design/known_scores.h"
+#include "programs/cost.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr double kRejected = std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+StoredScore score_of(const Outcome& outcome, double bound) {
+  return {outcome.key, outcome.status, outcome.score, outcome.state_digest, outcome.time, bound};
+}
+
+Batch::Batch(std::vector<Experiment> experiments)
+    : experiments_(std::move(experiments)), scores_(experiments_.size()) {}
+
+void Batch::await(std::size_t position, const EvaluationKey& key) {
+  awaited_.emplace(packed_key(key), position);
+}
+
+StoredScore Batch::answer(const Outcome& outcome) {
+  const auto found = awaited_.find(packed_key(outcome.key));
+  SWARMSMITH_ASSERT(found != awaited_.end(), "an outcome is told once, and only when wanted");
+  const std::size_t position = found->second;
+  awaited_.erase(found);
+  put(position, score_of(outcome, experiments_[position].bound));
+  return scores_[position];
+}
+
+bool Batch::let_go(const EvaluationKey& key) {
+  return awaited_.erase(packed_key(key)) > 0;
+}
+
+std::vector<Experiment> Batch::let_go() {
+  std::vector<Experiment> left;
+  for (const auto& [packed, position] : awaited_)
+    left.push_back(experiments_[position]);
+  awaited_.clear();
+  return left;
+}
+
+std::vector<Measurement> Batch::measurements() const {
+  SWARMSMITH_ASSERT(is_complete(), "a search is told a batch as a whole");
+  std::vector<Measurement> measurements;
+  measurements.reserve(scores_.size());
+  for (const StoredScore& score : scores_) {
+    const bool is_ok = score.status == EvaluationStatus::Ok;
+    measurements.push_back({is_ok ? to_cost(score.score) : kRejected, score.time});
+  }
+  return measurements;
+}
+
+}  // namespace swarmsmith

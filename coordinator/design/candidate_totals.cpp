@@ -1,0 +1,44 @@
+#include "coordinator/design/candidate_totals.h"
+
+#include "base/assert.h"
+
+namespace swarmsmith {
+
+void CandidateTotals::Sums::add(double score) {
+  runs += 1;
+  score_sum += score;
+  score_squares += score * score;
+}
+
+void CandidateTotals::add_up_to(std::int64_t number) {
+  SWARMSMITH_ASSERT(number > count(), "configurations are numbered in the order of their creation");
+  runs_.resize(static_cast<std::size_t>(number));
+}
+
+CandidateTotalsRow CandidateTotals::add_run(std::int64_t number, double score) {
+  SWARMSMITH_ASSERT(number >= 1 && number <= count(), "a run is of a candidate that was made");
+  Sums& sums = runs_[static_cast<std::size_t>(number - 1)];
+  sums.add(score);
+  return row(number, sums);
+}
+
+CandidateTotalsRow CandidateTotals::judge(std::int64_t number, std::int64_t pair, double score) {
+  SWARMSMITH_ASSERT(number >= 1 && number <= count(), "a call is of a candidate that was made");
+  if (judged_.size() < runs_.size()) judged_.resize(runs_.size());
+  auto& by_pair = judged_[static_cast<std::size_t>(number - 1)];
+  by_pair[pair] = score;
+  // Summed anew, in the order of the pairs: to take the old word off would round.
+  Sums sums;
+  for (const auto& [of, judged] : by_pair)
+    sums.add(judged);
+  return row(number, sums);
+}
+
+CandidateTotalsRow CandidateTotals::row(std::int64_t number, const Sums& sums) const {
+  return {.candidate = candidate_id(design_, number),
+          .runs = sums.runs,
+          .score_sum = sums.score_sum,
+          .score_squares = sums.score_squares};
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,77 @@
+#include "coordinator/design/elite_tests.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/rng.h"
+
+namespace swarmsmith {
+namespace {
+
+constexpr std::int64_t kLargestSeed = 2'147'483'647;
+
+}  // namespace
+
+EliteTests::EliteTests(const DesignPlan& plan)
+    : plan_(plan.tests),
+      seed_(static_cast<std::uint64_t>(plan.row.seed)),
+      n_instances_(plan.scenario.n_instances),
+      bound_(plan.scenario.bound_max) {}
+
+void EliteTests::test_all(std::vector<std::int64_t> given) {
+  plan_.elites = static_cast<std::int64_t>(given.size());
+  elites_.push_back(std::move(given));
+}
+
+/// The seeds of tests are a stream of their own, so that they meet no pair of the race but by
+/// chance.
+Experiment EliteTests::run(std::int64_t candidate, std::int64_t test) const {
+  Rng rng = Rng(seed_).split("test", static_cast<std::uint64_t>(test));
+  return {.configuration = candidate,
+          .pair = test,
+          .instance = plan_.on_test_instances ? test : (test - 1) % n_instances_ + 1,
+          .seed = rng.uniform_int(1, kLargestSeed),
+          .bound = bound_};
+}
+
+std::vector<Experiment> EliteTests::begin() {
+  tested_ = chosen();
+  std::vector<Experiment> runs;
+  for (const std::int64_t candidate : tested_) {
+    for (std::int64_t test = 1; test <= plan_.count; ++test)
+      runs.push_back(run(candidate, test));
+  }
+  return runs;
+}
+
+std::vector<Experiment> EliteTests::calls() const {
+  std::vector<Experiment> calls;
+  for (std::int64_t test = 1; test <= plan_.count; ++test) {
+    for (const std::int64_t candidate : tested_) {
+      Experiment call = run(candidate, test);
+      call.instance = -call.instance;
+      call.bound = 0;
+      call.is_evaluation = true;
+      calls.push_back(call);
+    }
+  }
+  return calls;
+}
+
+std::vector<std::int64_t> EliteTests::chosen() const {
+  std::vector<std::int64_t> numbers;
+  const auto add = [&](const std::vector<std::int64_t>& elites) {
+    const auto most = std::min(elites.size(), static_cast<std::size_t>(plan_.elites));
+    for (std::size_t i = 0; i < most; ++i) {
+      if (std::ranges::find(numbers, elites[i]) == numbers.end()) numbers.push_back(elites[i]);
+    }
+  };
+  if (elites_.empty()) return numbers;
+  add(elites_.back());
+  if (!plan_.every_iteration) return numbers;
+  for (const auto& elites : elites_)
+    add(elites);
+  return numbers;
+}
+
+}  // namespace swarmsmith

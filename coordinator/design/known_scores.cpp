@@ -1,0 +1,63 @@
+#include "coordinator/design/known_scores.h"
+
+#include <utility>
+
+#include "base/assert.h"
+
+namespace swarmsmith {
+namespace {
+
+template <class Design>
+auto& scores_of(Design& stored, Purpose purpose) {
+  SWARMSMITH_ASSERT(
+      purpose == Purpose::Race || purpose == Purpose::Test || purpose == Purpose::Evaluator,
+      "a design asks for runs of its race and its tests, and for calls of a targetEvaluator");
+  if (purpose == Purpose::Race) return stored.race_scores;
+  return purpose == Purpose::Test ? stored.test_scores : stored.evaluator_scores;
+}
+
+}  // namespace
+
+const StoredScore* KnownScores::stored(const EvaluationKey& key) const {
+  const auto& scores = scores_of(stored_, key.purpose);
+  const auto found = scores.find(packed_key(key));
+  return found == scores.end() ? nullptr : &found->second;
+}
+
+std::optional<StoredScore> KnownScores::take(const EvaluationKey& key) {
+  const std::uint64_t packed = packed_key(key);
+  if (auto score = scores_of(stored_, key.purpose).extract(packed)) {
+    if (key.purpose == Purpose::Test) return tested_.insert(std::move(score)).position->second;
+    return score.mapped();
+  }
+  if (key.purpose == Purpose::Race) {
+    if (const auto score = unused_.extract(packed)) return score.mapped();
+  }
+  if (key.purpose == Purpose::Test) {
+    if (const auto found = tested_.find(packed); found != tested_.end()) return found->second;
+  }
+  return std::nullopt;
+}
+
+void KnownScores::keep(StoredScore score) {
+  SWARMSMITH_ASSERT(score.key.purpose != Purpose::Evaluator,
+                    "a targetEvaluator is asked again, since others are alive");
+  const std::uint64_t packed = packed_key(score.key);
+  score.iteration = 0;
+  (score.key.purpose == Purpose::Race ? unused_ : tested_).emplace(packed, score);
+}
+
+bool KnownScores::contains(const EvaluationKey& key) const {
+  const std::uint64_t packed = packed_key(key);
+  return unused_.contains(packed) || stored_.race_scores.contains(packed);
+}
+
+std::set<EvaluationKey> KnownScores::discard_race() {
+  std::set<EvaluationKey> keys;
+  for (const auto& [packed, score] : stored_.race_scores)
+    keys.insert(score.key);
+  stored_.race_scores.clear();
+  return keys;
+}
+
+}  // namespace swarmsmith

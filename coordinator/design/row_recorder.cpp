@@ -1,0 +1,230 @@
+#include "coordinator/design/row_recorder.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+#include "base/text/toml_text.h"
+#include "programs/cost.h"
+
+namespace swarmsmith {
+namespace {
+
+std::string reason_text(EliminationReason reason) {
+  switch (reason) {
+    case EliminationReason::Test:
+      return "test";
+    case EliminationReason::Rejection:
+      return "rejected";
+    case EliminationReason::Capping:
+      break;
+  }
+  return "capping";
+}
+
+}  // namespace
+
+EvaluationRow evaluation_row(const Outcome& outcome, std::int64_t iteration, double bound,
+                             const std::string& source) {
+  return {.key = outcome.key,
+          .iteration = iteration,
+          .status = outcome.status,
+          .score = outcome.score,
+          .state_digest = outcome.state_digest,
+          .time = outcome.time,
+          .bound = bound,
+          .source = source,
+          .wall_us = outcome.wall_us,
+          .worker = outcome.worker,
+          .attempt = outcome.attempt};
+}
+
+RowRecorder::RowRecorder(DesignId design, std::string source,
+                         std::vector<std::uint64_t> step_digests)
+    : design_{.design = design},
+      source_(std::move(source)),
+      step_digests_(std::move(step_digests)),
+      totals_(design) {}
+
+void RowRecorder::record_state() {
+  record(design_);
+}
+
+void RowRecorder::record_candidate(const ConfigurationSampled& sampled, CandidateText text) {
+  // Given ones that are forbidden have a number and nothing else.
+  totals_.add_up_to(sampled.id);
+  alive_.insert(sampled.id);
+  record(CandidateRow{.id = candidate(sampled.id),
+                      .iteration = sampled.iteration,
+                      .parent = candidate(sampled.parent),
+                      .parameters = std::move(text.parameters),
+                      .machine = std::move(text.machine),
+                      .modules = std::move(text.modules),
+                      .states = text.states,
+                      .transitions = text.transitions});
+}
+
+void RowRecorder::record_iteration(const IterationStarted& started) {
+  design_.iteration = started.iteration;
+  record(IterationRow{.design = design_.design,
+                      .number = started.iteration,
+                      .of = started.n_iterations,
+                      .budget = started.budget,
+                      .configurations = started.n_configurations,
+                      .elites = static_cast<std::int64_t>(started.elites.size()),
+                      .soft_restart = started.soft_restart,
+                      .postselection = started.postselection,
+                      .model_digest = started.model_digest});
+}
+
+Expected<void> RowRecorder::record_step(const RaceStep& step) {
+  design_.used = step.experiments_used;
+  design_.best = candidate(step.best);
+  design_.best_mean = to_score(step.mean_best);
+  record(RaceStepRow{.design = design_.design,
+                     .step = steps() + 1,
+                     .iteration = step.iteration,
+                     .pair = step.pair,
+                     .marker = step.marker,
+                     .evaluated = static_cast<std::int64_t>(step.evaluated.size()),
+                     .alive_before = step.alive_before,
+                     .alive_after = step.alive_after,
+                     .best = design_.best,
+                     .mean_best = design_.best_mean,
+                     .used = design_.used,
+                     .statistic = step.statistic,
+                     .p_value = step.p_value,
+                     .kendall_w = step.kendall_w,
+                     .spearman_rho = step.spearman_rho,
+                     .qvar = step.qvar,
+                     .bound = step.bound,
+                     .digest = step.digest});
+  // The race after the last takes candidates from anywhere.
+  alive_.insert(step.evaluated.begin(), step.evaluated.end());
+  for (const Elimination& elimination : step.eliminations) {
+    alive_.erase(elimination.configuration);
+    record(EliminationRow{.candidate = candidate(elimination.configuration),
+                          .iteration = step.iteration,
+                          .step = steps() + 1,
+                          .rank_sum = elimination.rank_sum,
+                          .reason = reason_text(elimination.reason)});
+  }
+  record_state();
+  if (is_replaying() && step_digests_[steps_] != step.digest) return Unexpected(other_step());
+  ++steps_;
+  return {};
+}
+
+void RowRecorder::record_end(const IterationEnded& ended) {
+  std::set<std::int64_t> elites;
+  std::int64_t rank = 0;
+  for (const Elite& elite : ended.elites) {
+    elites.insert(elite.configuration);
+    record(EliteRow{.design = design_.design,
+                    .iteration = ended.iteration,
+                    .rank = ++rank,
+                    .candidate = candidate(elite.configuration),
+                    .mean = to_score(elite.mean),
+                    .runs = elite.n});
+  }
+  for (const std::int64_t number : alive_) {
+    if (elites.contains(number)) continue;
+    record(EliminationRow{.candidate = candidate(number),
+                          .iteration = ended.iteration,
+                          .step = steps(),
+                          .reason = "not kept"});
+  }
+  alive_ = std::move(elites);
+  if (!ended.elites.empty()) {
+    design_.best = candidate(ended.elites.front().configuration);
+    design_.best_mean = to_score(ended.elites.front().mean);
+  }
+  record_state();
+}
+
+void RowRecorder::record_estimate(const TimeEstimated& estimated) {
+  design_.used = estimated.runs;
+  record(EventRow{.severity = "info",
+                  .kind = "time estimated",
+                  .text = "{\"design\":" + quoted_text(to_string(design_.design)) +
+                          ",\"runs\":" + std::to_string(estimated.runs) +
+                          ",\"time\":" + number_text(estimated.used) +
+                          ",\"mean\":" + number_text(estimated.mean_time) +
+                          ",\"remaining\":" + std::to_string(estimated.remaining) +
+                          ",\"bound_max\":" + number_text(estimated.bound_max) + "}"});
+  // After races there is nothing to count; their steps were.
+  if (!estimated.evaluated.empty()) record_state();
+}
+
+void RowRecorder::record_warning(std::string_view text) {
+  record(EventRow{.severity = "warning",
+                  .kind = "race",
+                  .text = "{\"design\":" + quoted_text(to_string(design_.design)) +
+                          ",\"text\":" + quoted_text(std::string(text)) + "}"});
+}
+
+void RowRecorder::record_command(CommandRow command) {
+  record(std::move(command));
+}
+
+void RowRecorder::record_pair(Purpose purpose, const Experiment& experiment) {
+  std::int64_t& last = pairs_[purpose];
+  if (experiment.pair <= last) return;
+  last = experiment.pair;
+  record(PairRow{.design = design_.design,
+                 .purpose = purpose,
+                 .number = experiment.pair,
+                 .instance = experiment.instance,
+                 .seed = experiment.seed});
+}
+
+void RowRecorder::record_use(const StoredScore& score) {
+  if (score.iteration != 0) return;
+  record(EvaluationRow{.key = score.key,
+                       .iteration = counted_iteration(),
+                       .status = score.status,
+                       .score = score.score,
+                       .state_digest = score.state_digest,
+                       .time = score.time,
+                       .bound = score.bound,
+                       .source = source_});
+}
+
+void RowRecorder::record_unused(const EvaluationKey& key) {
+  record(UnusedRow{key});
+}
+
+void RowRecorder::record_run(std::int64_t number, double score) {
+  record(totals_.add_run(number, score));
+}
+
+void RowRecorder::record_judged(std::int64_t number, std::int64_t pair, double score) {
+  record(totals_.judge(number, pair, score));
+}
+
+Error RowRecorder::other_step() const {
+  return {ErrorKind::Corrupt,
+          "the race, replayed from the stored scores, takes another way than the store has: the "
+          "store was written by another version of the engine, or is damaged. Keep the file, and "
+          "run the campaign into a new store",
+          to_string(design_.design) + ", step " + std::to_string(steps_ + 1)};
+}
+
+std::int64_t RowRecorder::counted_iteration() const {
+  return std::max<std::int64_t>(1, design_.iteration);
+}
+
+CandidateId RowRecorder::candidate(std::int64_t number) const {
+  return number > 0 ? candidate_id(design_.design, number) : CandidateId{};
+}
+
+void RowRecorder::move_rows_to(std::vector<Row>& rows) {
+  std::ranges::move(rows_, std::back_inserter(rows));
+  rows_.clear();
+}
+
+void RowRecorder::record(Row row) {
+  if (!is_replaying()) rows_.push_back(std::move(row));
+}
+
+}  // namespace swarmsmith

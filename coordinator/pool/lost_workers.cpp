@@ -1,0 +1,122 @@
+#include "coordinator/pool/lost_workers.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "base/assert.h"
+#include "storage/answer.h"
+
+namespace swarmsmith {
+namespace {
+
+/// A worker sends this many results at most in a message, so what ran is among its first
+/// (slots + 64) leases.
+constexpr std::size_t kUnreported = 64;
+constexpr int kDeathsOfARejection = 3;
+/// Silent losses are mostly the network's: tolerated much longer.
+constexpr int kLossesUntilAlone = 2;
+constexpr int kLossesUntilRuled = 12;
+/// Losses with workers of which nothing is known say nothing of the task. But where nobody can
+/// prove himself, since each dies of it, the referee breaks the circle: one such task at a time.
+constexpr int kStraysUntilRuled = 6;
+
+}  // namespace
+
+void LostWorkers::take_back_charges(WorkerEntry& entry) {
+  for (const PackedKey key : std::exchange(entry.charged, {})) {
+    TaskRecord* record = book_->leases.find(key);
+    if (record != nullptr && record->deaths > 0) --record->deaths;
+  }
+}
+
+void LostWorkers::lose(WorkerEntry& entry, Loss loss, WorkerState state, TimePoint now) {
+  SWARMSMITH_ASSERT(entry.connected, "a worker is lost once for each time that it comes");
+  const std::list<PackedKey>& leases = book_->leases.leases_of(entry.number);
+  const std::vector<PackedKey> keys(leases.begin(), leases.end());
+  const std::size_t suspects = static_cast<std::size_t>(entry.hello.slots) + kUnreported;
+  // What is lost with strangers, again and again, does not keep others from their turn.
+  const bool at_front = loss == Loss::Left || trust_->is_proven(*entry.principal);
+  workers_->disconnect(entry);
+  book_->leases.loads().set_capacity(entry.number, 0, 0);
+  trust_->go_astray(*entry.principal, keys.size(), now);
+  // From the last one, since each goes to the front of its queue: they are leased again in order.
+  for (std::size_t i = keys.size(); i-- > 0;) {
+    TaskRecord& record = *book_->leases.find(keys[i]);
+    // What was merely queued there is nobody's affair.
+    const bool may_have_run = i < suspects && loss != Loss::Left;
+    if (may_have_run) book_->note_attempt(record, entry.number, AttemptOutcome::Lost, now);
+    // While another worker has it too, nothing is held against the task: if it kills, it will do so
+    // there, and there is no third copy then.
+    Blame to = Blame::Nobody;
+    if (record.second) {
+      record.copied = loss == Loss::Death;
+    } else if (may_have_run) {
+      to = blame(entry, record, loss);
+    }
+    if (to == Blame::Task) {
+      trust_->claim(entry, record, Said::What::Died);
+      continue;
+    }
+    if (!book_->leases.requeue(record, entry.number, at_front)) continue;
+    ++book_->counters.requeued;
+    if (to == Blame::Rejected) {
+      book_->reject(record, entry.number, "its evaluation killed three worker processes");
+    } else if (record.strays >= kStraysUntilRuled) {
+      trust_->rule_on_stray(record);
+    }
+  }
+  SWARMSMITH_ASSERT(book_->leases.leases_of(entry.number).empty(), "a lost worker has no leases");
+  book_->act(WorkerChanged{row_of(entry, state)});
+  if (state == WorkerState::Left) return;
+  ++book_->counters.lost_workers;
+  book_->note("warning", "worker lost",
+              {{"worker", entry.number},
+               {"host", entry.hello.host},
+               {"how", loss == Loss::Death ? "connection closed" : "silent"},
+               {"requeued", static_cast<std::int64_t>(keys.size())}},
+              std::nullopt, entry.principal, entry.number);
+}
+
+/// Whether the loss says something of a task that only this worker had, and that may have run.
+LostWorkers::Blame LostWorkers::blame(WorkerEntry& entry, TaskRecord& record, Loss loss) {
+  SWARMSMITH_ASSERT(record.lease && !record.second, "only the only holder's loss says something");
+  if (!trust_->is_proven(*entry.principal)) {
+    ++record.strays;
+    return Blame::Nobody;
+  }
+  if (book_->options.evaluates_programs) return blame_of_program(entry, record, loss);
+  const Lease& lease = *record.lease;
+  if (loss == Loss::Death && lease.alone && lease.began) return Blame::Task;
+  ++record.losses;
+  if (loss == Loss::Death || record.losses >= kLossesUntilAlone) record.alone = true;
+  return lease.alone && record.losses >= kLossesUntilRuled ? Blame::Task : Blame::Nobody;
+}
+
+/// Programs run nowhere but on workers. A program that goes wrong does not take its worker with it:
+/// its first death is an accident.
+LostWorkers::Blame LostWorkers::blame_of_program(WorkerEntry& entry, TaskRecord& record,
+                                                 Loss loss) {
+  const Lease& lease = *record.lease;
+  const bool is_death = loss == Loss::Death;
+  if (is_death && lease.alone && lease.began) {
+    // Where there is somebody else, the same one is not asked three times.
+    const std::string& name = entry.principal->name;
+    const bool is_new = std::ranges::find(record.died_with, name) == record.died_with.end();
+    if (is_new || trust_->proven_present() <= record.died_with.size()) {
+      ++record.deaths;
+      entry.charged.push_back(key_of(record.task));
+    }
+    if (is_new) record.died_with.push_back(name);
+    return record.deaths >= kDeathsOfARejection ? Blame::Rejected : Blame::Nobody;
+  }
+  ++record.losses;
+  if (record.losses >= kLossesUntilAlone) record.alone = true;
+  if (!is_death && lease.alone && record.losses >= kLossesUntilRuled) {
+    book_->stop(record.task.campaign, "the evaluation of " + name_of(record.task.key) +
+                                          " was lost with its worker " +
+                                          std::to_string(record.losses) + " times");
+  }
+  return Blame::Nobody;
+}
+
+}  // namespace swarmsmith

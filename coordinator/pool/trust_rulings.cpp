@@ -1,0 +1,267 @@
+// What is brought before the referee, and what follows from its word.
+
+#include <fmt/format.h>
+#include <algorithm>
+#include <bit>
+
+#include "base/assert.h"
+#include "coordinator/pool/trust.h"
+#include "storage/answer.h"
+
+namespace swarmsmith {
+namespace {
+
+double value_of(const DoneEntry& entry) {
+  return std::bit_cast<double>(entry.score_bits);
+}
+
+bool is_right(const Said& said, const Ruling& ruling) {
+  if (said.what == Said::What::NoScore) return ruling.kind == Ruling::Kind::Rejected;
+  return ruling.kind == Ruling::Kind::Score && said.state_digest == ruling.state_digest &&
+         std::bit_cast<std::uint64_t>(said.score) == std::bit_cast<std::uint64_t>(ruling.score);
+}
+
+std::string text_of(const Ruling& ruling) {
+  if (ruling.kind != Ruling::Kind::Score) return "that it has no score";
+  return fmt::format("{}", ruling.score);
+}
+
+std::string text_of(const Said& said) {
+  return said.what == Said::What::Score ? fmt::format("{}", said.score) : "no score";
+}
+
+}  // namespace
+
+/// The lease ends in any case. With a second copy out nothing is claimed yet: its result will show.
+/// Nor beyond kMostClaims: the referee's time is what a liar could take from all others.
+void Trust::claim(WorkerEntry& entry, TaskRecord& record, Said::What what) {
+  const Lease* lease = record.lease_of(entry.number);
+  if (lease == nullptr) return;
+  const Said said{.what = what,
+                  .worker = entry.number,
+                  .principal = entry.principal->name,
+                  .attempt = lease->attempt};
+  record.avoid = entry.number;
+  book_->leases.requeue(record, entry.number);
+  Principal& principal = *entry.principal;
+  if (record.lease || principal.claims >= Principal::kMostClaims) return;
+  if (++principal.claims == Principal::kMostClaims) update_room(principal);
+  book_->leases.park(record);
+  cases_.open(record.task, said, false);
+}
+
+void Trust::rule_on_stray(TaskRecord& record) {
+  if (cases_.of_nobody() > 0 || book_->options.evaluates_programs) return;
+  record.strays = 0;
+  book_->leases.park(record);
+  cases_.open(record.task, std::nullopt, false);
+}
+
+void Trust::on_repeated(WorkerEntry& entry, const Result& result) {
+  ++book_->counters.duplicates;
+  const DoneEntry* known = book_->done.find(result.key);
+  const auto status = result.rejected ? EvaluationStatus::Rejected : EvaluationStatus::Ok;
+  // Two runs of a program may differ, in its time at least: the first one counts.
+  const bool is_the_same = known == nullptr || book_->options.evaluates_programs ||
+                           DoneTable::same(*known, status, result.score, result.state_digest);
+  if (is_the_same || entry.principal->claims >= Principal::kMostClaims) {
+    book_->act(OutcomeRepeated{result.key, entry.number});
+  } else {
+    dispute(entry, *known, result);
+  }
+}
+
+/// Another result with other bits: of another task, when a crash took away why that one had the
+/// key; or the campaign is not deterministic, or somebody lies. That is seen when the campaign has
+/// told the task.
+void Trust::dispute(WorkerEntry& entry, const DoneEntry& known, const Result& result) {
+  if (++entry.principal->claims == Principal::kMostClaims) update_room(*entry.principal);
+  const bool has_score = !DoneTable::same(known, EvaluationStatus::Rejected, 0, 0);
+  disputed_[result.key].push_back(
+      {.kept = {.what = has_score ? Said::What::Score : Said::What::NoScore,
+                .score = value_of(known),
+                .state_digest = known.state_digest,
+                .taken = true},
+       .other = {.what = result.rejected ? Said::What::NoScore : Said::What::Score,
+                 .worker = entry.number,
+                 .principal = entry.principal->name,
+                 .score = result.score,
+                 .state_digest = result.state_digest},
+       .signature = result.signature});
+  book_->act(TaskInDispute{campaign_of(result.key), unpack(result.key)});
+}
+
+void Trust::ask_referee() {
+  std::optional<Task> task = cases_.next();
+  if (!task) return;
+  const Duration timeout = book_->options.campaigns[task->campaign].task_timeout;
+  book_->act(AskReferee{std::move(*task), timeout});
+}
+
+void Trust::on_disputed(PackedKey key, const std::optional<Task>& task, TimePoint now) {
+  book_->now = now;
+  const auto found = disputed_.extract(key);
+  if (!found || book_->is_stopped(campaign_of(key))) return;
+  for (const Dispute& dispute : found.mapped()) {
+    const Said& other = dispute.other;
+    // Of a campaign that is over nobody asks any more.
+    if (task || book_->is_closed(campaign_of(key))) book_->act(OutcomeRepeated{key, other.worker});
+    if (!task) {
+      let_go(other);
+      continue;
+    }
+    if (dispute.signature != 0 && !signer_.is_of(dispute.signature, *task)) {
+      ++book_->counters.unleased;
+      let_go(other);
+      continue;
+    }
+    note_conflict(key, dispute);
+    cases_.open(*task, dispute.kept, true);
+    cases_.open(*task, other, true);
+  }
+}
+
+void Trust::note_conflict(PackedKey key, const Dispute& dispute) {
+  ++book_->counters.conflicts;
+  const bool has_score = dispute.kept.what == Said::What::Score;
+  book_->act(ConflictFound{campaign_of(key),
+                           {.key = unpack(key),
+                            .kept_score = has_score ? dispute.kept.score : 0,
+                            .other_score = dispute.other.score,
+                            .other_state_digest = dispute.other.state_digest,
+                            .other_worker = dispute.other.worker}});
+  const WorkerEntry* worker = workers_->of_number(dispute.other.worker);
+  book_->note("error", "not deterministic",
+              {{"evaluation", name_of(unpack(key))},
+               {"worker", dispute.other.worker},
+               {"host", worker == nullptr ? "" : worker->hello.host}},
+              campaign_of(key), principals_.find(dispute.other.principal), dispute.other.worker);
+}
+
+void Trust::on_ruling(const Ruling& ruling, TimePoint now) {
+  book_->now = now;
+  const std::optional<Case> ruled = cases_.close(ruling.key);
+  if (!ruled) return;
+  ++book_->counters.rulings;
+  if (ruling.kind == Ruling::Kind::Score) {
+    const auto spent_us = static_cast<double>(std::max<std::int64_t>(ruling.wall_us, 0));
+    referee_us_ += (referee_us_ == 0 ? 1.0 : 0.05) * (spent_us - referee_us_);
+  }
+  if (ruling.kind == Ruling::Kind::NoWord) {
+    for (const Said& said : ruled->said)
+      let_go(said);
+    return book_->stop(ruled->task.campaign,
+                       "the evaluation of " + name_of(ruled->task.key) +
+                           " has to be made by this host itself, which cannot: " + ruling.reason);
+  }
+  carry_out(*ruled, ruling, now);
+  for (const Said& said : ruled->said)
+    on_ruled_word(said, ruling, now);
+  compare_with_stored(*ruled, ruling);
+}
+
+/// The outcome, where there is none yet.
+void Trust::carry_out(const Case& ruled, const Ruling& ruling, TimePoint now) {
+  TaskRecord* record = book_->leases.find(ruling.key);
+  if (record == nullptr) return;
+  if (ruling.kind == Ruling::Kind::TimedOut) {
+    if (record->lease) return;  // the other copy tells
+    if (record->task.ahead) return book_->leases.shelve(*record);
+    return book_->stop(record->task.campaign, ruling.reason);
+  }
+  if (ruling.kind == Ruling::Kind::Rejected) {
+    book_->act(FailureKept{record->task.campaign,
+                           {.key = record->task.key,
+                            .attempt = std::max<std::int64_t>(record->attempts, 1),
+                            .reason = ruling.reason}});
+    return book_->reject(*record, 0, ruling.reason);
+  }
+  const auto right =
+      std::ranges::find_if(ruled.said, [&](const Said& said) { return is_right(said, ruling); });
+  const bool is_of_worker = right != ruled.said.end();
+  WorkerEntry* entry = is_of_worker ? workers_->of_number(right->worker) : nullptr;
+  if (entry != nullptr) {
+    ++entry->done;
+    if (++entry->principal->taken == 1) update_room(*entry->principal);
+  }
+  const WorkerNumber by = is_of_worker ? right->worker : 0;
+  book_->note_second_copy(*record, by, now);
+  book_->accept(
+      {.key = record->task.key,
+       .campaign = record->task.campaign,
+       .status = EvaluationStatus::Ok,
+       .score = ruling.score,
+       .state_digest = ruling.state_digest,
+       .wall_us = is_of_worker ? right->wall_us : ruling.wall_us,
+       .worker = by,
+       .attempt = is_of_worker ? right->attempt : std::max<std::int64_t>(record->attempts, 1)});
+}
+
+/// What follows for who said it.
+void Trust::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now) {
+  let_go(said);
+  Principal* principal = principals_.find(said.principal);
+  const bool is_decided = ruling.kind != Ruling::Kind::TimedOut;
+  if (said.taken && is_decided && is_right(said, ruling)) note_audited(said, principal, ruling);
+  if (principal == nullptr || said.what == Said::What::Died) return;
+  if (said.what == Said::What::NoScore) {
+    if (ruling.kind == Ruling::Kind::Score) strike(*principal, now);
+    return;
+  }
+  if (is_decided) ++book_->counters.audited;
+  if (is_decided && !is_right(said, ruling)) {
+    convict(*principal,
+            "it gave " + text_of(said) + " for the evaluation of " + name_of(unpack(ruling.key)) +
+                ", and this host " + text_of(ruling),
+            now);
+  } else if (is_decided) {
+    ++principal->confirmed;
+  }
+  if (said.on_trial) try_waiting(*principal, now);
+}
+
+/// It is made again by no later process, and whoever gave other bits was wrong. Who gave the kept
+/// one of a dispute is not known.
+void Trust::note_audited(const Said& said, Principal* principal, const Ruling& ruling) {
+  const std::uint32_t campaign = campaign_of(ruling.key);
+  if (principal != nullptr) --principal->unchecked_of(campaign);
+  book_->act(AttemptEnded{campaign,
+                          {.key = unpack(ruling.key),
+                           .attempt = said.attempt,
+                           .worker = 0,
+                           .held_ms = ruling.wall_us / 1000,
+                           .outcome = AttemptOutcome::Audited}});
+}
+
+/// The outcome that counts may be the wrong one, whoever gave it.
+void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
+  if (ruling.kind == Ruling::Kind::TimedOut) return;
+  for (const Said& said : ruled.said) {
+    if (!said.taken || is_right(said, ruling)) continue;
+    const std::uint32_t campaign = ruled.task.campaign;
+    const std::string name = name_of(ruled.task.key);
+    book_->note("error", "a stored score is wrong",
+                {{"evaluation", name}, {"stored", text_of(said)}, {"this host", text_of(ruling)}},
+                campaign);
+    return book_->stop(campaign,
+                       "a score in the store is wrong: the evaluation of " + name + " has " +
+                           text_of(said) + ", and this host gives " + text_of(ruling) +
+                           ". Run the campaign again into a new store",
+                       true);
+  }
+}
+
+/// It is before the referee no longer. Each word that was brought there was counted once.
+void Trust::let_go(const Said& said) {
+  Principal* principal = principals_.find(said.principal);
+  if (principal == nullptr || said.taken) return;
+  if (said.on_trial) {
+    SWARMSMITH_ASSERT(principal->on_trial > 0, "a result on trial was counted");
+    --principal->on_trial;
+    return;
+  }
+  SWARMSMITH_ASSERT(principal->claims > 0, "a claim before the referee was counted");
+  if (principal->claims-- == Principal::kMostClaims) update_room(*principal);
+}
+
+}  // namespace swarmsmith

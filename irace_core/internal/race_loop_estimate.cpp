@@ -1,0 +1,171 @@
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "irace_core/expression.h"
+#include "irace_core/internal/capping.h"
+#include "irace_core/internal/race_loop.h"
+#include "irace_core/internal/ranking.h"
+
+namespace swarmsmith {
+
+Expected<void> IteratedRace::State::begin_estimate() {
+  estimate_ =
+      Estimate{.tried = {}, .batch = {}, .runs = {}, .pairs = schedule_.pairs_before_test()};
+  instances_.extend_to(std::max(estimate_->pairs, scenario.n_instances));
+  const double bound = time->bound_for_estimate();
+  if (bound > 0 && bound_max_ > bound) lower_bound_max(bound);
+  auto asked = ask_estimate(time->first_configurations());
+  if (!asked) return Unexpected(asked.error());
+  if (!*asked) {
+    return bad_input(
+        "no configuration that is not forbidden was found: the constraints are too strict; forbid "
+        "less, or narrow the domains instead");
+  }
+  return {};
+}
+
+void IteratedRace::State::lower_bound_max(double bound) {
+  warn("bound_max, the bound of runs, is lowered from " + to_fixed_text(bound_max_) + " to " +
+       to_fixed_text(bound) + ": the runs so far, and the time, say that it is much too large");
+  bound_max_ = bound;
+}
+
+Expected<bool> IteratedRace::State::ask_estimate(std::int64_t count) {
+  auto& batch = estimate_->batch;
+  batch.clear();
+  const std::int64_t last = estimate_->tried.empty() ? 0 : estimate_->tried.back();
+  for (std::int64_t id = last + 1; id <= initial_count_; ++id) {
+    if (static_cast<std::int64_t>(batch.size()) == count) break;
+    if (candidate(id).takes_part) batch.push_back(id);
+  }
+  if (static_cast<std::int64_t>(batch.size()) < count) {
+    auto sampled = sample_initial(count - static_cast<std::int64_t>(batch.size()), 1);
+    if (!sampled) return Unexpected(sampled.error());
+    batch.insert(batch.end(), sampled->begin(), sampled->end());
+  }
+  wanted.clear();
+  for (std::int64_t pair = 1; pair <= estimate_->pairs; ++pair) {
+    for (const std::int64_t id : batch) {
+      wanted.push_back({.configuration = id,
+                        .pair = pair,
+                        .instance = instances_[pair].instance,
+                        .seed = instances_[pair].seed,
+                        .bound = bound_max_});
+    }
+  }
+  return !batch.empty();
+}
+
+/// As in a race, where the race looks.
+Expected<void> IteratedRace::State::check_bounds(std::span<const Measurement> measurements) const {
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const Experiment& run = wanted[i];
+    const double took = measurements[i].time;
+    if (run.bound == 0 || took <= run.bound + scenario.min_measurable_time) continue;
+    return bad_input("the run of configuration " + std::to_string(run.configuration) + " on pair " +
+                     std::to_string(run.pair) + " took " + to_fixed_text(took) +
+                     ", more than its bound of " + to_fixed_text(run.bound) +
+                     ": a target must stop itself at the bound");
+  }
+  return {};
+}
+
+void IteratedRace::State::tell_estimate(std::span<const Measurement> measurements) {
+  if (auto checked = check_bounds(measurements); !checked) {
+    fail(checked.error());
+    return;
+  }
+  if (scenario.target_evaluator && estimate_->runs.empty()) {
+    estimate_->runs.assign(measurements.begin(), measurements.end());
+    for (Experiment& experiment : wanted) {
+      experiment.bound = 0;
+      experiment.is_evaluation = true;
+      experiment.task = steps_ + experiment.pair;
+    }
+    return;
+  }
+  if (estimate_->runs.empty()) estimate_->runs.assign(measurements.begin(), measurements.end());
+  if (auto ended = end_batch(measurements); !ended) fail(ended.error());
+}
+
+Expected<void> IteratedRace::State::end_batch(std::span<const Measurement> costs) {
+  const irace::TimeRules rules = common_settings(0).time_rules();
+  std::vector<std::pair<std::int64_t, std::int64_t>> evaluated;
+  for (std::size_t i = 0; i < wanted.size(); ++i) {
+    const auto [id, pair] = std::pair(wanted[i].configuration, wanted[i].pair);
+    evaluated.emplace_back(id, pair);
+    time->count(estimate_->runs[i].time);
+    const double cost =
+        uses_capping(scenario)
+            ? irace::capped_cost(costs[i].cost, estimate_->runs[i].time, bound_max_, rules)
+            : costs[i].cost;
+    if (std::isinf(cost) && candidate(id).takes_part) reject(id);
+    if (candidate(id).takes_part) candidate(id).know({pair, cost, estimate_->runs[i].time});
+    pairs_seen_ = std::max(pairs_seen_, pair);
+  }
+  used_before_race_ += static_cast<std::int64_t>(wanted.size());
+  steps_ += estimate_->pairs;
+  estimate_->runs.clear();
+  estimate_->tried.insert(estimate_->tried.end(), estimate_->batch.begin(), estimate_->batch.end());
+  time->estimate();
+  report_time(std::move(evaluated));
+  const auto tried = static_cast<std::int64_t>(estimate_->tried.size());
+  if (const std::int64_t more = time->more_configurations(tried); more > 0) {
+    auto asked = ask_estimate(more);
+    if (!asked) return Unexpected(asked.error());
+    if (*asked) return {};
+  }
+  return end_estimate();
+}
+
+Expected<void> IteratedRace::State::end_estimate() {
+  const double bound = 2 * time->mean_time();
+  if (bound_max_ > bound) lower_bound_max(bound);
+  auto shrunk = schedule_.shrink_to(time->remaining());
+  if (!shrunk) return Unexpected(shrunk.error());
+  if (*shrunk) {
+    iterations = schedule_.iterations();
+    warn("with an estimated time of " + to_fixed_text(time->mean_time()) +
+         " a run, the time that is left is too short for the usual number of iterations: there "
+         "are " +
+         std::to_string(iterations) +
+         ", with few configurations each, and the result may be no better than a random search");
+  }
+  std::vector<std::int64_t> ids = std::move(estimate_->tried);
+  std::erase_if(ids, [&](std::int64_t id) { return !candidate(id).takes_part; });
+  elites = ranked(ids);
+  estimate_.reset();
+  time->end_estimate();
+  if (auto begun = begin_race(); !begun) return begun;
+  advance();
+  return {};
+}
+
+std::vector<Elite> IteratedRace::State::ranked(std::span<const std::int64_t> ids) const {
+  std::vector<std::vector<double>> costs;
+  for (const std::int64_t id : ids) {
+    auto& row = costs.emplace_back(static_cast<std::size_t>(pairs_seen_),
+                                   std::numeric_limits<double>::quiet_NaN());
+    for (const Candidate::Result& result : candidate(id).results)
+      row[static_cast<std::size_t>(result.pair - 1)] = result.cost;
+  }
+  const std::vector<double> ranks = irace::overall_ranks(costs, test_type_of(scenario));
+  std::vector<Elite> ranked;
+  for (std::size_t i = 0; i < ids.size(); ++i)
+    ranked.push_back(candidate(ids[i]).as_elite(ids[i], ranks[i]));
+  return ranked;
+}
+
+void IteratedRace::State::report_time(
+    std::vector<std::pair<std::int64_t, std::int64_t>> evaluated) {
+  events.emplace_back(TimeEstimated{.runs = time->runs(),
+                                    .used = time->used(),
+                                    .mean_time = time->mean_time(),
+                                    .remaining = time->remaining(),
+                                    .bound_max = bound_max_,
+                                    .evaluated = std::move(evaluated)});
+}
+
+}  // namespace swarmsmith

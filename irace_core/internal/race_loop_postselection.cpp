@@ -1,0 +1,87 @@
+#include <algorithm>
+#include <iterator>
+#include <set>
+#include <utility>
+
+#include "irace_core/internal/postselection.h"
+#include "irace_core/internal/race_loop.h"
+
+namespace swarmsmith {
+
+/// The elites of the last iteration, of the one before, and so on, then all others by id; no
+/// rejected ones.
+std::vector<std::int64_t> IteratedRace::State::preferred() const {
+  std::vector<std::int64_t> ids;
+  std::set<std::int64_t> seen;
+  const auto add_once = [&](std::int64_t id) {
+    if (candidate(id).takes_part && seen.insert(id).second) ids.push_back(id);
+  };
+  for (auto ended = ended_.rbegin(); ended != ended_.rend(); ++ended) {
+    for (const Elite& elite : *ended)
+      add_once(elite.configuration);
+  }
+  for (std::int64_t id = 1; id <= static_cast<std::int64_t>(candidates.size()); ++id)
+    add_once(id);
+  return ids;
+}
+
+bool IteratedRace::State::begin_postselection() {
+  if (!scenario.postselection || !scenario.elitist || time) return false;
+  const std::int64_t left = remaining();
+  if (left / std::max(scenario.block_size, scenario.each_test) <= 1)
+    return false;  // irace facts, 14
+  instances_.extend_to(pairs_seen_ + schedule_.pairs_between_tests());
+  const bool asks = instances_.size() - pairs_seen_ >= schedule_.pairs_between_tests();
+  const std::vector<std::int64_t> ids = preferred();
+  std::vector<irace::PostselectionCandidate> all;
+  all.reserve(ids.size());
+  for (const std::int64_t id : ids) {
+    all.push_back({id, pairs_seen_ - static_cast<std::int64_t>(candidate(id).results.size())});
+  }
+  const auto chosen =
+      irace::choose_for_postselection(all, left, asks ? schedule_.pairs_between_tests() : 0);
+  if (chosen.size() < 2) return false;
+  std::vector<std::int64_t> contestants;
+  for (const std::size_t i : chosen)
+    contestants.push_back(ids[i]);
+  ++iteration;
+  iterations = std::max(iterations, iteration);
+  events.emplace_back(
+      IterationStarted{.iteration = iteration,
+                       .n_iterations = iterations,
+                       .remaining = left,
+                       .budget = left,
+                       .n_configurations = static_cast<std::int64_t>(contestants.size()),
+                       .new_pairs = 0,
+                       .elites = contestants,
+                       .soft_restart = false,
+                       .postselection = true,
+                       .model_digest = models_.digest()});
+  irace::RaceSettings settings = common_settings(left);
+  settings.first_test = pairs_seen_;  // only once all past pairs are covered
+  settings.min_survival = 1;
+  settings.elitist_limit = 0;
+  order_pairs(settings);
+  start_race(std::move(settings), contestants);
+  return true;
+}
+
+/// irace ends without elites there; a design that had some keeps the next best ones.
+void IteratedRace::State::fall_back() {
+  for (auto ended = ended_.rbegin(); ended != ended_.rend() && elites.empty(); ++ended) {
+    std::copy_if(ended->begin(), ended->end(), std::back_inserter(elites),
+                 [&](const Elite& elite) { return candidate(elite.configuration).takes_part; });
+  }
+  if (!elites.empty()) return;
+  std::vector<std::int64_t> ids;
+  for (std::int64_t id = 1; id <= static_cast<std::int64_t>(candidates.size()); ++id) {
+    if (candidate(id).takes_part && !candidate(id).results.empty()) ids.push_back(id);
+  }
+  elites = ranked(ids);
+  std::stable_sort(elites.begin(), elites.end(),
+                   [](const Elite& a, const Elite& b) { return a.rank < b.rank; });
+  const auto most = static_cast<std::size_t>(schedule_.min_survival());
+  if (elites.size() > most) elites.resize(most);
+}
+
+}  // namespace swarmsmith

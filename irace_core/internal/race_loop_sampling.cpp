@@ -1,0 +1,159 @@
+#include <algorithm>
+#include <utility>
+
+#include "irace_core/internal/race_loop.h"
+#include "irace_core/internal/similarity.h"
+
+namespace swarmsmith {
+
+using irace::EliteLine;
+using irace::RacePlan;
+
+std::int64_t IteratedRace::State::add(Candidate candidate, std::int64_t in_iteration) {
+  const auto id = static_cast<std::int64_t>(candidates.size()) + 1;
+  events.emplace_back(
+      ConfigurationSampled{id, candidate.parent, in_iteration, candidate.configuration.get()});
+  candidates.push_back(std::move(candidate));
+  return id;
+}
+
+Expected<std::vector<std::int64_t>> IteratedRace::State::sample_initial(std::int64_t count,
+                                                                        std::int64_t in_iteration) {
+  auto sampled = initial_.sample(count, forbidden_, repair_);
+  if (!sampled) return Unexpected(sampled.error());
+  std::vector<std::int64_t> ids;
+  for (Configuration& configuration : *sampled)
+    ids.push_back(add({std::move(configuration), 0, true, {}}, in_iteration));
+  sampling_drawn_ = initial_.position();
+  return ids;
+}
+
+Expected<std::vector<std::int64_t>> IteratedRace::State::first_contestants(const RacePlan& plan) {
+  const auto most = static_cast<std::size_t>(plan.configurations);
+  if (elites.size() > most) {
+    std::stable_sort(elites.begin(), elites.end(),
+                     [](const Elite& a, const Elite& b) { return a.rank < b.rank; });
+    elites.resize(most);
+  }
+  std::vector<std::int64_t> ids;
+  for (const Elite& elite : elites)
+    ids.push_back(elite.configuration);
+  for (std::int64_t id = 1; id <= initial_count_ && ids.size() < most; ++id) {
+    if (candidate(id).takes_part && candidate(id).results.empty()) ids.push_back(id);
+  }
+  const auto given = std::ranges::count_if(
+      ids, [&](std::int64_t id) { return id <= initial_count_ && candidate(id).results.empty(); });
+  if (ids.size() == most && given < initial_count_ && elites.empty()) {
+    warn("only " + std::to_string(given) + " of the " + std::to_string(initial_count_) +
+         " initial configurations take part: the first race has no place for more");
+  }
+  if (ids.size() < most) {
+    const auto missing = static_cast<std::int64_t>(most - ids.size());
+    auto sampled = sample_initial(missing, plan.iteration);
+    if (!sampled) return sampled;
+    ids.insert(ids.end(), sampled->begin(), sampled->end());
+  }
+  if (ids.empty()) {
+    return bad_input(
+        "no configuration that is not forbidden was found: the constraints are too strict; forbid "
+        "less, or narrow the domains instead");
+  }
+  if (static_cast<std::int64_t>(ids.size()) <= schedule_.min_survival()) {
+    return bad_input("only " + std::to_string(ids.size()) +
+                     " different configurations were found, and a race needs more than " +
+                     std::to_string(schedule_.min_survival()) +
+                     ", which survive (min_nb_survival): let fewer survive, or give the parameters "
+                     "more values");
+  }
+  return ids;
+}
+
+Expected<std::vector<std::int64_t>> IteratedRace::State::later_contestants(
+    const RacePlan& plan, IterationStarted& started) {
+  const std::vector<EliteLine> lines = elite_lines();
+  const std::int64_t wanted_new = plan.configurations - static_cast<std::int64_t>(elites.size());
+  // Models begin with the first race's elites (irace facts, 6.1), then each follows its elite
+  // (6.2).
+  if (models_.empty()) models_.initialise(lines);
+  models_.update(lines, irace::update_strength(plan.iteration, plan.iterations, wanted_new,
+                                               space.variable_count(), scenario.elitist));
+  Rng rng = root_.split("sampling", static_cast<std::uint64_t>(plan.iteration));
+  auto sampled = sample_new(wanted_new, rng);
+  if (!sampled) return Unexpected(sampled.error());
+  // irace facts, 7: similar configurations mean that a model is too narrow to tell anything new, so
+  // it is widened and all are sampled again, once. The numbers that were drawn stay drawn.
+  if (scenario.soft_restart) {
+    const std::vector<std::int64_t> restarted = lines_to_restart(*sampled);
+    for (const std::int64_t id : restarted)
+      models_.restart(id, wanted_new);
+    if (!restarted.empty()) {
+      started.soft_restart = true;
+      sampled = sample_new(wanted_new, rng);
+      if (!sampled) return Unexpected(sampled.error());
+    }
+  }
+  started.model_digest = models_.digest();
+  sampling_drawn_ = rng.drawn();
+  std::vector<std::int64_t> ids;
+  for (const Elite& elite : elites)
+    ids.push_back(elite.configuration);
+  for (Candidate& fresh : *sampled)
+    ids.push_back(add(std::move(fresh), plan.iteration));
+  return ids;
+}
+
+Expected<std::vector<Candidate>> IteratedRace::State::sample_new(std::int64_t count, Rng& rng) {
+  constexpr int kMostRounds = 100;
+  std::vector<Candidate> sampled;
+  for (int round = 0; round < kMostRounds; ++round) {
+    const std::int64_t missing = count - static_cast<std::int64_t>(sampled.size());
+    if (missing == 0) return sampled;
+    for (std::int64_t i = 0; i < missing; ++i) {
+      const std::int64_t parent = elites[irace::draw_parent(elites.size(), rng)].configuration;
+      auto configuration = models_.sample(parent, rng);
+      if (configuration) {
+        configuration = irace::repaired(space, repair_, std::move(*configuration));
+      }
+      if (!configuration) return Unexpected(configuration.error());
+      if (forbidden_.contains(*configuration)) continue;
+      sampled.push_back({std::move(*configuration), parent, true, {}});
+    }
+  }
+  if (static_cast<std::int64_t>(sampled.size()) == count) return sampled;
+  return bad_input(
+      "nearly all that is sampled is forbidden: the constraints are too strict; forbid less, or "
+      "narrow the domains instead");
+}
+
+std::vector<std::int64_t> IteratedRace::State::lines_to_restart(
+    const std::vector<Candidate>& sampled) const {
+  std::vector<const Configuration*> all;
+  std::vector<std::int64_t> owners;
+  for (const Elite& elite : elites) {
+    all.push_back(&candidate(elite.configuration).configuration.get());
+    owners.push_back(elite.configuration);
+  }
+  for (const Candidate& fresh : sampled) {
+    all.push_back(&fresh.configuration.get());
+    owners.push_back(fresh.parent);
+  }
+  std::vector<std::int64_t> ids;
+  for (const std::size_t i :
+       irace::similar_configurations(space, all, scenario.soft_restart_threshold)) {
+    ids.push_back(owners[i]);
+  }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+  return ids;
+}
+
+std::vector<EliteLine> IteratedRace::State::elite_lines() const {
+  std::vector<EliteLine> lines;
+  for (const Elite& elite : elites) {
+    const Candidate& known = candidate(elite.configuration);
+    lines.push_back({elite.configuration, known.parent, &known.configuration.get()});
+  }
+  return lines;
+}
+
+}  // namespace swarmsmith

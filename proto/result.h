@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "programs/failure_details.h"
+#include "proto/key.h"
+
+namespace swarmsmith {
+
+/// What came of one evaluation: a score, a rejection, or the reason why there is neither.
+struct Result {
+  PackedKey key = 0;  ///< names the campaign too
+  std::int64_t attempt = 0;
+  double score = 0;
+  std::uint64_t state_digest = 0;
+  std::int64_t wall_us = 0;
+  bool rejected = false;        ///< a target's word for it: neither score nor failure
+  double time = 0;              ///< as a target says it, in its unit; 0 where it does not
+  std::string failure{};        ///< empty when there is a score or a rejection
+  FailureDetails details{};     ///< of a failed target
+  std::uint64_t signature = 0;  ///< of the lease under which it ran
+};
+
+/// The caller has checked the key, as `decode_to_coordinator` does. A score of -0 becomes 0, the
+/// only zero that stores know.
+Result result_of(const pb::Result& message);
+/// Texts are cut to what a message may carry.
+void write(const Result& result, pb::Result& message);
+
+}  // namespace swarmsmith

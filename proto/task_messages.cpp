@@ -1,0 +1,64 @@
+#include "proto/result.h"
+#include "proto/task.h"
+#include "proto/wire.h"
+
+namespace swarmsmith {
+
+LeasedTask task_of(const pb::Task& message) {
+  return {{.mission = message.mission(),
+           .method = message.method(),
+           .instance = message.instance(),
+           .seed = message.seed(),
+           .machine = message.machine(),
+           .bound = message.bound(),
+           .alive = {message.alive().begin(), message.alive().end()}},
+          *pack(message.key()),
+          message.attempt(),
+          message.signature(),
+          message.alone()};
+}
+
+void write(const LeasedTask& task, pb::Task& message) {
+  unpack(task.key, *message.mutable_key());
+  message.set_attempt(task.attempt);
+  message.set_signature(task.signature);
+  message.set_alone(task.alone);
+  message.set_mission(task.mission);
+  message.set_method(task.method);
+  message.set_instance(task.instance);
+  message.set_seed(task.seed);
+  message.set_machine(task.machine);
+  message.set_bound(task.bound);
+  message.mutable_alive()->Assign(task.alive.begin(), task.alive.end());
+}
+
+Result result_of(const pb::Result& message) {
+  return {.key = *pack(message.key()),
+          .attempt = message.attempt(),
+          .score = message.score() + 0.0,
+          .state_digest = message.state_digest(),
+          .wall_us = message.wall_us(),
+          .rejected = message.rejected(),
+          .time = message.time(),
+          .failure = message.failure(),
+          .details = {message.command(), message.output(), message.errors()},
+          .signature = message.signature()};
+}
+
+void write(const Result& result, pb::Result& message) {
+  unpack(result.key, *message.mutable_key());
+  message.set_attempt(result.attempt);
+  message.set_signature(result.signature);
+  message.set_score(result.score);
+  message.set_state_digest(result.state_digest);
+  message.set_wall_us(result.wall_us);
+  message.set_time(result.time);
+  message.set_rejected(result.rejected);
+  if (result.failure.empty()) return;
+  message.set_failure(clipped_text(result.failure));
+  message.set_command(clipped_text(result.details.command));
+  message.set_output(clipped_text(result.details.output));
+  message.set_errors(clipped_text(result.details.errors));
+}
+
+}  // namespace swarmsmith

@@ -1,0 +1,59 @@
+#include "coordinator/design/row_recorder.h"
+
+#include <gtest/gtest.h>
+
+namespace swarmsmith {
+namespace {
+
+RaceStep step(std::uint64_t digest) {
+  return {.iteration = 1, .task = 1, .pair = 1, .best = 1, .experiments_used = 1, .digest = digest};
+}
+
+std::vector<Row> rows_of(RowRecorder& recorder) {
+  std::vector<Row> rows;
+  recorder.move_rows_to(rows);
+  return rows;
+}
+
+TEST(RowRecorder, GivesRowsFromTheLastStoredStepOn) {
+  RowRecorder recorder({1}, "profile", {11});
+  recorder.record_candidate({.id = 1, .iteration = 1}, {});
+  ASSERT_TRUE(recorder.record_step(step(11)));
+  EXPECT_TRUE(rows_of(recorder).empty());
+  EXPECT_FALSE(recorder.is_replaying());
+  ASSERT_TRUE(recorder.record_step(step(12)));
+  const std::vector<Row> rows = rows_of(recorder);
+  ASSERT_EQ(rows.size(), 2U) << "the step, and the design as it stands";
+  EXPECT_EQ(std::get<RaceStepRow>(rows.front()).step, 2);
+}
+
+TEST(RowRecorder, FindsAStepThatTheStoreHasOtherwise) {
+  RowRecorder recorder({1}, "profile", {11});
+  const auto recorded = recorder.record_step(step(12));
+  ASSERT_FALSE(recorded);
+  EXPECT_EQ(recorded.error().kind, ErrorKind::Corrupt);
+  EXPECT_NE(to_string(recorded.error()).find("d1, step 1"), std::string::npos);
+}
+
+TEST(RowRecorder, GivesEachPairOfAPurposeOnce) {
+  RowRecorder recorder({1}, "profile", {});
+  for (const std::int64_t pair : {1, 2, 1, 2, 3})
+    recorder.record_pair(Purpose::Race, {.configuration = 1, .pair = pair});
+  recorder.record_pair(Purpose::Test, {.configuration = 1, .pair = 1});
+  EXPECT_EQ(rows_of(recorder).size(), 4U);
+}
+
+TEST(RowRecorder, SumsWhatATargetEvaluatorSaidLast) {
+  RowRecorder recorder({1}, "command", {});
+  recorder.record_candidate({.id = 1, .iteration = 1}, {});
+  recorder.record_judged(1, 1, 2);
+  recorder.record_judged(1, 2, 4);
+  recorder.record_judged(1, 1, 3);
+  const auto totals = std::get<CandidateTotalsRow>(rows_of(recorder).back());
+  EXPECT_EQ(totals.runs, 2);
+  EXPECT_EQ(totals.score_sum, 7);
+  EXPECT_EQ(totals.score_squares, 25);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,207 @@
+#include "proto/scenario/scenario.h"
+
+#include <gmock/gmock.h>
+#include <cmath>
+#include <functional>
+
+#include "base/text/toml_text.h"
+#include "proto/key.h"
+#include "proto/scenario.pb.h"
+#include "sim/files/profile_file.h"
+#include "tests/sim/every_noise.h"
+#include "tests/sim/random_mission.h"
+#include "tests/support/score_rules.h"
+
+namespace swarmsmith {
+namespace {
+
+using testing::HasSubstr;
+using testing::StartsWith;
+
+WorkerScenario some_scenario() {
+  return {.campaign_digest = "0123456789abcdef0123456789abcdef",
+          .engine_version = 3,
+          .missions = {*built_in_mission("aggregation"), *built_in_mission("color_selection")},
+          .methods = {{.flavour = "watermelon"}, {"watermelon-argos3", TurnClock::Seconds}},
+          .profile = *built_in_profile("rvr")};
+}
+
+Expected<WorkerScenario> read_back(const WorkerScenario& scenario) {
+  Expected<PoolScenario> scenarios = scenarios_from_bytes(to_bytes({scenario}));
+  if (!scenarios) return Unexpected(scenarios.error());
+  EXPECT_EQ(scenarios->size(), 1U);
+  return scenarios->front();
+}
+
+/// What is said of a scenario with this text of missions and profile.
+std::string complaint_about(const std::string& simulation) {
+  pb::PoolScenario message;
+  message.add_campaigns()->set_simulation(simulation);
+  const auto read = scenarios_from_bytes(message.SerializeAsString());
+  return read ? "" : to_string(read.error());
+}
+
+/// The text of a scenario.
+std::string simulation_of(const WorkerScenario& scenario) {
+  pb::PoolScenario message;
+  EXPECT_TRUE(message.ParseFromString(to_bytes({scenario})));
+  return message.campaigns(0).simulation();
+}
+
+TEST(Scenarios, GiveBackSeveralCampaignsAndNameTheFaultyOne) {
+  WorkerScenario other = some_scenario();
+  other.missions.pop_back();
+  const PoolScenario both = {some_scenario(), other};
+  EXPECT_EQ(scenarios_from_bytes(to_bytes(both)), both);
+  other.missions[0].cycles = 0;
+  EXPECT_THAT(scenarios_from_bytes(to_bytes({some_scenario(), other})).error().where,
+              StartsWith("campaigns[1].simulation:"));
+  EXPECT_EQ(scenarios_from_bytes("").error().where, "campaigns");
+  EXPECT_FALSE(scenarios_from_bytes(to_bytes(PoolScenario(kMaxCampaigns + 1, other))));
+}
+
+TEST(Scenarios, GiveBackTheScenario) {
+  WorkerScenario scenario = some_scenario();
+  EXPECT_EQ(read_back(scenario), scenario);
+  scenario.profile = every_noise();
+  EXPECT_EQ(read_back(scenario), scenario);
+}
+
+TEST(Scenarios, RefuseAClockOfTurnsThatIsNotKnown) {
+  pb::PoolScenario message;
+  ASSERT_TRUE(message.ParseFromString(to_bytes({some_scenario()})));
+  message.mutable_campaigns(0)->mutable_methods(1)->set_turn_clock(
+      static_cast<pb::Method::TurnClock>(7));
+  const auto read = scenarios_from_bytes(message.SerializeAsString());
+  ASSERT_FALSE(read);
+  EXPECT_EQ(read.error().where, "methods[1].turn_clock");
+}
+
+TEST(Scenarios, GiveBackTheMethods) {
+  EXPECT_EQ(read_back(some_scenario())->methods, some_scenario().methods);
+}
+
+TEST(Scenarios, AreTheSameBytesForTheSameScenario) {
+  EXPECT_EQ(to_bytes({some_scenario()}), to_bytes({some_scenario()}));
+}
+
+TEST(Scenarios, GiveBackMissionsWithEverythingBitForBit) {
+  WorkerScenario scenario = some_scenario();
+  scenario.missions.clear();
+  for (std::uint64_t seed = 1; seed <= 60; ++seed)
+    scenario.missions.push_back(random_mission(seed));
+  EXPECT_EQ(read_back(scenario), scenario);
+}
+
+TEST(Scenarios, GiveBackEveryKindOfScore) {
+  WorkerScenario scenario = some_scenario();
+  for (const ScoreRule& rule : rules_of_every_kind()) {
+    scenario.missions[0].rule = rule;
+    EXPECT_EQ(read_back(scenario), scenario) << kind_of(rule);
+  }
+  scenario.missions[0].rule = Coverage{.tiles = 7, .side_m = 1.0 / 3};
+  EXPECT_EQ(read_back(scenario), scenario);
+}
+
+TEST(Scenarios, SayWhatIsWrongAndWhere) {
+  EXPECT_FALSE(scenarios_from_bytes("\xff\xff\xff"));
+  const auto complaint = [](const std::function<void(WorkerScenario&)>& spoil) {
+    WorkerScenario scenario = some_scenario();
+    spoil(scenario);
+    return complaint_about(simulation_of(scenario));
+  };
+  EXPECT_EQ(complaint([](WorkerScenario&) {}), "");
+  const std::pair<const char*, std::function<void(WorkerScenario&)>> spoilt[] = {
+      {"`duration`", [](auto& s) { s.missions[1].cycles = 0; }},
+      {"`duration`", [](auto& s) { s.missions[1].cycles = 2'000'000; }},
+      {"`robots`", [](auto& s) { s.missions[0].robots = 0; }},
+      {"`diameter`", [](auto& s) { s.missions[0].body = CircleOutline{0}; }},
+      {"a polygon has at least 3", [](auto& s) { s.missions[0].arena.walls.resize(2); }},
+      {"`side`", [](auto& s) { s.missions[0].rule = Coverage{.side_m = std::nan("")}; }},
+      {"`sd`", [](auto& s) { s.profile.proximity.sd_m = -1; }},
+      {"`miss_rate`", [](auto& s) { s.profile.neighbours.miss_rate = std::nan(""); }},
+      {"`delays`",
+       [](auto& s) {
+         s.profile.timing.delays = {{10, 0.5}};
+       }},
+      {"`period`", [](auto& s) { s.profile.timing.least_period = 2; }},
+      {"`tag`", [](auto& s) { s.profile.tracking.tag.y = 7; }},
+  };
+  for (const auto& [key, spoil] : spoilt) {
+    EXPECT_THAT(complaint(spoil), HasSubstr(key));
+    EXPECT_THAT(complaint(spoil), StartsWith("simulation:"));
+  }
+}
+
+TEST(Scenarios, MayNameNoFileOfTheWorker) {
+  const std::string profile = text_of(profile_sections(*built_in_profile("rvr"), "profile"));
+  const std::string mission = "[[mission]]\nname = \"aggregation\"\n";
+  EXPECT_EQ(complaint_about(mission + profile), "");
+  EXPECT_THAT(complaint_about("[[mission]]\nname = \"m\"\npreset = \"/etc/m.toml\"\n" + profile),
+              HasSubstr("begins with a built-in one"));
+  const std::string place = "x = 0, y = 0, width = 1, height = 1";
+  EXPECT_THAT(complaint_about(mission + "[mission.arena]\nspots = [{ shape = \"image\", " + place +
+                              ", file = \"/dev/zero\" }]\n" + profile),
+              HasSubstr("an image needs its `data` here"));
+}
+
+TEST(Scenarios, RefuseTextsThatAreNoSimulation) {
+  EXPECT_THAT(complaint_about(""), HasSubstr("mission"));
+  EXPECT_THAT(complaint_about("[[mission]]\nname = \"aggregation\"\n"), HasSubstr("[profile]"));
+  EXPECT_THAT(complaint_about(simulation_of(some_scenario()) + "more = 1\n"), HasSubstr("`more`"));
+  EXPECT_THAT(complaint_about("a = " + std::string(100'000, '[')), HasSubstr("64 levels"));
+  std::string many = "a = [0";
+  for (int i = 0; i < 1'000'000; ++i)
+    many += ",0";
+  EXPECT_THAT(complaint_about(many + "]\n"), HasSubstr("more than 1000000 values"));
+}
+
+WorkerScenario with_programs() {
+  WorkerScenario scenario{.campaign_digest = "d", .engine_version = 3};
+  scenario.target = Target{.runner = "/r",
+                           .launcher = "/l",
+                           .command_line = "{seed}",
+                           .evaluator = "/e",
+                           .folder = "/f",
+                           .retries = 2,
+                           .timeout_s = 60,
+                           .timeout_is_rejection = true,
+                           .aclib = true,
+                           .batch_mode = BatchMode::HtCondor,
+                           .prints_time = true,
+                           .min_measurable_time = 0.5,
+                           .debug_level = 3};
+  scenario.instances = {{{"a", "b c"}, {"t\xff"}}, {}};
+  return scenario;
+}
+
+TEST(ScenariosOfPrograms, GiveBackThePrograms) {
+  EXPECT_EQ(read_back(with_programs()), with_programs());
+}
+
+TEST(ScenariosOfPrograms, AreCheckedWhenTheyCome) {
+  const auto complaint = [](const std::function<void(Target&)>& spoil) {
+    WorkerScenario scenario = with_programs();
+    spoil(*scenario.target);
+    const auto read = read_back(scenario);
+    return read ? "fine" : read.error().where;
+  };
+  EXPECT_EQ(complaint([](Target& t) { t.runner = "r"; }), "target.runner");
+  EXPECT_EQ(complaint([](Target& t) { t.launcher = "l"; }), "target.launcher");
+  EXPECT_EQ(complaint([](Target& t) { t.folder = ""; }), "target.folder");
+  EXPECT_EQ(complaint([](Target& t) { t.command_line += '\0'; }), "target.command_line");
+  EXPECT_EQ(complaint([](Target& t) { t.retries = -1; }), "target.retries");
+  EXPECT_EQ(complaint([](Target& t) { t.timeout_s = -1; }), "target.timeout_s");
+  EXPECT_EQ(complaint([](Target& t) { t.min_measurable_time = std::nan(""); }),
+            "target.min_measurable_time");
+  EXPECT_EQ(complaint([](Target& t) { t.debug_level = 4; }), "target.debug_level");
+  EXPECT_EQ(complaint([](Target& t) { t.batch_mode = static_cast<BatchMode>(9); }),
+            "target.batch_mode");
+  EXPECT_EQ(complaint([](Target& t) { t.evaluator.clear(); }), "target.evaluator");
+  WorkerScenario scenario = with_programs();
+  scenario.instances[0].test[0] += '\0';
+  EXPECT_EQ(read_back(scenario).error().where, "instances");
+}
+
+}  // namespace
+}  // namespace swarmsmith
