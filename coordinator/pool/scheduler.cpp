@@ -73,10 +73,8 @@ void Scheduler::note(const char* severity, const char* kind,
                      std::initializer_list<EventField> fields,
                      std::optional<std::uint32_t> campaign, const Principal* source,
                      WorkerNumber worker) {
-  actions_.emplace_back(Noted{campaign,
-                              {.severity = severity, .kind = kind, .text = event_text(fields)},
-                              source != nullptr ? source->name : "",
-                              worker});
+  actions_.emplace_back(Noted{campaign, pool_event(severity, kind, fields),
+                              source != nullptr ? source->name : "", worker});
 }
 
 void Scheduler::stop(std::uint32_t campaign, const std::string& reason, bool distrusted) {

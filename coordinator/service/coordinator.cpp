@@ -71,9 +71,8 @@ void Coordinator::on_malformed(const Peer& peer, const Error& error, TimePoint n
   if (++fault.count < options_.malformed_limit) return;
   fault.refused_until = now + options_.refuse_for;
   Noted noted{.campaign = std::nullopt,
-              .row = {.severity = "warning",
-              .kind = "peer refused",
-              .text = event_text({{"frames", std::int64_t{fault.count}}, {"last", error.message}})},
+              .row = pool_event("warning", "peer refused",
+                                {{"frames", std::int64_t{fault.count}}, {"last", error.message}}),
               .source = principal_of(WorkerHello{.client = std::string(peer.client),
                                                  .address = std::string(peer.address)})};
   put_event(noted, now);
@@ -277,9 +276,8 @@ void Coordinator::note_if_all_is_paused(Campaign& campaign) {
     });
     if (all && !campaign.all_paused) {
       campaign.own_rows.emplace_back(
-          EventRow{.severity = "warning",
-                   .kind = "all that is left is paused; `swarmsmith resume` goes on",
-                   .text = event_text({{"designs", listed(left)}})});
+          pool_event("warning", "all that is left is paused; `swarmsmith resume` goes on",
+                     {{"designs", listed(left)}}));
     }
   }
   campaign.all_paused = all;
@@ -426,9 +424,8 @@ void Coordinator::audit_stored(std::uint32_t index) {
   }
   if (!is_over || words.empty()) return;
   campaign.own_rows.emplace_back(
-      EventRow{.severity = "warning",
-               .kind = "audits left out; `swarmsmith verify --sample` makes evaluations again",
-               .text = event_text({{"evaluations", static_cast<std::int64_t>(words.size())}})});
+      pool_event("warning", "audits left out; `swarmsmith verify --sample` makes evaluations again",
+                 {{"evaluations", static_cast<std::int64_t>(words.size())}}));
   words.clear();
 }
 
