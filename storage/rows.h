@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -311,12 +312,20 @@ struct FailureRow {
   std::string errors;
 };
 
+/// What an event says of one thing.
+using EventField = std::pair<std::string, std::variant<std::int64_t, double, std::string>>;
+
 /// Something that a person may want to know afterwards. Not part of the answer.
 struct EventRow {
   std::string severity;  ///< "info", "warning", "error"
   std::string kind;      ///< "worker lost", "lease expired", "disk full", ...
-  std::string text;      ///< JSON object
+  std::string text;      ///< JSON object, as stores keep it
+  /// What the text was made of, see `event_row`, for who shows it; stores do not keep it.
+  std::vector<EventField> fields{};
 };
+
+/// An event with these fields, whose text is a JSON object of them in their order.
+EventRow event_row(std::string severity, std::string kind, std::vector<EventField> fields);
 
 using Row =
     std::variant<CandidateRow, PairRow, EvaluationRow, UnusedRow, IterationRow, RaceStepRow,

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "cli/output/progress_model.h"
 #include "cli/output/run_listener.h"
 #include "console/output.h"
+#include "coordinator/service/progress_model.h"
 
 namespace swarmsmith::cli {
 
