@@ -2,8 +2,8 @@
 
 namespace swarmsmith {
 
-/// Lets this process have so many open files and connections, as far as the system allows: the
-/// usual limit of 1,024 is short for a cluster's.
+/// Raises this process's limit of open files and connections, as far as the system allows: the
+/// usual 1,024 are too few for a cluster.
 void raise_descriptor_limit(int wanted);
 
 }  // namespace swarmsmith

@@ -10,7 +10,7 @@
 
 namespace swarmsmith {
 
-/// Lets through so many lines of one event a second, and counts the others. Pure.
+/// Passes a limited number of lines per event and second, and counts the others. Pure.
 class LogLimiter {
  public:
   static constexpr int kMostASecond = 10;
@@ -22,7 +22,7 @@ class LogLimiter {
 
   /// Whether a line of this event may be written now.
   bool admit(std::string_view event, TimePoint now);
-  /// What was left out in seconds that are over, once; with `all` in the present one too.
+  /// Lines dropped in past seconds, reported once; with `all` also those of the present second.
   std::vector<LeftOut> take_left_out(TimePoint now, bool all = false);
 
  private:

@@ -9,13 +9,13 @@
 
 namespace swarmsmith {
 
-/// So much at once, and then so much a second.
+/// A burst, and a rate per second.
 struct Rate {
   double burst = 0;
   double per_second = 0;
 };
 
-/// Lets through what stays within a rate (a token bucket). Pure.
+/// Passes whatever stays within a rate (a token bucket). Pure.
 class RateLimit {
  public:
   explicit RateLimit(Rate rate) : rate_(rate), left_(rate.burst) {}
@@ -34,7 +34,7 @@ class RateLimit {
     left_ -= amount;
     return true;
   }
-  /// Nothing was taken for so long that it is as good as new.
+  /// Whether the bucket is full again.
   bool is_full(TimePoint now) const {
     RateLimit then = *this;
     return then.has(rate_.burst, now);
@@ -46,8 +46,8 @@ class RateLimit {
   TimePoint when_;
 };
 
-/// The same for each of many names, whom strangers may choose: those that have been quiet are
-/// forgotten when there are too many, and then all are.
+/// The same for each of many names, which strangers may choose. When there are too many, quiet
+/// names are forgotten first, then all.
 class RateLimits {
  public:
   explicit RateLimits(Rate rate) : rate_(rate) {}

@@ -8,14 +8,14 @@
 
 namespace swarmsmith::cli {
 
-/// Counts on the error stream, once something has taken longer than people like to wait (two
-/// seconds): on a terminal in one line that goes away again, elsewhere a line now and then.
+/// Shows a count on the error stream once work takes longer than two seconds: on a terminal one
+/// line that disappears at the end, elsewhere a line now and then.
 class Counter {
  public:
   /// Says "VERB 3 of 11 NOUN". `output` must outlive the object.
   Counter(Output& output, std::string verb, std::string noun);
 
-  /// `of` is 0 while nobody knows how many there are; the line goes away when all are done.
+  /// `of` is 0 while the total is unknown; the line disappears when all are done.
   void tell(std::int64_t done, std::int64_t of);
 
  private:

@@ -27,11 +27,11 @@ class Options {
 
   enum class Need { Optional, Required };
 
-  /// A word that is there or not.
+  /// A flag.
   void flag(const std::string& names, bool& value, const std::string& help);
   void text(const std::string& names, std::string& value, const std::string& help,
             Need need = Need::Optional);
-  /// One text each time that the option is there.
+  /// A repeatable option: one text each time.
   void texts(const std::string& names, std::vector<std::string>& values, const std::string& help);
   /// All further words.
   void words(const std::string& name, std::vector<std::string>& values, const std::string& help,
@@ -43,8 +43,8 @@ class Options {
     std::int64_t least;
     std::int64_t most;
   };
-  /// Nothing stays nothing when the option is not there.
-  /// As in campaign files, underscores may group the digits: 100_000.
+  /// The value stays nullopt if the option is not given. As in campaign files, underscores may
+  /// group the digits: 100_000.
   void integer(const std::string& names, std::optional<std::int64_t>& value, Range range,
                const std::string& help);
   /// Lines below the options, above the command's details.

@@ -9,9 +9,9 @@
 
 namespace swarmsmith::cli {
 
-/// What stands between a program and its terminal: everything that is written to it comes out as
-/// text that is shown (base/shown_text.h), whoever wrote it and whatever is in it. Only what the
-/// program itself says is `Verbatim` passes as it is.
+/// The stream between a program and its terminal: all text passes as shown text
+/// (base/shown_text.h), whatever its source. Only text that the program marks as `Verbatim` passes
+/// unchanged.
 class ShownBuffer : public std::streambuf {
  public:
   explicit ShownBuffer(std::streambuf* behind) : behind_(behind) {}
@@ -35,13 +35,13 @@ class ShownBuffer : public std::streambuf {
   std::string begun_;  ///< a character whose last bytes have not come yet
 };
 
-/// Bytes that are no text of others: control sequences of our own.
+/// Bytes of our own, such as control sequences.
 struct Verbatim {
   std::string_view bytes;
 };
 std::ostream& operator<<(std::ostream& stream, Verbatim verbatim);
 
-/// Goes to the begin of the line and empties it.
+/// Moves to the start of the line and clears it.
 inline constexpr Verbatim kClearLine{"\r\x1b[2K"};
 
 /// An answer that programs read (CSV, an exported file, a picture), to standard output: exact in

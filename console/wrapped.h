@@ -5,7 +5,7 @@
 
 namespace swarmsmith::cli {
 
-/// Columns of a terminal that nobody made wider.
+/// Columns of a terminal of the usual width.
 inline constexpr std::size_t kPageWidth = 80;
 
 /// The text with no line longer than `width`, where words allow it. Lines that begin at the margin

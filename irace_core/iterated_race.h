@@ -21,8 +21,8 @@ namespace swarmsmith {
 using Repair = std::function<Expected<Configuration>(const Configuration&)>;
 
 /// Changes with what a race answers to the same space, scenario and costs. Stores keep it: one of
-/// another version can be read, but not continued or played again.
-/// 2: Sobol points at the beginning, a post-selection race at the end, blocks.
+/// another version can be read, but not continued or replayed. 2: Sobol points at the beginning, a
+/// post-selection race at the end, blocks.
 inline constexpr int kRaceVersion = 2;
 
 /// The budget of a design: max_experiments, or what min_experiments makes of it; 0 with max_time,

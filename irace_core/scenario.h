@@ -22,7 +22,7 @@ enum class CappingType { Median, Mean, Worst, Best };
 enum class BoundType { Candidate, Instance };
 
 /// The options of an iterated race: irace's names and defaults (irace facts, 22). Zero means
-/// "automatic" where a default is said in words.
+/// "automatic" where a default is given in words.
 struct Scenario {
   std::int64_t max_experiments = 0;  ///< the budget: how many experiments may be run
   std::optional<std::int64_t>
@@ -45,7 +45,7 @@ struct Scenario {
   std::int64_t mu = 5;  ///< experiments a new configuration is planned with; raised to first_test
 
   bool elitist = true;
-  /// Blocks that nobody has seen, first in each later race.
+  /// Blocks of new instances, first in each later race.
   std::int64_t elitist_new_instances = 1;
   std::int64_t elitist_limit =
       2;  ///< a race ends after so many tests in a row that drop nobody; 0 = none
@@ -79,7 +79,7 @@ struct Scenario {
   std::int64_t max_configurations_per_race = 1024;  ///< not an option of irace, there always 1024
 };
 
-/// What is wrong with a scenario by itself; `where` of the error is the option's name.
+/// The fault of a scenario by itself, if any; `where` of the error is the option's name.
 Expected<void> check(const Scenario& scenario);
 
 /// Whether bounds are adapted (irace facts, 17).

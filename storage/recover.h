@@ -12,7 +12,7 @@
 
 namespace swarmsmith {
 
-/// What was found of one table of a damaged store.
+/// Rows found and lost of one table of a damaged store.
 struct SalvagedTable {
   std::string name;
   std::int64_t rows = 0;        ///< whole ones
@@ -33,28 +33,28 @@ struct Salvaged {
 /// to go.
 struct DerivedRows {
   std::vector<Row> rows;  ///< by the ids of a store of its own
-  /// Scores that the race has not come to again: they stay, as if they were computed ahead.
+  /// Scores that the race has not reached again: they stay, as if computed ahead.
   std::vector<EvaluationKey> ahead;
-  /// Scores that count wherever they stand, and that nobody has asked for (of tests): they go.
+  /// Scores that would count anywhere but were not requested (of tests): they are removed.
   std::vector<EvaluationKey> unasked;
 };
 
-/// A new store that is made of what can be read of a damaged one: page by page, without SQLite,
-/// every row that is whole, those of the write-ahead log included. The damaged file is only read.
-/// The order of calls: `begin`; `put_campaign` where there is none; `put_designs` and
-/// `replace_derived` for each campaign whose races can be played; `finish`.
+/// A new store made from the readable parts of a damaged one: page by page, without SQLite, every
+/// complete row, including those of the write-ahead log. The damaged file is only read. The order
+/// of calls: `begin`; `put_campaign` if there is none; `put_designs` and `replace_derived` for each
+/// campaign whose races can be replayed; `finish`.
 class Recovery {
  public:
-  /// Errors: BadInput (no such file, something of the new name is there), Corrupt (nothing of a
-  /// store is in it), Newer (its header says so), Unavailable (the disk refuses).
+  /// Errors: BadInput (no such file, or the new name exists), Corrupt (it has no part of a store),
+  /// Newer (by its header), Unavailable (the disk refuses).
   static Expected<std::unique_ptr<Recovery>> begin(const std::filesystem::path& damaged,
                                                    const std::filesystem::path& into);
   virtual ~Recovery() = default;
 
   virtual const Salvaged& found() const = 0;
-  /// Those of which the row was found; may be none.
+  /// Campaigns whose row was found; may be none.
   virtual std::vector<StoredCampaign> campaigns() = 0;
-  /// Gives the store the row of its only campaign, where that is lost.
+  /// Gives the store the row of its only campaign, if that is lost.
   virtual void put_campaign(const CampaignRow& campaign) = 0;
   /// Gives a campaign the rows of its designs that are lost. Conflict when designs were found that
   /// are not the campaign's.
@@ -64,8 +64,8 @@ class Recovery {
   virtual std::vector<StoredScore> scores(const StoredCampaign& campaign) = 0;
   virtual std::vector<StoredStep> steps(const StoredCampaign& campaign) = 0;
   virtual std::vector<CommandRow> commands(const StoredCampaign& campaign) = 0;
-  /// Takes away what follows from scores, and puts these rows in its place. `source` is that of
-  /// scores whose own is lost.
+  /// Replaces all rows that follow from scores by these. `source` is for scores that have lost
+  /// theirs.
   virtual void replace_derived(const StoredCampaign& campaign, const DerivedRows& derived,
                                const std::string& source) = 0;
 
@@ -74,7 +74,7 @@ class Recovery {
     std::int64_t evaluations = 0;  ///< that the new store has
     std::int64_t orphans = 0;      ///< rows left out since what they belong to is lost
   };
-  /// Leaves out rows that belong to nothing, checks the file, and gives it its name.
+  /// Removes rows that belong to nothing, checks the file, and gives it its name.
   virtual Expected<End> finish() = 0;
 };
 

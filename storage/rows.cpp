@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 
+#include "base/overloaded.h"
+#include "base/text/toml_text.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -11,6 +14,22 @@ constexpr std::array<std::string_view, 5> kStates = {"waiting", "racing", "testi
                                                      "stopped"};
 constexpr std::array<std::string_view, 5> kCommands = {"unknown", "pause", "resume", "cancel",
                                                        "extend"};
+
+void append_string(std::string& out, std::string_view text) {
+  static constexpr std::string_view kDigits = "0123456789abcdef";
+  out += '"';
+  for (const char c : text) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (byte < 0x20 || byte == 0x7f) {
+      out += "\\u00";
+      out += {kDigits[byte >> 4U], kDigits[byte & 15U]};
+      continue;
+    }
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  out += '"';
+}
 
 }  // namespace
 
@@ -32,6 +51,20 @@ CommandKind command_kind_of(std::string_view word) {
   const auto found = std::ranges::find(kCommands, word);
   return found == kCommands.end() ? CommandKind::Unknown
                                   : static_cast<CommandKind>(found - kCommands.begin());
+}
+
+EventRow event_row(std::string severity, std::string kind, std::vector<EventField> fields) {
+  std::string text = "{";
+  for (const auto& [key, value] : fields) {
+    if (text.size() > 1) text += ',';
+    append_string(text, key);
+    text += ':';
+    std::visit(Overloaded{[&](std::int64_t number) { text += std::to_string(number); },
+                          [&](double number) { text += number_text(number); },
+                          [&](const std::string& word) { append_string(text, word); }},
+               value);
+  }
+  return {std::move(severity), std::move(kind), text + "}", std::move(fields)};
 }
 
 }  // namespace swarmsmith

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -278,13 +279,13 @@ struct AttemptRow {
   AttemptOutcome outcome = AttemptOutcome::Lost;
 };
 
-/// What a person asked of the campaign. "cancel" and "extend" are part of the answer once they act:
-/// a campaign that is played again does the same at the same step.
+/// A person's command to the campaign. "cancel" and "extend" are part of the answer once they act:
+/// a replayed campaign does the same at the same step.
 struct CommandRow {
   std::int64_t number = 0;  ///< in the store, from 1
   CommandKind kind = CommandKind::Unknown;
   DesignId design;  ///< none: every design
-  /// Of the race after which it acts (0: before the first); nothing until it does.
+  /// Step of the race after which it acts (0: before the first); nothing until it does.
   std::optional<std::int64_t> step;
   std::int64_t budget = 0;  ///< experiments more, of "extend"
   std::string who;          ///< user@host; not part of the answer
@@ -300,7 +301,7 @@ struct ConflictRow {
   std::int64_t other_worker = 0;
 };
 
-/// An attempt that gave no score: what was run, and what it wrote. Not part of the answer.
+/// An attempt without a score: the command that was run, and its output. Not part of the answer.
 struct FailureRow {
   EvaluationKey key;
   std::int64_t attempt = 1;
@@ -311,19 +312,27 @@ struct FailureRow {
   std::string errors;
 };
 
+/// What an event says of one thing.
+using EventField = std::pair<std::string, std::variant<std::int64_t, double, std::string>>;
+
 /// Something that a person may want to know afterwards. Not part of the answer.
 struct EventRow {
   std::string severity;  ///< "info", "warning", "error"
   std::string kind;      ///< "worker lost", "lease expired", "disk full", ...
-  std::string text;      ///< JSON object
+  std::string text;      ///< JSON object, as stores keep it
+  /// What the text was made of, see `event_row`, for who shows it; stores do not keep it.
+  std::vector<EventField> fields{};
 };
+
+/// An event with these fields, whose text is a JSON object of them in their order.
+EventRow event_row(std::string severity, std::string kind, std::vector<EventField> fields);
 
 using Row =
     std::variant<CandidateRow, PairRow, EvaluationRow, UnusedRow, IterationRow, RaceStepRow,
                  EliminationRow, EliteRow, CandidateTotalsRow, DesignStateRow, CampaignStateRow,
                  WorkerRow, ConflictRow, FailureRow, EventRow, AttemptRow, CommandRow>;
 
-/// What a resumed campaign needs of an evaluation.
+/// The part of an evaluation that a resumed campaign needs.
 struct StoredScore {
   EvaluationKey key;
   EvaluationStatus status = EvaluationStatus::Ok;
@@ -335,7 +344,7 @@ struct StoredScore {
   std::int64_t worker = 0;
 };
 
-/// What is compared while a campaign is replayed.
+/// The part of an evaluation that a replay compares.
 struct StoredStep {
   DesignId design;
   std::int64_t step = 0;

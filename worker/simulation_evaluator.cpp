@@ -11,7 +11,8 @@
 namespace swarmsmith {
 namespace {
 
-/// Candidates meet many pairs, so that their control software comes again; bounded, since races go on.
+/// Candidates meet many pairs, so that their control software comes again; bounded, since races go
+/// on.
 constexpr std::size_t kMaxControllers = 1024;
 
 class Simulation {
@@ -57,7 +58,7 @@ class Simulation {
   }
 
   WorkerScenario scenario_;
-  std::vector<Flavour> flavours_;                                   ///< by method
+  std::vector<Flavour> flavours_;                                         ///< by method
   std::vector<std::unordered_map<std::string, Controller>> controllers_;  ///< by method and text
 };
 

@@ -22,7 +22,7 @@ namespace swarmsmith {
 
 enum class CompareBy { Source, Method, Mission };
 
-/// What is compared; what is empty takes all.
+/// The selection to compare; an empty field takes all.
 struct ComparisonOptions {
   CompareBy by = CompareBy::Source;
   std::vector<std::string> missions;

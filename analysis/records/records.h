@@ -155,7 +155,7 @@ struct ParameterRecord {
   bool is_number = false;
 };
 
-/// What is asked for; what is empty asks for all.
+/// The selection; an empty field selects all.
 struct RecordFilter {
   std::string mission;
   std::string method;

@@ -21,7 +21,7 @@ struct ReportOptions {
   /// A picture, as SVG, of runs of the design's winner from above. Without it, and where it is an
   /// error, the report has none.
   std::function<Expected<std::string>(DesignId)> runs_from_above;
-  /// Is told now and then how many parts are written.
+  /// Receives now and then the number of parts written.
   std::function<void(std::size_t)> progress;
   /// Where the page of a design lies beside the report; without it the report links to none.
   std::function<std::string(const DesignRecord&)> page_of_design;

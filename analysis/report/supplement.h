@@ -25,7 +25,7 @@ struct SupplementOptions {
   std::function<Expected<std::vector<SupplementFile>>()> instance_tables;
   /// As in ReportOptions.
   std::function<Expected<std::string>(DesignId)> runs_from_above;
-  /// Is told now and then how many files are made.
+  /// Receives now and then the number of files made.
   std::function<void(std::size_t)> progress;
 };
 

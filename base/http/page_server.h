@@ -16,18 +16,17 @@ namespace swarmsmith {
 struct PageServerOptions {
   DoorLimits door{};
   std::size_t threads = 8;
-  /// Requests that wait for a thread; further ones are answered 503.
+  /// Most requests that wait for a thread; further ones get 503.
   std::size_t waiting = 64;
-  /// From the request to the last byte of the answer; none: as long as its reader takes.
+  /// Time from the request to the last byte of the answer; none: no limit.
   std::optional<std::chrono::milliseconds> answer_time = std::chrono::milliseconds(3000);
-  /// Paths whose answers are short and cost nothing: the door gives them itself, so that they wait
-  /// for nobody.
+  /// Paths whose answers are short and cost nothing: the door answers them itself, without waiting.
   std::vector<std::string> at_once{};
 };
 
-/// The library's routing behind a RequestDoor: pages by GET, one request a connection. Of a
-/// request's headers pages see Host and Authorization, and no other has an effect: no ranges, which
-/// multiply an answer, no compression, no bodies.
+/// The library's routing behind a RequestDoor: pages by GET, one request per connection. Pages see
+/// the headers Host and Authorization; no other header has an effect: no ranges, which multiply an
+/// answer, no compression, no bodies.
 class PageServer : public httplib::Server {
  public:
   explicit PageServer(PageServerOptions options);
@@ -36,7 +35,7 @@ class PageServer : public httplib::Server {
   /// Serves until the end of the object, or `stop_serving`. Owns the socket. Handlers are set
   /// before.
   void serve(ListeningSocket listening);
-  /// Waits for answers that are being given; handlers are not called any more.
+  /// Waits for the answers in progress; handlers are no longer called.
   void stop_serving();
 
  private:

@@ -22,15 +22,15 @@ struct ListeningSocket {
 Expected<ListeningSocket> listen_for_requests(const std::string& host, int port);
 
 struct DoorLimits {
-  /// Connections whose request is not there yet; when one more comes, the oldest is closed.
+  /// Most connections without a complete request; when one more comes, the oldest is closed.
   std::size_t connections = 512;
   std::size_t head_bytes = 16U << 10U;
   std::chrono::milliseconds head_time{3000};
 };
 
-/// Takes HTTP connections and collects their requests' heads (request line and headers), all of
-/// them in one thread: who sends a byte a second costs a descriptor and no more, and a request that
-/// comes in one piece is handed over at once, however many others are slow.
+/// Takes HTTP connections and collects their requests' heads (request line and headers), all in one
+/// thread. A peer that sends a byte a second costs only a descriptor, and a request that comes in
+/// one piece is handed over at once, however many others are slow.
 class RequestDoor {
  public:
   /// Called by the door's thread, with a complete head; owns the socket (non-blocking) from then
@@ -54,7 +54,7 @@ class RequestDoor {
 
   void work();
   void accept_all();
-  /// Reads what is there; the next connection.
+  /// Reads the available bytes; returns the next connection.
   Connections::iterator read(Connections::iterator at);
   Connections::iterator drop(Connections::iterator at);
   int time_left() const;

@@ -11,15 +11,15 @@
 
 namespace swarmsmith {
 
-/// A process of this one, in a group of its own: Ctrl-C at the terminal is for the coordinator,
-/// which then drains. Killed and reaped with the object.
+/// A child process in its own group: Ctrl-C at the terminal reaches only the coordinator, which
+/// then drains. Killed and reaped with the object.
 class ChildProcess {
  public:
   enum class Streams {
     Inherited,
-    /// Its input ends when this object or this process does, and its errors are read by it.
+    /// Its input ends when this object or this process ends; this object reads its errors.
     Held,
-    /// Its input ends as with Held, and its output is read by whoever has this object; both block.
+    /// Its input ends as with Held; the owner of this object reads its output. Both block.
     Spoken,
   };
 
@@ -35,16 +35,16 @@ class ChildProcess {
 
   bool runs() const { return pid_ > 0; }
   pid_t pid() const { return pid_; }
-  /// Its status as of waitpid, once, when it has ended.
+  /// Its status from waitpid, returned once, after its end.
   std::optional<int> ended();
   void signal(int number) const;
   void end_input();
-  /// Descriptors of a Spoken one; -1 when it has ended.
+  /// Descriptors of a Spoken process; -1 after its end.
   int input() const { return input_; }
   int output() const { return output_; }
-  /// The last line that it has written to its errors so far; empty for none.
+  /// The last line of its error output so far; empty for none.
   const std::string& last_line();
-  /// Waits for its end until then, and ends it with SIGKILL after that.
+  /// Waits for its end until then; after that kills it with SIGKILL.
   void finish_by(TimePoint until);
 
  private:
@@ -58,8 +58,8 @@ class ChildProcess {
   std::string last_line_;  ///< not blank
 };
 
-/// Pauses before something is tried again: doubling from `first` to `longest`, and a quarter more
-/// or less by chance, so that many who failed together do not come back together.
+/// Pauses before a retry: doubling from `first` to `longest`, plus or minus a random quarter, so
+/// that many clients that failed together do not return together.
 class Backoff {
  public:
   Backoff(Duration first, Duration longest, Rng jitter)

@@ -11,17 +11,17 @@
 
 namespace swarmsmith {
 
-/// A program that is to run, and how long.
+/// A program to run, and its time limit.
 struct ProcessCall {
   /// Program and arguments. A program without a slash in its name is looked for in PATH.
   std::vector<std::string> words;
-  /// The file that is run under the name `words[0]`; empty: the one that this name means.
+  /// The file to run under the name `words[0]`; empty: the file of that name.
   std::string file{};
   std::string folder;                 ///< in which it runs; empty: where this process is
   std::chrono::milliseconds limit{};  ///< 0 for none
   /// Between SIGTERM and SIGKILL.
   std::chrono::milliseconds term_grace{1000};
-  /// After the program's end, for what it left behind to close the output.
+  /// Time after the program's end for its remaining processes to close the output.
   std::chrono::milliseconds pipe_grace{500};
   std::size_t keep = std::size_t{64} << 10U;  ///< bytes of each output that are kept, the last ones
 };
@@ -45,17 +45,17 @@ struct ProcessEnd {
 
 /// Runs a program and waits for its end. Any number of threads may do so at once.
 ///
-/// It has a process group of its own, /dev/null as its input, and none of this process's
+/// The program has its own process group, /dev/null as its input, and none of this process's
 /// descriptors. When the time is over or `interrupt` triggers, the whole group gets SIGTERM and
-/// then SIGKILL; when it ends by itself, what it left behind in its group gets SIGKILL. When the
-/// calling thread or this process dies, the program is ended by the kernel, and its group by the
-/// guard (base/process/guard.h). A script without #! is run by /bin/sh, as shells do it.
+/// then SIGKILL. When it ends normally, the rest of its group gets SIGKILL. When the calling thread
+/// or this process dies, the kernel ends the program, and the guard its group
+/// (base/process/guard.h). /bin/sh runs a script without #!, as in shells.
 ///
 /// Errors: a program that cannot be started, and why.
 Expected<ProcessEnd> run_process(const ProcessCall& call, const Interrupt& interrupt);
 
-/// The file that a program's name means: itself when it has a slash, else the first in PATH that
-/// may be run.
+/// The file of a program's name: the name itself if it has a slash, else the first executable in
+/// PATH.
 Expected<std::string> find_program(const std::string& name);
 
 }  // namespace swarmsmith

@@ -7,7 +7,7 @@
 
 namespace swarmsmith::cli {
 
-/// What `export --format irace` is told.
+/// Arguments of `export --format irace`.
 struct IraceExport {
   std::string design;         ///< d3; empty: the first, when there is no choice
   std::string version = "4";  ///< or 3.5

@@ -14,7 +14,7 @@ struct HttpFlags {
 
   /// Declares --http and --http-token-file.
   void declare(Options& options, const std::string& otherwise);
-  /// `otherwise` is where pages are served when nobody says; empty for nowhere.
+  /// `otherwise` is the default address of the pages; empty for no pages.
   void put(RunOptions& run, const std::string& otherwise) const;
 };
 

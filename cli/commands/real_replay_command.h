@@ -11,7 +11,7 @@
 
 namespace swarmsmith::cli {
 
-/// What `replay` was told about a real run.
+/// Arguments of `replay` for a real run.
 struct RealReplayWords {
   RealRunId id;
   std::optional<std::int64_t> beside;  ///< so many simulations, on the seeds 1, 2, ...

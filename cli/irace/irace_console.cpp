@@ -1,6 +1,7 @@
 #include "cli/irace/irace_console.h"
 
 #include <fmt/format.h>
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <chrono>
@@ -8,6 +9,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/overloaded.h"
 #include "cli/irace/race_table.h"
 #include "cli/output/progress_text.h"
 #include "irace_core/files/options.h"
@@ -232,17 +234,21 @@ void IraceConsole::add_state(const DesignStateRow& row) {
 void IraceConsole::add_event(const EventRow& event) {
   // A failure is shown in full where the command ends.
   if (event.kind == "evaluation failed" || event.kind == "campaign stopped") return;
-  const auto values = parse_parameter_values(event.text);
-  const auto text = [&](const char* key) {
-    const auto* found = values && values->contains(key)
-                            ? std::get_if<std::string>(&values->find(key)->second)
-                            : nullptr;
-    return found == nullptr ? std::string() : *found;
+  const auto field = [&](std::string_view key) {
+    return std::ranges::find(event.fields, key, &EventField::first);
   };
-  const auto number = [&](const char* key) {
-    const auto* found =
-        values && values->contains(key) ? std::get_if<double>(&values->find(key)->second) : nullptr;
-    return found == nullptr ? 0.0 : *found;
+  const auto text = [&](std::string_view key) {
+    const auto found = field(key);
+    const auto* value =
+        found == event.fields.end() ? nullptr : std::get_if<std::string>(&found->second);
+    return value == nullptr ? std::string() : *value;
+  };
+  const auto number = [&](std::string_view key) {
+    const auto found = field(key);
+    if (found == event.fields.end()) return 0.0;
+    return std::visit(Overloaded{[](const std::string&) { return 0.0; },
+                                 [](auto value) { return static_cast<double>(value); }},
+                      found->second);
   };
   if (event.kind == "time estimated") {
     remaining_ = static_cast<std::int64_t>(number("remaining"));

@@ -9,7 +9,7 @@
 namespace swarmsmith::cli {
 
 /// irace's --only-test: evaluates the configurations of a file on the test instances and prints
-/// their costs. The evaluations are kept as those of a run, and go on as those.
+/// their costs. The evaluations are kept like those of a run, and continue like those.
 ExitCode only_test(Output& output, const IraceSetup& setup, const std::filesystem::path& file,
                    const StorePlace& store, const IraceSlots& slots);
 

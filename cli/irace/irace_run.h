@@ -29,7 +29,7 @@ ExitCode explain_end(Output& output, ExitCode ended, bool began);
 ExitCode run_scenario(Output& output, const IraceSetup& setup, const StorePlace& store,
                       const IraceSlots& slots);
 
-/// The setup's seed, else that of the store, so that the same command goes on, else a new one.
+/// The setup's seed, else that of the store, so that the same command continues, else a new one.
 std::uint64_t seed_of(const IraceSetup& setup, const StorePlace& store);
 
 }  // namespace swarmsmith::cli

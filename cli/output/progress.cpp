@@ -69,7 +69,7 @@ void Progress::write_row(std::size_t campaign, const std::string& name, const Ro
   const ProgressModel& model = models_[campaign];
   if (const auto* state = std::get_if<DesignStateRow>(&row)) {
     add_line(name +
-             state_line(*state, model.design(state->design), model.mean_text(state->best_mean)));
+             state_line(*state, model.design(state->design), mean_text(model, state->best_mean)));
   } else if (const auto* command = std::get_if<CommandRow>(&row)) {
     add_line(name + command_line(*command));
   } else if (const auto* event = std::get_if<EventRow>(&row)) {
@@ -79,10 +79,10 @@ void Progress::write_row(std::size_t campaign, const std::string& name, const Ro
   if (const auto* iteration = std::get_if<IterationRow>(&row)) {
     add_line(name + iteration_line(*iteration));
   } else if (const auto* elite = std::get_if<EliteRow>(&row)) {
-    add_line(name + elite_line(*elite, model.mean_text(elite->mean)));
+    add_line(name + elite_line(*elite, mean_text(model, elite->mean)));
   } else if (const auto* step = std::get_if<RaceStepRow>(&row)) {
     if (lines_since_headline_++ % kHeadlineEvery == 0) add_line(race_headline());
-    add_line(name + race_line(*step, model.mean_text(step->mean_best),
+    add_line(name + race_line(*step, mean_text(model, step->mean_best),
                               std::chrono::duration<double>(now - begin_).count()));
   }
 }

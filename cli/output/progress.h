@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "base/clock.h"
-#include "cli/output/progress_model.h"
 #include "cli/output/run_listener.h"
 #include "console/output.h"
+#include "coordinator/service/progress_model.h"
 
 namespace swarmsmith::cli {
 
-/// What is to be told of a campaign.
+/// The facts about a campaign that the output shows.
 struct ToldCampaign {
   std::string name;  ///< in front of its lines; empty when it is the only one
   std::vector<DesignRow> designs;
   bool costs = false;  ///< programs evaluate: people want to see the costs that they print
 };
 
-/// Tells a person or a program how campaigns go, from the rows that they make.
+/// Shows the progress of campaigns to a person or a program, from their rows.
 ///
 /// On a terminal: a status line that is redrawn, above it the lines of the races. Elsewhere: a line
 /// every 30 s and one at each change of a design's state; with `-v` the lines of the races, too.
@@ -51,7 +51,7 @@ class Progress final : public RunListener {
  private:
   enum class Form { Silent, Json, Terminal, Plain };
 
-  /// A race tells its state after each step; only another one is news.
+  /// A race reports its state after each step; only a change is printed.
   static bool repeats_state(const ProgressModel& model, const Row& row);
   void add_line(const std::string& line);
   void write_row(std::size_t campaign, const std::string& name, const Row& row, TimePoint now);

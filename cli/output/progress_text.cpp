@@ -1,13 +1,13 @@
 #include "cli/output/progress_text.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 #include <vector>
 
 #include "cli/output/number_text.h"
+#include "programs/cost.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -85,7 +85,7 @@ std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveSt
   pieces.push_back({2, grouped(totals.used) + "/" + grouped(totals.budget)});
   if (current != nullptr && current->best) {
     pieces.push_back({4, (models.front().shows_costs() ? "best cost " : "best ") +
-                             models.front().mean_text(current->best_mean)});
+                             mean_text(models.front(), current->best_mean)});
   }
   const auto left = static_cast<double>(totals.budget - totals.used);
   if (live.evaluations_per_s > 0 && left > 0) {
@@ -120,6 +120,10 @@ std::string score_text(double score) {
   const int size =
       std::snprintf(buffer, sizeof buffer, std::abs(score) < 1000 ? "%.4g" : "%.0f", score);
   return {buffer, static_cast<std::size_t>(size)};
+}
+
+std::string mean_text(const ProgressModel& model, double score) {
+  return score_text(model.shows_costs() ? to_cost(score) : score);
 }
 
 std::string status_line(std::span<const ProgressModel> models, const LiveStatus& live,

@@ -4,7 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "cli/output/progress_model.h"
+#include "coordinator/service/live_status.h"
+#include "coordinator/service/progress_model.h"
+#include "storage/rows.h"
 
 namespace swarmsmith::cli {
 
@@ -12,6 +14,8 @@ namespace swarmsmith::cli {
 
 /// Four digits, and none behind the point from 1,000 on: scores of grid exploration are large.
 std::string score_text(double score);
+/// A score of the campaign, or its cost if those are shown: the negative of it.
+std::string mean_text(const ProgressModel& model, double score);
 
 /// The line that is redrawn on a terminal, at most `width` columns wide:
 ///   designs 3/10  d4 iteration 5/~10  [####------]  52 418/100 000  best 2.71  ETA 1m55s
@@ -25,7 +29,7 @@ std::string status_line(std::span<const ProgressModel> models, const LiveStatus&
 std::string plain_status(std::span<const ProgressModel> models, const LiveStatus& live);
 
 /// The table of a race as irace prints it, with the design in front. Means are as
-/// `ProgressModel::mean_text` has them.
+/// `mean_text` has them.
 std::string race_headline();
 std::string race_line(const RaceStepRow& step, const std::string& mean_best, double elapsed_s);
 

@@ -43,7 +43,7 @@ Expected<RealReplay> replay_real_run(std::unique_ptr<StoreReader> store, RealRun
 std::string picture_of(const RealReplay& replay, RealRunId id, double width_mm);
 
 /// All of them as one table: run, source, seed, the columns of a trajectory (docs/trajectories.md),
-/// and how each pose was come by.
+/// and how each pose was obtained.
 std::string table_of(const RealReplay& replay, RealRunId id);
 
 }  // namespace swarmsmith::cli

@@ -10,7 +10,7 @@
 
 namespace swarmsmith::cli {
 
-/// What of campaign files the command line may change; flags win over the environment
+/// The keys of campaign files that the command line may change; flags win over the environment
 /// (SWARMSMITH_STORE), which wins over the file.
 struct CampaignFlags {
   std::vector<std::string> files;
@@ -20,13 +20,13 @@ struct CampaignFlags {
 
   /// Declares FILE..., --budget, --seed and --store.
   void declare(Options& options, Options::Need files_needed);
-  /// The campaigns with the flags in them, or nothing after having said what is wrong. Without a
-  /// file it is the demo campaign. Several campaigns differ, each has a store of its own, and all
-  /// are simulated or none is.
+  /// The campaigns with the flags applied, or nothing after printing the error. Without a file it
+  /// is the demo campaign. Several campaigns must differ, have a store each, and be all simulated
+  /// or none.
   std::optional<std::vector<Campaign>> read(Output& output) const;
 };
 
-/// What speaks against running these campaigns by one coordinator.
+/// The reason why one coordinator cannot run these campaigns, if any.
 Expected<void> check_pool(const std::vector<Campaign>& campaigns);
 
 }  // namespace swarmsmith::cli

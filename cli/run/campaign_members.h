@@ -15,21 +15,22 @@
 
 namespace swarmsmith::cli {
 
-/// The campaign's name, or, where others have the same, its store.
+/// The campaign's name, or its store if others have the same name.
 std::string name_among(const std::vector<Campaign>& campaigns, const Campaign& campaign);
 
-/// The campaigns of one run, each with its store, its races and its end. What goes wrong is
-/// printed, and stands in front of it the campaign's name when there are several.
+/// The campaigns of one run, each with its store, its races and its end. Errors are printed, after
+/// the campaign's name if there are several.
 class CampaignMembers {
  public:
-  /// `campaigns` must outlive it. `keeps_store`: an interrupted run goes on later.
+  /// `campaigns` must outlive it. `keeps_store`: an interrupted run can continue later.
   CampaignMembers(Output& output, const std::vector<Campaign>& campaigns, bool keeps_store);
 
-  /// Tells `listener` how the campaigns stand, and closes the stores of those that are over.
+  /// Reports the campaigns' progress to `listener`, and closes the stores of finished ones.
   ExitCode open_stores(RunListener& listener);
-  /// Plays the races of the others as far as their stores have them.
+  /// Replays the races of the others as far as their stores have them.
   ExitCode begin();
-  /// How each of those ended, whom a service has run; `trouble` is why workers could not be had.
+  /// Exit code of each campaign that was served; `trouble` is the reason why workers could not
+  /// start.
   void end(const ServiceEnd& end, const std::string& trouble);
 
   std::size_t size() const { return members_.size(); }
@@ -45,7 +46,7 @@ class CampaignMembers {
   std::int64_t first_worker() const;
   /// What lets workers run the programs of any of them.
   std::vector<std::string> allowed_programs() const;
-  /// Beside each store, so that whoever knows one of them finds the coordinator.
+  /// Coordinator's files, one beside each store, so each store leads to the coordinator.
   std::vector<std::filesystem::path> coordinator_files() const;
 
  private:

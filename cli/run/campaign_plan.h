@@ -9,7 +9,7 @@
 
 namespace swarmsmith::cli {
 
-/// What a campaign will cost, as far as it can be said before it runs.
+/// The estimated cost of a campaign.
 struct CampaignPlan {
   std::int64_t designs = 0;
   std::int64_t experiments = 0;     ///< of all races, at most
@@ -24,8 +24,8 @@ struct CampaignPlan {
   std::vector<std::string> warnings;  ///< what runs, but hardly as wanted
 };
 
-/// Measures some simulations of random machines (for about half a second) and adds up. Programs are
-/// not run.
+/// Times some simulations of random machines (for about half a second) and sums up. Runs no
+/// programs.
 CampaignPlan plan_of(const Campaign& campaign);
 
 }  // namespace swarmsmith::cli

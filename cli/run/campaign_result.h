@@ -13,7 +13,7 @@ namespace swarmsmith::cli {
 /// is not the only one.
 ExitCode write_result(Output& output, StoreReader& store, const std::string& name = {});
 
-/// What can be done with the store now, as commands.
+/// Suggested commands for the store.
 void print_next_steps(Output& output, const std::string& store);
 
 }  // namespace swarmsmith::cli

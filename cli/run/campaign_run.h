@@ -24,23 +24,23 @@ struct RunOptions {
   std::string bind;  ///< host:port; empty: as the campaigns have it, else a free port on loopback
   bool announce = false;
   AccessFlags access{};
-  /// When another program listens on the port of `bind`, one of the next ones will do.
+  /// Whether to try the next ports when another program listens on the port of `bind`.
   bool next_port = false;
   std::string http{};  ///< host:port of the pages; empty: none
   bool http_next_port = false;
   std::string http_token_file{};
-  /// Whether an interrupted run goes on later; else its store is thrown away.
+  /// Whether an interrupted run can continue later; else its store is deleted.
   bool keeps_store = true;
 };
 
-/// Runs the campaigns to their ends on one pool of workers, going on where their stores stand, and
-/// prints the results of those that came to one. SIGINT and SIGTERM end it so that the same command
-/// goes on later; a second one ends it at once. The worst end of a campaign is what is returned.
+/// Runs the campaigns to their ends on one pool of workers, continuing from their stores, and
+/// prints the results of the finished ones. SIGINT and SIGTERM end it so that the same command can
+/// continue later; a second one ends it at once. Returns the worst exit code of the campaigns.
 ExitCode run_campaigns(Output& output, const std::vector<Campaign>& campaigns,
                        const RunOptions& options);
 
-/// The same without printing results: `listener` is told how it goes, errors are explained. How
-/// each campaign ended; all alike when they could not begin.
+/// The same without printing results: reports progress to `listener` and explains errors. Returns
+/// one exit code per campaign; all are equal if they could not begin.
 std::vector<ExitCode> carry_out(Output& output, const std::vector<Campaign>& campaigns,
                                 const RunOptions& options, RunListener& listener);
 

@@ -7,8 +7,8 @@
 
 namespace swarmsmith::cli {
 
-/// Sentences on what runs, but hardly as wanted: modules that cannot do what they are there for
-/// with this mission and profile.
+/// Warnings about campaigns that run but hardly as intended: modules that cannot work with this
+/// mission and profile.
 std::vector<std::string> warnings_about(const Campaign& campaign);
 
 }  // namespace swarmsmith::cli

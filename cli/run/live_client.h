@@ -8,8 +8,8 @@
 
 namespace swarmsmith::cli {
 
-/// The status of a running coordinator as JSON, asked over the wire.
-/// Errors: Unavailable (nobody answers in time), BadInput (it does not let this program read).
+/// The status of a running coordinator as JSON, asked over the wire. Errors: Unavailable (no answer
+/// in time), BadInput (this program may not read).
 Expected<std::string> ask_status(const FoundCoordinator& coordinator,
                                  std::chrono::milliseconds patience);
 

@@ -4,7 +4,6 @@
 #include <iterator>
 #include <utility>
 
-#include "base/text/toml_text.h"
 #include "programs/cost.h"
 
 namespace swarmsmith {
@@ -145,23 +144,20 @@ void RowRecorder::record_end(const IterationEnded& ended) {
 
 void RowRecorder::record_estimate(const TimeEstimated& estimated) {
   design_.used = estimated.runs;
-  record(EventRow{.severity = "info",
-                  .kind = "time estimated",
-                  .text = "{\"design\":" + quoted_text(to_string(design_.design)) +
-                          ",\"runs\":" + std::to_string(estimated.runs) +
-                          ",\"time\":" + number_text(estimated.used) +
-                          ",\"mean\":" + number_text(estimated.mean_time) +
-                          ",\"remaining\":" + std::to_string(estimated.remaining) +
-                          ",\"bound_max\":" + number_text(estimated.bound_max) + "}"});
+  record(event_row("info", "time estimated",
+                   {{"design", to_string(design_.design)},
+                    {"runs", estimated.runs},
+                    {"time", estimated.used},
+                    {"mean", estimated.mean_time},
+                    {"remaining", estimated.remaining},
+                    {"bound_max", estimated.bound_max}}));
   // After races there is nothing to count; their steps were.
   if (!estimated.evaluated.empty()) record_state();
 }
 
 void RowRecorder::record_warning(std::string_view text) {
-  record(EventRow{.severity = "warning",
-                  .kind = "race",
-                  .text = "{\"design\":" + quoted_text(to_string(design_.design)) +
-                          ",\"text\":" + quoted_text(std::string(text)) + "}"});
+  record(event_row("warning", "race",
+                   {{"design", to_string(design_.design)}, {"text", std::string(text)}}));
 }
 
 void RowRecorder::record_command(CommandRow command) {

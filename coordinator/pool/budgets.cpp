@@ -62,9 +62,8 @@ std::vector<EventRow> Budgets::take_news(TimePoint now, bool now_or_never) {
     std::uint64_t& told = told_[kind];
     if (count == told) continue;
     news.push_back(
-        {.severity = "warning",
-         .kind = "over budget",
-         .text = event_text({{"what", kind}, {"times", static_cast<std::int64_t>(count - told)}})});
+        pool_event("warning", "over budget",
+                   {{"what", kind}, {"times", static_cast<std::int64_t>(count - told)}}));
     told = count;
   }
   return news;

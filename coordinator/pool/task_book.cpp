@@ -20,9 +20,7 @@ TaskBook::TaskBook(SchedulerOptions all)
 void TaskBook::note(const char* severity, const char* kind,
                     std::initializer_list<EventField> fields, std::optional<std::uint32_t> campaign,
                     const Principal* source, WorkerNumber worker) {
-  act(Noted{campaign,
-            {.severity = severity, .kind = kind, .text = event_text(fields)},
-            source != nullptr ? source->name : "",
+  act(Noted{campaign, pool_event(severity, kind, fields), source != nullptr ? source->name : "",
             worker});
 }
 

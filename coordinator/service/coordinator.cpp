@@ -1,6 +1,7 @@
 #include "coordinator/service/coordinator.h"
 
 #include <algorithm>
+#include <iterator>
 
 #include "base/assert.h"
 #include "base/overloaded.h"
@@ -12,6 +13,7 @@ namespace swarmsmith {
 namespace {
 
 constexpr std::size_t kArenaBytes = 256U << 10U;
+constexpr std::size_t kMaxFaults = 10'000;
 
 google::protobuf::ArenaOptions arena_options() {
   google::protobuf::ArenaOptions options;
@@ -29,6 +31,7 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
              .scenario_digest = digest_of_scenario(options_.scenario)},
       budgets_(options_.budgets),
       scheduler_(options_.scheduler),
+      pool_rows_(scheduler_, budgets_),
       arena_(arena_options()) {
   SWARMSMITH_ASSERT(campaigns.size() == options_.scheduler.campaigns.size(),
                     "each campaign has a policy");
@@ -44,6 +47,243 @@ Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignW
       scheduler_.hold_design(index, design.value, true);
   }
 }
+
+// What peers send: who may say what, and who is not listened to any more.
+
+bool Coordinator::is_refused(PeerId peer, TimePoint now) {
+  if (faults_.empty()) return false;
+  const auto fault = faults_.find(peer);
+  if (fault == faults_.end() || fault->second.count < options_.malformed_limit) return false;
+  if (now < fault->second.refused_until) return true;
+  faults_.erase(fault);
+  return false;
+}
+
+void Coordinator::on_malformed(const Peer& peer, const Error& error, TimePoint now) {
+  ++malformed_[error.where];
+  ++malformed_count_;
+  if (error.kind == ErrorKind::Conflict) {
+    send(peer.id, frame_of(SendReject{peer.id, 0, RejectReason::Protocol, error.message}));
+  }
+  // Connections come and go; the memory of their faults is bounded.
+  if (faults_.size() >= kMaxFaults) faults_.clear();
+  Fault& fault = faults_[peer.id];
+  if (++fault.count < options_.malformed_limit) return;
+  fault.refused_until = now + options_.refuse_for;
+  Noted noted{.campaign = std::nullopt,
+              .row = pool_event("warning", "peer refused",
+                                {{"frames", std::int64_t{fault.count}}, {"last", error.message}}),
+              .source = principal_of(WorkerHello{.client = std::string(peer.client),
+                                                 .address = std::string(peer.address)})};
+  put_event(noted, now);
+  scheduler_.on_refused(peer.id, now);
+}
+
+void Coordinator::on_frame(const Peer& peer, std::string_view frame, TimePoint now) {
+  if (is_refused(peer.id, now)) {
+    ++malformed_count_;
+    return;
+  }
+  const Expected<const pb::ToCoordinator*> message = decode_to_coordinator(frame, arena_);
+  if (message) {
+    on_message(peer, **message, now);
+  } else {
+    on_malformed(peer, message.error(), now);
+  }
+  arena_.Reset();
+}
+
+void Coordinator::on_message(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
+  const auto forbidden = [&] {
+    const std::string sentence = "the key \"" + std::string(peer.client) + "\" has a role that " +
+                                 "does not allow this; `role` in clients.toml says which it is";
+    // Whoever holds a listed key is told; strangers never come so far.
+    send(peer.id,
+         frame_of(SendReject{peer.id, message.incarnation(), RejectReason::Protocol, sentence}));
+    on_malformed(peer, {ErrorKind::BadInput, sentence, "role"}, now);
+  };
+  if (message.has_command()) {
+    return may_command(peer.role) ? on_command(peer, message.command(), now) : forbidden();
+  }
+  if (message.has_want_status()) {
+    if (!may_read(peer.role)) return forbidden();
+    if (budgets_.may_be_sent(peer.id, 0, now)) actions_.emplace_back(AnswerStatus{peer.id});
+    return;
+  }
+  return may_work(peer.role) ? on_work(peer, message, now) : forbidden();
+}
+
+void Coordinator::on_work(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
+  const Sender sender{peer.id, message.incarnation(), message.sequence()};
+  switch (message.body_case()) {
+    case pb::ToCoordinator::kHello:
+      on_hello(peer, message, now);
+      return;
+    case pb::ToCoordinator::kCredit:
+      scheduler_.on_credit(sender, message.credit().tasks(), now);
+      return;
+    case pb::ToCoordinator::kResults:
+      on_results(peer, message, now);
+      return;
+    case pb::ToCoordinator::kHeartbeat:
+      running_of(message.heartbeat(), running_);
+      scheduler_.on_heartbeat(sender, message.heartbeat().credit(), running_, now,
+                              slots_of(message.heartbeat()));
+      return;
+    case pb::ToCoordinator::kReturned:
+      scheduler_.on_returned(sender, keys_of(message.returned()), now);
+      return;
+    case pb::ToCoordinator::kBegan:
+      scheduler_.on_began(sender, *pack(message.began().key()), now);
+      return;
+    case pb::ToCoordinator::kGoodbye:
+      scheduler_.on_goodbye(sender, now);
+      return;
+    case pb::ToCoordinator::kWantScenario:
+      // A worker asks again.
+      if (scheduler_.on_sign_of_life(sender, now) &&
+          budgets_.may_be_sent(peer.id, facts_.scenario.size(), now)) {
+        send(peer.id, scenario_reply_of(facts_, sender.incarnation));
+      }
+      return;
+    case pb::ToCoordinator::kCommand:
+    case pb::ToCoordinator::kWantStatus:
+    case pb::ToCoordinator::BODY_NOT_SET:
+      scheduler_.on_sign_of_life(sender, now);
+      return;
+  }
+}
+
+/// One that is not heard is said again, on another connection.
+void Coordinator::on_hello(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
+  const bool is_local = same_secret(message.hello().secret(), options_.local_secret);
+  if (!is_local) {
+    const std::string name = principal_of(
+        WorkerHello{.client = std::string(peer.client), .address = std::string(peer.address)});
+    const Principal* known = scheduler_.principals().find(name);
+    const Source source{name, known == nullptr || known->is_stranger()};
+    if (!budgets_.may_say_hello(peer.id, source, now)) return;
+  }
+  WorkerHello hello = hello_of(message.hello(), message.incarnation(), facts_.scenario_digest);
+  hello.client = peer.client;
+  hello.address = peer.address;
+  hello.local = is_local;
+  scheduler_.on_hello(peer.id, std::move(hello), now);
+}
+
+void Coordinator::on_results(const Peer& peer, const pb::ToCoordinator& message, TimePoint now) {
+  // Of another campaign that ran here before: nobody wants them.
+  if (message.results().scenario() != facts_.scenario_digest) {
+    on_malformed(peer, {ErrorKind::BadInput, "results of another campaign", "campaign"}, now);
+    return;
+  }
+  results_of(message.results(), results_);
+  scheduler_.on_results({peer.id, message.incarnation(), message.sequence()}, results_, now);
+}
+
+void Coordinator::on_unreachable(const SendFrame& unsent, TimePoint now) {
+  faults_.erase(unsent.peer);
+  scheduler_.on_unreachable(unsent.peer, now, unsent.leases);
+}
+
+void Coordinator::on_cut_off(PeerId peer, TimePoint now) {
+  faults_.erase(peer);
+  scheduler_.on_refused(peer, now);
+}
+
+void Coordinator::on_tick(TimePoint now) {
+  scheduler_.on_tick(now);
+  sample_due_ = true;
+}
+
+// What people ask of running campaigns. Commands are rows, and whoever asked is told when they are
+// on disk: what was confirmed outlives a crash.
+
+void Coordinator::on_command(const Peer& peer, const pb::Command& command, TimePoint now) {
+  if (!budgets_.may_command(now)) {
+    budgets_.leave_out("command");
+    return send(peer.id, command_reply_of(false, "too many commands at once: ask again later"));
+  }
+  const Expected<std::uint32_t> index = campaign_of(command);
+  const Expected<std::string> done =
+      index ? obey(*index, command) : Expected<std::string>(Unexpected(index.error()));
+  std::string frame = command_reply_of(done.has_value(), done ? *done : to_string(done.error()));
+  if (!done) return send(peer.id, std::move(frame));
+  campaigns_[*index].replies.push_back({peer.id, std::move(frame)});
+}
+
+Expected<std::uint32_t> Coordinator::campaign_of(const pb::Command& command) const {
+  if (command.campaign().empty()) {
+    if (campaigns_.size() == 1) return 0U;
+    return bad_input("this coordinator runs " + std::to_string(campaigns_.size()) +
+                     " campaigns: name the store of the one that is meant");
+  }
+  const auto at = std::ranges::find(facts_.campaign_digests, command.campaign());
+  if (at == facts_.campaign_digests.end()) {
+    return unexpected(ErrorKind::NotFound, "this coordinator does not run the campaign",
+                      command.campaign());
+  }
+  return static_cast<std::uint32_t>(at - facts_.campaign_digests.begin());
+}
+
+Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& command) {
+  Campaign& campaign = campaigns_[index];
+  const CommandRow row{.number = campaign.commands + 1,
+                       .kind = command_kind_of(command.kind()),
+                       .design = {command.design()},
+                       .budget = command.budget(),
+                       .who = command.who()};
+  if (row.kind == CommandKind::Unknown)
+    return bad_input("a command that this version does not know");
+  if (campaign.stopped) return bad_input("the campaign has stopped: " + *campaign.stopped);
+  if (is_of_leases(row.kind)) return pause(index, row);
+  if (auto done = campaign.source->carry_out(row); !done) return Unexpected(done.error());
+  ++campaign.commands;
+  campaign.told = true;
+  campaign.sees_no_further = false;
+  const std::string name = to_string(row.design);
+  if (row.kind == CommandKind::Cancel) return name + " is cancelled";
+  return name + " gets " + std::to_string(row.budget) + " experiments more";
+}
+
+/// Pauses or resumes; asking twice changes nothing. What runs already ends, and counts.
+Expected<std::string> Coordinator::pause(std::uint32_t index, const CommandRow& command) {
+  Campaign& campaign = campaigns_[index];
+  const std::vector<DesignId> unfinished = campaign.source->unfinished();
+  auto rows = rows_of_pause(command, unfinished, campaign.paused);
+  if (!rows) {
+    return unexpected(
+        ErrorKind::NotFound,
+        "the campaign has no such design, or it is over; those that are not: " + listed(unfinished),
+        to_string(command.design));
+  }
+  for (CommandRow& row : *rows) {
+    row.number = ++campaign.commands;
+    apply_pause(row, campaign.paused);
+    scheduler_.hold_design(index, row.design.value, row.kind == CommandKind::Pause);
+    campaign.own_rows.emplace_back(row);
+  }
+  return sentence_of_pause(command.kind, *rows);
+}
+
+/// A campaign that waits for a person says so, once.
+void Coordinator::note_if_all_is_paused(Campaign& campaign) {
+  bool all = !campaign.paused.empty() && !campaign.stopped;
+  if (all) {
+    const std::vector<DesignId> left = campaign.source->unfinished();
+    all = !left.empty() && std::ranges::all_of(left, [&](DesignId design) {
+      return campaign.paused.contains(design);
+    });
+    if (all && !campaign.all_paused) {
+      campaign.own_rows.emplace_back(
+          pool_event("warning", "all that is left is paused; `swarmsmith resume` goes on",
+                     {{"designs", listed(left)}}));
+    }
+  }
+  campaign.all_paused = all;
+}
+
+// What the scheduler decided, and what the campaigns want.
 
 bool Coordinator::finished() const {
   const bool done = std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
@@ -76,7 +316,7 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
           [&](const SendWhoAreYou& a) { send(a.peer, frame_of(a)); },
           [&](const SendDrain& a) { send(a.peer, frame_of(a)); },
           [&](const OutcomeAccepted& a) {
-            name_worker(a.outcome.worker);
+            pool_rows_.name_worker(a.outcome.worker);
             waiting_[key_of(a.outcome)].first = a.outcome.worker;
             Campaign& campaign = campaigns_[a.outcome.campaign];
             campaign.source->tell(a.outcome);
@@ -90,20 +330,21 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
             scheduler_.on_disputed(pack(a.key, a.campaign), task, now);
           },
           [&](const ConflictFound& a) {
-            if (!may_name(a.row.other_worker, "conflict", kConflictBytes, now)) return;
+            if (!pool_rows_.may_name(a.row.other_worker, "conflict", kConflictBytes, now)) return;
             campaigns_[a.campaign].own_rows.emplace_back(a.row);
           },
-          [&](const WorkerChanged& a) { put_worker(a.row, now); },
+          [&](const WorkerChanged& a) { pool_rows_.put_worker(a.row, now); },
           [&](FailureKept& a) {
             // Why a program failed is never left out: its worker is believed, and people look
             // there.
             const bool is_due = options_.scheduler.evaluates_programs;
-            if (!is_due && !may_name(a.row.worker, "failure", bytes_of(a.row), now)) return;
-            name_worker(a.row.worker);
+            if (!is_due && !pool_rows_.may_name(a.row.worker, "failure", bytes_of(a.row), now))
+              return;
+            pool_rows_.name_worker(a.row.worker);
             campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row));
           },
           [&](AttemptEnded& a) {
-            if (!may_name(a.row.worker, "attempt", kAttemptBytes, now)) return;
+            if (!pool_rows_.may_name(a.row.worker, "attempt", kAttemptBytes, now)) return;
             campaigns_[a.campaign].own_rows.emplace_back(std::move(a.row));
           },
           [&](Noted& a) { put_event(a, now); },
@@ -121,7 +362,7 @@ void Coordinator::carry_out(SchedulerAction& action, TimePoint now) {
 
 void Coordinator::drain(TimePoint now) {
   scheduler_.drain(now);
-  put_rows(budgets_.take_news(now, true));
+  put_news(now, true);
 }
 
 void Coordinator::close_ended(std::uint32_t index, WorkSource& source) {
@@ -183,9 +424,8 @@ void Coordinator::audit_stored(std::uint32_t index) {
   }
   if (!is_over || words.empty()) return;
   campaign.own_rows.emplace_back(
-      EventRow{.severity = "warning",
-               .kind = "audits left out; `swarmsmith verify --sample` makes evaluations again",
-               .text = event_text({{"evaluations", static_cast<std::int64_t>(words.size())}})});
+      pool_event("warning", "audits left out; `swarmsmith verify --sample` makes evaluations again",
+                 {{"evaluations", static_cast<std::int64_t>(words.size())}}));
   words.clear();
 }
 
@@ -225,8 +465,8 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
     } while (progress(now));
   }
   if (sample_due_) {
-    write_late_workers(now);
-    put_rows(budgets_.take_news(now));
+    pool_rows_.write_late_workers(now);
+    put_news(now);
   }
   for (std::uint32_t index = 0; index < campaigns_.size(); ++index) {
     append(index);
@@ -238,6 +478,169 @@ std::vector<CoordinatorAction> Coordinator::take_actions(TimePoint now) {
   // After leasing: slots that are about to be given work are no idle ones.
   if (std::exchange(sample_due_, false)) slots_.sample(scheduler_, holding_, now);
   return std::exchange(actions_, {});
+}
+
+// What becomes of outcomes: rows for the stores, tickets, and acknowledgements when all is on disk.
+
+void Coordinator::put_event(Noted& noted, TimePoint now) {
+  if (!pool_rows_.may_note(noted, now)) return;
+  if (!noted.campaign) return pool_rows_.put(std::move(noted.row));
+  campaigns_[*noted.campaign].own_rows.emplace_back(std::move(noted.row));
+}
+
+/// What was left out for want of room.
+void Coordinator::put_news(TimePoint now, bool now_or_never) {
+  for (EventRow& row : budgets_.take_news(now, now_or_never))
+    pool_rows_.put(std::move(row));
+}
+
+void Coordinator::append(std::uint32_t index) {
+  Campaign& campaign = campaigns_[index];
+  std::vector<Row> rows = campaign.source->take_rows();
+  note_if_all_is_paused(campaign);
+  rows.insert(rows.end(), std::make_move_iterator(campaign.own_rows.begin()),
+              std::make_move_iterator(campaign.own_rows.end()));
+  campaign.own_rows.clear();
+  rows.insert(rows.end(), pool_rows_.rows().begin(), pool_rows_.rows().end());
+  std::vector<SendFrame> replies = std::exchange(campaign.replies, {});
+  if (rows.empty()) {
+    for (SendFrame& reply : replies)
+      actions_.emplace_back(std::move(reply));
+    return;
+  }
+  Unit unit{.replies = std::move(replies)};
+  for (const Row& row : rows) {
+    if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
+      unit.keys.push_back(pack(evaluation->key, index));
+    }
+  }
+  campaign.unappended.push_back(std::move(unit));
+  actions_.emplace_back(AppendRows{index, std::move(rows), pool_rows_.rows().size()});
+}
+
+void Coordinator::on_appended(std::uint32_t index, std::uint64_t ticket) {
+  Campaign& campaign = campaigns_[index];
+  SWARMSMITH_ASSERT(!campaign.unappended.empty(), "a ticket belongs to rows that were given out");
+  SWARMSMITH_ASSERT(campaign.appended.empty() || campaign.appended.back().ticket < ticket,
+                    "tickets count up");
+  campaign.appended.push_back(std::move(campaign.unappended.front()));
+  campaign.appended.back().ticket = ticket;
+  campaign.unappended.pop_front();
+}
+
+void Coordinator::on_committed(std::uint32_t index, std::uint64_t ticket) {
+  std::deque<Unit>& appended = campaigns_[index].appended;
+  std::map<WorkerNumber, std::vector<PackedKey>> keys;
+  while (!appended.empty() && appended.front().ticket <= ticket) {
+    for (const PackedKey key : appended.front().keys) {
+      const auto at = waiting_.find(key);
+      if (at == waiting_.end()) continue;
+      keys[at->second.first].push_back(key);
+      for (const WorkerNumber other : at->second.others)
+        keys[other].push_back(key);
+      waiting_.erase(at);
+    }
+    std::ranges::move(appended.front().replies, std::back_inserter(actions_));
+    appended.pop_front();
+  }
+  acknowledge(keys);
+}
+
+/// On disk already: acknowledged now. Else with the first copy.
+void Coordinator::repeat(const OutcomeRepeated& action) {
+  const auto at = waiting_.find(action.key);
+  if (at == waiting_.end()) {
+    acknowledge({{action.worker, {action.key}}});
+    return;
+  }
+  Waiting& waiting = at->second;
+  if (waiting.first == action.worker || std::ranges::count(waiting.others, action.worker) > 0) {
+    return;
+  }
+  waiting.others.push_back(action.worker);
+}
+
+void Coordinator::acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys) {
+  for (const auto& [number, all] : keys) {
+    const WorkerEntry* worker = scheduler_.connected_worker(number);
+    if (worker == nullptr) continue;
+    for (std::size_t at = 0; at < all.size(); at += kMaxItemsPerMessage) {
+      const std::span<const PackedKey> some(
+          all.data() + at, std::min<std::size_t>(kMaxItemsPerMessage, all.size() - at));
+      send(worker->peer, acknowledgement_of(some, worker->hello.incarnation));
+    }
+  }
+}
+
+bool Coordinator::settled() const {
+  return waiting_.empty() && std::ranges::all_of(campaigns_, [](const Campaign& campaign) {
+           return campaign.unappended.empty() && campaign.appended.empty();
+         });
+}
+
+// What a coordinator says of itself.
+
+LiveStatus Coordinator::status() const {
+  const SchedulerCounters& counters = scheduler_.counters();
+  const auto count = [](auto number) { return static_cast<std::int64_t>(number); };
+  LiveStatus status;
+  status.workers = count(scheduler_.workers().connected());
+  status.gone_workers = count(scheduler_.workers().all().size()) - status.workers;
+  status.slots = scheduler_.workers().slots();
+  for (const auto& [number, entry] : scheduler_.workers().all())
+    status.credit += entry.usable() ? entry.credit : 0;
+  status.ready = count(scheduler_.leases().queued());
+  status.leased = count(scheduler_.leases().leased());
+  status.done = count(counters.done);
+  status.rejected = count(counters.rejected);
+  status.failed = count(counters.failed);
+  status.requeued = count(counters.requeued);
+  status.expired = count(counters.expired);
+  status.duplicates = count(counters.duplicates);
+  status.conflicts = count(counters.conflicts);
+  status.unknown = count(counters.unknown);
+  status.unleased = count(counters.unleased);
+  status.rulings = count(counters.rulings);
+  status.referee_queue = count(scheduler_.cases().size());
+  status.audits = count(counters.audited);
+  status.quarantined =
+      count(scheduler_.workers().connected()) - count(scheduler_.workers().trusted());
+  status.lost_workers = count(counters.lost_workers);
+  status.reconnects = count(counters.reconnects);
+  status.malformed = count(malformed_count_);
+  status.malformed_by = malformed_;
+  status.over_budget = {budgets_.left_out().begin(), budgets_.left_out().end()};
+  status.uncommitted = count(waiting_.size());
+  status.slot_times = slots_.since_start();
+  status.slot_times_last_minute = slots_.last_minute();
+  return status;
+}
+
+std::vector<WorkerStatus> Coordinator::fleet(TimePoint now) const {
+  std::vector<WorkerStatus> fleet;
+  fleet.reserve(scheduler_.workers().all().size());
+  for (const auto& [number, entry] : scheduler_.workers().all()) {
+    const WorkerRate rate = slots_.rate_of(number);
+    const auto held = static_cast<std::int64_t>(scheduler_.leases().leases_of(number).size());
+    fleet.push_back(
+        {.number = number,
+         .state = !entry.connected    ? "gone"
+                  : entry.quarantined ? "quarantined"
+                                      : "connected",
+         .host = entry.hello.host,
+         .job = entry.hello.job,
+         .client = entry.hello.client,
+         .slots = entry.hello.slots,
+         .held = held,
+         .running = std::min(held, static_cast<std::int64_t>(entry.running)),
+         .done = entry.done,
+         .failed = entry.failed,
+         .connections = static_cast<std::int64_t>(entry.hello.incarnation),
+         .done_per_s = rate.done_per_s,
+         .busy = rate.busy,
+         .last_heard_s = std::chrono::duration<double>(now - entry.last_heard).count()});
+  }
+  return fleet;
 }
 
 }  // namespace swarmsmith

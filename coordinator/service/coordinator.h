@@ -9,7 +9,6 @@
 #include <string>
 #include <string_view>
 #include <unordered_map>
-#include <unordered_set>
 #include <variant>
 #include <vector>
 
@@ -19,6 +18,7 @@
 #include "coordinator/pool/slot_account.h"
 #include "coordinator/service/live_status.h"
 #include "coordinator/service/messages.h"
+#include "coordinator/service/pool_rows.h"
 #include "storage/store.h"
 
 namespace swarmsmith {
@@ -166,7 +166,7 @@ class Coordinator {
     bool distrusted = false;
   };
 
-  // coordinator_frames.cpp
+  // What peers send.
   bool is_refused(PeerId peer, TimePoint now);
   void on_malformed(const Peer& peer, const Error& error, TimePoint now);
   void on_message(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
@@ -174,7 +174,7 @@ class Coordinator {
   void on_hello(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
   void on_results(const Peer& peer, const pb::ToCoordinator& message, TimePoint now);
 
-  // coordinator_commands.cpp
+  // What people ask.
   void on_command(const Peer& peer, const pb::Command& command, TimePoint now);
   /// A sentence that says what was done.
   Expected<std::string> obey(std::uint32_t index, const pb::Command& command);
@@ -182,25 +182,7 @@ class Coordinator {
   Expected<std::uint32_t> campaign_of(const pb::Command& command) const;
   void note_if_all_is_paused(Campaign& campaign);
 
-  // coordinator_rows.cpp
-  void repeat(const OutcomeRepeated& action);
-  /// For the stores of all campaigns.
-  void put_row(const Row& row);
-  void put_rows(std::vector<EventRow> rows);
-  /// Whether a row that is the principal's doing may be written; else it is counted.
-  bool may_write(const std::string& principal, std::string_view kind, std::size_t bytes,
-                 TimePoint now);
-  /// The same of a row that names the worker, whose own row then comes first.
-  bool may_name(WorkerNumber worker, std::string_view kind, std::size_t bytes, TimePoint now);
-  void name_worker(WorkerNumber worker);
-  void put_event(Noted& noted, TimePoint now);
-  void put_worker(const WorkerRow& row, TimePoint now);
-  void write_worker(const WorkerRow& row);
-  void write_late_workers(TimePoint now);
-  const Principal* principal_of_worker(WorkerNumber worker) const;
-  void append(std::uint32_t campaign);
-  void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
-
+  // What was decided, and what is wanted.
   void carry_out(SchedulerAction& action, TimePoint now);
   void send(PeerId peer, std::string frame);
   void audit_stored(std::uint32_t index);
@@ -208,17 +190,19 @@ class Coordinator {
   bool progress(TimePoint now);
   bool look_ahead();
 
+  // What becomes of outcomes.
+  void repeat(const OutcomeRepeated& action);
+  void put_event(Noted& noted, TimePoint now);
+  void put_news(TimePoint now, bool now_or_never = false);
+  void append(std::uint32_t campaign);
+  void acknowledge(const std::map<WorkerNumber, std::vector<PackedKey>>& keys);
+
   CoordinatorOptions options_;
   PoolFacts facts_;
   std::vector<Campaign> campaigns_;
-  std::vector<Row> pool_rows_;  ///< workers, and events that are of no campaign
   Budgets budgets_;
-  // Workers whose row is in the stores; and rows for which there was no room.
-  std::unordered_set<WorkerNumber> written_;
-  std::map<WorkerNumber, WorkerRow> late_;
-  std::set<std::string> told_in_quarantine_;  ///< principals
-  TimePoint wrote_late_;
   Scheduler scheduler_;
+  PoolRows pool_rows_;
   SlotAccount slots_;
   Holding holding_ = Holding::No;
   bool sample_due_ = false;

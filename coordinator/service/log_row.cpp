@@ -1,10 +1,12 @@
 #include "coordinator/service/log_row.h"
 
-#include <nlohmann/json.hpp>
+#include <cmath>
+#include <variant>
 #include <vector>
 
 #include "base/log.h"
 #include "base/overloaded.h"
+#include "base/text/toml_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -30,19 +32,21 @@ void write(LogLevel level, std::string_view event, const Fields& fields) {
   log(shown_as(level), "coordinator", event, views);
 }
 
-/// The event's own text is a JSON object of numbers and strings.
+/// Whole numbers as such, others as in the event's text.
+LogValue log_value(double number) {
+  constexpr double kMostExact = 1e15;
+  if (std::abs(number) < kMostExact && number == std::floor(number))
+    return static_cast<std::int64_t>(number);
+  return number_text(number);
+}
+
 Fields fields_of(const EventRow& event) {
   Fields fields;
-  const auto json = nlohmann::ordered_json::parse(event.text, nullptr, false);
-  if (!json.is_object()) return {{"details", event.text}};
-  for (const auto& [key, value] : json.items()) {
-    if (value.is_number_integer()) {
-      fields.emplace_back(key, value.get<std::int64_t>());
-    } else if (value.is_string()) {
-      fields.emplace_back(key, value.get<std::string>());
-    } else {
-      fields.emplace_back(key, value.dump());
-    }
+  for (const auto& [key, value] : event.fields) {
+    fields.emplace_back(key,
+                        std::visit(Overloaded{[](double number) { return log_value(number); },
+                                              [](const auto& other) { return LogValue(other); }},
+                                   value));
   }
   return fields;
 }

@@ -33,7 +33,10 @@ constexpr int kFramesAtOnce = 256;
 std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& campaigns) {
   std::vector<TelemetryCampaign> all;
   for (const ServiceCampaign& campaign : campaigns)
-    all.push_back({campaign.name, campaign.designs, campaign.store->design_states()});
+    all.push_back({.name = campaign.name,
+                   .designs = campaign.designs,
+                   .states = campaign.store->design_states(),
+                   .commands = campaign.store->commands()});
   return all;
 }
 

@@ -8,6 +8,20 @@ namespace {
 constexpr Duration kRenewEvery = std::chrono::seconds(1);
 constexpr Duration kPointEvery = std::chrono::milliseconds(90);
 
+DesignStatus status_of(const DesignProgress& progress) {
+  return {.id = progress.design.id.value,
+          .mission = progress.design.mission,
+          .method = progress.design.method,
+          .repetition = progress.design.repetition,
+          .state = progress.state,
+          .used = progress.used,
+          .budget = progress.design.budget,
+          .iteration = progress.iteration,
+          .best = progress.best.value,
+          .best_mean = progress.best_mean,
+          .paused = progress.paused && !is_over(progress.state)};
+}
+
 }  // namespace
 
 double RateWindow::update(TimePoint now, std::int64_t count) {
@@ -20,49 +34,27 @@ double RateWindow::update(TimePoint now, std::int64_t count) {
 }
 
 Telemetry::Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint start)
-    : campaigns_(campaigns.size()), start_(start) {
-  for (std::size_t i = 0; i < campaigns.size(); ++i) {
-    Campaign& campaign = campaigns_[i];
-    campaign.status.name = campaigns[i].name;
-    for (const DesignRow& row : campaigns[i].designs) {
-      campaign.place_of[row.id.value] = campaign.status.designs.size();
-      campaign.status.designs.push_back({.id = row.id.value,
-                                         .mission = row.mission,
-                                         .method = row.method,
-                                         .repetition = row.repetition,
-                                         .state = DesignState::Waiting,
-                                         .budget = row.budget});
-    }
-    for (const DesignStateRow& row : campaigns[i].states)
-      add_state(campaign, row);
+    : start_(start) {
+  for (const TelemetryCampaign& campaign : campaigns) {
+    ProgressModel progress(campaign.designs);
+    for (const DesignStateRow& row : campaign.states)
+      progress.add(row);
+    for (const CommandRow& row : campaign.commands)
+      progress.add(row);
+    campaigns_.push_back({.progress = std::move(progress)});
+    campaigns_.back().status.name = campaign.name;
   }
-}
-
-void Telemetry::add_state(Campaign& campaign, const DesignStateRow& row) {
-  const auto place = campaign.place_of.find(row.design.value);
-  if (place == campaign.place_of.end()) return;
-  DesignStatus& design = campaign.status.designs[place->second];
-  design.state = row.state;
-  design.used = row.used;
-  design.iteration = row.iteration;
-  design.best = row.best.value;
-  design.best_mean = row.best_mean;
 }
 
 void Telemetry::on_rows(std::size_t index, std::span<const Row> rows, TimePoint now) {
   Campaign& campaign = campaigns_[index];
   for (const Row& row : rows) {
-    if (const auto* state = std::get_if<DesignStateRow>(&row)) {
-      add_state(campaign, *state);
-    } else if (const auto* step = std::get_if<RaceStepRow>(&row)) {
-      const auto [last, is_first] = campaign.last_step.try_emplace(step->design.value, now);
-      if (!is_first) campaign.status.step_time.observe(now - last->second);
-      last->second = now;
-      const auto place = campaign.place_of.find(step->design.value);
-      if (place != campaign.place_of.end()) {
-        campaign.status.designs[place->second].used = step->used;
-      }
-    }
+    campaign.progress.add(row);
+    const auto* step = std::get_if<RaceStepRow>(&row);
+    if (step == nullptr) continue;
+    const auto [last, is_first] = campaign.last_step.try_emplace(step->design, now);
+    if (!is_first) campaign.status.step_time.observe(now - last->second);
+    last->second = now;
   }
 }
 
@@ -99,9 +91,9 @@ void Telemetry::renew_lists(const Coordinator& coordinator, TimePoint now) {
   for (std::size_t i = 0; i < campaigns_.size(); ++i) {
     CampaignStatus& status = campaigns_[i].status;
     if (i < meters.size()) status.meters = meters[i];
-    const std::set<DesignId>& paused = coordinator.paused(static_cast<std::uint32_t>(i));
-    for (DesignStatus& design : status.designs)
-      design.paused = paused.contains({design.id}) && !is_over(design.state);
+    status.designs.clear();
+    for (const auto& [id, progress] : campaigns_[i].progress.by_design())
+      status.designs.push_back(status_of(progress));
     status.queued_units = static_cast<std::int64_t>(campaigns_[i].uncommitted.size());
     if (const auto& stopped = coordinator.stopped(static_cast<std::uint32_t>(i)); stopped) {
       status.trouble = *stopped;
@@ -119,10 +111,10 @@ LiveStatus Telemetry::status(const Coordinator& coordinator, TimePoint now, bool
     CampaignStatus& status = campaign.status;
     status.used = 0;
     status.budget = 0;
-    for (const DesignStatus& design : status.designs) {
-      const bool is_raced = design.state == DesignState::Testing || is_over(design.state);
-      status.used += design.used;
-      status.budget += is_raced ? design.used : design.budget;
+    for (const auto& [id, progress] : campaign.progress.by_design()) {
+      const bool is_raced = progress.state == DesignState::Testing || is_over(progress.state);
+      status.used += progress.used;
+      status.budget += is_raced ? progress.used : progress.design.budget;
     }
     used += status.used;
   }

@@ -12,6 +12,7 @@
 #include "base/clock.h"
 #include "coordinator/service/coordinator.h"
 #include "coordinator/service/live_status.h"
+#include "coordinator/service/progress_model.h"
 #include "storage/rows.h"
 
 namespace swarmsmith {
@@ -33,7 +34,9 @@ class RateWindow {
 struct TelemetryCampaign {
   std::string name;
   std::vector<DesignRow> designs;
-  std::vector<DesignStateRow> states;  ///< of its store
+  // Of its store.
+  std::vector<DesignStateRow> states;
+  std::vector<CommandRow> commands{};
 };
 
 /// The live numbers that a coordinator's loop adds to those of the Coordinator: they come from
@@ -60,13 +63,12 @@ class Telemetry {
 
  private:
   struct Campaign {
-    CampaignStatus status;
-    std::map<std::int64_t, std::size_t> place_of;  ///< of a design's id, in `status.designs`
-    std::map<std::int64_t, TimePoint> last_step;   ///< by design
-    std::deque<std::pair<std::uint64_t, TimePoint>> uncommitted;
+    ProgressModel progress;
+    CampaignStatus status{};
+    std::map<DesignId, TimePoint> last_step{};
+    std::deque<std::pair<std::uint64_t, TimePoint>> uncommitted{};
   };
 
-  void add_state(Campaign& campaign, const DesignStateRow& row);
   void renew_lists(const Coordinator& coordinator, TimePoint now);
 
   std::vector<Campaign> campaigns_;

@@ -56,7 +56,7 @@ struct IraceSetup {
   bool quiet = false;
   std::int64_t debug_level = 0;
 
-  /// What was accepted and means nothing here, or is to be known: a sentence each.
+  /// Warnings: one sentence for each option without effect and each notable fact.
   std::vector<std::string> warnings;
 };
 

@@ -10,7 +10,7 @@
 
 namespace swarmsmith {
 
-/// A value that somebody gave to an option.
+/// A value given to an option.
 struct IraceSetting {
   const IraceOption* option = nullptr;
   IraceValue value;              ///< nothing unsets what was said before
@@ -27,11 +27,11 @@ class IraceSettings {
   /// Takes over what `stronger` says.
   void override_with(const IraceSettings& stronger);
 
-  /// By the name in scenario files or by the long switch; null when nobody said it or it is unset.
+  /// By the name in scenario files or by the long switch; null if not given or unset.
   const IraceSetting* find(std::string_view title) const;
-  /// Whether a flag is there, or a bool is true.
+  /// Whether a flag is given, or a bool is true.
   bool is_on(std::string_view title) const;
-  /// The text or path as it was written; nothing when nobody said it.
+  /// The text or path as written; nothing if not given.
   std::optional<std::string> text(std::string_view title) const;
   std::optional<std::int64_t> number(std::string_view title) const;
 

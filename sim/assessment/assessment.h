@@ -54,7 +54,7 @@ struct Report {
   bool passes() const;
 };
 
-/// Is told how many modules are done, of how many.
+/// Receives the number of finished modules and their total.
 using Progress = std::function<void(int done, int of)>;
 
 /// Assesses all modules of the flavour. Pure: the same flavour and profile give the same report. A

@@ -1,5 +1,6 @@
 #include "sim/control/controller.h"
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -54,6 +55,20 @@ std::optional<Architecture> architecture_of_text(std::string_view text) {
   return std::nullopt;
 }
 
+std::string first_switches() {
+  std::string list;
+  for (const auto& [name, architecture] : kFirstSwitches)
+    list.append(list.empty() ? "" : ", ").append(name);
+  return list;
+}
+
+std::size_t find_controller(std::string_view line) {
+  std::size_t first = std::string_view::npos;
+  for (const auto& [name, architecture] : kFirstSwitches)
+    first = std::min(first, line.find(name));
+  return first;
+}
+
 Expected<Controller> parse_controller(std::string_view text, const Flavour& flavour) {
   switch (architecture_of_text(text).value_or(Architecture::Machine)) {
     case Architecture::Tree:
@@ -71,6 +86,16 @@ std::string print_controller(const Controller& controller, const Flavour& flavou
       Overloaded{[&](const Machine& machine) { return print_machine(machine, flavour); },
                  [&](const Tree& tree) { return print_tree(tree, flavour); },
                  [&](const Network& network) { return print_network(network, flavour); }},
+      controller);
+}
+
+std::string_view acting_in(const Controller& controller, int state) {
+  const auto at = static_cast<std::size_t>(state);
+  return std::visit(
+      Overloaded{
+          [at](const Machine& machine) { return id_of(module_of(machine.states[at].behaviour)); },
+          [at](const Tree& tree) { return id_of(module_of(tree.subtrees[at].action)); },
+          [](const Network&) { return name_of(Architecture::Network); }},
       controller);
 }
 

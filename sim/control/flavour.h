@@ -190,7 +190,7 @@ const Flavour& watermelon_argos3();
 /// Chocolate's modules on an RVR with a ring of light sensors (thesis facts, sections 6.1 and 7).
 const Flavour& chocolate();
 
-/// All of them, in the order in which people are told of them.
+/// All of them, in the order of their listing.
 std::span<const Flavour* const> all_flavours();
 
 /// The flavour with this name; an unknown name is an error that lists the known ones.

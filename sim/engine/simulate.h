@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "sim/control/control_software.h"
-#include "sim/control/flavour.h"
 #include "sim/control/controller.h"
+#include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
 #include "sim/engine/readings.h"
 #include "sim/mission/mission.h"

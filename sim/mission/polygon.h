@@ -21,7 +21,7 @@ Point centroid(std::span<const Point> corners);
 /// Whether every corner turns left or not at all.
 bool is_convex(std::span<const Point> corners);
 
-/// Whether the point is inside of the polygon; on its border either may be said.
+/// Whether the point is inside the polygon; on its border either answer may come.
 bool is_within(std::span<const Point> corners, Point point);
 
 /// What keeps the corners from going round an area without crossing themselves, as a sentence that

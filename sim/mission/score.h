@@ -26,7 +26,7 @@ std::optional<ScoreRule> score_of_kind(std::string_view kind);
 
 std::string_view kind_of(const ScoreRule& rule);
 
-/// What the score counts, such as "robots"; empty when nobody can say.
+/// The unit that the score counts, such as "robots"; empty when unknown.
 std::string unit_of(const ScoreRule& rule);
 
 /// Calls `visitor(ScoreField, member)` for each parameter of the rule; `Rule` is ScoreRule or

@@ -109,7 +109,7 @@ TEST(StatusLine, ShowsTheCostsOfPrograms) {
   models.front().add(kIteration);
   models.front().add(kStep);
   EXPECT_THAT(status_line(models, fleet(), 200), HasSubstr("  best cost -2.712  "));
-  EXPECT_EQ(models.front().mean_text(-3.5), "3.5");
+  EXPECT_EQ(mean_text(models.front(), -3.5), "3.5");
 }
 
 TEST(RaceLine, HasTheColumnsOfItsHeadline) {

@@ -31,7 +31,7 @@ Run declare_track_version(Options& options);
 /// "swarmsmith-track 0.1.0, OpenCV 4.6.0, apriltag 3.3.0, ...": what made a file or a score.
 std::string track_program_name();
 
-/// Whether a first word is no command but a file or folder that is there: `score` is left out.
+/// Whether the first word is not a command but an existing file or folder: `score` was omitted.
 bool means_a_recording(const std::string& word);
 
 /// What to exit with after an error of tracking: 2 for wrong words, files of settings and a

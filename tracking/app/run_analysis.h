@@ -11,7 +11,7 @@
 
 namespace swarmsmith::cli {
 
-/// What follows from the sightings of a run and what is known of it.
+/// The results that follow from a run's sightings and its known facts.
 struct RunAnalysis {
   std::vector<double> starts_s;  ///< of the run, on each camera's clock
   std::vector<Patch> patches;    ///< over the arena's own

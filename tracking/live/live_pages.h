@@ -19,7 +19,7 @@ class LivePages {
 
   /// "http://127.0.0.1:8080/".
   virtual std::string address() const = 0;
-  /// Whether somebody waits for pictures: only then they need to have colours.
+  /// Whether a browser waits for pictures: only then they need colours.
   virtual bool is_watched() const = 0;
   /// What is shown from now on; drawing is done by the threads of those who ask. Without a picture
   /// only the state is new.

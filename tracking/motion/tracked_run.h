@@ -23,7 +23,7 @@ struct Sample {
   std::size_t sighting = 0;  ///< that it was made of, by its number in the observations
 };
 
-/// How a robot's pose at a control cycle was come by.
+/// How a robot's pose at a control cycle was obtained.
 enum class CycleKind : std::int8_t {
   Measured = 0,      ///< between neighbours at most two frames apart, and 0.2 s
   Interpolated = 1,  ///< across a gap of at most 0.5 s
@@ -54,7 +54,7 @@ struct TrackedRobot {
   Scatter sigma;  ///< of one camera's sample, estimated
 };
 
-/// A run as the simulator would have recorded it, and how it was come by.
+/// A run as the simulator would have recorded it, and how it was obtained.
 struct TrackedRun {
   std::vector<Pose> starts;  ///< at 0 s
   Trajectory trajectory;     ///< at 0.1 s, 0.2 s, ...: the instants that scores see

@@ -34,6 +34,35 @@ TEST_F(Telemetries, BudgetsOfDesignsThatAreOverAreWhatTheyUsed) {
   EXPECT_EQ(one.budget, 190);
 }
 
+TEST_F(Telemetries, AnExtensionCountsFromTheStepAfterWhichItActs) {
+  CommandRow extension{
+      .number = 1, .kind = CommandKind::Extend, .design = {1}, .step = std::nullopt, .budget = 50};
+  telemetry.on_rows(0, std::vector<Row>{extension}, now);
+  EXPECT_EQ(status().campaigns->front().budget, 190) << "it is asked for, and waits";
+  extension.step = 9;
+  telemetry.on_rows(
+      0,
+      std::vector<Row>{extension,
+                       DesignStateRow{.design = {1}, .state = DesignState::Racing, .used = 90}},
+      now);
+  const CampaignStatus one = status().campaigns->front();
+  EXPECT_EQ(one.designs.front().budget, 150);
+  EXPECT_EQ(one.budget, 250);
+}
+
+TEST_F(Telemetries, BeginWithTheCommandsOfTheStore) {
+  std::vector<TelemetryCampaign> stored = campaigns();
+  stored.front().commands = {
+      {.number = 1, .kind = CommandKind::Extend, .design = {1}, .step = 9, .budget = 50},
+      {.number = 2, .kind = CommandKind::Pause, .design = {1}, .step = std::nullopt},
+      {.number = 3, .kind = CommandKind::Pause, .design = {2}, .step = std::nullopt}};
+  Telemetry resumed(stored, now);
+  const auto campaign = resumed.status(coordinator, now, true).campaigns->front();
+  EXPECT_EQ(campaign.designs[0].budget, 150);
+  EXPECT_FALSE(campaign.designs[0].paused) << "it is over";
+  EXPECT_TRUE(campaign.designs[1].paused);
+}
+
 TEST_F(Telemetries, TheEndIsToldFromTheRecentRateOrNotAtAll) {
   EXPECT_LT(seconds_left(status()), 0);
   for (int i = 1; i <= 10; ++i) {

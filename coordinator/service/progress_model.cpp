@@ -1,12 +1,11 @@
-#include "cli/output/progress_model.h"
+#include "coordinator/service/progress_model.h"
 
 #include <algorithm>
 #include <variant>
 
-#include "cli/output/progress_text.h"
-#include "programs/cost.h"
+#include "base/overloaded.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 namespace {
 
 bool has_ended(const DesignProgress& progress) {
@@ -28,19 +27,25 @@ ProgressModel::ProgressModel(std::span<const DesignRow> designs, bool costs) : c
     designs_[row.id].design = row;
 }
 
-std::string ProgressModel::mean_text(double score) const {
-  return score_text(costs_ ? to_cost(score) : score);
+void ProgressModel::add(const Row& row) {
+  const DesignId id =
+      std::visit(Overloaded{[](const IterationRow& r) { return r.design; },
+                            [](const RaceStepRow& r) { return r.design; },
+                            [](const EvaluationRow& r) { return design_of(r.key.candidate); },
+                            [](const DesignStateRow& r) { return r.design; },
+                            [](const CommandRow& r) { return r.design; },
+                            [](const auto&) { return DesignId{}; }},
+                 row);
+  if (const auto found = designs_.find(id); found != designs_.end()) add(found->second, row);
 }
 
-void ProgressModel::add(const Row& row) {
+void ProgressModel::add(DesignProgress& progress, const Row& row) {
   if (const auto* iteration = std::get_if<IterationRow>(&row)) {
-    DesignProgress& progress = designs_.at(iteration->design);
     progress.iteration = iteration->number;
     progress.iterations = iteration->of;
     progress.configurations = iteration->configurations;
     progress.alive = iteration->configurations;
   } else if (const auto* step = std::get_if<RaceStepRow>(&row)) {
-    DesignProgress& progress = designs_.at(step->design);
     progress.state = DesignState::Racing;
     progress.alive = step->alive_after;
     progress.used = step->used;
@@ -49,17 +54,15 @@ void ProgressModel::add(const Row& row) {
     progress.best_mean = step->mean_best;
   } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
     // What was evaluated ahead has no iteration until a step asks for it.
-    if (evaluation->key.purpose == Purpose::Race && evaluation->iteration > 0)
-      ++designs_.at(design_of(evaluation->key.candidate)).in_step;
+    progress.in_step += evaluation->key.purpose == Purpose::Race && evaluation->iteration > 0;
   } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
-    add_state(*state);
+    add_state(progress, *state);
   } else if (const auto* command = std::get_if<CommandRow>(&row)) {
-    add_command(*command);
+    add_command(progress, *command);
   }
 }
 
-void ProgressModel::add_command(const CommandRow& row) {
-  DesignProgress& progress = designs_.at(row.design);
+void ProgressModel::add_command(DesignProgress& progress, const CommandRow& row) {
   if (is_of_leases(row.kind)) progress.paused = row.kind == CommandKind::Pause;
   // Its row comes twice: when it is asked for, and when it acts.
   if (row.kind != CommandKind::Extend || !row.step || !extensions_.insert(row.number).second)
@@ -67,8 +70,7 @@ void ProgressModel::add_command(const CommandRow& row) {
   progress.design.budget += row.budget;
 }
 
-void ProgressModel::add_state(const DesignStateRow& row) {
-  DesignProgress& progress = designs_.at(row.design);
+void ProgressModel::add_state(DesignProgress& progress, const DesignStateRow& row) {
   progress.state = row.state;
   progress.used = row.used;
   progress.in_step = 0;
@@ -117,4 +119,4 @@ const DesignProgress* ProgressModel::current() const {
   return designs_.empty() ? nullptr : &designs_.rbegin()->second;
 }
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -4,13 +4,10 @@
 #include <map>
 #include <set>
 #include <span>
-#include <string>
-#include <vector>
 
-#include "coordinator/service/live_status.h"
 #include "storage/rows.h"
 
-namespace swarmsmith::cli {
+namespace swarmsmith {
 
 /// How far one design is.
 struct DesignProgress {
@@ -27,17 +24,18 @@ struct DesignProgress {
   bool paused = false;  ///< by a person
 };
 
-/// How far a campaign is, kept up from its rows. Pure.
+/// How far a campaign is, kept up from its rows: those that its store has, states and commands,
+/// then all that are written. Rows of designs that it was not made with are left out. Pure.
 class ProgressModel {
  public:
-  /// With `costs` a mean is told as the cost that programs print: the negative of the score.
+  /// With `costs` programs evaluate, and people want to see the costs that they print.
   explicit ProgressModel(std::span<const DesignRow> designs, bool costs = false);
 
   void add(const Row& row);
 
-  /// The score, or its cost.
-  std::string mean_text(double score) const;
   bool shows_costs() const { return costs_; }
+  /// By id.
+  const std::map<DesignId, DesignProgress>& by_design() const { return designs_; }
   const DesignProgress& design(DesignId id) const { return designs_.at(id); }
   std::int64_t designs() const { return static_cast<std::int64_t>(designs_.size()); }
   /// Designs that need nothing more.
@@ -55,12 +53,13 @@ class ProgressModel {
   const DesignProgress* current() const;
 
  private:
-  void add_state(const DesignStateRow& row);
-  void add_command(const CommandRow& row);
+  void add(DesignProgress& progress, const Row& row);
+  void add_state(DesignProgress& progress, const DesignStateRow& row);
+  void add_command(DesignProgress& progress, const CommandRow& row);
 
   std::map<DesignId, DesignProgress> designs_;
   bool costs_;
   std::set<std::int64_t> extensions_;  ///< numbers of those that have acted
 };
 
-}  // namespace swarmsmith::cli
+}  // namespace swarmsmith

@@ -1,0 +1,91 @@
+#include "coordinator/service/pool_rows.h"
+
+#include <utility>
+
+namespace swarmsmith {
+namespace {
+
+constexpr Duration kWriteLate = std::chrono::seconds(1);
+
+}  // namespace
+
+bool PoolRows::may_write(const std::string& principal, std::string_view kind, std::size_t bytes,
+                         TimePoint now) {
+  const Principal* known = scheduler_.principals().find(principal);
+  if (known != nullptr && known->local) return true;
+  const Source source{principal, known == nullptr || known->is_stranger()};
+  if (budgets_.may_write(source, bytes, now)) return true;
+  budgets_.leave_out(kind);
+  return false;
+}
+
+const Principal* PoolRows::principal_of_worker(WorkerNumber worker) const {
+  const auto at = scheduler_.workers().all().find(worker);
+  return at == scheduler_.workers().all().end() ? nullptr : at->second.principal;
+}
+
+bool PoolRows::may_name(WorkerNumber worker, std::string_view kind, std::size_t bytes,
+                        TimePoint now) {
+  if (worker == 0) return true;
+  const Principal* principal = principal_of_worker(worker);
+  if (!may_write(principal != nullptr ? principal->name : "", kind, bytes, now)) return false;
+  name_worker(worker);
+  return true;
+}
+
+void PoolRows::name_worker(WorkerNumber worker) {
+  if (worker == 0 || written_.contains(worker)) return;
+  if (const auto late = late_.find(worker); late != late_.end()) {
+    return write_worker(WorkerRow(late->second));
+  }
+  const auto at = scheduler_.workers().all().find(worker);
+  if (at == scheduler_.workers().all().end()) return;
+  write_worker(
+      row_of(at->second, at->second.connected ? WorkerState::Connected : WorkerState::Left));
+}
+
+bool PoolRows::may_note(const Noted& noted, TimePoint now) {
+  if (!noted.source.empty() && !may_write(noted.source, noted.row.kind, bytes_of(noted.row), now)) {
+    return false;
+  }
+  name_worker(noted.worker);
+  return true;
+}
+
+void PoolRows::put_worker(const WorkerRow& row, TimePoint now) {
+  const Principal* principal = scheduler_.principals().find(row.principal);
+  const bool is_local = principal != nullptr && principal->local;
+  const bool is_new = !written_.contains(row.id);
+  const bool is_quarantined = row.state == WorkerState::Quarantined;
+  // One such row of a principal tells a later process.
+  if (is_quarantined && told_in_quarantine_.insert(row.principal).second) return write_worker(row);
+  const bool is_here = row.state == WorkerState::Connected || is_quarantined;
+  if (!is_local && is_new && !is_here && row.done == 0 && row.failed == 0) {
+    late_.erase(row.id);
+    budgets_.leave_out("worker");
+    return;
+  }
+  const Source source{row.principal, principal == nullptr || principal->is_stranger()};
+  if (is_local || budgets_.may_write(source, is_new ? bytes_of(row) : kChangeBytes, now)) {
+    write_worker(row);
+  } else {
+    late_[row.id] = row;
+  }
+}
+
+void PoolRows::write_worker(const WorkerRow& row) {
+  rows_.emplace_back(row);
+  written_.insert(row.id);
+  late_.erase(row.id);
+}
+
+void PoolRows::write_late_workers(TimePoint now) {
+  if (late_.empty() || now - wrote_late_ < kWriteLate) return;
+  wrote_late_ = now;
+  for (const auto& [number, row] : std::exchange(late_, {})) {
+    // Forgotten meanwhile: it did nothing.
+    if (principal_of_worker(number) != nullptr) put_worker(row, now);
+  }
+}
+
+}  // namespace swarmsmith
