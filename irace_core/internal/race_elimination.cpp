@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/hash.h"
+#include "base/ranks.h"
 #include "irace_core/internal/means.h"
 #include "irace_core/internal/race.h"
 
