@@ -14,7 +14,6 @@ namespace swarmsmith::cli {
 /// What follows from the sightings of a run and what is known of it.
 struct RunAnalysis {
   std::vector<double> starts_s;  ///< of the run, on each camera's clock
-  std::vector<Patch> patches;    ///< over the arena's own
   TrackedRun tracked;
   ScoredRun scored;
 };
