@@ -1,26 +1,17 @@
 #include "analysis/records/csv.h"
 
-#include <limits>
 #include <vector>
 
+#include "analysis/records/records.h"
 #include "base/text/csv.h"
 
 namespace swarmsmith {
-namespace {
-
-constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000,
-                                           .seconds = 600,
-                                           .bytes = std::numeric_limits<std::int64_t>::max(),
-                                           .memory = std::int64_t{1} << 30U,
-                                           .spill = true};
-
-}  // namespace
-
 Expected<std::string> csv_of_rows(StoreReader& store, const std::string& sql) {
   std::string text;
   std::vector<std::string> texts;
   const auto end = store.query(
-      sql, kLimits, [&](const std::vector<std::string>& columns) { text += csv_line(columns); },
+      sql, kRecordLimits,
+      [&](const std::vector<std::string>& columns) { text += csv_line(columns); },
       [&](const std::vector<StoreReader::Cell>& cells) {
         texts.clear();
         for (const StoreReader::Cell& cell : cells)

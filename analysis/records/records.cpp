@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <limits>
 #include <string_view>
 #include <utility>
 
@@ -14,13 +13,6 @@ namespace {
 
 using Cell = StoreReader::Cell;
 using Cells = std::vector<Cell>;
-
-/// Nobody looks at more, and a figure of it could not be drawn.
-constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000,
-                                           .seconds = 600,
-                                           .bytes = std::numeric_limits<std::int64_t>::max(),
-                                           .memory = std::int64_t{1} << 30U,
-                                           .spill = true};
 
 double real(const Cell& cell) {
   double value = 0;
@@ -61,7 +53,7 @@ std::string where(const RecordFilter& filter, std::string_view table = "") {
 Expected<std::string> flavour_column(StoreReader& store) {
   std::string column = "''";
   const auto end = store.query(
-      "SELECT * FROM v_designs LIMIT 0", kLimits,
+      "SELECT * FROM v_designs LIMIT 0", kRecordLimits,
       [&](const std::vector<std::string>& names) {
         if (std::ranges::find(names, "flavour") != names.end()) column = "d.flavour";
       },
@@ -74,12 +66,13 @@ template <class Record, class Make>
 Expected<std::vector<Record>> read(StoreReader& store, const std::string& sql, const Make& make) {
   std::vector<Record> records;
   const auto end = store.query(
-      sql, kLimits, [](const std::vector<std::string>&) {},
+      sql, kRecordLimits, [](const std::vector<std::string>&) {},
       [&](const Cells& row) { records.push_back(make(row)); });
   if (!end) return Unexpected(end.error());
   if (end->truncated) {
     return bad_input(
-        fmt::format("reading took over {} s: ask for one mission or design", kLimits.seconds), sql);
+        fmt::format("reading took over {} s: ask for one mission or design", kRecordLimits.seconds),
+        sql);
   }
   return records;
 }

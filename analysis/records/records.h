@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -14,6 +15,14 @@ namespace swarmsmith {
 /// What figures, tables and tests of a paper begin with: rows of the store's views
 /// (docs/storage.md) as plain values, in the order of the view's keys. They read nothing but the
 /// views, so that anyone can have the same numbers by SQL.
+
+/// Nobody looks at more, and a figure of it could not be drawn.
+inline constexpr StoreReader::QueryLimits kRecordLimits{
+    .rows = 50'000'000,
+    .seconds = 600,
+    .bytes = std::numeric_limits<std::int64_t>::max(),
+    .memory = std::int64_t{1} << 30U,
+    .spill = true};
 
 /// A score that a finished design's winner got outside of its race.
 struct DesignScore {

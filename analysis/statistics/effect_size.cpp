@@ -3,7 +3,7 @@
 #include <cmath>
 #include <vector>
 
-#include "analysis/statistics/internal/average_ranks.h"
+#include "base/ranks.h"
 
 namespace swarmsmith {
 

@@ -6,7 +6,7 @@
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 
-#include "analysis/statistics/internal/average_ranks.h"
+#include "base/ranks.h"
 
 namespace swarmsmith {
 namespace {

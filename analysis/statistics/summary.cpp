@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include <boost/math/distributions/students_t.hpp>
+
 namespace swarmsmith {
 namespace {
 
@@ -57,6 +59,15 @@ Summary summary_of(std::span<const double> values) {
   summary.upper_quartile = sorted_quantile(sorted, 0.75);
   summary.most = sorted.back();
   return summary;
+}
+
+MeanInterval mean_interval(std::span<const double> values) {
+  constexpr double kBothTails = 0.975;
+  const Summary summary = summary_of(values);
+  if (summary.n < 2) return {summary.mean, 0};
+  const auto n = static_cast<double>(summary.n);
+  const boost::math::students_t_distribution<double> student(n - 1);
+  return {summary.mean, boost::math::quantile(student, kBothTails) * summary.sd / std::sqrt(n)};
 }
 
 }  // namespace swarmsmith

@@ -28,4 +28,13 @@ struct Summary {
 /// Of nothing, n is 0 and all else is NaN.
 Summary summary_of(std::span<const double> values);
 
+/// A mean, and half of Student's 95 % interval of it, as R's `t.test` gives it; 0 for one value.
+struct MeanInterval {
+  double mean = 0;
+  double half_width = 0;
+};
+
+/// Not of nothing.
+MeanInterval mean_interval(std::span<const double> values);
+
 }  // namespace swarmsmith

@@ -6,8 +6,7 @@
 
 #include <boost/math/distributions/normal.hpp>
 
-#include "analysis/statistics/internal/average_ranks.h"
-#include "analysis/statistics/internal/rank_distributions.h"
+#include "base/ranks.h"
 
 namespace swarmsmith {
 namespace {

@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "base/text/json.h"
-#include "cli/arguments/campaign_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/output/number_text.h"
+#include "cli/run/campaign_flags.h"
 #include "cli/run/campaign_plan.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/programs.h"

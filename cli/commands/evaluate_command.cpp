@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <memory>
 
+#include "analysis/statistics/summary.h"
 #include "base/text/json.h"
 #include "cli/commands/commands.h"
-#include "cli/output/mean_interval.h"
 #include "cli/output/progress_text.h"
 #include "cli/replay/evaluation_plan.h"
 #include "cli/replay/recording.h"

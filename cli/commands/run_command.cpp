@@ -2,7 +2,6 @@
 #include <optional>
 
 #include "cli/commands/commands.h"
-#include "cli/commands/http_flags.h"
 #include "cli/run/campaign_flags.h"
 #include "cli/run/campaign_run.h"
 #include "cli/run/pool_setup.h"

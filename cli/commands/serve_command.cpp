@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "cli/commands/commands.h"
-#include "cli/commands/http_flags.h"
 #include "cli/run/campaign_flags.h"
 #include "cli/run/campaign_run.h"
 

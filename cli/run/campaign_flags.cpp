@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <set>
 
-#include "cli/arguments/campaign_argument.h"
 #include "coordinator/campaign/campaign_file.h"
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/pool/task_key.h"
@@ -25,6 +24,15 @@ Expected<void> check_one_store(const std::string& store, const std::string& wher
 }
 
 }  // namespace
+
+std::optional<Campaign> read_or_complain(const std::string& file, Output& output,
+                                         std::optional<std::int64_t> budget) {
+  auto campaign = read_campaign(file, budget);
+  if (campaign) return std::move(*campaign);
+  for (const Error& error : campaign.error())
+    print_error(output, error);
+  return std::nullopt;
+}
 
 void CampaignFlags::declare(Options& options, Options::Need files_needed) {
   options.words("FILE", files,
@@ -97,6 +105,18 @@ std::optional<std::vector<Campaign>> CampaignFlags::read(Output& output) const {
     return std::nullopt;
   }
   return campaigns;
+}
+
+void HttpFlags::declare(Options& options, const std::string& otherwise) {
+  options.text("--http", http,
+               "Address and port of /metrics, /healthz, /readyz, /status (" + otherwise + ")");
+  options.text("--http-token-file", token_file, "File of the secret that their readers must show");
+}
+
+void HttpFlags::put(RunOptions& run, const std::string& otherwise) const {
+  run.http = http == "none" ? "" : http.empty() ? otherwise : http;
+  run.http_next_port = http.empty();
+  run.http_token_file = token_file;
 }
 
 }  // namespace swarmsmith::cli

@@ -5,10 +5,17 @@
 #include <string>
 #include <vector>
 
+#include "cli/run/campaign_run.h"
 #include "console/options.h"
+#include "console/output.h"
 #include "coordinator/campaign/campaign.h"
 
 namespace swarmsmith::cli {
+
+/// Reads the campaign file, or prints everything that is wrong with it (exit code 2). A `budget` of
+/// a flag takes the place of the file's.
+std::optional<Campaign> read_or_complain(const std::string& file, Output& output,
+                                         std::optional<std::int64_t> budget = std::nullopt);
 
 /// The keys of campaign files that the command line may change; flags win over the environment
 /// (SWARMSMITH_STORE), which wins over the file.
@@ -28,5 +35,16 @@ struct CampaignFlags {
 
 /// The reason why one coordinator cannot run these campaigns, if any.
 Expected<void> check_pool(const std::vector<Campaign>& campaigns);
+
+/// Where a coordinator shows what it does.
+struct HttpFlags {
+  std::string http;
+  std::string token_file;
+
+  /// Declares --http and --http-token-file.
+  void declare(Options& options, const std::string& otherwise);
+  /// `otherwise` is the default address of the pages; empty for no pages.
+  void put(RunOptions& run, const std::string& otherwise) const;
+};
 
 }  // namespace swarmsmith::cli

@@ -5,9 +5,9 @@
 #include <map>
 #include <vector>
 
+#include "analysis/statistics/summary.h"
 #include "base/shown_text.h"
 #include "base/text/json.h"
-#include "cli/output/mean_interval.h"
 #include "cli/output/progress_text.h"
 #include "cli/output/query_output.h"
 #include "programs/cost.h"

@@ -8,6 +8,7 @@
 
 #include "base/assert.h"
 #include "base/math.h"
+#include "base/ranks.h"
 #include "irace_core/internal/means.h"
 
 namespace swarmsmith::irace {
@@ -37,11 +38,9 @@ double approximate_p(double v, double n, double ties) {
 }
 
 /// Twice the smaller tail of the signed-rank distribution (irace facts, 10.2, step 3).
-double exact_p(double v, int n) {
-  const auto sum = static_cast<std::int64_t>(v);
-  const double tail =
-      v > n * (n + 1) / 4.0 ? signed_rank_upper_tail(sum, n) : signed_rank_lower_tail(sum, n);
-  return std::min(1.0, 2 * tail);
+double exact_p(double v, std::size_t n) {
+  const Tails tails = signed_rank_tails(static_cast<std::size_t>(v), n);
+  return std::min(1.0, 2 * std::min(tails.lower, tails.upper));
 }
 
 /// As R's all.equal with its own tolerance: relative to the first, unless that is nearly zero
@@ -148,9 +147,10 @@ PairedResult wilcoxon_test(std::span<const double> first, std::span<const double
   }
   // Steps 3 and 4: the exact distribution knows neither zeros nor ties, and is that of small n.
   const bool clean = differences.size() == first.size() && ranked.ties == 0;
-  const auto n = static_cast<int>(differences.size());
-  result.p_value = clean && n < 50 ? exact_p(result.statistic, n)
-                                   : approximate_p(result.statistic, n, ranked.ties);
+  const std::size_t n = differences.size();
+  result.p_value = clean && n < 50
+                       ? exact_p(result.statistic, n)
+                       : approximate_p(result.statistic, static_cast<double>(n), ranked.ties);
   if (!(result.p_value < alpha)) return result;
   // Step 5.
   const bool first_is_better = pseudo_median(differences) <= 0;

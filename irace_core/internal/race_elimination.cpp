@@ -4,6 +4,7 @@
 
 #include "base/assert.h"
 #include "base/hash.h"
+#include "base/ranks.h"
 #include "irace_core/internal/means.h"
 #include "irace_core/internal/race.h"
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 
+#include "base/ranks.h"
 #include "irace_core/internal/means.h"
 #include "irace_core/internal/ranks.h"
 

@@ -64,21 +64,4 @@ void RankTable::add_ranks(std::span<const Entry> sorted) {
   });
 }
 
-AverageRanks average_ranks(std::span<const double> values) {
-  std::vector<Entry> row;
-  row.reserve(values.size());
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    row.push_back({values[i], static_cast<std::uint32_t>(i)});
-  }
-  sort_row(row);
-  AverageRanks result;
-  result.ranks.resize(values.size());
-  for_each_group(row, [&](std::size_t first, std::size_t last, double rank) {
-    for (std::size_t i = first; i < last; ++i)
-      result.ranks[row[i].column] = rank;
-    result.ties += tie_term(last - first);
-  });
-  return result;
-}
-
 }  // namespace swarmsmith::irace

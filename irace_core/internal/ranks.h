@@ -46,11 +46,4 @@ class RankTable {
   double squares_ = 0;
 };
 
-/// Average ranks of `values`, the smallest has 1; and the sum of u^3 - u over groups of ties.
-struct AverageRanks {
-  std::vector<double> ranks;
-  double ties = 0;
-};
-AverageRanks average_ranks(std::span<const double> values);
-
 }  // namespace swarmsmith::irace

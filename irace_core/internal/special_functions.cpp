@@ -1,7 +1,6 @@
 #include "irace_core/internal/special_functions.h"
 
 #include <cmath>
-#include <numeric>
 
 #include "base/assert.h"
 #include "base/math.h"
@@ -115,22 +114,6 @@ double expanded_t_quantile(double z, double dof) {
   return z + (g1 + (g2 + (g3 + g4 / dof) / dof) / dof) / dof;
 }
 
-/// Number of subsets of {1..n} by their sum, exact up to 2^53.
-std::vector<double> rank_sum_counts(int n) {
-  std::vector<double> counts{1};
-  for (int rank = 1; rank <= n; ++rank) {
-    const auto step = static_cast<std::size_t>(rank);
-    counts.resize(counts.size() + step, 0);
-    for (std::size_t sum = counts.size(); sum-- > step;)
-      counts[sum] += counts[sum - step];
-  }
-  return counts;
-}
-
-double two_to_the(int n) {
-  return static_cast<double>(std::uint64_t{1} << static_cast<unsigned>(n));
-}
-
 }  // namespace
 
 double log_gamma(double x) {
@@ -175,20 +158,6 @@ double StudentQuantiles::operator()(std::int64_t dof) {
   double& quantile = known_[static_cast<std::size_t>(dof)];
   if (quantile == 0) quantile = student_t_upper_quantile(upper_tail_, static_cast<double>(dof));
   return quantile;
-}
-
-double signed_rank_lower_tail(std::int64_t v, int n) {
-  SWARMSMITH_ASSERT(n > 0 && n < 50, "the exact distribution is for fewer than 50 differences");
-  const std::vector<double> counts = rank_sum_counts(n);
-  if (v < 0) return 0;
-  const auto end = std::min(counts.size(), static_cast<std::size_t>(v) + 1);
-  return std::accumulate(counts.begin(), counts.begin() + static_cast<std::ptrdiff_t>(end), 0.0) /
-         two_to_the(n);
-}
-
-double signed_rank_upper_tail(std::int64_t v, int n) {
-  // Symmetric about n(n+1)/4.
-  return signed_rank_lower_tail(std::int64_t{n} * (n + 1) / 2 - v, n);
 }
 
 }  // namespace swarmsmith::irace

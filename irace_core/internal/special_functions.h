@@ -30,9 +30,4 @@ class StudentQuantiles {
   std::vector<double> known_;  ///< by degrees of freedom; 0 is not yet computed
 };
 
-/// Distribution of the sum of the ranks of positive differences, n differences without ties, under
-/// symmetry (Wilcoxon's signed-rank statistic): P(W <= v) and P(W >= v). Exact for n < 50.
-double signed_rank_lower_tail(std::int64_t v, int n);
-double signed_rank_upper_tail(std::int64_t v, int n);
-
 }  // namespace swarmsmith::irace

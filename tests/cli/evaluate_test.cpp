@@ -5,7 +5,6 @@
 
 #include "cli/arguments/machine_words.h"
 #include "cli/arguments/seeds.h"
-#include "cli/output/mean_interval.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
@@ -366,14 +365,6 @@ TEST(Seeds, AreRangesAndLists) {
   for (const char* wrong : {"", "0", "1-", "-3", "a", "2147483648", "1,,2", "1-99999999999"}) {
     EXPECT_FALSE(parse_seeds(wrong)) << wrong;
   }
-}
-
-TEST(MeanInterval, IsStudents) {
-  const std::vector<double> values = {1, 2, 3, 4, 5};
-  const MeanInterval summary = mean_interval(values);
-  EXPECT_DOUBLE_EQ(summary.mean, 3);
-  // R: t.test(1:5)$conf.int is 1.036757 to 4.963243.
-  EXPECT_NEAR(summary.half_width, 1.963243, 0.01);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <numeric>
 
+#include "base/ranks.h"
 #include "irace_core/internal/agreement.h"
 #include "irace_core/internal/elimination.h"
 #include "irace_core/internal/means.h"

@@ -63,22 +63,5 @@ TEST(SpecialFunctions, RememberedQuantilesAreTheSame) {
   }
 }
 
-TEST(SpecialFunctions, SignedRanksOfThreeAreCountedByHand) {
-  // Subsets of {1, 2, 3} by their sum 0..6: 1 1 1 2 1 1 1.
-  const double eighths[] = {1, 2, 3, 5, 6, 7, 8};
-  for (std::int64_t v = 0; v <= 6; ++v) {
-    EXPECT_EQ(signed_rank_lower_tail(v, 3), eighths[v] / 8);
-    EXPECT_EQ(signed_rank_upper_tail(6 - v, 3), eighths[v] / 8);
-  }
-  EXPECT_EQ(signed_rank_lower_tail(-1, 3), 0);
-}
-
-TEST(SpecialFunctions, SignedRankTailsAddUpToOne) {
-  for (int n = 1; n < 50; ++n) {
-    const std::int64_t middle = n * (n + 1) / 4;
-    EXPECT_EQ(signed_rank_lower_tail(middle, n) + signed_rank_upper_tail(middle + 1, n), 1);
-  }
-}
-
 }  // namespace
 }  // namespace swarmsmith::irace

@@ -17,6 +17,7 @@
 #include <string>
 #include <vector>
 
+#include "base/ranks.h"
 #include "base/rng.h"
 #include "irace_core/expression.h"
 #include "irace_core/files/expression_text.h"

@@ -10,7 +10,7 @@
 #include "sim/files/mission_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/complaints.h"
+#include "tracking/app/refusal.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/calibration/solve_place.h"
 #include "tracking/detection/tag_detector.h"

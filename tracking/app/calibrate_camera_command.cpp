@@ -7,7 +7,7 @@
 #include "base/text/whole_file.h"
 #include "tracking/app/calibrate_sources.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/complaints.h"
+#include "tracking/app/refusal.h"
 #include "tracking/calibration/calibration_report.h"
 #include "tracking/calibration/find_board.h"
 #include "tracking/rig/calibration_limits.h"

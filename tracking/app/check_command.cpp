@@ -4,7 +4,7 @@
 
 #include "base/text/json.h"
 #include "tracking/app/commands.h"
-#include "tracking/app/complaints.h"
+#include "tracking/app/refusal.h"
 #include "tracking/rig/calibration_limits.h"
 #include "tracking/rig/rig_file.h"
 

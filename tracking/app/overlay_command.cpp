@@ -189,8 +189,8 @@ class Sink {
 Expected<std::int64_t> draw(const DrawnRun& run, std::optional<double> at_s, const Words& words,
                             Output& output) {
   Mission mission = run.log.mission;
-  mission.arena.patches.insert(mission.arena.patches.end(), run.analysis.patches.begin(),
-                               run.analysis.patches.end());
+  mission.arena.patches.insert(mission.arena.patches.end(), run.analysis.scored.patches.begin(),
+                               run.analysis.scored.patches.end());
   const View view = run.rig.view_of(run.rig.cameras[run.camera]).value();
   const OverlayRun overlay(run.analysis.tracked, run.rig, mission, run.analysis.scored.issues);
   const std::vector<double>& times = run.observations.cameras[run.camera].frame_times;

@@ -6,6 +6,12 @@
 
 namespace swarmsmith::cli {
 
+/// What to exit with when all this is wrong: 2 when a file of settings is, else 1.
+ExitCode exit_code_of_all(const std::vector<Error>& errors);
+
+/// Prints them all and says what to exit with.
+ExitCode fail_all(Output& output, const std::vector<Error>& errors);
+
 /// Why a command ends before it has done anything: everything that is wrong, and what to exit with.
 struct Refusal {
   ExitCode code = ExitCode::Failed;

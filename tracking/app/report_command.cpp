@@ -82,7 +82,7 @@ ExitCode run(const ReportArguments& arguments, Output& output) {
                              .observations = stored->observations,
                              .tracked = analysis->tracked,
                              .scored = analysis->scored,
-                             .patches = analysis->patches,
+                             .patches = analysis->scored.patches,
                              .overrides = *overrides,
                              .program = rows->score.program};
   return write(output.json ? quality_json(reported) : quality_html(reported), arguments, output);

@@ -2,7 +2,6 @@
 
 #include "tracking/app/run_checks.h"
 #include "tracking/observing/sync_event.h"
-#include "tracking/scoring/run_patches.h"
 #include "tracking/scoring/score_run.h"
 
 namespace swarmsmith::cli {
@@ -30,9 +29,6 @@ OrRefusal<RunAnalysis> analyse(const Observations& observations, const Rig& rig,
   if (!start) return refused(start.error());
   for (const RunVideo& video : log.videos)
     analysis.starts_s.push_back(*start + video.clock_ahead_s);
-  auto patches = run_patches(log.mission, said_patches(log));
-  if (!patches) return refused(patches.error());
-  analysis.patches = std::move(*patches);
   TrackOptions options;
   options.span = {analysis.starts_s, log.mission.cycles, {}};
   for (const RunVideo& video : log.videos)
@@ -44,7 +40,7 @@ OrRefusal<RunAnalysis> analyse(const Observations& observations, const Rig& rig,
   auto tracked = track_run(observations, rig, log.mission.arena, options);
   if (!tracked) return refused(tracked.error());
   analysis.tracked = std::move(*tracked);
-  auto scored = score_run(analysis.tracked, log.mission, analysis.patches, observations.issues);
+  auto scored = score_run(analysis.tracked, log.mission, said_patches(log), observations.issues);
   if (!scored) return refused(scored.error());
   analysis.scored = std::move(*scored);
   return analysis;

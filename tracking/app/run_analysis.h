@@ -14,7 +14,6 @@ namespace swarmsmith::cli {
 /// The results that follow from a run's sightings and its known facts.
 struct RunAnalysis {
   std::vector<double> starts_s;  ///< of the run, on each camera's clock
-  std::vector<Patch> patches;    ///< over the arena's own
   TrackedRun tracked;
   ScoredRun scored;
 };

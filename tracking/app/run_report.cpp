@@ -12,7 +12,7 @@ ReportedRun reported_run(const Rig& rig, const RunLog& log, const Observations& 
           .observations = observations,
           .tracked = analysis.tracked,
           .scored = analysis.scored,
-          .patches = analysis.patches,
+          .patches = analysis.scored.patches,
           .overrides = {},
           .program = track_program_name()};
 }
@@ -25,7 +25,7 @@ RealRunRows rows_of(const ReportedRun& reported, const RunAnalysis& analysis,
                                     .observations = reported.observations,
                                     .starts_s = analysis.starts_s,
                                     .tracked = analysis.tracked,
-                                    .patches = analysis.patches,
+                                    .patches = analysis.scored.patches,
                                     .scored = analysis.scored});
   rows.candidate = candidate;
   rows.score.report = quality_json(reported);

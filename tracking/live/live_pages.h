@@ -1,12 +1,20 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "base/expected.h"
-#include "tracking/live/live_picture.h"
+#include "sim/mission/mission.h"
+#include "tracking/live/live_state.h"
 
 namespace swarmsmith {
+
+/// What is known beside the frames.
+struct LiveScenery {
+  std::optional<View> view;        ///< without it only tags are drawn
+  std::optional<Mission> mission;  ///< its floor is drawn, and its robots' bodies
+};
 
 /// Shows a live camera to browsers of this host, from threads of its own: / (a page),
 /// /stream.mjpg (pictures, one after the other), /frame.jpg (one picture), /state.json.

@@ -93,7 +93,9 @@ Expected<ScoredRun> score_run(const TrackedRun& run, const Mission& mission,
   Expected<std::vector<Patch>> laid = run_patches(mission, patches);
   if (!laid) return Unexpected(std::move(laid.error()));
   const Instance instance{.starts = run.starts, .patches = std::move(*laid)};
-  ScoredRun scored{.score = score_of(mission, instance, run.trajectory), .issues = before};
+  ScoredRun scored{.patches = instance.patches,
+                   .score = score_of(mission, instance, run.trajectory),
+                   .issues = before};
   scored.issues.insert(scored.issues.end(), run.issues.begin(), run.issues.end());
   measure_borders(run, mission, arena_of(mission, instance), scored);
   judge(scored);

@@ -19,6 +19,7 @@ struct BorderDistance {
 };
 
 struct ScoredRun {
+  std::vector<Patch> patches;   ///< of this run, over the arena's own
   std::optional<double> score;  ///< none when the run cannot be scored at all
   Verdict verdict = Verdict::Valid;
   bool biased = false;                                 ///< a tag was taken for its robot's centre

@@ -1,14 +1,18 @@
 #include <algorithm>
 #include <map>
+#include <set>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "analysis/records/chosen_scores.h"
 #include "analysis/records/names.h"
-#include "analysis/report/internal/score_table.h"
+#include "analysis/report/html.h"
 #include "analysis/report/internal/sections.h"
+#include "analysis/statistics/summary.h"
 
 namespace swarmsmith {
 namespace {
@@ -17,6 +21,49 @@ namespace {
 constexpr double kWholeWidth = 174;
 constexpr double kColumnWidth = 84;
 constexpr double kMiddleWidth = 120;
+
+struct ScoreGroup {
+  std::set<DesignId> designs;
+  std::vector<double> values;
+};
+
+/// Mission, method, source, purpose.
+using Key = std::tuple<std::string, std::string, std::string, std::string>;
+
+/// A row a mission, method, source and purpose: number, mean, standard deviation, and the five
+/// numbers of a box plot (analysis/statistics/summary.h).
+HtmlTable score_table(const std::string& caption, const ChosenScores& taken) {
+  HtmlTable table{.caption = caption,
+                  .columns = {{"mission"}, {"method"}, {"source"}, {"purpose"}, {"designs", true}}};
+  for (const char* number :
+       {"n", "mean", "sd", "least", "1st quartile", "median", "3rd quartile", "most"}) {
+    table.columns.push_back({number, true});
+  }
+  std::map<Key, ScoreGroup> found;
+  for (const auto& [score, runs] : values_of(taken)) {
+    ScoreGroup& group = found[{score.mission, score.method, score.source, score.purpose}];
+    group.designs.insert(score.design);
+    group.values.push_back(score.score);
+  }
+  for (const auto& [key, group] : found) {
+    const auto& [mission, method, source, purpose] = key;
+    const Summary summary = summary_of(group.values);
+    std::vector<std::string> row = {as_words(mission),
+                                    method,
+                                    source,
+                                    purpose,
+                                    fmt::format("{}", group.designs.size()),
+                                    fmt::format("{}", summary.n),
+                                    shown_number(summary.mean),
+                                    summary.n < 2 ? "-" : shown_number(summary.sd)};
+    for (const double value : {summary.least, summary.lower_quartile, summary.median,
+                               summary.upper_quartile, summary.most}) {
+      row.push_back(shown_number(value));
+    }
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
 
 /// Filmed runs, those that do not count included; stores before schema 5 have no view of them.
 void write_real_runs(ReportDraft& draft) {

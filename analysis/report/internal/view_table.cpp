@@ -1,22 +1,16 @@
 #include "analysis/report/internal/view_table.h"
 
 #include <charconv>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "analysis/records/names.h"
+#include "analysis/records/records.h"
 
 namespace swarmsmith {
 namespace {
 
 using Cell = StoreReader::Cell;
-
-constexpr StoreReader::QueryLimits kLimits{.rows = 50'000'000,
-                                           .seconds = 600,
-                                           .bytes = std::numeric_limits<std::int64_t>::max(),
-                                           .memory = std::int64_t{1} << 30U,
-                                           .spill = true};
 
 double real(const Cell& cell) {
   double value = 0;
@@ -60,7 +54,7 @@ Expected<HtmlTable> view_table(StoreReader& store, const std::string& caption,
     table.columns.push_back({column.title, is_number(column.show)});
   std::size_t rows = 0;
   const auto end = store.query(
-      sql, kLimits, [](const std::vector<std::string>&) {},
+      sql, kRecordLimits, [](const std::vector<std::string>&) {},
       [&](const std::vector<Cell>& cells) {
         if (++rows > most) return;
         std::vector<std::string> row;
@@ -77,7 +71,7 @@ Expected<std::vector<std::pair<std::string, std::string>>> view_facts(StoreReade
                                                                       const std::string& sql) {
   std::vector<std::pair<std::string, std::string>> facts;
   const auto end = store.query(
-      sql, kLimits, [](const std::vector<std::string>&) {},
+      sql, kRecordLimits, [](const std::vector<std::string>&) {},
       [&](const std::vector<Cell>& cells) {
         facts.emplace_back(cells[0].text, shown(cells[1], Show::Number));
       });

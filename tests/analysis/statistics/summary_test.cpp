@@ -44,5 +44,15 @@ TEST(Summary, TheMeanDoesNotDependOnTheOrder) {
   EXPECT_EQ(mean_of(std::vector<double>(7, 0.1)), 0.1);
 }
 
+TEST(MeanInterval, IsStudents) {
+  const MeanInterval summary = mean_interval(std::vector<double>{1, 2, 3, 4, 5});
+  EXPECT_DOUBLE_EQ(summary.mean, 3);
+  // R: t.test(1:5)$conf.int is 1.036757 to 4.963243.
+  EXPECT_NEAR(summary.half_width, 1.963243, 1e-6);
+  // R: t.test(c(1, 2))$conf.int is -4.853102 to 7.853102.
+  EXPECT_NEAR(mean_interval(std::vector<double>{1, 2}).half_width, 6.353102, 1e-6);
+  EXPECT_EQ(mean_interval(std::vector<double>{7}).half_width, 0);
+}
+
 }  // namespace
 }  // namespace swarmsmith

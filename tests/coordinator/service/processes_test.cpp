@@ -110,7 +110,7 @@ TEST_F(Processes, EvaluateACampaign) {
 }
 
 TEST_F(Processes, RequeueWithinTwoSecondsWhatAKilledWorkerHad) {
-  open(4, 1'000'000);
+  open(4, 800'000);
   std::jthread loop = run();
   {
     auto started = LocalWorkers::start(local(1));

@@ -1,7 +1,7 @@
-#include "analysis/statistics/internal/rank_distributions.h"
+#include "base/ranks.h"
 
 #include <algorithm>
-#include <vector>
+#include <numeric>
 
 namespace swarmsmith {
 namespace {
@@ -21,6 +21,24 @@ Tails tails_of(const std::vector<double>& counts, std::size_t value) {
 }
 
 }  // namespace
+
+AverageRanks average_ranks(std::span<const double> values) {
+  std::vector<std::size_t> order(values.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t i) { return values[i]; });
+  AverageRanks result{.ranks = std::vector<double>(values.size())};
+  for (std::size_t begin = 0; begin < order.size();) {
+    std::size_t end = begin + 1;
+    while (end < order.size() && values[order[end]] == values[order[begin]])
+      ++end;
+    for (std::size_t i = begin; i < end; ++i)
+      result.ranks[order[i]] = static_cast<double>(begin + 1 + end) / 2;
+    const auto size = static_cast<double>(end - begin);
+    result.ties += size * size * size - size;
+    begin = end;
+  }
+  return result;
+}
 
 Tails rank_sum_tails(std::size_t value, std::size_t m, std::size_t n) {
   const std::size_t few = std::min(m, n);

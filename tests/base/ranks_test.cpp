@@ -1,4 +1,4 @@
-#include "analysis/statistics/internal/rank_distributions.h"
+#include "base/ranks.h"
 
 #include <gtest/gtest.h>
 
@@ -60,6 +60,22 @@ TEST(RankDistributions, SignedRanksAreThoseOfAllSigns) {
     }
     for (std::size_t value = 0; value < counts.size(); ++value)
       expect_tails(counts, value, signed_rank_tails(value, n));
+  }
+}
+
+TEST(RankDistributions, SignedRanksOfThreeAreCountedByHand) {
+  // Subsets of {1, 2, 3} by their sum 0..6: 1 1 1 2 1 1 1.
+  const double eighths[] = {1, 2, 3, 5, 6, 7, 8};
+  for (std::size_t v = 0; v <= 6; ++v) {
+    EXPECT_EQ(signed_rank_tails(v, 3).lower, eighths[v] / 8);
+    EXPECT_EQ(signed_rank_tails(6 - v, 3).upper, eighths[v] / 8);
+  }
+}
+
+TEST(RankDistributions, SignedRankTailsAddUpToOne) {
+  for (std::size_t n = 1; n < 50; ++n) {
+    const std::size_t middle = n * (n + 1) / 4;
+    EXPECT_EQ(signed_rank_tails(middle, n).lower + signed_rank_tails(middle + 1, n).upper, 1);
   }
 }
 

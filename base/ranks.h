@@ -1,8 +1,18 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
+#include <vector>
 
 namespace swarmsmith {
+
+/// Ranks of values, the smallest has 1 and ties share their mean rank.
+struct AverageRanks {
+  std::vector<double> ranks;
+  double ties = 0;  ///< sum of u^3 - u over the sizes u of the groups of equal values
+};
+
+AverageRanks average_ranks(std::span<const double> values);
 
 /// Distributions of Wilcoxon's statistics without ties when nothing differs, by counting: R's
 /// pwilcox and psignrank.
