@@ -94,16 +94,16 @@ void on_signal(int signal) {
 
 }  // namespace
 
-void log(LogLevel level, std::string_view component, std::string_view event,
-         std::span<const LogField> fields) {
+void log_event(LogLevel level, std::string_view component, std::string_view event,
+               std::span<const LogField> fields) {
   Log& sink = the_log();
   if (level == LogLevel::None || static_cast<int>(level) < g_level.load()) return;
   sink.write(level, component, event, fields);
 }
 
-void log(LogLevel level, std::string_view component, std::string_view event,
-         std::initializer_list<LogField> fields) {
-  log(level, component, event, std::span(fields.begin(), fields.size()));
+void log_event(LogLevel level, std::string_view component, std::string_view event,
+               std::initializer_list<LogField> fields) {
+  log_event(level, component, event, std::span(fields.begin(), fields.size()));
 }
 
 void set_log_level(LogLevel level) {

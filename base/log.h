@@ -28,10 +28,10 @@ struct LogField {
 ///
 /// SWARMSMITH_LOG has words with commas between: a level (debug, info, warning, error, none), a
 /// form (text, json). Without a level it is info.
-void log(LogLevel level, std::string_view component, std::string_view event,
-         std::span<const LogField> fields);
-void log(LogLevel level, std::string_view component, std::string_view event,
-         std::initializer_list<LogField> fields = {});
+void log_event(LogLevel level, std::string_view component, std::string_view event,
+               std::span<const LogField> fields);
+void log_event(LogLevel level, std::string_view component, std::string_view event,
+               std::initializer_list<LogField> fields = {});
 
 /// Lines below this level are dropped, all of them at None. What the command line says wins over
 /// the environment.

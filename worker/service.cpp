@@ -89,7 +89,7 @@ class Loop {
   void tell_trouble(const std::string& trouble) {
     if (trouble == trouble_) return;
     trouble_ = trouble;
-    log(LogLevel::Warning, "worker", "cannot connect; trying on", {{"reason", trouble}});
+    log_event(LogLevel::Warning, "worker", "cannot connect; trying on", {{"reason", trouble}});
   }
 
   void tell_when_refused() {
@@ -108,8 +108,8 @@ class Loop {
     }
     if (told_ || end_ || now - active_ < kLonely) return;
     told_ = true;
-    log(LogLevel::Warning, "worker", "no coordinator answers; trying on for ten minutes",
-        {{"coordinator", endpoint_}});
+    log_event(LogLevel::Warning, "worker", "no coordinator answers; trying on for ten minutes",
+              {{"coordinator", endpoint_}});
   }
 
   void take_events(TimePoint now) {

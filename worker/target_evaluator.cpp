@@ -144,13 +144,13 @@ class Programs {
 
   void log_call(const LeasedTask& item, const std::string& outcome) const {
     if (target_.debug_level < kLogsCalls) return;
-    log(LogLevel::Info, "target",
-        is_evaluator_call(item) ? "targetEvaluator called" : "targetRunner called",
-        {{"configuration", std::to_string(number_of(item.key))},
-         {"instance", std::to_string(item.instance)},
-         {"seed", std::to_string(item.seed)},
-         {"switches", item.machine},
-         {"outcome", outcome}});
+    log_event(LogLevel::Info, "target",
+              is_evaluator_call(item) ? "targetEvaluator called" : "targetRunner called",
+              {{"configuration", std::to_string(number_of(item.key))},
+               {"instance", std::to_string(item.instance)},
+               {"seed", std::to_string(item.seed)},
+               {"switches", item.machine},
+               {"outcome", outcome}});
   }
 
   std::shared_ptr<const WorkerScenario> scenario_;  ///< of all slots

@@ -20,8 +20,8 @@ Error with_hint(Error error, const KeyFolder& folder, bool named) {
 
 void log_faults(const std::vector<Error>& faults) {
   for (const Error& fault : faults) {
-    log(LogLevel::Error, "coordinator", "list of clients refused; the last one stays",
-        {{"reason", to_string(fault)}});
+    log_event(LogLevel::Error, "coordinator", "list of clients refused; the last one stays",
+              {{"reason", to_string(fault)}});
   }
 }
 

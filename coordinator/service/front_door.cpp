@@ -34,10 +34,10 @@ Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options)
         options.bind);
   }
   if (options.insecure_plaintext) {
-    log(LogLevel::Warning, "coordinator",
-        "listening beyond loopback without encryption: whoever reaches the port can read the "
-        "campaign, send results and give commands",
-        {{"address", options.bind}});
+    log_event(LogLevel::Warning, "coordinator",
+              "listening beyond loopback without encryption: whoever reaches the port can read the "
+              "campaign, send results and give commands",
+              {{"address", options.bind}});
   }
   // The last words of a campaign send its workers home.
   options.socket.linger = std::chrono::milliseconds{200};
@@ -49,10 +49,10 @@ void RefusalLog::say(const Refusals& refusals, TimePoint now) {
     Said& said = said_[reason];
     if (count == said.count || (said.count > 0 && now - said.when < kSayAgain)) continue;
     const auto from = refusals.last_from.find(reason);
-    log(LogLevel::Warning, "coordinator", "connection refused",
-        {{"reason", reason},
-         {"times", std::to_string(count - said.count)},
-         {"last_from", from != refusals.last_from.end() ? from->second : "unknown"}});
+    log_event(LogLevel::Warning, "coordinator", "connection refused",
+              {{"reason", reason},
+               {"times", std::to_string(count - said.count)},
+               {"last_from", from != refusals.last_from.end() ? from->second : "unknown"}});
     said = {count, now};
   }
 }

@@ -29,7 +29,7 @@ void write(LogLevel level, std::string_view event, const Fields& fields) {
   views.reserve(fields.size());
   for (const auto& [key, value] : fields)
     views.push_back({key, value});
-  log(shown_as(level), "coordinator", event, views);
+  log_event(shown_as(level), "coordinator", event, views);
 }
 
 /// Whole numbers as such, others as in the event's text.

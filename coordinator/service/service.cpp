@@ -97,7 +97,8 @@ class Loop final : public Service {
     const std::vector<PeerId> cut = socket_->admit(*clients);
     for (const PeerId peer : cut)
       coordinator_.on_cut_off(peer, now);
-    log(LogLevel::Info, "coordinator", "list of clients taken",
+    log_event(
+        LogLevel::Info, "coordinator", "list of clients taken",
         {{"clients", std::to_string(clients->size())}, {"cut_off", std::to_string(cut.size())}});
   }
 
@@ -133,12 +134,12 @@ class Loop final : public Service {
       telemetry_.set_trouble(index, news->trouble);
       if (news->is_lost) {
         stores_.set_lost(index);
-        log(LogLevel::Error, "coordinator", "store is lost", {{"reason", news->trouble}});
+        log_event(LogLevel::Error, "coordinator", "store is lost", {{"reason", news->trouble}});
       } else if (news->trouble.empty()) {
-        log(LogLevel::Info, "coordinator", "store writes again");
+        log_event(LogLevel::Info, "coordinator", "store writes again");
       } else {
-        log(LogLevel::Error, "coordinator", "store cannot be written; leasing stopped",
-            {{"reason", news->trouble}});
+        log_event(LogLevel::Error, "coordinator", "store cannot be written; leasing stopped",
+                  {{"reason", news->trouble}});
       }
     }
     coordinator_.hold(holding());

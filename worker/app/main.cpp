@@ -98,7 +98,7 @@ Expected<AllowedPrograms> allowed_programs(const Arguments& arguments) {
 }
 
 int fail(const Error& error) {
-  log(LogLevel::Error, "worker", "failed", {{"reason", to_string(error)}});
+  log_event(LogLevel::Error, "worker", "failed", {{"reason", to_string(error)}});
   return static_cast<int>(ExitCode::Usage);
 }
 
@@ -144,12 +144,12 @@ int run(const Arguments& arguments) {
   change_log_level_by_signals();
   if (arguments.watch_input) watch_input();
   Pool pool(slots, make_evaluators(std::move(*allowed)), [&wakeup] { wakeup.notify(); });
-  log(LogLevel::Debug, "worker", "started",
-      {{"coordinator", arguments.connect.empty() ? arguments.coordinator : arguments.connect},
-       {"slots", std::to_string(slots)}});
+  log_event(LogLevel::Debug, "worker", "started",
+            {{"coordinator", arguments.connect.empty() ? arguments.coordinator : arguments.connect},
+             {"slots", std::to_string(slots)}});
   const WorkerEnd end = serve(*options, identity, pool, wakeup, g_drain);
   const LogLevel level = end.code == ExitCode::Done ? LogLevel::Debug : LogLevel::Error;
-  log(level, "worker", "ended", {{"reason", end.reason}});
+  log_event(level, "worker", "ended", {{"reason", end.reason}});
   // Slots that still run have missed the grace time; nobody waits for them any more.
   std::_Exit(static_cast<int>(end.code));
 }
@@ -221,7 +221,8 @@ int main(int argc, char** argv) {
   try {
     return swarmsmith::run_command_line(argc, argv);
   } catch (const std::exception& error) {
-    swarmsmith::log(swarmsmith::LogLevel::Error, "worker", "failed", {{"reason", error.what()}});
+    swarmsmith::log_event(swarmsmith::LogLevel::Error, "worker", "failed",
+                          {{"reason", error.what()}});
     return 1;
   }
 }
