@@ -153,7 +153,7 @@ TEST(IteratedRace, DropsNoEliteThatHasSeenMoreThanItsRivals) {
       }
       const auto* step = std::get_if<RaceStep>(&event);
       if (step == nullptr) continue;
-      for (const std::int64_t id : step->evaluated)
+      for (const auto& [id, seen] : step->evaluated)
         pairs[id].insert(step->pair);
       for (const Elimination& dropped : step->eliminations) {
         if (!known_before.contains(dropped.configuration)) continue;

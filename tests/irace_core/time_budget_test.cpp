@@ -115,7 +115,7 @@ TEST(TimedRace, BeginsWithAnEstimateWhoseRunsAreUsedAgain) {
       first = started;
     }
     if (const auto* step = std::get_if<RaceStep>(&event)) {
-      for (const std::int64_t id : step->evaluated)
+      for (const auto& [id, seen] : step->evaluated)
         EXPECT_TRUE(ran.emplace(id, step->pair).second) << id << " on " << step->pair;
     }
   }
