@@ -214,7 +214,7 @@ TEST(Evaluate, ExplainsWhatIsWrongWithItsArguments) {
       {{kStopText, "--mission", "aggregation", "--at", "3"}, "add --svg FILE"},
       {{"--nstates 1 --s0 9", "--mission", "aggregation"}, "MACHINE, token"},
       {{"nothing.fsm", "--mission", "aggregation"}, "nothing.fsm: not a machine"},
-      {{"c1", "--mission", "aggregation"}, "which store?"},
+      {{"c1", "--mission", "aggregation"}, "no store given"},
   };
   for (const Misuse& misuse : misuses) {
     std::vector<std::string> words = misuse.words;

@@ -43,7 +43,7 @@ TEST(Program, TakesNumbersWithUnderscores) {
   // The range complains about what remains.
   const Ran ran = run({"ls", "designs", "--limit", "2_000_000_000"});
   EXPECT_THAT(ran.err, HasSubstr("2000000000 not in range"));
-  EXPECT_THAT(run({"ls", "designs", "--limit", "1_000"}).err, HasSubstr("which store?"));
+  EXPECT_THAT(run({"ls", "designs", "--limit", "1_000"}).err, HasSubstr("no store given"));
 }
 
 TEST(Program, NamesWhatIsMissing) {

@@ -36,7 +36,7 @@ TEST_F(Digest, FindsItsStoreByWordOptionOrEnvironment) {
   ::unsetenv("SWARMSMITH_STORE");
   const Ran ran = run({"digest"});
   EXPECT_EQ(ran.code, 2);
-  EXPECT_THAT(ran.err, HasSubstr("which store?"));
+  EXPECT_THAT(ran.err, HasSubstr("no store given"));
 }
 
 TEST_F(Digest, ExitsWithThreeWhenTheStoreCannotBeUsed) {

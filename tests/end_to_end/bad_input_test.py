@@ -224,7 +224,7 @@ class BadStore(BadInput):
         path.write_bytes(whole[:20000])
         self.assert_unusable(path, "the store is truncated")
         path.write_bytes(os.urandom(9000))
-        self.assert_unusable(path, "this is no store")
+        self.assert_unusable(path, "not a store")
         path.write_bytes(b"")
         self.assert_unusable(path, "no campaign has begun in it", writing=False)
         path.unlink()
@@ -479,7 +479,7 @@ class BadPeers(BadInput):
     def test_addresses_that_are_none(self):
         for address in ("foo", "127.0.0.1", ":5", "127.0.0.1:99999", "127.0.0.1:x", "ipc:///x"):
             with self.subTest(address):
-                self.assert_refused(2, "is no address", "worker", "--connect", address)
+                self.assert_refused(2, "is not an address", "worker", "--connect", address)
                 self.assert_refused(2, "no address", "serve", self.file, "--bind", address)
         for address in ("0.0.0.0:0", "*:5555", "192.0.2.1:5555"):
             self.assert_refused(2, "swarmsmith keygen", "serve", self.file, "--bind", address,

@@ -119,7 +119,7 @@ line("argparser", "and so behind an equals sign", '--check "--parameter-file=my 
      says="Check successful", files={"my parameters.txt": PARAMETERS}, parameters=None)
 line("argparser", "an option at the end lacks its value", "--check -p", code=1, says=("-p|--parameter-file", "value"))
 line("argparser", "words that are no options", "scenario.txt", code=1,
-     says=("scenario.txt", "no option", "follow their names"))
+     says=("scenario.txt", "not an option", "follow their names"))
 line("argparser", "a switch of a scenario's name", "--maxExperiments 100", code=1, says="--max-experiments")
 line("argparser", "the last one wins", "--max-experiments 5 --max-experiments=97", budget=97)
 line("argparser", "an empty value unsets the budget", "--max-experiments=", code=1,

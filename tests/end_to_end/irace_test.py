@@ -282,7 +282,7 @@ class Survival(Irace):
         process.send_signal(signal.SIGINT)
         _, errors = process.communicate(timeout=60)
         self.assertEqual(process.returncode, 130)
-        self.assertIn("the same command goes on", errors)
+        self.assertIn("the same command continues", errors)
         done = self.irace()
         self.assertIn(": Going on after ", done.stdout)
         self.assertEqual(len(set(self.calls())), len(self.query(

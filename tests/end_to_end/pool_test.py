@@ -76,7 +76,7 @@ class Pool(ProgramTest):
 
     def test_what_makes_no_sense_is_refused(self):
         self.assert_refused("names one store", *self.files, "--store", self.folder / "x.db")
-        self.assert_refused("is there twice", self.files[0], self.files[0])
+        self.assert_refused("is given twice", self.files[0], self.files[0])
         third = self.write("third", 13, store=self.folder / "first.db")
         self.assert_refused("two of the campaigns have this store", self.files[0], third)
         self.assertEqual(list(self.folder.glob("*.db")), [])

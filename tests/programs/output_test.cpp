@@ -112,7 +112,7 @@ TEST(Output, SaysWhatIsWrongWithIt) {
   EXPECT_TRUE(mentions(fault(" \n\t", plain()), "printed nothing"));
   EXPECT_TRUE(mentions(fault("1 2 3", plain()), "more than it should"));
   EXPECT_TRUE(mentions(fault("1", with_time()), "less than it should"));
-  EXPECT_TRUE(mentions(fault("cost: 5", plain()), "no number, `cost:`"));
+  EXPECT_TRUE(mentions(fault("cost: 5", plain()), "not a number, `cost:`"));
   EXPECT_TRUE(mentions(fault("NaN", plain()), "is NaN"));
   EXPECT_TRUE(mentions(fault("NA", plain()), "is NA"));
   EXPECT_TRUE(mentions(fault("1 0", plain()), "above 0"));
@@ -152,8 +152,8 @@ TEST(Aclib, ReadsTheResultLine) {
   EXPECT_TRUE(mentions(read(R"({"status": "CRASHED", "cost": 1})").error().message, "CRASHED"));
   EXPECT_TRUE(mentions(read(R"({"status": "ABORT", "cost": 1})").error().message, "ABORT"));
   EXPECT_TRUE(mentions(read(R"({"status": "SUCCESS"})").error().message, "`cost`"));
-  EXPECT_TRUE(mentions(read("{").error().message, "no JSON object"));
-  EXPECT_TRUE(mentions(read("[1]").error().message, "no JSON object"));
+  EXPECT_TRUE(mentions(read("{").error().message, "not a JSON object"));
+  EXPECT_TRUE(mentions(read("[1]").error().message, "not a JSON object"));
   EXPECT_TRUE(mentions(fault("hello", target), "no line"));
   target.prints_time = true;
   EXPECT_FALSE(read(R"({"status": "SUCCESS", "cost": 1.5})"));

@@ -114,7 +114,7 @@ TEST_F(OpeningTest, NamesTenDifferencesAtMost) {
 
 TEST_F(OpeningTest, SaysThatAFolderIsMissingOrThatAStoreIsAFile) {
   path = folder / "none" / "s.db";
-  EXPECT_THAT(refusal().message, HasSubstr("there is no folder"));
+  EXPECT_THAT(refusal().message, HasSubstr("does not exist; make it first"));
   path = folder.path();
   EXPECT_THAT(refusal().message, HasSubstr("a store is a file"));
   path = folder / "none.db";

@@ -87,7 +87,7 @@ TEST_F(RanksFigureTest, SaysWhyThereIsNothingToRank) {
   EXPECT_EQ(figure.error().kind, ErrorKind::NotFound);
   EXPECT_THAT(figure.error().message, HasSubstr("all scores have the same source rvr"));
   EXPECT_THAT(make(*store, {.by = "method"}).error().message,
-              HasSubstr("of the method watermelon"));
+              HasSubstr("the same method watermelon"));
   EXPECT_EQ(make(*store, {.by = "mission"}).error().kind, ErrorKind::BadInput);
 }
 

@@ -95,7 +95,7 @@ TEST(ArgosExperiment, TakesNameDurationAndRobotsAndNothingElseOfAMission) {
   mission.arena.floor = {1, 2, 3};
   const auto other = argos_experiment({.machine = explorer(), .mission = mission});
   ASSERT_FALSE(other);
-  EXPECT_THAT(other.error().message, HasSubstr("mine is none of the thesis' three"));
+  EXPECT_THAT(other.error().message, HasSubstr("mine is not one of the thesis' three"));
   mission = *built_in_mission("aggregation");
   mission.robots = 10;
   EXPECT_FALSE(argos_experiment({.machine = explorer(), .mission = mission}));

@@ -74,7 +74,7 @@ TEST(HostFile, ReportsEveryMistakeWithItsPlace) {
                   HasSubstr("in/hosts:2:7: `slot=4` is none of slots=N, program=PATH, key=PATH, "
                             "coordinator=PATH (did you mean \"slots\"?)"),
                   HasSubstr("in/hosts:3:8: `slots` must be a number from 1 to 1024"),
-                  HasSubstr("in/hosts:4:1: `node1` is there twice"),
+                  HasSubstr("in/hosts:4:1: `node1` is given twice"),
                   HasSubstr("in/hosts:5:1: a line begins"),
                   HasSubstr("in/hosts:6:7: `program` must be a path from the root"),
                   HasSubstr("in/hosts:7:7: `slots` must be"), HasSubstr("in/hosts:7:17: `more`")));

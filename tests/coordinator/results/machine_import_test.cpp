@@ -102,7 +102,7 @@ TEST(MachineImport, NamesEveryBadRowByItsLine) {
   for (const Error& error : addition.error())
     texts.push_back(to_string(error));
   EXPECT_THAT(texts, ElementsAre(HasSubstr("m.csv:2, token 4"), HasSubstr("m.csv:3: no mission"),
-                                 HasSubstr("m.csv:4: `two words` is no name"),
+                                 HasSubstr("m.csv:4: `two words` is not a valid mission name"),
                                  "m.csv:6: d is the name of the machine of m.csv:5, too"));
 }
 

@@ -27,7 +27,7 @@ TEST(BoardTest, WrongWordsAreExplained) {
   EXPECT_THAT(message("chess"), HasSubstr("neither charuco nor chessboard"));
   EXPECT_THAT(message("chessboard:10x7"), HasSubstr("1 parts"));
   EXPECT_THAT(message("chessboard:10:0.03"), HasSubstr("COLUMNSxROWS"));
-  EXPECT_THAT(message("chessboard:10x7:x"), HasSubstr("no number"));
+  EXPECT_THAT(message("chessboard:10x7:x"), HasSubstr("not a number"));
   EXPECT_THAT(message("chessboard:2x7:0.03"), HasSubstr("3 to 100 inner corners"));
   EXPECT_THAT(message("chessboard:10x7:nan"), HasSubstr("0.001 to 1"));
   EXPECT_THAT(message("charuco:11x8:0.03:0.04:5x5_100"), HasSubstr("smaller than its square"));

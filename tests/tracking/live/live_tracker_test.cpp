@@ -126,7 +126,7 @@ TEST(LiveTrackerTest, SaysWhatIsWrong) {
   EXPECT_THAT(state.issues, Contains(HasSubstr("rvr1 (tag 1): the tag looks 11 % too large")));
   EXPECT_THAT(state.issues, Contains(HasSubstr("rvr2 (tag 2) has no offset calibration")));
   EXPECT_THAT(state.issues, Contains("tag 100 is visible more than once"));
-  EXPECT_THAT(state.issues, Contains("tag 33 is nobody's"));
+  EXPECT_THAT(state.issues, Contains("tag 33 belongs to no robot"));
   EXPECT_THAT(state.issues, Not(Contains(HasSubstr("outside"))));
 }
 
@@ -152,7 +152,7 @@ TEST(LiveStateTest, IsJsonAndALine) {
   state.dropped = 2;
   state.robots = {{"rvr \"1\"", 1, 0.2, Pose{0.5, -0.25, 1}, 12.43, true, {}},
                   {"bad\xff", 2, 0.2, {}, {}, false, {}}};
-  state.issues = {"bad (tag 2) has not been seen yet", "tag 33 is nobody's"};
+  state.issues = {"bad (tag 2) has not been seen yet", "tag 33 belongs to no robot"};
   const auto json = nlohmann::json::parse(live_state_json(state));
   EXPECT_EQ(json["robots"][0]["name"], "rvr \"1\"");
   EXPECT_EQ(json["robots"][0]["x"], 0.5);
