@@ -40,7 +40,7 @@ bool is_key(std::string_view text) {
 std::string public_key_of(const std::string& secret_key) {
   KeyText public_key{};
   if (zmq_curve_public(public_key.data(), secret_key.c_str()) != 0) {
-    throw std::runtime_error("no public key can be had from a secret one");
+    throw std::runtime_error("the public key cannot be derived from the secret one");
   }
   return public_key.data();
 }

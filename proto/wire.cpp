@@ -36,7 +36,7 @@ std::string encode_message(const Message& message) {
 
 Expected<std::string_view> payload_of(std::string_view frame, std::size_t most) {
   if (frame.size() < kFrameHeaderBytes || frame.size() > most) {
-    return bad_input("a frame of " + std::to_string(frame.size()) + " bytes; wanted 8 to " +
+    return bad_input("a frame of " + std::to_string(frame.size()) + " bytes; expected 8 to " +
                          std::to_string(most),
                      "length");
   }
@@ -96,7 +96,7 @@ Expected<const Message*> parse(std::string_view frame, std::size_t most,
   }
   auto* message = google::protobuf::Arena::CreateMessage<Message>(&arena);
   if (!message->ParseFromArray(payload->data(), static_cast<int>(payload->size()))) {
-    return bad_input("a frame that is no message of this protocol", "protobuf");
+    return bad_input("a frame that is not a message of this protocol", "protobuf");
   }
   return message;
 }

@@ -94,9 +94,9 @@ class Loop {
 
   void tell_when_refused() {
     if (!socket_.refused()) return;
-    tell_trouble(endpoint_ +
-                 " does not let this worker's key in: it is not in the coordinator's clients.toml, "
-                 "or has expired");
+    tell_trouble(
+        endpoint_ +
+        " refuses this worker's key: it is not in the coordinator's clients.toml, or has expired");
   }
 
   /// Once each time that nobody answers.
@@ -108,7 +108,7 @@ class Loop {
     }
     if (told_ || end_ || now - active_ < kLonely) return;
     told_ = true;
-    log_event(LogLevel::Warning, "worker", "no coordinator answers; trying on for ten minutes",
+    log_event(LogLevel::Warning, "worker", "no coordinator answers; trying for ten minutes",
               {{"coordinator", endpoint_}});
   }
 

@@ -65,7 +65,7 @@ class Simulation {
 
 Expected<Evaluator> make_simulation_evaluator(WorkerScenario scenario) {
   if (scenario.engine_version != kEngineVersion) {
-    return unexpected(ErrorKind::Conflict, "the campaign wants version " +
+    return unexpected(ErrorKind::Conflict, "the campaign needs version " +
                                                std::to_string(scenario.engine_version) +
                                                " of the simulator, this program has version " +
                                                std::to_string(kEngineVersion));

@@ -41,10 +41,11 @@ Expected<std::string> allowed_file(const std::string& program,
     return unexpected(ErrorKind::NotFound, "there is no such program on this host", program);
   }
   if (std::ranges::find(allowed, *file) != allowed.end()) return std::move(*file);
-  return unexpected(ErrorKind::Conflict, "the campaign wants to run the program " + *file +
-                                             ", which this worker may not: start the worker with "
-                                             "--allow " +
-                                             *file);
+  return unexpected(ErrorKind::Conflict,
+                    "the campaign needs the program " + *file +
+                        ", which this worker may not run: start the worker with "
+                        "--allow " +
+                        *file);
 }
 
 /// An instance as programs are told of it.
@@ -82,7 +83,7 @@ class Programs {
     std::error_code failed;
     if (std::filesystem::is_directory(target_.folder, failed)) return {};
     return unexpected(ErrorKind::NotFound,
-                      "the folder in which the campaign's programs run is not on this host",
+                      "this host lacks the folder in which the campaign's programs run",
                       target_.folder);
   }
 

@@ -9,7 +9,8 @@
 namespace swarmsmith::cli {
 
 /// All commands, in the order of the help. A new one: a file of its own with its `declare_`
-/// function, a line here, an entry in commands.cpp, a section in docs/command-line.md.
+/// function, which CMakeLists.txt lists, a line here, an entry in commands.cpp, a section in
+/// docs/command-line.md.
 std::span<const Command> commands();
 
 /// Runs `swarmsmith` with the words after its name (console/program.h).

@@ -41,8 +41,10 @@ Expected<std::int64_t> budget_of(const IraceSettings& settings, const IraceSetup
         "is a share of maxExperiments, which this scenario does not set: give a number of "
         "experiments, such as 200",
         kBudgetOption);
+  // 0.07 of 100 is 7, and 7.000000000000001 in binary.
+  constexpr double kRounding = 1e-9;
   return static_cast<std::int64_t>(
-      std::ceil(number * static_cast<double>(setup.race.max_experiments)));
+      std::ceil(number * static_cast<double>(setup.race.max_experiments) - kRounding));
 }
 
 /// Those that were asked for, else the best of every iteration and the elites of the last one, or

@@ -168,8 +168,7 @@ Expected<void> CampaignRunner::carry_out(const CommandRow& command) {
   const DesignId id = command.design;
   if (error_) return Unexpected(*error_);
   if (!id)
-    return bad_input("it must name a design: each acts at a step of its own",
-                     std::string(word_of(command.kind)));
+    return bad_input("name at least one design, such as d1", std::string(word_of(command.kind)));
   if (const auto waiting = waiting_.find(id); waiting != waiting_.end())
     return command_waiting(waiting, command);
   if (const auto kept = kept_.find(id); kept != kept_.end()) {
@@ -213,8 +212,8 @@ Error CampaignRunner::no_such_design(DesignId id) const {
             name};
   }
   return {ErrorKind::BadInput,
-          "it is over, and no longer in memory; a finished design is given more budget while no "
-          "coordinator runs the campaign, and goes on when it is run again",
+          "the design is over and no longer in memory; extend it while no coordinator runs the "
+          "campaign, and run the campaign again",
           name};
 }
 

@@ -18,16 +18,18 @@ Expected<void> check_command(const DesignPlan& plan, std::span<const CommandRow>
     return bad_input("a design can be cancelled and extended, nothing else",
                      std::string(word_of(command.kind)));
   }
-  if (plan.only_test) return bad_input("it has no race: given configurations are tested", name);
+  if (plan.only_test)
+    return bad_input("the design has no race: its configurations are only tested", name);
   for (const CommandRow& before : earlier) {
     if (before.kind == CommandKind::Cancel) return bad_input("it was cancelled before", name);
   }
   if (command.kind == CommandKind::Cancel) return {};
   if (plan.scenario.max_time > 0) {
-    return bad_input("its budget is time (max_time), and an extension is in experiments", name);
+    return bad_input("its budget is time (max_time), but an extension is a number of experiments",
+                     name);
   }
   if (command.budget < 1 || command.budget > kLargestBudget) {
-    return bad_input(fmt::format("an extension is 1 to {} experiments, and not {}", kLargestBudget,
+    return bad_input(fmt::format("an extension must be 1 to {} experiments, not {}", kLargestBudget,
                                  command.budget),
                      name);
   }

@@ -119,10 +119,11 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
     const auto least = race_->least_extension();
     if (!least) return Unexpected(least.error());
     if (command.budget < *least) {
-      return bad_input(fmt::format("{} experiments more give no further iteration; the least that "
-                                   "do are {}",
-                                   command.budget, *least),
-                       name);
+      return bad_input(
+          fmt::format(
+              "{} more experiments are too few for another iteration; at least {} are needed",
+              command.budget, *least),
+          name);
     }
   }
   commands_.add(command);
@@ -172,7 +173,7 @@ Expected<bool> DesignRunner::extend(std::vector<Task>& tasks) {
   const CommandRow* next = commands_.next(CommandKind::Extend, recorder_.steps());
   if (next == nullptr) return false;
   if (!race_) {
-    recorder_.record_warning("there is no race to extend");
+    recorder_.record_warning("the design has no race to extend");
     return false;
   }
   if (auto extended = race_->extend(next->budget); !extended) {

@@ -37,10 +37,10 @@ void compare_steps(const std::vector<Row>& rows, const Digests& found,
     if (step == nullptr) continue;
     const auto known = found.find({step->design, step->step});
     if (known == found.end() || known->second == step->digest) continue;
-    complaints.push_back(fmt::format(
-        "{}: the scores give another step {} than the one that was found: a score of it, "
-        "or before it, was changed",
-        to_string(step->design), step->step));
+    complaints.push_back(
+        fmt::format("{}: the scores give another step {} than the stored one: a score in it, or "
+                    "before it, was changed",
+                    to_string(step->design), step->step));
     return;
   }
 }

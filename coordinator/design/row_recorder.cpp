@@ -200,8 +200,8 @@ void RowRecorder::record_judged(std::int64_t number, std::int64_t pair, double s
 
 Error RowRecorder::other_step() const {
   return {ErrorKind::Corrupt,
-          "the race, replayed from the stored scores, takes another way than the store has: the "
-          "store was written by another version of the engine, or is damaged. Keep the file, and "
+          "the race, replayed from the stored scores, differs from the stored race: another "
+          "version of the engine wrote the store, or it is damaged. Keep the file, and "
           "run the campaign into a new store",
           to_string(design_.design) + ", step " + std::to_string(steps_ + 1)};
 }

@@ -112,8 +112,7 @@ std::vector<std::string> missing_from(std::vector<std::string>& all,
 void compare_finished(DesignAnswer& stored, DesignAnswer& replayed, const std::string& name,
                       std::vector<std::string>& complaints) {
   for (const std::string& row : missing_from(stored.rows, replayed.rows)) {
-    complaints.push_back(
-        fmt::format("{}: the scores give a row that the store lacks: {}", name, row));
+    complaints.push_back(fmt::format("{}: a row is missing from the store: {}", name, row));
   }
   for (const auto& [candidate, row] : replayed.totals) {
     const auto found = stored.totals.find(candidate);
@@ -181,8 +180,8 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   if (!stored.state) complaints.push_back(name + ": the store has no row of this design");
   if (const std::int64_t later = add_candidates(stored, replayed, finished); later > 0) {
     complaints.push_back(fmt::format(
-        "{}: {} candidates stand after a gap: {} evaluations before them are missing, the first is "
-        "{}; run the campaign on this store to have them again",
+        "{}: {} candidates come after a gap: {} evaluations before them are missing, the first is "
+        "{}; run the campaign on this store to evaluate them again",
         name, later, tasks.size(), tasks.empty() ? "unknown" : to_string(tasks.front().key)));
   }
   if (finished && !tasks.empty()) {
@@ -193,11 +192,11 @@ void verify_design(DesignPlan plan, StoredDesign scores, DesignAnswer& stored,
   }
   for (const std::string& row : missing_from(replayed.rows, stored.rows)) {
     complaints.push_back(
-        fmt::format("{}: the store has a row that its scores do not give: {}", name, row));
+        fmt::format("{}: the store has a row that does not follow from its scores: {}", name, row));
   }
   if (const std::size_t unasked = unasked_but_used(runner->unasked()); unasked > 0) {
     complaints.push_back(
-        fmt::format("{}: {} stored evaluations were never asked for by the race", name, unasked));
+        fmt::format("{}: the race never asked for {} stored evaluations", name, unasked));
   }
   if (finished) compare_finished(stored, replayed, name, complaints);
 }
@@ -298,7 +297,7 @@ Expected<std::vector<DesignPlan>> plans_of(const CampaignRow& row) {
   if (campaign_digest(*campaign) != row.digest) {
     return unexpected(ErrorKind::Conflict,
                       "the store was written by another version of the engine (or its campaign was "
-                      "changed by hand), so this program cannot play its races again");
+                      "changed by hand), so this program cannot replay its races");
   }
   return plans_of(*campaign);
 }

@@ -15,7 +15,7 @@ std::string complaint_about(StoreReader& store, const RealRunHead& head) {
   if (!run) return run.error().message;
   const double again = score_again(*run);
   if (again == *head.score) return {};
-  return fmt::format("its cycles score {}, and {} is stored", again, *head.score);
+  return fmt::format("its cycles score {}, but the store has {}", again, *head.score);
 }
 
 }  // namespace

@@ -194,7 +194,7 @@ void Scheduler::on_hello(PeerId peer, WorkerHello hello, TimePoint now) {
   }
   if (entry == nullptr && workers_->connected() >= book_->options.max_workers) {
     return refuse(RejectReason::Limit, "there are " + std::to_string(workers_->connected()) +
-                                           " workers already, which is the limit");
+                                           " workers already, the limit");
   }
   if (entry == nullptr && principal.workers.size() >= book_->options.max_workers_of_one) {
     return refuse(RejectReason::Limit, "there are " + std::to_string(principal.workers.size()) +

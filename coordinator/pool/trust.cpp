@@ -222,14 +222,13 @@ void Trust::convict(Principal& principal, const std::string& evidence, TimePoint
   for (std::uint32_t campaign = 0; campaign < principal.unchecked.size(); ++campaign) {
     const std::int64_t unchecked = principal.unchecked[campaign];
     if (unchecked == 0 || book_->is_stopped(campaign)) continue;
-    book_->stop(
-        campaign,
-        "scores in the store are not to be believed: " + evidence + ", and " +
-            std::to_string(unchecked) + " results of " + principal.name +
-            " are stored that nobody made again. Run the campaign again into a new store, without "
-            "the workers of " +
-            principal.name,
-        true);
+    book_->stop(campaign,
+                "scores in the store are not reliable: " + evidence + ", and " +
+                    std::to_string(unchecked) + " results of " + principal.name +
+                    " are stored without a check. Run the campaign again into a new store, without "
+                    "the workers of " +
+                    principal.name,
+                true);
   }
 }
 
@@ -262,7 +261,7 @@ void Trust::quarantine(Principal& principal, const std::string& reason, TimePoin
     TaskRecord* record = book_->leases.find(key);
     if (record != nullptr && !cases_.knows(key)) book_->leases.unpark(*record);
   }
-  if (workers_->trusted() == 0) book_->note("error", "no worker left that is trusted", {});
+  if (workers_->trusted() == 0) book_->note("error", "no trusted worker is left", {});
 }
 
 void Trust::take(WorkerEntry& entry, TaskRecord& record, const Result& result, TimePoint now) {

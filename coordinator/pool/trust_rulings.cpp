@@ -152,7 +152,7 @@ void Trust::on_ruling(const Ruling& ruling, TimePoint now) {
       let_go(said);
     return book_->stop(ruled->task.campaign,
                        "the evaluation of " + name_of(ruled->task.key) +
-                           " has to be made by this host itself, which cannot: " + ruling.reason);
+                           " must be evaluated on this host, which cannot do it: " + ruling.reason);
   }
   carry_out(*ruled, ruling, now);
   for (const Said& said : ruled->said)

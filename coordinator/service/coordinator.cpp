@@ -216,7 +216,7 @@ Expected<std::uint32_t> Coordinator::campaign_of(const pb::Command& command) con
   if (command.campaign().empty()) {
     if (campaigns_.size() == 1) return 0U;
     return bad_input("this coordinator runs " + std::to_string(campaigns_.size()) +
-                     " campaigns: name the store of the one that is meant");
+                     " campaigns: name the store of one");
   }
   const auto at = std::ranges::find(facts_.campaign_digests, command.campaign());
   if (at == facts_.campaign_digests.end()) {
@@ -233,8 +233,7 @@ Expected<std::string> Coordinator::obey(std::uint32_t index, const pb::Command& 
                        .design = {command.design()},
                        .budget = command.budget(),
                        .who = command.who()};
-  if (row.kind == CommandKind::Unknown)
-    return bad_input("a command that this version does not know");
+  if (row.kind == CommandKind::Unknown) return bad_input("unknown command");
   if (campaign.stopped) return bad_input("the campaign has stopped: " + *campaign.stopped);
   if (is_of_leases(row.kind)) return pause(index, row);
   if (auto done = campaign.source->carry_out(row); !done) return Unexpected(done.error());
@@ -254,7 +253,7 @@ Expected<std::string> Coordinator::pause(std::uint32_t index, const CommandRow& 
   if (!rows) {
     return unexpected(
         ErrorKind::NotFound,
-        "the campaign has no such design, or it is over; those that are not: " + listed(unfinished),
+        "the campaign has no such design, or it is over; unfinished designs: " + listed(unfinished),
         to_string(command.design));
   }
   for (CommandRow& row : *rows) {
@@ -276,7 +275,7 @@ void Coordinator::note_if_all_is_paused(Campaign& campaign) {
     });
     if (all && !campaign.all_paused) {
       campaign.own_rows.emplace_back(
-          pool_event("warning", "all that is left is paused; `swarmsmith resume` goes on",
+          pool_event("warning", "only paused designs remain; `swarmsmith resume` continues them",
                      {{"designs", listed(left)}}));
     }
   }
@@ -424,7 +423,7 @@ void Coordinator::audit_stored(std::uint32_t index) {
   }
   if (!is_over || words.empty()) return;
   campaign.own_rows.emplace_back(
-      pool_event("warning", "audits left out; `swarmsmith verify --sample` makes evaluations again",
+      pool_event("warning", "audits skipped; `swarmsmith verify --sample` repeats evaluations",
                  {{"evaluations", static_cast<std::int64_t>(words.size())}}));
   words.clear();
 }

@@ -23,21 +23,22 @@ Expected<std::unique_ptr<ServerSocket>> open_front_door(ServiceOptions& options)
   }
   const auto address = address_of(options.bind);
   if (!address) {
-    return bad_input("this is no address to listen on; it is written 127.0.0.1:5555, host and port",
+    return bad_input("invalid address; expected host and port, such as 127.0.0.1:5555",
                      options.bind);
   }
   options.insecure_plaintext = !options.keys && !is_loopback(*address);
   if (options.insecure_plaintext && !insisted) {
     return bad_input(
-        "other hosts may connect here, so that keys are needed: make them with `swarmsmith "
+        "other hosts may connect here, so keys are needed: make them with `swarmsmith "
         "keygen`, or listen on tcp://127.0.0.1:PORT",
         options.bind);
   }
   if (options.insecure_plaintext) {
-    log_event(LogLevel::Warning, "coordinator",
-              "listening beyond loopback without encryption: whoever reaches the port can read the "
-              "campaign, send results and give commands",
-              {{"address", options.bind}});
+    log_event(
+        LogLevel::Warning, "coordinator",
+        "listening beyond loopback without encryption: anybody who reaches the port can read the "
+        "campaign, send results and give commands",
+        {{"address", options.bind}});
   }
   // The last words of a campaign send its workers home.
   options.socket.linger = std::chrono::milliseconds{200};

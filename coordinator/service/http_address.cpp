@@ -68,8 +68,7 @@ class Closer {
 Expected<HttpAddress> parse_http_address(const std::string& text) {
   const auto [host, port] = split(text);
   const auto wrong = [&] {
-    return bad_input("this is no address for pages; it is written 127.0.0.1:8347, host and port",
-                     text);
+    return bad_input("invalid address; expected host and port, such as 127.0.0.1:8347", text);
   };
   if (host.empty() || !port) return wrong();
   if (*port == "*") return HttpAddress{host, 0};

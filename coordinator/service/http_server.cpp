@@ -116,7 +116,8 @@ class Pages final : public HttpServer {
   std::string obstacle() const {
     const auto now = published();
     if (!now) return "starting";
-    if (Clock::now() - now->when > options_.stale_after) return "the coordinator's loop stands";
+    if (Clock::now() - now->when > options_.stale_after)
+      return "the coordinator's loop has stalled";
     return now->status.trouble.empty() ? "" : "a store cannot be written: " + now->status.trouble;
   }
 

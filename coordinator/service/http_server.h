@@ -16,7 +16,7 @@ struct HttpOptions {
   std::string token;       ///< that requests must carry; must not be empty beyond loopback
   /// For a request's head to come, and again for the answer to go.
   std::chrono::milliseconds request_time{3000};
-  /// Older numbers than that mean that the coordinator's loop stands.
+  /// Older numbers than that mean that the coordinator's loop has stalled.
   std::chrono::milliseconds stale_after{5000};
 };
 

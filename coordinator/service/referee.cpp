@@ -165,13 +165,13 @@ class ProcessReferee final : public Referee {
     const auto message = decode_to_coordinator(frame, arena);
     if (!message || (*message)->results().results_size() != 1) {
       end_child();
-      return {.trouble = "the referee's process says what nobody understands"};
+      return {.trouble = "the referee's process sent an unknown message"};
     }
     const Result result = result_of((*message)->results().results(0));
     // The host's trouble, and not the evaluation's.
     if (result.failure == std::bad_alloc().what()) {
       end_child();
-      return {.trouble = "the memory of this host is not enough for it"};
+      return {.trouble = "this host has too little memory for it"};
     }
     if (!result.failure.empty() || result.rejected) {
       return {.ruling = Ruling{.kind = Ruling::Kind::Rejected, .reason = result.failure}};
@@ -214,7 +214,7 @@ class ProcessReferee final : public Referee {
     if (!is_ours(frame)) {
       end_child();
       return unexpected(ErrorKind::Conflict,
-                        "it is of another build: its self test gives other bits; install it again",
+                        "it is another build: its self test gives other bits; install it again",
                         program.string());
     }
     PoolFacts facts;

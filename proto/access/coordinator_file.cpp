@@ -24,7 +24,7 @@ void read_endpoint(TableReader& root, CoordinatorFile& coordinator) {
   const auto address = address_of(coordinator.endpoint);
   if (!coordinator.endpoint.empty() &&
       (!address || is_wildcard(*address) || address->port == "*")) {
-    root.complain("endpoint", "`endpoint` must be where to connect: \"tcp://HOST:PORT\"");
+    root.complain("endpoint", "`endpoint` must be the address to connect to: \"tcp://HOST:PORT\"");
   }
 }
 
@@ -32,7 +32,7 @@ void read_endpoint(TableReader& root, CoordinatorFile& coordinator) {
 
 std::string text_of(const CoordinatorFile& coordinator) {
   std::string text =
-      "# Where the coordinator of the campaign beside it is found, as long as it runs:\n"
+      "# Address of the coordinator of the campaign beside this file, while it runs:\n"
       "# swarmsmith worker --coordinator THIS_FILE\nformat = 1\n";
   text += line("endpoint", quoted_text(coordinator.endpoint));
   if (!coordinator.public_key.empty()) text += line("key", quoted_text(coordinator.public_key));

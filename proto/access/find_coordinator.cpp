@@ -20,7 +20,7 @@ Expected<FoundCoordinator> with_key(const CoordinatorSearch& search, const std::
     if (error.kind == ErrorKind::NotFound) {
       error.message += own ? ""
                            : ", and " + endpoint +
-                                 " needs one; copy it from where `swarmsmith keygen` made it, or "
+                                 " needs a key; copy the one that `swarmsmith keygen` made, or "
                                  "name another file with --key";
     }
     error.kind = ErrorKind::BadInput;
@@ -28,7 +28,7 @@ Expected<FoundCoordinator> with_key(const CoordinatorSearch& search, const std::
   }
   if (!server_key.empty() && server_key != key->server_key) {
     return bad_input("this key belongs to another coordinator than " + search.file.string() +
-                         " tells of; take a key from that one's folder",
+                         " names; take a key from that coordinator's folder",
                      file.string());
   }
   return FoundCoordinator{.endpoint = endpoint, .keys = key->keys()};

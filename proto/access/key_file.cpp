@@ -12,7 +12,8 @@ namespace swarmsmith {
 namespace {
 
 constexpr const char* kWarning =
-    "# Secret: whoever reads this file can connect with it. Mode 0600; copy it with scp or on a\n"
+    "# Secret: anybody who reads this file can connect with it. Mode 0600; copy it with scp or on "
+    "a\n"
     "# file system that others cannot read, never by mail or into a repository.\n";
 constexpr const char* kServerRole = "server";
 
@@ -35,7 +36,7 @@ std::string read_key(TableReader& table, const char* name) {
   }
   const auto key = table.text(name);
   if (key && is_key(*key)) return *key;
-  if (key) table.complain(name, "`" + std::string(name) + "` is no key: 40 characters in Z85");
+  if (key) table.complain(name, "`" + std::string(name) + "` is not a key of 40 characters in Z85");
   return "";
 }
 
@@ -44,8 +45,7 @@ std::string read_key(TableReader& table, const char* name) {
 Expected<Fields> parse_fields(std::string_view text, const std::string& file) {
   const auto document = parse_document(text, file);
   if (!document) {
-    return bad_input("this is no key file as `swarmsmith keygen` writes it",
-                     document.error().where);
+    return bad_input("this is not a key file of `swarmsmith keygen`", document.error().where);
   }
   Complaints complaints(file);
   TableReader root(*document, "", complaints);
@@ -85,7 +85,7 @@ std::string text_of(const ClientKeyFile& key) {
   return "# Key of the client \"" + key.name + "\" of a Swarmsmith coordinator.\n" + kWarning +
          "format = 1\n" + key_line("name", key.name) + key_line("role", name_of(key.role)) +
          key_line("public", key.pair.public_key) + key_line("secret", key.pair.secret_key) +
-         "# The coordinator's public key: no other one is talked to.\n" +
+         "# The coordinator's public key; the client talks to no other coordinator.\n" +
          key_line("server", key.server_key);
 }
 
@@ -101,7 +101,7 @@ Expected<ClientKeyFile> parse_client_key(std::string_view text, const std::strin
   const auto role = role_of(fields->role);
   if (!role) {
     return bad_input(
-        "this is the coordinator's own key, and stays with it; clients have others, such as "
+        "this is the coordinator's key, which stays with it; clients use others, such as "
         "worker.key",
         file);
   }

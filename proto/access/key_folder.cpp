@@ -96,7 +96,7 @@ Expected<std::vector<std::filesystem::path>> make_key_folder(const KeyFolder& fo
   for (const auto& [file, text] : files) {
     if (std::error_code ignored; !std::filesystem::exists(file, ignored)) continue;
     return unexpected(ErrorKind::Conflict,
-                      "is there already, and keys are never overwritten; name another folder, or "
+                      "exists already, and keys are never overwritten; name another folder, or "
                       "add a client to this one with --client NAME",
                       file.string());
   }

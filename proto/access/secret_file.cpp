@@ -47,7 +47,7 @@ std::string objection_to(const struct stat& status, const std::filesystem::path&
   // What the administrator wrote is as good as one's own.
   if (status.st_uid != geteuid() && status.st_uid != 0) {
     return "the file belongs to another user (id " + std::to_string(status.st_uid) +
-           "), who could let anybody in; take it over: chown " + std::to_string(geteuid()) + " " +
+           "), who could admit anybody; take it over: chown " + std::to_string(geteuid()) + " " +
            file.string();
   }
   if ((status.st_mode & 022U) != 0) {

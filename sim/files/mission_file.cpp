@@ -114,7 +114,7 @@ void check_room(TableReader& table, const Mission& mission) {
 void read_keys(TableReader& table, const ReadingPlace& place, MissionEntry& entry) {
   Mission& mission = entry.mission;
   read_duration(table, mission);
-  if (const auto robots = table.integer("robots", {1, 100})) {
+  if (const auto robots = table.integer("robots", {1, 1000})) {
     mission.robots = static_cast<int>(*robots);
   }
   if (auto score = table.table("score")) {

@@ -104,7 +104,7 @@ TEST_F(RealRuns, AreScoredAgainByVerify) {
   change("UPDATE real_cycle SET x = 0, y = 0 WHERE run = 1 AND cycle = 100");
   change("UPDATE real_score SET score = 1 WHERE run = 1");
   EXPECT_THAT(run({"verify", store_}).out,
-              HasSubstr("real run r1: its cycles score 3, and 1 is stored"));
+              HasSubstr("real run r1: its cycles score 3, but the store has 1"));
   change("DELETE FROM real_cycle WHERE run = 2 AND cycle = 50 AND robot = 1");
   const Ran broken = run({"verify", store_});
   EXPECT_EQ(broken.code, 3);

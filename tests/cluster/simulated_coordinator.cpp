@@ -146,7 +146,7 @@ void SimulatedCluster::append(std::uint32_t campaign, std::vector<Row> rows) {
   Running& running = campaigns_[campaign];
   left_out_audits_ |= std::ranges::any_of(rows, [](const Row& row) {
     const auto* event = std::get_if<EventRow>(&row);
-    return event != nullptr && event->kind.starts_with("audits left out");
+    return event != nullptr && event->kind.starts_with("audits skipped");
   });
   running.uncommitted.push_back({++running.tickets, std::move(rows)});
   coordinator_->on_appended(campaign, running.tickets);

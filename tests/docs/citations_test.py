@@ -1,5 +1,5 @@
 """Citations ("tracking facts, section 5") lead to a page of docs/reference and a section that it has; relative links of
-Markdown pages lead to a file, and to a heading of it."""
+Markdown pages lead to a file, and to a heading of it; files that pages and comments name by their path are there."""
 import functools
 import os
 import pathlib
@@ -167,6 +167,22 @@ def wrong_links(page, text, exists, read):
 
 # The tree.
 
+ROOMS = ("analysis", "base", "benchmarks", "cli", "console", "coordinator", "docs", "examples", "irace_core", "programs",
+         "proto", "sim", "storage", "tests", "tracking", "worker")
+# Decisions and the changelog tell of their time; builds, readers of how-tos and tests make some files.
+HISTORY = ("docs/decisions/", "docs/reference/", "CHANGELOG.md")
+MADE = re.compile(r".*\.pb\.h|sim/mission/scores/(spread|KIND)\.|sim/mission/score_rule\.h|examples/missions/x\.toml")
+
+
+def wrong_paths(text, files):
+    """(line, path) of files that a text names from the root of the repository, and that are not there."""
+    names = re.compile(r"(?<![\w./-])(?:" + "|".join(ROOMS) + r")/[\w./-]*\.(?:cpp|h|py|md|proto|sql|toml|R)\b")
+    for number, line in enumerate(text.split("\n"), 1):
+        for name in names.findall(line):
+            if name not in files and not MADE.match(name):
+                yield number, name
+
+
 def tracked_files():
     """Paths from the root: what git knows, or, in a copy without git, what lies there."""
     done = subprocess.run(["git", "-C", str(SOURCE), "ls-files", "-z"], capture_output=True, check=False)
@@ -210,6 +226,13 @@ class Tree(unittest.TestCase):
             self.assertGreater(cited[page], 4, f"{page} facts")
         self.assert_nothing_wrong(wrong)
 
+    def test_paths_lead_to_files(self):
+        files = set(tracked_files())
+        found = {name: list(wrong_paths(text_of(name), files)) for name in sorted(files)
+                 if pathlib.Path(name).suffix in SUFFIXES and not name.startswith(HISTORY)
+                 and pathlib.Path(name).name not in (OWN, "debian_examples_test.cpp")}
+        self.assertEqual({name: wrong for name, wrong in found.items() if wrong}, {})
+
     def test_links_lead_to_files_and_headings(self):
         wrong = []
         links = 0
@@ -238,6 +261,12 @@ PAGE = """# Tracking facts
 ## Sources
 3. none
 """
+
+
+class Paths(unittest.TestCase):
+    def test_what_is_not_there_is_reported_with_its_line(self):
+        text = "see\n`docs/a.md`, tests/coordinator/gone_test.cpp and /usr/docs/b.md"
+        self.assertEqual(list(wrong_paths(text, {"docs/a.md"})), [(2, "tests/coordinator/gone_test.cpp")])
 
 
 class Citations(unittest.TestCase):

@@ -480,7 +480,7 @@ class BadPeers(BadInput):
         for address in ("foo", "127.0.0.1", ":5", "127.0.0.1:99999", "127.0.0.1:x", "ipc:///x"):
             with self.subTest(address):
                 self.assert_refused(2, "is not an address", "worker", "--connect", address)
-                self.assert_refused(2, "no address", "serve", self.file, "--bind", address)
+                self.assert_refused(2, "invalid address", "serve", self.file, "--bind", address)
         for address in ("0.0.0.0:0", "*:5555", "192.0.2.1:5555"):
             self.assert_refused(2, "swarmsmith keygen", "serve", self.file, "--bind", address,
                                 "--keys", self.folder / "no-keys")

@@ -159,7 +159,7 @@ class Commands(ProgramTest):
         self.file.write_text(self.file.read_text().replace("= 6000", "= 1400"))
         self.go_on()
         plain = self.digest(self.store)
-        self.assertIn("no further iteration",
+        self.assertIn("too few for another iteration",
                       self.ask("extend", self.store, "d1", "--budget", "1", code=1))
         self.assertIn("no design given", self.ask("extend", self.store, "--budget", "900", code=2))
         self.assertIn("no such design", self.ask("extend", self.store, "d9", "--budget", "900",

@@ -144,7 +144,7 @@ class Security(ProgramTest):
         os.kill(server.pid, signal.SIGHUP)
         wait_for(lambda: "cut_off=1" in log.read_text(), "the cut")
         wait_for(lambda: "expired key" in log.read_text(), "the refusal")
-        wait_for(lambda: "does not let this worker's key in" in workers_log.read_text(),
+        wait_for(lambda: "refuses this worker's key" in workers_log.read_text(),
                  "the worker's word")
         self.assertIsNone(worker.poll(), "a worker that is refused tries on")
         # And comes back when it is listed again.

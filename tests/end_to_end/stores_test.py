@@ -215,7 +215,7 @@ class Recover(Stores):
                           " AND candidate = 7 AND pair = 2")
         store.close()
         told = self.recover(copy.read_bytes())
-        self.assertIn("a score of it, or before it, was changed", " ".join(told["complaints"]))
+        self.assertIn("a score in it, or before it, was changed", " ".join(told["complaints"]))
 
     def test_errors_say_that_it_can_be_done(self):
         self.damaged.write_bytes(self.bytes[:len(self.bytes) // 2])

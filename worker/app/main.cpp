@@ -208,8 +208,8 @@ int run_command_line(int argc, char** argv) {
     return code == 0 ? 0 : static_cast<int>(ExitCode::Usage);
   }
   if (!arguments.connect.empty() && !is_tcp_address(arguments.connect)) {
-    return fail({ErrorKind::BadInput, "this is no address; it is written tcp://HOST:PORT",
-                 arguments.connect});
+    return fail(
+        {ErrorKind::BadInput, "invalid address; expected tcp://HOST:PORT", arguments.connect});
   }
   return run(arguments);
 }

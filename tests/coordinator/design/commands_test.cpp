@@ -118,11 +118,11 @@ TEST(Commands, AreRefusedWithWhatCanBeDone) {
     const auto done = runner.carry_out(command);
     return done ? std::string("done") : to_string(done.error());
   };
-  EXPECT_THAT(refusal(cancel(1, 0)), HasSubstr("must name a design"));
+  EXPECT_THAT(refusal(cancel(1, 0)), HasSubstr("name at least one design"));
   EXPECT_THAT(refusal(cancel(1, 7)), HasSubstr("d7: the campaign has no such design; it has d1"));
   EXPECT_THAT(refusal({.number = 1, .kind = CommandKind::Pause, .design = {1}}),
               HasSubstr("nothing else"));
-  EXPECT_THAT(refusal(extend(1, 0)), HasSubstr("and not 0"));
+  EXPECT_THAT(refusal(extend(1, 0)), HasSubstr("experiments, not 0"));
   do {
     for (const Task& task : runner.take_tasks())
       runner.tell(honest(task));
@@ -132,7 +132,7 @@ TEST(Commands, AreRefusedWithWhatCanBeDone) {
   EXPECT_THAT(refusal(cancel(1)), HasSubstr("only the tests"));
   IdlePool(runner, memory, Rng(1), honest, 0).run();
   EXPECT_THAT(refusal(cancel(1)), HasSubstr("finished"));
-  EXPECT_THAT(refusal(extend(1, 1)), HasSubstr("the least that do are "));
+  EXPECT_THAT(refusal(extend(1, 1)), HasSubstr("too few for another iteration; at least "));
   EXPECT_TRUE(memory.commands().empty());
 
   CampaignRunner cancelled(one_design(), {}, {});

@@ -19,7 +19,7 @@ using testing::IsEmpty;
 
 namespace fs = std::filesystem;
 
-/// The examples of Debian's package r-cran-irace, which is irace 3.5 (docs/irace-parts/examples.md
+/// The examples of Debian's package r-cran-irace, which is irace 3.5 (docs/irace-examples.md
 /// says what they need). Their licence keeps them out of our tree: they are read where the package
 /// is installed, in a folder that holds what the examples expect to be there.
 class DebianExamples : public testing::Test {

@@ -41,9 +41,9 @@ TEST(CoordinatorFiles, SayWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint_about("endpoint"), HasSubstr("c.db.coordinator:1:"));
   EXPECT_THAT(complaint_about("format = 1\n"), HasSubstr("needs an `endpoint`"));
   EXPECT_THAT(complaint_about("format = 1\nendpoint = \"login1:5555\"\n"),
-              HasSubstr("c.db.coordinator:2:12: `endpoint` must be where to connect"));
+              HasSubstr("c.db.coordinator:2:12: `endpoint` must be the address to connect to"));
   EXPECT_THAT(complaint_about("format = 1\nendpoint = \"tcp://0.0.0.0:5555\"\n"),
-              HasSubstr("where to connect"));
+              HasSubstr("address to connect to"));
   EXPECT_THAT(complaint_about("format = 1\nendpoint = \"tcp://a:1\"\nkey = \"x\"\n"),
               HasSubstr("c.db.coordinator:3:7: `key` must be a public key"));
   EXPECT_THAT(complaint_about("format = 2\nendpoint = \"tcp://a:1\"\n"), HasSubstr("newer"));

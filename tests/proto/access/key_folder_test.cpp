@@ -143,7 +143,7 @@ TEST_F(Keys, ThatAreDamagedAreRefusedWithoutShowingThem) {
 }
 
 TEST_F(Keys, OfServerAndClientsAreToldApart) {
-  EXPECT_THAT(refusal(folder.server_key()), HasSubstr("the coordinator's own key"));
+  EXPECT_THAT(refusal(folder.server_key()), HasSubstr("the coordinator's key"));
   const auto server = read_server_key(worker);
   ASSERT_FALSE(server);
   EXPECT_THAT(to_string(server.error()), HasSubstr("a client's key"));
