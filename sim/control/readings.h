@@ -66,8 +66,8 @@ Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neig
 /// Vector of the light: w_l of the thesis (eq. 5.1), each reading as light_i in [0, 1].
 Vector2 light_vector(const LightReadings& lux, const LightModel& model);
 
-/// Colours come as references: the three bytes that make one were often just written one by one, and
-/// who reads two of them at once then waits.
+/// Colours come as references: the three bytes that make one were often just written one by one,
+/// and who reads two of them at once then waits.
 
 /// Grey level in thousandths of 0..255: 0.299 R + 0.587 G + 0.114 B without rounding.
 constexpr int gray_level(const Rgb& color) {
