@@ -198,7 +198,7 @@ void swarm(benchmark::State& state, bool lidar) {
   run_rounds(state, static_cast<double>(machines.size()), [&](int seed) {
     const Instance instance = instance_of(mission, seed).value();
     for (const Machine& machine : machines) {
-      benchmark::DoNotOptimize(simulate({.machine = machine,
+      benchmark::DoNotOptimize(simulate({.controller = machine,
                                          .flavour = watermelon_argos3(),
                                          .profile = profile,
                                          .mission = mission,

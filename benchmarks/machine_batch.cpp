@@ -30,7 +30,7 @@ double cost_of(const Campaign& campaign, const Flavour& flavour, std::int64_t se
   if (!machine) give_up(to_string(machine.error()) + " in: " + text);
   const auto instance = instance_of(mission, seed);
   if (!instance) give_up(to_string(instance.error()));
-  return to_cost(simulate({.machine = *machine,
+  return to_cost(simulate({.controller = *machine,
                            .flavour = flavour,
                            .profile = campaign.profile,
                            .mission = mission,

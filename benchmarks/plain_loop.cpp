@@ -74,7 +74,7 @@ std::size_t evaluate_all(const std::vector<Work>& work, const Campaign& campaign
     for (std::size_t i = next++; i < work.size(); i = next++) {
       const auto machine = parse_machine(*work[i].machine, flavour);
       const auto instance = instance_of(mission, work[i].seed);
-      const SimulationResult result = simulate({.machine = *machine,
+      const SimulationResult result = simulate({.controller = *machine,
                                                 .flavour = flavour,
                                                 .profile = campaign.profile,
                                                 .mission = mission,

@@ -12,6 +12,7 @@
 #include "irace_core/parameter_space.h"
 #include "irace_core/race_event.h"
 #include "irace_core/scenario.h"
+#include "irace_core/search.h"
 
 namespace swarmsmith {
 
@@ -52,7 +53,7 @@ std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario)
 /// and seeds of the pairs, in rows), "initial" (the seed of the Sobol sequence), "sampling" by
 /// iteration (parents and values, one configuration after the other, parameters in hierarchy
 /// order), "order" by iteration (past pairs).
-class IteratedRace {
+class IteratedRace final : public Search {
  public:
   /// `initial` configurations take part in the first race, before sampled ones; they get the ids
   /// from 1 in their order, and forbidden ones take no part. A budget that is too small is an error
@@ -62,32 +63,32 @@ class IteratedRace {
 
   IteratedRace(IteratedRace&&) noexcept;
   IteratedRace& operator=(IteratedRace&&) noexcept;
-  ~IteratedRace();
+  ~IteratedRace() override;
 
-  bool finished() const;
+  bool finished() const override;
   /// Why there is no result: every configuration was rejected, a dependent domain was empty,
   /// nothing that is not forbidden could be sampled, a repair made something that is not in the
   /// space, a time is missing, or the time is too short for one race. Only once finished.
-  const std::optional<Error>& failure() const;
+  const std::optional<Error>& failure() const override;
 
   /// Everything that the race certainly needs before its next test, in canonical order (task, then
   /// configuration); empty once finished. Valid until the next tell().
-  std::span<const Experiment> wanted() const;
+  std::span<const Experiment> wanted() const override;
   /// What the race would want after that, in canonical order, on up to `pairs` further pairs, if
   /// its tests dropped nobody: for slots that would idle. It moves no generator; what is told does
   /// not depend on it. Empty where results decide more than who is alive: capping, a
   /// targetEvaluator, max_time; and with one_task_at_a_time.
-  std::vector<Experiment> ahead(std::int64_t pairs) const;
+  std::vector<Experiment> ahead(std::int64_t pairs) const override;
   /// Costs of all wanted() in the same order, smaller is better. An infinite cost rejects the
   /// configuration; what was wanted of it on later tasks is then neither counted nor used. Throws
   /// std::invalid_argument for NaN or a wrong number of costs.
-  void tell(std::span<const Measurement> measurements);
+  void tell(std::span<const Measurement> measurements) override;
   /// The same of a target that does not measure its time.
   void tell(std::span<const double> costs);
   /// Ids of all that are alive in the current race, ascending: what a targetEvaluator is told.
-  std::vector<std::int64_t> alive() const;
+  std::vector<std::int64_t> alive() const override;
   /// What happened since the last call, in order.
-  std::vector<RaceEvent> take_events();
+  std::vector<RaceEvent> take_events() override;
 
   /// More budget for a design that is over: further iterations follow from its end (irace facts,
   /// 3.2), then a post-selection with what they leave. By default all that is left becomes one
@@ -96,29 +97,30 @@ class IteratedRace {
   /// are as they were: this is not the design that had the larger budget from the start. When it is
   /// too little for an iteration, only the post-selection is left. Call it only when finished();
   /// fails after a failure, and with max_time.
-  Expected<void> extend(std::int64_t experiments);
+  Expected<void> extend(std::int64_t experiments) override;
   /// The smallest extension that gives an iteration now; fails where extend() does, and when no
   /// extension would. Only when finished().
-  Expected<std::int64_t> least_extension() const;
+  Expected<std::int64_t> least_extension() const override;
 
   /// A configuration by its id; throws std::out_of_range for an id that never was. Valid until the
   /// next tell().
-  const Configuration& configuration(std::int64_t id) const;
-  const ParameterSpace& space() const;
+  const Configuration& configuration(std::int64_t id) const override;
+  const ParameterSpace& space() const override;
   const Scenario& scenario() const;
 
   /// Elites of the last iteration that ended, best first.
-  std::span<const Elite> elites() const;
-  std::int64_t experiments_used() const;  ///< counted so far, those of the current race included
+  std::span<const Elite> elites() const override;
+  std::int64_t experiments_used()
+      const override;  ///< counted so far, those of the current race included
   /// Of the whole design; with max_time what was used and what the rest of the time is good for, as
   /// estimated last.
-  std::int64_t budget() const;
+  std::int64_t budget() const override;
   double time_used() const;  ///< with max_time: of all experiments that count
   std::int64_t remaining() const { return budget() - experiments_used(); }
-  std::int64_t iteration() const;         ///< of the current race
-  std::int64_t n_iterations() const;      ///< as planned now
-  std::int64_t n_alive() const;           ///< in the current race
-  std::int64_t n_configurations() const;  ///< ids given so far
+  std::int64_t iteration() const override;     ///< of the current race
+  std::int64_t n_iterations() const override;  ///< as planned now
+  std::int64_t n_alive() const override;       ///< in the current race
+  std::int64_t n_configurations() const;       ///< ids given so far
 
  private:
   class State;

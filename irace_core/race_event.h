@@ -48,7 +48,8 @@ struct Elimination {
   friend bool operator==(const Elimination&, const Elimination&) = default;
 };
 
-/// One task of a race: one pair, tried by all who are alive and have not seen it.
+/// One task of a race: one pair, tried by all who are alive and have not seen it. Of other searches
+/// (irace_core/search.h) a part of a round, with the marker x; `pair` is the last one of it.
 struct RaceStep {
   std::int64_t iteration = 0;
   std::int64_t task = 0;  ///< from 1 in each race
@@ -68,7 +69,8 @@ struct RaceStep {
   std::optional<double> qvar;
   /// Where the bounds of the task's runs come from: the elites' time when capping, or bound_max.
   std::optional<double> bound;
-  std::vector<std::int64_t> evaluated;  ///< configurations that were run, in order
+  /// (configuration, pair) of what was run, in order; those of a race are all on `pair`.
+  std::vector<std::pair<std::int64_t, std::int64_t>> evaluated;
   std::vector<Elimination> eliminations;
   std::uint64_t digest = 0;  ///< of alive set, rank sums, statistic and generators
 };

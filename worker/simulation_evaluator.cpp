@@ -4,22 +4,23 @@
 #include <utility>
 #include <vector>
 
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
-#include "sim/control/machine_text.h"
 #include "sim/engine/simulate.h"
 
 namespace swarmsmith {
 namespace {
 
-/// Candidates meet many pairs, so that their machines come again; bounded, since races go on.
-constexpr std::size_t kMaxMachines = 1024;
+/// Candidates meet many pairs, so that their control software comes again; bounded, since races go
+/// on.
+constexpr std::size_t kMaxControllers = 1024;
 
 class Simulation {
  public:
   Simulation(WorkerScenario scenario, std::vector<Flavour> flavours)
       : scenario_(std::move(scenario)),
         flavours_(std::move(flavours)),
-        machines_(flavours_.size()) {}
+        controllers_(flavours_.size()) {}
 
   Result operator()(const LeasedTask& item) {
     Expected<Result> result = simulate_item(item);
@@ -34,11 +35,11 @@ class Simulation {
     }
     const Mission& mission = scenario_.missions[item.mission];
     const Flavour& flavour = flavours_[item.method];
-    const Expected<const Machine*> machine = machine_of(item);
-    if (!machine) return Unexpected(machine.error());
+    const Expected<const Controller*> controller = controller_of(item);
+    if (!controller) return Unexpected(controller.error());
     const Expected<Instance> instance = instance_of(mission, item.seed);
     if (!instance) return Unexpected(instance.error());
-    const SimulationResult result = simulate({.machine = **machine,
+    const SimulationResult result = simulate({.controller = **controller,
                                               .flavour = flavour,
                                               .profile = scenario_.profile,
                                               .mission = mission,
@@ -47,18 +48,18 @@ class Simulation {
     return Result{.score = result.score, .state_digest = result.state_digest};
   }
 
-  Expected<const Machine*> machine_of(const LeasedTask& item) {
-    auto& known = machines_[item.method];
+  Expected<const Controller*> controller_of(const LeasedTask& item) {
+    auto& known = controllers_[item.method];
     if (const auto at = known.find(item.machine); at != known.end()) return &at->second;
-    Expected<Machine> machine = parse_machine(item.machine, flavours_[item.method]);
-    if (!machine) return Unexpected(machine.error());
-    if (known.size() >= kMaxMachines) known.clear();
-    return &known.emplace(item.machine, std::move(*machine)).first->second;
+    Expected<Controller> controller = parse_controller(item.machine, flavours_[item.method]);
+    if (!controller) return Unexpected(controller.error());
+    if (known.size() >= kMaxControllers) known.clear();
+    return &known.emplace(item.machine, std::move(*controller)).first->second;
   }
 
   WorkerScenario scenario_;
-  std::vector<Flavour> flavours_;                                   ///< by method
-  std::vector<std::unordered_map<std::string, Machine>> machines_;  ///< by method and text
+  std::vector<Flavour> flavours_;                                         ///< by method
+  std::vector<std::unordered_map<std::string, Controller>> controllers_;  ///< by method and text
 };
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "analysis/figures/makers.h"
 #include "analysis/machines/machine_drawing.h"
 #include "analysis/records/names.h"
+#include "sim/control/controller.h"
 #include "sim/control/machine_text.h"
 
 namespace swarmsmith {
@@ -144,8 +145,11 @@ Expected<Figure> machine_sheet(StoreReader& store, const std::vector<CandidateId
 
 Expected<StoredMachine> machine_of(const MachineRecord& candidate) {
   const std::string id = to_string(candidate.candidate);
-  if (!candidate.machine.starts_with("--nstates")) {
-    return bad_input(id + " is a configuration of a program, not a machine");
+  const auto architecture = architecture_of_text(candidate.machine);
+  if (!architecture) return bad_input(id + " is a configuration of a program, not a machine");
+  if (*architecture != Architecture::Machine) {
+    return bad_input(id + " is a " + std::string(name_of(*architecture)) +
+                     ", and only state machines can be drawn so far");
   }
   if (candidate.flavour.empty()) {
     return bad_input(

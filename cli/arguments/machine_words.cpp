@@ -4,19 +4,22 @@
 #include <cstddef>
 #include <string_view>
 
+#include "sim/control/controller.h"
+
 namespace swarmsmith::cli {
 namespace {
 
-/// The first word of a machine's text.
+/// The first word of a text.
 bool begins_machine(std::string_view word) {
-  return word.starts_with("--nstates") || word.starts_with("--fsm-config");
+  return architecture_of_text(word).has_value();
 }
 
-/// Whether the word is a switch of the grammar: a known stem, and then digits or DIGITSxDIGITS.
+/// Whether the word is a switch of one of the grammars: a known stem, and then digits or
+/// DIGITSxDIGITS; or a word that only trees and networks have.
 bool is_machine_switch(std::string_view word) {
-  static constexpr std::array<std::string_view, 9> kStems = {"s", "rwm", "att", "rep", "n",
-                                                             "c", "p",   "w",   "l"};
-  if (begins_machine(word)) return true;
+  static constexpr std::array<std::string_view, 11> kStems = {
+      "s", "rwm", "att", "rep", "nchild", "n", "c", "p", "w", "l", "a"};
+  if (begins_machine(word) || word == "--nchildroot" || word == "--weights") return true;
   if (!word.starts_with("--")) return false;
   word.remove_prefix(2);
   for (const std::string_view stem : kStems) {
@@ -49,7 +52,8 @@ std::vector<std::string> with_machine_as_one_word(std::vector<std::string> words
   for (; i < words.size(); ++i) {
     if (!everything && !value_next && !is_machine_switch(words[i])) break;
     const bool whole_text = words[i].find(' ') != std::string::npos;
-    value_next = !value_next && !whole_text && words[i] != "--fsm-config";
+    value_next =
+        !value_next && !whole_text && words[i] != "--fsm-config" && words[i] != "--bt-config";
     machine += " " + words[i];
   }
   changed.push_back(std::move(machine));

@@ -138,7 +138,7 @@ class Evaluation {
       keeper_ = std::move(*keeper);
     }
     auto recording = Recording::start(arguments_.recording, plan_.jobs.front().mission,
-                                      plan_.jobs.front().machine, output_);
+                                      plan_.jobs.front().controller, output_);
     if (!recording) {
       return fail(output_, exit_code_of_recording(recording.error()), recording.error());
     }
@@ -165,7 +165,7 @@ class Evaluation {
   void run_one(const EvaluationJob& job, std::size_t i, Recorder recorder) {
     Counter cycles(output_, "simulated", "cycles of seed " + std::to_string(job.seeds[i]));
     const auto begin = std::chrono::steady_clock::now();
-    const SimulationResult result = simulate({.machine = job.machine,
+    const SimulationResult result = simulate({.controller = job.controller,
                                               .flavour = job.flavour,
                                               .profile = job.profile,
                                               .mission = job.mission,
@@ -240,11 +240,13 @@ ExitCode run(const EvaluateOptions& arguments, Output& output) {
 
 Run declare_evaluate(Options& options) {
   auto arguments = std::make_shared<EvaluateOptions>();
-  options.text("MACHINE", arguments->machine,
-               "Text that begins with --nstates or --fsm-config, a file of machines, a candidate "
-               "(c812), or best: "
-               "the winner of each finished design",
-               Options::Need::Required);
+  options.text(
+      "MACHINE", arguments->machine,
+      "Text that begins with --nstates, --fsm-config, --nroot, --bt-config or --network, a file "
+      "of such texts, a candidate "
+      "(c812), or best: "
+      "the winner of each finished design",
+      Options::Need::Required);
   options.text("--flavour", arguments->flavour,
                "Flavour of the machine: watermelon, watermelon-argos3, chocolate (default: the "
                "candidate's or the file's)");

@@ -76,7 +76,7 @@ std::vector<std::string> details_of(const StoredRun& run, const SimulationResult
 }
 
 ExitCode replay_one(const StoredRun& run, const ReplayArguments& arguments, Output& output) {
-  auto recording = Recording::start(arguments.recording, run.mission, run.machine, output);
+  auto recording = Recording::start(arguments.recording, run.mission, run.controller, output);
   if (!recording) return fail(output, exit_code_of_recording(recording.error()), recording.error());
   const SimulationResult result = simulate(run.setup(), recording->recorder());
   const auto written = recording->finish(details_of(run, result), run.instance);

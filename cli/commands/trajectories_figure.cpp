@@ -60,9 +60,8 @@ Expected<void> film(const StoredRun& run, ArenaPanels& panels, std::string& csv)
     picture.robots.resize(snapshot.robots.size());
     picture.objects.resize(snapshot.objects.size());
     for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
-      const auto state = static_cast<std::size_t>(snapshot.robots[i].state);
       picture.robots[i].poses.push_back(snapshot.robots[i].pose);
-      picture.robots[i].label = id_of(module_of(run.machine.states[state].behaviour));
+      picture.robots[i].label = acting_in(run.controller, snapshot.robots[i].state);
       rows += run.candidate + "," + std::to_string(run.seed) + ",";
       append_pose_cells(rows, snapshot.cycle, static_cast<int>(i), snapshot.robots[i].pose);
       rows += kCsvLineEnd;

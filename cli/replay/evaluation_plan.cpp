@@ -12,7 +12,7 @@
 #include "cli/output/query_output.h"
 #include "cli/replay/design_argument.h"
 #include "cli/replay/design_worlds.h"
-#include "sim/control/machine_text.h"
+#include "sim/control/controller.h"
 #include "sim/files/profile_file.h"
 #include "sim/mission/instance_csv.h"
 
@@ -170,9 +170,10 @@ Expected<EvaluationJob> job_of(const NamedMachine& named, const EvaluateArgument
   auto flavour = flavour_of(arguments, named);
   if (!flavour) return bad_input(flavour.error().message, "--flavour");
   job.flavour = std::move(*flavour);
-  auto machine = parse_machine(named.text, job.flavour);
-  if (!machine) return bad_input(machine.error().message, where + ", " + machine.error().where);
-  job.machine = std::move(*machine);
+  auto controller = parse_controller(named.text, job.flavour);
+  if (!controller)
+    return bad_input(controller.error().message, where + ", " + controller.error().where);
+  job.controller = std::move(*controller);
   auto profile = profile_of(arguments, named, output);
   if (!profile) return Unexpected(profile.error());
   job.profile = std::move(*profile);

@@ -33,7 +33,7 @@ struct EvaluateArguments {
 /// One machine, and what it is simulated in.
 struct EvaluationJob {
   CandidateId candidate;  ///< none: given as text or file
-  Machine machine;
+  Controller controller;
   Flavour flavour;
   Profile profile;
   Mission mission;

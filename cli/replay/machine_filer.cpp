@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "cli/output/query_output.h"
+#include "sim/control/controller.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -55,12 +56,11 @@ Expected<MachineHead> MachineFiler::head_of(CandidateId candidate) {
 }
 
 Expected<std::string> MachineFiler::text_of(CandidateId candidate) {
-  const auto rows =
-      select(*store_,
-             "SELECT d.mission, d.method, d.repetition, c.mean, c.runs, c.fsm_config, "
-             "c.modules FROM v_candidates AS c "
-             "JOIN v_designs AS d ON d.design = c.design WHERE c.candidate = " +
-                 std::to_string(candidate.value));
+  const auto rows = select(*store_,
+                           "SELECT d.mission, d.method, d.repetition, c.mean, c.runs, c.fsm_config "
+                           "FROM v_candidates AS c "
+                           "JOIN v_designs AS d ON d.design = c.design WHERE c.candidate = " +
+                               std::to_string(candidate.value));
   if (!rows) return Unexpected(rows.error());
   if (rows->cells.empty()) {
     return unexpected(ErrorKind::NotFound, "the store has no candidate " + to_string(candidate));
@@ -69,13 +69,12 @@ Expected<std::string> MachineFiler::text_of(CandidateId candidate) {
   if (!head) return Unexpected(head.error());
   // In the order of the statement.
   const auto& cells = rows->cells.front();
-  const auto& [mission, method, repetition, mean, runs, machine, modules] =
-      std::tie(cells[0].text, cells[1].text, cells[2].text, cells[3].text, cells[4].text,
-               cells[5].text, cells[6].text);
+  const auto& [mission, method, repetition, mean, runs, machine] = std::tie(
+      cells[0].text, cells[1].text, cells[2].text, cells[3].text, cells[4].text, cells[5].text);
   std::string text = "# " + to_string(design_of(candidate)) + " " + mission + " " + method +
                      " repetition " + repetition + ": " + to_string(candidate);
   if (!mean.empty()) text += ", mean " + mean + " over " + runs + " runs";
-  const bool is_machine = modules != "{}";
+  const bool is_machine = architecture_of_text(machine) == Architecture::Machine;
   return text + "\n" + (head->flavour.empty() ? "" : head_text(*head)) +
          (is_machine ? "--fsm-config " : "") + machine + "\n";
 }

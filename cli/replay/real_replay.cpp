@@ -59,15 +59,14 @@ ShownRun simulated(const StoredRun& stored, const FilmedRun& filmed, Instance in
     run.labels.resize(snapshot.robots.size());
     run.objects.resize(snapshot.objects.size());
     for (std::size_t i = 0; i < snapshot.robots.size(); ++i) {
-      const auto state = static_cast<std::size_t>(snapshot.robots[i].state);
       run.robots[i].push_back(snapshot.robots[i].pose);
-      run.labels[i] = id_of(module_of(stored.machine.states[state].behaviour));
+      run.labels[i] = acting_in(stored.controller, snapshot.robots[i].state);
     }
     for (std::size_t i = 0; i < snapshot.objects.size(); ++i)
       run.objects[i].push_back(snapshot.objects[i]);
   };
   run.instance = std::move(instance);
-  run.score = simulate({.machine = stored.machine,
+  run.score = simulate({.controller = stored.controller,
                         .flavour = stored.flavour,
                         .profile = stored.profile,
                         .mission = filmed.mission,

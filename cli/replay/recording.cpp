@@ -105,7 +105,7 @@ Expected<void> Recording::read_span(const RecordingArguments& arguments) {
 }
 
 Expected<Recording> Recording::start(const RecordingArguments& arguments, const Mission& mission,
-                                     const Machine& machine, Output& output) {
+                                     const Controller& controller, Output& output) {
   const int to_standard_output = (arguments.csv == "-" ? 1 : 0) +
                                  (arguments.objects_csv == "-" ? 1 : 0) +
                                  (arguments.svg == "-" ? 1 : 0) + (output.json ? 1 : 0);
@@ -119,7 +119,7 @@ Expected<Recording> Recording::start(const RecordingArguments& arguments, const 
   if (draws_nothing) {
     return bad_input("--at, --from, --to and --width are about a picture: add --svg FILE", "--svg");
   }
-  Recording recording(mission, machine);
+  Recording recording(mission, controller);
   if (auto read = recording.read_span(arguments); !read) return Unexpected(read.error());
   if (!arguments.width.empty()) {
     recording.width_mm_ = millimetres_from_text(arguments.width);
@@ -168,8 +168,7 @@ Recorder Recording::recorder() {
 }
 
 std::string Recording::behaviour_of(int state) const {
-  const State& at = machine_->states[static_cast<std::size_t>(state)];
-  return std::string(id_of(module_of(at.behaviour)));
+  return std::string(acting_in(*controller_, state));
 }
 
 void Recording::observe(const Snapshot& snapshot) {

@@ -9,7 +9,7 @@
 #include "analysis/arena/reading_columns.h"
 #include "base/expected.h"
 #include "console/options.h"
-#include "sim/control/machine.h"
+#include "sim/control/controller.h"
 #include "sim/engine/simulate.h"
 
 namespace swarmsmith::cli {
@@ -43,7 +43,7 @@ class Recording {
   /// BadInput, with the option as place, for arguments that make no sense for the mission;
   /// Unavailable for a file that cannot be written.
   static Expected<Recording> start(const RecordingArguments& arguments, const Mission& mission,
-                                   const Machine& machine, Output& output);
+                                   const Controller& controller, Output& output);
 
   /// To be given to `simulate`; the recording must stay where it is until then. Observes nothing
   /// when nothing shall be written.
@@ -63,8 +63,8 @@ class Recording {
     Expected<void> close() const;
   };
 
-  Recording(const Mission& mission, const Machine& machine)
-      : mission_(&mission), machine_(&machine) {}
+  Recording(const Mission& mission, const Controller& controller)
+      : mission_(&mission), controller_(&controller) {}
 
   static Expected<Sink> open(const std::string& name, Output& output);
   Expected<void> read_span(const RecordingArguments& arguments);
@@ -75,7 +75,7 @@ class Recording {
   std::string picture(const std::vector<std::string>& details, const Instance& instance) const;
 
   const Mission* mission_;
-  const Machine* machine_;
+  const Controller* controller_;
   Sink csv_;
   Sink objects_csv_;
   Sink svg_;

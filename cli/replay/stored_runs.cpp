@@ -10,7 +10,6 @@
 
 #include "cli/output/query_output.h"
 #include "coordinator/campaign/campaign_file.h"
-#include "sim/control/machine_text.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith::cli {
@@ -86,9 +85,9 @@ Expected<void> complete(StoredRun& run, const DesignWorld& world, const std::str
                                   : find_flavour(world.flavour, TurnClock::Cycles);
   if (!flavour) return Unexpected(flavour.error());
   run.flavour = std::move(*flavour);
-  auto machine = parse_machine(text, run.flavour);
-  if (!machine) return Unexpected(machine.error());
-  run.machine = std::move(*machine);
+  auto controller = parse_controller(text, run.flavour);
+  if (!controller) return Unexpected(controller.error());
+  run.controller = std::move(*controller);
   auto instance = instance_of(run.mission, run.seed);
   if (!instance) return Unexpected(instance.error());
   run.instance = std::move(*instance);

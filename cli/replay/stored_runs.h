@@ -9,8 +9,8 @@
 #include "base/expected.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/replay/design_worlds.h"
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
-#include "sim/control/machine.h"
 #include "sim/engine/simulate.h"
 #include "storage/store.h"
 
@@ -29,7 +29,7 @@ struct StoredRun {
   std::int64_t seed = 0;
   bool rejected = false;
   std::optional<StoredOutcome> outcome;  ///< none: rejected, or not in the store
-  Machine machine;
+  Controller controller;
   Flavour flavour;
   Profile profile;
   Mission mission;
@@ -39,7 +39,7 @@ struct StoredRun {
   std::string host;         ///< of the worker, as it says
   std::string who;          ///< answers for the worker: its key and address
 
-  SimulationSetup setup() const { return {machine, flavour, profile, mission, instance, seed}; }
+  SimulationSetup setup() const { return {controller, flavour, profile, mission, instance, seed}; }
   /// "; given by worker 3 on lab7 (lab@10.0.0.7)", empty when unknown.
   std::string given_by() const;
 };

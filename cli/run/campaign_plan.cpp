@@ -10,8 +10,8 @@
 #include "cli/run/campaign_warnings.h"
 #include "console/output.h"
 #include "coordinator/campaign/campaign_rows.h"
-#include "coordinator/campaign/machine_space.h"
-#include "irace_core/iterated_race.h"
+#include "coordinator/campaign/method_space.h"
+#include "irace_core/search/start_search.h"
 #include "sim/engine/simulate.h"
 
 namespace swarmsmith::cli {
@@ -29,22 +29,22 @@ constexpr double kMeasured_s = 0.5;
 /// Racing, storing and messages.
 constexpr double kOverhead_s = 30e-6;
 
-/// Machines as a first race would try them.
-std::vector<Machine> some_machines(const Campaign& campaign, const Method& method) {
-  constexpr std::size_t kMachines = 50;
-  std::vector<Machine> machines;
-  const Flavour& flavour = **find_flavour(method.flavour);
-  auto space = MachineSpace::make(method, flavour, static_cast<int>(campaign.digits));
-  if (!space) return machines;
-  auto race = IteratedRace::start(space->parameters(), campaign.race);
-  if (!race) return machines;
-  for (const RaceEvent& event : race->take_events()) {
+/// What the method's search would try first.
+std::vector<Controller> some_controllers(const Campaign& campaign, const Method& method) {
+  constexpr std::size_t kControllers = 50;
+  std::vector<Controller> controllers;
+  auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
+  if (!space) return controllers;
+  auto search = start_search(space->parameters(), campaign.race, method.search, {}, {},
+                             space->neighbourhood());
+  if (!search) return controllers;
+  for (const RaceEvent& event : (*search)->take_events()) {
     const auto* sampled = std::get_if<ConfigurationSampled>(&event);
     if (sampled == nullptr) continue;
-    machines.push_back(space->to_machine(sampled->configuration));
-    if (machines.size() == kMachines) break;
+    controllers.push_back(space->controller_of(sampled->configuration));
+    if (controllers.size() == kControllers) break;
   }
-  return machines;
+  return controllers;
 }
 
 /// What random machines showed.
@@ -76,7 +76,7 @@ void warn_about_scores(const std::string& mission, const Measured& measured,
 Measured measure(const Campaign& campaign, const Method& method, const Mission& mission,
                  double budget_s) {
   const Flavour flavour = find_flavour(method.flavour, method.turn_clock).value();
-  const std::vector<Machine> machines = some_machines(campaign, method);
+  const std::vector<Controller> controllers = some_controllers(campaign, method);
   constexpr int kFirstCycles = 50;
   constexpr int kGrowth = 4;
   Mission piece = mission;
@@ -87,12 +87,12 @@ Measured measure(const Campaign& campaign, const Method& method, const Mission& 
   Measured measured;
   constexpr std::int64_t kMostSeeds = 100'000;  // also where no seed should find room for the swarm
   for (std::int64_t seed = 1;
-       seed <= kMostSeeds && !machines.empty() && (runs == 0 || elapsed_s < budget_s); ++seed) {
-    const Machine& machine = machines[static_cast<std::size_t>(seed) % machines.size()];
+       seed <= kMostSeeds && !controllers.empty() && (runs == 0 || elapsed_s < budget_s); ++seed) {
+    const Controller& controller = controllers[static_cast<std::size_t>(seed) % controllers.size()];
     const auto instance = instance_of(mission, seed);
     if (!instance) continue;
     const auto begin = SteadyClock::now();
-    const double score = simulate({.machine = machine,
+    const double score = simulate({.controller = controller,
                                    .flavour = flavour,
                                    .profile = campaign.profile,
                                    .mission = piece,

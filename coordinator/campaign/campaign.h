@@ -10,7 +10,9 @@
 
 #include "coordinator/launchers/launch_options.h"
 #include "irace_core/scenario.h"
+#include "irace_core/search/options.h"
 #include "programs/target.h"
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
 #include "sim/engine/profile.h"
 #include "sim/files/mission_file.h"
@@ -54,6 +56,11 @@ struct Method {
   std::vector<std::string> behaviours;  ///< names; all of the flavour's when the file has none
   std::vector<std::string> conditions;
   std::vector<RangeOverride> ranges;
+  Architecture architecture = Architecture::Machine;  ///< what is searched
+  std::int64_t max_subtrees = kMaxSubtrees;           ///< of trees
+  NetworkInputs inputs = NetworkInputs::Rvr;          ///< of networks
+  double most_weight = kMostWeight;                   ///< of networks
+  SearchOptions search;                               ///< how it is searched
   /// No race, but a machine to compare with, tested as the winners of races are: a text of the
   /// grammar, or kRandomMachine; empty: a race.
   std::string baseline;

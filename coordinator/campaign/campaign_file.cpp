@@ -9,7 +9,7 @@
 #include "coordinator/campaign/internal/read_target.h"
 #include "coordinator/campaign/internal/read_workers.h"
 #include "coordinator/campaign/method_space.h"
-#include "irace_core/iterated_race.h"
+#include "irace_core/search/start_search.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith {
@@ -136,9 +136,10 @@ std::optional<Error> check_race(const Campaign& campaign, const Method& method) 
     const Scenario scenario = race_on(campaign, mission);
     if (checked == scenario.n_instances) continue;
     checked = scenario.n_instances;
-    const auto race = IteratedRace::start(space->parameters(), scenario, space->initial());
-    if (race) continue;
-    Error error = race.error();
+    const auto search = start_search(space->parameters(), scenario, method.search, space->initial(),
+                                     {}, space->neighbourhood());
+    if (search) continue;
+    Error error = search.error();
     if (campaign.missions.size() > 1) {
       error.message = "mission \"" + mission.mission.name + "\": " + error.message;
     }

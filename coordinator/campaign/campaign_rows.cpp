@@ -22,7 +22,9 @@ std::int64_t design_seed(std::uint64_t campaign_seed, std::int64_t id) {
 std::int64_t design_budget(const Campaign& campaign, const CampaignMission& mission,
                            const Method& method) {
   if (!method.baseline.empty()) return 0;
-  if (!campaign.race.min_experiments) return campaign.race.max_experiments;
+  const bool races =
+      method.search.kind == SearchKind::Irace || method.search.kind == SearchKind::FRace;
+  if (!campaign.race.min_experiments || !races) return campaign.race.max_experiments;
   const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
   if (!space) return campaign.race.max_experiments;
   return total_budget(space->parameters(), race_on(campaign, mission));

@@ -1,5 +1,7 @@
 #include "coordinator/campaign/campaign_text.h"
 
+#include <algorithm>
+
 #include "coordinator/campaign/internal/sections.h"
 #include "irace_core/iterated_race.h"
 #include "sim/engine/simulate.h"
@@ -19,6 +21,14 @@ Deciding deciding(const Campaign& campaign) {
   }
   entries.emplace_back("engine.version", std::to_string(kEngineVersion));
   entries.emplace_back("race.version", std::to_string(kRaceVersion));
+  // Other searches only where a method uses them: campaigns without keep their digests.
+  for (const SearchKind kind : all_searches()) {
+    const bool is_used = std::ranges::any_of(
+        campaign.methods, [kind](const Method& method) { return method.search.kind == kind; });
+    if (kind == SearchKind::Irace || !is_used) continue;
+    entries.emplace_back("search." + std::string(name_of(kind)) + ".version",
+                         std::to_string(version_of(kind)));
+  }
   return entries;
 }
 

@@ -1,65 +1,20 @@
 #include "coordinator/campaign/machine_space.h"
 
 #include <algorithm>
-#include <limits>
 #include <utility>
 #include <variant>
 
 #include "base/assert.h"
 #include "base/text/toml_text.h"
+#include "coordinator/campaign/internal/module_parameters.h"
 
 namespace swarmsmith {
-namespace {
-
-constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
-
-/// The modules of `names`, in the order of the flavour's table.
-std::vector<const ModuleSpec*> chosen(const std::vector<ModuleSpec>& table,
-                                      const std::vector<std::string>& names) {
-  std::vector<const ModuleSpec*> modules;
-  for (const ModuleSpec& spec : table) {
-    if (std::ranges::find(names, id_of(spec.module)) != names.end()) modules.push_back(&spec);
-  }
-  return modules;
-}
-
-/// How a space's values are written.
-enum class Words {
-  Names,    ///< modules by name, nothing that has one value alone
-  Grammar,  ///< as the text grammar wants them
-};
-
-/// The condition `parameter > value`.
-Expression more_than(const std::string& parameter, int value) {
-  return Expression::call(Operation::Greater,
-                          {Expression::parameter(parameter), Expression::number(value)});
-}
-
-/// A parameter's value, or `otherwise` where it is left out or inactive.
-double value_or(const Configuration& configuration, std::size_t index, double otherwise) {
-  if (index == kNone || !configuration.is_active(index)) return otherwise;
-  return configuration[index];
-}
-
-}  // namespace
-
-SearchRange range_of(const Method& method, Module module, const ParameterSpec& parameter) {
-  for (const RangeOverride& range : method.ranges) {
-    if (range.module == id_of(module) && range.parameter == parameter.name) {
-      return {range.lower, range.upper};
-    }
-  }
-  return {parameter.low, parameter.high};
-}
 
 /// Adds the parameters one by one and remembers where they are.
-class MachineSpace::Builder {
+class MachineSpace::Builder : public ModuleParameters {
  public:
   Builder(const Method& method, const Flavour& flavour, Words words)
-      : method_(method),
-        words_(words),
-        behaviours_(chosen(flavour.behaviours, method.behaviours)),
-        conditions_(chosen(flavour.conditions, method.conditions)) {}
+      : ModuleParameters(method, flavour, words), method_(method) {}
 
   /// All states, in the order of the original's file: NumStates first.
   void build() {
@@ -73,40 +28,10 @@ class MachineSpace::Builder {
       add_state(i);
   }
 
-  std::vector<Parameter> parameters;
   std::vector<StateSlot> states_;
-  std::size_t state_count_ = kNone;
+  std::size_t state_count_ = kNoParameter;
 
  private:
-  /// Adds one parameter; returns where it is.
-  std::size_t add(std::string name, const std::string& token, Domain domain,
-                  std::optional<Expression> condition = std::nullopt) {
-    parameters.push_back(
-        {std::move(name), "--" + token + " ", std::move(domain), std::move(condition)});
-    return parameters.size() - 1;
-  }
-
-  /// What has one value alone is for the text grammar only.
-  void add_fixed(std::string name, const std::string& token, int value,
-                 std::optional<Expression> condition) {
-    if (words_ == Words::Names) return;
-    add(std::move(name), token, Categorical{{std::to_string(value)}}, std::move(condition));
-  }
-
-  /// A module as a value of the space.
-  std::string word_of(const ModuleSpec& module) const {
-    return words_ == Words::Names ? std::string(id_of(module.module))
-                                  : std::to_string(module.number);
-  }
-
-  /// A choice among modules.
-  Categorical choice_of(const std::vector<const ModuleSpec*>& modules) const {
-    Categorical domain;
-    for (const ModuleSpec* module : modules)
-      domain.values.push_back(word_of(*module));
-    return domain;
-  }
-
   /// True while the machine has more states than `i`; nothing when it always has.
   static std::optional<Expression> has_state(int i) {
     if (i == 0) return std::nullopt;
@@ -117,9 +42,9 @@ class MachineSpace::Builder {
   void add_state(int i) {
     const std::string suffix = std::to_string(i);
     StateSlot& state = states_.emplace_back();
-    state.behaviour = add("S" + suffix, "s" + suffix, choice_of(behaviours_), has_state(i));
-    state.modules = add_modules(behaviours_, "S" + suffix, suffix);
-    state.transition_count = kNone;
+    state.behaviour = add("S" + suffix, "s" + suffix, choice_of(behaviours()), has_state(i));
+    state.modules = add_modules(behaviours(), "S" + suffix, suffix);
+    state.transition_count = kNoParameter;
     if (method_.max_states == 1) return;
     // A machine of one state has no transition, hence at least 1 even for state 0.
     const Expression has_other = more_than("NumStates", std::max(i, 1));
@@ -140,14 +65,14 @@ class MachineSpace::Builder {
                                   ? more_than("NumConnections" + std::to_string(i), j)
                                   : more_than("NumStates", std::max(i, 1));
     TransitionSlot& transition = state.transitions.emplace_back();
-    transition.target = kNone;
+    transition.target = kNoParameter;
     if (method_.max_states > 2) {
       transition.target = add("N" + suffix, "n" + suffix, Integer{0.0, last_target()}, active);
     } else {
       add_fixed("N" + suffix, "n" + suffix, 0, active);
     }
-    transition.condition = add("C" + suffix, "c" + suffix, choice_of(conditions_), active);
-    transition.modules = add_modules(conditions_, "C" + suffix, suffix);
+    transition.condition = add("C" + suffix, "c" + suffix, choice_of(conditions()), active);
+    transition.modules = add_modules(conditions(), "C" + suffix, suffix);
   }
 
   /// Targets count the other states, hence NumStates - 2. R evaluates this for machines of one
@@ -155,85 +80,18 @@ class MachineSpace::Builder {
   Expression last_target() const {
     Expression last = Expression::call(Operation::Subtract,
                                        {Expression::parameter("NumStates"), Expression::number(2)});
-    if (words_ == Words::Names) return last;
+    if (words() == Words::Names) return last;
     return Expression::call(Operation::Max, {Expression::number(0), std::move(last)});
   }
 
-  /// The parameters of the modules among which `chooser` chooses. Modules share a parameter of the
-  /// same symbol (P of all conditions with a probability) as long as their ranges agree; one with a
-  /// range of its own gets a parameter of its own (P_black_floor0x1).
-  std::vector<ModuleSlot> add_modules(const std::vector<const ModuleSpec*>& modules,
-                                      const std::string& chooser, const std::string& suffix) {
-    std::vector<ModuleSlot> slots;
-    for (const ModuleSpec* module : modules) {
-      ModuleSlot& slot = slots.emplace_back();
-      slot.spec = module;
-      for (const ParameterSpec& parameter : module->parameters) {
-        const std::string name = name_of(*module, parameter) + suffix;
-        const auto known = std::ranges::find(parameters, name, &Parameter::name);
-        if (known != parameters.end()) {
-          slot.parameters.push_back(static_cast<std::size_t>(known - parameters.begin()));
-          continue;
-        }
-        slot.parameters.push_back(add(name, parameter.token + suffix, domain_of(*module, parameter),
-                                      users_chosen(modules, name_of(*module, parameter), chooser)));
-      }
-    }
-    return slots;
-  }
-
-  /// The parameter's name without state and transition.
-  std::string name_of(const ModuleSpec& module, const ParameterSpec& parameter) const {
-    const SearchRange own{parameter.low, parameter.high};
-    if (range_of(method_, module.module, parameter) == own) return parameter.symbol;
-    if (!is_shared(parameter)) return parameter.symbol;
-    return parameter.symbol + "_" + std::string(id_of(module.module));
-  }
-
-  /// Whether another condition or behaviour has a parameter of this symbol.
-  bool is_shared(const ParameterSpec& parameter) const {
-    int users = 0;
-    for (const auto* modules : {&behaviours_, &conditions_}) {
-      for (const ModuleSpec* module : *modules) {
-        users += static_cast<int>(
-            std::ranges::count(module->parameters, parameter.symbol, &ParameterSpec::symbol));
-      }
-    }
-    return users > 1;
-  }
-
-  /// What is searched: the flavour's own range or the method's.
-  Domain domain_of(const ModuleSpec& module, const ParameterSpec& parameter) const {
-    const SearchRange range = range_of(method_, module.module, parameter);
-    if (parameter.type == ParameterSpec::Type::Real) return Real{range.lower, range.upper};
-    return Integer{range.lower, range.upper};
-  }
-
-  /// `chooser` has chosen one of the modules with a parameter of this name.
-  Expression users_chosen(const std::vector<const ModuleSpec*>& modules, const std::string& name,
-                          const std::string& chooser) const {
-    std::vector<Expression> users;
-    for (const ModuleSpec* module : modules) {
-      for (const ParameterSpec& parameter : module->parameters) {
-        if (name_of(*module, parameter) != name) continue;
-        users.push_back(Expression::text(word_of(*module)));
-      }
-    }
-    if (users.size() > 1) return Expression::in(Expression::parameter(chooser), std::move(users));
-    return Expression::call(Operation::Equal, {Expression::parameter(chooser), users.front()});
-  }
-
   const Method& method_;
-  Words words_;
-  std::vector<const ModuleSpec*> behaviours_;
-  std::vector<const ModuleSpec*> conditions_;
 };
 
 Expected<MachineSpace> MachineSpace::make(const Method& method, const Flavour& flavour,
                                           int digits) {
   Builder builder(method, flavour, Words::Names);
   builder.build();
-  auto space = ParameterSpace::make(std::move(builder.parameters), {}, digits);
+  auto space = ParameterSpace::make(builder.take(), {}, digits);
   if (!space) return Unexpected(space.error());
   MachineSpace built(std::move(*space));
   built.flavour_ = &flavour;
@@ -246,24 +104,7 @@ Expected<ParameterSpace> MachineSpace::in_grammar(const Method& method, const Fl
                                                   int digits) {
   Builder builder(method, flavour, Words::Grammar);
   builder.build();
-  return ParameterSpace::make(std::move(builder.parameters), {}, digits);
-}
-
-std::vector<double> MachineSpace::values_of(const Configuration& configuration,
-                                            const ModuleSlot& slot) const {
-  std::vector<double> values;
-  for (std::size_t i = 0; i < slot.parameters.size(); ++i) {
-    double value = configuration[slot.parameters[i]];
-    if (slot.spec->parameters[i].type == ParameterSpec::Type::Label) {
-      // A label's number becomes the enumerator's index, which is what modules are made from.
-      const auto& labels = flavour_->floor.labels;
-      const auto found = std::ranges::find(labels, static_cast<int>(value), &LabelSpec::number);
-      SWARMSMITH_ASSERT(found != labels.end(), "a flavour has every label of its search range");
-      value = static_cast<double>(static_cast<int>(found->label));
-    }
-    values.push_back(value);
-  }
-  return values;
+  return ParameterSpace::make(builder.take(), {}, digits);
 }
 
 Machine MachineSpace::to_machine(const Configuration& configuration) const {
@@ -272,8 +113,9 @@ Machine MachineSpace::to_machine(const Configuration& configuration) const {
   for (int i = 0; i < states; ++i) {
     const StateSlot& slot = states_[static_cast<std::size_t>(i)];
     const ModuleSlot& behaviour = slot.modules[configuration.choice(slot.behaviour)];
-    State& state = machine.states.emplace_back(
-        State{make_behaviour(behaviour.spec->module, values_of(configuration, behaviour)), {}});
+    State& state = machine.states.emplace_back(State{
+        make_behaviour(behaviour.spec->module, values_of(configuration, behaviour, *flavour_)),
+        {}});
     const double otherwise = states > 1 ? 1 : 0;
     const auto transitions =
         static_cast<std::size_t>(value_or(configuration, slot.transition_count, otherwise));
@@ -282,11 +124,38 @@ Machine MachineSpace::to_machine(const Configuration& configuration) const {
       const ModuleSlot& condition = transition.modules[configuration.choice(transition.condition)];
       const int other = static_cast<int>(value_or(configuration, transition.target, 0));
       state.transitions.push_back(
-          {make_condition(condition.spec->module, values_of(configuration, condition)),
+          {make_condition(condition.spec->module, values_of(configuration, condition, *flavour_)),
            other < i ? other : other + 1});
     }
   }
   return machine;
+}
+
+Configuration MachineSpace::from_machine(const Machine& machine) const {
+  Configuration configuration(space_.size());
+  if (state_count_ != kNoParameter)
+    configuration.set(state_count_, static_cast<double>(machine.states.size()));
+  for (std::size_t i = 0; i < machine.states.size(); ++i) {
+    const StateSlot& slot = states_.at(i);
+    const State& state = machine.states[i];
+    configuration.set(
+        slot.behaviour,
+        static_cast<double>(put_module(module_of(state.behaviour), parameters_of(state.behaviour),
+                                       slot.modules, *flavour_, configuration)));
+    if (slot.transition_count != kNoParameter && machine.states.size() > 1)
+      configuration.set(slot.transition_count, static_cast<double>(state.transitions.size()));
+    for (std::size_t j = 0; j < state.transitions.size(); ++j) {
+      const TransitionSlot& to = slot.transitions.at(j);
+      const auto& [condition, target] = state.transitions[j];
+      // Of two states the target is the other one, and has no parameter that is active.
+      if (to.target != kNoParameter)
+        configuration.set(to.target, target < static_cast<int>(i) ? target : target - 1);
+      configuration.set(to.condition, static_cast<double>(
+                                          put_module(module_of(condition), parameters_of(condition),
+                                                     to.modules, *flavour_, configuration)));
+    }
+  }
+  return configuration;
 }
 
 std::string parameters_json(const ParameterSpace& space, const Configuration& configuration) {
@@ -302,12 +171,19 @@ std::string parameters_json(const ParameterSpace& space, const Configuration& co
   return text + "}";
 }
 
-std::vector<std::pair<std::string, int>> module_counts(const Machine& machine) {
+std::vector<std::pair<std::string, int>> module_counts(const Controller& controller) {
   std::map<Module, int> counts;
-  for (const State& state : machine.states) {
-    ++counts[module_of(state.behaviour)];
-    for (const Transition& transition : state.transitions)
-      ++counts[module_of(transition.condition)];
+  if (const auto* machine = std::get_if<Machine>(&controller)) {
+    for (const State& state : machine->states) {
+      ++counts[module_of(state.behaviour)];
+      for (const Transition& transition : state.transitions)
+        ++counts[module_of(transition.condition)];
+    }
+  } else if (const auto* tree = std::get_if<Tree>(&controller)) {
+    for (const Subtree& subtree : tree->subtrees) {
+      ++counts[module_of(subtree.action)];
+      ++counts[module_of(subtree.condition)];
+    }
   }
   std::vector<std::pair<std::string, int>> named;
   named.reserve(counts.size());
@@ -316,9 +192,9 @@ std::vector<std::pair<std::string, int>> module_counts(const Machine& machine) {
   return named;
 }
 
-std::string modules_json(const Machine& machine) {
+std::string modules_json(const Controller& controller) {
   std::string text = "{";
-  for (const auto& [module, count] : module_counts(machine)) {
+  for (const auto& [module, count] : module_counts(controller)) {
     if (text.size() > 1) text += ",";
     text += "\"" + module + "\":" + std::to_string(count);
   }

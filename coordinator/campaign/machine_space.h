@@ -8,8 +8,10 @@
 
 #include "base/expected.h"
 #include "coordinator/campaign/campaign.h"
+#include "coordinator/campaign/internal/module_parameters.h"
 #include "irace_core/configuration.h"
 #include "irace_core/parameter_space.h"
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
 
@@ -36,14 +38,13 @@ class MachineSpace {
 
   /// The machine of a configuration of this space, which must be valid (`ParameterSpace::check`).
   Machine to_machine(const Configuration& configuration) const;
+  /// The configuration of a machine that is in the space: of the method's modules and within its
+  /// limits and digits.
+  Configuration from_machine(const Machine& machine) const;
 
  private:
-  /// Where one module's parameters are: indices into the space, in the order of `parameters_of`.
-  struct ModuleSlot {
-    const ModuleSpec* spec = nullptr;
-    std::vector<std::size_t> parameters;
-  };
-  /// The parameters of one state or one transition. Indices are kNone for what is left out.
+  /// The parameters of one state or one transition. Indices are kNoParameter for what is left
+  /// out.
   struct TransitionSlot {
     std::size_t target = 0;
     std::size_t condition = 0;
@@ -58,8 +59,6 @@ class MachineSpace {
   class Builder;
 
   explicit MachineSpace(ParameterSpace space) : space_(std::move(space)) {}
-
-  std::vector<double> values_of(const Configuration& configuration, const ModuleSlot& slot) const;
 
   ParameterSpace space_;
   const Flavour* flavour_ = nullptr;
@@ -79,10 +78,11 @@ SearchRange range_of(const Method& method, Module module, const ParameterSpec& p
 /// The active parameters as a JSON object, in the space's order: choices as texts.
 std::string parameters_json(const ParameterSpace& space, const Configuration& configuration);
 
-/// How often the machine has each module: by id, in the order of the flavours' tables.
-std::vector<std::pair<std::string, int>> module_counts(const Machine& machine);
+/// How often the control software has each module: by id, in the order of the flavours' tables; a
+/// network has none.
+std::vector<std::pair<std::string, int>> module_counts(const Controller& controller);
 /// The same as a JSON object.
-std::string modules_json(const Machine& machine);
+std::string modules_json(const Controller& controller);
 
 /// The number of transitions of all states.
 int transition_count(const Machine& machine);

@@ -3,10 +3,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "coordinator/campaign/neighbourhoods.h"
+#include "coordinator/campaign/network_space.h"
 #include "irace_core/files/command_line_text.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/parameter_file.h"
-#include "sim/control/machine_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -30,13 +31,17 @@ std::size_t longest_call(const ParameterSpace& space) {
 
 }  // namespace
 
-CandidateText text_of(const Machine& machine, const Flavour& flavour) {
-  return {.parameters = "{}",
-          .machine = print_machine(machine, flavour),
-          .call = print_machine(machine, flavour),
-          .modules = modules_json(machine),
-          .states = static_cast<std::int64_t>(machine.states.size()),
-          .transitions = transition_count(machine)};
+CandidateText text_of(const Controller& controller, const Flavour& flavour) {
+  const std::string printed = print_controller(controller, flavour);
+  CandidateText text{
+      .parameters = "{}", .machine = printed, .call = printed, .modules = modules_json(controller)};
+  if (const auto* machine = std::get_if<Machine>(&controller)) {
+    text.states = static_cast<std::int64_t>(machine->states.size());
+    text.transitions = transition_count(*machine);
+  } else if (const auto* tree = std::get_if<Tree>(&controller)) {
+    text.states = static_cast<std::int64_t>(tree->subtrees.size());
+  }
+  return text;
 }
 
 Expected<MethodSpace> MethodSpace::make(const Method& method, int digits, bool aclib) {
@@ -45,11 +50,28 @@ Expected<MethodSpace> MethodSpace::make(const Method& method, int digits, bool a
   if (method.parameters.empty()) {
     auto flavour = find_flavour(method.flavour);
     if (!flavour) return Unexpected(flavour.error());
-    auto machines = MachineSpace::make(method, **flavour, digits);
-    if (!machines) return Unexpected(machines.error());
-    made.machines_ = std::move(*machines);
+    made.method_ = method;
     made.flavour_ = *flavour;
-    return made;
+    switch (method.architecture) {
+      case Architecture::Machine: {
+        auto machines = MachineSpace::make(method, **flavour, digits);
+        if (!machines) return Unexpected(machines.error());
+        made.machines_ = std::make_shared<const MachineSpace>(std::move(*machines));
+        return made;
+      }
+      case Architecture::Tree: {
+        auto trees = TreeSpace::make(method, **flavour, digits);
+        if (!trees) return Unexpected(trees.error());
+        made.trees_ = std::make_shared<const TreeSpace>(std::move(*trees));
+        return made;
+      }
+      case Architecture::Network: {
+        auto weights = network_space(method, digits);
+        if (!weights) return Unexpected(weights.error());
+        made.parameters_ = std::move(*weights);
+        return made;
+      }
+    }
   }
   auto parameters = parse_parameter_file({.parameters = {method.parameters, "parameters"}});
   if (!parameters) return Unexpected(parameters.error());
@@ -69,19 +91,35 @@ Expected<MethodSpace> MethodSpace::make(const Method& method, int digits, bool a
 }
 
 const ParameterSpace& MethodSpace::parameters() const {
-  return machines_ ? machines_->parameters() : *parameters_;
+  if (machines_) return machines_->parameters();
+  return trees_ ? trees_->parameters() : *parameters_;
+}
+
+Controller MethodSpace::controller_of(const Configuration& configuration) const {
+  if (machines_) return machines_->to_machine(configuration);
+  if (trees_) return trees_->to_tree(configuration);
+  return to_network(method_, configuration);
+}
+
+std::optional<search::Neighbourhood> MethodSpace::neighbourhood() const {
+  if (machines_) return machine_neighbourhood(machines_, method_);
+  if (trees_) return tree_neighbourhood(trees_, method_);
+  return std::nullopt;
 }
 
 CandidateText MethodSpace::text_of(const Configuration& configuration) const {
-  CandidateText text;
-  if (machines_) {
-    text = swarmsmith::text_of(machines_->to_machine(configuration), *flavour_);
-  } else {
+  if (flavour_ == nullptr) {
+    CandidateText text;
     text.machine = command_line_text(*parameters_, configuration);
     text.call = aclib_ ? aclib_text(*parameters_, configuration) : text.machine;
     text.modules = "{}";
+    text.parameters = parameters_json(parameters(), configuration);
+    return text;
   }
-  text.parameters = parameters_json(parameters(), configuration);
+  CandidateText text = swarmsmith::text_of(controller_of(configuration), *flavour_);
+  // A network's text is nothing but its parameters.
+  if (method_.architecture != Architecture::Network)
+    text.parameters = parameters_json(parameters(), configuration);
   return text;
 }
 

@@ -12,15 +12,16 @@
 namespace swarmsmith {
 
 Expected<DesignRunner> DesignRunner::start(DesignPlan plan, StoredDesign stored) {
-  if (plan.only_test) return DesignRunner(std::move(plan), std::move(stored), std::nullopt);
-  auto race = IteratedRace::start(plan.space, plan.scenario, plan.initial, plan.repair);
-  if (!race) return Unexpected(race.error());
-  return DesignRunner(std::move(plan), std::move(stored), std::move(*race));
+  if (plan.only_test) return DesignRunner(std::move(plan), std::move(stored), nullptr);
+  auto search = start_search(plan.space, plan.scenario, plan.search, plan.initial, plan.repair,
+                             plan.neighbourhood);
+  if (!search) return Unexpected(search.error());
+  return DesignRunner(std::move(plan), std::move(stored), std::move(*search));
 }
 
-DesignRunner::DesignRunner(DesignPlan plan, StoredDesign stored, std::optional<IteratedRace> race)
+DesignRunner::DesignRunner(DesignPlan plan, StoredDesign stored, std::unique_ptr<Search> search)
     : plan_(std::move(plan)),
-      race_(std::move(race)),
+      search_(std::move(search)),
       commands_(std::exchange(plan_.commands, {})),
       scores_(std::move(stored)),
       tests_(plan_),
@@ -76,19 +77,19 @@ Expected<void> DesignRunner::go_on_racing(std::vector<Task>& tasks) {
     }
     if (!batch_.is_complete()) return {};
     if (fault_) return Unexpected(*fault_);
-    if (race_->finished()) return finish_race(tasks);
+    if (search_->finished()) return finish_race(tasks);
     if (auto told = tell_race(); !told) return told;
     want_batch(tasks);
-    ahead_.end_step(race_->alive());
+    ahead_.end_step(search_->alive());
   }
 }
 
 Expected<void> DesignRunner::finish_race(std::vector<Task>& tasks) {
   const bool goes_on = commands_.next(CommandKind::Extend, recorder_.steps()) != nullptr;
   if (recorder_.is_replaying() && !goes_on) return Unexpected(recorder_.other_step());
-  if (race_->failure()) {
+  if (search_->failure()) {
     recorder_.set_state(DesignState::Stopped);
-    recorder_.set_reason(to_string(*race_->failure()));
+    recorder_.set_reason(to_string(*search_->failure()));
     recorder_.record_state();
     return {};
   }
@@ -116,7 +117,7 @@ Expected<void> DesignRunner::command(const CommandRow& command, std::vector<Row>
       return bad_input("its race is over; only the tests of its elites are left", name);
     }
   } else if (state() == DesignState::Finished) {
-    const auto least = race_->least_extension();
+    const auto least = search_->least_extension();
     if (!least) return Unexpected(least.error());
     if (command.budget < *least) {
       return bad_input(
@@ -172,11 +173,11 @@ void DesignRunner::cancel(std::vector<Task>& tasks) {
 Expected<bool> DesignRunner::extend(std::vector<Task>& tasks) {
   const CommandRow* next = commands_.next(CommandKind::Extend, recorder_.steps());
   if (next == nullptr) return false;
-  if (!race_) {
-    recorder_.record_warning("the design has no race to extend");
+  if (!search_) {
+    recorder_.record_warning("the design has no search to extend");
     return false;
   }
-  if (auto extended = race_->extend(next->budget); !extended) {
+  if (auto extended = search_->extend(next->budget); !extended) {
     recorder_.record_warning("it cannot be extended: " + to_string(extended.error()));
     return false;
   }
@@ -191,7 +192,7 @@ Expected<bool> DesignRunner::extend(std::vector<Task>& tasks) {
 }
 
 void DesignRunner::want_batch(std::vector<Task>& tasks) {
-  const auto wanted = race_->wanted();
+  const auto wanted = search_->wanted();
   batch_ = Batch({wanted.begin(), wanted.end()});
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     Experiment experiment = wanted[i];
@@ -257,7 +258,7 @@ void DesignRunner::want(std::size_t position, const EvaluationKey& key,
   if (key.purpose == Purpose::Race) ahead_.want(key);
   Task task = task_of(key, experiment);
   if (experiment.is_evaluation) {
-    task.alive = state() == DesignState::Testing ? tests_.tested() : race_->alive();
+    task.alive = state() == DesignState::Testing ? tests_.tested() : search_->alive();
     return calls_.add(std::move(task));
   }
   tasks.push_back(std::move(task));
@@ -293,7 +294,7 @@ Task DesignRunner::task_of(const EvaluationKey& key, const Experiment& experimen
 std::string DesignRunner::call_of(std::int64_t number) const {
   const auto known = call_texts_.find(number);
   return known != call_texts_.end() ? known->second
-                                    : plan_.describe(race_->configuration(number)).call;
+                                    : plan_.describe(search_->configuration(number)).call;
 }
 
 void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
@@ -315,7 +316,7 @@ void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
 void DesignRunner::look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks,
                               std::vector<Row>& rows) {
   if (state() != DesignState::Racing) return;
-  if (pairs > ahead_.pairs_expected()) ahead_.expect(race_->ahead(pairs), pairs);
+  if (pairs > ahead_.pairs_expected()) ahead_.expect(search_->ahead(pairs), pairs);
   while (count > 0) {
     const Experiment* experiment = ahead_.next();
     if (experiment == nullptr) break;
@@ -336,13 +337,13 @@ Expected<void> DesignRunner::tell_race() {
   // Runs before a targetEvaluator are all used; the step comes with its word on them.
   if (!plan_.scenario.target_evaluator)
     given_.insert(given_.end(), batch_.scores().begin(), batch_.scores().end());
-  race_->tell(batch_.measurements());
+  search_->tell(batch_.measurements());
   return take_events();
 }
 
 Expected<void> DesignRunner::take_events() {
-  bool is_reported = race_->finished();
-  for (const RaceEvent& event : race_->take_events()) {
+  bool is_reported = search_->finished();
+  for (const RaceEvent& event : search_->take_events()) {
     auto taken = std::visit(Overloaded{[&](const ConfigurationSampled& sampled) -> Expected<void> {
                                          add_candidate(sampled);
                                          return {};
@@ -353,10 +354,7 @@ Expected<void> DesignRunner::take_events() {
                                        },
                                        [&](const RaceStep& step) {
                                          is_reported = true;
-                                         std::vector<std::pair<std::int64_t, std::int64_t>> used;
-                                         for (const std::int64_t configuration : step.evaluated)
-                                           used.emplace_back(configuration, step.pair);
-                                         count_used(used);
+                                         count_used(step.evaluated);
                                          return recorder_.record_step(step);
                                        },
                                        [&](const IterationEnded& ended) -> Expected<void> {

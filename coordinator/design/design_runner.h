@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -19,7 +20,7 @@
 #include "coordinator/design/target_calls.h"
 #include "coordinator/design/task.h"
 #include "coordinator/design/work_source.h"
-#include "irace_core/iterated_race.h"
+#include "irace_core/search.h"
 #include "storage/rows.h"
 
 namespace swarmsmith {
@@ -81,7 +82,7 @@ class DesignRunner {
   const StoredDesign& unasked() const { return scores_.unasked(); }
 
  private:
-  DesignRunner(DesignPlan plan, StoredDesign stored, std::optional<IteratedRace> race);
+  DesignRunner(DesignPlan plan, StoredDesign stored, std::unique_ptr<Search> search);
 
   // From state to state.
   Expected<void> go_on(std::vector<Task>& tasks);
@@ -124,7 +125,7 @@ class DesignRunner {
   void leave_unused(const StoredScore& score);
 
   DesignPlan plan_;
-  std::optional<IteratedRace> race_;  ///< none when only given configurations are tested
+  std::unique_ptr<Search> search_;  ///< null when only given configurations are tested
   CommandLog commands_;
   KnownScores scores_;
   Batch batch_;

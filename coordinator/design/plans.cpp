@@ -7,7 +7,7 @@
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/method_space.h"
 #include "coordinator/design/repair.h"
-#include "sim/control/machine_text.h"
+#include "sim/control/controller.h"
 
 namespace swarmsmith {
 namespace {
@@ -15,7 +15,7 @@ namespace {
 /// Shared by the plans of one method, which may outlive each other.
 using SharedSpace = std::shared_ptr<const MethodSpace>;
 
-/// A machine that nobody searched for, in place of a race.
+/// Control software that nobody searched for, in place of a search.
 Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
   if (method.baseline.empty()) return {};
   plan.only_test = true;
@@ -29,10 +29,10 @@ Expected<void> put_baseline(DesignPlan& plan, const Method& method) {
   // It may be no point of the space, whose ranges a person need not keep to.
   const auto flavour = find_flavour(method.flavour);
   if (!flavour) return Unexpected(flavour.error());
-  const auto machine = parse_machine(method.baseline, **flavour);
-  if (!machine) return Unexpected(machine.error());
+  const auto given = parse_controller(method.baseline, **flavour);
+  if (!given) return Unexpected(given.error());
   plan.initial = {Configuration(plan.space.size())};
-  plan.describe = [text = text_of(*machine, **flavour)](const Configuration&) { return text; };
+  plan.describe = [text = text_of(*given, **flavour)](const Configuration&) { return text; };
   return {};
 }
 
@@ -46,6 +46,8 @@ Expected<DesignPlan> plan_of(const Campaign& campaign, const DesignRow& row, std
                   .method = static_cast<std::uint32_t>(method),
                   .space = space->parameters(),
                   .scenario = scenario,
+                  .search = campaign.methods[method].search,
+                  .neighbourhood = space->neighbourhood(),
                   .describe = [space](const Configuration& c) { return space->text_of(c); },
                   .tests = {.count = on.test_count,
                             .on_test_instances = !on.instances.test.empty(),

@@ -2,13 +2,14 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/expected.h"
 #include "coordinator/campaign/campaign.h"
 #include "coordinator/campaign/candidate_text.h"
-#include "irace_core/iterated_race.h"
+#include "irace_core/search/start_search.h"
 #include "storage/rows.h"
 
 namespace swarmsmith {
@@ -29,6 +30,9 @@ struct DesignPlan {
   std::uint32_t method = 0;   ///< index into the campaign's methods
   ParameterSpace space;
   Scenario scenario;  ///< with the design's seed and budget
+  SearchOptions search;
+  /// Of annealing; none where it changes one parameter at a time.
+  std::optional<search::Neighbourhood> neighbourhood;
   std::function<CandidateText(const Configuration&)> describe;
   TestPlan tests;
   std::string source;                    ///< the simulator profile's name; "command" for programs

@@ -99,7 +99,8 @@ Expected<void> RowRecorder::record_step(const RaceStep& step) {
                      .bound = step.bound,
                      .digest = step.digest});
   // The race after the last takes candidates from anywhere.
-  alive_.insert(step.evaluated.begin(), step.evaluated.end());
+  for (const auto& [configuration, pair] : step.evaluated)
+    alive_.insert(configuration);
   for (const Elimination& elimination : step.eliminations) {
     alive_.erase(elimination.configuration);
     record(EliminationRow{.candidate = candidate(elimination.configuration),

@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include "base/hash.h"
-#include "coordinator/campaign/machine_space.h"
-#include "sim/control/machine_text.h"
+#include "coordinator/campaign/method_space.h"
+#include "sim/control/controller.h"
 #include "sim/files/machine_file.h"
 #include "sim/files/mission_file.h"
 
@@ -80,17 +80,17 @@ std::optional<std::string> complaint_about(const std::string& mission, const std
 }
 
 void add_design(Addition& addition, DesignRow design, const MachineText& from,
-                const Machine& machine, const Flavour& flavour) {
+                const Controller& controller, const Flavour& flavour) {
+  CandidateText text = text_of(controller, flavour);
   const CandidateId winner = candidate_id(design.id, 1);
-  addition.rows.emplace_back(
-      CandidateRow{.id = winner,
-                   .iteration = 0,
-                   .parent = {},
-                   .parameters = "{}",
-                   .machine = print_machine(machine, flavour),
-                   .modules = modules_json(machine),
-                   .states = static_cast<std::int64_t>(machine.states.size()),
-                   .transitions = transition_count(machine)});
+  addition.rows.emplace_back(CandidateRow{.id = winner,
+                                          .iteration = 0,
+                                          .parent = {},
+                                          .parameters = std::move(text.parameters),
+                                          .machine = std::move(text.machine),
+                                          .modules = std::move(text.modules),
+                                          .states = text.states,
+                                          .transitions = text.transitions});
   addition.rows.emplace_back(DesignStateRow{.design = design.id,
                                             .state = DesignState::Finished,
                                             .used = 0,
@@ -213,14 +213,14 @@ OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
                           from.place});
       }
     }
-    const auto machine = parse_machine(from.text, known.flavour);
-    if (!machine) {
-      errors.push_back({ErrorKind::BadInput, machine.error().message,
-                        from.place + ", " + machine.error().where});
+    const auto controller = parse_controller(from.text, known.flavour);
+    if (!controller) {
+      errors.push_back({ErrorKind::BadInput, controller.error().message,
+                        from.place + ", " + controller.error().where});
       continue;
     }
     for (const std::string& text :
-         {from.name, mission, method, print_machine(*machine, known.flavour)})
+         {from.name, mission, method, print_controller(*controller, known.flavour)})
       digest.add(text);
     add_design(addition,
                {.id = {++id},
@@ -230,7 +230,7 @@ OrErrors<Addition> import_machines(const std::vector<MachineText>& machines,
                 .repetition = repetitions.next(mission, method),
                 .seed = 0,
                 .budget = 0},
-               from, *machine, known.flavour);
+               from, *controller, known.flavour);
   }
   if (!errors.empty()) return tl::unexpected(std::move(errors));
   addition.campaign = CampaignRow{

@@ -121,7 +121,7 @@ void Race::take_in(std::span<const Measurement> measurements, std::size_t& at) {
   if (!open_->evaluates) {
     std::vector<std::size_t>& ran = open_->ran;
     for (const std::size_t c : answered)
-      open_->step.evaluated.push_back(contestants_[c].id);
+      open_->step.evaluated.emplace_back(contestants_[c].id, open_->step.pair);
     ran.insert(ran.end(), answered.begin(), answered.end());
     std::sort(ran.begin(), ran.end());
     if (settings_.target_evaluator) return;  // no costs yet

@@ -183,15 +183,15 @@ bool IteratedRace::State::keeps_track() const {
 
 /// Adds up the times of what was run and counts, and leaves out of the step what was known.
 void IteratedRace::State::count_runs(RaceStep& step) {
-  std::vector<std::int64_t> evaluated;
-  for (const std::int64_t id : step.evaluated) {
-    const auto told = told_.extract({step.pair, id});
+  std::vector<std::pair<std::int64_t, std::int64_t>> evaluated;
+  for (const auto& [id, pair] : step.evaluated) {
+    const auto told = told_.extract({pair, id});
     SWARMSMITH_ASSERT(!told.empty(), "what a step evaluated was told");
     if (told.mapped().was_known) {
       ++repeated_;
       continue;
     }
-    evaluated.push_back(id);
+    evaluated.emplace_back(id, pair);
     if (time) time->count(told.mapped().time);
   }
   step.evaluated = std::move(evaluated);

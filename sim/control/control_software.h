@@ -1,47 +1,33 @@
 #pragma once
 
-#include <array>
-#include <cstddef>
+#include <variant>
 
 #include "base/rng.h"
-#include "sim/control/behaviours.h"
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
-#include "sim/control/machine.h"
+#include "sim/control/machine_control.h"
 #include "sim/control/reference_model.h"
 
 namespace swarmsmith {
 
-/// One robot's running state machine. Senses in, command out; links nothing of a simulator.
-///
-/// A cycle (rvr-automode facts, section 6.2): a behaviour that was just entered is reset; it acts;
-/// then, from the second cycle in a state on, one of the enabled outgoing transitions, if any, is
-/// taken, each of the enabled ones with equal probability. The command is the one of the behaviour
-/// that acted.
+/// One robot's running controller. Senses in, command out; links nothing of a simulator.
 class ControlSoftware {
  public:
-  /// `machine` and `flavour` must outlive the object.
-  ControlSoftware(const Machine& machine, const Flavour& flavour, Rng rng);
+  /// `controller` and `flavour` must outlive the object.
+  ControlSoftware(const Controller& controller, const Flavour& flavour, Rng rng);
 
-  Command step(Senses& senses);
+  Command step(Senses& senses) {
+    return std::visit([&senses](auto& running) { return running.step(senses); }, running_);
+  }
 
-  /// Index of the current state, after the last step's transition test.
-  int state() const { return state_; }
+  /// Index of the current state of a machine or subtree of a tree, after the last step; 0 of a
+  /// network.
+  int state() const {
+    return std::visit([](const auto& running) { return running.state(); }, running_);
+  }
 
  private:
-  /// Enabling probabilities of the neighbour counts, filled in as counts turn up; -1 is unknown.
-  static constexpr int kTabledNeighbours = 8;
-  using SigmoidTable = std::array<double, kTabledNeighbours>;
-
-  double probability_of(const Condition& condition, std::size_t transition, Senses& senses);
-  void take_transition(Senses& senses);
-
-  const Machine* machine_;
-  const Flavour* flavour_;
-  Rng rng_;
-  int state_ = 0;
-  bool entered_ = true;
-  BehaviourMemory memory_;
-  std::array<std::array<SigmoidTable, kMaxTransitions>, kMaxStates> sigmoids_;
+  std::variant<MachineControl, TreeControl, NetworkControl> running_;
 };
 
 }  // namespace swarmsmith

@@ -4,21 +4,10 @@
 #include <string>
 
 #include "sim/control/flavour.h"
+#include "sim/control/internal/module_text.h"
 
 namespace swarmsmith {
 namespace {
-
-std::optional<std::string> complaint_about_module(Module module, const std::vector<double>& values,
-                                                  const Flavour& flavour) {
-  const ModuleSpec* spec = flavour.find(module);
-  if (spec == nullptr) {
-    return "the flavour " + flavour.name + " has no module " + std::string(id_of(module));
-  }
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    if (auto complaint = complaint_about(spec->parameters[i], values[i])) return complaint;
-  }
-  return std::nullopt;
-}
 
 std::optional<Error> check_state(const Machine& machine, std::size_t index,
                                  const Flavour& flavour) {

@@ -1,7 +1,5 @@
 #include "sim/control/machine_text.h"
 
-#include <array>
-#include <charconv>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -11,6 +9,7 @@
 
 #include "sim/control/flavour.h"
 #include "sim/control/internal/fields.h"
+#include "sim/control/internal/module_text.h"
 
 namespace swarmsmith {
 namespace {
@@ -56,9 +55,9 @@ class Parser {
     if (auto error = sort(index, fields, end, own, transitions)) return Unexpected(*error);
     const Expected<Field> selector = own.need("s");
     if (!selector) return Unexpected(selector.error());
-    const Expected<const ModuleSpec*> spec = module_of_field(*selector, flavour_.behaviours);
+    const Expected<const ModuleSpec*> spec = read_module(*selector, flavour_.behaviours, flavour_);
     if (!spec) return Unexpected(spec.error());
-    const Expected<std::vector<double>> values = parameters(**spec, own);
+    const Expected<std::vector<double>> values = read_parameters(**spec, own, flavour_);
     if (!values) return Unexpected(values.error());
     if (auto error = check_count(own, transitions)) return Unexpected(*error);
     if (auto error = own.check_empty(id_of((*spec)->module))) return Unexpected(*error);
@@ -126,102 +125,18 @@ class Parser {
     if (!destination) return Unexpected(destination.error());
     const Expected<Field> selector = block.need("c");
     if (!selector) return Unexpected(selector.error());
-    const Expected<const ModuleSpec*> spec = module_of_field(*selector, flavour_.conditions);
+    const Expected<const ModuleSpec*> spec = read_module(*selector, flavour_.conditions, flavour_);
     if (!spec) return Unexpected(spec.error());
-    const Expected<std::vector<double>> values = parameters(**spec, block);
+    const Expected<std::vector<double>> values = read_parameters(**spec, block, flavour_);
     if (!values) return Unexpected(values.error());
     if (auto error = block.check_empty(id_of((*spec)->module))) return Unexpected(*error);
     return Transition{.condition = make_condition((*spec)->module, *values),
                       .target = *destination < state ? *destination : *destination + 1};
   }
 
-  Expected<const ModuleSpec*> module_of_field(const Field& field,
-                                              const std::vector<ModuleSpec>& table) const {
-    const Expected<int> number = integer_of(field);
-    if (!number) return Unexpected(number.error());
-    std::string known;
-    for (const ModuleSpec& spec : table) {
-      if (spec.number == *number) return &spec;
-      known += (known.empty() ? "" : ", ") + std::to_string(spec.number) + " " +
-               std::string(id_of(spec.module));
-    }
-    return Unexpected(error_at(field.value, "the flavour " + flavour_.name + " has no module " +
-                                                std::to_string(*number) + " for " +
-                                                quoted(field.name.text) + "; it has " + known));
-  }
-
-  Expected<std::vector<double>> parameters(const ModuleSpec& spec, Block& block) const {
-    std::vector<double> values;
-    for (const ParameterSpec& parameter : spec.parameters) {
-      const Expected<Field> field = block.need(parameter.token);
-      if (!field) return Unexpected(field.error());
-      const Expected<double> value = this->value(parameter, *field);
-      if (!value) return Unexpected(value.error());
-      values.push_back(*value);
-    }
-    return values;
-  }
-
-  Expected<double> value(const ParameterSpec& parameter, const Field& field) const {
-    double value = 0;
-    if (parameter.type == ParameterSpec::Type::Real) {
-      if (!read_number(field.value.text, value)) {
-        return Unexpected(error_at(field.value, quoted(field.name.text) + " wants a number, not " +
-                                                    quoted(field.value.text)));
-      }
-    } else {
-      const Expected<int> number = integer_of(field);
-      if (!number) return Unexpected(number.error());
-      if (parameter.type == ParameterSpec::Type::Label) return label(field, *number);
-      value = *number;
-    }
-    if (const auto complaint = complaint_about(parameter, value)) {
-      return Unexpected(error_at(field.value, quoted(field.name.text) + ": " + *complaint +
-                                                  ", not " + std::string(field.value.text)));
-    }
-    return value;
-  }
-
-  Expected<double> label(const Field& field, int number) const {
-    std::string known;
-    for (const LabelSpec& spec : flavour_.floor.labels) {
-      if (spec.number == number) return static_cast<double>(spec.label);
-      known += (known.empty() ? "" : ", ") + std::to_string(spec.number) + " " +
-               std::string(name_of(spec.label));
-    }
-    return Unexpected(error_at(field.value, quoted(field.name.text) + " has no label " +
-                                                std::to_string(number) + "; labels are " + known));
-  }
-
   const Flavour& flavour_;
   int states_ = 0;
 };
-
-/// Shortest text that reads back to the same value, without an exponent of another locale.
-std::string shortest(double value) {
-  std::array<char, 32> buffer{};
-  const auto [end, error] = std::to_chars(buffer.data(), buffer.data() + buffer.size(), value);
-  return {buffer.data(), end};
-}
-
-void append(std::string& text, std::string_view stem, std::string_view suffix,
-            std::string_view value) {
-  if (!text.empty()) text += ' ';
-  text.append("--").append(stem).append(suffix).append(" ").append(value);
-}
-
-void append_parameters(std::string& text, const ModuleSpec& spec, const std::vector<double>& values,
-                       const std::string& suffix, const Flavour& flavour) {
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    double value = values[i];
-    if (spec.parameters[i].type == ParameterSpec::Type::Label) {
-      for (const LabelSpec& label : flavour.floor.labels) {
-        if (static_cast<double>(label.label) == values[i]) value = label.number;
-      }
-    }
-    append(text, spec.parameters[i].token, suffix, shortest(value));
-  }
-}
 
 }  // namespace
 
@@ -241,18 +156,18 @@ std::string print_machine(const Machine& machine, const Flavour& flavour) {
     const State& state = machine.states[i];
     const std::string suffix = std::to_string(i);
     const ModuleSpec& behaviour = *flavour.find(module_of(state.behaviour));
-    append(text, "s", suffix, std::to_string(behaviour.number));
+    append_switch(text, "s", suffix, std::to_string(behaviour.number));
     append_parameters(text, behaviour, parameters_of(state.behaviour), suffix, flavour);
     if (!state.transitions.empty()) {
-      append(text, "n", suffix, std::to_string(state.transitions.size()));
+      append_switch(text, "n", suffix, std::to_string(state.transitions.size()));
     }
     for (std::size_t j = 0; j < state.transitions.size(); ++j) {
       const Transition& transition = state.transitions[j];
       const std::string own = suffix + "x" + std::to_string(j);
       const int skip = transition.target > static_cast<int>(i) ? 1 : 0;
       const ModuleSpec& condition = *flavour.find(module_of(transition.condition));
-      append(text, "n", own, std::to_string(transition.target - skip));
-      append(text, "c", own, std::to_string(condition.number));
+      append_switch(text, "n", own, std::to_string(transition.target - skip));
+      append_switch(text, "c", own, std::to_string(condition.number));
       append_parameters(text, condition, parameters_of(transition.condition), own, flavour);
     }
   }

@@ -55,7 +55,7 @@ std::string self_test_digest() {
       mission->cycles = 200;
       const Expected<Instance> instance = instance_of(*mission, 1);
       SWARMSMITH_ASSERT(instance.has_value(), "three robots fit into the arena");
-      const SimulationResult result = simulate({.machine = *machine,
+      const SimulationResult result = simulate({.controller = *machine,
                                                 .flavour = watermelon(),
                                                 .profile = profile,
                                                 .mission = *mission,

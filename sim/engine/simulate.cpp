@@ -66,7 +66,7 @@ class Run {
     for (int i = 0; i < world_.robots(); ++i) {
       agents_.push_back(
           {.senses = RobotSenses(world_, arena_, setup.profile, i, run),
-           .control = ControlSoftware(setup.machine, setup.flavour,
+           .control = ControlSoftware(setup.controller, setup.flavour,
                                       run.split("control", static_cast<std::uint64_t>(i))),
            .clock = RobotClock(setup.profile.timing, run, i)});
       next_events_.push_back(agents_.back().next_event());

@@ -7,18 +7,18 @@
 #include <utility>
 
 #include "sim/control/control_software.h"
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
-#include "sim/control/machine.h"
 #include "sim/engine/profile.h"
 #include "sim/engine/readings.h"
 #include "sim/mission/mission.h"
 
 namespace swarmsmith {
 
-/// Everything one evaluation is a function of. The machine must fit the flavour (parsing sees to
+/// Everything one evaluation is a function of. The controller must fit the flavour (parsing sees to
 /// it); the referenced values must outlive the call.
 struct SimulationSetup {
-  const Machine& machine;
+  const Controller& controller;
   const Flavour& flavour;
   const Profile& profile;
   const Mission& mission;
@@ -36,7 +36,7 @@ struct SimulationResult {
 struct RobotRecord {
   Pose pose;
   Command command;  ///< computed in its last control cycle; without latency it acts in the next
-  int state = 0;    ///< of the machine, after that cycle's transition test
+  int state = 0;    ///< ControlSoftware::state, after that cycle
   /// What the recorder asked for, as read in that cycle; null in cycle 0, or when it asked for
   /// nothing.
   const Readings* readings = nullptr;

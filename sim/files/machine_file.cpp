@@ -6,6 +6,7 @@
 #include "base/text/document.h"
 #include "base/text/table_reader.h"
 #include "base/text/toml_text.h"
+#include "sim/control/controller.h"
 #include "sim/files/profile_file.h"
 
 namespace swarmsmith {
@@ -104,13 +105,13 @@ class Reader {
     toml_ += '\n';
     has_head_ = has_head_ || is_head;
     if (is_head || text.empty() || text.front() == '#') return;
-    const std::size_t at = std::min(text.find("--nstates"), text.find("--fsm-config"));
+    const std::size_t at = find_controller(text);
     if (at != std::string_view::npos) {
       begin(text, at);
     } else if (text.starts_with("--") && !machines_.empty() && !has_head_) {
       machines_.back().text += " " + std::string(text);
     } else {
-      errors_.push_back({ErrorKind::BadInput, "a machine begins with --nstates or --fsm-config",
+      errors_.push_back({ErrorKind::BadInput, "a machine begins with one of " + first_switches(),
                          file_ + ":" + std::to_string(number_)});
     }
   }

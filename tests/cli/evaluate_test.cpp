@@ -31,7 +31,7 @@ double score_of(const std::string& mission_name, std::int64_t seed) {
   const Mission mission = *built_in_mission(mission_name);
   const Machine machine = *parse_machine(kExploreText, watermelon());
   const Instance instance = *instance_of(mission, seed);
-  return simulate({.machine = machine,
+  return simulate({.controller = machine,
                    .flavour = watermelon(),
                    .profile = *built_in_profile("rvr"),
                    .mission = mission,
@@ -318,7 +318,7 @@ TEST_F(EvaluateFromStore, StaysOutWhileACampaignWrites) {
 double hasty_score(const Flavour& flavour, std::int64_t seed) {
   const Mission mission = *built_in_mission("grid_exploration");
   const Machine machine = *parse_machine(kExploreText, flavour);
-  return simulate({.machine = machine,
+  return simulate({.controller = machine,
                    .flavour = flavour,
                    .profile = *built_in_profile("pseudo-reality"),
                    .mission = mission,

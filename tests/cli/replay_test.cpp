@@ -26,7 +26,7 @@ SimulationResult result_of(const std::string& machine_text, std::int64_t seed) {
   const CampaignMission mission = one_design_campaign().missions.front();
   const Machine machine = *parse_machine(machine_text, watermelon());
   const Instance instance = *instance_of(mission.mission, seed);
-  return simulate({.machine = machine,
+  return simulate({.controller = machine,
                    .flavour = watermelon(),
                    .profile = *built_in_profile("rvr"),
                    .mission = mission.mission,

@@ -13,6 +13,7 @@ namespace {
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
+using ::testing::Key;
 
 constexpr double kRejects = std::numeric_limits<double>::infinity();
 
@@ -101,7 +102,7 @@ TEST(CappedRace, RunsElitesFirstAndBoundsTheOthersByThem) {
   const std::vector<RaceStep> steps = race.take_steps();
   ASSERT_EQ(steps.size(), 1U);
   EXPECT_EQ(steps[0].bound, 2.5);
-  EXPECT_THAT(steps[0].evaluated, ElementsAre(1, 2, 5, 6));
+  EXPECT_THAT(steps[0].evaluated, ElementsAre(Key(1), Key(2), Key(5), Key(6)));
   // Stopped at its bound, the last costs as much as bound_max.
   EXPECT_THAT(steps[0].eliminations, ElementsAre(Elimination{6, 4, EliminationReason::Capping}));
   EXPECT_EQ(steps[0].marker, 'c');

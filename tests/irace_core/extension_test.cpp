@@ -177,7 +177,7 @@ TEST(Extension, OfRandomDesignsKeepsTheirRules) {
             iterated += extension > 0 && !started->postselection;
           }
           if (const auto* step = std::get_if<RaceStep>(&event)) {
-            for (const std::int64_t id : step->evaluated)
+            for (const auto& [id, seen] : step->evaluated)
               EXPECT_TRUE(counted.emplace(id, step->pair).second);
           }
           if (const auto* estimated = std::get_if<TimeEstimated>(&event))

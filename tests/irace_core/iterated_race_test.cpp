@@ -153,7 +153,7 @@ TEST(IteratedRace, DropsNoEliteThatHasSeenMoreThanItsRivals) {
       }
       const auto* step = std::get_if<RaceStep>(&event);
       if (step == nullptr) continue;
-      for (const std::int64_t id : step->evaluated)
+      for (const auto& [id, seen] : step->evaluated)
         pairs[id].insert(step->pair);
       for (const Elimination& dropped : step->eliminations) {
         if (!known_before.contains(dropped.configuration)) continue;
@@ -272,7 +272,7 @@ TEST(IteratedRace, CountsNoRunsThatARejectionMadeVoid) {
   std::set<std::int64_t> rejected;
   std::int64_t counted = 0;
   for (const RaceStep& step : only<RaceStep>(events)) {
-    for (const std::int64_t id : step.evaluated)
+    for (const auto& [id, pair] : step.evaluated)
       EXPECT_FALSE(rejected.contains(id));
     counted += static_cast<std::int64_t>(step.evaluated.size());
     for (const Elimination& dropped : step.eliminations) {
@@ -394,7 +394,8 @@ TEST(IteratedRace, ReportsForbiddenGivenConfigurationsWithoutRacingThem) {
   EXPECT_EQ(only<ConfigurationSampled>(events).front().id, 1);  // ids have no gaps
   std::set<std::int64_t> raced;
   for (const RaceStep& step : only<RaceStep>(events))
-    raced.insert(step.evaluated.begin(), step.evaluated.end());
+    for (const auto& [id, pair] : step.evaluated)
+      raced.insert(id);
   EXPECT_FALSE(raced.contains(1));
   EXPECT_TRUE(raced.contains(2));
 }

@@ -15,6 +15,7 @@ using ::testing::DoubleNear;
 using ::testing::Each;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
+using ::testing::Key;
 
 constexpr double kRejects = std::numeric_limits<double>::infinity();
 
@@ -168,7 +169,7 @@ TEST(EvaluatedRace, CallsForAllWhoAreAliveAfterTheRunsOfATask) {
   EXPECT_EQ(race.used(), 5);
   const std::vector<RaceStep> steps = race.take_steps();
   ASSERT_EQ(steps.size(), 2U);
-  EXPECT_THAT(steps[1].evaluated, ElementsAre(8, 9));
+  EXPECT_THAT(steps[1].evaluated, ElementsAre(Key(8), Key(9)));
   EXPECT_EQ(steps[1].best, 7);
   EXPECT_EQ(steps[1].mean_best, (7 + 70) / 2.0);
 }

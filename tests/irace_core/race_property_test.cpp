@@ -186,7 +186,7 @@ TEST(RaceProperty, CountsTheRunsOfItsSteps) {
     std::int64_t counted = 0;
     std::set<std::int64_t> gone;
     for (const RaceStep& step : outcome.steps) {
-      for (const std::int64_t id : step.evaluated)
+      for (const auto& [id, pair] : step.evaluated)
         EXPECT_FALSE(gone.contains(id)) << id << " had left before task " << step.task;
       for (const Elimination& elimination : step.eliminations)
         EXPECT_TRUE(gone.insert(elimination.configuration).second);

@@ -60,7 +60,7 @@ void play(const ParameterSpace& space, const Scenario& scenario, double rejects,
     for (const RaceEvent& event : race->take_events()) {
       if (const auto* step = std::get_if<RaceStep>(&event)) {
         digest.add(step->digest);
-        for (const std::int64_t id : step->evaluated)
+        for (const auto& [id, seen] : step->evaluated)
           EXPECT_TRUE(counted.emplace(id, step->pair).second) << id << " on " << step->pair;
         EXPECT_EQ(step->experiments_used, static_cast<std::int64_t>(counted.size()));
       }

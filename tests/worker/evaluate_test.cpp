@@ -38,7 +38,7 @@ TEST(Evaluate, GivesWhatTheSimulatorGives) {
   const Machine machine = *parse_machine(kMachine, watermelon());
   for (std::int64_t seed = 1; seed <= 5; ++seed) {
     const Instance instance = *instance_of(scenario.missions[0], seed);
-    const SimulationResult wanted = simulate({.machine = machine,
+    const SimulationResult wanted = simulate({.controller = machine,
                                               .flavour = watermelon(),
                                               .profile = scenario.profile,
                                               .mission = scenario.missions[0],
@@ -65,7 +65,7 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
     const Flavour flavour =
         *find_flavour("watermelon", method == 0 ? TurnClock::Cycles : TurnClock::Seconds);
     const SimulationResult wanted =
-        simulate({.machine = machine,
+        simulate({.controller = machine,
                   .flavour = flavour,
                   .profile = scenarios_from_bytes(bytes)->front().profile,
                   .mission = scenario.missions[0],

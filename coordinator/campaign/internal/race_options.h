@@ -7,9 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "coordinator/campaign/campaign.h"
 #include "irace_core/scenario.h"
 
 namespace swarmsmith {
+
+/// Whether some method races: for others all of [race] but the budget means nothing.
+bool has_races(const Campaign& campaign);
 
 /// The keys of [race] that are a number of the scenario, so that reading, writing and the digest
 /// know the same ones. Names are irace's in snake_case.

@@ -1,15 +1,16 @@
 #include "coordinator/campaign/internal/read_method.h"
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "base/suggestion.h"
 #include "base/text/whole_file.h"
+#include "coordinator/campaign/internal/method_search.h"
 #include "irace_core/files/configurations_file.h"
 #include "irace_core/files/parameter_file.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine.h"
-#include "sim/control/machine_text.h"
 #include "sim/files/machine_file.h"
 #include "sim/files/mission_file.h"
 
@@ -26,11 +27,18 @@ std::vector<std::string> ids_of(const std::vector<ModuleSpec>& table) {
 
 /// Null, after a complaint, when the flavour is unknown: then its modules cannot be checked.
 const Flavour* read_flavour(TableReader& table, Method& method) {
-  static const std::vector<std::string> kNotYet = {"vanilla"};
+  const Node* said = table.has("flavour") ? table.take("flavour") : nullptr;
+  const auto* word = said != nullptr ? std::get_if<std::string>(&said->value) : nullptr;
+  if (word != nullptr && *word == "vanilla") {
+    table.complain("flavour",
+                   "vanilla is a way to search, and no flavour: write `method = \"vanilla\"` and "
+                   "the flavour that it searches");
+    return nullptr;
+  }
   std::vector<std::string> known;
   for (const Flavour* flavour : all_flavours())
     known.push_back(flavour->name);
-  const auto name = table.choice("flavour", known, kNotYet);
+  const auto name = table.choice("flavour", known);
   if (!name && table.has("flavour")) return nullptr;
   method.flavour = name.value_or(method.flavour);
   return *find_flavour(method.flavour);
@@ -273,11 +281,35 @@ void read_baseline(TableReader& table, const std::filesystem::path& folder, Meth
   const auto flavour = find_flavour(method.flavour);
   if (!flavour) return;  // complained about
   method.turn_clock = turn_clock.value_or((*flavour)->exploration.turn_clock);
-  const auto machine = parse_machine(method.baseline, **flavour);
-  if (machine) {
-    method.baseline = print_machine(*machine, **flavour);
+  const auto given = parse_controller(method.baseline, **flavour);
+  if (given) {
+    method.baseline = print_controller(*given, **flavour);
   } else {
-    table.complain("baseline", machine.error().where + ": " + machine.error().message);
+    table.complain("baseline", given.error().where + ": " + given.error().message);
+  }
+}
+
+/// Keys that are for another architecture than the method's.
+void refuse_foreign_keys(TableReader& table, const Method& method) {
+  struct Foreign {
+    std::string_view key;
+    std::vector<Architecture> of;
+  };
+  static const std::array kKeys = {
+      Foreign{"max_states", {Architecture::Machine}},
+      Foreign{"max_transitions", {Architecture::Machine}},
+      Foreign{"max_subtrees", {Architecture::Tree}},
+      Foreign{"behaviours", {Architecture::Machine, Architecture::Tree}},
+      Foreign{"conditions", {Architecture::Machine, Architecture::Tree}},
+      Foreign{"parameters", {Architecture::Machine, Architecture::Tree}}};
+  for (const Foreign& foreign : kKeys) {
+    if (!table.has(foreign.key) || std::ranges::count(foreign.of, method.architecture) > 0)
+      continue;
+    table.take(foreign.key);
+    table.complain(foreign.key, "`" + std::string(foreign.key) + "` is for " +
+                                    std::string(name_of(foreign.of.front())) +
+                                    "s, and this method's architecture is " +
+                                    std::string(name_of(method.architecture)));
   }
 }
 
@@ -295,10 +327,13 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
       table.take_all();
       return method;
     }
+    read_search(table, method, true);
     read_parameter_file(table, folder, method);
     return method;
   }
   const Flavour* flavour = read_flavour(table, method);
+  read_search(table, method, false);
+  refuse_foreign_keys(table, method);
   if (flavour != nullptr) {
     read_baseline(table, folder, method);
     flavour = *find_flavour(method.flavour);
@@ -308,6 +343,7 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
   method.max_states = table.integer("max_states", {1, kMaxStates}).value_or(kMaxStates);
   method.max_transitions =
       table.integer("max_transitions", {1, kMaxTransitions}).value_or(kMaxTransitions);
+  method.max_subtrees = table.integer("max_subtrees", {1, kMaxSubtrees}).value_or(kMaxSubtrees);
   if (flavour != nullptr) {
     if (method.baseline.empty() || table.has("turn_clock")) {
       method.turn_clock = read_turn_clock(table, *flavour);

@@ -60,7 +60,32 @@ bool check_budgets(TableReader& race, const Scenario& scenario, bool has_target)
   return false;
 }
 
+/// The budget is everybody's; nobody would go by the rest.
+void refuse_options_of_races(TableReader& race) {
+  std::vector<std::string_view> keys = {"min_experiments", "test_type", "capping", "capping_type",
+                                        "bound_type"};
+  for (const IntegerOption& option : kIntegerOptions)
+    if (option.member != &Scenario::max_experiments) keys.push_back(option.key);
+  for (const RealOption& option : kRealOptions)
+    keys.push_back(option.key);
+  for (const FlagOption& option : kFlagOptions)
+    keys.push_back(option.key);
+  for (const std::string_view key : keys) {
+    if (race.has(key))
+      race.complain(key, "`" + std::string(key) +
+                             "` is an option of races, and no method of this campaign races");
+  }
+}
+
 }  // namespace
+
+bool has_races(const Campaign& campaign) {
+  return campaign.methods.empty() ||
+         std::ranges::any_of(campaign.methods, [](const Method& method) {
+           return method.search.kind == SearchKind::Irace ||
+                  method.search.kind == SearchKind::FRace;
+         });
+}
 
 void read_race(TableReader& root, const std::filesystem::path& folder, Campaign& campaign) {
   auto race = root.table("race");
@@ -73,6 +98,7 @@ void read_race(TableReader& root, const std::filesystem::path& folder, Campaign&
     return;
   }
   const std::size_t before = race->complaints();
+  if (!has_races(campaign)) refuse_options_of_races(*race);
   read_numbers(*race, campaign.race);
   campaign.digits = race->integer("digits", {1, 15}).value_or(campaign.digits);
   campaign.test_nb_elites =

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <iterator>
 
+#include "coordinator/campaign/internal/method_search.h"
 #include "coordinator/campaign/internal/race_options.h"
 #include "coordinator/campaign/internal/target_sections.h"
 #include "sim/control/flavour.h"
@@ -12,8 +13,24 @@
 namespace swarmsmith {
 namespace {
 
-void append(std::vector<Section>& sections, std::vector<Section> more) {
-  std::ranges::move(more, std::back_inserter(sections));
+template <class Element>
+void append(std::vector<Element>& elements, std::vector<Element> more) {
+  std::ranges::move(more, std::back_inserter(elements));
+}
+
+/// How large control software may grow, and of which modules it is made.
+std::vector<SectionLine> size_lines(const Method& method) {
+  if (method.architecture == Architecture::Network) return {};
+  std::vector<SectionLine> lines;
+  if (method.architecture == Architecture::Tree) {
+    lines.push_back({"max_subtrees", std::to_string(method.max_subtrees)});
+  } else {
+    lines.push_back({"max_states", std::to_string(method.max_states)});
+    lines.push_back({"max_transitions", std::to_string(method.max_transitions)});
+  }
+  lines.push_back({"behaviours", array_of(method.behaviours)});
+  lines.push_back({"conditions", array_of(method.conditions)});
+  return lines;
 }
 
 /// A method with the modules that it uses, by name.
@@ -30,13 +47,11 @@ void add_method(const Method& method, std::vector<Section>& sections) {
                    {"turn_clock", quoted_text(name_of(method.turn_clock))}}};
   if (!method.baseline.empty()) section.lines.push_back({"baseline", quoted_text(method.baseline)});
   if (method.baseline.empty() || method.baseline == kRandomMachine) {
-    section.lines.insert(section.lines.end(),
-                         {{"max_states", std::to_string(method.max_states)},
-                          {"max_transitions", std::to_string(method.max_transitions)},
-                          {"behaviours", array_of(method.behaviours)},
-                          {"conditions", array_of(method.conditions)}});
+    append(section.lines, search_lines(method));
+    append(section.lines, size_lines(method));
   }
   sections.push_back(std::move(section));
+  append(sections, search_sections(method, prefix));
   if (method.ranges.empty()) return;
   Section parameters{"[method.parameters]", prefix + "parameters.", {}};
   const auto flavour = find_flavour(method.flavour);
@@ -60,14 +75,11 @@ SectionLine choice_line(std::string_view key, const std::vector<std::string>& na
   return {std::string(key), quoted_text(names.at(static_cast<std::size_t>(value)))};
 }
 
-/// [race] with every option, also those that have their defaults.
-Section race_section(const Campaign& campaign) {
-  const Scenario& race = campaign.race;
-  Section section{"[race]", "race.", {}};
+/// What only races go by.
+void add_race_options(const Scenario& race, Section& section) {
   for (const IntegerOption& option : kIntegerOptions) {
-    // A time in its place.
-    if (option.member == &Scenario::max_experiments && race.max_experiments == 0) continue;
-    section.lines.push_back({std::string(option.key), std::to_string(race.*option.member)});
+    if (option.member != &Scenario::max_experiments)
+      section.lines.push_back({std::string(option.key), std::to_string(race.*option.member)});
   }
   if (race.min_experiments) {
     section.lines.push_back({"min_experiments", std::to_string(*race.min_experiments)});
@@ -83,6 +95,16 @@ Section race_section(const Campaign& campaign) {
   for (const FlagOption& option : kFlagOptions) {
     section.lines.push_back({std::string(option.key), flag_text(race.*option.member)});
   }
+}
+
+/// [race] with every option, also those that have their defaults.
+Section race_section(const Campaign& campaign) {
+  const Scenario& race = campaign.race;
+  Section section{"[race]", "race.", {}};
+  // A time may be in its place.
+  if (race.max_experiments > 0)
+    section.lines.push_back({"max_experiments", std::to_string(race.max_experiments)});
+  if (has_races(campaign)) add_race_options(race, section);
   section.lines.push_back({"digits", std::to_string(campaign.digits)});
   section.lines.push_back({"test_nb_elites", std::to_string(campaign.test_nb_elites)});
   section.lines.push_back({"test_iteration_elites", flag_text(campaign.test_iteration_elites)});

@@ -60,7 +60,7 @@ std::vector<Pose> starts_in_a_group(std::int64_t seed) {
 void watch(const Trial& trial, std::vector<Pose> starts, std::int64_t seed,
            const Recorder& recorder) {
   const Instance instance{.starts = std::move(starts), .patches = {}};
-  simulate({.machine = trial.machine,
+  simulate({.controller = trial.machine,
             .flavour = trial.flavour,
             .profile = trial.profile,
             .mission = trial.mission,

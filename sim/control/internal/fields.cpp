@@ -10,7 +10,7 @@ bool is_space(char c) {
 }
 
 /// Takes the switch's name apart: letters, then nothing, a state, or a state, x and a transition.
-bool split_name(Field& field) {
+bool split_name(Field& field, Between between) {
   std::string_view rest = field.name.text;
   if (!rest.starts_with("--")) return false;
   rest.remove_prefix(2);
@@ -19,6 +19,10 @@ bool split_name(Field& field) {
   if (field.stem.empty()) return false;
   if (digits == std::string_view::npos) return true;
   rest.remove_prefix(digits);
+  if (between == Between::Nothing) {
+    return rest.size() <= 2 && read_number(rest.substr(0, 1), field.state) &&
+           (rest.size() == 1 || read_number(rest.substr(1), field.transition));
+  }
   const std::size_t cross = rest.find('x');
   if (!read_number(rest.substr(0, cross), field.state)) return false;
   if (cross == std::string_view::npos) return true;
@@ -51,11 +55,11 @@ std::vector<Token> tokens_of(std::string_view text) {
   }
 }
 
-Expected<std::vector<Field>> fields_of(std::span<const Token> tokens) {
+Expected<std::vector<Field>> fields_of(std::span<const Token> tokens, Between between) {
   std::vector<Field> fields;
   for (std::size_t i = 0; i + 1 < tokens.size(); i += 2) {
     Field field{.name = tokens[i], .value = tokens[i + 1], .stem = {}};
-    if (!split_name(field)) {
+    if (!split_name(field, between)) {
       return Unexpected(
           error_at(tokens[i], "expected a switch such as `--s0`, found " + quoted(tokens[i].text)));
     }

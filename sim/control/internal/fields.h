@@ -24,7 +24,7 @@ struct Token {
 };
 
 /// A switch with its value, the switch taken apart: --p0x3 is stem p, state 0, transition 3; what
-/// the switch lacks is -1.
+/// the switch lacks is -1. In trees --p03 is the same: child 3 of subtree 0.
 struct Field {
   Token name;
   Token value;
@@ -41,8 +41,12 @@ std::string quoted(std::string_view text);
 /// The words, and an empty one that stands for the end of the text.
 std::vector<Token> tokens_of(std::string_view text);
 
+/// What stands between the two numbers of a switch: an x in machines, nothing in trees.
+enum class Between { Cross, Nothing };
+
 /// Pairs the words up; `tokens` ends with the one of the end.
-Expected<std::vector<Field>> fields_of(std::span<const Token> tokens);
+Expected<std::vector<Field>> fields_of(std::span<const Token> tokens,
+                                       Between between = Between::Cross);
 
 /// Reads a whole word as a number, whatever the locale; false when it is none.
 template <class Number>

@@ -142,7 +142,7 @@ const Mistake kMistakes[] = {
      "in/x.toml:7:11: `flavour` cannot be \"watermellon\" (did you mean \"watermelon\"?)"},
     {"FlavourNotYet",
      {.method = "name = \"m\"\nflavour = \"vanilla\"\n"},
-     "in/x.toml:7:11: flavour = \"vanilla\" is not there yet"},
+     "in/x.toml:7:11: vanilla is a way to search, and no flavour"},
     {"UnknownTurnClock",
      {.method = "name = \"m\"\nturn_clock = \"second\"\n"},
      "in/x.toml:7:14: `turn_clock` cannot be \"second\" (did you mean \"seconds\"?)"},

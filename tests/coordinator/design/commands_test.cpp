@@ -44,7 +44,7 @@ TEST(Cancel, LeavesWhatTheStepsHaveUsed) {
   Rng rng(3);
   int cut = 0;
   for (int round = 0; round < 150; ++round) {
-    const RandomOptions options = random_options(rng);
+    const TargetChoices options = random_options(rng);
     SCOPED_TRACE("round " + std::to_string(round) + "\n" + options.race + options.simulator);
     const std::vector<DesignPlan> designs =
         batched(plans(campaign_with(options.race, options.simulator, options.test)));
@@ -181,7 +181,7 @@ TEST(Extend, IsTheSameWheneverItIsAskedFor) {
   Rng rng(17);
   int extended = 0;
   for (int round = 0; round < 60; ++round) {
-    const RandomOptions options = random_options(rng);
+    const TargetChoices options = random_options(rng);
     SCOPED_TRACE("round " + std::to_string(round) + "\n" + options.race + options.simulator);
     const std::vector<DesignPlan> designs =
         batched(plans(campaign_with(options.race, options.simulator, options.test)));

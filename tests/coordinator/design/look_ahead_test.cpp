@@ -21,7 +21,7 @@ TEST(LookAhead, ChangesNothingOfTheAnswer) {
   std::int64_t ahead = 0;
   int looked = 0;
   for (int round = 0; round < 200; ++round) {
-    const RandomOptions options = random_options(rng);
+    const TargetChoices options = random_options(rng);
     SCOPED_TRACE("round " + std::to_string(round) + "\n" + options.race + options.simulator);
     const std::vector<DesignPlan> designs =
         batched(plans(campaign_with(options.race, options.simulator, options.test)));

@@ -14,7 +14,7 @@ TEST(RandomTargetDesign, GoesOnAsIfNothingHadHappened) {
   Rng rng(4711);
   std::map<DesignState, int> ends;
   for (int round = 0; round < 120; ++round) {
-    const RandomOptions options = random_options(rng);
+    const TargetChoices options = random_options(rng);
     SCOPED_TRACE("round " + std::to_string(round) + "\n" + options.race + options.simulator);
     const Campaign campaign = campaign_with(options.race, options.simulator, options.test);
     if (HasFailure()) return;

@@ -82,8 +82,8 @@ Outcome judged(const Task& task) {
   return outcome;
 }
 
-RandomOptions random_options(Rng& rng) {
-  RandomOptions options;
+TargetChoices random_options(Rng& rng) {
+  TargetChoices options;
   const auto line = [&](double chance, const std::string& text) {
     if (rng.bernoulli(chance)) options.race += text + "\n";
   };

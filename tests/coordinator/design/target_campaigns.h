@@ -26,14 +26,14 @@ Outcome honest(const Task& task);
 Outcome judged(const Task& task);
 
 /// Lines of [race] and [simulator] that can be mixed freely.
-struct RandomOptions {
+struct TargetChoices {
   std::string race;
   std::string simulator;
   std::string test;
   bool evaluates = false;
 };
 
-RandomOptions random_options(Rng& rng);
+TargetChoices random_options(Rng& rng);
 
 /// A target that stops at its bound, and rejects some of what it is given.
 Outcome random_target(const Task& task, bool evaluates, double rejects);

@@ -184,7 +184,7 @@ TEST_F(Referees, GiveTheScoreOfTheSimulator) {
     const Ruling ruling = ruling_on(task);
     const Flavour flavour = *find_flavour("watermelon", TurnClock::Cycles);
     const Machine machine = *parse_machine(task.machine, flavour);
-    const SimulationResult wanted = simulate({.machine = machine,
+    const SimulationResult wanted = simulate({.controller = machine,
                                               .flavour = flavour,
                                               .profile = *built_in_profile("rvr"),
                                               .mission = mission,

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "sim/control/control_software.h"
+#include "sim/control/machine_control.h"
 #include "sim/control/machine_text.h"
 #include "tests/sim/reference_run.h"
 
@@ -128,7 +128,7 @@ TEST(RecordedCommands, ExplorationTurnsWhenAndWhereTheRecordedRobotsDid) {
 TEST(RecordedCommands, AMachineWithSureTransitionsChangesStateWhenTheRecordedOneDid) {
   const RecordedRun run = recorded_run("color", "hC1");
   const Machine machine = machine_of(run);
-  std::vector<ControlSoftware> robots(3, ControlSoftware(machine, watermelon_argos3(), Rng(1)));
+  std::vector<MachineControl> robots(3, MachineControl(machine, watermelon_argos3(), Rng(1)));
   int changes = 0;
   for (std::size_t tick = 1; tick < run.ticks.size(); ++tick) {
     for (std::size_t robot = 0; robot < robots.size(); ++robot) {

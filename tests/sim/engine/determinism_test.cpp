@@ -88,7 +88,7 @@ std::string hash_of(Mission mission, const std::string& flavour_name,
   const Profile profile = built_in_profile(profile_name).value();
   const Instance instance = instance_of(mission, 17).value();
   Digest digest;
-  const SimulationResult result = simulate({.machine = machine,
+  const SimulationResult result = simulate({.controller = machine,
                                             .flavour = flavour,
                                             .profile = profile,
                                             .mission = mission,

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "base/math.h"
-#include "sim/control/control_software.h"
+#include "sim/control/machine_control.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/internal/robot_senses.h"
 #include "sim/engine/simulate.h"
@@ -57,7 +57,7 @@ Sensors asked_by(const char* machine_text) {
   const RichScene scene;
   const Flavour& flavour = watermelon_argos3();
   const Machine machine = parse_machine(machine_text, flavour).value();
-  ControlSoftware control(machine, flavour, Rng(1));
+  MachineControl control(machine, flavour, Rng(1));
   RobotSenses senses = scene.senses();
   for (int cycle = 1; cycle <= 2; ++cycle) {
     senses.begin_cycle({.number = cycle});

@@ -15,7 +15,7 @@ ReferenceRuns::ReferenceRuns(const char* mission_name)
 
 SimulationResult ReferenceRuns::run(const Machine& machine, int seed, int stream,
                                     const Recorder& recorder) const {
-  return simulate({.machine = machine,
+  return simulate({.controller = machine,
                    .flavour = *flavour,
                    .profile = profile,
                    .mission = mission,

@@ -1,4 +1,4 @@
-#include "sim/control/control_software.h"
+#include "sim/control/machine_control.h"
 
 #include <gtest/gtest.h>
 
@@ -23,9 +23,9 @@ const char* const kAlternating =
     "--nstates 2 --s0 0 --rwm0 5 --n0 1 --n0x0 0 --c0x0 5 --p0x0 1 "
     "--s1 1 --n1 1 --n1x0 0 --c1x0 5 --p1x0 1";
 
-TEST(ControlSoftware, StaysAtLeastTwoCyclesAndTheCommandIsTheOldBehaviours) {
+TEST(MachineControl, StaysAtLeastTwoCyclesAndTheCommandIsTheOldBehaviours) {
   const Machine machine = machine_of(kAlternating);
-  ControlSoftware software(machine, watermelon(), Rng(1));
+  MachineControl software(machine, watermelon(), Rng(1));
   FakeSenses senses;
   const std::array<Command, 8> commands = {kForward, kForward, kStill, kStill,
                                            kForward, kForward, kStill, kStill};
@@ -36,11 +36,11 @@ TEST(ControlSoftware, StaysAtLeastTwoCyclesAndTheCommandIsTheOldBehaviours) {
   }
 }
 
-TEST(ControlSoftware, TestsNoConditionInTheFirstCycleOfAState) {
+TEST(MachineControl, TestsNoConditionInTheFirstCycleOfAState) {
   const Machine machine = machine_of(
       "--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 0 --p0x0 1 --s1 1 --n1 1 --n1x0 0 --c1x0 3 "
       "--p1x0 0 --w1x0 20");
-  ControlSoftware software(machine, watermelon(), Rng(1));
+  MachineControl software(machine, watermelon(), Rng(1));
   FakeSenses senses;
   senses.floor = {0, 0, 0};
   software.step(senses);
@@ -55,11 +55,11 @@ TEST(ControlSoftware, TestsNoConditionInTheFirstCycleOfAState) {
   EXPECT_GT(senses.neighbours_asked, 0);
 }
 
-TEST(ControlSoftware, ReEnteringExplorationForgetsTheTurn) {
+TEST(MachineControl, ReEnteringExplorationForgetsTheTurn) {
   const Machine machine = machine_of(
       "--nstates 2 --s0 0 --rwm0 100 --n0 1 --n0x0 0 --c0x0 5 --p0x0 1 "
       "--s1 1 --n1 1 --n1x0 0 --c1x0 5 --p1x0 1");
-  ControlSoftware software(machine, watermelon_argos3(), Rng(5));
+  MachineControl software(machine, watermelon_argos3(), Rng(5));
   FakeSenses senses;
   senses.obstacle(0, 0.2);
   for (int round = 0; round < 20; ++round) {
@@ -70,9 +70,9 @@ TEST(ControlSoftware, ReEnteringExplorationForgetsTheTurn) {
   }
 }
 
-TEST(ControlSoftware, AFinalStateIsNeverLeft) {
+TEST(MachineControl, AFinalStateIsNeverLeft) {
   const Machine machine = machine_of("--nstates 1 --s0 1");
-  ControlSoftware software(machine, watermelon(), Rng(1));
+  MachineControl software(machine, watermelon(), Rng(1));
   FakeSenses senses;
   for (int cycle = 0; cycle < 100; ++cycle)
     software.step(senses);
@@ -84,8 +84,7 @@ TEST(ControlSoftware, AFinalStateIsNeverLeft) {
 std::array<int, 4> first_targets(const Machine& machine, FakeSenses senses, int runs) {
   std::array<int, 4> frequency{};
   for (int run = 0; run < runs; ++run) {
-    ControlSoftware software(machine, watermelon(),
-                             Rng(9).split("run", static_cast<unsigned>(run)));
+    MachineControl software(machine, watermelon(), Rng(9).split("run", static_cast<unsigned>(run)));
     software.step(senses);
     software.step(senses);
     ++frequency.at(static_cast<std::size_t>(software.state()));
@@ -109,7 +108,7 @@ double chi_square(const std::array<int, 4>& observed, const std::array<double, 4
 constexpr double kChiSquare2 = 13.82;
 constexpr double kChiSquare3 = 16.27;
 
-TEST(ControlSoftware, ChoosesUniformlyAmongTheEnabledTransitions) {
+TEST(MachineControl, ChoosesUniformlyAmongTheEnabledTransitions) {
   // Grey floor: transitions 0, 2 and 3 are enabled, the black one is not.
   const Machine machine = machine_of(
       "--nstates 4 --s0 1 --n0 4 --n0x0 0 --c0x0 5 --p0x0 1 --n0x1 1 --c0x1 0 --p0x1 1 "
@@ -118,7 +117,7 @@ TEST(ControlSoftware, ChoosesUniformlyAmongTheEnabledTransitions) {
   EXPECT_LT(chi_square(frequency, {0, 10'000, 10'000, 10'000}), kChiSquare2);
 }
 
-TEST(ControlSoftware, TheFirstEnabledOfARandomOrderWinsInDistribution) {
+TEST(MachineControl, TheFirstEnabledOfARandomOrderWinsInDistribution) {
   // Probabilities 0.5 and 1: half of the time both are enabled and share, else the sure one wins.
   const Machine machine = machine_of(
       "--nstates 3 --s0 1 --n0 2 --n0x0 0 --c0x0 5 --p0x0 0.5 --n0x1 1 --c0x1 5 --p0x1 1 "
@@ -127,7 +126,7 @@ TEST(ControlSoftware, TheFirstEnabledOfARandomOrderWinsInDistribution) {
   EXPECT_LT(chi_square(frequency, {0, 5'000, 15'000, 0}), kChiSquare2);
 }
 
-TEST(ControlSoftware, ATransitionFiresWithItsProbability) {
+TEST(MachineControl, ATransitionFiresWithItsProbability) {
   const Machine machine = machine_of(
       "--nstates 4 --s0 1 --n0 3 --n0x0 0 --c0x0 1 --p0x0 0.2 --n0x1 1 --c0x1 3 --p0x1 1 "
       "--w0x1 1 --n0x2 2 --c0x2 0 --p0x2 1 --s1 1 --s2 1 --s3 1");
@@ -138,7 +137,7 @@ TEST(ControlSoftware, ATransitionFiresWithItsProbability) {
   EXPECT_LT(chi_square(frequency, {16'000, 6'000, 18'000, 0}), kChiSquare3);
 }
 
-TEST(ControlSoftware, ManyNeighboursAreBeyondTheTableAndStillCount) {
+TEST(MachineControl, ManyNeighboursAreBeyondTheTableAndStillCount) {
   const Machine machine =
       machine_of("--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 3 --p0x0 10 --w0x0 20 --s1 1");
   FakeSenses senses;
@@ -147,19 +146,19 @@ TEST(ControlSoftware, ManyNeighboursAreBeyondTheTableAndStillCount) {
   EXPECT_EQ(first_targets(machine, senses, 100)[1], 100);
 }
 
-TEST(ControlSoftware, ProbabilityZeroNeverFires) {
+TEST(MachineControl, ProbabilityZeroNeverFires) {
   const Machine machine = machine_of("--nstates 2 --s0 1 --n0 1 --n0x0 0 --c0x0 5 --p0x0 0 --s1 1");
-  ControlSoftware software(machine, watermelon(), Rng(1));
+  MachineControl software(machine, watermelon(), Rng(1));
   FakeSenses senses;
   for (int cycle = 0; cycle < 10'000; ++cycle)
     software.step(senses);
   EXPECT_EQ(software.state(), 0);
 }
 
-TEST(ControlSoftware, TheSameStreamGivesTheSameRun) {
+TEST(MachineControl, TheSameStreamGivesTheSameRun) {
   const Machine machine = machine_of(kAlternating);
-  ControlSoftware one(machine, watermelon(), Rng(11));
-  ControlSoftware other(machine, watermelon(), Rng(11));
+  MachineControl one(machine, watermelon(), Rng(11));
+  MachineControl other(machine, watermelon(), Rng(11));
   FakeSenses senses;
   senses.obstacle(45, 0.1);
   for (int cycle = 0; cycle < 1000; ++cycle) {

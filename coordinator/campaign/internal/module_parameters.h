@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "coordinator/campaign/campaign.h"
+#include "irace_core/configuration.h"
+#include "irace_core/parameter_space.h"
+#include "sim/control/flavour.h"
+
+namespace swarmsmith {
+
+/// Where a parameter would be that is left out.
+inline constexpr std::size_t kNoParameter = std::numeric_limits<std::size_t>::max();
+
+/// How a space's values are written.
+enum class Words {
+  Names,    ///< modules by name, nothing that has one value alone
+  Grammar,  ///< as the text grammar wants them
+};
+
+/// Where one module's parameters are: indices into the space, in the order of `parameters_of`.
+struct ModuleSlot {
+  const ModuleSpec* spec = nullptr;
+  std::vector<std::size_t> parameters;
+};
+
+/// The parameters of a space that is put together from a flavour's modules, added one by one.
+class ModuleParameters {
+ public:
+  ModuleParameters(const Method& method, const Flavour& flavour, Words words);
+
+  /// Adds one parameter; returns where it is.
+  std::size_t add(std::string name, const std::string& token, Domain domain,
+                  std::optional<Expression> condition = std::nullopt);
+  /// What has one value alone is for the text grammar only.
+  void add_fixed(std::string name, const std::string& token, int value,
+                 std::optional<Expression> condition);
+  /// A choice among modules.
+  Categorical choice_of(const std::vector<const ModuleSpec*>& modules) const;
+  /// The parameters of the modules among which `chooser` chooses. Modules share a parameter of the
+  /// same symbol (P of all conditions with a probability) as long as their ranges agree; one with a
+  /// range of its own gets a parameter of its own (P_black_floor0x1).
+  std::vector<ModuleSlot> add_modules(const std::vector<const ModuleSpec*>& modules,
+                                      const std::string& chooser, const std::string& suffix);
+
+  const std::vector<const ModuleSpec*>& behaviours() const { return behaviours_; }
+  const std::vector<const ModuleSpec*>& conditions() const { return conditions_; }
+  Words words() const { return words_; }
+  std::vector<Parameter> take() { return std::move(parameters_); }
+
+ private:
+  std::string word_of(const ModuleSpec& module) const;
+  std::string name_of(const ModuleSpec& module, const ParameterSpec& parameter) const;
+  bool is_shared(const ParameterSpec& parameter) const;
+  Domain domain_of(const ModuleSpec& module, const ParameterSpec& parameter) const;
+  Expression users_chosen(const std::vector<const ModuleSpec*>& modules, const std::string& name,
+                          const std::string& chooser) const;
+
+  const Method& method_;
+  Words words_;
+  std::vector<const ModuleSpec*> behaviours_;
+  std::vector<const ModuleSpec*> conditions_;
+  std::vector<Parameter> parameters_;
+};
+
+/// The condition `parameter > value`.
+Expression more_than(const std::string& parameter, int value);
+
+/// A parameter's value, or `otherwise` where it is left out or inactive.
+double value_or(const Configuration& configuration, std::size_t index, double otherwise);
+
+/// The module's parameters in a configuration, as make_behaviour and make_condition take them.
+std::vector<double> values_of(const Configuration& configuration, const ModuleSlot& slot,
+                              const Flavour& flavour);
+/// The other way: which of the slots has the module, for its chooser; its values go into `values`.
+std::size_t put_module(Module module, const std::vector<double>& parameters,
+                       const std::vector<ModuleSlot>& slots, const Flavour& flavour,
+                       Configuration& values);
+
+}  // namespace swarmsmith

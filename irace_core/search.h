@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "base/expected.h"
+#include "irace_core/experiment.h"
+#include "irace_core/parameter_space.h"
+#include "irace_core/race_event.h"
+
+namespace swarmsmith {
+
+/// How a design is searched for, as ask and tell: iterated racing, evolution, random search, ...
+///
+/// Every search is a pure function of its space, its options, its seed and the costs that it is
+/// told. It has no clock, no thread, no input and no output, so that a store replays it: the same
+/// costs lead to the same questions, events and digests, however many workers answer. It counts
+/// each run that it asks for, and never asks for more than its budget.
+class Search {
+ public:
+  virtual ~Search() = default;
+
+  virtual bool finished() const = 0;
+  /// Why there is no result. Only once finished.
+  virtual const std::optional<Error>& failure() const = 0;
+
+  /// Everything that the search certainly needs before it decides again, in canonical order (pair,
+  /// then configuration); empty once finished. Valid until the next tell().
+  virtual std::span<const Experiment> wanted() const = 0;
+  /// What it would probably want after that, in canonical order, on up to `pairs` further pairs:
+  /// for slots that would idle. It moves no generator, and what is told does not depend on it.
+  virtual std::vector<Experiment> ahead(std::int64_t pairs) const = 0;
+  /// Costs of all wanted() in the same order, smaller is better; an infinite cost is a rejection.
+  /// Throws std::invalid_argument for NaN or a wrong number of costs.
+  virtual void tell(std::span<const Measurement> measurements) = 0;
+  /// Ids of all whose results may still matter, ascending.
+  virtual std::vector<std::int64_t> alive() const = 0;
+  /// What happened since the last call, in order.
+  virtual std::vector<RaceEvent> take_events() = 0;
+
+  /// More budget for a search that is over. An error says why that cannot be.
+  virtual Expected<void> extend(std::int64_t experiments) = 0;
+  /// The smallest extension that changes something. Only when finished().
+  virtual Expected<std::int64_t> least_extension() const = 0;
+
+  /// A configuration by its id; throws std::out_of_range for an id that never was. Valid until the
+  /// next tell().
+  virtual const Configuration& configuration(std::int64_t id) const = 0;
+  virtual const ParameterSpace& space() const = 0;
+
+  /// Elites of the last iteration that ended, best first; the first one is the answer.
+  virtual std::span<const Elite> elites() const = 0;
+  virtual std::int64_t experiments_used() const = 0;
+  virtual std::int64_t budget() const = 0;
+  virtual std::int64_t iteration() const = 0;  ///< of the search's own kind: race, generation, ...
+  virtual std::int64_t n_iterations() const = 0;  ///< as planned now
+  virtual std::int64_t n_alive() const = 0;
+};
+
+}  // namespace swarmsmith

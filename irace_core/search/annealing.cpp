@@ -1,0 +1,322 @@
+#include "irace_core/search/annealing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+#include <utility>
+
+#include "base/assert.h"
+#include "base/math.h"
+#include "irace_core/internal/sampling.h"
+#include "irace_core/search/random_search.h"
+
+namespace swarmsmith::search {
+namespace {
+
+constexpr std::int64_t kScaleSample = 20;  ///< random configurations that say what 1 is
+constexpr std::int64_t kBlock = 100;       ///< iterations of annealing in one of the events
+
+// The published schedule, in score units (docs/methods.md).
+constexpr double kPublishedStart = 125;
+constexpr double kPublishedEnd = 0.00125;
+constexpr std::int64_t kPublishedHold = 3;
+
+/// Who walks: its id and its costs on the window.
+struct Walker {
+  std::int64_t id = 0;
+  Configuration configuration;
+  std::map<std::int64_t, double> costs;  ///< by pair
+
+  double mean() const {
+    double sum = 0;
+    for (const auto& [pair, cost] : costs)
+      sum += cost;
+    return sum / static_cast<double>(costs.size());
+  }
+  Elite as_elite(double rank) const {
+    return {rank, id, mean(), static_cast<std::int64_t>(costs.size())};
+  }
+};
+
+double standard_deviation(std::span<const double> values) {
+  if (values.size() < 2) return 0;
+  double sum = 0;
+  for (const double value : values)
+    sum += value;
+  const double mean = sum / static_cast<double>(values.size());
+  double squares = 0;
+  for (const double value : values)
+    squares += (value - mean) * (value - mean);
+  return std::sqrt(squares / static_cast<double>(values.size() - 1));
+}
+
+class Annealing final : public Strategy {
+ public:
+  Annealing(const ParameterSpace& space, const Scenario& scenario, const AnnealingOptions& options,
+            Neighbourhood neighbourhood)
+      : space_(space),
+        budget_(scenario.max_experiments),
+        options_(options),
+        neighbourhood_(std::move(neighbourhood)),
+        rng_(scenario.seed) {}
+
+  /// The least that works.
+  std::int64_t least_budget() const { return scale_runs() + most_runs() + 2 * options_.final_runs; }
+
+  Expected<std::optional<Round>> next(std::int64_t next_id) override {
+    if (phase_ == Phase::Over) return std::nullopt;
+    if (phase_ == Phase::Scale) return scale_round(next_id);
+    if (used_ + most_runs() + 2 * options_.final_runs > budget_) return final_round();
+    return step_round(next_id);
+  }
+
+  Verdict take(std::span<const double> costs) override {
+    used_ += static_cast<std::int64_t>(costs.size());
+    if (phase_ == Phase::Scale) return take_scale(costs);
+    if (phase_ == Phase::Final) return take_final(costs);
+    return take_step(costs);
+  }
+
+  std::int64_t planned_iterations() const override {
+    const std::int64_t steps =
+        steps_ + std::max<std::int64_t>(0, budget_ - used_ - 2 * options_.final_runs) / most_runs();
+    return 1 + (steps + kBlock - 1) / kBlock + 1;
+  }
+
+  Expected<void> extend(std::int64_t) override { return Unexpected(no_extension()); }
+  Expected<std::int64_t> least_extension() const override { return Unexpected(no_extension()); }
+
+  void add_to(Digest& digest) const override {
+    digest.add(steps_);
+    digest.add(used_);
+    digest.add(scale_);
+    digest.add(published_temperature_);
+    for (const Walker* walker : {&incumbent_, &best_}) {
+      digest.add(walker->id);
+      for (const auto& [pair, cost] : walker->costs)
+        digest.add(cost);
+    }
+  }
+
+ private:
+  enum class Phase { Scale, Walking, Final, Over };
+
+  static Error no_extension() {
+    return {ErrorKind::BadInput,
+            "annealing cannot be extended: its temperatures follow from the whole budget. Run the "
+            "campaign with the larger budget into a new store",
+            ""};
+  }
+
+  std::int64_t scale_runs() const { return (kScaleSample + 1) * options_.window; }
+  /// Of an iteration, when incumbent and best are two.
+  std::int64_t most_runs() const { return options_.window + 2 * options_.moved; }
+
+  Expected<std::optional<Round>> scale_round(std::int64_t next_id) {
+    Round round;
+    Rng rng = rng_.split("scale");
+    std::vector<std::int64_t> ids;
+    round.newcomers.push_back({neighbourhood_.start, 0});
+    for (std::int64_t i = 0; i < kScaleSample; ++i) {
+      auto drawn = draw_uniform(space_, {}, rng);
+      if (!drawn) return Unexpected(drawn.error());
+      round.newcomers.push_back({std::move(*drawn), 0});
+    }
+    if (options_.start_at_random) std::swap(round.newcomers[0], round.newcomers[1]);
+    for (std::size_t i = 0; i < round.newcomers.size(); ++i)
+      ids.push_back(next_id + static_cast<std::int64_t>(i));
+    incumbent_.id = next_id;
+    incumbent_.configuration = round.newcomers[0].configuration;
+    round.runs = all_on(ids, 1, options_.window);
+    round.start = Round::Start{.budget = static_cast<std::int64_t>(round.runs.size())};
+    runs_ = round.runs;
+    return round;
+  }
+
+  Verdict take_scale(std::span<const double> costs) {
+    std::vector<double> means;
+    for (const Scored& one : ranked(runs_, costs)) {
+      if (one.id != incumbent_.id && !std::isinf(one.mean)) means.push_back(one.mean);
+    }
+    scale_ = standard_deviation(means);
+    keep_costs(incumbent_, costs);
+    best_ = incumbent_;
+    window_begin_ = 1;
+    published_temperature_ = kPublishedStart;
+    phase_ = Phase::Walking;
+    return {.ended = IterationEnded{.reason = "the scale of the costs is known",
+                                    .elites = {incumbent_.as_elite(1)}},
+            .alive = {incumbent_.id}};
+  }
+
+  Expected<std::optional<Round>> step_round(std::int64_t next_id) {
+    step_rng_ = rng_.split("perturb", static_cast<std::uint64_t>(++steps_));
+    auto perturbed = neighbourhood_.perturb(incumbent_.configuration, step_rng_);
+    if (!perturbed) return Unexpected(perturbed.error());
+    Round round;
+    round.is_one_step = true;
+    if ((steps_ - 1) % kBlock == 0) {
+      round.start = Round::Start{.elites = elite_ids(),
+                                 .budget = std::min(kBlock * most_runs(), budget_ - used_)};
+    }
+    candidate_ = {.id = next_id, .configuration = *perturbed, .costs = {}};
+    round.newcomers.push_back({std::move(*perturbed), incumbent_.id});
+
+    window_begin_ += options_.moved;
+    const std::int64_t end = window_begin_ + options_.window;
+    std::set<std::int64_t> ids = {incumbent_.id, best_.id, candidate_.id};
+    for (std::int64_t pair = window_begin_; pair < end; ++pair) {
+      for (const std::int64_t id : ids) {
+        const bool is_new = pair >= end - options_.moved;
+        if (id == candidate_.id || is_new) round.runs.emplace_back(id, pair);
+      }
+    }
+    runs_ = round.runs;
+    return round;
+  }
+
+  Verdict take_step(std::span<const double> costs) {
+    for (Walker* walker : {&incumbent_, &best_, &candidate_})
+      keep_costs(*walker, costs);
+    if (is_accepted()) {
+      incumbent_ = candidate_;
+      if (candidate_.mean() <= best_.mean()) best_ = candidate_;
+    }
+    cool();
+    Verdict verdict{.ended = std::nullopt, .alive = elite_ids()};
+    std::ranges::sort(verdict.alive);
+    if (steps_ % kBlock == 0) verdict.ended = end_of_block();
+    return verdict;
+  }
+
+  IterationEnded end_of_block() const {
+    IterationEnded ended{.reason = "a block of iterations is over", .elites = {best_.as_elite(1)}};
+    if (incumbent_.id != best_.id) ended.elites.push_back(incumbent_.as_elite(2));
+    return ended;
+  }
+
+  /// The Metropolis criterion. The draw is made in any case, so that nothing hangs on it.
+  bool is_accepted() {
+    const double draw = step_rng_.uniform();
+    const double now = candidate_.mean();
+    const double before = incumbent_.mean();
+    if (now <= before) return true;
+    const double t = temperature();
+    return t > 0 && draw < exp((before - now) / t);
+  }
+
+  double temperature() const {
+    if (options_.cooling == Cooling::Published) return published_temperature_;
+    if (options_.start_temperature == 0) return 0;
+    const auto walked = static_cast<double>(used_ - scale_runs());
+    const auto all = static_cast<double>(budget_ - scale_runs() - 2 * options_.final_runs);
+    const double share = std::clamp(walked / all, 0.0, 1.0);
+    const double end = std::max(options_.end_temperature, 1e-12) / options_.start_temperature;
+    return scale_ * options_.start_temperature * pow(end, share);
+  }
+
+  void cool() {
+    if (options_.cooling != Cooling::Published) return;
+    if (steps_ % kPublishedHold == 0) published_temperature_ /= 2;
+    if (published_temperature_ >= kPublishedEnd) return;
+    published_temperature_ = kPublishedStart;
+    incumbent_ = best_;
+  }
+
+  Expected<std::optional<Round>> final_round() {
+    phase_ = Phase::Final;
+    Round round;
+    const std::vector<std::int64_t> ids = elite_ids();
+    const std::int64_t runs = (budget_ - used_) / static_cast<std::int64_t>(ids.size());
+    const std::int64_t first = window_begin_ + options_.window;
+    round.runs = all_on(ids, first, std::min(runs, 2 * options_.final_runs));
+    round.start = Round::Start{
+        .elites = ids, .budget = static_cast<std::int64_t>(round.runs.size()), .is_final = true};
+    runs_ = round.runs;
+    return round;
+  }
+
+  Verdict take_final(std::span<const double> costs) {
+    phase_ = Phase::Over;
+    const std::vector<Scored> order = ranked(runs_, costs);
+    Verdict verdict{
+        .ended = IterationEnded{.reason = "the final stage is over", .elites = as_elites(order)},
+        .alive = elite_ids()};
+    std::ranges::sort(verdict.alive);
+    return verdict;
+  }
+
+  /// Those of the walker on the window that is now.
+  void keep_costs(Walker& walker, std::span<const double> costs) const {
+    for (std::size_t i = 0; i < runs_.size(); ++i) {
+      if (runs_[i].first == walker.id) walker.costs[runs_[i].second] = costs[i];
+    }
+    walker.costs.erase(walker.costs.begin(), walker.costs.lower_bound(window_begin_));
+    SWARMSMITH_ASSERT(static_cast<std::int64_t>(walker.costs.size()) == options_.window,
+                      "a walker has been run on the whole window");
+  }
+
+  /// Best first.
+  std::vector<std::int64_t> elite_ids() const {
+    if (incumbent_.id == best_.id) return {best_.id};
+    return {best_.id, incumbent_.id};
+  }
+
+  const ParameterSpace& space_;
+  std::int64_t budget_;
+  AnnealingOptions options_;
+  Neighbourhood neighbourhood_;
+  Rng rng_;
+  Rng step_rng_{0};
+  Phase phase_ = Phase::Scale;
+  std::vector<std::pair<std::int64_t, std::int64_t>> runs_;  ///< of the round
+  Walker incumbent_;
+  Walker best_;
+  Walker candidate_;
+  std::int64_t window_begin_ = 1;  ///< its first pair
+  std::int64_t steps_ = 0;
+  std::int64_t used_ = 0;
+  double scale_ = 0;  ///< of the costs: a temperature of 1
+  double published_temperature_ = 0;
+};
+
+}  // namespace
+
+Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configuration start) {
+  const auto perturb = [&space](const Configuration& from, Rng& rng) -> Expected<Configuration> {
+    std::vector<std::size_t> changeable;
+    for (std::size_t i = 0; i < space.size(); ++i) {
+      if (from.is_active(i) && !space.is_fixed(i)) changeable.push_back(i);
+    }
+    constexpr int kTries = 100;
+    for (int i = 0; i < kTries && !changeable.empty(); ++i) {
+      const std::size_t changed = changeable[rng.below(changeable.size())];
+      auto made =
+          irace::sample_configuration(space, [&](std::size_t parameter, const Interval& domain) {
+            const bool is_kept =
+                parameter != changed && from.is_active(parameter) &&
+                (!space.is_numeric(parameter) ||
+                 (from[parameter] >= domain.lower && from[parameter] <= domain.upper));
+            return is_kept ? from[parameter]
+                           : irace::quantile_value(space, parameter, domain, rng.uniform());
+          });
+      if (!made) return made;
+      if (*made != from && !space.is_forbidden(*made)) return made;
+    }
+    return bad_input("no configuration beside the incumbent is allowed");
+  };
+  return {std::move(start), perturb};
+}
+
+Expected<std::unique_ptr<Strategy>> make_annealing(const ParameterSpace& space,
+                                                   const Scenario& scenario,
+                                                   const AnnealingOptions& options,
+                                                   Neighbourhood neighbourhood) {
+  auto annealing = std::make_unique<Annealing>(space, scenario, options, std::move(neighbourhood));
+  if (scenario.max_experiments < annealing->least_budget())
+    return Unexpected(too_small(scenario.max_experiments, annealing->least_budget()));
+  return annealing;
+}
+
+}  // namespace swarmsmith::search

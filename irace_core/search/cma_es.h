@@ -1,0 +1,76 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "base/rng.h"
+#include "irace_core/parameter_space.h"
+#include "irace_core/scenario.h"
+#include "irace_core/search/options.h"
+#include "irace_core/search/strategy.h"
+
+namespace swarmsmith::search {
+
+/// The distribution of CMA-ES: a normal one whose mean, step size and covariance matrix follow the
+/// best half of each generation. Hansen, "The CMA Evolution Strategy: A Tutorial",
+/// arXiv:1604.00772, with its standard parameters; plain loops in a fixed order and our own
+/// eigenvectors, so that every machine gets the same bits.
+class CmaEs {
+ public:
+  /// `population` is lambda; `step` the first standard deviation.
+  CmaEs(std::vector<double> mean, double step, std::int64_t population);
+
+  /// mean + step * B D z of standard normal numbers z.
+  std::vector<double> point_of(std::span<const double> normals) const;
+  /// The points of a generation, best first: at least the best half of `population`.
+  void update(std::span<const std::vector<double>> points);
+
+  std::span<const double> mean() const { return mean_; }
+  double step() const { return step_; }
+  std::int64_t generation() const { return generation_; }
+  /// The covariance matrix without the step size, row by row, n x n.
+  std::span<const double> covariance() const { return covariance_; }
+
+ private:
+  std::size_t dimensions() const { return mean_.size(); }
+  /// Of the covariance: its eigenvectors are the columns of `axes_`, and `lengths_` the roots of
+  /// its eigenvalues.
+  void decompose();
+
+  std::vector<double> weights_;  ///< of the best half, sum 1
+  double mu_eff_ = 0;
+  double c_sigma_ = 0;
+  double d_sigma_ = 0;
+  double c_c_ = 0;
+  double c_1_ = 0;
+  double c_mu_ = 0;
+  double chi_n_ = 0;  ///< expected length of a standard normal vector
+
+  std::vector<double> mean_;
+  double step_;
+  std::vector<double> covariance_;
+  std::vector<double> axes_;
+  std::vector<double> lengths_;
+  std::vector<double> step_path_;
+  std::vector<double> covariance_path_;
+  std::int64_t generation_ = 0;
+};
+
+/// Eigenvalues of a symmetric matrix (n x n, row by row), by Jacobi's method with cyclic sweeps;
+/// `vectors` gets the eigenvectors as columns. Golub and Van Loan, "Matrix Computations", 8.5.
+std::vector<double> eigenvalues(std::vector<double> matrix, std::size_t n,
+                                std::vector<double>& vectors);
+
+/// CMA-ES on a RealBox from its middle, in generations as evolution has them; the final stage has
+/// the best of the last generation and the distribution's mean. Points outside of the box are drawn
+/// again, up to a hundred times; then the nearest point inside is run, and the distribution follows
+/// the one that was drawn. Normal numbers of generation g come from the stream "cma-es" with index
+/// g. Errors as those of evolution.
+Expected<std::unique_ptr<Strategy>> make_cma_es(const ParameterSpace& space,
+                                                const Scenario& scenario,
+                                                const CmaEsOptions& options,
+                                                const std::vector<Configuration>& initial);
+
+}  // namespace swarmsmith::search

@@ -1,0 +1,156 @@
+#include "irace_core/search/evolution.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "irace_core/search/generations.h"
+#include "irace_core/search/real_box.h"
+
+namespace swarmsmith::search {
+namespace {
+
+/// Below the first share a weight stays, below the second it is replaced, else it is added to.
+struct Shares {
+  double kept = 0;
+  double replaced = 0;
+};
+
+void mutate_neat(std::vector<double>& weights, double step, Rng& rng) {
+  constexpr Shares kSevere{0.1, 0.3};
+  constexpr Shares kTail{0.3, 0.5};
+  constexpr std::size_t kLeastWithTail = 10;
+  constexpr double kTailBegins = 0.8;
+  const bool is_severe = rng.bernoulli(0.5);
+  const double tail = kTailBegins * static_cast<double>(weights.size());
+  for (std::size_t i = 0; i < weights.size(); ++i) {
+    const double change = rng.uniform(-step, step);
+    const double choice = rng.uniform();
+    Shares shares;
+    if (is_severe) {
+      shares = kSevere;
+    } else if (weights.size() >= kLeastWithTail && static_cast<double>(i) > tail) {
+      shares = kTail;
+    }
+    if (choice < shares.kept) continue;
+    weights[i] = choice < shares.replaced ? change : weights[i] + change;
+  }
+}
+
+class EvolutionBreeder final : public Breeder {
+ public:
+  EvolutionBreeder(RealBox box, Rng rng, const EvolutionOptions& options,
+                   std::vector<Configuration> initial)
+      : box_(std::move(box)), rng_(rng), options_(options), initial_(std::move(initial)) {}
+
+  Expected<Brood> breed(std::int64_t generation, std::int64_t size, std::int64_t next_id,
+                        std::span<const Scored> last) override {
+    Rng rng = rng_.split("evolution", static_cast<std::uint64_t>(generation));
+    return last.empty() ? first(size, next_id, rng) : next(size, next_id, last, rng);
+  }
+
+  /// The generation after the last one. An extension goes on from before it.
+  Expected<Brood> finalists(std::int64_t count, std::int64_t next_id,
+                            std::span<const Scored> last) override {
+    Rng rng = rng_.split("evolution, final stage", static_cast<std::uint64_t>(next_id));
+    const auto members = members_;
+    Brood brood = next(count, next_id, last, rng);
+    members_ = members;
+    return brood;
+  }
+
+  std::vector<Scored> elites(std::span<const Scored> generation) override {
+    const auto parents = generation.first(count_of(options_.parents, generation.size()));
+    return {parents.begin(), parents.end()};
+  }
+
+  void add_to(Digest& digest) const override {
+    for (const auto& [id, weights] : members_) {
+      digest.add(id);
+      for (const double weight : weights)
+        digest.add(weight);
+    }
+  }
+
+ private:
+  static std::size_t count_of(double share, std::size_t population) {
+    const auto count =
+        static_cast<std::size_t>(std::floor(share * static_cast<double>(population)));
+    return std::clamp<std::size_t>(count, 1, population);
+  }
+
+  Brood first(std::int64_t size, std::int64_t next_id, Rng& rng) {
+    Brood brood;
+    for (std::int64_t i = 0; i < size; ++i) {
+      std::vector<double> weights(box_.dimensions());
+      for (double& weight : weights)
+        weight = rng.uniform(-1, 1);
+      const auto given = static_cast<std::size_t>(i);
+      if (given < initial_.size()) weights = box_.to_point(initial_[given]);
+      add(std::move(weights), 0, next_id, brood);
+    }
+    return brood;
+  }
+
+  Brood next(std::int64_t size, std::int64_t next_id, std::span<const Scored> last, Rng& rng) {
+    const std::size_t parents = count_of(options_.parents, last.size());
+    const std::size_t elites = std::min(parents, count_of(options_.elites, last.size()));
+    Brood brood;
+    std::map<std::int64_t, std::vector<double>> before = std::exchange(members_, {});
+    for (const Scored& elite : last.first(elites)) {
+      brood.known.push_back(elite.id);
+      members_.emplace(elite.id, before.at(elite.id));
+    }
+    while (static_cast<std::int64_t>(members_.size()) < size) {
+      const std::int64_t parent = last[rng.below(parents)].id;
+      std::vector<double> weights = before.at(parent);
+      mutate(weights, options_.mutation, options_.step, rng);
+      add(std::move(weights), parent, next_id, brood);
+    }
+    return brood;
+  }
+
+  /// The rounded weights are what the search goes on with.
+  void add(std::vector<double> weights, std::int64_t parent, std::int64_t next_id, Brood& brood) {
+    Configuration configuration = box_.to_configuration(weights);
+    members_.emplace(next_id + static_cast<std::int64_t>(brood.newcomers.size()),
+                     box_.to_point(configuration));
+    brood.newcomers.push_back({std::move(configuration), parent});
+  }
+
+  RealBox box_;
+  Rng rng_;
+  EvolutionOptions options_;
+  std::vector<Configuration> initial_;
+  std::map<std::int64_t, std::vector<double>> members_;  ///< weights of the generation, by id
+};
+
+}  // namespace
+
+void mutate(std::vector<double>& weights, Mutation mutation, double step, Rng& rng) {
+  if (mutation == Mutation::Neat) {
+    mutate_neat(weights, step, rng);
+  } else {
+    for (double& weight : weights)
+      weight += rng.normal(0, step);
+  }
+  for (double& weight : weights)
+    weight = std::clamp(weight, -RealBox::kHalfWidth, RealBox::kHalfWidth);
+}
+
+Expected<std::unique_ptr<Strategy>> make_evolution(const ParameterSpace& space,
+                                                   const Scenario& scenario,
+                                                   const EvolutionOptions& options,
+                                                   std::vector<Configuration> initial) {
+  auto box = RealBox::of(space, name_of(SearchKind::Evolution));
+  if (!box) return Unexpected(box.error());
+  const auto plan = plan_generations(scenario.max_experiments, options.population, options.runs,
+                                     options.final_runs);
+  if (!plan) return Unexpected(plan.error());
+  return std::make_unique<Generations>(
+      *plan, std::make_unique<EvolutionBreeder>(std::move(*box), Rng(scenario.seed), options,
+                                                std::move(initial)));
+}
+
+}  // namespace swarmsmith::search

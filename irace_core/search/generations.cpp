@@ -1,0 +1,110 @@
+#include "irace_core/search/generations.h"
+
+#include <algorithm>
+#include <iterator>
+
+namespace swarmsmith::search {
+namespace {
+
+/// Runs of each member at the end. Between the published budgets a fifth of the budget.
+std::int64_t published_final_runs(std::int64_t budget, std::int64_t population) {
+  constexpr std::int64_t kLargeBudget = 200'000;
+  if (budget >= kLargeBudget) return 500;
+  return std::clamp<std::int64_t>(budget / (5 * population), 1, 100);
+}
+
+}  // namespace
+
+Expected<GenerationPlan> plan_generations(std::int64_t budget, std::int64_t population,
+                                          std::int64_t runs, std::int64_t final_runs) {
+  const bool is_automatic = final_runs == 0;
+  if (is_automatic) final_runs = published_final_runs(budget, population);
+  const std::int64_t least = population * (runs + (is_automatic ? 1 : final_runs));
+  if (budget < least) return Unexpected(too_small(budget, least));
+  // With a small budget the first generation comes first.
+  if (is_automatic) final_runs = std::min(final_runs, (budget - population * runs) / population);
+  const std::int64_t generations = (budget - population * final_runs) / (population * runs);
+  const std::int64_t left = budget - generations * population * runs;
+  return GenerationPlan{.generations = generations,
+                        .population = population,
+                        .configurations = generations * population,
+                        .runs = runs,
+                        .finalists = population,
+                        .final_runs = left / population};
+}
+
+Expected<std::optional<Round>> Generations::next(std::int64_t next_id) {
+  if (over_) return std::nullopt;
+  ++generation_;
+  const std::int64_t size =
+      is_final() ? plan_.finalists : std::min(plan_.population, plan_.configurations - bred_);
+  auto brood = is_final() ? breeder_->finalists(size, next_id, last_)
+                          : breeder_->breed(++generation_number_, size, next_id, last_);
+  if (!brood) return Unexpected(brood.error());
+  bred_ += size;
+  Round round;
+  std::vector<std::int64_t> ids = std::move(brood->known);
+  for (std::size_t i = 0; i < brood->newcomers.size(); ++i)
+    ids.push_back(next_id + static_cast<std::int64_t>(i));
+  round.newcomers = std::move(brood->newcomers);
+  const std::int64_t pairs = is_final() ? plan_.final_runs : plan_.runs;
+  const std::int64_t first_pair = plan_.fresh_pairs || is_final() ? next_pair_ : 1;
+  next_pair_ = std::max(next_pair_, first_pair + pairs);
+  round.runs = all_on(ids, first_pair, pairs);
+  round.start = Round::Start{.elites = elites_,
+                             .budget = static_cast<std::int64_t>(round.runs.size()),
+                             .is_final = is_final()};
+  runs_ = round.runs;
+  return round;
+}
+
+Verdict Generations::take(std::span<const double> costs) {
+  std::vector<Scored> order = ranked(runs_, costs);
+  over_ = is_final();
+  const std::vector<Scored> elites = is_final() ? order : breeder_->elites(order);
+  elites_.clear();
+  for (const Scored& elite : elites)
+    elites_.push_back(elite.id);
+  Verdict verdict;
+  verdict.alive = elites_;
+  std::ranges::sort(verdict.alive);
+  verdict.ended = IterationEnded{
+      .reason = over_ ? "the final stage is over" : "every member was run on every pair",
+      .elites = as_elites(elites)};
+  if (!over_) last_ = std::move(order);
+  return verdict;
+}
+
+Expected<void> Generations::extend(std::int64_t experiments) {
+  if (const auto least = least_extension(); !least || experiments < *least) {
+    return bad_input(
+        "is too little for a further generation and a final stage: it must be at least " +
+        std::to_string(*least));
+  }
+  iterations_before_ += plan_.generations + 1;
+  const std::int64_t finals = plan_.finalists * plan_.final_runs;
+  const std::int64_t configurations = (experiments - finals) / plan_.runs;
+  plan_.generations = configurations / plan_.population;
+  plan_.configurations = plan_.generations * plan_.population;
+  generation_ = 0;
+  bred_ = 0;
+  over_ = false;
+  return {};
+}
+
+Expected<std::int64_t> Generations::least_extension() const {
+  return plan_.population * plan_.runs + plan_.finalists * plan_.final_runs;
+}
+
+void Generations::add_to(Digest& digest) const {
+  digest.add(generation_number_);
+  digest.add(generation_);
+  digest.add(next_pair_);
+  for (const Scored& one : last_) {
+    digest.add(one.id);
+    digest.add(one.mean);
+  }
+  breeder_->add_to(digest);
+}
+
+}  // namespace swarmsmith::search

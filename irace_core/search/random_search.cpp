@@ -1,0 +1,116 @@
+#include "irace_core/search/random_search.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "irace_core/internal/sampling.h"
+#include "irace_core/search/generations.h"
+
+namespace swarmsmith::search {
+namespace {
+
+/// Wanted at once: enough for a cluster, few enough that progress shows.
+constexpr std::int64_t kChunk = 1000;
+constexpr std::int64_t kAutomaticFinalists = 1000;  ///< one for so many runs of the budget
+
+class RandomBreeder final : public Breeder {
+ public:
+  RandomBreeder(const ParameterSpace& space, Rng rng, std::int64_t finalists,
+                std::vector<Configuration> initial, Repair repair)
+      : space_(space),
+        rng_(rng),
+        finalists_(static_cast<std::size_t>(finalists)),
+        initial_(std::move(initial)),
+        repair_(std::move(repair)) {}
+
+  Expected<Brood> breed(std::int64_t, std::int64_t size, std::int64_t,
+                        std::span<const Scored>) override {
+    Brood brood;
+    for (std::int64_t i = 0; i < size; ++i) {
+      if (drawn_ < initial_.size()) {
+        brood.newcomers.push_back({initial_[drawn_++], 0});
+        continue;
+      }
+      Rng rng = rng_.split("random", ++drawn_);
+      auto drawn = draw_uniform(space_, repair_, rng);
+      if (!drawn) return Unexpected(drawn.error());
+      brood.newcomers.push_back({std::move(*drawn), 0});
+    }
+    return brood;
+  }
+
+  Expected<Brood> finalists(std::int64_t, std::int64_t, std::span<const Scored>) override {
+    Brood brood;
+    for (const Scored& one : best_)
+      brood.known.push_back(one.id);
+    return brood;
+  }
+
+  /// The best of all chunks, which were run on the same pairs.
+  std::vector<Scored> elites(std::span<const Scored> chunk) override {
+    best_.insert(best_.end(), chunk.begin(), chunk.end());
+    std::ranges::sort(best_, [](const Scored& a, const Scored& b) {
+      return a.mean != b.mean ? a.mean < b.mean : a.id < b.id;
+    });
+    if (best_.size() > finalists_) best_.resize(finalists_);
+    return best_;
+  }
+
+  void add_to(Digest& digest) const override {
+    digest.add(static_cast<std::uint64_t>(drawn_));
+    for (const Scored& one : best_)
+      digest.add(one.id);
+  }
+
+ private:
+  const ParameterSpace& space_;
+  Rng rng_;
+  std::size_t finalists_;
+  std::vector<Configuration> initial_;
+  Repair repair_;
+  std::size_t drawn_ = 0;
+  std::vector<Scored> best_;
+};
+
+}  // namespace
+
+Expected<Configuration> draw_uniform(const ParameterSpace& space, const Repair& repair, Rng& rng) {
+  constexpr int kTries = 100;
+  for (int i = 0; i < kTries; ++i) {
+    auto drawn = sample_uniform(space, rng);
+    if (!drawn) return drawn;
+    auto whole = irace::repaired(space, repair, std::move(*drawn));
+    if (!whole || !space.is_forbidden(*whole)) return whole;
+  }
+  return bad_input(
+      "a hundred draws in a row were forbidden: the forbidden clauses leave too little");
+}
+
+Expected<std::unique_ptr<Strategy>> make_random_search(const ParameterSpace& space,
+                                                       const Scenario& scenario,
+                                                       const RandomOptions& options,
+                                                       std::vector<Configuration> initial,
+                                                       Repair repair) {
+  const std::int64_t budget = scenario.max_experiments;
+  const bool is_automatic = options.finalists == 0;
+  const std::int64_t finalists =
+      is_automatic ? std::max<std::int64_t>(1, budget / kAutomaticFinalists) : options.finalists;
+  // As many draws as finalists, at least.
+  const std::int64_t least_finalists = is_automatic ? 1 : finalists;
+  const std::int64_t least = least_finalists * (options.runs + options.final_runs);
+  if (budget < least) return Unexpected(too_small(budget, least));
+  GenerationPlan plan{.population = kChunk,
+                      .configurations = (budget - finalists * options.final_runs) / options.runs,
+                      .runs = options.runs,
+                      .fresh_pairs = false,
+                      .finalists = finalists,
+                      .final_runs = options.final_runs};
+  plan.generations = (plan.configurations + kChunk - 1) / kChunk;
+  // What is left over is less than a draw; whole pairs of it go to the finalists.
+  plan.final_runs = (budget - plan.configurations * plan.runs) / finalists;
+  return std::make_unique<Generations>(
+      plan, std::make_unique<RandomBreeder>(space, Rng(scenario.seed), finalists,
+                                            std::move(initial), std::move(repair)));
+}
+
+}  // namespace swarmsmith::search

@@ -1,0 +1,167 @@
+#include <gmock/gmock.h>
+
+#include "coordinator/campaign/campaign_rows.h"
+#include "coordinator/campaign/campaign_text.h"
+#include "coordinator/campaign/method_space.h"
+#include "tests/coordinator/campaign/campaign_support.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::Contains;
+using ::testing::HasSubstr;
+using ::testing::Pair;
+
+FileText file_of(const std::string& method) {
+  return FileText{.method = "name = \"m\"\n" + method, .race = "max_experiments = 100000\n"};
+}
+
+Campaign campaign_of(const std::string& method) {
+  return parsed(file_of(method).text());
+}
+
+std::string complaint_about(const std::string& method, const std::string& race = "") {
+  FileText file = file_of(method);
+  file.race += race;
+  const auto read = parse_campaign(file.text(), "x.toml");
+  return read ? "read" : to_string(read.error().front());
+}
+
+struct PresetCase {
+  std::string preset;
+  Architecture architecture;
+  SearchKind search;
+};
+
+class Presets : public ::testing::TestWithParam<PresetCase> {};
+
+INSTANTIATE_TEST_SUITE_P(
+    All, Presets,
+    ::testing::Values(PresetCase{"random", Architecture::Machine, SearchKind::Random},
+                      PresetCase{"vanilla", Architecture::Machine, SearchKind::FRace},
+                      PresetCase{"evostick", Architecture::Network, SearchKind::Evolution},
+                      PresetCase{"cma-es", Architecture::Network, SearchKind::CmaEs},
+                      PresetCase{"icepop", Architecture::Machine, SearchKind::Annealing},
+                      PresetCase{"maple", Architecture::Tree, SearchKind::Irace}),
+    [](const auto& tested) {
+      std::string name = tested.param.preset;
+      std::erase(name, '-');
+      return name;
+    });
+
+TEST_P(Presets, AreTheSameCampaignAsTheirPair) {
+  const PresetCase& preset = GetParam();
+  const Campaign named = campaign_of("method = \"" + preset.preset + "\"\n");
+  EXPECT_EQ(named.methods[0].architecture, preset.architecture);
+  EXPECT_EQ(named.methods[0].search.kind, preset.search);
+  const Campaign explicitly =
+      campaign_of("architecture = \"" + std::string(name_of(preset.architecture)) +
+                  "\"\nsearch = \"" + std::string(name_of(preset.search)) + "\"\n");
+  EXPECT_EQ(campaign_digest(named), campaign_digest(explicitly));
+  EXPECT_NE(campaign_digest(named), campaign_digest(campaign_of("")));
+}
+
+TEST_P(Presets, ReadBackFromTheTextThatStoresHave) {
+  for (const char* flavour : {"watermelon", "chocolate"}) {
+    const Campaign campaign = campaign_of("flavour = \"" + std::string(flavour) +
+                                          "\"\nmethod = \"" + GetParam().preset + "\"\n");
+    const auto again = parse_campaign(normalised_text(campaign), "x.toml");
+    ASSERT_TRUE(again) << to_string(again.error().front());
+    EXPECT_EQ(again->methods, campaign.methods);
+    EXPECT_EQ(campaign_digest(*again), campaign_digest(campaign));
+  }
+}
+
+TEST_P(Presets, NameTheirSearchsVersionInTheAnswer) {
+  const auto entries = deciding(campaign_of("method = \"" + GetParam().preset + "\"\n"));
+  const std::string key = "search." + std::string(name_of(GetParam().search)) + ".version";
+  if (GetParam().search == SearchKind::Irace) {
+    EXPECT_THAT(entries, ::testing::Not(Contains(Pair(HasSubstr("search."), "1"))));
+  } else {
+    EXPECT_THAT(entries, Contains(Pair(key, "1")));
+  }
+}
+
+TEST_P(Presets, MakeControlSoftwareThatReadsBack) {
+  const Campaign campaign = campaign_of("method = \"" + GetParam().preset + "\"\n");
+  const auto space = MethodSpace::make(campaign.methods[0], 4);
+  ASSERT_TRUE(space);
+  Rng rng(3);
+  for (int i = 0; i < 300; ++i) {
+    const Configuration drawn = sample_uniform(space->parameters(), rng).value();
+    const CandidateText text = space->text_of(drawn);
+    const auto read = parse_controller(text.call, watermelon());
+    ASSERT_TRUE(read) << text.call;
+    EXPECT_EQ(*read, space->controller_of(drawn));
+    EXPECT_EQ(architecture_of(*read), GetParam().architecture);
+  }
+}
+
+TEST(Methods, WithoutKeysAreIteratedRacesOfMachinesAndKeepTheirDigest) {
+  const Campaign plain = campaign_of("");
+  EXPECT_EQ(plain.methods[0].search.kind, SearchKind::Irace);
+  EXPECT_EQ(campaign_digest(plain),
+            campaign_digest(campaign_of("architecture = \"machine\"\nsearch = \"irace\"\n")));
+  for (const auto& [key, value] : deciding(plain)) {
+    EXPECT_THAT(key, ::testing::Not(HasSubstr("search")));
+    EXPECT_THAT(key, ::testing::Not(HasSubstr("architecture")));
+  }
+}
+
+TEST(Methods, SpacesAreAsLargeAsTheirArchitectures) {
+  const auto size = [](const std::string& method) {
+    return MethodSpace::make(campaign_of(method).methods[0], 4)->parameters().size();
+  };
+  EXPECT_EQ(size("architecture = \"tree\"\n"), 45U);
+  EXPECT_EQ(size("architecture = \"tree\"\nflavour = \"chocolate\"\n"), 41U);
+  EXPECT_EQ(size("architecture = \"tree\"\nmax_subtrees = 1\n"), 11U);
+  EXPECT_EQ(size("method = \"evostick\"\n"), 26U);
+  EXPECT_EQ(size("method = \"evostick\"\nflavour = \"chocolate\"\n"), 30U);
+  EXPECT_EQ(size("method = \"evostick\"\n[method.network]\ninputs = \"rvr-gray\"\n"), 22U);
+}
+
+TEST(Methods, SaysWhatDoesNotFitTogether) {
+  EXPECT_THAT(complaint_about("method = \"evostik\"\n"), HasSubstr("evostick"));
+  EXPECT_THAT(complaint_about("search = \"cmaes\"\n"), HasSubstr("cma-es"));
+  EXPECT_THAT(complaint_about("architecture = \"net\"\n"), HasSubstr("network"));
+  EXPECT_THAT(complaint_about("method = \"maple\"\nsearch = \"random\"\n"),
+              HasSubstr("says architecture and search already: tree and irace"));
+  EXPECT_THAT(
+      complaint_about("[method.evolution]\npopulation = 10\n"),
+      HasSubstr("[method.evolution] is of the search evolution, and this method's search is "
+                "irace"));
+  EXPECT_THAT(complaint_about("method = \"evostick\"\n[method.evolution]\npopulatoin = 10\n"),
+              HasSubstr("population"));
+  EXPECT_THAT(complaint_about("[method.network]\ninputs = \"rvr\"\n"),
+              HasSubstr("is for networks"));
+  EXPECT_THAT(complaint_about("method = \"evostick\"\nmax_states = 2\n"),
+              HasSubstr("`max_states` is for machines"));
+  EXPECT_THAT(complaint_about("max_subtrees = 2\n"), HasSubstr("`max_subtrees` is for trees"));
+  EXPECT_THAT(complaint_about("method = \"evostick\"\n[method.network]\ninputs = \"rm1.2\"\n"),
+              HasSubstr("the flavour watermelon has not"));
+  EXPECT_THAT(complaint_about("search = \"cma-es\"\n"),
+              HasSubstr("needs reals without conditions"));
+  EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\nwindow = 2\nmoved = 3\n"),
+              HasSubstr("at most `window`"));
+  EXPECT_THAT(
+      complaint_about("method = \"random\"\n", "first_test = 3\n"),
+      HasSubstr("`first_test` is an option of races, and no method of this campaign races"));
+}
+
+TEST(Methods, NameTheLeastBudgetThatWorks) {
+  FileText file = file_of("method = \"evostick\"\n");
+  file.race = "max_experiments = 500\n";
+  const auto read = parse_campaign(file.text(), "x.toml");
+  ASSERT_FALSE(read);
+  EXPECT_THAT(to_string(read.error().front()), HasSubstr("must be at least 1100"));
+}
+
+TEST(Methods, OfBaselinesMayBeAnyArchitecture) {
+  const Campaign campaign = campaign_of(
+      "baseline = \"--nroot 3 --nchildroot 1 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 1 --n01 5 "
+      "--a01 1 --p01 0\"\n");
+  EXPECT_THAT(campaign.methods[0].baseline, HasSubstr("--nroot 3"));
+}
+
+}  // namespace
+}  // namespace swarmsmith

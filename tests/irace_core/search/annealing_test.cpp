@@ -1,0 +1,116 @@
+#include "irace_core/search/annealing.h"
+
+#include <gmock/gmock.h>
+#include <map>
+#include <set>
+
+#include "tests/irace_core/search/played.h"
+
+namespace swarmsmith {
+namespace {
+
+SearchOptions annealing(double temperature = 1) {
+  SearchOptions options = options_of(SearchKind::Annealing);
+  options.annealing.start_temperature = temperature;
+  return options;
+}
+
+TEST(Annealing, RunsThePerturbedOnTheWindowAndTheOthersOnItsNewPairs) {
+  auto search = started(weights_space(3), annealing(), 3000);
+  const Played played = play(*search, noisy_sphere);
+  std::set<std::int64_t> known;
+  std::int64_t window_end = 10;
+  const std::int64_t last = search->iteration();
+  for (const RaceStep& step : only<RaceStep>(played.events)) {
+    if (step.iteration == 1) continue;  // the scale
+    if (step.iteration == last) break;  // the final stage
+    window_end = step.pair;
+    std::map<std::int64_t, int> runs;
+    for (const auto& [configuration, pair] : step.evaluated) {
+      ++runs[configuration];
+      EXPECT_GT(pair, window_end - 10);
+      EXPECT_LE(pair, window_end);
+    }
+    std::vector<int> counts;
+    for (const auto& [configuration, count] : runs)
+      counts.push_back(count);
+    std::ranges::sort(counts);
+    // The candidate; the incumbent and, when it is another one, the best.
+    EXPECT_THAT(counts,
+                ::testing::AnyOf(::testing::ElementsAre(1, 10), ::testing::ElementsAre(1, 1, 10)));
+  }
+}
+
+TEST(Annealing, AtZeroNeverAcceptsWhatIsWorse) {
+  // Without noise the incumbents' costs can only fall.
+  auto search = started(weights_space(3), annealing(0), 6000);
+  const Played played = play(*search, [](const Configuration& c, const Experiment&) {
+    return c[0] * c[0] + c[1] * c[1] + c[2] * c[2];
+  });
+  double before = 1e9;
+  for (const IterationEnded& ended : only<IterationEnded>(played.events)) {
+    EXPECT_EQ(ended.elites.size(), 1U);  // the incumbent is the best
+    EXPECT_LE(ended.elites.front().mean, before + 1e-12);
+    before = ended.elites.front().mean;
+  }
+  EXPECT_LT(before, 0.1);
+}
+
+TEST(Annealing, WarmAcceptsWhatIsWorseAndColdDoesNot) {
+  SearchOptions options = annealing(1e6);
+  options.annealing.end_temperature = 1e6;
+  const auto cost = [](const Configuration& c, const Experiment&) { return c[0]; };
+  const Played warm = play(*started(weights_space(1), options, 4000), cost);
+  // A random walk: the parent of nearly every candidate is the one before it.
+  std::int64_t steps = 0;
+  std::int64_t walked = 0;
+  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(warm.events)) {
+    if (sampled.parent == 0) continue;
+    ++steps;
+    walked += sampled.parent == sampled.id - 1 ? 1 : 0;
+  }
+  EXPECT_GT(walked, steps * 95 / 100);
+}
+
+TEST(Annealing, CountsTemperaturesInStandardDeviations) {
+  // Costs a thousand times as large lead to the same decisions.
+  const auto cost = [](double scale) {
+    return
+        [scale](const Configuration& c, const Experiment& e) { return scale * noisy_sphere(c, e); };
+  };
+  const Played small = play(*started(weights_space(3), annealing(), 4000), cost(1));
+  const Played large = play(*started(weights_space(3), annealing(), 4000), cost(1024));
+  const auto few = only<ConfigurationSampled>(small.events);
+  const auto many = only<ConfigurationSampled>(large.events);
+  ASSERT_EQ(few.size(), many.size());
+  for (std::size_t i = 0; i < few.size(); ++i)
+    EXPECT_EQ(few[i].parent, many[i].parent);
+}
+
+TEST(Annealing, CannotBeExtendedAndSaysWhy) {
+  auto search = started(weights_space(3), annealing(), 1000);
+  play(*search, noisy_sphere);
+  EXPECT_THAT(search->least_extension().error().message, ::testing::HasSubstr("temperatures"));
+}
+
+TEST(OneParameterNeighbourhood, ChangesOneAndKeepsTheSpace) {
+  const ParameterSpace space = mixed_space();
+  Rng rng(4);
+  Configuration now = sample_uniform(space, rng).value();
+  const search::Neighbourhood neighbourhood = search::one_parameter_neighbourhood(space, now);
+  std::set<double> modes;
+  for (int i = 0; i < 10'000; ++i) {
+    const Configuration next = neighbourhood.perturb(now, rng).value();
+    ASSERT_TRUE(space.check(next));
+    EXPECT_FALSE(next == now);
+    const int changed = (next[0] != now[0]) + (next[2] != now[2]) +
+                        (next[0] == now[0] && next.is_active(1) && next[1] != now[1]);
+    EXPECT_EQ(changed, 1);
+    now = next;
+    modes.insert(now[0]);
+  }
+  EXPECT_EQ(modes.size(), 3U);
+}
+
+}  // namespace
+}  // namespace swarmsmith

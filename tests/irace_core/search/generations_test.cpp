@@ -1,0 +1,83 @@
+#include <gmock/gmock.h>
+
+#include "irace_core/search/generations.h"
+#include "tests/irace_core/search/played.h"
+
+namespace swarmsmith {
+namespace {
+
+struct Published {
+  std::int64_t budget;
+  std::int64_t generations;
+  std::int64_t final_runs;
+};
+
+/// The parameter files of ARGoS3-NEAT: docs/methods.md.
+TEST(GenerationPlan, IsThePublishedOneOfEachPublishedBudget) {
+  for (const Published& published : {Published{10'000, 8, 20}, Published{50'000, 40, 100},
+                                     Published{100'000, 90, 100}, Published{200'000, 150, 500}}) {
+    const auto plan = search::plan_generations(published.budget, 100, 10, 0);
+    ASSERT_TRUE(plan);
+    EXPECT_EQ(plan->generations, published.generations);
+    EXPECT_EQ(plan->final_runs, published.final_runs);
+    EXPECT_EQ(plan->generations * 1000 + 100 * plan->final_runs, published.budget);
+  }
+}
+
+TEST(GenerationPlan, GivesWhatIsLeftToTheFinalStage) {
+  const auto plan = search::plan_generations(10'550, 100, 10, 20);
+  ASSERT_TRUE(plan);
+  EXPECT_EQ(plan->generations, 8);
+  EXPECT_EQ(plan->final_runs, 25);
+}
+
+TEST(RandomSearch, RunsTheBestAgainOnFurtherPairs) {
+  auto search = started(weights_space(3), options_of(SearchKind::Random), 10'000);
+  const Played played = play(*search, noisy_sphere);
+  const auto iterations = only<IterationStarted>(played.events);
+  ASSERT_EQ(iterations.size(), 2U);
+  EXPECT_EQ(iterations[0].n_configurations, 900);
+  EXPECT_EQ(iterations[1].n_configurations, 10);
+  EXPECT_TRUE(iterations[1].postselection);
+  EXPECT_EQ(played.elites.size(), 10U);
+  for (const Elite& elite : played.elites)
+    EXPECT_EQ(elite.n, 100);
+  EXPECT_EQ(search->experiments_used(), 10'000);
+  // No pair of the final stage was seen before.
+  for (const RaceStep& step : only<RaceStep>(played.events))
+    EXPECT_EQ(step.iteration == 2, step.pair > 10);
+}
+
+TEST(RandomSearch, OfALargerBudgetTriesTheSameConfigurationsFirst) {
+  const auto small =
+      play(*started(weights_space(3), options_of(SearchKind::Random), 3000), noisy_sphere);
+  const auto large =
+      play(*started(weights_space(3), options_of(SearchKind::Random), 9000), noisy_sphere);
+  const auto few = only<ConfigurationSampled>(small.events);
+  const auto many = only<ConfigurationSampled>(large.events);
+  ASSERT_LT(few.size(), many.size());
+  for (std::size_t i = 0; i < few.size(); ++i)
+    EXPECT_EQ(few[i].configuration, many[i].configuration);
+}
+
+TEST(RandomSearch, DrawsFromEverySpace) {
+  auto search = started(mixed_space(), options_of(SearchKind::Random), 2000);
+  play(*search, [](const Configuration& c, const Experiment&) { return c[2]; });
+  for (const Elite& elite : search->elites())
+    EXPECT_TRUE(search->space().check(search->configuration(elite.configuration)));
+}
+
+TEST(FRace, IsOneRaceThatEndsWithOneOrItsBudget) {
+  auto search = started(weights_space(3), options_of(SearchKind::FRace), 4000);
+  const Played played = play(*search, noisy_sphere);
+  const auto iterations = only<IterationStarted>(played.events);
+  ASSERT_EQ(iterations.size(), 1U);
+  EXPECT_EQ(iterations[0].n_configurations, 200);
+  EXPECT_EQ(only<ConfigurationSampled>(played.events).size(), 200U);
+  const auto steps = only<RaceStep>(played.events);
+  EXPECT_TRUE(steps.back().alive_after == 1 ||
+              4000 - search->experiments_used() < steps.back().alive_after);
+}
+
+}  // namespace
+}  // namespace swarmsmith

@@ -1,0 +1,195 @@
+#include <gmock/gmock.h>
+#include <limits>
+#include <set>
+
+#include "tests/irace_core/search/played.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::HasSubstr;
+
+class EverySearch : public ::testing::TestWithParam<SearchKind> {};
+
+INSTANTIATE_TEST_SUITE_P(Kinds, EverySearch, ::testing::ValuesIn(all_searches()),
+                         [](const auto& tested) {
+                           std::string name(name_of(tested.param));
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+/// What decides: events but for their texts.
+std::vector<std::uint64_t> digests(const Played& played) {
+  std::vector<std::uint64_t> all;
+  for (const RaceStep& step : only<RaceStep>(played.events))
+    all.push_back(step.digest);
+  for (const ConfigurationSampled& sampled : only<ConfigurationSampled>(played.events))
+    all.push_back(sampled.configuration.digest());
+  for (const Elite& elite : played.elites)
+    all.push_back(static_cast<std::uint64_t>(elite.configuration));
+  return all;
+}
+
+TEST_P(EverySearch, GivesTheSameAnswerTwiceAndAnotherForAnotherSeed) {
+  const auto once = play(*started(weights_space(5), options_of(GetParam()), 6000, 7), noisy_sphere);
+  const auto twice =
+      play(*started(weights_space(5), options_of(GetParam()), 6000, 7), noisy_sphere);
+  const auto other =
+      play(*started(weights_space(5), options_of(GetParam()), 6000, 8), noisy_sphere);
+  EXPECT_EQ(digests(once), digests(twice));
+  EXPECT_NE(digests(once), digests(other));
+}
+
+TEST_P(EverySearch, CountsEachRunAndNeverExceedsItsBudget) {
+  Rng rng(11);
+  for (int i = 0; i < 200; ++i) {
+    SearchOptions options = options_of(GetParam());
+    options.random.runs = rng.uniform_int(1, 12);
+    options.random.finalists = rng.uniform_int(0, 9);
+    options.random.final_runs = rng.uniform_int(1, 40);
+    options.evolution.population = options.cma_es.population = rng.uniform_int(2, 40);
+    options.evolution.runs = options.cma_es.runs = rng.uniform_int(1, 12);
+    options.evolution.final_runs = options.cma_es.final_runs = rng.uniform_int(0, 30);
+    options.evolution.parents = rng.uniform();
+    options.evolution.elites = rng.uniform();
+    options.annealing.window = rng.uniform_int(1, 12);
+    options.annealing.moved = rng.uniform_int(1, options.annealing.window);
+    options.annealing.final_runs = rng.uniform_int(1, 40);
+    Scenario scenario;
+    scenario.max_experiments = rng.uniform_int(1, 4000);
+    scenario.seed = static_cast<std::uint64_t>(i) + 1;
+    auto search = start_search(weights_space(3), scenario, options);
+    if (!search) {
+      EXPECT_THAT(to_string(search.error()), HasSubstr("must be at least"));
+      // The number that it names works, and one less does not.
+      const std::string text = search.error().message;
+      scenario.max_experiments = std::stoll(text.substr(text.rfind(' ') + 1));
+      EXPECT_TRUE(start_search(weights_space(3), scenario, options)) << text;
+      --scenario.max_experiments;
+      EXPECT_FALSE(start_search(weights_space(3), scenario, options)) << text;
+      continue;
+    }
+    const Played played = play(**search, noisy_sphere);
+    EXPECT_LE((*search)->experiments_used(), scenario.max_experiments);
+    EXPECT_EQ((*search)->experiments_used(), played.asked);
+    std::int64_t counted = 0;
+    for (const RaceStep& step : only<RaceStep>(played.events)) {
+      counted += static_cast<std::int64_t>(step.evaluated.size());
+      EXPECT_EQ(step.experiments_used, counted);
+    }
+    EXPECT_FALSE(played.elites.empty());
+  }
+}
+
+TEST_P(EverySearch, AsksInCanonicalOrderAndNeverTwiceForOneRun) {
+  // Races ask for their tasks in turn, and elitist ones for new pairs first.
+  const bool is_race = GetParam() == SearchKind::Irace || GetParam() == SearchKind::FRace;
+  auto search = started(weights_space(3), options_of(GetParam()), 3000);
+  std::set<std::pair<std::int64_t, std::int64_t>> seen;
+  while (!search->finished()) {
+    std::pair<std::int64_t, std::int64_t> last{0, 0};
+    std::vector<Measurement> costs;
+    for (const Experiment& wanted : search->wanted()) {
+      const std::pair now{wanted.pair, wanted.configuration};
+      EXPECT_TRUE(is_race || last < now);
+      EXPECT_TRUE(seen.insert(now).second);
+      last = now;
+      costs.push_back({noisy_sphere(search->configuration(wanted.configuration), wanted), 0});
+    }
+    search->tell(costs);
+  }
+}
+
+TEST_P(EverySearch, FindsTheSphereBetterThanItsFirstDraws) {
+  auto search = started(weights_space(4), options_of(GetParam()), 12000);
+  const Played played = play(*search, noisy_sphere);
+  const Configuration& best = search->configuration(played.elites.front().configuration);
+  double distance = 0;
+  for (std::size_t i = 0; i < best.size(); ++i)
+    distance += (best[i] - 1) * (best[i] - 1);
+  // A uniform draw is 37 away from it in the mean.
+  EXPECT_LT(distance, 9);
+}
+
+TEST_P(EverySearch, OutlivesRejectionsAndSaysWhenThereIsNothingElse) {
+  const double rejected = std::numeric_limits<double>::infinity();
+  auto search = started(weights_space(3), options_of(GetParam()), 3000);
+  const Played some = play(*search, [&](const Configuration& c, const Experiment& e) {
+    return c[0] > 2 ? rejected : noisy_sphere(c, e);
+  });
+  ASSERT_FALSE(some.elites.empty());
+  EXPECT_LE(search->configuration(some.elites.front().configuration)[0], 2);
+
+  auto hopeless = started(weights_space(3), options_of(GetParam()), 3000);
+  play(*hopeless, [&](const Configuration&, const Experiment&) { return rejected; });
+  ASSERT_TRUE(hopeless->failure());
+  EXPECT_THAT(hopeless->failure()->message, HasSubstr("rejected"));
+  EXPECT_TRUE(hopeless->elites().empty());
+}
+
+TEST_P(EverySearch, GivesAllTheSameSeedOnAPair) {
+  auto search = started(weights_space(3), options_of(GetParam()), 3000, 5);
+  auto race = started(weights_space(3), options_of(SearchKind::Irace), 3000, 5);
+  std::map<std::int64_t, std::int64_t> seeds;
+  for (const Experiment& wanted : race->wanted())
+    seeds.emplace(wanted.pair, wanted.seed);
+  for (const Experiment& wanted : search->wanted()) {
+    if (!seeds.contains(wanted.pair)) continue;
+    EXPECT_EQ(wanted.seed, seeds.at(wanted.pair));
+  }
+}
+
+TEST_P(EverySearch, RefusesCostsThatBreakTheContract) {
+  auto search = started(weights_space(3), options_of(GetParam()), 3000);
+  EXPECT_THROW(search->tell({}), std::invalid_argument);
+  std::vector<Measurement> costs(search->wanted().size());
+  costs[0].cost = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(search->tell(costs), std::invalid_argument);
+}
+
+TEST_P(EverySearch, GoesOnAfterAnExtensionOrSaysWhyNot) {
+  auto search = started(weights_space(3), options_of(GetParam()), 3000);
+  Played played = play(*search, noisy_sphere);
+  const auto least = search->least_extension();
+  if (!least) {
+    EXPECT_FALSE(search->extend(100'000));
+    EXPECT_THAT(least.error().message, ::testing::Not(::testing::IsEmpty()));
+    return;
+  }
+  // What is too little for an iteration gives a race a further post-selection.
+  const bool is_race = GetParam() == SearchKind::Irace || GetParam() == SearchKind::FRace;
+  EXPECT_TRUE(is_race || !search->extend(*least - 1));
+  const std::int64_t before = search->budget();
+  ASSERT_TRUE(search->extend(*least + 5));
+  EXPECT_EQ(search->budget(), before + *least + 5);
+  play_on(*search, noisy_sphere, played);
+  EXPECT_LE(search->experiments_used(), search->budget());
+  EXPECT_EQ(search->experiments_used(), played.asked);
+}
+
+TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
+  for (const SearchKind kind : all_searches()) {
+    if (kind == SearchKind::Irace || kind == SearchKind::FRace) continue;
+    Scenario scenario;
+    scenario.max_experiments = 5000;
+    scenario.deterministic = true;
+    EXPECT_FALSE(start_search(weights_space(3), scenario, options_of(kind)));
+    scenario.deterministic = false;
+    scenario.bound_max = 3;
+    EXPECT_FALSE(start_search(weights_space(3), scenario, options_of(kind)));
+  }
+}
+
+TEST(Search, OfWeightsAloneSaysWhatItCannotUse) {
+  Scenario scenario;
+  scenario.max_experiments = 5000;
+  for (const SearchKind kind : {SearchKind::Evolution, SearchKind::CmaEs}) {
+    const auto search = start_search(mixed_space(), scenario, options_of(kind));
+    ASSERT_FALSE(search);
+    EXPECT_EQ(search.error().where, "mode");
+    EXPECT_THAT(search.error().message, HasSubstr(std::string(name_of(kind))));
+  }
+}
+
+}  // namespace
+}  // namespace swarmsmith

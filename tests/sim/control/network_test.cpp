@@ -1,0 +1,152 @@
+#include "sim/control/network.h"
+
+#include <gmock/gmock.h>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+
+#include "sim/control/flavour.h"
+#include "tests/sim/control/fake_senses.h"
+
+namespace swarmsmith {
+namespace {
+
+using ::testing::Each;
+using ::testing::HasSubstr;
+
+/// Inputs as a vector of their count.
+std::vector<double> inputs_of(NetworkInputs set, FakeSenses& senses,
+                              const Flavour& flavour = watermelon()) {
+  const InputValues values = network_inputs(set, senses, flavour);
+  return {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(input_count(set))};
+}
+
+Network network_of(NetworkInputs set, double weight) {
+  return {set, std::vector<double>(kWheels * input_count(set), weight)};
+}
+
+TEST(NetworkInputs, OfNothingAreTheFloorAndTheBias) {
+  FakeSenses senses;
+  senses.floor = {255, 51, 0};
+  const std::vector<double> inputs = inputs_of(NetworkInputs::Rvr, senses);
+  EXPECT_THAT(inputs, ::testing::ElementsAre(0, 0, 0, 0, 1, 0.2, 0, 0, 0, 0, 0, 0, 1));
+}
+
+TEST(NetworkInputs, ObstaclesAreProjectedOnTheDiagonals) {
+  FakeSenses senses;
+  senses.obstacle(0, -kNothing);  // touching: strength 1 straight ahead
+  const std::vector<double> inputs = inputs_of(NetworkInputs::RvrGray, senses);
+  EXPECT_DOUBLE_EQ(inputs[0], kSqrtHalf);  // 45 degrees
+  EXPECT_EQ(inputs[1], 0);
+  EXPECT_EQ(inputs[2], 0);
+  EXPECT_DOUBLE_EQ(inputs[3], kSqrtHalf);  // 315 degrees
+}
+
+TEST(NetworkInputs, NeighboursAreCountedAndPointTheWay) {
+  FakeSenses senses;
+  senses.neighbour(0.25, 45);
+  std::vector<double> inputs = inputs_of(NetworkInputs::RvrGray, senses);
+  EXPECT_NEAR(inputs[5], std::tanh(0.5), 1e-15);
+  EXPECT_NEAR(inputs[6], std::tanh(0.8 / 2), 1e-15);  // 1 / (1 + 0.25 m), squashed
+  EXPECT_NEAR(inputs[7], 0, 1e-16);
+  EXPECT_EQ(inputs[8], 0);
+  senses.neighbour(0.25, 225);  // on the other side: the sum is nothing, the count two
+  inputs = inputs_of(NetworkInputs::RvrGray, senses);
+  EXPECT_NEAR(inputs[5], std::tanh(1), 1e-15);
+  for (std::size_t i = 6; i < 10; ++i)
+    EXPECT_NEAR(inputs[i], 0, 1e-15);
+}
+
+TEST(NetworkInputs, ThreeLevelsOfTheFloorAreTheFlavours) {
+  for (const auto& [gray, level] : {std::pair{0, 0.0}, std::pair{127, 0.5}, std::pair{255, 1.0}}) {
+    FakeSenses senses;
+    const auto channel = static_cast<std::uint8_t>(gray);
+    senses.floor = {channel, channel, channel};
+    EXPECT_EQ(inputs_of(NetworkInputs::Rm12, senses, chocolate())[8], level) << gray;
+  }
+}
+
+TEST(NetworkInputs, AreAllBetweenZeroAndOne) {
+  FakeSenses senses;
+  for (const int direction : kProximityDirections_deg)
+    senses.obstacle(direction, 0.06 + 0.001 * direction / 180).light_from(direction, 16'000);
+  for (int i = 0; i < 12; ++i)
+    senses.neighbour(0.1, 10 + i);
+  senses.floor = {255, 255, 255};
+  for (const NetworkInputs set :
+       {NetworkInputs::Rvr, NetworkInputs::RvrGray, NetworkInputs::Rm12}) {
+    const auto inputs = inputs_of(set, senses, chocolate());
+    EXPECT_THAT(inputs, Each(::testing::AllOf(::testing::Ge(0), ::testing::Le(1))));
+    EXPECT_EQ(inputs.size(), input_names(set).size());
+  }
+}
+
+TEST(Network, OfZerosStandsStill) {
+  FakeSenses senses;
+  const Network network = network_of(NetworkInputs::Rvr, 0);
+  EXPECT_EQ(NetworkControl(network, watermelon()).step(senses), Command{});
+}
+
+TEST(Network, BiasTurnsBothWheelsAtTheSigmoidsSpeed) {
+  FakeSenses senses;
+  senses.floor = {0, 0, 0};
+  Network network = network_of(NetworkInputs::Rvr, 0);
+  network.weights[12] = 0.5;  // bias of the left wheel
+  network.weights[25] = -5;   // of the right one
+  const Command command = NetworkControl(network, watermelon()).step(senses);
+  EXPECT_NEAR(command.left_mps, 0.30 * std::tanh(2.4621365 * 0.5), 1e-12);
+  EXPECT_NEAR(command.right_mps, -0.30, 1e-9);
+}
+
+/// Every supported compiler must give these bits.
+TEST(Network, GivesTheSameBitsEverywhere) {
+  FakeSenses senses;
+  senses.obstacle(0, 0.2).obstacle(45, 0.31).neighbour(0.4, 30).neighbour(0.7, -100);
+  senses.floor = {200, 30, 90};
+  Network network;
+  for (std::size_t i = 0; i < 26; ++i)
+    network.weights.push_back(static_cast<double>((i * 37) % 101) / 20 - 2.5);
+  const Command command = NetworkControl(network, watermelon()).step(senses);
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(command.left_mps), 0xbfd333333263bb8bU)
+      << std::hexfloat << command.left_mps;
+  EXPECT_EQ(std::bit_cast<std::uint64_t>(command.right_mps), 0xbf9b5a152f7c0e49U)
+      << std::hexfloat << command.right_mps;
+}
+
+TEST(NetworkText, ReadsWhatItPrints) {
+  Network network = network_of(NetworkInputs::RvrGray, 0.25);
+  network.weights[3] = -1.2345;
+  const std::string text = print_network(network, watermelon());
+  EXPECT_THAT(text, HasSubstr("--network rvr-gray --weights 0.25,0.25,0.25,-1.2345,"));
+  const auto read = parse_network(text, watermelon());
+  ASSERT_TRUE(read);
+  EXPECT_EQ(*read, network);
+}
+
+TEST(NetworkText, SaysWhatIsWrongAndWhere) {
+  const auto complaint = [](const std::string& text) {
+    const auto read = parse_network(text, watermelon());
+    return read ? "read" : read.error().where + ": " + read.error().message;
+  };
+  EXPECT_THAT(complaint("--network rvr"), HasSubstr("expected `--weights`"));
+  EXPECT_THAT(complaint("--network e-puck --weights 1"),
+              HasSubstr("token 2, column 11: no inputs `e-puck`"));
+  EXPECT_THAT(complaint("--network rvr --weights 1,2"), HasSubstr("has 26 weights, not 2"));
+  EXPECT_THAT(complaint("--network rvr --weights 1,x"), HasSubstr("weight 2 is no number"));
+  EXPECT_THAT(complaint("--network rvr --weights 1,"), HasSubstr("weight 2 is no number"));
+  EXPECT_THAT(complaint("--network rvr --weights 1 --weights 2"), HasSubstr("twice"));
+  EXPECT_THAT(complaint("--network rvr --weights 1 --s0 2"),
+              HasSubstr("does not belong to a network"));
+  std::string nan = "--network rvr-gray --weights nan";
+  for (int i = 1; i < 22; ++i)
+    nan += ",0";
+  EXPECT_THAT(complaint(nan), HasSubstr("finite"));
+  std::string light = "--network rm1.2 --weights 0";
+  for (int i = 1; i < 30; ++i)
+    light += ",0";
+  EXPECT_THAT(complaint(light), HasSubstr("the flavour watermelon has not"));
+  EXPECT_TRUE(parse_network(light, chocolate()));
+}
+
+}  // namespace
+}  // namespace swarmsmith
