@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/math.h"
+#include "base/rng.h"
 #include "sim/engine/simulate.h"
 #include "sim/files/profile_file.h"
 #include "tests/sim/engine/reference_data.h"
@@ -21,9 +22,9 @@
 namespace swarmsmith {
 namespace {
 
-/// A machine with the mission it is measured on.
+/// Control software with the mission it is measured on.
 struct Subject {
-  Machine machine;
+  Controller controller;
   const ReferenceRuns* runs;
 };
 
@@ -119,7 +120,7 @@ void run_rounds(benchmark::State& state, double evaluations, const Round& round)
 void run_all(benchmark::State& state, const std::vector<Subject>& subjects) {
   run_rounds(state, static_cast<double>(subjects.size()), [&](int seed) {
     for (const Subject& subject : subjects)
-      benchmark::DoNotOptimize(subject.runs->run(subject.machine, seed).score);
+      benchmark::DoNotOptimize(subject.runs->run(subject.controller, seed).score);
   });
 }
 
@@ -153,6 +154,22 @@ void reference_machines_on(benchmark::State& state, const char* flavour, const c
   run_all(state, subjects);
 }
 
+/// Ten networks on each mission, their weights drawn from all of the search space.
+void networks_on(benchmark::State& state, const char* flavour, const char* profile) {
+  const std::map<std::string, ReferenceRuns> missions = missions_in(flavour, profile);
+  std::vector<Subject> subjects;
+  Rng rng = Rng(1).split("networks");
+  for (const auto& [name, runs] : missions) {
+    for (int i = 0; i < 10; ++i) {
+      Network network{.inputs = NetworkInputs::Rvr, .weights = {}};
+      for (std::size_t weight = 0; weight < kWheels * input_count(network.inputs); ++weight)
+        network.weights.push_back(rng.uniform(-kMostWeight, kMostWeight));
+      subjects.push_back({network, &runs});
+    }
+  }
+  run_all(state, subjects);
+}
+
 constexpr const char* kAll = "";
 BENCHMARK_CAPTURE(thesis_designs_on, watermelon_argos3, "watermelon-argos3", "argos3",
                   ContactModel::Exact, kAll);
@@ -175,6 +192,8 @@ BENCHMARK_CAPTURE(thesis_designs_on, watermelon_rvr_color, "watermelon", "rvr", 
 // The same flavour without noise: what is left of rvr is the noise's price.
 BENCHMARK_CAPTURE(thesis_designs_on, watermelon_without_noise, "watermelon", "argos3",
                   ContactModel::Exact, kAll);
+BENCHMARK_CAPTURE(networks_on, watermelon_rvr, "watermelon", "rvr");
+BENCHMARK_CAPTURE(networks_on, watermelon_without_noise, "watermelon", "argos3");
 BENCHMARK_CAPTURE(reference_machines_on, watermelon_argos3, "watermelon-argos3", "argos3");
 
 /// The thesis' designs for grid exploration in an arena with as much room for each robot as theirs.

@@ -35,7 +35,8 @@ TEST(MachineImport, ReadsATextALineWithNamesOrWithout) {
   EXPECT_EQ(machines->at(1).name, "hA1");
   EXPECT_EQ(machines->at(1).place, "m.txt:4");
   EXPECT_EQ(to_string(read_machine_lines("stop\n", "m.txt").error().front()),
-            "m.txt:1: a machine begins with --nstates or --fsm-config");
+            "m.txt:1: control software begins with one of --nstates, --fsm-config, --nroot, "
+            "--bt-config, --network");
   EXPECT_FALSE(read_machine_lines("# nothing\n", "m.txt"));
 }
 

@@ -3,8 +3,8 @@
 #include <string>
 #include <vector>
 
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
-#include "sim/control/machine.h"
 #include "sim/engine/simulate.h"
 #include "sim/mission/mission.h"
 #include "tests/sim/engine/reference_data.h"
@@ -17,7 +17,7 @@ struct ReferenceRuns {
   explicit ReferenceRuns(const char* mission_name);
 
   /// `seed` (1..100) gives starts and patches; `stream` more control draws for the same instance.
-  SimulationResult run(const Machine& machine, int seed, int stream = 0,
+  SimulationResult run(const Controller& controller, int seed, int stream = 0,
                        const Recorder& recorder = {}) const;
 
   Mission mission;

@@ -92,7 +92,8 @@ TEST(MachineFile, NamesThePlaceOfWhatIsWrong) {
   EXPECT_THAT(complaints_about(std::string("#: format = \n") + kStop),
               ElementsAre(HasSubstr("m.fsm:1:")));
   EXPECT_THAT(complaints_about("stop\n"),
-              ElementsAre("m.fsm:1: a machine begins with --nstates or --fsm-config"));
+              ElementsAre("m.fsm:1: control software begins with one of --nstates, --fsm-config, "
+                          "--nroot, --bt-config, --network"));
   EXPECT_THAT(complaints_about("--s0 1\n"), ElementsAre(HasSubstr("m.fsm:1: ")));
   EXPECT_THAT(complaints_about("# nothing\n"), ElementsAre("m.fsm: the file holds no machine"));
   EXPECT_THAT(complaints_about(kStop), testing::IsEmpty());
