@@ -1,0 +1,128 @@
+"""Each method's campaign has one answer: for any number of workers, and through kills of both sides.
+
+Campaigns are run by the real programs. The budget is small, so most presets get smaller
+generations, too.
+"""
+import random
+import signal
+import subprocess
+import unittest
+
+from programs import ProgramTest, children_of, send
+
+METHODS = {
+    "random": "",
+    "vanilla": "",
+    "evostick": "[method.evolution]\npopulation = 20\nruns = 5\nfinal_runs = 10",
+    "cma-es": "[method.cma-es]\npopulation = 20\nruns = 5\nfinal_runs = 10",
+    "icepop": "",
+    "maple": "",
+}
+
+#: A method that has no preset: iterated F-race on the weights of a network.
+RACED_NETWORK = 'architecture = "network"\nsearch = "irace"'
+#: The other one: a genetic algorithm would need real parameters, random search does not.
+RANDOM_TREE = 'architecture = "tree"\nsearch = "random"'
+
+CAMPAIGN = """\
+format = 1
+
+[campaign]
+name = "methods"
+seed = {seed}
+store = "unused.db"
+
+[[mission]]
+name = "aggregation"
+  [mission.instances]
+  test = {{ count = 10 }}
+
+[[method]]
+name = "{name}"
+{keys}
+
+[race]
+max_experiments = {budget}
+"""
+
+
+class MethodTest(ProgramTest):
+    budget = 2400
+
+    def write(self, name, keys):
+        self.file.write_text(
+            CAMPAIGN.format(seed=self.seed, name=name, keys=keys, budget=self.budget))
+
+    def answer(self, store, *arguments):
+        done = self.run_campaign(store, *arguments)
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.assert_clean(store)
+        return self.digest(store)
+
+
+class OneAnswer(MethodTest):
+    rng = random.Random(2026)
+
+    def interrupt(self, store):
+        """Kills a worker at some moment, and then the coordinator; False if the end came first."""
+        process = self.start_campaign(store, "--workers", "2")
+        for victim in ("worker", "coordinator"):
+            try:
+                process.wait(timeout=self.rng.uniform(0.1, 0.4))
+                return False
+            except subprocess.TimeoutExpired:
+                pass
+            workers = children_of(process.pid)
+            if victim == "coordinator":
+                send(process.pid, signal.SIGKILL)
+                process.wait()
+            elif workers:
+                send(self.rng.choice(workers), signal.SIGKILL)
+        return True
+
+    def one_answer(self, name, keys):
+        self.write(name, keys)
+        digest = self.answer(self.folder / f"{name}.one.db", "--workers", "1")
+        self.assertEqual(self.answer(self.folder / f"{name}.three.db", "--workers", "3"), digest)
+        killed = self.folder / f"{name}.killed.db"
+        self.assertIn(True, [self.interrupt(killed) for _ in range(3)])
+        self.assertEqual(self.answer(killed, "--workers", "2"), digest)
+
+
+def one_answer_of(name, keys):
+    def test(self):
+        self.one_answer(name, keys)
+    return test
+
+
+for preset, settings in METHODS.items():
+    setattr(OneAnswer, "test_" + preset.replace("-", "_"),
+            one_answer_of(preset, f'method = "{preset}"\n{settings}'))
+setattr(OneAnswer, "test_raced_network", one_answer_of("raced-network", RACED_NETWORK))
+setattr(OneAnswer, "test_random_tree", one_answer_of("random-tree", RANDOM_TREE))
+
+
+class ExplicitForm(MethodTest):
+    """A preset and its two halves are the same campaign."""
+
+    HALVES = {
+        "random": ("machine", "random"),
+        "vanilla": ("machine", "f-race"),
+        "evostick": ("network", "evolution"),
+        "cma-es": ("network", "cma-es"),
+        "icepop": ("machine", "annealing"),
+        "maple": ("tree", "irace"),
+    }
+
+    def test_a_preset_and_its_halves_have_one_digest(self):
+        for preset, (architecture, search) in self.HALVES.items():
+            with self.subTest(preset):
+                self.write("m", f'method = "{preset}"\n{METHODS[preset]}')
+                digest = self.answer(self.folder / f"{preset}.db")
+                self.write("m", f'architecture = "{architecture}"\nsearch = "{search}"\n'
+                           f"{METHODS[preset]}")
+                self.assertEqual(self.answer(self.folder / f"{preset}-halves.db"), digest)
+
+
+if __name__ == "__main__":
+    unittest.main()
