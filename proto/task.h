@@ -12,6 +12,7 @@ namespace swarmsmith {
 struct EvaluationInput {
   std::uint32_t mission = 0;  ///< index into the scenario's missions
   std::uint32_t method = 0;   ///< index into the scenario's methods
+  std::uint32_t profile = 0;  ///< 0: the scenario's own; n: its n-th further one
   /// From 1; of a call of a targetEvaluator in testing the negative of it.
   std::int64_t instance = 0;
   std::int64_t seed = 0;

@@ -7,6 +7,7 @@ namespace swarmsmith {
 LeasedTask task_of(const pb::Task& message) {
   return {{.mission = message.mission(),
            .method = message.method(),
+           .profile = message.profile(),
            .instance = message.instance(),
            .seed = message.seed(),
            .machine = message.machine(),
@@ -25,6 +26,7 @@ void write(const LeasedTask& task, pb::Task& message) {
   message.set_alone(task.alone);
   message.set_mission(task.mission);
   message.set_method(task.method);
+  message.set_profile(task.profile);
   message.set_instance(task.instance);
   message.set_seed(task.seed);
   message.set_machine(task.machine);

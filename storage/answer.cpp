@@ -194,12 +194,12 @@ bool in_answer(const Row& row) {
   return std::visit(Overloaded{
                         [](const auto&) { return true; },
                         [](const EvaluationRow& r) {
-                          return r.key.purpose == Purpose::Test ||
+                          return is_of_tests(r.key.purpose) ||
                                  r.key.purpose == Purpose::Evaluator ||
                                  (r.key.purpose == Purpose::Race && r.iteration != 0);
                         },
                         [](const PairRow& r) {
-                          return r.purpose == Purpose::Test || r.purpose == Purpose::Race ||
+                          return is_of_tests(r.purpose) || r.purpose == Purpose::Race ||
                                  r.purpose == Purpose::Evaluator;
                         },
                         [](const UnusedRow&) { return false; },

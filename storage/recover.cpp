@@ -169,7 +169,7 @@ void SqliteRecovery::replace_derived(const StoredCampaign& campaign, const Deriv
     run(fmt::format("DELETE FROM {} WHERE candidate BETWEEN ? AND ?", table).c_str(),
         bounds.first_candidate, bounds.last_candidate);
   }
-  run("DELETE FROM pair WHERE purpose IN (2, 5) AND design BETWEEN ? AND ?", bounds.first_design,
+  run("DELETE FROM pair WHERE purpose IN (2, 5, 6) AND design BETWEEN ? AND ?", bounds.first_design,
       bounds.last_design);
   run("UPDATE design SET state = 0, used = 0, iteration = 0, best = NULL, best_mean = 0,"
       " reason = '' WHERE id BETWEEN ? AND ?",

@@ -17,15 +17,23 @@ namespace swarmsmith {
 /// of workers and any history of crashes, and covered by the store's digest.
 
 /// Why an evaluation was made. The numbers are stored. Evaluator: a call of a targetEvaluator,
-/// whose pair is numbered by the design's tasks (irace facts, 18.4).
+/// whose pair is numbered by the design's tasks (irace facts, 18.4). Transfer: a test under a
+/// further profile of the campaign; its pairs are those of the tests, again for each profile, and
+/// numbered on from them.
 enum class Purpose : std::int8_t {
   Race = 0,
   LookAhead = 1,
   Test = 2,
   Audit = 3,
   Score = 4,
-  Evaluator = 5
+  Evaluator = 5,
+  Transfer = 6
 };
+
+/// After the race, outside of its budget.
+constexpr bool is_of_tests(Purpose purpose) {
+  return purpose == Purpose::Test || purpose == Purpose::Transfer;
+}
 
 /// How an evaluation ended. The numbers are stored. A rejected one has no score.
 enum class EvaluationStatus : std::int8_t { Ok = 0, Rejected = 1 };

@@ -33,6 +33,9 @@ class Simulation {
     if (item.mission >= scenario_.missions.size() || item.method >= flavours_.size()) {
       return bad_input("a task for a mission or method that the scenario does not have");
     }
+    if (item.profile > scenario_.test_profiles.size()) {
+      return bad_input("a task for a profile that the scenario does not have");
+    }
     const Mission& mission = scenario_.missions[item.mission];
     const Flavour& flavour = flavours_[item.method];
     const Expected<const Controller*> controller = controller_of(item);
@@ -41,11 +44,15 @@ class Simulation {
     if (!instance) return Unexpected(instance.error());
     const SimulationResult result = simulate({.controller = **controller,
                                               .flavour = flavour,
-                                              .profile = scenario_.profile,
+                                              .profile = profile_of(item),
                                               .mission = mission,
                                               .instance = *instance,
                                               .seed = item.seed});
     return Result{.score = result.score, .state_digest = result.state_digest};
+  }
+
+  const Profile& profile_of(const LeasedTask& item) const {
+    return item.profile == 0 ? scenario_.profile : scenario_.test_profiles[item.profile - 1];
   }
 
   Expected<const Controller*> controller_of(const LeasedTask& item) {

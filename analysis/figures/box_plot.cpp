@@ -20,6 +20,8 @@ namespace {
 
 constexpr std::size_t kMostTicks = 7;
 constexpr double kLeastBand = 9;     ///< a box with air on both sides, mm
+constexpr double kPairedBand = 5;    ///< of a pair half the room
+constexpr double kNarrow = 0.5;      ///< width of a narrow box beside a wide one
 constexpr double kMostBand = 24;     ///< boxes that are further apart are hard to compare
 constexpr double kLongestName = 19;  ///< longer words are cut
 constexpr double kAboveLine = 1.5;   ///< the lowest values
@@ -45,19 +47,26 @@ ValueRange range_of(const ScorePanel& panel) {
   return rounded(range_over(all), kMostTicks);
 }
 
+/// Boxes come in pairs of one name, a narrow one and a wide one.
+bool has_pairs(const ScorePanel& panel) {
+  return !panel.groups.empty() && panel.groups.front().narrow;
+}
+
+/// Below the boxes, from left to right; of a pair one.
 std::vector<std::string> names_of(const ScorePanel& panel) {
   std::vector<std::string> names;
-  for (const ScoreGroup& group : panel.groups)
-    names.push_back(group.name);
+  for (std::size_t i = 0; i < panel.groups.size(); i += has_pairs(panel) ? 2U : 1U)
+    names.push_back(panel.groups[i].name);
   return names;
 }
 
 /// The width that each group of a panel needs.
 double least_band(const ScorePanel& panel) {
-  double least = kLeastBand + 2 * counts_beside(panel);
+  double least = (has_pairs(panel) ? kPairedBand : kLeastBand) + 2 * counts_beside(panel);
   for (const std::string& name : names_of(panel)) {
     for (const std::string& word : broken_text(name, kTextSize, 1000, 1000))
-      least = std::max(least, std::min(text_width(word, kTextSize) + 1, kLongestName));
+      least = std::max(least, std::min(text_width(word, kTextSize) + 1, kLongestName) /
+                                  (has_pairs(panel) ? 2 : 1));
   }
   return least;
 }
@@ -79,6 +88,11 @@ Bands bands_of(const ScorePanel& panel, const PlotArea& area) {
   return {panel.groups.size(), area.left, area.right()};
 }
 
+/// A band a name.
+Bands name_bands_of(const ScorePanel& panel, const PlotArea& area) {
+  return {names_of(panel).size(), area.left, area.right()};
+}
+
 void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
   const TextStyle middle{
       .size = kTextSize, .anchor = TextStyle::Anchor::Middle, .fill = std::string(kInk)};
@@ -95,12 +109,14 @@ void draw_panel(Svg& svg, const ScorePanel& panel, const PlotArea& area) {
     svg.line(line, stroked(kLink, 0.15));
   }
   for (std::size_t i = 0; i < panel.groups.size(); ++i) {
-    const BoxPlace place{
-        .x = bands.centre(i), .half = half, .right = bands.centre(i) + bands.width() / 2};
+    const BoxPlace place{.x = bands.centre(i),
+                         .half = panel.groups[i].narrow ? kNarrow * half : half,
+                         .right = bands.centre(i) + bands.width() / 2};
     draw_marks(svg, panel.groups[i], place, y);
   }
-  draw_band_axis(svg, area, bands, names_of(panel));
-  const double below = area.bottom() + band_axis_room(bands, names_of(panel)) + kTextSize;
+  const Bands names = name_bands_of(panel, area);
+  draw_band_axis(svg, area, names, names_of(panel));
+  const double below = area.bottom() + band_axis_room(names, names_of(panel)) + kTextSize;
   svg.text({area.left - 1, below}, "n",
            {.size = kTextSize, .anchor = TextStyle::Anchor::End, .fill = std::string(kInk)});
   for (std::size_t i = 0; i < panel.groups.size(); ++i)
@@ -124,12 +140,34 @@ BoxLayout layout_of(const BoxPlot& plot, const PanelGrid& grid, double top) {
       PlotArea area =
           area_of(panel, grid.left_of(i), layout.bottom + kPanelTitleRoom, grid.width());
       area.height = height;
-      below = std::max(below, band_axis_room(bands_of(panel, area), names_of(panel)));
+      below = std::max(below, band_axis_room(name_bands_of(panel, area), names_of(panel)));
       layout.areas.push_back(area);
     }
     layout.bottom += kPanelTitleRoom + height + below + kLineHeight + 2;
   }
   return layout;
+}
+
+/// Two sources of each method become pairs, as the field draws simulation beside another world: the
+/// first narrow, both with the method's name. True when all groups have a partner.
+bool pair_boxes(std::vector<ScorePanel>& panels) {
+  for (const ScorePanel& panel : panels) {
+    const std::vector<ScoreGroup>& groups = panel.groups;
+    if (groups.size() % 2 != 0) return false;
+    for (std::size_t i = 0; i < groups.size(); i += 2) {
+      const bool is_pair = groups[i].method == groups[i + 1].method &&
+                           groups[i].source == panels.front().groups[0].source &&
+                           groups[i + 1].source == panels.front().groups[1].source;
+      if (!is_pair) return false;
+    }
+  }
+  for (ScorePanel& panel : panels) {
+    for (std::size_t i = 0; i < panel.groups.size(); ++i) {
+      panel.groups[i].name = panel.groups[i].method;
+      panel.groups[i].narrow = i % 2 == 0;
+    }
+  }
+  return true;
 }
 
 }  // namespace
@@ -181,6 +219,14 @@ Expected<Figure> box_figure(StoreReader& store, const FigureOptions& options) {
   auto scores = grouped_scores(store, options);
   if (!scores) return Unexpected(scores.error());
   std::vector<std::string> details;
+  const bool has_two =
+      scores->by == "method" && scores->panels.front().groups.size() > 1 &&
+      scores->panels.front().groups[0].source != scores->panels.front().groups[1].source;
+  if (has_two && pair_boxes(scores->panels)) {
+    const std::vector<ScoreGroup>& groups = scores->panels.front().groups;
+    scores->details.push_back("narrow boxes: " + groups[0].source +
+                              "; wide boxes: " + groups[1].source);
+  }
   for (const std::string& detail : scores->details) {
     for (std::string& line : broken_text(detail, kTextSize, options.width_mm - 2 * kMargin, 3))
       details.push_back(std::move(line));

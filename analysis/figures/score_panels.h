@@ -11,6 +11,9 @@ struct ScoreGroup {
   std::string name;       ///< below it, or in the legend
   std::size_t color = 0;  ///< groups of one colour have something in common
   std::vector<double> values;
+  std::string method{};  ///< of the scores, where they have only one
+  std::string source{};
+  bool narrow = false;  ///< the first of a pair of boxes, which have one name
 };
 
 /// Two values of one thing, in two groups.

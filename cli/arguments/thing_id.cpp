@@ -9,7 +9,7 @@ std::optional<ThingId> parse_thing_id(std::string_view text) {
   if (std::string_view("dcer").find(id.letter) == std::string_view::npos) return std::nullopt;
   text.remove_prefix(1);
   if (id.letter == 'e' && !text.empty() &&
-      std::string_view("ltas").find(text.back()) != std::string_view::npos) {
+      std::string_view("ltasvp").find(text.back()) != std::string_view::npos) {
     id.purpose = text.back();
     text.remove_suffix(1);
   }

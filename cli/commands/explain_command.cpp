@@ -61,7 +61,7 @@ Expected<History> read_history(StoreReader& store, const ThingId& id) {
        &history.failures},
       {"SELECT time AS at, kept_score, other_score, other_worker FROM conflict WHERE candidate = " +
            candidate + " AND pair = " + pair + " AND purpose = " +
-           (id.purpose.empty() ? "0" : std::to_string(1 + std::string("ltas").find(id.purpose))) +
+           (id.purpose.empty() ? "0" : std::to_string(1 + std::string("ltasvp").find(id.purpose))) +
            " ORDER BY time",
        &history.conflicts},
       {"SELECT w.worker, w.host, w.pid, w.job, w.client, w.build, w.state FROM v_workers AS w "
@@ -82,6 +82,7 @@ Expected<History> read_history(StoreReader& store, const ThingId& id) {
 std::string why(const History& history) {
   const std::string purpose = cell(history.evaluation, "purpose");
   if (purpose == "test") return "a test of its candidate after the race, outside of the budget";
+  if (purpose == "transfer") return "a test of its candidate under a further profile";
   if (purpose == "audit") return "an audit: a second worker, bits compared";
   if (purpose == "score") return "a person scored the candidate";
   if (purpose == "evaluator") return "a call of the targetEvaluator";

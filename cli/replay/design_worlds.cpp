@@ -32,6 +32,7 @@ std::optional<CampaignMission> built_in(const std::string& name) {
 void put_campaign(DesignWorld& world, const Campaign& campaign) {
   world.has_programs = campaign.target.has_value();
   if (!world.has_programs) world.profile = campaign.profile;
+  world.test_profiles = campaign.test_profiles;
   for (const CampaignMission& mission : campaign.missions) {
     if (!world.has_programs && mission.mission.name == world.design.mission)
       world.mission = mission;

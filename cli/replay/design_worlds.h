@@ -19,10 +19,11 @@ struct DesignWorld {
   std::optional<CampaignMission> mission;  ///< nothing: its programs', or of an unknown name
   std::string flavour;
   std::optional<TurnClock> turn_clock;
-  std::optional<Profile> profile;  ///< the campaign's; nothing for imported machines
-  int engine_version = 0;          ///< that made its scores; 0 when the store does not say
-  bool has_programs = false;       ///< programs evaluate
-  bool has_parameters = false;     ///< its candidates are parameters of a file, no machines
+  std::optional<Profile> profile;      ///< the campaign's; nothing for imported machines
+  std::vector<Profile> test_profiles;  ///< further ones of the campaign
+  int engine_version = 0;              ///< that made its scores; 0 when the store does not say
+  bool has_programs = false;           ///< programs evaluate
+  bool has_parameters = false;         ///< its candidates are parameters of a file, no machines
 };
 
 /// The worlds of all designs of a store: of a campaign's file, or, for imported machines, by their

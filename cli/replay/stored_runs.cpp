@@ -57,6 +57,8 @@ StoredRun read_outcome(const std::vector<Cell>& cells) {
 /// The profile behind a source, or why there is none.
 Expected<Profile> profile_of(const DesignWorld& world, const std::string& source) {
   if (world.profile && source == world.profile->name) return *world.profile;
+  const auto further = std::ranges::find(world.test_profiles, source, &Profile::name);
+  if (further != world.test_profiles.end()) return *further;
   if (source == "real") {
     return bad_input("it was filmed, not simulated: there is nothing to simulate again");
   }
@@ -105,11 +107,11 @@ std::string in_turn(std::int64_t schema, const std::string& given,
       "ordered AS (SELECT id, who, y * y % {prime} AS z FROM mixed), "
       "ranked AS (SELECT id, z, row_number() OVER (PARTITION BY who ORDER BY z, id) AS n "
       "FROM ordered) SELECT id FROM ranked ORDER BY n, z, id LIMIT {count}";
-  return fmt::format(fmt::runtime(kSql), fmt::arg("seed", wanted.seed),
-                     fmt::arg("who", who(schema)), fmt::arg("prime", 2'147'483'629),
-                     fmt::arg("given", given),
-                     fmt::arg("but", wanted.tests ? " AND e.purpose <> 'test'" : ""),
-                     fmt::arg("count", wanted.scores));
+  return fmt::format(
+      fmt::runtime(kSql), fmt::arg("seed", wanted.seed), fmt::arg("who", who(schema)),
+      fmt::arg("prime", 2'147'483'629), fmt::arg("given", given),
+      fmt::arg("but", wanted.tests ? " AND e.purpose NOT IN ('test', 'transfer')" : ""),
+      fmt::arg("count", wanted.scores));
 }
 
 }  // namespace
@@ -231,8 +233,8 @@ Expected<std::vector<std::string>> StoredRuns::chosen(const Wanted& wanted) {
   if (wanted.rejections)
     parts.push_back("SELECT e.id" + given + " AND e.status = 'rejected'" + in_order);
   if (wanted.tests)
-    parts.push_back("SELECT e.id" + given + " AND e.status = 'ok' AND e.purpose = 'test'" +
-                    in_order);
+    parts.push_back("SELECT e.id" + given +
+                    " AND e.status = 'ok' AND e.purpose IN ('test', 'transfer')" + in_order);
   if (wanted.scores > 0) parts.push_back(in_turn(store_->schema(), given, wanted));
   std::vector<std::string> all;
   for (const std::string& sql : parts) {
@@ -260,7 +262,8 @@ std::string StoredRuns::of_campaigns() const {
       designs += (designs.empty() ? "" : ",") + std::to_string(design.id.value);
   }
   if (designs.empty()) return {};
-  return "e.purpose IN ('race', 'look-ahead', 'test') AND e.design IN (" + designs + ")";
+  return "e.purpose IN ('race', 'look-ahead', 'test', 'transfer') AND e.design IN (" + designs +
+         ")";
 }
 
 bool StoredRuns::has_machines() const {

@@ -135,8 +135,9 @@ CampaignPlan plan_of(const Campaign& campaign) {
     const std::int64_t elites = method.baseline.empty() ? campaign.test_nb_elites : 1;
     tested += elites * repetitions_of(campaign, method);
   }
+  const auto worlds = static_cast<std::int64_t>(1 + campaign.test_profiles.size());
   for (const CampaignMission& mission : campaign.missions)
-    plan.tests += mission.test_count * tested;
+    plan.tests += mission.test_count * tested * worlds;
   const auto cores = static_cast<std::int64_t>(std::max(1U, std::thread::hardware_concurrency()));
   plan.slots = std::max<std::int64_t>(1, campaign.local_workers.value_or(cores));
   const auto evaluations = static_cast<double>(plan.experiments + plan.tests);

@@ -12,6 +12,7 @@ WorkerScenario scenario_of(const Campaign& campaign) {
   WorkerScenario scenario{.campaign_digest = campaign_digest(campaign),
                           .engine_version = kEngineVersion,
                           .profile = campaign.profile,
+                          .test_profiles = campaign.test_profiles,
                           .target = campaign.target};
   if (campaign.target) {
     for (const CampaignMission& mission : campaign.missions) {

@@ -92,6 +92,9 @@ struct Campaign {
   std::string repair;
   std::int64_t test_nb_elites = 1;     ///< how many elites are tested after the last race
   bool test_iteration_elites = false;  ///< those of every iteration too
+  /// Under which the tests are run again, besides `profile`; other names than its, each once. Their
+  /// names are the scores' sources.
+  std::vector<Profile> test_profiles;
   /// No race: what is tested are the configurations of `Method::configurations`. Only with a
   /// target.
   bool only_test = false;

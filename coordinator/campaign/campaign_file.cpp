@@ -1,5 +1,6 @@
 #include "coordinator/campaign/campaign_file.h"
 
+#include <algorithm>
 #include <cctype>
 #include <limits>
 
@@ -64,6 +65,21 @@ void check_pictures(TableReader& root, const Campaign& campaign) {
                                "campaigns");
 }
 
+/// By name, or in a file of its own; nothing after a complaint.
+std::optional<Profile> named_profile(TableReader& table, std::string_view key,
+                                     const std::string& word, const std::filesystem::path& folder) {
+  auto profile = find_profile(word, folder);
+  if (profile) return std::move(*profile);
+  for (const Error& error : profile.error()) {
+    if (error.where.empty()) {
+      table.complain(key, error.message);
+    } else {
+      table.complain_foreign(key, error);
+    }
+  }
+  return std::nullopt;
+}
+
 /// By name, in a file of its own, or in a table.
 Profile read_profile(TableReader& simulator, const std::filesystem::path& folder) {
   const Node* node = simulator.take("profile");
@@ -72,16 +88,7 @@ Profile read_profile(TableReader& simulator, const std::filesystem::path& folder
     return read_profile_table(*table);
   }
   const std::string name = simulator.text("profile").value_or("rvr");
-  auto profile = find_profile(name, folder);
-  if (profile) return std::move(*profile);
-  for (const Error& error : profile.error()) {
-    if (error.where.empty()) {
-      simulator.complain("profile", error.message);
-    } else {
-      simulator.complain_foreign("profile", error);
-    }
-  }
-  return {};
+  return named_profile(simulator, "profile", name, folder).value_or(Profile{});
 }
 
 /// [simulator]: who evaluates.
@@ -117,6 +124,46 @@ void complete_target(Campaign& campaign) {
   if (!campaign.target) return;
   campaign.target->prints_time = campaign.race.max_time > 0;
   campaign.target->min_measurable_time = campaign.race.min_measurable_time;
+}
+
+/// Adds a profile of the tests. The campaign's own may be named, too: the tests are run in it
+/// anyway.
+void add_test_profile(TableReader& tests, std::string_view key, Profile profile,
+                      Campaign& campaign) {
+  const bool is_own = profile.name == campaign.profile.name;
+  if (is_own && profile == campaign.profile) return;
+  const auto known = std::ranges::find(campaign.test_profiles, profile.name, &Profile::name);
+  if (profile.name == "real" || profile.name == "command") {
+    tests.complain(key, "scores of the source " + profile.name +
+                            " are not simulated; give the profile another name");
+  } else if (is_own) {
+    tests.complain(key, "the campaign has another profile " + profile.name +
+                            ", whose scores would be mixed up with these; give it another name");
+  } else if (known != campaign.test_profiles.end()) {
+    tests.complain(key, "the profile " + profile.name + " is named twice");
+  } else {
+    campaign.test_profiles.push_back(std::move(profile));
+  }
+}
+
+/// [tests]: under which profiles the winners are tested. `profiles` has names and files, each
+/// [[tests.profile]] is a whole one.
+void read_tests(TableReader& root, const std::filesystem::path& folder, Campaign& campaign) {
+  auto tests = root.table("tests");
+  if (!tests) return;
+  if (campaign.target) {
+    tests->complain("profiles", "programs evaluate, and they have no profiles of the simulator");
+    tests->take("profiles");
+    tests->take("profile");
+    return tests->finish();
+  }
+  for (const std::string& word : tests->texts("profiles").value_or(std::vector<std::string>{})) {
+    if (auto profile = named_profile(*tests, "profiles", word, folder))
+      add_test_profile(*tests, "profiles", std::move(*profile), campaign);
+  }
+  for (TableReader& table : tests->tables("profile"))
+    add_test_profile(*tests, "profile", read_profile_table(table), campaign);
+  tests->finish();
 }
 
 /// [dashboard] is checked, so that files can have it, and not kept.
@@ -184,6 +231,7 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   read_identity(root, campaign, file);
   const std::filesystem::path folder = file.parent_path();
   read_simulator(root, campaign, folder);
+  read_tests(root, folder, campaign);
   read_campaign_missions(root, campaign, folder);
   campaign.methods = read_methods(root, folder, campaign.target.has_value());
   read_race(root, folder, campaign);

@@ -255,7 +255,7 @@ std::map<DesignId, StoredDesign> by_design(const std::vector<StoredScore>& score
     if (skipped(id)) continue;
     StoredDesign& design = designs[id];
     auto* known = score.key.purpose == Purpose::Race        ? &design.race_scores
-                  : score.key.purpose == Purpose::Test      ? &design.test_scores
+                  : is_of_tests(score.key.purpose)          ? &design.test_scores
                   : score.key.purpose == Purpose::Evaluator ? &design.evaluator_scores
                                                             : nullptr;
     if (known == nullptr) continue;

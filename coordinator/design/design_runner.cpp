@@ -225,8 +225,9 @@ void DesignRunner::want_tests(std::vector<Task>& tasks) {
   batch_ = Batch(tests_.begin());
   for (std::size_t i = 0; i < batch_.experiments().size(); ++i) {
     const Experiment& run = batch_.experiments()[i];
-    recorder_.record_pair(Purpose::Test, run);
-    want(i, key_of(Purpose::Test, run), run, tasks);
+    const Purpose purpose = tests_.purpose_of(run.pair);
+    recorder_.record_pair(purpose, run);
+    want(i, key_of(purpose, run), run, tasks);
   }
 }
 
@@ -271,7 +272,8 @@ EvaluationKey DesignRunner::key_of(Purpose purpose, const Experiment& experiment
 std::optional<Task> DesignRunner::task_of(const EvaluationKey& key) const {
   const std::int64_t number = number_of(key.candidate);
   if (number > recorder_.n_candidates()) return std::nullopt;
-  if (key.purpose == Purpose::Test && key.pair <= tests_.count())
+  if (is_of_tests(key.purpose) && key.pair > 0 && key.pair <= tests_.pairs() &&
+      key.purpose == tests_.purpose_of(key.pair))
     return task_of(key, tests_.run(number, key.pair));
   const auto pair = pairs_.find(key.pair);
   if (key.purpose != Purpose::Race || pair == pairs_.end()) return std::nullopt;
@@ -281,8 +283,10 @@ std::optional<Task> DesignRunner::task_of(const EvaluationKey& key) const {
 }
 
 Task DesignRunner::task_of(const EvaluationKey& key, const Experiment& experiment) const {
+  const bool is_transfer = key.purpose == Purpose::Transfer;
   return {{.mission = plan_.mission,
            .method = plan_.method,
+           .profile = is_transfer ? static_cast<std::uint32_t>(tests_.profile_of(key.pair)) : 0,
            .instance = experiment.instance,
            .seed = experiment.seed,
            .machine = call_of(experiment.configuration),
@@ -306,11 +310,13 @@ void DesignRunner::tell(const Outcome& outcome, std::vector<Row>& rows) {
     }
   }
   const StoredScore score = batch_.answer(outcome);
-  if (outcome.key.purpose == Purpose::Test) scores_.keep(score);
+  if (is_of_tests(outcome.key.purpose)) scores_.keep(score);
   if (outcome.key.purpose == Purpose::Evaluator) calls_.finish();
   const bool is_raced = outcome.key.purpose == Purpose::Race;
-  rows.emplace_back(evaluation_row(outcome, is_raced ? recorder_.counted_iteration() : 0,
-                                   score.bound, plan_.source));
+  const bool is_transfer = outcome.key.purpose == Purpose::Transfer;
+  rows.emplace_back(
+      evaluation_row(outcome, is_raced ? recorder_.counted_iteration() : 0, score.bound,
+                     is_transfer ? tests_.source_of(outcome.key.pair) : plan_.source));
 }
 
 void DesignRunner::look_ahead(std::size_t count, std::int64_t pairs, std::vector<Task>& tasks,

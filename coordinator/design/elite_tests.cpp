@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/assert.h"
 #include "base/rng.h"
 
 namespace swarmsmith {
@@ -25,21 +26,31 @@ void EliteTests::test_all(std::vector<std::int64_t> given) {
 
 /// The seeds of tests are a stream of their own, so that they meet no pair of the race but by
 /// chance.
-Experiment EliteTests::run(std::int64_t candidate, std::int64_t test) const {
+Experiment EliteTests::run(std::int64_t candidate, std::int64_t pair) const {
+  const std::int64_t test = (pair - 1) % plan_.count + 1;
   Rng rng = Rng(seed_).split("test", static_cast<std::uint64_t>(test));
   return {.configuration = candidate,
-          .pair = test,
+          .pair = pair,
           .instance = plan_.on_test_instances ? test : (test - 1) % n_instances_ + 1,
           .seed = rng.uniform_int(1, kLargestSeed),
           .bound = bound_};
+}
+
+Purpose EliteTests::purpose_of(std::int64_t pair) const {
+  return pair <= plan_.count ? Purpose::Test : Purpose::Transfer;
+}
+
+const std::string& EliteTests::source_of(std::int64_t pair) const {
+  SWARMSMITH_ASSERT(pair > plan_.count && pair <= pairs(), "a run under a further profile");
+  return plan_.profiles[static_cast<std::size_t>(profile_of(pair) - 1)];
 }
 
 std::vector<Experiment> EliteTests::begin() {
   tested_ = chosen();
   std::vector<Experiment> runs;
   for (const std::int64_t candidate : tested_) {
-    for (std::int64_t test = 1; test <= plan_.count; ++test)
-      runs.push_back(run(candidate, test));
+    for (std::int64_t pair = 1; pair <= pairs(); ++pair)
+      runs.push_back(run(candidate, pair));
   }
   return runs;
 }

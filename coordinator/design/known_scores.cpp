@@ -10,10 +10,10 @@ namespace {
 template <class Design>
 auto& scores_of(Design& stored, Purpose purpose) {
   SWARMSMITH_ASSERT(
-      purpose == Purpose::Race || purpose == Purpose::Test || purpose == Purpose::Evaluator,
+      purpose == Purpose::Race || is_of_tests(purpose) || purpose == Purpose::Evaluator,
       "a design asks for runs of its race and its tests, and for calls of a targetEvaluator");
   if (purpose == Purpose::Race) return stored.race_scores;
-  return purpose == Purpose::Test ? stored.test_scores : stored.evaluator_scores;
+  return is_of_tests(purpose) ? stored.test_scores : stored.evaluator_scores;
 }
 
 }  // namespace
@@ -27,13 +27,13 @@ const StoredScore* KnownScores::stored(const EvaluationKey& key) const {
 std::optional<StoredScore> KnownScores::take(const EvaluationKey& key) {
   const std::uint64_t packed = packed_key(key);
   if (auto score = scores_of(stored_, key.purpose).extract(packed)) {
-    if (key.purpose == Purpose::Test) return tested_.insert(std::move(score)).position->second;
+    if (is_of_tests(key.purpose)) return tested_.insert(std::move(score)).position->second;
     return score.mapped();
   }
   if (key.purpose == Purpose::Race) {
     if (const auto score = unused_.extract(packed)) return score.mapped();
   }
-  if (key.purpose == Purpose::Test) {
+  if (is_of_tests(key.purpose)) {
     if (const auto found = tested_.find(packed); found != tested_.end()) return found->second;
   }
   return std::nullopt;

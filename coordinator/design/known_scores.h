@@ -19,6 +19,7 @@ constexpr std::uint64_t packed_key(const EvaluationKey& key) {
 /// What a store knows of one design, for replay; scores by `packed_key`.
 struct StoredDesign {
   std::unordered_map<std::uint64_t, StoredScore> race_scores;
+  /// Those under further profiles have other pairs.
   std::unordered_map<std::uint64_t, StoredScore> test_scores;
   /// Of a targetEvaluator: the pair is a task.
   std::unordered_map<std::uint64_t, StoredScore> evaluator_scores;

@@ -56,6 +56,8 @@ Expected<DesignPlan> plan_of(const Campaign& campaign, const DesignRow& row, std
                   .source = campaign.target ? "command" : campaign.profile.name,
                   .initial = space->initial(),
                   .only_test = campaign.only_test};
+  for (const Profile& profile : campaign.test_profiles)
+    plan.tests.profiles.push_back(profile.name);
   if (!campaign.repair.empty()) {
     const std::string folder = campaign.target ? campaign.target->folder : "";
     plan.repair = repair_by(campaign.repair, folder, space);

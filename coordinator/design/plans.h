@@ -21,6 +21,8 @@ struct TestPlan {
   bool on_test_instances = false;
   std::int64_t elites = 1;       ///< how many of the last iteration
   bool every_iteration = false;  ///< as many of each other iteration too
+  /// Names of further profiles, under which the tests are run again; each is a source.
+  std::vector<std::string> profiles{};
 };
 
 /// One design, ready to run.

@@ -13,7 +13,7 @@ namespace {
 // have no pair, and are at no place.
 constexpr char kScores[] =
     "SELECT candidate, purpose, pair, instance, seed, source, score, state_digest"
-    " FROM v_evaluations WHERE purpose IN ('test', 'score')"
+    " FROM v_evaluations WHERE purpose IN ('test', 'transfer', 'score')"
     " AND pair IS NOT NULL ORDER BY purpose = 'score', candidate, pair";
 
 std::int64_t integer(const StoreReader::Cell& cell) {
@@ -27,7 +27,9 @@ Expected<ScoreLedger> ScoreLedger::read(StoreReader& store) {
   const auto take = [&](const std::vector<StoreReader::Cell>& row) {
     const CandidateId candidate{integer(row[0])};
     const DesignId design = design_of(candidate);
-    const Purpose purpose = row[1].text == "test" ? Purpose::Test : Purpose::Score;
+    const Purpose purpose = row[1].text == "test"       ? Purpose::Test
+                            : row[1].text == "transfer" ? Purpose::Transfer
+                                                        : Purpose::Score;
     const LedgerScore known{.key = {candidate, purpose, integer(row[2])},
                             .instance = integer(row[3]),
                             .score = number_in(row[6].text).value_or(0),

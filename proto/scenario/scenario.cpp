@@ -37,6 +37,10 @@ std::string simulation_text(const WorkerScenario& scenario) {
   }
   for (Section& section : profile_sections(scenario.profile, "profile"))
     sections.push_back(std::move(section));
+  for (const Profile& profile : scenario.test_profiles) {
+    for (Section& section : profile_sections(profile, "test_profile", true))
+      sections.push_back(std::move(section));
+  }
   return text_of(sections);
 }
 
@@ -53,6 +57,8 @@ Expected<void> read_simulation(const std::string& text, WorkerScenario& scenario
   } else if (!root.has("profile")) {
     root.complain("profile", "a simulation needs a [profile]");
   }
+  for (TableReader& profile : root.tables("test_profile"))
+    scenario.test_profiles.push_back(read_profile_table(profile));
   root.finish();
   if (complaints.empty()) return {};
   return Unexpected(complaints.take().front());

@@ -28,6 +28,7 @@ struct WorkerScenario {
   std::vector<Mission> missions;      ///< Task::mission is an index
   std::vector<WorkerMethod> methods;  ///< Task::method is an index
   Profile profile;
+  std::vector<Profile> test_profiles;  ///< further ones: Task::profile counts them from 1
   /// Programs that evaluate in place of the simulator; missions, methods and profile are then
   /// empty.
   std::optional<Target> target;

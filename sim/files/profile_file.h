@@ -40,7 +40,9 @@ ProfileOrErrors parse_profile(std::string_view text, const std::filesystem::path
 /// table's complaints.
 Profile read_profile_table(TableReader& table);
 
-/// All fields as lines; `header` is the name of the table they are in, "simulator.profile".
-std::vector<Section> profile_sections(const Profile& profile, const std::string& header);
+/// All fields as lines; `header` is the name of the table they are in, "simulator.profile", which
+/// may be one of a list of tables.
+std::vector<Section> profile_sections(const Profile& profile, const std::string& header,
+                                      bool in_list = false);
 
 }  // namespace swarmsmith

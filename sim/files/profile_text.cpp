@@ -60,11 +60,13 @@ class FieldWriter {
 
 }  // namespace
 
-std::vector<Section> profile_sections(const Profile& profile, const std::string& header) {
+std::vector<Section> profile_sections(const Profile& profile, const std::string& header,
+                                      bool in_list) {
   std::vector<Section> sections;
   FieldWriter writer(sections, header);
   writer.add("name", quoted_text(profile.name));
   visit_profile_fields(profile, writer);
+  if (in_list) sections.front().header = "[[" + header + "]]";
   return sections;
 }
 

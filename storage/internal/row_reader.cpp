@@ -378,7 +378,7 @@ void read_answer(const sqlite::Connection& connection, const Part& part, const O
   // A pair that only look-ahead has touched so far is not part of the answer.
   each(connection, part,
        "SELECT * FROM pair WHERE " + designs +
-           " AND (purpose IN (2, 5)"
+           " AND (purpose IN (2, 5, 6)"
            " OR purpose = 0 AND (design, number) IN (SELECT design, pair FROM race_step))"
            " ORDER BY design, purpose, number",
        on_row, pair);
@@ -387,7 +387,7 @@ void read_answer(const sqlite::Connection& connection, const Part& part, const O
                    " (SELECT name FROM source WHERE id = evaluation.source), wall_us, worker,"
                    " attempt, ") +
            (first ? "NULL, NULL" : "time, bound") + " FROM evaluation WHERE " + candidates +
-           " AND (purpose IN (2, 5) OR purpose = 0 AND iteration IS NOT NULL)"
+           " AND (purpose IN (2, 5, 6) OR purpose = 0 AND iteration IS NOT NULL)"
            " ORDER BY candidate, purpose, pair",
        on_row, evaluation);
   each(connection, part,

@@ -102,10 +102,11 @@ LEFT JOIN real_override AS o
 CREATE VIEW v_evaluations AS
 SELECT 'e' || (e.candidate * 100000 + e.pair)
            || CASE e.purpose WHEN 0 THEN '' WHEN 1 THEN 'l' WHEN 2 THEN 't' WHEN 3 THEN 'a'
-                             WHEN 4 THEN 's' ELSE 'v' END AS id,
+                             WHEN 4 THEN 's' WHEN 5 THEN 'v' ELSE 'p' END AS id,
        d.id AS design, e.candidate,
        CASE e.purpose WHEN 0 THEN 'race' WHEN 1 THEN 'look-ahead' WHEN 2 THEN 'test'
-                      WHEN 3 THEN 'audit' WHEN 4 THEN 'score' ELSE 'evaluator' END AS purpose,
+                      WHEN 3 THEN 'audit' WHEN 4 THEN 'score' WHEN 5 THEN 'evaluator'
+                      ELSE 'transfer' END AS purpose,
        e.pair, p.instance, nullif(p.seed, 0) AS seed, e.iteration,
        CASE e.status WHEN 0 THEN 'ok' WHEN 1 THEN 'rejected' END AS status,
        e.score, e.time, e.bound, e.wall_us / 1000.0 AS wall_ms, nullif(e.worker, 0) AS worker, e.attempt,
@@ -132,7 +133,7 @@ SELECT d.id AS design, d.mission, d.method, d.repetition, d.best AS candidate,
        s.name AS source, CASE e.purpose WHEN 2 THEN 'test' ELSE 'score' END AS purpose, e.pair, p.instance, nullif(p.seed, 0) AS seed,
        iif(v.pair IS NULL, e.score, v.score) AS score
 FROM design AS d
-JOIN evaluation AS e ON e.candidate = d.best AND e.purpose IN (2, 4) AND e.score IS NOT NULL
+JOIN evaluation AS e ON e.candidate = d.best AND e.purpose IN (2, 4, 6) AND e.score IS NOT NULL
 JOIN source AS s ON s.id = e.source
 LEFT JOIN pair AS p ON p.design = d.id AND p.purpose = e.purpose AND p.number = e.pair
 LEFT JOIN pair AS q

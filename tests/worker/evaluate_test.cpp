@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "proto/scenario/scenario.h"
 #include "sim/control/machine_text.h"
 #include "sim/engine/self_test.h"
@@ -75,6 +77,30 @@ TEST(Evaluate, RunsAMethodWithItsTurnClock) {
     work.method = static_cast<std::uint32_t>(method);
     EXPECT_EQ((*evaluator)(work).state_digest, wanted.state_digest);
   }
+}
+
+TEST(Evaluate, RunsATestUnderTheProfileThatItNames) {
+  WorkerScenario scenario = short_aggregation();
+  scenario.test_profiles = {*built_in_profile("argos3"), *built_in_profile("pseudo-reality")};
+  const Expected<Evaluator> evaluator = make_evaluators()(to_bytes({scenario}));
+  ASSERT_TRUE(evaluator);
+  const Machine machine = *parse_machine(kMachine, watermelon());
+  const std::array profiles = {scenario.profile, scenario.test_profiles[0],
+                               scenario.test_profiles[1]};
+  for (std::uint32_t i = 0; i < profiles.size(); ++i) {
+    const SimulationResult wanted = simulate({.controller = machine,
+                                              .flavour = watermelon(),
+                                              .profile = profiles[i],
+                                              .mission = scenario.missions[0],
+                                              .instance = *instance_of(scenario.missions[0], 1),
+                                              .seed = 1});
+    LeasedTask work = item(1);
+    work.profile = i;
+    EXPECT_EQ((*evaluator)(work).state_digest, wanted.state_digest) << profiles[i].name;
+  }
+  LeasedTask unknown = item(1);
+  unknown.profile = 3;
+  EXPECT_NE((*evaluator)(unknown).failure.find("profile"), std::string::npos);
 }
 
 TEST(Evaluate, FailsWithASentence) {

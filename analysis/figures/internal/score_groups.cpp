@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -13,13 +14,19 @@
 namespace swarmsmith {
 namespace {
 
-/// What tells groups of a panel apart, outer factor first, so that what is compared is side by
-/// side.
-std::pair<std::size_t, std::size_t> band_of(const DesignScore& score, const StoreNames& names,
-                                            std::string_view by) {
-  const std::size_t source = place_of(names.sources, score.source);
-  const std::size_t method = place_of(names.methods, score.method);
-  return by == "method" ? std::pair(source, method) : std::pair(method, source);
+/// What tells groups of a panel apart, method first: what a method got in one source stands beside
+/// what it got in the other, the source of the campaign's tests first.
+std::tuple<std::size_t, bool, std::size_t> band_of(const DesignScore& score,
+                                                   const StoreNames& names,
+                                                   const std::string& tested) {
+  return {place_of(names.methods, score.method), score.source != tested,
+          place_of(names.sources, score.source)};
+}
+
+/// The source of the campaign's tests; empty where none is drawn.
+std::string tested_source(const std::vector<DesignScore>& scores) {
+  const auto test = std::ranges::find(scores, "test", &DesignScore::purpose);
+  return test == scores.end() ? "" : test->source;
 }
 
 /// Whether what is drawn has more than one method, or source.
@@ -39,7 +46,7 @@ Several several_of(const std::vector<DesignScore>& scores) {
 
 ScoreGroup group_of(const DesignScore& score, const StoreNames& names, std::string_view by,
                     const Several& several) {
-  ScoreGroup group;
+  ScoreGroup group{.method = score.method, .source = score.source};
   if (by == "mission") {
     group.color = place_of(names.missions, score.mission);
     group.name = score.mission;
@@ -84,11 +91,15 @@ GroupedScores grouped(const ChosenScores& taken, const StoreNames& names, std::s
   const Several several = several_of(taken.scores);
   GroupedScores result{.by = std::string(by), .csv = csv_of(values, taken.unit)};
   if (by.empty()) result.by = several.sources ? "source" : "method";
-  std::map<std::string, std::map<std::pair<std::size_t, std::size_t>, ScoreGroup>> panels;
+  using Place = std::tuple<std::size_t, bool, std::size_t>;
+  const std::string tested = tested_source(taken.scores);
+  std::map<std::string, std::map<Place, ScoreGroup>> panels;
   for (const ScoreValue& value : values) {
-    const auto place = band_of(value.score, names, result.by);
+    const Place place = band_of(value.score, names, tested);
     const auto [found, is_new] = panels[value.score.mission].try_emplace(place);
-    if (is_new) found->second = group_of(value.score, names, result.by, several);
+    if (is_new) {
+      found->second = group_of(value.score, names, result.by, several);
+    }
     found->second.values.push_back(value.score.score);
   }
   for (auto& [mission, groups] : panels) {

@@ -115,6 +115,15 @@ Section race_section(const Campaign& campaign) {
   return section;
 }
 
+/// One of several, whose name tells its keys from those of the others.
+std::vector<Section> test_profile_sections(const Profile& profile) {
+  const std::string header = "tests.profile";
+  std::vector<Section> sections = profile_sections(profile, header, true);
+  for (Section& section : sections)
+    section.prefix.insert(header.size(), "." + profile.name);
+  return sections;
+}
+
 }  // namespace
 
 std::vector<Section> sections_of(const Campaign& campaign) {
@@ -137,6 +146,8 @@ std::vector<Section> sections_of(const Campaign& campaign) {
   } else {
     sections.push_back({"[simulator]", "simulator.", {{"kind", "\"builtin\""}}});
     append(sections, profile_sections(campaign.profile, "simulator.profile"));
+    for (const Profile& profile : campaign.test_profiles)
+      append(sections, test_profile_sections(profile));
   }
   return sections;
 }

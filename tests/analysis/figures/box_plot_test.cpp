@@ -99,6 +99,22 @@ TEST(BoxPlot, PointsDependOnTheValuesAlone) {
   EXPECT_EQ(draw(plot), svg);
 }
 
+TEST(BoxPlot, PairsHaveOneNameBelowTwoBoxesAndTheFirstOneIsNarrow) {
+  BoxPlot plot{.title = "Scores by method"};
+  plot.width_mm = 84;
+  ScorePanel panel{.title = "aggregation", .groups = {}};
+  for (const std::string method : {"evostick", "irace"}) {
+    for (const bool narrow : {true, false})
+      panel.groups.push_back(
+          {.name = method, .color = 0, .values = {1, 2, 3.5, 4}, .narrow = narrow});
+  }
+  plot.panels = {panel};
+  const std::string svg = draw(plot);
+  EXPECT_THAT(text_problems(svg), IsEmpty());
+  EXPECT_EQ(std::ranges::count(words_of(svg), "evostick"), 1);
+  EXPECT_EQ(std::ranges::count(words_of(svg), "4"), 5) << "an n a box, and a tick";
+}
+
 TEST(BoxPlot, LongNamesAndManyGroupsStayOnThePage) {
   BoxPlot plot{.title = "A title that is much longer than any column of any paper could ever be",
                .details = {}};

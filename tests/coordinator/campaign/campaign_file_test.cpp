@@ -2,6 +2,7 @@
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "sim/files/machine_file.h"
+#include "sim/files/profile_file.h"
 
 #include <gmock/gmock.h>
 
@@ -14,6 +15,7 @@ namespace swarmsmith {
 namespace {
 
 using testing::ElementsAre;
+using testing::HasSubstr;
 using testing::SizeIs;
 
 TEST(CampaignFile, OfTheShortestKindTakesEverythingElseFromDefaults) {
@@ -51,6 +53,38 @@ TEST(CampaignFile, ReadsWhoStartsWorkers) {
                                                       .options = {"--account=x"}}}));
   EXPECT_EQ(parsed(plain.text()).launch, LaunchOptions{});
   EXPECT_EQ(campaign_digest(campaign), campaign_digest(parsed(plain.text())));
+}
+
+TEST(CampaignFile, ReadsFurtherProfilesOfTheTests) {
+  const FileText plain;
+  FileText file;
+  file.rest = "[tests]\nprofiles = [\"rvr\", \"pseudo-reality\", \"argos3\"]\n";
+  const Campaign campaign = parsed(file.text());
+  ASSERT_THAT(campaign.test_profiles, SizeIs(2)) << "its own is no further one";
+  EXPECT_EQ(campaign.test_profiles[0], *built_in_profile("pseudo-reality"));
+  EXPECT_EQ(campaign.test_profiles[1], *built_in_profile("argos3"));
+  EXPECT_NE(campaign_digest(campaign), campaign_digest(parsed(plain.text())));
+  EXPECT_EQ(parsed(normalised_text(campaign)).test_profiles, campaign.test_profiles);
+  file.rest = "[tests]\nprofiles = [\"rvr\"]\n";
+  EXPECT_EQ(campaign_digest(parsed(file.text())), campaign_digest(parsed(plain.text())));
+}
+
+TEST(CampaignFile, FurtherProfilesOfTheTestsHaveNamesOfTheirOwn) {
+  const auto said = [](const std::string& tests) {
+    FileText file;
+    file.rest = "[tests]\n" + tests + "\n";
+    return complaints(file.text());
+  };
+  EXPECT_THAT(said("profiles = [\"argos3\", \"argos3\"]"),
+              ElementsAre(HasSubstr("the profile argos3 is named twice")));
+  EXPECT_THAT(said("profiles = [\"argos\"]"), ElementsAre(HasSubstr("did you mean \"argos3\"")));
+  EXPECT_THAT(said("profiles = [\"none.toml\"]"),
+              ElementsAre(HasSubstr("there is no such profile file")));
+  EXPECT_THAT(said("profiles = [\"rvr\"]\nmore = 1"), ElementsAre(HasSubstr("`more`")));
+  EXPECT_THAT(said("[[tests.profile]]\nname = \"real\""),
+              ElementsAre(HasSubstr("scores of the source real are not simulated")));
+  EXPECT_THAT(said("[[tests.profile]]\nname = \"rvr\"\n[tests.profile.proximity]\nsd_m = 0.3"),
+              ElementsAre(HasSubstr("the campaign has another profile rvr")));
 }
 
 TEST(CampaignFile, ReadsTheKeysOfEverySection) {

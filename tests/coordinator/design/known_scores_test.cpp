@@ -39,5 +39,13 @@ TEST(KnownScores, AScoreOfATestStays) {
   EXPECT_TRUE(scores.unasked().race_scores.empty());
 }
 
+TEST(KnownScores, ATestUnderAFurtherProfileIsATest) {
+  const StoredScore transfer = score(Purpose::Transfer, 14, 0.7);
+  KnownScores scores(stored(score(Purpose::Race, 4, 0.5), transfer));
+  EXPECT_EQ(scores.take(transfer.key)->score, 0.7);
+  EXPECT_EQ(scores.take(transfer.key)->score, 0.7);
+  EXPECT_TRUE(scores.unasked().test_scores.empty());
+}
+
 }  // namespace
 }  // namespace swarmsmith

@@ -65,6 +65,8 @@ TEST(Scenarios, GiveBackTheScenario) {
   EXPECT_EQ(read_back(scenario), scenario);
   scenario.profile = every_noise();
   EXPECT_EQ(read_back(scenario), scenario);
+  scenario.test_profiles = {*built_in_profile("pseudo-reality"), every_noise()};
+  EXPECT_EQ(read_back(scenario), scenario);
 }
 
 TEST(Scenarios, RefuseAClockOfTurnsThatIsNotKnown) {

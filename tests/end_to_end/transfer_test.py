@@ -1,0 +1,118 @@
+"""Tests of winners under further profiles: one answer, clean, and the figures and tables right."""
+import csv
+import io
+import unittest
+from collections import defaultdict
+from statistics import fmean
+
+from programs import ProgramTest, call
+
+CAMPAIGN = """\
+format = 1
+
+[campaign]
+name = "gap"
+seed = 5
+repetitions = 3
+store = "unused.db"
+
+[[mission]]
+name = "aggregation"
+  [mission.instances]
+  test = { count = 12 }
+
+[[mission]]
+name = "color_selection"
+  [mission.instances]
+  test = { count = 12 }
+
+[[method]]
+name = "machine"
+
+[[method]]
+name = "evostick"
+method = "evostick"
+  [method.evolution]
+  population = 20
+  runs = 5
+  final_runs = 10
+
+[race]
+max_experiments = 1500
+
+[tests]
+profiles = ["rvr", "pseudo-reality"]
+"""
+
+
+class Transfer(ProgramTest):
+    def setUp(self):
+        super().setUp()
+        self.file.write_text(CAMPAIGN)
+        self.store = self.folder / "one.db"
+        done = self.run_campaign(self.store, "--workers", "1")
+        self.assertEqual(done.returncode, 0, done.stderr)
+
+    def test_one_answer_and_clean(self):
+        other = self.folder / "three.db"
+        done = self.run_campaign(other, "--workers", "3")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertEqual(self.digest(self.store), self.digest(other))
+        done = call("verify", other, "--sample", "50")
+        self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+        self.runs_are_paired()
+        self.one_can_be_looked_at()
+        self.table_is_right()
+        self.figure_has_pairs()
+
+    def runs_are_paired(self):
+        rows = self.query(self.store, "SELECT design, candidate, seed, purpose, source, pair"
+                          " FROM v_evaluations WHERE purpose IN ('test', 'transfer')")
+        by_source = defaultdict(set)
+        for row in rows:
+            by_source[row["source"]].add((row["design"], row["candidate"], row["seed"]))
+            self.assertEqual(row["source"] == "rvr", row["purpose"] == "test")
+            self.assertEqual(row["pair"] > 12, row["purpose"] == "transfer")
+        self.assertEqual(len(by_source["rvr"]), 12 * 12)
+        self.assertEqual(by_source["rvr"], by_source["pseudo-reality"])
+
+    def one_can_be_looked_at(self):
+        evaluation = self.query(self.store, "SELECT id, score FROM v_evaluations"
+                                " WHERE purpose = 'transfer' ORDER BY candidate, pair LIMIT 1")[0]
+        done = call("replay", evaluation["id"], "--store", self.store)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("same bits as stored", done.stdout)
+        done = call("explain", evaluation["id"], "--store", self.store)
+        self.assertIn("under a further profile", done.stdout)
+
+    def table_is_right(self):
+        rows = self.query(self.store, "SELECT mission, method, design, source, score"
+                          " FROM v_design_scores")
+        runs = defaultdict(list)
+        for row in rows:
+            runs[row["mission"], row["method"], row["design"], row["source"]].append(row["score"])
+        drops = defaultdict(list)
+        for (mission, method, design, source), scores in runs.items():
+            if source == "rvr":
+                there = runs[mission, method, design, "pseudo-reality"]
+                drops[mission, method].append(fmean(there) - fmean(scores))
+        done = call("compare", self.store, "--by", "source", "--csv")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        pairs = list(csv.DictReader(io.StringIO(done.stdout)))
+        self.assertEqual(len(pairs), 4)
+        for pair in pairs:
+            self.assertEqual((pair["first"], pair["second"]), ("pseudo-reality", "rvr"))
+            self.assertAlmostEqual(float(pair["mean_difference"]),
+                                   fmean(drops[pair["mission"], pair["method"]]))
+
+    def figure_has_pairs(self):
+        picture = self.folder / "box.svg"
+        done = call("figure", "box", self.store, "--by", "method", "-o", picture)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        svg = picture.read_text()
+        self.assertIn("narrow boxes: rvr; wide boxes: pseudo-reality", svg)
+        self.assertEqual(svg.count(">evostick<"), 2, "one name below the two boxes of a mission")
+
+
+if __name__ == "__main__":
+    unittest.main()
