@@ -108,7 +108,8 @@ std::string draw(const SamplingPlot& plot) {
       broken_text(plot.caption, kTextSize, width, kCaptionLines);
   const std::size_t across =
       std::clamp<std::size_t>(plot.panels_a_line, 1, std::max<std::size_t>(1, plot.panels.size()));
-  const auto lines = static_cast<double>((plot.panels.size() + across - 1) / across);
+  const std::size_t full_lines = (plot.panels.size() + across - 1) / across;
+  const auto lines = static_cast<double>(full_lines);
   const double room = ends_room(plot);
   const double pitch = (width + kBetween) / static_cast<double>(across);
   const double area_width = pitch - kBetween - room;

@@ -16,6 +16,7 @@ namespace {
 
 std::string title_of(const std::vector<CampaignRecord>& campaigns) {
   std::vector<std::string> names;
+  names.reserve(campaigns.size());
   for (const CampaignRecord& campaign : campaigns)
     names.push_back(campaign.name);
   return fmt::format("Report of {}", fmt::join(names, ", "));

@@ -133,7 +133,7 @@ void PageServer::serve(ListeningSocket listening) {
   pool_ = std::make_unique<httplib::ThreadPool>(options_.threads);
   door_ = std::make_unique<RequestDoor>(
       listening, options_.door,
-      [this](int socket, std::string head) { on_request(socket, bare(head)); });
+      [this](int socket, const std::string& head) { on_request(socket, bare(head)); });
 }
 
 void PageServer::stop_serving() {

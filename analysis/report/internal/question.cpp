@@ -27,6 +27,7 @@ std::vector<std::string> names_of(ReportDraft& draft, std::int64_t campaign,
       draft.store(), fmt::format("SELECT {0}, min(design) FROM v_designs WHERE campaign = {1} "
                                  "GROUP BY {0} ORDER BY min(design)",
                                  column, campaign)));
+  names.reserve(rows.size());
   for (const auto& row : rows)
     names.push_back(row.first);
   return names;

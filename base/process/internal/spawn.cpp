@@ -66,8 +66,9 @@ struct Birth {
 /// vfork: a fork would copy the page tables of all slots' threads, and fail where memory is short.
 /// The child runs on this stack, so that nothing else may happen in this function.
 [[gnu::noinline]] pid_t begin(Birth& birth) {
-  const pid_t pid = vfork();
-  if (pid == 0) become(birth);
+  const pid_t pid = vfork();  // NOLINT(clang-analyzer-security.insecureAPI.vfork): see above
+  if (pid == 0)
+    become(birth);  // NOLINT(clang-analyzer-unix.Vfork): it calls async-signal-safe functions alone
   return pid;
 }
 
@@ -105,6 +106,7 @@ bool make_pipe(Descriptor& reader, Descriptor& writer) {
 
 std::vector<char*> pointers_to(const std::vector<std::string>& words) {
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (const std::string& word : words)
     pointers.push_back(const_cast<char*>(word.c_str()));  // execve's signature; it changes nothing
   pointers.push_back(nullptr);
