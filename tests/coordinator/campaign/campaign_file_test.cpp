@@ -83,7 +83,7 @@ TEST(CampaignFile, FurtherProfilesOfTheTestsHaveNamesOfTheirOwn) {
   EXPECT_THAT(said("profiles = [\"rvr\"]\nmore = 1"), ElementsAre(HasSubstr("`more`")));
   EXPECT_THAT(said("[[tests.profile]]\nname = \"real\""),
               ElementsAre(HasSubstr("scores of the source real are not simulated")));
-  EXPECT_THAT(said("[[tests.profile]]\nname = \"rvr\"\n[tests.profile.proximity]\nsd_m = 0.3"),
+  EXPECT_THAT(said("[[tests.profile]]\nname = \"rvr\"\n[tests.profile.proximity]\nsd = 0.3"),
               ElementsAre(HasSubstr("the campaign has another profile rvr")));
 }
 
