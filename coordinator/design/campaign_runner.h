@@ -29,7 +29,7 @@ struct OpenDesigns {
 class CampaignRunner final : public WorkSource {
  public:
   /// How many pairs ahead of its race a design is asked for at most.
-  static constexpr std::int64_t kMostPairsAhead = 16;
+  static constexpr std::int64_t kMostPairsAhead = 64;
 
   /// `stored` holds what is known of unfinished designs; `finished` those that need nothing more
   /// (see `ended_designs`); `commands` all that the store has. Plans are started when they are
