@@ -71,8 +71,9 @@ class Words(ProgramTest):
         self.assertIn("d1 configurations 1 to 50 of 50: 10 runs each", said)
         self.assertIn("d2 one race: 30 configurations", said)
         self.assertIn("d5 scale of the scores: 21 configurations, 10 runs each", said)
-        self.assertIn("d4 searching", said)
-        self.assertIn("d2 racing", said)
+        self.assertIn('event="design searching" campaign=words design=d4', said)
+        self.assertIn('event="design racing" campaign=words design=d2', said)
+        self.assertNotIn('event="iteration begun"', said)
         self.assertNotIn("d3 iteration", said)
 
     def test_result(self):
