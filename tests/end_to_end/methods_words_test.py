@@ -74,7 +74,7 @@ class Words(ProgramTest):
         self.assertIn('event="design searching" campaign=words design=d4', said)
         self.assertIn('event="design racing" campaign=words design=d2', said)
         self.assertNotIn('event="iteration begun"', said)
-        self.assertNotIn("d3 iteration", said)
+        self.assertNotIn("\nd3 iteration", said)
 
     def test_result(self):
         self.store()
