@@ -52,6 +52,12 @@ Expected<Race> read_race(StoreReader& store, const FigureOptions& options) {
   auto design = chosen_design(store, options, "race");
   if (!design) return Unexpected(design.error());
   const DesignId id = design->design;
+  const std::string search = search_of(store, id);
+  if (!search.empty() && search != "f-race") {
+    return bad_input(fmt::format(
+        "{} was searched by {}, which has no races to draw; `figure convergence` shows how it went",
+        to_string(id), search));
+  }
   const auto steps = race_steps(store, id);
   if (!steps) return Unexpected(steps.error());
   const auto all = iterations(store, id);

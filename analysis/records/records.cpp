@@ -220,6 +220,20 @@ Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
       });
 }
 
+std::string search_of(StoreReader& store, DesignId design) {
+  const auto names = read<std::string>(
+      store,
+      fmt::format("SELECT j.value FROM v_designs AS d JOIN v_campaigns AS c ON c.campaign = "
+                  "d.campaign JOIN json_each(nullif(c.deciding, '')) AS j ON j.key = 'method.' || "
+                  "d.method || '.search' WHERE d.design = {}",
+                  design.value),
+      [](const Cells& row) { return row[0].text; });
+  // Stores of old schemas, which know of races alone, miss some of it.
+  std::string name = !names || names->empty() ? "" : names->front();
+  std::erase(name, '"');
+  return name;
+}
+
 Expected<std::vector<IterationRecord>> iterations(StoreReader& store, DesignId design) {
   return read<IterationRecord>(
       store,

@@ -184,6 +184,9 @@ Expected<std::vector<ModuleFrequency>> module_frequencies(StoreReader& store,
 /// Of one design, and one of its iterations.
 Expected<std::vector<RaceCell>> race_cells(StoreReader& store, DesignId design,
                                            std::int64_t iteration);
+/// How the design was searched for, by the name of its search (docs/methods.md); empty for an
+/// iterated race.
+std::string search_of(StoreReader& store, DesignId design);
 Expected<std::vector<IterationRecord>> iterations(StoreReader& store, DesignId design);
 /// All that a design tried, in the order in which they were sampled.
 Expected<std::vector<SampledRecord>> candidates(StoreReader& store, DesignId design);

@@ -1,5 +1,10 @@
 #include "cli/arguments/thing_id.h"
 
+#include <charconv>
+#include <cstdint>
+
+#include "storage/rows.h"
+
 namespace swarmsmith::cli {
 
 std::optional<ThingId> parse_thing_id(std::string_view text) {
@@ -22,6 +27,15 @@ std::optional<ThingId> parse_thing_id(std::string_view text) {
 std::string is_evaluation(const ThingId& id) {
   // e<candidate * 100,000 + pair>, the letter of the purpose behind it.
   return "candidate = " + id.digits + " / 100000 AND id = 'e" + id.digits + id.purpose + "'";
+}
+
+DesignId design_of_thing(const ThingId& id) {
+  std::int64_t number = 0;
+  std::from_chars(id.digits.data(), id.digits.data() + id.digits.size(), number);
+  if (id.letter == 'd') return {number};
+  if (id.letter == 'c') return design_of(CandidateId{number});
+  if (id.letter == 'e') return design_of(CandidateId{number / kPairsPerCandidate});
+  return {};
 }
 
 }  // namespace swarmsmith::cli

@@ -6,7 +6,9 @@
 #include "cli/arguments/store_argument.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
+#include "cli/commands/explain_design.h"
 #include "cli/output/query_output.h"
+#include "cli/output/stored_stages.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -25,6 +27,14 @@ struct History {
   Rows failures;
   Rows conflicts;
   Rows worker;  ///< who gave the outcome
+  StoredStages stages{};
+  std::string design{};
+
+  /// Races have other words than searches without tests.
+  bool is_race() const {
+    const SearchOptions* search = stages.search(design);
+    return search == nullptr || words_of(search->kind).has_tests;
+  }
 };
 
 /// The text of a column of the first row; empty when it is null or there is no row.
@@ -74,6 +84,10 @@ Expected<History> read_history(StoreReader& store, const ThingId& id) {
     if (!found) return Unexpected(found.error());
     *rows = std::move(*found);
   }
+  auto stages = StoredStages::read(store);
+  if (!stages) return Unexpected(stages.error());
+  history.stages = std::move(*stages);
+  history.design = to_string(design_of_thing(id));
   letter_ids(history.candidate);
   letter_ids(history.evaluation);
   return history;
@@ -81,25 +95,31 @@ Expected<History> read_history(StoreReader& store, const ThingId& id) {
 
 std::string why(const History& history) {
   const std::string purpose = cell(history.evaluation, "purpose");
-  if (purpose == "test") return "a test of its candidate after the race, outside of the budget";
   if (purpose == "transfer") return "a test of its candidate under a further profile";
+  if (purpose == "test")
+    return history.is_race() ? "a test of its candidate after the race, outside of the budget"
+                             : "a test of its candidate after the search, outside of the budget";
   if (purpose == "audit") return "an audit: a second worker, bits compared";
   if (purpose == "score") return "a person scored the candidate";
   if (purpose == "evaluator") return "a call of the targetEvaluator";
   const std::string iteration = cell(history.evaluation, "iteration");
   if (iteration.empty()) return "looked ahead: no race has wanted it";
   const std::string step = cell(history.steps, "step");
-  return "the race of iteration " + iteration + (step.empty() ? "" : ", first in step " + step);
+  const std::string part = history.stages.round(history.design, iteration);
+  return (history.is_race() ? "the race of " + ("iteration " + iteration) : part) +
+         (step.empty() ? "" : ", first in step " + step);
 }
 
 std::string used(const History& history) {
   const std::string iteration = cell(history.evaluation, "iteration");
-  if (cell(history.evaluation, "purpose") != "race") return "not by the race";
+  if (cell(history.evaluation, "purpose") != "race")
+    return history.is_race() ? "not by the race" : "not by the search";
   if (history.steps.cells.empty()) {
     return iteration.empty() ? "no" : "not in a step that is over";
   }
   return "in " + std::to_string(history.steps.cells.size()) + " step" +
-         (history.steps.cells.size() == 1 ? "" : "s") + " of the race";
+         (history.steps.cells.size() == 1 ? "" : "s") +
+         (history.is_race() ? " of the race" : " of the search");
 }
 
 void write_line(Output& output, const char* name, const std::string& value) {
@@ -132,19 +152,41 @@ void write_outcome(Output& output, const std::string& id, const History& history
   write_line(output, "replay", "swarmsmith replay " + id + " STORE");
 }
 
+/// What control software it is, by how its text begins.
+const char* name_of_text(const std::string& text) {
+  if (text.starts_with("--network")) return "network";
+  if (text.starts_with("--nroot") || text.starts_with("--bt-config")) return "tree";
+  return "machine";
+}
+
+/// The steps as people read them: without tests nothing is marked, and nobody leaves.
+Rows told_steps(const History& history) {
+  Rows steps = history.steps;
+  if (history.is_race()) return steps;
+  for (const char* column : {"marker", "alive_before", "alive_after"})
+    remove_column(steps, column);
+  rename_column(steps, "iteration", "stage");
+  for (auto& cells : steps.cells)
+    cells.front() = {StoreReader::Cell::Type::Text,
+                     history.stages.round(history.design, cells.front().text)};
+  return steps;
+}
+
 void write_text(Output& output, const std::string& id, const History& history) {
   output.out << "evaluation " << id << "\n";
   const Rows& candidate = history.candidate;
   write_line(output, "candidate",
-             cell(candidate, "candidate") + " of " + cell(candidate, "design") +
-                 ", made in iteration " + cell(candidate, "iteration"));
-  write_line(output, "machine", cell(candidate, "fsm_config"));
+             cell(candidate, "candidate") + " of " + cell(candidate, "design") + ", made in " +
+                 history.stages.round(history.design, cell(candidate, "iteration")));
+  const std::string text = cell(candidate, "fsm_config");
+  write_line(output, name_of_text(text), text);
   if (history.evaluation.cells.empty()) {
     write_line(output, "outcome", "none yet");
   } else {
     write_outcome(output, id, history);
   }
-  const std::pair<const char*, const Rows*> tables[] = {{"steps", &history.steps},
+  const Rows steps = told_steps(history);
+  const std::pair<const char*, const Rows*> tables[] = {{"steps", &steps},
                                                         {"attempts", &history.attempts},
                                                         {"failures", &history.failures},
                                                         {"conflicts", &history.conflicts}};
@@ -176,12 +218,15 @@ void write_json(Output& output, const std::string& id, const History& history) {
 
 ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
   const auto id = parse_thing_id(arguments.id);
-  if (!id || id->letter != 'e') {
+  if (!id || (id->letter != 'e' && id->letter != 'd')) {
     return fail(output, ExitCode::Usage,
-                "\"" + arguments.id + "\" is not the id of an evaluation, such as e100000007");
+                "\"" + arguments.id +
+                    "\" is not the id of an evaluation, such as e100000007, or of a design, such "
+                    "as d3");
   }
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
+  if (id->letter == 'd') return explain_design(output, **store, *id);
   const auto history = read_history(**store, *id);
   if (!history) return fail(output, ExitCode::Store, history.error());
   const bool is_known = !history->evaluation.cells.empty() || !history->attempts.cells.empty() ||
@@ -198,7 +243,7 @@ ExitCode run_explain(const ExplainArguments& arguments, Output& output) {
 
 Run declare_explain(Options& options) {
   auto arguments = std::make_shared<ExplainArguments>();
-  options.text("EVALUATION", arguments->id, "e100000007, or e100000007t of a test",
+  options.text("EVALUATION", arguments->id, "e100000007, e100000007t of a test, or a design: d3",
                Options::Need::Required);
   arguments->store.declare(options);
   return [arguments](Output& output) { return run_explain(*arguments, output); };

@@ -6,6 +6,7 @@
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "cli/replay/design_argument.h"
+#include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/irace_folder.h"
 
 namespace swarmsmith::cli {
@@ -54,6 +55,12 @@ ExitCode export_irace(const std::string& source, const IraceExport& what, const 
   if (const auto written = write(folder, made->files); !written) {
     const bool bad = written.error().kind == ErrorKind::BadInput;
     return fail(output, bad ? ExitCode::Usage : ExitCode::Failed, written.error());
+  }
+  const auto searches = searches_of(*campaign);
+  if (const auto search = searches.find(design->id); search != searches.end()) {
+    print_note(output, to_string(design->id) + " is searched by " +
+                           std::string(name_of(search->second.kind)) +
+                           " here; irace races the same space and budget");
   }
   for (const std::string& remark : made->remarks)
     print_note(output, remark);

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <map>
 
+#include "analysis/records/records.h"
 #include "base/output_file.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
@@ -111,6 +112,11 @@ ExitCode export_rdata(StoreReader& store, const std::string& design, const std::
   }
   const auto id = wanted_design(store, design);
   if (!id) return fail(output, exit_code_of(id.error()), id.error());
+  if (const std::string search = search_of(store, *id); !search.empty() && search != "f-race") {
+    return fail(output, ExitCode::Usage,
+                to_string(*id) + " was searched by " + search +
+                    ", which has no races that a log of irace could hold");
+  }
   Counter counter(output, "read", "rows");
   std::int64_t rows = 0;
   const auto log = stored_irace_log(store, *id, [&](std::int64_t read) {

@@ -5,6 +5,7 @@
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
+#include "cli/output/stored_stages.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -75,6 +76,9 @@ ExitCode run_ls(const LsArguments& arguments, Output& output) {
                      {.rows = limit == 0 ? kAll : limit});
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
   letter_ids(*rows);
+  const auto stages = StoredStages::read(**store);
+  if (!stages) return fail(output, ExitCode::Store, stages.error());
+  if (!output.json && kind->name == "designs") stages->tell(*rows);
   if (!output.json && is_of_programs(**store)) as_costs(*rows);
   write_rows(output, *rows, output.json ? Form::Json : Form::Text);
   if (rows->truncated) print_note(output, "`--limit 0` shows all");

@@ -7,6 +7,7 @@
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
+#include "cli/output/stored_stages.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -130,6 +131,21 @@ void write_json(Output& output, const std::vector<Part>& parts, const std::vecto
   output.out << object.text() << "\n";
 }
 
+/// In place of numbers of iterations, where the search has none.
+void tell_rounds(Rows& rows, const StoredStages& stages, const ThingId& id) {
+  const std::string design = to_string(design_of_thing(id));
+  const SearchOptions* search = stages.search(design);
+  const auto column = std::ranges::find(rows.columns, "iteration");
+  if (search == nullptr || column == rows.columns.end()) return;
+  if (std::ranges::find(rows.columns, "budget") != rows.columns.end()) return stages.tell(rows);
+  const auto place = static_cast<std::size_t>(column - rows.columns.begin());
+  *column = "stage";
+  for (auto& cells : rows.cells) {
+    if (!cells[place].text.empty())
+      cells[place] = {StoreReader::Cell::Type::Text, stages.round(design, cells[place].text)};
+  }
+}
+
 ExitCode run_show(const ShowArguments& arguments, Output& output) {
   const auto id = parse_thing_id(arguments.id);
   if (!id) {
@@ -143,6 +159,8 @@ ExitCode run_show(const ShowArguments& arguments, Output& output) {
   const auto known = select(**store, "SELECT * FROM v_design_scores LIMIT 0");
   if (!known) return fail(output, ExitCode::Store, known.error());
   const bool has_purposes = std::ranges::find(known->columns, "purpose") != known->columns.end();
+  const auto stages = StoredStages::read(**store);
+  if (!stages) return fail(output, ExitCode::Store, stages.error());
   const std::vector<Part> parts = parts_of(*id, has_purposes);
   std::vector<Rows> shown;
   for (const Part& part : parts) {
@@ -152,6 +170,7 @@ ExitCode run_show(const ShowArguments& arguments, Output& output) {
       return fail(output, ExitCode::NoSuchId, "the store has no " + part.name + " " + arguments.id);
     }
     letter_ids(*rows);
+    if (!output.json) tell_rounds(*rows, *stages, *id);
     if (!output.json && is_of_programs(**store)) as_costs(*rows);
     shown.push_back(std::move(*rows));
   }

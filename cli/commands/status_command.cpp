@@ -14,6 +14,7 @@
 #include "cli/commands/commands.h"
 #include "cli/output/query_output.h"
 #include "cli/output/status_text.h"
+#include "cli/output/stored_stages.h"
 #include "console/terminal.h"
 #include "proto/access/coordinator_file.h"
 #include "proto/access/find_coordinator.h"
@@ -80,6 +81,17 @@ void correct_states(Status& status) {
       text = "interrupted";
     }
   }
+}
+
+/// Where searches are that are no iterated races; programs have `iteration` besides.
+void add_stages(Status& status, const StoredStages& stages) {
+  if (stages.empty()) return;
+  Rows told = status.designs;
+  stages.tell(told);
+  const auto stage = std::ranges::find(told.columns, "stage") - told.columns.begin();
+  status.designs.columns.emplace_back("stage");
+  for (std::size_t i = 0; i < told.cells.size(); ++i)
+    status.designs.cells[i].push_back(told.cells[i][static_cast<std::size_t>(stage)]);
 }
 
 /// Stores of schemas before 3 have none.
@@ -263,6 +275,12 @@ ExitCode show_stored(const StatusArguments& arguments, Output& output, bool& run
   if (!status) return fail(output, ExitCode::Store, status.error());
   if (!has_writer(*arguments.store.path())) correct_states(*status);
   if (arguments.watch && output.out_is_terminal) output.out << Verbatim{"\x1b[H\x1b[2J"};
+  const auto stages = StoredStages::read(**store);
+  if (!stages) return fail(output, ExitCode::Store, stages.error());
+  if (output.json)
+    add_stages(*status, *stages);
+  else
+    stages->tell(status->designs);
   if (!output.json && is_of_programs(**store)) as_costs(status->designs);
   output.json ? write_json(output, *status) : write_text(output, *status);
   running = status->campaign.cells.size() == 1 && status->of_campaign(0, "state") == "running";

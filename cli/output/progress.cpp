@@ -30,7 +30,7 @@ Progress::Progress(Output& output, const std::vector<ToldCampaign>& campaigns, T
     : output_(output), begin_(begin), width_(std::move(width)) {
   for (const ToldCampaign& campaign : campaigns) {
     names_.push_back(campaign.name);
-    models_.emplace_back(campaign.designs, campaign.costs);
+    models_.emplace_back(campaign.designs, campaign.costs, campaign.searches);
   }
   form_ = output.err_is_terminal ? Form::Terminal : Form::Plain;
   if (output.quiet) form_ = Form::Silent;
@@ -77,10 +77,14 @@ void Progress::write_row(std::size_t campaign, const std::string& name, const Ro
   }
   if (!race_lines_) return;
   if (const auto* iteration = std::get_if<IterationRow>(&row)) {
-    add_line(name + iteration_line(*iteration));
+    add_line(name + iteration_line(*iteration, model.design(iteration->design)));
   } else if (const auto* elite = std::get_if<EliteRow>(&row)) {
-    add_line(name + elite_line(*elite, mean_text(model, elite->mean)));
+    const DesignProgress& progress = model.design(elite->design);
+    // Elsewhere those behind the best are many, and no test keeps them.
+    if (elite->rank == 1 || has_tests(progress))
+      add_line(name + elite_line(*elite, progress, mean_text(model, elite->mean)));
   } else if (const auto* step = std::get_if<RaceStepRow>(&row)) {
+    if (!has_tests(model.design(step->design))) return;
     if (lines_since_headline_++ % kHeadlineEvery == 0) add_line(race_headline());
     add_line(name + race_line(*step, mean_text(model, step->mean_best),
                               std::chrono::duration<double>(now - begin_).count()));

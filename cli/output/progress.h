@@ -9,6 +9,7 @@
 #include "base/clock.h"
 #include "cli/output/run_listener.h"
 #include "console/output.h"
+#include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/service/progress_model.h"
 
 namespace swarmsmith::cli {
@@ -18,6 +19,7 @@ struct ToldCampaign {
   std::string name;  ///< in front of its lines; empty when it is the only one
   std::vector<DesignRow> designs;
   bool costs = false;  ///< programs evaluate: people want to see the costs that they print
+  Searches searches{};
 };
 
 /// Shows the progress of campaigns to a person or a program, from their rows.

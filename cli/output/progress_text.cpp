@@ -76,7 +76,10 @@ std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveSt
   }
   pieces.push_back(
       {6, "designs " + std::to_string(totals.finished) + "/" + std::to_string(totals.designs)});
-  if (current != nullptr && current->iteration > 0) {
+  const std::string stage = current != nullptr ? stage_of(*current) : "";
+  if (!stage.empty()) {
+    pieces.push_back({8, to_string(current->design.id) + " " + stage});
+  } else if (current != nullptr && current->iteration > 0) {
     pieces.push_back({8, to_string(current->design.id) + " iteration " +
                              std::to_string(current->iteration) + "/~" +
                              std::to_string(std::max(current->iterations, current->iteration))});
@@ -92,7 +95,8 @@ std::vector<Piece> pieces_of(std::span<const ProgressModel> models, const LiveSt
     pieces.push_back({3, "ETA " + duration_text(left / live.evaluations_per_s)});
   }
   pieces.push_back({7, std::to_string(std::llround(live.evaluations_per_s)) + " sim/s"});
-  if (current != nullptr && current->configurations > 0) {
+  // What the stage says, is not said again.
+  if (current != nullptr && current->configurations > 0 && stage.empty()) {
     pieces.push_back({10, "alive " + std::to_string(current->alive) + "/" +
                               std::to_string(current->configurations)});
   }
@@ -162,7 +166,13 @@ std::string race_line(const RaceStepRow& step, const std::string& mean_best, dou
          right(optional_text(step.qvar, "%.4f"), 6) + "|";
 }
 
-std::string iteration_line(const IterationRow& iteration) {
+bool has_tests(const DesignProgress& progress) {
+  return !progress.search || words_of(progress.search->kind).has_tests;
+}
+
+std::string iteration_line(const IterationRow& iteration, const DesignProgress& progress) {
+  if (progress.search)
+    return to_string(iteration.design) + " " + round_line(*progress.search, point_of(progress));
   return to_string(iteration.design) + " iteration " + std::to_string(iteration.number) + "/~" +
          std::to_string(std::max(iteration.of, iteration.number)) + ": " +
          std::to_string(iteration.configurations) + " configurations (" +
@@ -171,7 +181,13 @@ std::string iteration_line(const IterationRow& iteration) {
          (iteration.soft_restart ? ", soft restart" : "");
 }
 
-std::string elite_line(const EliteRow& elite, const std::string& mean) {
+std::string elite_line(const EliteRow& elite, const DesignProgress& progress,
+                       const std::string& mean) {
+  if (!has_tests(progress)) {
+    return to_string(elite.design) + " " + round_name(*progress.search, point_of(progress)) +
+           ": best " + to_string(elite.candidate) + ", mean " + mean + " over " +
+           std::to_string(elite.runs) + " runs";
+  }
   return to_string(elite.design) + " elite " + std::to_string(elite.rank) + ": " +
          to_string(elite.candidate) + "  mean " + mean + " over " + std::to_string(elite.runs) +
          " runs";
@@ -179,7 +195,8 @@ std::string elite_line(const EliteRow& elite, const std::string& mean) {
 
 std::string state_line(const DesignStateRow& state, const DesignProgress& progress,
                        const std::string& best_mean) {
-  std::string text = to_string(state.design) + " " + std::string(word_of(state.state)) + "  " +
+  std::string text = to_string(state.design) + " " +
+                     std::string(shown_state(progress, state.state)) + "  " +
                      progress.design.mission + " " + progress.design.method + " " +
                      std::to_string(progress.design.repetition);
   // Without a budget there is no race.
@@ -188,7 +205,10 @@ std::string state_line(const DesignStateRow& state, const DesignProgress& progre
   }
   if (state.best && state.used > 0) text += "  best " + to_string(state.best) + " " + best_mean;
   // That its budget is used up is how a race ends as it should.
-  const bool as_it_should = state.best && state.reason.starts_with("not enough");
+  const bool as_it_should =
+      state.best && (state.reason.starts_with("not enough") ||
+                     (progress.search && (state.reason == "the budget is used" ||
+                                          state.reason == "limit of iterations")));
   if (!state.reason.empty() && !as_it_should) text += "  (" + state.reason + ")";
   return text;
 }

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "cli/output/number_text.h"
+#include "irace_core/search/stage.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -119,6 +120,14 @@ std::string troubles(const LiveStatus& status) {
   return text;
 }
 
+/// Nothing races where nothing is tested.
+std::string_view shown_state(const DesignStatus& design) {
+  const auto is_its = [&](SearchKind kind) { return name_of(kind) == design.search; };
+  const auto kind = std::ranges::find_if(all_searches(), is_its);
+  const bool is_known = design.state == DesignState::Racing && kind != all_searches().end();
+  return is_known ? words_of(*kind).at_work : word_of(design.state);
+}
+
 std::vector<std::string> design_lines(const LiveStatus& status) {
   std::vector<std::string> lines;
   if (!status.campaigns) return lines;
@@ -130,11 +139,13 @@ std::vector<std::string> design_lines(const LiveStatus& status) {
         const bool is_racing =
             one.state == DesignState::Racing || one.state == DesignState::Testing;
         if (is_racing != racing) continue;
+        const std::string part =
+            one.search.empty() ? fmt::format("it {:<3}", one.iteration) : std::string(6, ' ');
         lines.push_back(fmt::format(
-            "{:<5} {:<8} {:>9}/{:<9} it {:<3} {:<9} {} {}{}", "d" + std::to_string(one.id),
-            one.paused ? "paused" : word_of(one.state), one.used, one.budget, one.iteration,
+            "{:<5} {:<9}{:>9}/{:<9} {} {:<9} {} {}{}{}", "d" + std::to_string(one.id),
+            one.paused ? "paused" : shown_state(one), one.used, one.budget, part,
             one.best > 0 ? fmt::format("{:.4g}", one.best_mean) : "", one.mission, one.method,
-            several ? "  " + campaign.name : ""));
+            several ? "  " + campaign.name : "", one.stage.empty() ? "" : "  " + one.stage));
       }
     }
   }

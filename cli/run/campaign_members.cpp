@@ -159,7 +159,7 @@ std::vector<ServiceCampaign> CampaignMembers::served() const {
     const Member& member = members_[i];
     served.push_back({campaign_digest(*member.campaign), member.store.get(), member.runner.get(),
                       member.name, design_rows(*member.campaign),
-                      real_store(member.campaign->store)});
+                      real_store(member.campaign->store), searches_of(*member.campaign)});
   }
   return served;
 }

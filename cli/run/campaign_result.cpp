@@ -10,6 +10,7 @@
 #include "base/text/json.h"
 #include "cli/output/progress_text.h"
 #include "cli/output/query_output.h"
+#include "cli/output/stored_stages.h"
 #include "programs/cost.h"
 
 namespace swarmsmith::cli {
@@ -71,8 +72,16 @@ std::string shown(const std::string& text, bool as_cost = false) {
   return score_text(as_cost ? to_cost(score) : score);
 }
 
+/// The part of the search that the winner's mean is from.
+std::string place_of_mean(const StoredStages& stages, const std::string& design) {
+  const SearchOptions* search = stages.search(design);
+  if (search == nullptr || words_of(search->kind).has_tests) return "the race";
+  const std::string stage = stages.round(design);
+  return stage == "final stage" ? "the final stage" : stage;
+}
+
 /// One paragraph a design: what it is, how good its machine is, the machine.
-void write_text(Output& output, const Rows& rows, bool costs) {
+void write_text(Output& output, const Rows& rows, const StoredStages& stages, bool costs) {
   for (const auto& cells : rows.cells) {
     const auto text = [&](std::size_t column) {
       return as_shown(cells[column].text, Layout::Escaped);
@@ -86,7 +95,10 @@ void write_text(Output& output, const Rows& rows, bool costs) {
     if (cells[6].type == Cell::Type::Null) continue;
     const std::string mean = costs ? "mean cost " : "mean score ";
     output.out << (has_race ? "  best " : "  ") << text(6);
-    if (has_race) output.out << ", " << mean << shown(cells[7].text, costs) << " in the race";
+    if (has_race) {
+      output.out << ", " << mean << shown(cells[7].text, costs) << " in "
+                 << place_of_mean(stages, text(0));
+    }
     if (cells[8].type != Cell::Type::Null) {
       output.out << ", " << (has_race ? "" : mean) << shown(cells[8].text, costs);
       if (cells[9].type != Cell::Type::Null) {
@@ -109,6 +121,8 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
   if (!costs) return fail(output, ExitCode::Store, costs.error());
   add_tests(*rows, *tests);
   letter_ids(*rows);
+  const auto stages = StoredStages::read(store);
+  if (!stages) return fail(output, ExitCode::Store, stages.error());
   if (output.json) {
     JsonObject event;
     event.add("v", 1).add("event", "done").add("designs", rows_as_json(*rows));
@@ -116,7 +130,7 @@ ExitCode write_result(Output& output, StoreReader& store, const std::string& nam
     output.out << event.text() << "\n";
   } else {
     if (!name.empty()) output.out << "campaign " << as_shown(name, Layout::Escaped) << "\n";
-    write_text(output, *rows, *costs);
+    write_text(output, *rows, *stages, *costs);
   }
   // A design that somebody cancelled has failed nobody.
   const bool failed = std::ranges::any_of(rows->cells, [](const auto& cells) {

@@ -210,7 +210,8 @@ std::vector<ToldCampaign> told(const std::vector<Campaign>& campaigns) {
   for (const Campaign& campaign : campaigns) {
     told.push_back({.name = campaigns.size() > 1 ? name_among(campaigns, campaign) : "",
                     .designs = design_rows(campaign),
-                    .costs = campaign.target.has_value()});
+                    .costs = campaign.target.has_value(),
+                    .searches = searches_of(campaign)});
   }
   return told;
 }

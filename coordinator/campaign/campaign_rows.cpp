@@ -85,4 +85,14 @@ std::vector<DesignRow> design_rows(const Campaign& campaign) {
   return rows;
 }
 
+Searches searches_of(const Campaign& campaign) {
+  Searches searches;
+  for (const DesignRow& row : design_rows(campaign)) {
+    const auto method = std::ranges::find(campaign.methods, row.method, &Method::name);
+    const bool is_raced = method->search.kind == SearchKind::Irace || !method->baseline.empty();
+    if (!is_raced) searches.emplace(row.id, method->search);
+  }
+  return searches;
+}
+
 }  // namespace swarmsmith

@@ -16,8 +16,35 @@ inline void from_json(const nlohmann::json& json, DesignState& state) {
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(WorkerStatus, number, state, host, job, client, slots, held,
                                    running, done, failed, connections, done_per_s, busy,
                                    last_heard_s)
-NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DesignStatus, id, mission, method, repetition, state, used,
-                                   budget, iteration, best, best_mean, paused)
+
+template <class Json, class Design, class Visit>
+void each_design_field(Json& json, Design& design, const Visit& visit) {
+  visit(json, "id", design.id);
+  visit(json, "mission", design.mission);
+  visit(json, "method", design.method);
+  visit(json, "repetition", design.repetition);
+  visit(json, "state", design.state);
+  visit(json, "used", design.used);
+  visit(json, "budget", design.budget);
+  visit(json, "iteration", design.iteration);
+  visit(json, "best", design.best);
+  visit(json, "best_mean", design.best_mean);
+  visit(json, "paused", design.paused);
+}
+inline void to_json(nlohmann::json& json, const DesignStatus& design) {
+  each_design_field(json, design,
+                    [](auto& out, const char* name, const auto& value) { out[name] = value; });
+  if (design.search.empty()) return;
+  json["stage"] = design.stage;
+  json["search"] = design.search;
+}
+inline void from_json(const nlohmann::json& json, DesignStatus& design) {
+  each_design_field(json, design, [](const auto& in, const char* name, auto& value) {
+    in.at(name).get_to(value);
+  });
+  design.stage = json.value("stage", "");
+  design.search = json.value("search", "");
+}
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LauncherStatus, name, wanted, running, pending, waits_for, note)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(CampaignStatus, name, trouble, used, budget, queued_units,
                                    wal_bytes, designs)

@@ -44,6 +44,10 @@ struct DesignStatus {
   std::int64_t best = 0;  ///< candidate; 0 for none
   double best_mean = 0;
   bool paused = false;  ///< nothing of it is leased until somebody resumes it
+  /// Where its search is, as people read it, and the search's name (irace_core/search/stage.h);
+  /// empty for an iterated race, and then not in the JSON.
+  std::string stage{};
+  std::string search{};
 };
 
 struct CampaignStatus {

@@ -70,8 +70,8 @@ void write_worker(const WorkerRow& row) {
          {"failed", row.failed}});
 }
 
-void write_step(const std::string& campaign, const RaceStepRow& row) {
-  write(LogLevel::Debug, "race step",
+void write_step(const std::string& campaign, const RaceStepRow& row, bool is_race) {
+  write(LogLevel::Debug, is_race ? "race step" : "search step",
         {{"campaign", campaign},
          {"design", to_string(row.design)},
          {"step", row.step},
@@ -95,6 +95,14 @@ void write_attempt(const std::string& campaign, const AttemptRow& row) {
 
 }  // namespace
 
+const SearchWords& RowLog::words_of_design(std::optional<std::size_t> campaign,
+                                           DesignId design) const {
+  const std::size_t index = campaign.value_or(0);
+  if (index >= searches_.size()) return words_of(SearchKind::Irace);
+  const auto search = searches_[index].find(design);
+  return words_of(search == searches_[index].end() ? SearchKind::Irace : search->second.kind);
+}
+
 void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, const Row& row) {
   std::visit(Overloaded{
                  [&](const EventRow& event) {
@@ -111,7 +119,11 @@ void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, c
                        states_.try_emplace({campaign.value_or(0), state.design}, state.state);
                    if (!is_new && known->second == state.state) return;
                    known->second = state.state;
-                   write(LogLevel::Info, "design " + std::string(word_of(state.state)),
+                   const std::string_view word =
+                       state.state == DesignState::Racing
+                           ? words_of_design(campaign, state.design).at_work
+                           : word_of(state.state);
+                   write(LogLevel::Info, "design " + std::string(word),
                          {{"campaign", name},
                           {"design", to_string(state.design)},
                           {"used", state.used},
@@ -120,7 +132,10 @@ void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, c
                           {"reason", state.reason}});
                  },
                  [&](const IterationRow& iteration) {
-                   write(LogLevel::Info, "iteration begun",
+                   const SearchWords& words = words_of_design(campaign, iteration.design);
+                   const std::string round(
+                       iteration.postselection && !words.has_tests ? words.where : words.round);
+                   write(LogLevel::Info, round + " begun",
                          {{"campaign", name},
                           {"design", to_string(iteration.design)},
                           {"iteration", iteration.number},
@@ -128,7 +143,9 @@ void RowLog::add(std::optional<std::size_t> campaign, const std::string& name, c
                           {"budget", iteration.budget},
                           {"configurations", iteration.configurations}});
                  },
-                 [&](const RaceStepRow& step) { write_step(name, step); },
+                 [&](const RaceStepRow& step) {
+                   write_step(name, step, words_of_design(campaign, step.design).has_tests);
+                 },
                  [&](const AttemptRow& attempt) { write_attempt(name, attempt); },
                  [&](const CommandRow& command) {
                    write(LogLevel::Info, "command",

@@ -22,9 +22,36 @@ std::int64_t share_of(const DesignProgress& progress) {
 
 }  // namespace
 
-ProgressModel::ProgressModel(std::span<const DesignRow> designs, bool costs) : costs_(costs) {
+SearchPoint point_of(const DesignProgress& progress) {
+  return {.iteration = progress.iteration,
+          .iterations = progress.iterations,
+          .finals = progress.extensions,
+          .is_final = progress.is_final,
+          .configurations = progress.configurations,
+          .alive = progress.alive,
+          .runs_wanted = progress.wanted,
+          .runs = progress.used - progress.used_before + progress.in_step,
+          .step = progress.step,
+          .used = progress.used,
+          .budget = progress.design.budget};
+}
+
+std::string stage_of(const DesignProgress& progress) {
+  return progress.search ? stage_text(*progress.search, point_of(progress)) : "";
+}
+
+std::string_view shown_state(const DesignProgress& progress, DesignState state) {
+  if (!progress.search || state != DesignState::Racing) return word_of(state);
+  return words_of(progress.search->kind).at_work;
+}
+
+ProgressModel::ProgressModel(std::span<const DesignRow> designs, bool costs,
+                             const Searches& searches)
+    : costs_(costs) {
   for (const DesignRow& row : designs)
     designs_[row.id].design = row;
+  for (const auto& [id, search] : searches)
+    designs_.at(id).search = search;
 }
 
 void ProgressModel::add(const Row& row) {
@@ -45,10 +72,14 @@ void ProgressModel::add(DesignProgress& progress, const Row& row) {
     progress.iterations = iteration->of;
     progress.configurations = iteration->configurations;
     progress.alive = iteration->configurations;
+    progress.is_final = iteration->postselection;
+    progress.wanted = iteration->budget;
+    progress.used_before = progress.used;
   } else if (const auto* step = std::get_if<RaceStepRow>(&row)) {
     progress.state = DesignState::Racing;
     progress.alive = step->alive_after;
     progress.used = step->used;
+    progress.step = step->step;
     progress.in_step = 0;
     progress.best = step->best;
     progress.best_mean = step->mean_best;
@@ -68,6 +99,7 @@ void ProgressModel::add_command(DesignProgress& progress, const CommandRow& row)
   if (row.kind != CommandKind::Extend || !row.step || !extensions_.insert(row.number).second)
     return;
   progress.design.budget += row.budget;
+  ++progress.extensions;
 }
 
 void ProgressModel::add_state(DesignProgress& progress, const DesignStateRow& row) {

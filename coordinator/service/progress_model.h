@@ -2,9 +2,14 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
+#include <string>
+#include <string_view>
 
+#include "coordinator/campaign/campaign_rows.h"
+#include "irace_core/search/stage.h"
 #include "storage/rows.h"
 
 namespace swarmsmith {
@@ -22,14 +27,30 @@ struct DesignProgress {
   CandidateId best;
   double best_mean = 0;
   bool paused = false;  ///< by a person
+
+  /// None for an iterated race; the others are told of by SearchPoint.
+  std::optional<SearchOptions> search{};
+  bool is_final = false;         ///< the iteration is the final stage
+  std::int64_t extensions = 0;   ///< that have acted: each follows a final stage
+  std::int64_t wanted = 0;       ///< runs of the iteration
+  std::int64_t used_before = 0;  ///< by the iterations before it
+  std::int64_t step = 0;
 };
+
+/// As the words of irace_core/search/stage.h take it; only of designs with a search of their own.
+SearchPoint point_of(const DesignProgress& progress);
+/// Where the search is; empty for an iterated race, and before the first iteration.
+std::string stage_of(const DesignProgress& progress);
+/// The state as people read it: nothing races where nothing is tested.
+std::string_view shown_state(const DesignProgress& progress, DesignState state);
 
 /// How far a campaign is, kept up from its rows: those that its store has, states and commands,
 /// then all that are written. Rows of designs that it was not made with are left out. Pure.
 class ProgressModel {
  public:
   /// With `costs` programs evaluate, and people want to see the costs that they print.
-  explicit ProgressModel(std::span<const DesignRow> designs, bool costs = false);
+  explicit ProgressModel(std::span<const DesignRow> designs, bool costs = false,
+                         const Searches& searches = {});
 
   void add(const Row& row);
 

@@ -36,7 +36,16 @@ std::vector<TelemetryCampaign> telemetry_of(const std::vector<ServiceCampaign>& 
     all.push_back({.name = campaign.name,
                    .designs = campaign.designs,
                    .states = campaign.store->design_states(),
-                   .commands = campaign.store->commands()});
+                   .commands = campaign.store->commands(),
+                   .searches = campaign.searches});
+  return all;
+}
+
+std::vector<Searches> searches_of(const std::vector<ServiceCampaign>& campaigns) {
+  std::vector<Searches> all;
+  all.reserve(campaigns.size());
+  for (const ServiceCampaign& campaign : campaigns)
+    all.push_back(campaign.searches);
   return all;
 }
 
@@ -51,7 +60,8 @@ class Loop final : public Service {
         referee_(options_.make_referee ? options_.make_referee(options_.coordinator.scenario,
                                                                [this] { wakeup_.notify(); })
                                        : nullptr),
-        telemetry_(telemetry_of(campaigns), clock_.now()) {}
+        telemetry_(telemetry_of(campaigns), clock_.now()),
+        row_log_(searches_of(campaigns)) {}
 
   const std::string& endpoint() const override { return socket_->endpoint(); }
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/design/work_source.h"
 #include "coordinator/service/coordinator.h"
 #include "coordinator/service/live_status.h"
@@ -47,6 +48,7 @@ struct ServiceCampaign {
   std::string name{};
   std::vector<DesignRow> designs{};
   std::filesystem::path file{};  ///< of the store; empty for none
+  Searches searches{};
 };
 
 struct ServiceHooks {

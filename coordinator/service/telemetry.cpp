@@ -19,7 +19,9 @@ DesignStatus status_of(const DesignProgress& progress) {
           .iteration = progress.iteration,
           .best = progress.best.value,
           .best_mean = progress.best_mean,
-          .paused = progress.paused && !is_over(progress.state)};
+          .paused = progress.paused && !is_over(progress.state),
+          .stage = stage_of(progress),
+          .search = progress.search ? std::string(name_of(progress.search->kind)) : ""};
 }
 
 }  // namespace
@@ -36,7 +38,7 @@ double RateWindow::update(TimePoint now, std::int64_t count) {
 Telemetry::Telemetry(const std::vector<TelemetryCampaign>& campaigns, TimePoint start)
     : start_(start) {
   for (const TelemetryCampaign& campaign : campaigns) {
-    ProgressModel progress(campaign.designs);
+    ProgressModel progress(campaign.designs, false, campaign.searches);
     for (const DesignStateRow& row : campaign.states)
       progress.add(row);
     for (const CommandRow& row : campaign.commands)

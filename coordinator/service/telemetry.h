@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "base/clock.h"
+#include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/service/coordinator.h"
 #include "coordinator/service/live_status.h"
 #include "coordinator/service/progress_model.h"
@@ -37,6 +38,7 @@ struct TelemetryCampaign {
   // Of its store.
   std::vector<DesignStateRow> states;
   std::vector<CommandRow> commands{};
+  Searches searches{};
 };
 
 /// The live numbers that a coordinator's loop adds to those of the Coordinator: they come from

@@ -15,12 +15,29 @@ namespace swarmsmith::search {
 namespace {
 
 constexpr std::int64_t kScaleSample = 20;  ///< random configurations that say what 1 is
-constexpr std::int64_t kBlock = 100;       ///< iterations of annealing in one of the events
 
 // The published schedule, in score units (docs/methods.md).
 constexpr double kPublishedStart = 125;
 constexpr double kPublishedEnd = 0.00125;
 constexpr std::int64_t kPublishedHold = 3;
+
+std::int64_t scale_runs_of(const AnnealingOptions& options) {
+  return (kScaleSample + 1) * options.window;
+}
+
+/// Of an iteration, when incumbent and best are two.
+std::int64_t most_runs_of(const AnnealingOptions& options) {
+  return options.window + 2 * options.moved;
+}
+
+/// What is left of the start temperature, as a factor.
+double cooled(const AnnealingOptions& options, std::int64_t budget, std::int64_t used) {
+  const auto walked = static_cast<double>(used - scale_runs_of(options));
+  const auto all = static_cast<double>(budget - scale_runs_of(options) - 2 * options.final_runs);
+  const double share = std::clamp(walked / all, 0.0, 1.0);
+  const double end = std::max(options.end_temperature, 1e-12) / options.start_temperature;
+  return pow(end, share);
+}
 
 /// Who walks: its id and its costs on the window.
 struct Walker {
@@ -67,7 +84,7 @@ class Annealing final : public Strategy {
   Expected<std::optional<Round>> next(std::int64_t next_id) override {
     if (phase_ == Phase::Over) return std::nullopt;
     if (phase_ == Phase::Scale) return scale_round(next_id);
-    if (used_ + most_runs() + 2 * options_.final_runs > budget_) return final_round();
+    if (!walks_on(options_, budget_, used_)) return final_round();
     return step_round(next_id);
   }
 
@@ -81,7 +98,7 @@ class Annealing final : public Strategy {
   std::int64_t planned_iterations() const override {
     const std::int64_t steps =
         steps_ + std::max<std::int64_t>(0, budget_ - used_ - 2 * options_.final_runs) / most_runs();
-    return 1 + (steps + kBlock - 1) / kBlock + 1;
+    return 1 + (steps + kAnnealingBlock - 1) / kAnnealingBlock + 1;
   }
 
   Expected<void> extend(std::int64_t) override { return Unexpected(no_extension()); }
@@ -109,9 +126,8 @@ class Annealing final : public Strategy {
             ""};
   }
 
-  std::int64_t scale_runs() const { return (kScaleSample + 1) * options_.window; }
-  /// Of an iteration, when incumbent and best are two.
-  std::int64_t most_runs() const { return options_.window + 2 * options_.moved; }
+  std::int64_t scale_runs() const { return scale_runs_of(options_); }
+  std::int64_t most_runs() const { return most_runs_of(options_); }
 
   Expected<std::optional<Round>> scale_round(std::int64_t next_id) {
     Round round;
@@ -156,9 +172,10 @@ class Annealing final : public Strategy {
     if (!perturbed) return Unexpected(perturbed.error());
     Round round;
     round.is_one_step = true;
-    if ((steps_ - 1) % kBlock == 0) {
-      round.start = Round::Start{.elites = elite_ids(),
-                                 .budget = std::min(kBlock * most_runs(), budget_ - used_)};
+    if ((steps_ - 1) % kAnnealingBlock == 0) {
+      round.start =
+          Round::Start{.elites = elite_ids(),
+                       .budget = std::min(kAnnealingBlock * most_runs(), budget_ - used_)};
     }
     candidate_ = {.id = next_id, .configuration = *perturbed, .costs = {}};
     round.newcomers.push_back({std::move(*perturbed), incumbent_.id});
@@ -186,7 +203,7 @@ class Annealing final : public Strategy {
     cool();
     Verdict verdict{.ended = std::nullopt, .alive = elite_ids()};
     std::ranges::sort(verdict.alive);
-    if (steps_ % kBlock == 0) verdict.ended = end_of_block();
+    if (steps_ % kAnnealingBlock == 0) verdict.ended = end_of_block();
     return verdict;
   }
 
@@ -209,11 +226,7 @@ class Annealing final : public Strategy {
   double temperature() const {
     if (options_.cooling == Cooling::Published) return published_temperature_;
     if (options_.start_temperature == 0) return 0;
-    const auto walked = static_cast<double>(used_ - scale_runs());
-    const auto all = static_cast<double>(budget_ - scale_runs() - 2 * options_.final_runs);
-    const double share = std::clamp(walked / all, 0.0, 1.0);
-    const double end = std::max(options_.end_temperature, 1e-12) / options_.start_temperature;
-    return scale_ * options_.start_temperature * pow(end, share);
+    return scale_ * options_.start_temperature * cooled(options_, budget_, used_);
   }
 
   void cool() {
@@ -282,6 +295,24 @@ class Annealing final : public Strategy {
 };
 
 }  // namespace
+
+bool walks_on(const AnnealingOptions& options, std::int64_t budget, std::int64_t used) {
+  return used + most_runs_of(options) + 2 * options.final_runs <= budget;
+}
+
+double told_temperature(const AnnealingOptions& options, std::int64_t budget, std::int64_t used,
+                        std::int64_t number) {
+  if (options.cooling == Cooling::Geometric) {
+    if (options.start_temperature == 0) return 0;
+    return options.start_temperature * cooled(options, budget, used);
+  }
+  double temperature = kPublishedStart;
+  for (std::int64_t i = kPublishedHold; i < number; i += kPublishedHold) {
+    temperature /= 2;
+    if (temperature < kPublishedEnd) temperature = kPublishedStart;
+  }
+  return temperature;
+}
 
 Neighbourhood one_parameter_neighbourhood(const ParameterSpace& space, Configuration start) {
   const auto perturb = [&space](const Configuration& from, Rng& rng) -> Expected<Configuration> {

@@ -86,12 +86,7 @@ Expected<Configuration> draw_uniform(const ParameterSpace& space, const Repair& 
       "a hundred draws in a row were forbidden: the forbidden clauses leave too little");
 }
 
-Expected<std::unique_ptr<Strategy>> make_random_search(const ParameterSpace& space,
-                                                       const Scenario& scenario,
-                                                       const RandomOptions& options,
-                                                       std::vector<Configuration> initial,
-                                                       Repair repair) {
-  const std::int64_t budget = scenario.max_experiments;
+Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOptions& options) {
   const bool is_automatic = options.finalists == 0;
   const std::int64_t finalists =
       is_automatic ? std::max<std::int64_t>(1, budget / kAutomaticFinalists) : options.finalists;
@@ -108,9 +103,19 @@ Expected<std::unique_ptr<Strategy>> make_random_search(const ParameterSpace& spa
   plan.generations = (plan.configurations + kChunk - 1) / kChunk;
   // What is left over is less than a draw; whole pairs of it go to the finalists.
   plan.final_runs = (budget - plan.configurations * plan.runs) / finalists;
+  return plan;
+}
+
+Expected<std::unique_ptr<Strategy>> make_random_search(const ParameterSpace& space,
+                                                       const Scenario& scenario,
+                                                       const RandomOptions& options,
+                                                       std::vector<Configuration> initial,
+                                                       Repair repair) {
+  const auto plan = plan_random_search(scenario.max_experiments, options);
+  if (!plan) return Unexpected(plan.error());
   return std::make_unique<Generations>(
-      plan, std::make_unique<RandomBreeder>(space, Rng(scenario.seed), finalists,
-                                            std::move(initial), std::move(repair)));
+      *plan, std::make_unique<RandomBreeder>(space, Rng(scenario.seed), plan->finalists,
+                                             std::move(initial), std::move(repair)));
 }
 
 }  // namespace swarmsmith::search

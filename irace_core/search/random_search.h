@@ -3,10 +3,14 @@
 #include <memory>
 
 #include "irace_core/iterated_race.h"
+#include "irace_core/search/generations.h"
 #include "irace_core/search/options.h"
 #include "irace_core/search/strategy.h"
 
 namespace swarmsmith::search {
+
+/// How random search spends its budget; the errors are those of make_random_search.
+Expected<GenerationPlan> plan_random_search(std::int64_t budget, const RandomOptions& options);
 
 /// Uniform draws in chunks of a thousand, all run on the same pairs; the best of all are run again
 /// on further pairs, and the best mean there wins. Draw n is from the stream "random" of the seed
