@@ -33,7 +33,7 @@ class Stores(ProgramTest):
 
 class OldStores(Stores):
     def test_a_copy_of_an_old_store_can_be_drawn_and_the_original_stays(self):
-        for schema in (1, 2, 3):
+        for schema in (1, 2, 3, 4, 6):
             with self.subTest(schema=schema):
                 kept = SOURCE / f"tests/golden/stores/schema-{schema}.sqlite"
                 old, copy = self.folder / f"old-{schema}.db", self.folder / f"new-{schema}.db"
@@ -45,6 +45,21 @@ class OldStores(Stores):
                 self.assertEqual(drawn.returncode, 0, drawn.stderr)
                 self.assertIn("<svg", drawn.stdout)
                 self.assertEqual(old.read_bytes(), kept.read_bytes())
+
+    def test_a_copy_is_verified_where_the_engine_is_the_same_and_refused_where_it_is_not(self):
+        for schema in (1, 2, 3, 4, 6):
+            with self.subTest(schema=schema):
+                copy = self.folder / f"new-{schema}.db"
+                kept = SOURCE / f"tests/golden/stores/schema-{schema}.sqlite"
+                shutil.copy(kept, self.folder / f"old-{schema}.db")
+                self.answer("backup", self.folder / f"old-{schema}.db", copy)
+                done = call("verify", copy)
+                if schema >= 4:
+                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                    self.assertIn("0 with other bits", done.stdout)
+                else:
+                    self.assertEqual(done.returncode, 3, done.stdout + done.stderr)
+                    self.assertIn("another version of the engine", done.stderr)
 
 
 class Backup(Stores):
