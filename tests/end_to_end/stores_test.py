@@ -38,8 +38,11 @@ class OldStores(Stores):
                 kept = SOURCE / f"tests/golden/stores/schema-{schema}.sqlite"
                 old, copy = self.folder / f"old-{schema}.db", self.folder / f"new-{schema}.db"
                 shutil.copy(kept, old)
-                refused = call("figure", "machine", old)
-                self.assertIn("swarmsmith backup", refused.stderr)
+                itself = call("figure", "machine", old)
+                if schema < 4:  # lacks tables that the views need
+                    self.assertIn("swarmsmith backup", itself.stderr)
+                else:
+                    self.assertIn("<svg", itself.stdout)
                 self.assertEqual(self.answer("backup", old, copy)["from_schema"], schema)
                 drawn = call("figure", "machine", copy)
                 self.assertEqual(drawn.returncode, 0, drawn.stderr)
