@@ -7,6 +7,7 @@
 #include "base/assert.h"
 #include "base/hash.h"
 #include "base/rng.h"
+#include "coordinator/campaign/campaign_file.h"
 #include "storage/answer.h"
 
 namespace swarmsmith::cluster {
@@ -31,6 +32,53 @@ CandidateText text_of(const Configuration& configuration) {
   const std::string machine = fmt::format("--kind {} --count {} --gain {}", configuration[0],
                                           configuration[1], configuration[2]);
   return {.parameters = "{}", .machine = machine, .call = machine, .modules = "{}"};
+}
+
+/// What keeps a preset's search small; a race without a table is told by `[race]`.
+std::string small_options(const std::string& preset) {
+  if (preset == "random") return "[method.random]\nruns = 3\nfinalists = 3\nfinal_runs = 4\n";
+  if (preset == "vanilla") return "[method.f-race]\nconfigurations = 8\n";
+  if (preset == "evostick")
+    return "[method.evolution]\npopulation = 5\nruns = 2\nelites = 0.4\nparents = 0.4\n"
+           "final_runs = 3\n";
+  if (preset == "cma-es") return "[method.cma-es]\npopulation = 5\nruns = 2\nfinal_runs = 3\n";
+  if (preset == "icepop") return "[method.annealing]\nwindow = 2\nfinal_runs = 3\n";
+  return "";
+}
+
+std::string race_options(const std::string& preset) {
+  if (preset == "vanilla") return "first_test = 3\n";
+  if (preset == "maple") return "first_test = 3\nmu = 3\nnb_iterations = 3\nmin_nb_survival = 2\n";
+  return "";
+}
+
+/// The only design of a campaign file that names the preset.
+DesignPlan plan_of_preset(const CampaignShape& shape) {
+  const auto campaign =
+      parse_campaign(fmt::format("format = 1\n[campaign]\n[[mission]]\nname = \"aggregation\"\n"
+                                 "[[method]]\nname = \"test\"\nmethod = \"{}\"\n{}[race]\n"
+                                 "max_experiments = {}\n{}",
+                                 shape.preset, small_options(shape.preset), shape.budget,
+                                 race_options(shape.preset)),
+                     "preset.toml");
+  SWARMSMITH_ASSERT(campaign, "the preset's file is well-formed, and its budget suffices");
+  auto plans = swarmsmith::plans_of(*campaign);
+  SWARMSMITH_ASSERT(plans && plans->size() == 1, "the file has one design");
+  return std::move(plans->front());
+}
+
+DesignPlan plan_of_races(const CampaignShape& shape) {
+  Scenario scenario;
+  scenario.max_experiments = shape.budget;
+  scenario.first_test = 3;
+  scenario.mu = 3;
+  scenario.nb_iterations = 3;
+  scenario.min_nb_survival = 2;
+  return {.row = {.budget = shape.budget},
+          .space = space(),
+          .scenario = scenario,
+          .describe = text_of,
+          .source = "test"};
 }
 
 Outcome outcome_of(const CampaignShape& shape, const Task& task) {
@@ -68,31 +116,23 @@ Truth truth_of(const CampaignShape& shape, const EvaluationInput& input) {
 }
 
 std::vector<DesignPlan> plans_of(const CampaignShape& shape) {
+  const DesignPlan common = shape.preset.empty() ? plan_of_races(shape) : plan_of_preset(shape);
   std::vector<DesignPlan> plans;
   for (int number = 1; number <= shape.designs; ++number) {
     const bool hopeless = shape.hopeless && number == shape.designs;
     const auto seed = static_cast<std::int64_t>(
         mix64(shape.seed + static_cast<std::uint64_t>(number) * 1000) >> 1U);
-    Scenario scenario;
-    scenario.max_experiments = shape.budget;
-    scenario.seed = static_cast<std::uint64_t>(seed);
-    scenario.first_test = 3;
-    scenario.mu = 3;
-    scenario.nb_iterations = 3;
-    scenario.min_nb_survival = 2;
-    plans.push_back({.row = {.id = {number},
-                             .mission = "test",
-                             .method = "test",
-                             .repetition = number,
-                             .seed = seed,
-                             .budget = shape.budget},
-                     .mission = hopeless ? kHopeless : 0,
-                     .method = 0,
-                     .space = space(),
-                     .scenario = scenario,
-                     .describe = text_of,
-                     .tests = {.count = shape.tests},
-                     .source = "test"});
+    DesignPlan& plan = plans.emplace_back(common);
+    plan.row = {.id = {number},
+                .mission = "test",
+                .method = "test",
+                .repetition = number,
+                .seed = seed,
+                .budget = common.row.budget};
+    plan.mission = hopeless ? kHopeless : 0;
+    plan.scenario.seed = static_cast<std::uint64_t>(seed);
+    plan.tests = {.count = shape.tests};
+    plan.source = "test";
   }
   return plans;
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <set>
@@ -22,15 +23,27 @@ struct CampaignShape {
   bool failing = false;      ///< a few evaluations fail
   bool killing = false;      ///< and a few kill
   bool hopeless = false;     ///< every evaluation of the last design fails
+  /// A preset of docs/methods.md; empty: iterated races over three parameters.
+  std::string preset{};
 };
+
+/// The presets, each with the least budget that lets it show what it does.
+struct PresetBudget {
+  std::string_view preset;
+  std::int64_t budget = 0;
+};
+inline constexpr std::array kPresetBudgets = {
+    PresetBudget{"random", 54}, PresetBudget{"vanilla", 54}, PresetBudget{"evostick", 54},
+    PresetBudget{"cma-es", 54}, PresetBudget{"icepop", 90},  PresetBudget{"maple", 90}};
 
 /// The outcome of an evaluation: a pure function.
 Truth truth_of(const CampaignShape& shape, const EvaluationInput& input);
 
-/// The designs of the campaign: real races over three parameters.
+/// The designs of the campaign: real races over three parameters, or the preset's real search in
+/// its real space.
 std::vector<DesignPlan> plans_of(const CampaignShape& shape);
 
-/// The real races behind the interface that the coordinator sees, watched: what is asked or told
+/// The real searches behind the interface that the coordinator sees, watched: what is asked or told
 /// twice is a complaint, as is any error.
 class RacedCampaign final : public WorkSource {
  public:

@@ -39,6 +39,53 @@ TEST_P(Schedules, EndWithTheAnswerOfAnUndisturbedRun) {
 
 INSTANTIATE_TEST_SUITE_P(Shard, Schedules, ::testing::Range<std::uint64_t>(0, kShards));
 
+class Presets : public ::testing::TestWithParam<PresetBudget> {};
+
+INSTANTIATE_TEST_SUITE_P(All, Presets, ::testing::ValuesIn(kPresetBudgets), [](const auto& tested) {
+  std::string name(tested.param.preset);
+  std::erase(name, '-');
+  return name;
+});
+
+Schedule with_preset(Schedule schedule, const PresetBudget& preset) {
+  const auto put = [&](CampaignShape& shape) {
+    shape.preset = preset.preset;
+    shape.budget += preset.budget - CampaignShape{}.budget;
+    shape.designs = std::min(shape.designs, 2);
+  };
+  put(schedule.campaign);
+  if (schedule.other) put(*schedule.other);
+  return schedule;
+}
+
+TEST_P(Presets, EndWithTheAnswerOfAnUndisturbedRun) {
+  const std::uint64_t count = schedules_of_a_shard() / 10;
+  for (std::uint64_t seed = 1; seed <= count && !HasFailure(); ++seed) {
+    EXPECT_EQ(SimulatedCluster(with_preset(schedule_of(seed), GetParam())).run(), "")
+        << "seed " << seed;
+  }
+}
+
+TEST_P(Presets, GiveTheHonestAnswerAmongStrangersOrSayThatTheyCannot) {
+  const std::uint64_t count = schedules_of_a_shard() / 20;
+  for (std::uint64_t seed = 1; seed <= count && !HasFailure(); ++seed) {
+    EXPECT_EQ(SimulatedCluster(with_preset(hostile_schedule_of(seed), GetParam())).run(), "")
+        << "seed " << seed;
+  }
+}
+
+TEST_P(Presets, ReachTheirLastIterationAndUseMostOfTheBudget) {
+  CampaignShape shape{.designs = 1, .preset = std::string(GetParam().preset)};
+  shape.budget = GetParam().budget;
+  const SimulatedDisk disk = undisturbed(shape);
+  ASSERT_EQ(disk.design_states().size(), 1U);
+  const DesignStateRow design = disk.design_states().front();
+  EXPECT_EQ(design.state, DesignState::Finished);
+  EXPECT_LE(design.used, shape.budget);
+  // An F-race may be over early.
+  EXPECT_TRUE(GetParam().preset == "vanilla" || 2 * design.used > shape.budget);
+}
+
 TEST(SimulatedCluster, DoesTheSameForTheSameSeed) {
   SimulatedCluster one(schedule_of(7));
   SimulatedCluster other(schedule_of(7));

@@ -154,7 +154,10 @@ TEST(Determinism, TheTrajectoriesHaveTheirFixedHashes) {
 
 TEST(Determinism, TheSelfTestOfWorkersHasItsFixedDigest) {
   // Also with Box2D and with neighbours from the lidar, which the table above leaves out.
-  EXPECT_EQ(self_test_digest(), "c5ced327cd00f045361f073e48598c8e");
+  EXPECT_EQ(self_test_digest(Architecture::Machine), "c5ced327cd00f045361f073e48598c8e");
+  EXPECT_EQ(self_test_digest(Architecture::Tree), "41d92aa26fbeaa3b5bd580c503a7070b");
+  EXPECT_EQ(self_test_digest(Architecture::Network), "448145cc8e3993f07db205cf97c3ac2d");
+  EXPECT_EQ(self_test_digest(), "9960631e0b2902b9dc10015e228d52b0");
 }
 
 TEST(Determinism, AWorldOfSolidsHasItsFixedHash) {
