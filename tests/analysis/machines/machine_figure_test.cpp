@@ -59,25 +59,25 @@ TEST_F(MachineFigureTest, SaysWhatIsMissingOrOutOfPlace) {
   EXPECT_THAT(make({.width_mm = 40}).error().message, HasSubstr("60 mm"));
 }
 
-TEST(MachineOf, NeedsTheFlavour) {
+TEST(ControllerOf, NeedsTheFlavour) {
   MachineRecord record{.candidate = CandidateId{7}, .machine = "--nstates 1 --s0 1"};
-  EXPECT_THAT(machine_of(record).error().message, HasSubstr("`swarmsmith backup"));
+  EXPECT_THAT(controller_of(record).error().message, HasSubstr("`swarmsmith backup"));
   record.flavour = "melon";
-  EXPECT_THAT(machine_of(record).error().message, HasSubstr("flavour melon"));
+  EXPECT_THAT(controller_of(record).error().message, HasSubstr("flavour melon"));
   record.flavour = "watermelon";
-  EXPECT_TRUE(machine_of(record));
+  EXPECT_TRUE(controller_of(record));
   record.machine = "--x 3.5";
-  EXPECT_THAT(machine_of(record).error().message, HasSubstr("configuration of a program"));
+  EXPECT_THAT(controller_of(record).error().message, HasSubstr("configuration of a program"));
 }
 
 TEST(MachineCsv, HasARowForEachStateAndTransition) {
-  const StoredMachine stored{
-      .machine = {{State{.behaviour = Attraction{2.5},
-                         .transitions = {{ColorDetection{0.45, ColorLabel::Red}, 1},
-                                         {InvertedNeighbourCount{1.5, 3}, 1}}},
-                   State{.behaviour = Stop{}, .transitions = {}}}},
+  const StoredController stored{
+      .controller = Machine{{State{.behaviour = Attraction{2.5},
+                                   .transitions = {{ColorDetection{0.45, ColorLabel::Red}, 1},
+                                                   {InvertedNeighbourCount{1.5, 3}, 1}}},
+                             State{.behaviour = Stop{}, .transitions = {}}}},
       .flavour = &watermelon()};
-  EXPECT_EQ(machine_csv(stored),
+  EXPECT_EQ(controller_csv(stored),
             "state,behaviour,behaviour_parameters,transition,target,condition,condition_parameters"
             "\n0,attraction,alpha=2.5,,,,\n"
             "0,attraction,alpha=2.5,0,1,color_detection,beta=0.45 label=red\n"
