@@ -18,8 +18,8 @@ struct ControllerDrawing {
 
 /// `title` is what a screen reader says and nothing visible. The height follows from the width.
 ///
-/// Throws std::invalid_argument when the controller does not fit the flavour, or the page is
-/// narrower than `kNarrowestMachine_mm`.
+/// Throws std::invalid_argument when a module is none of the flavour's, a machine or tree is not as
+/// it must be (`lay_out`), or the page is narrower than `kNarrowestMachine_mm`.
 ControllerDrawing drawing_of(const Controller& controller, const Flavour& flavour, double width_mm,
                              std::string_view title);
 

@@ -114,7 +114,7 @@ void connect(TreeLayout& layout, SubtreeShape& shape, const Form& form) {
   }
   // Past the condition, on its right.
   const double lane = box.centre.x + box.width / 2 + kLane / 2;
-  const PagePoint beside{lane, box.centre.y};
+  const PagePoint beside{lane, box.centre.y - box.height / 2};
   const PagePoint corner{lane, std::max(box.centre.y + box.height / 2,
                                         shape.action.centre.y - shape.action.height / 2 - 0.5)};
   shape.to_action = {below, beside, corner, on_circle(shape.action, corner)};
@@ -126,7 +126,8 @@ void place(TreeLayout& layout, const Form& form, double width_mm) {
   const double spare = width_mm - 2 * kMargin - least_width(layout, form);
   const double gap = kLeafGap + (count > 1 ? std::min(spare / (count - 1), kWidestGap) : 0);
   double left = (width_mm - least_width(layout, form) - (count - 1) * (gap - kLeafGap)) / 2;
-  const double selectors = kMargin + layout.node_side * 1.5 + kDrop;
+  // Long edges are not too flat.
+  const double selectors = kMargin + layout.node_side * 1.5 + std::max(kDrop, 0.06 * width_mm);
   const double top = selectors + layout.node_side / 2 + kDrop;
   double row_height = 0;
   for (const SubtreeShape& shape : layout.subtrees) {

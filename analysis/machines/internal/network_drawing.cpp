@@ -25,7 +25,7 @@ constexpr double kGroupGap = 1;     ///< between inputs of different sensors
 constexpr double kWidestCell = 24;  ///< of a cell
 constexpr double kBar = 3;          ///< width of the scale
 constexpr double kBarGap = 5;
-constexpr std::size_t kMostTicks = 6;
+constexpr std::size_t kMostTicks = 11;
 constexpr int kBarSteps = 50;
 
 /// White at 0, the full colour of a direction at `most`.
