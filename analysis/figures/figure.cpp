@@ -42,7 +42,7 @@ std::span<const FigureKind> figure_kinds() {
                  modules_figure, "mission method"},
       FigureKind{"convergence", "Mean of the elites over the experiments used", convergence_figure,
                  "mission method design"},
-      FigureKind{"machine", "State machines: of a design or candidate, else a sheet of all winners",
+      FigureKind{"machine", "Machines, trees, networks: of a design or candidate, else of all winners",
                  machine_figure, "mission method design candidate"},
       FigureKind{"race", "Who raced in an iteration, with ranks and eliminations", race_figure,
                  "mission method design iteration"},

@@ -4,38 +4,23 @@
 #include <array>
 #include <cmath>
 #include <numeric>
-#include <span>
+#include <set>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "analysis/drawing/axes.h"
 #include "analysis/drawing/figure_style.h"
+#include "analysis/figures/internal/controller_table.h"
 #include "analysis/figures/makers.h"
-#include "analysis/machines/machine_drawing.h"
+#include "analysis/machines/controller_drawing.h"
+#include "analysis/machines/machine_layout.h"
 #include "analysis/records/names.h"
 #include "sim/control/controller.h"
-#include "sim/control/machine_text.h"
 
 namespace swarmsmith {
 namespace {
-
-/// "beta=0.45 label=yellow"
-std::string parameters_text(Module module, std::span<const double> values, const Flavour& flavour) {
-  std::string text;
-  const ModuleSpec& spec = *flavour.find(module);
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    const ParameterSpec& parameter = spec.parameters[i];
-    const bool label = parameter.type == ParameterSpec::Type::Label;
-    text += fmt::format("{}{}=", i > 0 ? " " : "", parameter.name);
-    if (label) {
-      text += name_of(static_cast<ColorLabel>(static_cast<int>(values[i])));
-    } else {
-      text += fmt::format("{}", values[i]);
-    }
-  }
-  return text;
-}
 
 Error useless(std::string_view option) {
   return {ErrorKind::BadInput, fmt::format("a machine has no {}; leave it out", option), ""};
@@ -63,20 +48,21 @@ Expected<std::vector<CandidateId>> chosen_candidates(StoreReader& store,
                                          "one has to end first");
 }
 
-/// A machine laid out for a figure.
-struct LaidOut {
+/// A controller drawn for a figure.
+struct Drawn {
   MachineRecord record;
-  StoredMachine stored;
-  MachineLayout layout;
+  StoredController stored;
+  ControllerDrawing drawing;
 };
 
-Expected<LaidOut> laid_out(StoreReader& store, CandidateId id, double width) {
+Expected<Drawn> drawn(StoreReader& store, CandidateId id, double width) {
   auto record = candidate(store, id);
   if (!record) return Unexpected(record.error());
-  auto stored = machine_of(*record);
+  auto stored = controller_of(*record);
   if (!stored) return Unexpected(stored.error());
-  MachineLayout layout = lay_out(stored->machine, *stored->flavour, width);
-  return LaidOut{std::move(*record), std::move(*stored), std::move(layout)};
+  ControllerDrawing drawing =
+      drawing_of(stored->controller, *stored->flavour, width, title_of(*record));
+  return Drawn{std::move(*record), std::move(*stored), std::move(drawing)};
 }
 
 /// What stands above a machine of a sheet, on two lines.
@@ -86,19 +72,44 @@ std::array<std::string, 2> words_of(const MachineRecord& record) {
                       record.repetition)};
 }
 
+/// "state machines", "behaviour trees", "neural networks", or of all kinds.
+std::string_view what_is_drawn(const std::vector<Drawn>& machines) {
+  const Architecture first = architecture_of(machines.front().stored.controller);
+  for (const Drawn& machine : machines)
+    if (architecture_of(machine.stored.controller) != first) return "controllers";
+  switch (first) {
+    case Architecture::Machine:
+      return "state machines";
+    case Architecture::Tree:
+      return "behaviour trees";
+    case Architecture::Network:
+      break;
+  }
+  return "neural networks";
+}
+
+/// A sentence for each kind that is among them.
+std::string explanations(const std::vector<Drawn>& machines) {
+  std::set<Architecture> kinds;
+  for (const Drawn& machine : machines)
+    kinds.insert(architecture_of(machine.stored.controller));
+  std::string text;
+  for (const Architecture kind : kinds)
+    text.append(text.empty() ? "" : ". ").append(explanation_of(kind));
+  return text;
+}
+
 /// Machines side by side, in rows, each below its name.
-std::string drawn_sheet(const std::vector<LaidOut>& machines, std::size_t columns, double column) {
+std::string drawn_sheet(const std::vector<Drawn>& machines, std::size_t columns, double column) {
   constexpr double kAbove = 2 * kLineHeight + 1;
   constexpr double kBelow = 4;
   std::vector<double> rows;
   for (std::size_t i = 0; i < machines.size(); ++i) {
     if (i % columns == 0) rows.push_back(0);
-    rows.back() = std::max(rows.back(), machines[i].layout.height + kAbove + kBelow);
+    rows.back() = std::max(rows.back(), machines[i].drawing.svg.height() + kAbove + kBelow);
   }
   Svg svg(static_cast<double>(columns) * column, std::accumulate(rows.begin(), rows.end(), kMargin),
-          fmt::format("{} state machines", machines.size()),
-          "Probabilistic finite state machines: circles are behaviours, the double one is the "
-          "initial state; pointed boxes are conditions");
+          fmt::format("{} {}", machines.size(), what_is_drawn(machines)), explanations(machines));
   double top = kMargin;
   for (std::size_t i = 0; i < machines.size(); ++i) {
     const double left = static_cast<double>(i % columns) * column;
@@ -108,7 +119,7 @@ std::string drawn_sheet(const std::vector<LaidOut>& machines, std::size_t column
              {.bold = true});
     svg.text({left + kMargin, top + kTextSize + kLineHeight}, fitted_text(rest, kTextSize, room),
              {});
-    svg.add(drawing_of(machines[i].layout, ""), {left, top + kAbove});
+    svg.add(machines[i].drawing.svg, {left, top + kAbove});
     if (i % columns == columns - 1) top += rows[i / columns];
   }
   return svg.finish();
@@ -120,37 +131,42 @@ Expected<Figure> machine_sheet(StoreReader& store, const std::vector<CandidateId
   constexpr double kGoodWidth = 84;
   const auto columns = static_cast<std::size_t>(std::max(1.0, std::floor(width / kGoodWidth)));
   const double column = width / static_cast<double>(columns);
-  std::vector<LaidOut> machines;
+  std::vector<Drawn> machines;
+  ControllerTable table{.columns = {"design", "candidate"}, .rows = {}};
   Figure figure;
   for (const CandidateId id : candidates) {
-    auto machine = laid_out(store, id, column);
+    auto machine = drawn(store, id, column);
     if (!machine) return Unexpected(machine.error());
     const auto [name, rest] = words_of(machine->record);
-    figure.tex += fmt::format("% {}: {}\n{}\n", name, rest, tikz_of(machine->layout));
-    const std::string csv = machine_csv(machine->stored);
-    std::size_t end = csv.find('\n');
-    if (figure.csv.empty()) figure.csv = "design,candidate," + csv.substr(0, end + 1);
-    for (std::size_t at = end + 1; at < csv.size(); at = end + 1) {
-      end = csv.find('\n', at);
-      figure.csv += fmt::format("{},{},{}\n", machine->record.design.value,
-                                machine->record.candidate.value, csv.substr(at, end - at));
-    }
+    figure.tex += fmt::format("% {}: {}\n{}\n", name, rest, machine->drawing.tikz);
+    table.add(controller_table(machine->stored), {std::to_string(machine->record.design.value),
+                                                  std::to_string(machine->record.candidate.value)});
     machines.push_back(std::move(*machine));
   }
+  figure.csv = table.text();
   figure.svg = drawn_sheet(machines, std::min(columns, machines.size()), column);
   return figure;
 }
 
+/// A table of weights has a title, as other figures with numbers have; other drawings have none.
+Svg with_heading(const Drawn& machine, const FigureOptions& options) {
+  const bool is_table = architecture_of(machine.stored.controller) == Architecture::Network;
+  const Svg& picture = machine.drawing.svg;
+  if (!is_table || options.paper) return picture;
+  const std::string title = title_of(machine.record);
+  constexpr double kRoom = kTitleSize + 2;
+  Svg svg(picture.width(), picture.height() + kRoom, title, explanation_of(Architecture::Network));
+  draw_heading(svg, title, {});
+  svg.add(picture, {0, kRoom});
+  return svg;
+}
+
 }  // namespace
 
-Expected<StoredMachine> machine_of(const MachineRecord& candidate) {
+Expected<StoredController> controller_of(const MachineRecord& candidate) {
   const std::string id = to_string(candidate.candidate);
-  const auto architecture = architecture_of_text(candidate.machine);
-  if (!architecture) return bad_input(id + " is a configuration of a program, not a machine");
-  if (*architecture != Architecture::Machine) {
-    return bad_input(id + " is a " + std::string(name_of(*architecture)) +
-                     ", and only state machines can be drawn so far");
-  }
+  if (!architecture_of_text(candidate.machine))
+    return bad_input(id + " is a configuration of a program, not a machine");
   if (candidate.flavour.empty()) {
     return bad_input(
         "the store has an older version without the flavour of its machines; `swarmsmith backup "
@@ -163,33 +179,16 @@ Expected<StoredMachine> machine_of(const MachineRecord& candidate) {
     return bad_input(id + " is written in the flavour " + candidate.flavour +
                      ", which this version does not have");
   }
-  auto machine = parse_machine(candidate.machine, **flavour);
-  if (!machine) {
-    return unexpected(machine.error().kind, machine.error().message,
-                      id + ", " + machine.error().where);
+  auto controller = parse_controller(candidate.machine, **flavour);
+  if (!controller) {
+    return unexpected(controller.error().kind, controller.error().message,
+                      id + ", " + controller.error().where);
   }
-  return StoredMachine{std::move(*machine), *flavour};
+  return StoredController{std::move(*controller), *flavour};
 }
 
-std::string machine_csv(const StoredMachine& stored) {
-  std::string csv =
-      "state,behaviour,behaviour_parameters,transition,target,condition,condition_parameters\n";
-  for (std::size_t i = 0; i < stored.machine.states.size(); ++i) {
-    const State& state = stored.machine.states[i];
-    const Module behaviour = module_of(state.behaviour);
-    const std::string begin =
-        fmt::format("{},{},{}", i, id_of(behaviour),
-                    parameters_text(behaviour, parameters_of(state.behaviour), *stored.flavour));
-    csv += begin + ",,,,\n";
-    for (std::size_t j = 0; j < state.transitions.size(); ++j) {
-      const Transition& transition = state.transitions[j];
-      const Module condition = module_of(transition.condition);
-      csv += fmt::format(
-          "{},{},{},{},{}\n", begin, j, transition.target, id_of(condition),
-          parameters_text(condition, parameters_of(transition.condition), *stored.flavour));
-    }
-  }
-  return csv;
+std::string controller_csv(const StoredController& stored) {
+  return controller_table(stored).text();
 }
 
 std::string title_of(const MachineRecord& candidate) {
@@ -209,11 +208,11 @@ Expected<Figure> machine_figure(StoreReader& store, const FigureOptions& options
   const auto candidates = chosen_candidates(store, options);
   if (!candidates) return Unexpected(candidates.error());
   if (candidates->size() > 1) return machine_sheet(store, *candidates, options.width_mm);
-  const auto machine = laid_out(store, candidates->front(), options.width_mm);
+  const auto machine = drawn(store, candidates->front(), options.width_mm);
   if (!machine) return Unexpected(machine.error());
-  return Figure{.svg = svg_of(machine->layout, title_of(machine->record)),
-                .csv = machine_csv(machine->stored),
-                .tex = tikz_of(machine->layout)};
+  return Figure{.svg = with_heading(*machine, options).finish(),
+                .csv = controller_csv(machine->stored),
+                .tex = machine->drawing.tikz};
 }
 
 }  // namespace swarmsmith

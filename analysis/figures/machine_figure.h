@@ -2,27 +2,26 @@
 
 #include <string>
 
-#include "analysis/machines/machine_layout.h"
 #include "analysis/records/records.h"
+#include "sim/control/controller.h"
 #include "sim/control/flavour.h"
-#include "sim/control/machine.h"
 
 namespace swarmsmith {
 
-/// A stored machine that can be drawn.
-struct StoredMachine {
-  Machine machine;
+/// Stored control software that can be drawn: a machine, a tree or a network.
+struct StoredController {
+  Controller controller;
   const Flavour* flavour = nullptr;  ///< never null
 };
 
-/// Reads a candidate's text in its design's flavour. Errors: BadInput when it is no machine but a
-/// program's configuration, when the store does not say the flavour (with how to make it), or the
-/// text is damaged.
-Expected<StoredMachine> machine_of(const MachineRecord& candidate);
+/// Reads a candidate's text in its design's flavour. Errors: BadInput when it is no control
+/// software but a program's configuration, when the store does not say the flavour (with how to
+/// make it), or the text is damaged.
+Expected<StoredController> controller_of(const MachineRecord& candidate);
 
-/// States and transitions, a row each, with values as they are: what a picture of the machine
-/// shows.
-std::string machine_csv(const StoredMachine& stored);
+/// What a picture of it shows, with values as they are: a row for each state and transition, each
+/// subtree, or each input.
+std::string controller_csv(const StoredController& stored);
 
 /// What a picture of it is called: "d1 c812, aggregation, watermelon".
 std::string title_of(const MachineRecord& candidate);

@@ -1,31 +1,10 @@
 #include <fmt/format.h>
 
+#include "analysis/machines/internal/dot_text.h"
 #include "analysis/machines/internal/machine_colors.h"
 #include "analysis/machines/machine_drawing.h"
-#include "base/shown_text.h"
 
 namespace swarmsmith {
-namespace {
-
-std::string dot_text(std::string_view text) {
-  std::string result = "\"";
-  for (const char letter : as_shown(text, Layout::Escaped)) {
-    if (letter == '"' || letter == '\\') result += '\\';
-    result += letter;
-  }
-  return result + "\"";
-}
-
-/// Lines are joined by DOT's own sign for a centred line.
-std::string dot_label(const std::vector<LabelLine>& lines) {
-  std::string label = "\"";
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    label += (i > 0 ? "\\n" : "") + lines[i].text;
-  return label + "\"";
-}
-
-}  // namespace
-
 std::string dot_of(const MachineLayout& layout, std::string_view title) {
   std::string text = "digraph " + dot_text(title) + " {\n";
   text += "  node [fontname=\"Helvetica\", fontsize=10];\n  edge [arrowsize=0.7];\n";

@@ -7,6 +7,7 @@
 
 #include "analysis/drawing/figure_style.h"
 #include "analysis/machines/internal/condition_placing.h"
+#include "analysis/machines/internal/label_lines.h"
 #include "analysis/machines/internal/machine_labels.h"
 #include "analysis/machines/internal/state_places.h"
 #include "sim/control/flavour.h"
@@ -14,49 +15,6 @@
 
 namespace swarmsmith {
 namespace {
-
-constexpr double kLinePitch = 1.25;  ///< of lines, by their size
-constexpr double kMiddle = 0.35;     ///< from a base line up to the middle of its letters, by size
-
-/// 6 points at least; more where there is room.
-struct Sizes {
-  double state;
-  double condition;
-};
-
-Sizes sizes_for(double width_mm) {
-  if (width_mm < 110) return {.state = 2.2, .condition = 2.1};
-  return {.state = 2.6, .condition = 2.4};
-}
-
-/// Lines centred on the origin.
-std::vector<LabelLine> lines_of(const ModuleLabel& label, double size) {
-  std::vector<LabelLine> lines;
-  for (const std::string& line : label.name)
-    lines.push_back({.at = {}, .text = line, .size = size, .is_name = true});
-  if (!label.parameters.empty())
-    lines.push_back({.at = {}, .text = label.parameters, .size = size});
-  const double middle = static_cast<double>(lines.size() - 1) / 2;
-  for (std::size_t i = 0; i < lines.size(); ++i)
-    lines[i].at.y = (static_cast<double>(i) - middle) * kLinePitch * size + kMiddle * size;
-  return lines;
-}
-
-void move(std::vector<LabelLine>& lines, PagePoint by) {
-  for (LabelLine& line : lines)
-    line.at = line.at + by;
-}
-
-/// Of the smallest circle round the lines.
-double radius_round(const std::vector<LabelLine>& lines) {
-  double radius = 0;
-  for (const LabelLine& line : lines) {
-    const double x = text_width(line.text, line.size) / 2;
-    const double y = std::fabs(line.at.y - kMiddle * line.size) + line.size / 2;
-    radius = std::max(radius, std::sqrt(x * x + y * y));
-  }
-  return radius;
-}
 
 void refuse_wrong(const Machine& machine, double width_mm) {
   if (width_mm < kNarrowestMachine_mm) throw std::invalid_argument("the page is too narrow");
@@ -72,7 +30,8 @@ void refuse_wrong(const Machine& machine, double width_mm) {
 }
 
 /// Shapes with their labels and sizes, without their places.
-MachineLayout without_places(const Machine& machine, const Flavour& flavour, const Sizes& sizes) {
+MachineLayout without_places(const Machine& machine, const Flavour& flavour,
+                             const LabelSizes& sizes) {
   MachineLayout layout;
   const std::vector<bool> reachable = reachable_states(machine);
   double radius = 0;
@@ -88,11 +47,8 @@ MachineLayout without_places(const Machine& machine, const Flavour& flavour, con
           .lines = lines_of(label_of(transition.condition, flavour), sizes.condition),
           .curve = {},
           .head = {}};
-      for (const LabelLine& line : condition.lines)
-        condition.width = std::max(condition.width, text_width(line.text, line.size));
-      condition.width += 2 * (kBoxPoint + 0.3);
-      const auto count = static_cast<double>(condition.lines.size());
-      condition.height = count * kLinePitch * sizes.condition + 1;
+      condition.width = box_width(condition.lines);
+      condition.height = box_height(condition.lines);
       layout.conditions.push_back(std::move(condition));
     }
     layout.states.push_back(std::move(shape));
@@ -113,12 +69,12 @@ std::array<PagePoint, 3> arrow_head(const EdgeCurve& curve) {
 void put(MachineLayout& layout, const PlacingTask& task, const Placing& placing) {
   for (std::size_t i = 0; i < layout.states.size(); ++i) {
     layout.states[i].centre = task.states[i];
-    move(layout.states[i].lines, task.states[i]);
+    move_lines(layout.states[i].lines, task.states[i]);
   }
   for (std::size_t i = 0; i < layout.conditions.size(); ++i) {
     ConditionShape& condition = layout.conditions[i];
     condition.centre = placing.boxes[i];
-    move(condition.lines, placing.boxes[i]);
+    move_lines(condition.lines, placing.boxes[i]);
     condition.curve = edge_curve(task, task.edges[i], placing.boxes[i]);
     condition.head = arrow_head(condition.curve);
   }
@@ -142,11 +98,11 @@ void fit_page(MachineLayout& layout, double width_mm) {
   const PagePoint by{(width_mm - low.x - high.x) / 2, kMargin - low.y};
   for (StateShape& state : layout.states) {
     state.centre = state.centre + by;
-    move(state.lines, by);
+    move_lines(state.lines, by);
   }
   for (ConditionShape& condition : layout.conditions) {
     condition.centre = condition.centre + by;
-    move(condition.lines, by);
+    move_lines(condition.lines, by);
     for (PagePoint& point : condition.curve)
       point = point + by;
     for (PagePoint& point : condition.head)
@@ -165,20 +121,12 @@ void fit_page(MachineLayout& layout, double width_mm) {
 }  // namespace
 
 std::array<PagePoint, 6> corners_of(const ConditionShape& shape) {
-  const double x = shape.width / 2;
-  const double y = shape.height / 2;
-  const PagePoint c = shape.centre;
-  return {{{c.x - x, c.y},
-           {c.x - x + kBoxPoint, c.y - y},
-           {c.x + x - kBoxPoint, c.y - y},
-           {c.x + x, c.y},
-           {c.x + x - kBoxPoint, c.y + y},
-           {c.x - x + kBoxPoint, c.y + y}}};
+  return pointed_box(shape.centre, shape.width, shape.height);
 }
 
 MachineLayout lay_out(const Machine& machine, const Flavour& flavour, double width_mm) {
   refuse_wrong(machine, width_mm);
-  MachineLayout layout = without_places(machine, flavour, sizes_for(width_mm));
+  MachineLayout layout = without_places(machine, flavour, label_sizes(width_mm));
   PlacingTask task{.states = {},
                    .radius = layout.states.front().radius,
                    .edges = {},

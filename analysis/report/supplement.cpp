@@ -12,7 +12,7 @@
 #include "analysis/comparison/comparison_tables.h"
 #include "analysis/figures/figure.h"
 #include "analysis/figures/machine_figure.h"
-#include "analysis/machines/machine_drawing.h"
+#include "analysis/machines/controller_drawing.h"
 #include "analysis/records/csv.h"
 #include "analysis/records/records.h"
 #include "analysis/report/internal/supplement_readme.h"
@@ -93,10 +93,11 @@ Expected<void> add_controllers(Files& files, StoreReader& store, const Supplemen
     if (!design.best) continue;
     const auto record = candidate(store, *design.best);
     if (!record) return Unexpected(record.error());
-    const auto stored = machine_of(*record);
+    const auto stored = controller_of(*record);
     if (!stored) return Unexpected(stored.error());
-    const MachineLayout layout = lay_out(stored->machine, *stored->flavour, kWholeWidth);
-    files.push_back({path + ".dot", dot_of(layout, title_of(*record))});
+    files.push_back(
+        {path + ".dot",
+         drawing_of(stored->controller, *stored->flavour, kWholeWidth, title_of(*record)).dot});
   }
   return {};
 }

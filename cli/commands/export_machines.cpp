@@ -3,9 +3,13 @@
 #include <algorithm>
 #include <filesystem>
 #include <utility>
+#include <variant>
+
+#include <fmt/format.h>
 
 #include "analysis/figures/machine_figure.h"
-#include "analysis/machines/machine_drawing.h"
+#include "analysis/machines/controller_drawing.h"
+#include "analysis/machines/machine_layout.h"
 #include "base/output_file.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
@@ -34,14 +38,14 @@ Expected<double> width_of(const MachineExport& what) {
       "--width");
 }
 
-Expected<std::string> picture_of(const MachineRecord& candidate, const StoredMachine& stored,
+Expected<std::string> picture_of(const MachineRecord& candidate, const StoredController& stored,
                                  const MachineExport& what, double width) {
-  const MachineLayout layout = lay_out(stored.machine, *stored.flavour, width);
-  if (what.format == "tikz") return tikz_of(layout);
-  if (what.format == "dot") return dot_of(layout, title_of(candidate));
-  const std::string svg = svg_of(layout, title_of(candidate));
-  if (what.format == "pdf") return pdf_of_svg(svg);
-  return svg;
+  ControllerDrawing drawing =
+      drawing_of(stored.controller, *stored.flavour, width, title_of(candidate));
+  if (what.format == "tikz") return std::move(drawing.tikz);
+  if (what.format == "dot") return std::move(drawing.dot);
+  if (what.format == "pdf") return pdf_of_svg(drawing.svg.finish());
+  return drawing.svg.finish();
 }
 
 /// The mission as the store's campaign has it.
@@ -59,13 +63,18 @@ Expected<Mission> mission_of(StoreReader& store, DesignId design, const std::str
 }
 
 Expected<std::string> experiment_of(StoreReader& store, const MachineRecord& candidate,
-                                    const StoredMachine& stored, const MachineExport& what) {
+                                    const StoredController& stored, const MachineExport& what) {
+  const auto* machine = std::get_if<Machine>(&stored.controller);
+  if (machine == nullptr) {
+    return bad_input(
+        fmt::format("the control software is a {}, and .argos files are of state "
+                    "machines alone",
+                    name_of(architecture_of(stored.controller))));
+  }
   const auto mission = mission_of(store, candidate.design, candidate.mission);
   if (!mission) return Unexpected(mission.error());
-  return argos_experiment({.machine = stored.machine,
-                           .mission = *mission,
-                           .seed = what.seed,
-                           .title = title_of(candidate)});
+  return argos_experiment(
+      {.machine = *machine, .mission = *mission, .seed = what.seed, .title = title_of(candidate)});
 }
 
 struct NamedBytes {
@@ -77,7 +86,7 @@ Expected<NamedBytes> written(StoreReader& store, CandidateId id, const MachineEx
                              double width) {
   const auto record = candidate(store, id);
   if (!record) return Unexpected(record.error());
-  const auto stored = machine_of(*record);
+  const auto stored = controller_of(*record);
   if (!stored) return Unexpected(stored.error());
   auto bytes = what.format == "argos" ? experiment_of(store, *record, *stored, what)
                                       : picture_of(*record, *stored, what, width);

@@ -5,7 +5,7 @@
 namespace swarmsmith {
 namespace {
 
-using State = RacePlot::Cell::State;
+using CellState = RacePlot::Cell::State;
 
 /// How the cells [first, end) of a row are painted together.
 std::size_t paint_of(const RacePlot::Row& row, std::size_t first, std::size_t end) {
@@ -14,8 +14,8 @@ std::size_t paint_of(const RacePlot::Row& row, std::size_t first, std::size_t en
   bool is_rejected = false;
   for (std::size_t column = first; column < end; ++column) {
     const RacePlot::Cell& cell = row.cells[column];
-    is_rejected = is_rejected || cell.state == State::Rejected;
-    if (cell.state != State::Ranked) continue;
+    is_rejected = is_rejected || cell.state == CellState::Rejected;
+    if (cell.state != CellState::Ranked) continue;
     sum += cell.part;
     ++ranked;
   }

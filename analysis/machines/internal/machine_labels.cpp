@@ -1,7 +1,10 @@
 #include "analysis/machines/internal/machine_labels.h"
 
+#include <algorithm>
 #include <span>
 #include <stdexcept>
+#include <string_view>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -63,20 +66,41 @@ ModuleLabel label(Module module, std::span<const double> values, const Flavour& 
     throw std::invalid_argument("the flavour " + flavour.name + " has no module " +
                                 std::string(id_of(module)));
   }
-  ModuleLabel result{.name = name_lines(module), .parameters = {}};
+  std::string parameters;
   for (std::size_t i = 0; i < values.size(); ++i) {
     const ParameterSpec& parameter = spec->parameters.at(i);
-    if (i > 0) result.parameters += ", ";
+    if (i > 0) parameters += ", ";
     if (parameter.type == ParameterSpec::Type::Label) {
-      result.parameters += name_of(static_cast<ColorLabel>(static_cast<int>(values[i])));
+      parameters += name_of(static_cast<ColorLabel>(static_cast<int>(values[i])));
     } else {
-      result.parameters += symbol_of(parameter.name) + " = " + value_text(values[i]);
+      parameters += symbol_of(parameter.name) + " = " + value_text(values[i]);
     }
   }
+  ModuleLabel result{.name = name_lines(module), .parameters = {}};
+  if (!parameters.empty()) result.parameters.push_back(std::move(parameters));
   return result;
 }
 
+/// Each line cut behind each `end`; a blank behind it goes.
+std::vector<std::string> cut_lines(const std::vector<std::string>& lines, char end) {
+  std::vector<std::string> cut;
+  for (std::string_view line : lines) {
+    while (!line.empty()) {
+      const std::size_t at = std::min(line.find(end), line.size());
+      const std::size_t next = std::min(at + (end == ' ' ? 0 : 1), line.size());
+      cut.emplace_back(line.substr(0, next));
+      line.remove_prefix(next);
+      if (line.starts_with(' ')) line.remove_prefix(1);
+    }
+  }
+  return cut;
+}
+
 }  // namespace
+
+ModuleLabel narrowed(const ModuleLabel& label) {
+  return {.name = cut_lines(label.name, ' '), .parameters = cut_lines(label.parameters, ',')};
+}
 
 ModuleLabel label_of(const Behaviour& behaviour, const Flavour& flavour) {
   return label(module_of(behaviour), parameters_of(behaviour), flavour);

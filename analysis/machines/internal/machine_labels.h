@@ -13,8 +13,11 @@ namespace swarmsmith {
 /// wider than its parameters, then the parameters on one line.
 struct ModuleLabel {
   std::vector<std::string> name;
-  std::string parameters;  ///< "ξ = 10, η = 19.66"; empty without
+  std::vector<std::string> parameters;  ///< lines: "ξ = 10, η = 19.66"; empty without
 };
+
+/// The same with a word a line, and a parameter a line.
+ModuleLabel narrowed(const ModuleLabel& label);
 
 /// Throws std::invalid_argument when the flavour has no such module.
 ModuleLabel label_of(const Behaviour& behaviour, const Flavour& flavour);

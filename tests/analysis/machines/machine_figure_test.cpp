@@ -4,6 +4,7 @@
 
 #include "analysis/figures/figure.h"
 #include "tests/storage/fixture.h"
+#include "tests/support/synthetic_campaign.h"
 
 namespace swarmsmith {
 namespace {
@@ -59,25 +60,92 @@ TEST_F(MachineFigureTest, SaysWhatIsMissingOrOutOfPlace) {
   EXPECT_THAT(make({.width_mm = 40}).error().message, HasSubstr("60 mm"));
 }
 
-TEST(MachineOf, NeedsTheFlavour) {
+/// Designs of a machine, a tree and a network.
+struct ControllerFigureTest : testing::Test {
+  static constexpr SyntheticSize kSize{.designs = 3, .iterations = 3};
+  TemporaryFolder folder;
+  std::unique_ptr<StoreReader> reader;
+
+  ControllerFigureTest() {
+    auto store = open_store(folder / "s.db", synthetic_header(kSize));
+    append(*store, DesignId{1}, "--nstates 1 --s0 1");
+    append(*store, DesignId{2},
+           "--nroot 3 --nchildroot 1 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 0.5 --n01 5 --a01 1 "
+           "--p01 0");
+    append(*store, DesignId{3},
+           "--network rvr-gray --weights "
+           "0,-0.5,1,1.25,5,0,0,0,0,0,0,1,2,3,4,5,-1,-2,-3,-4,-5,0.125");
+    store.reset();
+    reader = open_reader(folder / "s.db");
+  }
+
+  static void append(Store& store, DesignId design, const std::string& text) {
+    for (std::vector<Row> batch : synthetic_design(kSize, design)) {
+      for (Row& row : batch)
+        if (auto* candidate = std::get_if<CandidateRow>(&row)) candidate->machine = text;
+      store.append(batch);
+    }
+  }
+
+  Expected<Figure> make(const FigureOptions& options) {
+    return find_figure_kind("machine")->make(*reader, options);
+  }
+};
+
+TEST_F(ControllerFigureTest, DrawsATree) {
+  const auto figure = make({.filter = {.design = DesignId{2}}});
+  ASSERT_TRUE(figure) << to_string(figure.error());
+  EXPECT_THAT(figure->svg, HasSubstr(">→*<"));
+  EXPECT_THAT(figure->svg, testing::Not(HasSubstr(">d2 c")));
+  EXPECT_THAT(figure->tex, HasSubstr("{$\\rightarrow$*};"));
+  EXPECT_EQ(figure->csv,
+            "subtree,condition,condition_parameters,action,action_parameters\n"
+            "0,black_floor,beta=0.5,stop,\n");
+}
+
+TEST_F(ControllerFigureTest, DrawsANetworkBelowATitleThatPapersLeaveOut) {
+  FigureOptions options{.filter = {.design = DesignId{3}}};
+  const auto figure = make(options);
+  ASSERT_TRUE(figure) << to_string(figure.error());
+  EXPECT_THAT(figure->svg, HasSubstr(">bias<"));
+  EXPECT_THAT(figure->svg, HasSubstr(">d3 c"));
+  EXPECT_THAT(figure->csv, StartsWith("input,left_weight,right_weight\n"
+                                      "obstacle 45,0,1\nobstacle 135,-0.5,2\n"));
+  options.paper = true;
+  EXPECT_THAT(make(options)->svg, testing::Not(HasSubstr(">d3 c")));
+}
+
+TEST_F(ControllerFigureTest, OfAllKindsIsASheetWithTheColumnsOfAll) {
+  const auto sheet = make({.width_mm = 174});
+  ASSERT_TRUE(sheet) << to_string(sheet.error());
+  EXPECT_THAT(sheet->svg, HasSubstr("<title>3 controllers</title>"));
+  EXPECT_THAT(sheet->csv,
+              StartsWith("design,candidate,state,behaviour,behaviour_parameters,transition,target,"
+                         "condition,condition_parameters,subtree,action,action_parameters,input,"
+                         "left_weight,right_weight\n"));
+  EXPECT_THAT(sheet->csv, HasSubstr(",,,,,,black_floor,beta=0.5,0,stop,,,,\n"));
+  EXPECT_THAT(sheet->csv, HasSubstr(",,,,,,,,,,,bias,0,0.125\n"));
+}
+
+TEST(ControllerOf, NeedsTheFlavour) {
   MachineRecord record{.candidate = CandidateId{7}, .machine = "--nstates 1 --s0 1"};
-  EXPECT_THAT(machine_of(record).error().message, HasSubstr("`swarmsmith backup"));
+  EXPECT_THAT(controller_of(record).error().message, HasSubstr("`swarmsmith backup"));
   record.flavour = "melon";
-  EXPECT_THAT(machine_of(record).error().message, HasSubstr("flavour melon"));
+  EXPECT_THAT(controller_of(record).error().message, HasSubstr("flavour melon"));
   record.flavour = "watermelon";
-  EXPECT_TRUE(machine_of(record));
+  EXPECT_TRUE(controller_of(record));
   record.machine = "--x 3.5";
-  EXPECT_THAT(machine_of(record).error().message, HasSubstr("configuration of a program"));
+  EXPECT_THAT(controller_of(record).error().message, HasSubstr("configuration of a program"));
 }
 
 TEST(MachineCsv, HasARowForEachStateAndTransition) {
-  const StoredMachine stored{
-      .machine = {{State{.behaviour = Attraction{2.5},
-                         .transitions = {{ColorDetection{0.45, ColorLabel::Red}, 1},
-                                         {InvertedNeighbourCount{1.5, 3}, 1}}},
-                   State{.behaviour = Stop{}, .transitions = {}}}},
+  const StoredController stored{
+      .controller = Machine{{State{.behaviour = Attraction{2.5},
+                                   .transitions = {{ColorDetection{0.45, ColorLabel::Red}, 1},
+                                                   {InvertedNeighbourCount{1.5, 3}, 1}}},
+                             State{.behaviour = Stop{}, .transitions = {}}}},
       .flavour = &watermelon()};
-  EXPECT_EQ(machine_csv(stored),
+  EXPECT_EQ(controller_csv(stored),
             "state,behaviour,behaviour_parameters,transition,target,condition,condition_parameters"
             "\n0,attraction,alpha=2.5,,,,\n"
             "0,attraction,alpha=2.5,0,1,color_detection,beta=0.45 label=red\n"
