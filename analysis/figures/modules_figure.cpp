@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <set>
 #include <tuple>
 #include <utility>
 
@@ -54,6 +55,18 @@ std::vector<std::string> ids_of(const std::vector<ModuleFrequency>& frequencies)
   return ids;
 }
 
+/// Leaves out methods whose winners have none at all: neural networks.
+void keep_modular(std::vector<ModuleFrequency>& frequencies) {
+  std::set<std::string> modular;
+  for (const ModuleFrequency& frequency : frequencies) {
+    if (frequency.counts && frequency.counts->average_occurrences > 0)
+      modular.insert(frequency.method);
+  }
+  std::erase_if(frequencies, [&](const ModuleFrequency& frequency) {
+    return !modular.contains(frequency.method);
+  });
+}
+
 /// Puts a number of the sorted table into its place.
 void add(ModuleChart& chart, const ModuleFrequency& frequency, std::size_t designs,
          const std::vector<std::string>& ids) {
@@ -79,6 +92,13 @@ Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options
                       counts->empty() ? "none of these designs is finished yet; `swarmsmith ls "
                                         "designs` shows how far they are"
                                       : "the winners have no modules: they configure a program");
+  }
+  keep_modular(*frequencies);
+  if (frequencies->empty()) {
+    return unexpected(
+        ErrorKind::NotFound,
+        "the winners have no modules: they are neural networks; `figure machine` draws "
+        "their weights");
   }
   sort_as_drawn(*frequencies);
   const std::vector<std::string> ids = ids_of(*frequencies);

@@ -86,6 +86,10 @@ Expected<void> Generations::extend(std::int64_t experiments) {
   const std::int64_t configurations = (experiments - finals) / plan_.runs;
   plan_.generations = configurations / plan_.population;
   plan_.configurations = plan_.generations * plan_.population;
+  if (plan_.may_be_cut()) {
+    plan_.configurations = configurations;
+    plan_.generations = (configurations + plan_.population - 1) / plan_.population;
+  }
   generation_ = 0;
   bred_ = 0;
   over_ = false;
@@ -93,7 +97,8 @@ Expected<void> Generations::extend(std::int64_t experiments) {
 }
 
 Expected<std::int64_t> Generations::least_extension() const {
-  return plan_.population * plan_.runs + plan_.finalists * plan_.final_runs;
+  const std::int64_t least = plan_.may_be_cut() ? 1 : plan_.population;
+  return least * plan_.runs + plan_.finalists * plan_.final_runs;
 }
 
 void Generations::add_to(Digest& digest) const {

@@ -16,6 +16,9 @@ struct GenerationPlan {
   bool fresh_pairs = true;          ///< each generation has pairs of its own
   std::int64_t finalists = 0;       ///< that the final stage runs again
   std::int64_t final_runs = 0;      ///< of each of them, on fresh pairs
+
+  /// Where all share their pairs, generations are but parts of one: the last may be smaller.
+  bool may_be_cut() const { return !fresh_pairs; }
 };
 
 /// Who is in a generation: those that are known, by their ids, and new ones.

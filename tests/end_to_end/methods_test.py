@@ -8,7 +8,7 @@ import signal
 import subprocess
 import unittest
 
-from programs import ProgramTest, children_of, send
+from programs import ProgramTest, call, children_of, send
 
 METHODS = {
     "random": "",
@@ -100,6 +100,34 @@ for preset, settings in METHODS.items():
             one_answer_of(preset, f'method = "{preset}"\n{settings}'))
 setattr(OneAnswer, "test_raced_network", one_answer_of("raced-network", RACED_NETWORK))
 setattr(OneAnswer, "test_random_tree", one_answer_of("random-tree", RANDOM_TREE))
+
+
+class Extended(MethodTest):
+    """A finished design goes on with more budget, and its answer is one again; or says why not."""
+
+    def test_goes_on(self):
+        for preset in ("random", "vanilla", "evostick", "cma-es", "maple"):
+            with self.subTest(preset):
+                self.write(preset, f'method = "{preset}"\n{METHODS[preset]}')
+                digests = []
+                for workers in ("1", "3"):
+                    store = self.folder / f"{preset}.{workers}.db"
+                    self.answer(store, "--workers", workers)
+                    done = call("extend", store, "d1", "--budget", "1400")
+                    self.assertEqual(done.returncode, 0, done.stdout + done.stderr)
+                    digests.append(self.answer(store, "--workers", workers))
+                    used = self.query(store, "SELECT used FROM v_designs")[0]["used"]
+                    self.assertGreater(used, self.budget)
+                    self.assertLessEqual(used, self.budget + 1400)
+                self.assertEqual(digests[0], digests[1])
+
+    def test_annealing_has_no_more_temperatures(self):
+        self.write("icepop", 'method = "icepop"')
+        store = self.folder / "icepop.db"
+        self.answer(store)
+        done = call("extend", store, "d1", "--budget", "1400")
+        self.assertNotEqual(done.returncode, 0)
+        self.assertIn("temperatures", done.stderr)
 
 
 class ExplicitForm(MethodTest):

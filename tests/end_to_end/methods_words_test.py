@@ -127,6 +127,16 @@ class Words(ProgramTest):
         file.write_text(HEAD.format(methods=methods, budget=budget))
         return call("check", file)
 
+    def test_figures_of_modules_and_parameters(self):
+        store = self.store()
+        picture = self.folder / "figure.svg"
+        self.answer("figure", "modules", store, "--method", "random", "-o", picture)
+        self.refused("they are neural networks", "figure", "modules", store, "--method", "evostick",
+                     "-o", picture)
+        for kind in ("sampling", "parallel", "importance"):
+            self.refused("weights of a neural network", "figure", kind, store, "--design",
+                         DESIGNS["evostick"], "-o", picture)
+
     def test_unknown_names(self):
         for words, sentence in (('method = "evostik"', '"evostick"'),
                                 ('search = "cmaes"', '"cma-es"'),

@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include "sim/control/controller.h"
+
 namespace swarmsmith {
 namespace {
 
@@ -94,6 +96,12 @@ std::vector<double> shares(const ParameterColumn& column, std::size_t first, std
   return result;
 }
 
+/// Whose weights stand in its text alone.
+bool is_network(StoreReader& store, CandidateId id) {
+  const auto found = candidate(store, id);
+  return found && architecture_of_text(found->machine) == Architecture::Network;
+}
+
 }  // namespace
 
 std::size_t ParameterTable::row_of(CandidateId candidate) const {
@@ -124,6 +132,13 @@ Expected<ParameterTable> read_parameter_table(StoreReader& store, DesignId desig
   const auto records = parameters(store, design);
   if (!records) return Unexpected(records.error());
   ParameterTable table = parameter_table(std::move(*all), *records);
+  if (table.columns.empty() && !table.candidates.empty() &&
+      is_network(store, table.candidates.front().candidate)) {
+    return bad_input(
+        to_string(design) +
+        " searched the weights of a neural network, which have no names to be drawn by; "
+        "`figure machine` draws the winner's");
+  }
   if (table.columns.empty()) {
     return unexpected(ErrorKind::NotFound,
                       fmt::format("{} has no candidates with parameters yet", to_string(design)));
