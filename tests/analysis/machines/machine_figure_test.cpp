@@ -96,7 +96,7 @@ TEST_F(ControllerFigureTest, DrawsATree) {
   const auto figure = make({.filter = {.design = DesignId{2}}});
   ASSERT_TRUE(figure) << to_string(figure.error());
   EXPECT_THAT(figure->svg, HasSubstr(">→*<"));
-  EXPECT_THAT(figure->svg, testing::Not(HasSubstr(">d2 c")));
+  EXPECT_THAT(figure->svg, testing::Not(HasSubstr("\">d2 c")));
   EXPECT_THAT(figure->tex, HasSubstr("{$\\rightarrow$*};"));
   EXPECT_EQ(figure->csv,
             "subtree,condition,condition_parameters,action,action_parameters\n"
@@ -108,11 +108,11 @@ TEST_F(ControllerFigureTest, DrawsANetworkBelowATitleThatPapersLeaveOut) {
   const auto figure = make(options);
   ASSERT_TRUE(figure) << to_string(figure.error());
   EXPECT_THAT(figure->svg, HasSubstr(">bias<"));
-  EXPECT_THAT(figure->svg, HasSubstr(">d3 c"));
+  EXPECT_THAT(figure->svg, HasSubstr("\">d3 c"));
   EXPECT_THAT(figure->csv, StartsWith("input,left_weight,right_weight\n"
                                       "obstacle 45,0,1\nobstacle 135,-0.5,2\n"));
   options.paper = true;
-  EXPECT_THAT(make(options)->svg, testing::Not(HasSubstr(">d3 c")));
+  EXPECT_THAT(make(options)->svg, testing::Not(HasSubstr("\">d3 c")));
 }
 
 TEST_F(ControllerFigureTest, OfAllKindsIsASheetWithTheColumnsOfAll) {
