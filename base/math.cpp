@@ -35,6 +35,12 @@ double scale(double x, int n) {
   return x * std::bit_cast<double>(static_cast<std::uint64_t>(n + 1023) << 52U);
 }
 
+/// std::floor of what fits into an integer, without a call of the C library.
+double whole_below(double x) {
+  const auto whole = static_cast<double>(static_cast<std::int64_t>(x));
+  return whole > x ? whole - 1 : whole;
+}
+
 /// sin(r) for |r| <= pi/4: Taylor, the first term left out is r^19 / 19!, below 1e-19.
 double sin_kernel(double r) {
   static constexpr std::array<double, 8> kCoefficients = {
@@ -144,7 +150,7 @@ double exp(double x) {
   if (std::isnan(x)) return x;
   if (x > 709.8) return kInfinity;
   if (x < -745.2) return 0;
-  const double n = std::floor(x * 1.4426950408889634 + 0.5);
+  const double n = whole_below(x * 1.4426950408889634 + 0.5);
   const double r = (x - n * kLn2High) - n * kLn2Low;
   const double value = polynomial(kCoefficients, r);
   // Two steps, since 2^n alone may leave the range of normal numbers.

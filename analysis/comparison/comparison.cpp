@@ -1,6 +1,7 @@
 #include "analysis/comparison/comparison.h"
 
 #include <algorithm>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -46,6 +47,33 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
       fmt::format("all scores have the same {} {}: there is nothing to compare{}",
                   by_source ? "source" : "method", *names.begin(),
                   has_methods ? "; `--by method` compares the methods" : ""));
+}
+
+/// A method that used much less than it might is told beside one that did not.
+void note_unused_budgets(const std::vector<DesignRecord>& all, Comparison& comparison) {
+  constexpr double kNearlyAll = 0.95;
+  struct Runs {
+    std::int64_t used = 0;
+    std::int64_t budget = 0;
+    double share() const { return static_cast<double>(used) / static_cast<double>(budget); }
+  };
+  std::map<std::string, Runs> methods;
+  for (const DesignRecord& design : all) {
+    const bool is_compared =
+        std::ranges::any_of(comparison.groups, [&](const ComparedGroup& group) {
+          return group.method == design.method && group.mission == design.mission;
+        });
+    if (!is_compared || design.state != "finished" || design.budget == 0) continue;
+    methods[design.method].used += design.used;
+    methods[design.method].budget += design.budget;
+  }
+  if (methods.size() < 2) return;
+  for (const auto& [method, runs] : methods) {
+    if (runs.share() >= kNearlyAll) continue;
+    comparison.notes.push_back(fmt::format(
+        "{} used {:.0f} % of its experiments ({} of {}): compare with what the others used", method,
+        100 * runs.share(), runs.used, runs.budget));
+  }
 }
 
 void note_runs(Comparison& comparison) {
@@ -146,7 +174,13 @@ Expected<Comparison> compare(StoreReader& store, const ComparisonOptions& option
   const auto scores = design_scores(store, {});
   if (!scores) return Unexpected(scores.error());
   if (auto error = missing(*scores, options)) return Unexpected(std::move(*error));
-  return compare(*scores, options);
+  Comparison comparison = compare(*scores, options);
+  if (options.by == CompareBy::Method) {
+    const auto all = designs(store, {});
+    if (!all) return Unexpected(all.error());
+    note_unused_budgets(*all, comparison);
+  }
+  return comparison;
 }
 
 }  // namespace swarmsmith

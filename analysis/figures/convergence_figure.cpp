@@ -30,7 +30,7 @@ class PlotOfDesigns {
     if (designs.size() != 1) return;
     const DesignRecord& alone = designs.front();
     plot_.groups[place_of(names.methods, alone.method)] =
-        to_string(alone.design) + ", best machine";
+        to_string(alone.design) + ", best candidate";
   }
 
   /// The elites of a design come one after the other, those of an iteration by rank.
@@ -51,8 +51,8 @@ class PlotOfDesigns {
 
  private:
   static std::string details_of(const std::vector<DesignRecord>& designs) {
-    if (designs.size() > 1) return fmt::format("Best machine of {} designs", designs.size());
-    return fmt::format("Best machine of {}: {}", to_string(designs.front().design),
+    if (designs.size() > 1) return fmt::format("Best candidate of {} designs", designs.size());
+    return fmt::format("Best candidate of {}: {}", to_string(designs.front().design),
                        title_of(designs.front()));
   }
 

@@ -121,7 +121,7 @@ void draw_lines(Svg& svg, const Panel& panel, const Axis& x, const Axis& y) {
 }
 
 std::string description_of(const ConvergencePlot& plot) {
-  std::string text = "Mean score of the best machine over the experiments used.";
+  std::string text = "Mean score of the best candidate over the experiments used.";
   for (const Panel& panel : plot.panels) {
     text += fmt::format(" {}, {} {}:", panel.name, panel.lines.size(),
                         panel.lines.size() == 1 ? "design" : "designs");

@@ -1,6 +1,6 @@
 #include <algorithm>
 #include <map>
-#include <set>
+#include <string>
 #include <tuple>
 #include <utility>
 
@@ -28,11 +28,9 @@ bool stands_before(const std::string& a, const std::string& b) {
 }
 
 /// Winners of each (method, mission).
-Expected<WinnerCounts> winners(StoreReader& store, const RecordFilter& filter) {
-  const auto all = designs(store, filter);
-  if (!all) return Unexpected(all.error());
+WinnerCounts winners_of(const std::vector<DesignRecord>& all) {
   WinnerCounts counts;
-  for (const DesignRecord& design : *all)
+  for (const DesignRecord& design : all)
     if (design.state == "finished" && design.best) ++counts[{design.method, design.mission}];
   return counts;
 }
@@ -55,16 +53,15 @@ std::vector<std::string> ids_of(const std::vector<ModuleFrequency>& frequencies)
   return ids;
 }
 
-/// Leaves out methods whose winners have none at all: neural networks.
-void keep_modular(std::vector<ModuleFrequency>& frequencies) {
-  std::set<std::string> modular;
-  for (const ModuleFrequency& frequency : frequencies) {
-    if (frequency.counts && frequency.counts->average_occurrences > 0)
-      modular.insert(frequency.method);
-  }
-  std::erase_if(frequencies, [&](const ModuleFrequency& frequency) {
-    return !modular.contains(frequency.method);
-  });
+/// Why there is nothing to draw.
+std::string why_nothing(const std::vector<DesignRecord>& all, const WinnerCounts& counts) {
+  if (counts.empty())
+    return "none of these designs is finished yet; `swarmsmith ls designs` shows how far they are";
+  const bool is_software =
+      std::ranges::any_of(all, [](const DesignRecord& design) { return !design.flavour.empty(); });
+  return is_software ? "the winners have no modules: they are neural networks; `figure machine` "
+                       "draws their weights"
+                     : "the winners have no modules: they configure a program";
 }
 
 /// Puts a number of the sorted table into its place.
@@ -83,23 +80,12 @@ void add(ModuleChart& chart, const ModuleFrequency& frequency, std::size_t desig
 }  // namespace
 
 Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options) {
-  const auto counts = winners(store, options.filter);
-  if (!counts) return Unexpected(counts.error());
+  const auto all = designs(store, options.filter);
+  if (!all) return Unexpected(all.error());
+  const WinnerCounts counts = winners_of(*all);
   auto frequencies = module_frequencies(store, options.filter);
   if (!frequencies) return Unexpected(frequencies.error());
-  if (frequencies->empty()) {
-    return unexpected(ErrorKind::NotFound,
-                      counts->empty() ? "none of these designs is finished yet; `swarmsmith ls "
-                                        "designs` shows how far they are"
-                                      : "the winners have no modules: they configure a program");
-  }
-  keep_modular(*frequencies);
-  if (frequencies->empty()) {
-    return unexpected(
-        ErrorKind::NotFound,
-        "the winners have no modules: they are neural networks; `figure machine` draws "
-        "their weights");
-  }
+  if (frequencies->empty()) return unexpected(ErrorKind::NotFound, why_nothing(*all, counts));
   sort_as_drawn(*frequencies);
   const std::vector<std::string> ids = ids_of(*frequencies);
   ModuleChart chart{.title = "Modules of the winners", .width_mm = options.width_mm};
@@ -107,7 +93,7 @@ Expected<Figure> modules_figure(StoreReader& store, const FigureOptions& options
                     "mission,method,module,designs,avg_occurrences,occurrence_rate,"
                     "avg_reachable,reachable_rate\n"};
   for (const ModuleFrequency& frequency : *frequencies) {
-    const std::size_t designs = counts->at({frequency.method, frequency.mission});
+    const std::size_t designs = counts.at({frequency.method, frequency.mission});
     add(chart, frequency, designs, ids);
     figure.csv += fmt::format("{},{},{},{},", csv_field(frequency.mission),
                               csv_field(frequency.method), csv_field(frequency.module), designs);

@@ -157,11 +157,13 @@ Examples:
   SWARMSMITH_STORE=demo.db swarmsmith status --watch)";
 
 constexpr std::string_view kExplainDetails =
-    R"(Shows which race asked for the evaluation and whether it counted, who evaluated it, what went wrong
-before (lost, expired, failed, other results), and how to simulate it again.
+    R"(Of an evaluation: which race asked for it and whether it counted, who evaluated it, what went wrong
+before (lost, expired, failed, other results), and how to simulate it again. Of a design: how its winner
+came, part by part of its search.
 
 Examples:
   swarmsmith explain e1000007 demo.db
+  swarmsmith explain d1 demo.db
   swarmsmith explain e1000007 demo.db --json)";
 
 constexpr std::string_view kLsDetails =
@@ -320,12 +322,13 @@ constexpr std::array kCommands = {
     Command{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
             declare_ls},
     Command{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},
-    Command{"explain", "Show the history of one evaluation", kExplainDetails, declare_explain},
+    Command{"explain", "Show the history of one evaluation or one design", kExplainDetails,
+            declare_explain},
     Command{"query", "Ask a store in SQL", kQueryDetails, declare_query},
     Command{"compare", "Compare sources or methods by statistical tests", kCompareDetails,
             declare_compare},
-    Command{"evaluate", "Score a machine outside of a race", kEvaluateDetails, declare_evaluate,
-            nullptr, with_machine_as_one_word},
+    Command{"evaluate", "Score a machine, tree or network outside of a race", kEvaluateDetails,
+            declare_evaluate, nullptr, with_machine_as_one_word},
     Command{"assess", "Test whether each module does what it promises", kAssessDetails,
             declare_assess},
     Command{"replay", "Simulate a stored evaluation again, and record it", kReplayDetails,

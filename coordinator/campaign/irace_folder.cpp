@@ -6,6 +6,7 @@
 
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/method_space.h"
+#include "coordinator/campaign/network_space.h"
 #include "irace_core/files/parameter_file.h"
 
 namespace swarmsmith {
@@ -19,18 +20,31 @@ std::string shell_quoted(const std::string& text) {
   return quoted + "'";
 }
 
+/// The first words of a network's text; its weights are irace's values, without switches.
+std::string words_before_weights(const Method& method) {
+  return "--network " + std::string(name_of(method.inputs)) + " --weights";
+}
+
 /// irace's calling convention (irace facts, 18.1); a POSIX shell needs no other program for it.
-std::string target_runner(const DesignRow& design, const std::filesystem::path& program) {
+std::string target_runner(const Method& method, const DesignRow& design,
+                          const std::filesystem::path& program) {
+  const std::string kind(name_of(method.architecture));
+  const bool is_network = method.architecture == Architecture::Network;
   return "#!/bin/sh\n"
-         "# One experiment of irace: simulates a machine once and prints its cost, minus the "
+         "# One experiment of irace: simulates a " +
+         kind +
+         " once and prints its cost, minus the "
          "score.\n"
-         "# irace calls: target-runner CONFIGURATION INSTANCE-NUMBER SEED INSTANCE MACHINE...\n"
+         "# irace calls: target-runner CONFIGURATION INSTANCE-NUMBER SEED INSTANCE VALUES...\n"
          "# SWARMSMITH names another program.\n"
          "program=" +
          shell_quoted(program.string()) +
          "\n"
          "seed=$3\n"
-         "shift 4\n"
+         "shift 4\n" +
+         (is_network
+              ? "set -- " + words_before_weights(method) + " \"$(IFS=,; printf %s \"$*\")\"\n"
+              : "") +
          "answer=$(\"${SWARMSMITH:-$program}\" evaluate --json --campaign "
          "\"${0%/*}/campaign.toml\" \\\n"
          "  --design " +
@@ -45,8 +59,39 @@ std::string target_runner(const DesignRow& design, const std::filesystem::path& 
          "esac\n";
 }
 
-std::string readme(const Campaign& campaign, const DesignRow& design, IraceVersion version) {
+/// What the last line of irace's report has from some word on.
+std::string reported(const Method& method) {
+  switch (method.architecture) {
+    case Architecture::Machine:
+      return "from --nstates on, is the machine that was found";
+    case Architecture::Tree:
+      return "from --nroot on, is the tree that was found";
+    case Architecture::Network:
+      break;
+  }
+  return "behind its number, is the weights that were found; commas\nbelong between them";
+}
+
+std::string found_text(const Method& method) {
+  switch (method.architecture) {
+    case Architecture::Machine:
+      return "--nstates ...";
+    case Architecture::Tree:
+      return "--nroot ...";
+    case Architecture::Network:
+      break;
+  }
+  return words_before_weights(method) + " W1,W2,...";
+}
+
+std::string readme(const Campaign& campaign, const Method& method, const DesignRow& design,
+                   IraceVersion version) {
   const std::string name = version == IraceVersion::V4 ? "4" : "3.5";
+  const std::string kind(name_of(method.architecture));
+  const std::string parameters =
+      method.architecture == Architecture::Network
+          ? "the weights of the method's networks, left wheel first"
+          : "the " + kind + "s of the method; switches and values are AutoMoDe's text";
   return "Design " + to_string(design.id) + " of campaign " + campaign.name + ": mission " +
          design.mission + ", method " + design.method +
          ",\n"
@@ -60,17 +105,23 @@ std::string readme(const Campaign& campaign, const DesignRow& design, IraceVersi
          "started in this folder. --parallel N runs N simulations at a time, --seed S draws\n"
          "others.\n"
          "\n"
-         "parameters.txt  the machines of the method; switches and values are AutoMoDe's text\n"
+         "parameters.txt  " +
+         parameters +
+         "\n"
          "scenario.txt    the options of the race\n"
          "instances.txt   the mission: each run has a new seed\n"
-         "target-runner   simulates one machine once with `swarmsmith evaluate`; prints minus\n"
+         "target-runner   simulates one " +
+         kind +
+         " once with `swarmsmith evaluate`; prints minus\n"
          "                the score\n"
          "campaign.toml   what the target-runner reads: mission, flavour, simulator profile\n"
          "\n"
-         "The last line of irace's report, from --nstates on, is the machine that was found:\n"
+         "The last line of irace's report, " +
+         reported(method) +
+         ":\n"
          "\n"
          "    swarmsmith evaluate --campaign campaign.toml --design " +
-         to_string(design.id) + " --seeds 1-200 -- --nstates ...\n";
+         to_string(design.id) + " --seeds 1-200 -- " + found_text(method) + "\n";
 }
 
 /// A text a line.
@@ -81,16 +132,36 @@ std::string lines_of(const std::vector<std::string>& texts) {
   return lines;
 }
 
-/// What irace is told of a design of machines: one instance, the mission, whose runs differ in
-/// their seeds; as many test instances as the winner is tested on seeds.
-Expected<IraceSetup> setup_of_machines(const Campaign& campaign, const Method& method,
-                                       const CampaignMission& mission) {
+/// The method's space, so that switches and values of a configuration, put together, are its text;
+/// of networks they are the weights alone, of which the target-runner makes it.
+Expected<ParameterSpace> space_in_grammar(const Method& method, const Flavour& flavour,
+                                          int digits) {
+  switch (method.architecture) {
+    case Architecture::Machine:
+      return MachineSpace::in_grammar(method, flavour, digits);
+    case Architecture::Tree:
+      return TreeSpace::in_grammar(method, flavour, digits);
+    case Architecture::Network:
+      break;
+  }
+  auto space = network_space(method, digits);
+  if (!space) return space;
+  std::vector<Parameter> weights(space->parameters().begin(), space->parameters().end());
+  for (Parameter& weight : weights)
+    weight.switch_text.clear();
+  return ParameterSpace::make(std::move(weights), {}, digits);
+}
+
+/// What irace is told of a design of control software: one instance, the mission, whose runs differ
+/// in their seeds; as many test instances as the winner is tested on seeds.
+Expected<IraceSetup> setup_of_simulations(const Campaign& campaign, const Method& method,
+                                          const CampaignMission& mission) {
   if (campaign.race.max_time > 0) {
     return bad_input("a simulation prints no time, which max_time needs", "max_time");
   }
   const auto flavour = find_flavour(method.flavour, method.turn_clock);
   if (!flavour) return Unexpected(flavour.error());
-  auto space = MachineSpace::in_grammar(method, *flavour, static_cast<int>(campaign.digits));
+  auto space = space_in_grammar(method, *flavour, static_cast<int>(campaign.digits));
   if (!space) return Unexpected(space.error());
   IraceSetup setup;
   setup.space = std::move(*space);
@@ -174,7 +245,7 @@ Expected<IraceSetup> irace_setup(const Campaign& campaign, const DesignRow& desi
       campaign.missions,
       [&](const CampaignMission& candidate) { return candidate.mission.name == design.mission; });
   auto setup = campaign.target ? setup_of_target(campaign, method, mission)
-                               : setup_of_machines(campaign, method, mission);
+                               : setup_of_simulations(campaign, method, mission);
   if (!setup) return setup;
   setup->race = campaign.race;
   setup->race.max_experiments = design.budget;
@@ -197,9 +268,9 @@ Expected<IraceFolder> irace_folder(const Campaign& campaign, const DesignRow& de
   }
   add_files(*setup, version, *names, folder);
   if (campaign.target) return folder;
-  folder.files.push_back({"README", readme(campaign, design, version)});
+  folder.files.push_back({"README", readme(campaign, method, design, version)});
   folder.files.push_back({"campaign.toml", normalised_text(campaign)});
-  folder.files.push_back({"target-runner", target_runner(design, program), true});
+  folder.files.push_back({"target-runner", target_runner(method, design, program), true});
   return folder;
 }
 

@@ -24,12 +24,13 @@ struct IraceFolder {
   std::vector<std::string> remarks;  ///< what that irace cannot be told, a sentence each
 };
 
-/// What irace is told of a design: options, instances, and the space, which of machines is in the
-/// words of their text grammar. Fails for what irace cannot express.
+/// What irace is told of a design: options, instances, and the space, which of machines and trees
+/// is in the words of their text grammar, and of networks the weights. Fails for what irace cannot
+/// express.
 Expected<IraceSetup> irace_setup(const Campaign& campaign, const DesignRow& design);
 
 /// A folder in which R's irace tunes what the design tunes: scenario, parameters, instances. A
-/// design of machines is tuned against this simulator: switches and values are the text grammar's,
+/// design of control software is tuned against this simulator: switches and values are its text,
 /// and the folder's target-runner calls `program evaluate` (`program` is absolute). A design with a
 /// target calls the target's programs. Fails for what irace cannot express.
 Expected<IraceFolder> irace_folder(const Campaign& campaign, const DesignRow& design,

@@ -20,6 +20,11 @@ class TreeSpace {
   /// `digits`: decimals of reals. Fails when a range cannot be kept with these digits.
   static Expected<TreeSpace> make(const Method& method, const Flavour& flavour, int digits);
 
+  /// The same space in the words of the text grammar, as MachineSpace::in_grammar has it: switches
+  /// and values of the active parameters, put together, are the text of a tree.
+  static Expected<ParameterSpace> in_grammar(const Method& method, const Flavour& flavour,
+                                             int digits);
+
   const ParameterSpace& parameters() const { return space_; }
 
   /// The tree of a valid configuration of this space, and back.
@@ -35,12 +40,20 @@ class TreeSpace {
     std::vector<ModuleSlot> conditions;
   };
 
-  explicit TreeSpace(ParameterSpace space) : space_(std::move(space)) {}
+  /// Where the parameters of a tree are.
+  struct TreeSlot {
+    std::size_t count = kNoParameter;
+    std::vector<SubtreeSlot> subtrees;
+  };
+
+  TreeSpace(ParameterSpace space, const Flavour& flavour, TreeSlot slot)
+      : space_(std::move(space)), flavour_(&flavour), slot_(std::move(slot)) {}
+
+  static TreeSlot build(const Method& method, ModuleParameters& parameters);
 
   ParameterSpace space_;
-  const Flavour* flavour_ = nullptr;
-  std::size_t count_ = kNoParameter;
-  std::vector<SubtreeSlot> subtrees_;
+  const Flavour* flavour_;
+  TreeSlot slot_;
 };
 
 }  // namespace swarmsmith

@@ -1,5 +1,6 @@
 #include "irace_core/search/options.h"
 
+#include <algorithm>
 #include <array>
 
 #include "base/assert.h"
@@ -7,8 +8,22 @@
 namespace swarmsmith {
 namespace {
 
-constexpr std::array kAll = {SearchKind::Irace,     SearchKind::Random, SearchKind::FRace,
-                             SearchKind::Evolution, SearchKind::CmaEs,  SearchKind::Annealing};
+constexpr std::array kWords = {
+    SearchWords{SearchKind::Irace, "irace", "iteration", "racing", "race", "configuration", true},
+    SearchWords{SearchKind::Random, "random", "part", "searching", "final stage", "configuration"},
+    SearchWords{SearchKind::FRace, "f-race", "race", "racing", "race", "configuration", true},
+    SearchWords{SearchKind::Evolution, "evolution", "generation", "searching", "final stage",
+                "member"},
+    SearchWords{SearchKind::CmaEs, "cma-es", "generation", "searching", "final stage", "member"},
+    SearchWords{SearchKind::Annealing, "annealing", "part", "searching", "final stage",
+                "configuration"},
+};
+
+constexpr auto kAll = [] {
+  std::array<SearchKind, kWords.size()> kinds{};
+  std::ranges::transform(kWords, kinds.begin(), &SearchWords::kind);
+  return kinds;
+}();
 
 }  // namespace
 
@@ -16,22 +31,10 @@ std::span<const SearchKind> all_searches() {
   return kAll;
 }
 
-std::string_view name_of(SearchKind kind) {
-  switch (kind) {
-    case SearchKind::Irace:
-      return "irace";
-    case SearchKind::Random:
-      return "random";
-    case SearchKind::FRace:
-      return "f-race";
-    case SearchKind::Evolution:
-      return "evolution";
-    case SearchKind::CmaEs:
-      return "cma-es";
-    case SearchKind::Annealing:
-      break;
-  }
-  return "annealing";
+const SearchWords& words_of(SearchKind kind) {
+  const auto* found = std::ranges::find(kWords, kind, &SearchWords::kind);
+  SWARMSMITH_ASSERT(found != kWords.end(), "each kind has its words");
+  return *found;
 }
 
 int version_of(SearchKind) {

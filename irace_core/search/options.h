@@ -21,8 +21,23 @@ enum class SearchKind {
 
 /// All of them, in the order in which people are told of them.
 std::span<const SearchKind> all_searches();
+
+/// What people call a search and its parts.
+struct SearchWords {
+  SearchKind kind;
+  std::string_view name;       ///< in campaign files
+  std::string_view round;      ///< an iteration as its events count them: "generation"
+  std::string_view at_work;    ///< "racing", "searching"
+  std::string_view where;      ///< where the winner's mean is from: "race", "final stage"
+  std::string_view candidate;  ///< "member", "configuration"
+  bool has_tests = false;      ///< statistical ones, that drop candidates
+};
+
+const SearchWords& words_of(SearchKind kind);
 /// `irace`, `random`, `f-race`, `evolution`, `cma-es` or `annealing`.
-std::string_view name_of(SearchKind kind);
+inline std::string_view name_of(SearchKind kind) {
+  return words_of(kind).name;
+}
 
 /// Changes whenever the search answers the same costs otherwise: a store of another version can be
 /// read, but not continued.

@@ -12,17 +12,6 @@
 namespace swarmsmith {
 namespace {
 
-/// In the order of SearchKind.
-constexpr std::array kWords = {
-    SearchWords{"iteration", "racing", "race", "configuration", true},
-    SearchWords{"part", "searching", "final stage", "configuration", false},
-    SearchWords{"race", "racing", "race", "configuration", true},
-    SearchWords{"generation", "searching", "final stage", "member", false},
-    SearchWords{"generation", "searching", "final stage", "member", false},
-    SearchWords{"part", "searching", "final stage", "configuration", false},
-};
-static_assert(kWords.size() == static_cast<std::size_t>(SearchKind::Annealing) + 1);
-
 std::string counted(std::int64_t count, std::string_view what) {
   return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
 }
@@ -121,33 +110,20 @@ std::string annealing_stage(const SearchOptions& options, const SearchPoint& poi
 
 }  // namespace
 
-const SearchWords& words_of(SearchKind kind) {
-  return kWords.at(static_cast<std::size_t>(kind));
-}
-
 std::string round_name(const SearchOptions& options, const SearchPoint& known) {
   const SearchPoint point = as_planned(options, known);
-  switch (options.kind) {
-    case SearchKind::Irace:
-      return "iteration " + std::to_string(point.iteration);
-    case SearchKind::FRace:
-      return "one race";
-    case SearchKind::Random:
-      if (point.is_final) break;
-      return random_name(options, point);
-    case SearchKind::Evolution:
-    case SearchKind::CmaEs:
-      if (point.is_final) break;
-      return "generation " + std::to_string(number_of(point));
-    case SearchKind::Annealing: {
-      if (point.is_final) break;
-      if (point.iteration <= 1) return "scale of the scores";
-      const std::int64_t before = (point.iteration - 2) * search::kAnnealingBlock;
-      const std::int64_t last = std::min(walked(options, point), before + search::kAnnealingBlock);
-      return range("iteration", before + 1, last);
-    }
+  if (options.kind == SearchKind::FRace) return "one race";
+  if (point.is_final && !words_of(options.kind).has_tests) return "final stage";
+  if (options.kind == SearchKind::Random) return random_name(options, point);
+  if (options.kind == SearchKind::Annealing) {
+    if (point.iteration <= 1) return "scale of the scores";
+    const std::int64_t before = (point.iteration - 2) * search::kAnnealingBlock;
+    const std::int64_t last = std::min(walked(options, point), before + search::kAnnealingBlock);
+    return range("iteration", before + 1, last);
   }
-  return "final stage";
+  const SearchWords& words = words_of(options.kind);
+  return std::string(words.round) + " " +
+         std::to_string(words.has_tests ? point.iteration : number_of(point));
 }
 
 std::string round_line(const SearchOptions& options, const SearchPoint& known) {
@@ -162,12 +138,13 @@ std::string round_line(const SearchOptions& options, const SearchPoint& known) {
       counted(point.runs_wanted / std::max<std::int64_t>(1, point.configurations), "run") + " each";
   const std::string members = ": " + counted(point.configurations, words.candidate) + ", " + each;
   if (point.is_final) return name + members;
-  if (words.round == "generation") return name + of(planned_of(point)) + members;
-  const auto plan = options.kind == SearchKind::Random ? draws(options, point) : std::nullopt;
-  if (plan) return name + of(plan->configurations) + ": " + each;
+  if (options.kind == SearchKind::Random) {
+    const auto plan = draws(options, point);
+    return plan ? name + of(plan->configurations) + ": " + each : name + members;
+  }
   // A walk does not know how many runs its iterations take.
-  const bool is_walk = options.kind == SearchKind::Annealing && point.iteration > 1;
-  return is_walk ? name : name + members;
+  if (options.kind == SearchKind::Annealing) return point.iteration > 1 ? name : name + members;
+  return name + of(planned_of(point)) + members;
 }
 
 std::string stage_text(const SearchOptions& options, const SearchPoint& known) {
@@ -180,22 +157,16 @@ std::string stage_text(const SearchOptions& options, const SearchPoint& known) {
           : "";
   if (point.is_final && !words.has_tests)
     return members.empty() ? "final stage" : "final stage: " + members;
-  switch (options.kind) {
-    case SearchKind::Irace:
-      return round_name(options, point) + of(point.iterations);
-    case SearchKind::FRace:
-      return "one race" + (point.alive > 0 ? ": " + std::to_string(point.alive) + " left" : "");
-    case SearchKind::Random:
-      return random_stage(options, point);
-    case SearchKind::Evolution:
-    case SearchKind::CmaEs:
-      return round_name(options, point) + of(planned_of(point)) +
-             (ready(point) > 0 ? ", " + members : "");
-    case SearchKind::Annealing:
-      break;
+  const std::string name = round_name(options, point);
+  if (options.kind == SearchKind::FRace)
+    return name + (point.alive > 0 ? ": " + std::to_string(point.alive) + " left" : "");
+  if (words.has_tests) return name + of(point.iterations);
+  if (options.kind == SearchKind::Random) return random_stage(options, point);
+  if (options.kind == SearchKind::Annealing) {
+    if (point.iteration > 1) return annealing_stage(options, point);
+    return name + (members.empty() ? "" : ": " + members);
   }
-  if (point.iteration > 1) return annealing_stage(options, point);
-  return round_name(options, point) + (members.empty() ? "" : ": " + members);
+  return name + of(planned_of(point)) + (ready(point) > 0 ? ", " + members : "");
 }
 
 }  // namespace swarmsmith

@@ -23,17 +23,6 @@ struct SearchPoint {
   std::int64_t budget = 0;       ///< of the design
 };
 
-/// What people call a search and its parts.
-struct SearchWords {
-  std::string_view round;      ///< an iteration as its events count them: "generation"
-  std::string_view at_work;    ///< "racing", "searching"
-  std::string_view where;      ///< where the winner's mean is from: "race", "final stage"
-  std::string_view candidate;  ///< "member", "configuration"
-  bool has_tests = false;      ///< statistical ones, that drop candidates
-};
-
-const SearchWords& words_of(SearchKind kind);
-
 /// The part that the search is in: "generation 41", "final stage", "one race".
 std::string round_name(const SearchOptions& options, const SearchPoint& point);
 /// What it begins with: "generation 41 of 90: 20 members, 5 runs each".

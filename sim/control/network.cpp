@@ -51,6 +51,17 @@ double tanh_half(double x) {
   return 2 / (1 + exp(-x)) - 1;
 }
 
+/// tanh(n / 2) of a count of neighbours; swarms are small, so that most are worked out once.
+double count_input(std::size_t count) {
+  static const auto kFew = [] {
+    std::array<double, 32> values{};
+    for (std::size_t n = 0; n < values.size(); ++n)
+      values[n] = tanh_half(static_cast<double>(n));
+    return values;
+  }();
+  return count < kFew.size() ? kFew[count] : tanh_half(static_cast<double>(count));
+}
+
 /// The sum over neighbours of 1 / (1 + d), d in metres, in their directions; its length l becomes
 /// tanh(l / 2).
 Vector2 neighbour_vector(std::span<const Neighbour> neighbours) {
@@ -216,6 +227,8 @@ std::string print_network(const Network& network, const Flavour& flavour) {
 InputValues network_inputs(NetworkInputs set, Senses& senses, const Flavour& flavour) {
   InputList inputs;
   const std::span<const Neighbour> neighbours = senses.neighbours();
+  // Before the other sensors are read: its chain of operations is the longest.
+  const Vector2 towards = neighbour_vector(neighbours);
   const bool counts = flavour.obstacles.neighbours_as_obstacles;
   add_projections(
       cut(obstacle_vector(senses.proximity(), counts ? neighbours : std::span<const Neighbour>(),
@@ -224,8 +237,8 @@ InputValues network_inputs(NetworkInputs set, Senses& senses, const Flavour& fla
   if (set == NetworkInputs::Rm12)
     add_projections(cut(light_vector(senses.light(), flavour.light)), inputs);
   add_floor(set, senses.ground_color(), flavour.floor, inputs);
-  inputs.add(tanh_half(static_cast<double>(neighbours.size())));
-  add_projections(neighbour_vector(neighbours), inputs);
+  inputs.add(count_input(neighbours.size()));
+  add_projections(towards, inputs);
   inputs.add(1);
   SWARMSMITH_ASSERT(inputs.count == input_count(set), "a set of inputs is whole");
   return inputs.values;

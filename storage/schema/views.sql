@@ -234,16 +234,16 @@ UNION ALL VALUES
   ('chocolate', 'c', 2, 'white_floor'), ('chocolate', 'c', 3, 'neighbour_count'),
   ('chocolate', 'c', 4, 'inverted_neighbour_count'), ('chocolate', 'c', 5, 'fixed_probability');
 
--- Not public: the text of a machine, and its words as a JSON array: "--a 1 --b 2" is ["a 1","b 2"].
--- Parameters of programs, which have no flavour, are no machine. json_each of one element gives what
--- costs time to make a name, so that it is made once.
+-- Not public: the text of a machine or a tree, and its words as a JSON array: "--a 1 --b 2" is
+-- ["a 1","b 2"]. Parameters of programs, which have no flavour, are neither. json_each of one element
+-- gives what costs time to make a name, so that it is made once.
 CREATE VIEW machine_text AS
 SELECT c.id AS candidate, c.design, d.flavour, t.value AS text,
        '["' || replace(substr(t.value, 3), ' --', '","') || '"]' AS words
 FROM candidate_text AS c
 JOIN design AS d ON d.id = c.design
 JOIN json_each(CASE WHEN d.flavour <> '' THEN '["' || c.machine || '"]' ELSE '[]' END) AS t
-  ON t.value GLOB '--nstates [0-9]*';
+  ON t.value GLOB '--nstates [0-9]*' OR t.value GLOB '--nroot [0-9]*';
 
 -- Not public: the states to which transitions lead from the first one, between blanks. Targets are
 -- numbered without the state that is left: "n1x0 1" leads from state 1 to state 2.
@@ -293,29 +293,33 @@ LEFT JOIN flavour_name AS l ON l.flavour = t.flavour AND l.kind = 'l'
   AND instr(t.text, ' --l' || t.place) > 0
   AND l.number = 0 + substr(t.text, instr(t.text, ' --l' || t.place) + 4 + length(t.place));
 
--- Not public: one row for each place of a machine that has a module.
-CREATE VIEW machine_module AS
+-- Not public: one row for each place of a machine or a tree that has a module. Those of a tree's subtree 1
+-- are c10 and a11; all subtrees can be reached.
+CREATE VIEW module_place AS
 SELECT m.candidate, m.design, n.name AS module,
-       instr(m.reached, ' ' || (0 + substr(j.value, 2)) || ' ') > 0 AS reachable
+       m.text GLOB '--nroot*' OR instr(m.reached, ' ' || (0 + substr(j.value, 2)) || ' ') > 0
+         AS reachable
 FROM machine_reach AS m
 JOIN json_each(m.words) AS j ON j.value GLOB 's[0-9]*' OR j.value GLOB 'c[0-9]*x[0-9]*'
-LEFT JOIN flavour_name AS n ON n.flavour = m.flavour AND n.kind = substr(j.value, 1, 1)
+  OR j.value GLOB 'a[0-9]1 *' OR j.value GLOB 'c[0-9]0 *'
+LEFT JOIN flavour_name AS n ON n.flavour = m.flavour
+  AND n.kind = replace(substr(j.value, 1, 1), 'a', 's')
   AND n.number = 0 + substr(j.value, instr(j.value, ' '));
 
 CREATE VIEW v_modules AS
 SELECT candidate, design, module, count(*) AS occurrences, sum(reachable) AS reachable
-FROM machine_module
+FROM module_place
 GROUP BY candidate, design, module;
 
--- Over the winners of finished designs; a module that another winner of the store has counts as 0,
--- and as NULL where the flavour has no such module.
+-- Over the winners of finished designs that are made of modules, which networks are not; a module that
+-- another winner of the store has counts as 0, and as NULL where the flavour has no such module.
 CREATE VIEW v_module_frequency AS
 WITH winner AS (
   SELECT id AS design, mission, method, flavour, best AS candidate
   FROM design WHERE state = 3 AND best IS NOT NULL AND flavour <> ''
 ), held AS MATERIALIZED (
   SELECT w.design, m.module, count(*) AS occurrences, sum(m.reachable) AS reachable
-  FROM winner AS w CROSS JOIN machine_module AS m ON m.candidate = w.candidate
+  FROM winner AS w CROSS JOIN module_place AS m ON m.candidate = w.candidate
   GROUP BY w.design, m.module
 )
 SELECT mission, method, module,
@@ -329,7 +333,8 @@ FROM (
   CROSS JOIN (SELECT DISTINCT module FROM held) AS m
   LEFT JOIN flavour_name AS n
     ON n.flavour = w.flavour AND n.kind IN ('s', 'c') AND n.name = m.module
-  LEFT JOIN held AS h ON h.design = w.design AND h.module = m.module)
+  LEFT JOIN held AS h ON h.design = w.design AND h.module = m.module
+  WHERE w.design IN (SELECT design FROM held))
 GROUP BY mission, method, module;
 
 CREATE VIEW v_eliminations AS

@@ -41,12 +41,20 @@ def random_words(parameters, rng):
 class IraceExport(ProgramTest):
     budget = 2000
 
-    def test_the_target_runner_prints_minus_the_score_of_the_words(self):
+    def method(self, keys):
+        """The campaign of the other tests, with another method and in the profile of its flavour."""
+        text = self.file.read_text()
+        self.assertIn('flavour = "watermelon-argos3"\n', text)
+        self.file.write_text(text.replace('flavour = "watermelon-argos3"\n',
+                                          f'flavour = "watermelon-argos3"\n{keys}\n'))
+
+    def scores_are_those_of(self, variables, text_of=" ".join):
+        """What the target-runner says of random words beside what `evaluate` says of their text."""
         folder = self.folder / "irace"
         done = call("export", self.file, "--format", "irace", "-o", folder)
         self.assertEqual(done.returncode, 0, done.stderr)
         parameters = read_parameters((folder / "parameters.txt").read_text())
-        self.assertEqual(len(parameters), 149)
+        self.assertEqual(len(parameters), variables)
         rng = random.Random(11)
         scores = set()
         for number in range(20):
@@ -55,14 +63,27 @@ class IraceExport(ProgramTest):
             run = subprocess.run([folder / "target-runner", str(number), "1", str(seed), "aggregation", *words],
                                  capture_output=True, text=True, timeout=60, cwd="/")
             self.assertEqual(run.returncode, 0, run.stderr)
-            machine = self.folder / "machine.fsm"
-            machine.write_text(" ".join(words))
-            ours = call("evaluate", machine, "--flavour", "watermelon-argos3", "--profile", "argos3",
+            file = self.folder / "software.txt"
+            file.write_text(text_of(words))
+            ours = call("evaluate", file, "--flavour", "watermelon-argos3", "--profile", "argos3",
                         "--mission", "aggregation", "--seeds", seed, "--json")
             score = json.loads(ours.stdout)["score"]
             self.assertEqual(float(run.stdout), -score, words)
             scores.add(score)
         self.assertGreater(len(scores), 1)
+        return (folder / "README").read_text()
+
+    def test_the_target_runner_prints_minus_the_score_of_the_words(self):
+        self.assertIn("from --nstates on", self.scores_are_those_of(149))
+
+    def test_words_are_those_of_trees(self):
+        self.method('method = "maple"')
+        self.assertIn("from --nroot on", self.scores_are_those_of(66))
+
+    def test_words_are_those_of_networks(self):
+        self.method('method = "evostick"')
+        said = self.scores_are_those_of(26, lambda words: "--network rvr --weights " + ",".join(words))
+        self.assertIn("-- --network rvr --weights W1,W2,...", said)
 
     def test_words_that_are_no_machine_are_an_error_for_irace(self):
         folder = self.folder / "irace"

@@ -282,6 +282,32 @@ TEST_F(MachineViewsTest, AModuleThatAFlavourLacksHasNoCount) {
                           Cells{"watermelon", "phototaxis", "NULL", "NULL"}));
 }
 
+TEST_F(MachineViewsTest, TreesHaveModulesAndNetworksHaveNone) {
+  store({{"watermelon",
+          "--nroot 3 --nchildroot 2 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 0.5 --n01 5 --a01 2 "
+          "--att01 2.1 --p01 0 --n1 0 --nchild1 2 --n10 6 --c10 5 --p10 0.26 --n11 5 --a11 1 "
+          "--p11 0"},
+         {"chocolate",
+          "--nroot 3 --nchildroot 1 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 1 --n01 5 "
+          "--a01 4 --att01 2 --p01 0"},
+         {"watermelon-argos3", "--network rvr-gray --weights 0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0"}});
+  EXPECT_THAT(
+      all("SELECT * FROM v_modules WHERE design = 1"),
+      ElementsAre(Cells{"1", "1", "attraction", "1", "1"}, Cells{"1", "1", "black_floor", "1", "1"},
+                  Cells{"1", "1", "fixed_probability", "1", "1"},
+                  Cells{"1", "1", "stop", "1", "1"}));
+  EXPECT_THAT(
+      all("SELECT method, module, avg_occurrences, reachable_rate FROM v_module_frequency"),
+      ElementsAre(
+          Cells{"chocolate", "attraction", "1", "1"}, Cells{"chocolate", "black_floor", "1", "1"},
+          Cells{"chocolate", "fixed_probability", "0", "0"}, Cells{"chocolate", "stop", "0", "0"},
+          Cells{"watermelon", "attraction", "1", "1"}, Cells{"watermelon", "black_floor", "1", "1"},
+          Cells{"watermelon", "fixed_probability", "1", "1"},
+          Cells{"watermelon", "stop", "1", "1"}));
+  for (const std::string view : {"v_states", "v_transitions"})
+    EXPECT_THAT(all("SELECT * FROM " + view), IsEmpty()) << view;
+}
+
 TEST_F(MachineViewsTest, ParametersOfAProgramAreNoMachine) {
   store({{"", "--alpha 2 --s0 1 --text \"a b\""}, {"", "-n0x0 --nstates x"}, {"", ""}});
   for (const std::string view : {"v_states", "v_transitions", "v_modules", "v_module_frequency"})

@@ -22,7 +22,7 @@ std::string of_design(std::string_view text, DesignId design) {
 void write_machine(ReportDraft& draft, const DesignRecord& design) {
   if (!design.best) return;
   const std::string name = to_string(*design.best);
-  draft.page().heading(3, fmt::format("The best machine of {}", to_string(design.design)), false);
+  draft.page().heading(3, fmt::format("The winner of {}", to_string(design.design)), false);
   if (!design.flavour.empty()) {
     draft.figure(
         "machine",
@@ -40,7 +40,7 @@ void write_race(ReportDraft& draft, const DesignRecord& design) {
   const FigureOptions whole{.filter = {.design = design.design}, .width_mm = kWholeWidth};
   draft.page().heading(3, fmt::format("The race of {}", to_string(design.design)), false);
   draft.figure("convergence", {.filter = {.design = design.design}, .width_mm = kColumnWidth},
-               "Mean score of the best machine over the experiments used.");
+               "Mean score of the best candidate over the experiments used.");
   draft.table(
       "Iterations (v_iterations, v_race_steps, v_eliminations, v_convergence). A mean is that of "
       "the best candidate at the end of the iteration, over n pairs.",
@@ -155,7 +155,7 @@ void write_design(ReportDraft& draft, const DesignRecord& design) {
       {"state", design.state},
       {"experiments", fmt::format("{} of {}", design.used, design.budget)},
       {"iterations", fmt::format("{}", design.iteration)}};
-  if (design.best) facts.emplace_back("best machine", to_string(*design.best));
+  if (design.best) facts.emplace_back("winner", to_string(*design.best));
   if (design.best_mean) facts.emplace_back("its mean in the race", shown_number(*design.best_mean));
   page.facts("How it ended (v_designs).", facts);
   write_machine(draft, design);

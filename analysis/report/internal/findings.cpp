@@ -73,7 +73,7 @@ void write_best_machines(ReportDraft& draft) {
   if (best.size() > kMostMissions) best.resize(kMostMissions);
   HtmlPage& page = draft.page();
   const auto what = [](const Best& winner) {
-    return fmt::format("the best machine on {}, {} of {}", as_words(winner.mission),
+    return fmt::format("the winner on {}, {} of {}", as_words(winner.mission),
                        to_string(winner.candidate), to_string(winner.design));
   };
   page.begin_grid();

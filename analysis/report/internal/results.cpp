@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 #include <string>
@@ -152,16 +153,37 @@ void write_modules(ReportDraft& draft) {
   draft.page().end_folded();
 }
 
+/// What the drawings show, of the architectures that there are.
+std::string how_to_read(ReportDraft& draft) {
+  constexpr std::array kKinds = {
+      std::pair{"--nstates*",
+                "A circle is a state with its behaviour, a double one the initial state; between "
+                "them the conditions with their parameters. Grey states cannot be reached."},
+      std::pair{"--nroot*",
+                "A tree's subtrees take turns from left to right: each acts until its condition "
+                "holds."},
+      std::pair{"--network*", "A network is its weights: inputs and wheels."}};
+  std::string text;
+  for (const auto& [pattern, sentence] : kKinds) {
+    const auto found = draft.take(draft.store().query(
+        fmt::format("SELECT 1 FROM v_designs AS d JOIN v_candidates AS c "
+                    "ON c.candidate = d.best_candidate AND c.design = d.design "
+                    "WHERE c.fsm_config GLOB '{}' LIMIT 1",
+                    pattern),
+        {}, [](const auto&) {}, [](const auto&) {}));
+    if (found.rows > 0) text += (text.empty() ? "" : " ") + std::string(sentence);
+  }
+  return text;
+}
+
 void write_machines(ReportDraft& draft, const std::vector<DesignRecord>& designs) {
   const auto has_machine = [](const DesignRecord& design) {
     return design.best && !design.flavour.empty();
   };
   if (std::ranges::none_of(designs, has_machine)) return;
   HtmlPage& page = draft.page();
-  page.heading(2, "Machines of the winners");
-  page.paragraph(
-      "A circle is a state with its behaviour, a double one the initial state; between them the "
-      "conditions with their parameters. Grey states cannot be reached.");
+  page.heading(2, "The winners, drawn");
+  page.paragraph(how_to_read(draft));
   page.begin_grid();
   for (const DesignRecord& design : designs) {
     if (!has_machine(design)) continue;
@@ -176,9 +198,9 @@ void write_races(ReportDraft& draft, const std::vector<DesignRecord>& designs) {
   HtmlPage& page = draft.page();
   page.heading(2, "Races");
   draft.figure("convergence", {.width_mm = kMiddleWidth},
-               "Mean score of each design's best machine over the experiments used.");
+               "Mean score of each design's best candidate over the experiments used.");
   draft.table(
-      "Designs: one iterated race each (v_designs).",
+      "Designs: one search each (v_designs).",
       {{"design", Show::Design},
        {"mission", Show::Name},
        {"method"},

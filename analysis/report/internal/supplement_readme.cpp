@@ -21,10 +21,10 @@ struct Kind {
 
 constexpr Kind kKinds[] = {
     {"report.html", "report.html", "",
-     "results, statistics, modules, machines, races, what was asked, provenance; opens in any "
+     "results, statistics, modules, winners, races, what was asked, provenance; opens in any "
      "browser, offline"},
     {"designs/*.html", "designs/", ".html",
-     "a page a design: its machine, race, elites, parameters"},
+     "a page a design: its winner, race, elites, parameters"},
     {"results.csv", "results.csv", "",
      "a row a score that a winner got after its race: design, mission, method, repetition, "
      "candidate, source (the simulator's profile, `real`, ...), purpose, instance, seed, score"},
@@ -46,9 +46,11 @@ constexpr Kind kKinds[] = {
     {"instances/*-patches.csv", "instances/", "-patches.csv",
      "where the coloured patches lay in each seed: metres; `evaluate --patches` reads it"},
     {"controllers/*.txt", "controllers/", ".txt",
-     "each design's best machine as text of AutoMoDe's grammar, or the switches of a program"},
+     "each design's winner as text: of AutoMoDe's grammar, a network's weights, or the switches of "
+     "a program"},
     {"controllers/*.json", "controllers/", ".json", "the same with parameters, modules and scores"},
     {"controllers/*.svg", "controllers/", ".svg", "the same as a drawing"},
+    {"controllers/*.csv", "controllers/", ".csv", "the same of trees and networks, as a table"},
     {"controllers/*.dot", "controllers/", ".dot", "the same for Graphviz"},
     {"controllers/*.tex", "controllers/", ".tex", "the same as TikZ, for \\input"},
     {"figures/*.svg", "figures/", ".svg", "figures, fonts as text"},

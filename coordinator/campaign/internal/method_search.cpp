@@ -118,6 +118,15 @@ void read_pair(TableReader& table, Method& method, bool is_file) {
     method.search.kind =
         *std::ranges::find(all_searches(), *name, [](SearchKind kind) { return name_of(kind); });
   }
+  const bool wants_reals =
+      method.search.kind == SearchKind::Evolution || method.search.kind == SearchKind::CmaEs;
+  if (wants_reals && !is_file && method.architecture != Architecture::Network) {
+    table.complain("search", "the search " + std::string(name_of(method.search.kind)) +
+                                 " needs reals without conditions, such as the weights of "
+                                 "networks (`architecture = \"network\"`), and a " +
+                                 std::string(name_of(method.architecture)) +
+                                 " has modules to choose");
+  }
   if (is_file && method.architecture != Architecture::Machine) {
     table.complain(
         table.has("method") ? "method" : "architecture",
@@ -153,6 +162,13 @@ void read_numbers(TableReader& table, Method& method) {
     if (kind == SearchKind::Evolution) {
       if (const auto mutation = options->choice("mutation", kMutations))
         method.search.evolution.mutation = *mutation == "neat" ? Mutation::Neat : Mutation::Normal;
+      const EvolutionOptions& read = method.search.evolution;
+      if (read.elites > read.parents) {
+        options->complain(options->has("elites") ? "elites" : "parents",
+                          "`elites` (" + number_text(read.elites) + ") is at most `parents` (" +
+                              number_text(read.parents) +
+                              "): who goes on unchanged has children, too");
+      }
     }
     if (kind == SearchKind::Annealing) {
       if (const auto cooling = options->choice("cooling", kCoolings))
@@ -162,6 +178,13 @@ void read_numbers(TableReader& table, Method& method) {
         method.search.annealing.start_at_random = *random;
       if (method.search.annealing.moved > method.search.annealing.window)
         options->complain("moved", "`moved` is at most `window`: a window moves on by parts of it");
+      const AnnealingOptions& read = method.search.annealing;
+      if (read.start_temperature > 0 && read.end_temperature > read.start_temperature) {
+        options->complain(options->has("end_temperature") ? "end_temperature" : "start_temperature",
+                          "`end_temperature` (" + number_text(read.end_temperature) +
+                              ") is at most `start_temperature` (" +
+                              number_text(read.start_temperature) + "): annealing cools");
+      }
     }
     options->finish();
   }

@@ -306,9 +306,11 @@ void refuse_foreign_keys(TableReader& table, const Method& method) {
     if (!table.has(foreign.key) || std::ranges::count(foreign.of, method.architecture) > 0)
       continue;
     table.take(foreign.key);
-    table.complain(foreign.key, "`" + std::string(foreign.key) + "` is for " +
-                                    std::string(name_of(foreign.of.front())) +
-                                    "s, and this method's architecture is " +
+    std::string those;
+    for (const Architecture architecture : foreign.of)
+      those += (those.empty() ? "" : " and ") + std::string(name_of(architecture)) + "s";
+    table.complain(foreign.key, "`" + std::string(foreign.key) + "` is for " + those +
+                                    ", and this method's architecture is " +
                                     std::string(name_of(method.architecture)));
   }
 }

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "coordinator/campaign/internal/race_options.h"
@@ -77,14 +79,41 @@ void refuse_options_of_races(TableReader& race) {
   }
 }
 
+/// Where nobody races iteratively: what f-race has its own values for. Their usual values may stand
+/// there, as they do in the text that stores have.
+void refuse_options_of_irace(TableReader& race, const Scenario& read) {
+  static constexpr std::array kIntegers = {
+      std::pair{"nb_iterations", &Scenario::nb_iterations},
+      std::pair{"nb_configurations", &Scenario::nb_configurations},
+      std::pair{"min_nb_survival", &Scenario::min_nb_survival},
+      std::pair{"elitist_limit", &Scenario::elitist_limit},
+      std::pair{"elitist_new_instances", &Scenario::elitist_new_instances}};
+  static constexpr std::array kFlags = {std::pair{"elitist", &Scenario::elitist},
+                                        std::pair{"soft_restart", &Scenario::soft_restart},
+                                        std::pair{"postselection", &Scenario::postselection}};
+  const Scenario usual;
+  const auto refuse = [&](const auto& options) {
+    for (const auto& [key, member] : options) {
+      if (!race.has(key) || read.*member == usual.*member) continue;
+      race.complain(key, "`" + std::string(key) +
+                             "` is for the search irace, and no method of this campaign uses it; "
+                             "f-race has `configurations` in [method.f-race]");
+    }
+  };
+  refuse(kIntegers);
+  refuse(kFlags);
+}
+
+bool uses(const Campaign& campaign, SearchKind kind) {
+  return campaign.methods.empty() ||
+         std::ranges::count(campaign.methods, kind, [](const Method& m) { return m.search.kind; }) >
+             0;
+}
+
 }  // namespace
 
 bool has_races(const Campaign& campaign) {
-  return campaign.methods.empty() ||
-         std::ranges::any_of(campaign.methods, [](const Method& method) {
-           return method.search.kind == SearchKind::Irace ||
-                  method.search.kind == SearchKind::FRace;
-         });
+  return uses(campaign, SearchKind::Irace) || uses(campaign, SearchKind::FRace);
 }
 
 void read_race(TableReader& root, const std::filesystem::path& folder, Campaign& campaign) {
@@ -100,6 +129,8 @@ void read_race(TableReader& root, const std::filesystem::path& folder, Campaign&
   const std::size_t before = race->complaints();
   if (!has_races(campaign)) refuse_options_of_races(*race);
   read_numbers(*race, campaign.race);
+  if (has_races(campaign) && !uses(campaign, SearchKind::Irace))
+    refuse_options_of_irace(*race, campaign.race);
   campaign.digits = race->integer("digits", {1, 15}).value_or(campaign.digits);
   campaign.test_nb_elites =
       race->integer("test_nb_elites", {0, 1000}).value_or(campaign.test_nb_elites);

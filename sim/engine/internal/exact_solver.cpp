@@ -186,8 +186,11 @@ class ExactSolver final : public ContactSolver {
         if (change * robots_[i].give >= kSettled_Ns) relax_drive(movers[i].set_point, robots_[i]);
       }
       change = 0;
-      for (Constraint& c : constraints_)
-        change = std::max(change, relax(c, robots_[c.a], robots_[c.b]));
+      for (Constraint& c : constraints_) {
+        AtRest wall;
+        change = std::max(change, c.share_b == 0 ? relax(c, robots_[c.a], wall)
+                                                 : relax(c, robots_[c.a], robots_[c.b]));
+      }
     }
   }
 

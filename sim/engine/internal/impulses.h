@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <type_traits>
 
 #include "sim/engine/internal/contacts.h"
 
@@ -32,6 +33,13 @@ struct Dynamic {
   bool touched = false;
 };
 
+/// The other body of a contact with a wall in the rounds: what Dynamic is there, known beforehand.
+struct AtRest {
+  static constexpr double vx = 0;
+  static constexpr double vy = 0;
+  static constexpr double spin = 0;
+};
+
 /// Along one direction of a contact, from a to b.
 struct Direction {
   double arm_a = 0;  ///< lever arms of an impulse
@@ -46,7 +54,8 @@ struct Direction {
   double turns_a = 0;
   double turns_b = 0;
 
-  double stopping_Ns(const Dynamic& a, const Dynamic& b) const {
+  template <class Other>
+  double stopping_Ns(const Dynamic& a, const Other& b) const {
     return -((x * (b.vx - a.vx) + y * (b.vy - a.vy)) + (spin_b * b.spin - spin_a * a.spin));
   }
 };
@@ -100,28 +109,32 @@ inline void set_constraint(Constraint& c, const Contact& contact, std::size_t b,
 }
 
 /// Impulses along the normal and along the face, from a to b.
-inline void push_apart(const Constraint& c, Dynamic& a, Dynamic& b, double normal_Ns,
-                       double friction_Ns) {
+template <class Other>
+void push_apart(const Constraint& c, Dynamic& a, Other& b, double normal_Ns, double friction_Ns) {
   const double x = c.pushes_x * normal_Ns - c.pushes_y * friction_Ns;
   const double y = c.pushes_y * normal_Ns + c.pushes_x * friction_Ns;
   a.vx -= x;
   a.vy -= y;
   a.spin -= c.normal.turns_a * normal_Ns + c.face.turns_a * friction_Ns;
-  b.vx += c.share_b * x;
-  b.vy += c.share_b * y;
-  b.spin += c.normal.turns_b * normal_Ns + c.face.turns_b * friction_Ns;
+  if constexpr (std::is_same_v<Other, Dynamic>) {
+    b.vx += c.share_b * x;
+    b.vy += c.share_b * y;
+    b.spin += c.normal.turns_b * normal_Ns + c.face.turns_b * friction_Ns;
+  }
 }
 
 /// One round for one contact; the bound of its friction is that of the normal impulse before, as in
 /// Box2D. Returns the largest change. Written for short chains of operations that wait for each
-/// other: they are what a round costs.
-inline double relax(Constraint& c, Dynamic& a, Dynamic& b) {
+/// other: they are what a round costs. `b` is AtRest of a wall, with the same bits.
+template <class Other>
+double relax(Constraint& c, Dynamic& a, Other& b) {
   const double normal_change = std::max(c.normal.stopping_Ns(a, b), -c.normal_Ns);
   const double bound = kFriction * c.normal_Ns;
   double stopping = c.face.stopping_Ns(a, b);
   if (c.coupling != 0) stopping -= c.coupling * normal_change;
+  // Selected, not branched to: who slides and who sticks changes from one round to the next.
   const double friction_change =
-      std::clamp(stopping, -bound - c.friction_Ns, bound - c.friction_Ns);
+      std::min(std::max(stopping, -bound - c.friction_Ns), bound - c.friction_Ns);
   c.normal_Ns += normal_change;
   c.friction_Ns += friction_change;
   push_apart(c, a, b, normal_change, friction_change);

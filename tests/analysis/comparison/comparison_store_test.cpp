@@ -35,6 +35,42 @@ TEST_F(ComparisonStoreTest, SummarisesTheWinnersTests) {
   EXPECT_NEAR(comparison->groups.front().summary.mean, std::stod(mean.front().front()), 1e-9);
 }
 
+TEST_F(ComparisonStoreTest, SaysWhichMethodUsedMuchLessThanItsBudget) {
+  SyntheticCampaign made = synthetic_campaign({.designs = 2, .tests = 4});
+  made.designs[0].method = "all";
+  made.designs[1].method = "half";
+  made.designs[0].mission = made.designs[1].mission = "m";
+  for (DesignRow& design : made.designs)
+    design.budget = 1000;
+  {
+    auto store = open_store(folder / "two.db", made);
+    for (const auto& batch : made.batches)
+      store->append(batch);
+    std::vector<Row> ends;
+    for (const auto& batch : made.batches) {
+      for (const Row& row : batch) {
+        const auto* state = std::get_if<DesignStateRow>(&row);
+        if (state == nullptr || state->state != DesignState::Finished) continue;
+        DesignStateRow end = *state;
+        end.used = end.design == made.designs[0].id ? 960 : 480;
+        ends.emplace_back(end);
+      }
+    }
+    ASSERT_EQ(ends.size(), 2U);
+    store->append(std::move(ends));
+  }
+  const auto two = open_reader(folder / "two.db");
+  const auto comparison = compare(*two, {.by = CompareBy::Method});
+  ASSERT_TRUE(comparison) << to_string(comparison.error());
+  EXPECT_THAT(
+      comparison->notes,
+      testing::Contains("half used 48 % of its experiments (480 of 1000): compare with what "
+                        "the others used"));
+  EXPECT_THAT(comparison->notes, testing::Not(testing::Contains(testing::HasSubstr("all used"))));
+  EXPECT_THAT(compare(*two, {.by = CompareBy::Mission})->notes,
+              testing::Not(testing::Contains(testing::HasSubstr("of its experiments"))));
+}
+
 TEST_F(ComparisonStoreTest, NamesWhatThereIsWhenSomethingElseIsAskedFor) {
   const auto mission = compare(*reader, {.missions = {"nowhere"}});
   ASSERT_FALSE(mission);

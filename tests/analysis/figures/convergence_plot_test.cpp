@@ -16,7 +16,7 @@ using testing::IsEmpty;
 
 ConvergencePlot plot_of(std::size_t panels, std::size_t lines, double width_mm = 84) {
   ConvergencePlot plot{.title = "Convergence",
-                       .details = {"Best machine of many designs"},
+                       .details = {"Best candidate of many designs"},
                        .groups = {"watermelon", "chocolate"},
                        .width_mm = width_mm};
   for (std::size_t p = 0; p < panels; ++p) {

@@ -83,7 +83,7 @@ TEST_F(ReportTest, ListsWhatItsContentsPromise) {
   for (std::sregex_iterator it(text.begin(), text.end(), link), end; it != end; ++it, ++links)
     EXPECT_THAT(text, HasSubstr(" id=\"" + (*it)[1].str() + "\""));
   EXPECT_GT(links, 5U);
-  for (const char* part : {"Result", "Scores", "Machines of the winners", "Races", "What was asked",
+  for (const char* part : {"Result", "Scores", "The winners, drawn", "Races", "What was asked",
                            "Design d1:", "Design d2:", "The race of d1", "Parameters of d1",
                            "Where it comes from", "All settings"}) {
     EXPECT_THAT(text, HasSubstr(part));

@@ -4,7 +4,9 @@
 
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/machine_space.h"
+#include "coordinator/campaign/tree_space.h"
 #include "sim/control/machine_text.h"
+#include "sim/control/tree.h"
 #include "tests/coordinator/campaign/campaign_support.h"
 
 namespace swarmsmith {
@@ -70,6 +72,34 @@ INSTANTIATE_TEST_SUITE_P(
         "max_states = 2\nmax_transitions = 1\nbehaviours = [\"stop\", \"exploration\"]\n"
         "conditions = [\"white_floor\", \"black_floor\"]\n"
         "parameters.white_floor.beta = { real = [0.5, 1] }\n"));
+
+class IraceGrammarOfTrees : public testing::TestWithParam<std::string> {};
+
+TEST_P(IraceGrammarOfTrees, HasCommandLinesThatAreTheTreesOfTheNamedSpace) {
+  const Method method = parsed(FileText{.method = "name = \"m\"\nmethod = \"maple\"\n" + GetParam(),
+                                        .race = "max_experiments = 100000\n"}
+                                   .text())
+                            .methods[0];
+  const Flavour& flavour = **find_flavour(method.flavour);
+  const auto named = TreeSpace::make(method, flavour, 2);
+  const auto grammar = TreeSpace::in_grammar(method, flavour, 2);
+  ASSERT_TRUE(named && grammar);
+  Rng rng(17);
+  for (int i = 0; i < 300; ++i) {
+    const Configuration configuration = random_configuration(named->parameters(), rng);
+    const Configuration same = in_grammar(*grammar, named->parameters(), configuration);
+    ASSERT_TRUE(grammar->check(same)) << to_string(grammar->check(same).error());
+    const std::string text = command_line(*grammar, same);
+    const auto tree = parse_tree(text, flavour);
+    ASSERT_TRUE(tree) << text << "\n" << to_string(tree.error());
+    EXPECT_EQ(*tree, named->to_tree(configuration)) << text;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, IraceGrammarOfTrees,
+                         testing::Values("", "flavour = \"chocolate\"\n", "max_subtrees = 1\n",
+                                         "max_subtrees = 3\nbehaviours = [\"stop\", "
+                                         "\"exploration\"]\nconditions = [\"white_floor\"]\n"));
 
 std::string file_of(const std::vector<NamedText>& files, const std::string& name) {
   for (const NamedText& file : files) {

@@ -140,12 +140,25 @@ TEST(Methods, SaysWhatDoesNotFitTogether) {
   EXPECT_THAT(complaint_about("method = \"evostick\"\n[method.network]\ninputs = \"rm1.2\"\n"),
               HasSubstr("the flavour watermelon has not"));
   EXPECT_THAT(complaint_about("search = \"cma-es\"\n"),
-              HasSubstr("needs reals without conditions"));
+              HasSubstr(":7:10: the search cma-es needs reals without conditions"));
+  EXPECT_THAT(complaint_about("architecture = \"tree\"\nsearch = \"evolution\"\n"),
+              HasSubstr("and a tree has modules to choose"));
+  EXPECT_THAT(complaint_about("method = \"evostick\"\nbehaviours = [\"stop\"]\n"),
+              HasSubstr("`behaviours` is for machines and trees"));
   EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\nwindow = 2\nmoved = 3\n"),
               HasSubstr("at most `window`"));
+  EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\nend_temperature = 2\n"),
+              HasSubstr("`end_temperature` (2) is at most `start_temperature` (1)"));
+  EXPECT_EQ(complaint_about("method = \"icepop\"\n[method.annealing]\nstart_temperature = 0\n"),
+            "read");
+  EXPECT_THAT(complaint_about("method = \"evostick\"\n[method.evolution]\nparents = 0.1\n"),
+              HasSubstr("`elites` (0.2) is at most `parents` (0.1)"));
   EXPECT_THAT(
       complaint_about("method = \"random\"\n", "first_test = 3\n"),
       HasSubstr("`first_test` is an option of races, and no method of this campaign races"));
+  EXPECT_THAT(complaint_about("method = \"vanilla\"\n", "nb_iterations = 3\n"),
+              HasSubstr("`nb_iterations` is for the search irace"));
+  EXPECT_EQ(complaint_about("method = \"vanilla\"\n", "elitist = true\nfirst_test = 3\n"), "read");
 }
 
 TEST(Methods, NameTheLeastBudgetThatWorks) {

@@ -1,5 +1,7 @@
-# Rscript record_non_elitist.R > non_elitist_traces.json: races without elitism, as the irace
-# package of Debian 12 (3.5) runs them; all costs, and what the console says of each task.
+# Races without elitism, as the irace package of Debian 12 (3.5) runs them; all costs, and what the
+# console says of each task.
+#   Rscript record_non_elitist.R > non_elitist_traces.json
+#   Rscript record_non_elitist.R f-race > f_race_traces.json    one race alone: our search f-race
 suppressMessages(library(irace))
 
 cost <- function(x, y, seed) {
@@ -14,8 +16,8 @@ observe <- function(seed, options) {
     list(cost = cost(value[["x"]], value[["y"]], experiment$seed))
   }
   log_file <- tempfile(fileext = ".Rdata")
-  scenario <- c(list(targetRunner = target, instances = 1:6, seed = seed, elitist = 0, digits = 4,
-                     maxExperiments = 400, logFile = log_file), options)
+  scenario <- modifyList(list(targetRunner = target, instances = 1:6, seed = seed, elitist = 0,
+                              digits = 4, maxExperiments = 400, logFile = log_file), options)
   parameters <- readParameters(text = 'x "" r (0,1)\ny "" r (0,1)\n')
   console <- capture.output(irace(scenario, parameters))
   load(log_file)
@@ -69,6 +71,12 @@ defaults <- list(testType = "F-test", firstTest = 5, eachTest = 1, confidence = 
 cases <- list(list(), list(testType = "t-test"), list(testType = "t-test-holm"),
               list(testType = "t-test-bonferroni", eachTest = 2, firstTest = 4),
               list(firstTest = 6, eachTest = 3, confidence = 0.8))
+if (identical(commandArgs(TRUE), "f-race")) {
+  defaults <- c(defaults, list(nbIterations = 1, nbConfigurations = 200, elitistLimit = 0,
+                               softRestart = 0, minNbSurvival = 1, maxExperiments = 4000))
+  cases <- list(list(), list(), list(confidence = 0.999, maxExperiments = 1250),
+                list(testType = "t-test"))
+}
 found <- character()
 for (seed in seq_along(cases)) {
   options <- modifyList(defaults, cases[[seed]])
