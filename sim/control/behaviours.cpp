@@ -72,7 +72,8 @@ Turn turn_from_front(Senses& senses, const Flavour& flavour) {
 /// signs of the components stand for the angle: within +-90 degrees, and to the right.
 Turn turn_from_sum(Senses& senses, const Flavour& flavour) {
   const double threshold = flavour.exploration.threshold;
-  const Vector2 sum = obstacle_vector(
+  // Not shortened: that would change no sign, and leave it longer than any flavour's threshold.
+  const Vector2 sum = obstacle_sum(
       senses.proximity(), neighbours_in_the_way(senses, flavour.obstacles), flavour.obstacles);
   const bool strong = sum.x * sum.x + sum.y * sum.y >= threshold * threshold;
   if (!strong || sum.x < 0) return Turn::None;

@@ -1,5 +1,6 @@
 #include "sim/control/machine_control.h"
 
+#include <cstdint>
 #include <variant>
 
 #include "base/assert.h"
@@ -7,9 +8,11 @@
 namespace swarmsmith {
 namespace {
 
-bool counts_neighbours(const Condition& condition) {
-  return std::holds_alternative<NeighbourCount>(condition) ||
-         std::holds_alternative<InvertedNeighbourCount>(condition);
+/// A colour as one number. Read byte by byte: the three were often just written one by one, and who
+/// reads two of them at once then waits.
+std::uint32_t number_of(const Rgb& color) {
+  return static_cast<std::uint32_t>(color.r) | static_cast<std::uint32_t>(color.g) << 8U |
+         static_cast<std::uint32_t>(color.b) << 16U;
 }
 
 }  // namespace
@@ -22,7 +25,17 @@ MachineControl::MachineControl(const Machine& machine, const Flavour& flavour, R
     const std::vector<Transition>& transitions = machine.states[i].transitions;
     SWARMSMITH_ASSERT(transitions.size() <= kMaxTransitions, "a state has at most 4 transitions");
     for (std::size_t j = 0; j < transitions.size(); ++j) {
-      if (counts_neighbours(transitions[j].condition)) sigmoids_[i][j].fill(-1);
+      const Condition& condition = transitions[j].condition;
+      Known& known = known_[i][j];
+      if (const auto* fixed = std::get_if<FixedProbability>(&condition)) {
+        known.probability = fixed->probability;
+      } else if (std::holds_alternative<NeighbourCount>(condition) ||
+                 std::holds_alternative<InvertedNeighbourCount>(condition)) {
+        known.reads = Reads::Neighbours;
+        known.by_count.fill(-1);
+      } else {
+        known.reads = Reads::Floor;
+      }
     }
   }
 }
@@ -44,27 +57,39 @@ Command MachineControl::step(Senses& senses) {
 void MachineControl::take_transition(Senses& senses) {
   const std::vector<Transition>& transitions =
       machine_->states[static_cast<std::size_t>(state_)].transitions;
-  std::array<int, kMaxTransitions> enabled_targets{};
+  std::array<int, kMaxTransitions> enabled_targets;
   std::size_t enabled = 0;
-  for (std::size_t j = 0; j < transitions.size(); ++j) {
-    const double probability = probability_of(transitions[j].condition, j, senses);
-    if (probability > 0 && rng_.bernoulli(probability)) {
-      enabled_targets[enabled++] = transitions[j].target;
+  std::uint32_t color = kNoColor;
+  Known* known = known_[static_cast<std::size_t>(state_)].data();
+  for (const Transition& transition : transitions) {
+    double probability = known->probability;
+    if (known->reads == Reads::Floor) {
+      if (color == kNoColor) color = number_of(senses.ground_color());
+      if (color != known->color) {
+        known->color = color;
+        known->probability = enabling_probability(transition.condition, senses, *flavour_);
+      }
+      probability = known->probability;
+    } else if (known->reads == Reads::Neighbours) {
+      probability = probability_of_count(*known, transition.condition, senses);
     }
+    if (probability > 0 && rng_.bernoulli(probability)) {
+      enabled_targets[enabled++] = transition.target;
+    }
+    ++known;
   }
   if (enabled == 0) return;
   state_ = enabled_targets[enabled == 1 ? 0 : rng_.below(enabled)];
   entered_ = true;
 }
 
-double MachineControl::probability_of(const Condition& condition, std::size_t transition,
-                                      Senses& senses) {
-  if (!counts_neighbours(condition)) return enabling_probability(condition, senses, *flavour_);
+double MachineControl::probability_of_count(Known& known, const Condition& condition,
+                                            Senses& senses) const {
   const std::size_t n = senses.neighbours().size();
   if (n >= kTabledNeighbours) return enabling_probability(condition, senses, *flavour_);
-  double& known = sigmoids_[static_cast<std::size_t>(state_)][transition][n];
-  if (known < 0) known = enabling_probability(condition, senses, *flavour_);
-  return known;
+  double& probability = known.by_count[n];
+  if (probability < 0) probability = enabling_probability(condition, senses, *flavour_);
+  return probability;
 }
 
 }  // namespace swarmsmith

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "base/rng.h"
 #include "sim/control/behaviours.h"
@@ -28,11 +29,23 @@ class MachineControl {
   int state() const { return state_; }
 
  private:
-  /// Enabling probabilities of the neighbour counts, filled in as counts turn up; -1 is unknown.
+  /// What a condition reads.
+  enum class Reads : std::uint8_t { Nothing, Floor, Neighbours };
   static constexpr int kTabledNeighbours = 8;
-  using SigmoidTable = std::array<double, kTabledNeighbours>;
+  static constexpr std::uint32_t kNoColor = 0xffffffff;
 
-  double probability_of(const Condition& condition, std::size_t transition, Senses& senses);
+  /// A transition with what is known of its enabling probability: of a condition that reads
+  /// nothing, the probability; of one that looks at the floor, that of the colour it saw last,
+  /// since robots stay on one for a while; of one that counts neighbours, those of the counts that
+  /// turned up, -1 where none did.
+  struct Known {
+    Reads reads = Reads::Nothing;
+    std::uint32_t color = kNoColor;
+    double probability = 0;
+    std::array<double, kTabledNeighbours> by_count;
+  };
+
+  double probability_of_count(Known& known, const Condition& condition, Senses& senses) const;
   void take_transition(Senses& senses);
 
   const Machine* machine_;
@@ -41,7 +54,7 @@ class MachineControl {
   int state_ = 0;
   bool entered_ = true;
   BehaviourMemory memory_;
-  std::array<std::array<SigmoidTable, kMaxTransitions>, kMaxStates> sigmoids_;
+  std::array<std::array<Known, kMaxTransitions>, kMaxStates> known_;
 };
 
 }  // namespace swarmsmith

@@ -63,8 +63,8 @@ double neighbour_strength(double distance_m, const ObstacleModel& model) {
   return ramp(distance_m, model.neighbour_near_m, model.neighbour_far_m);
 }
 
-Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
-                        const ObstacleModel& model) {
+Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
+                     const ObstacleModel& model) {
   Vector2 sum;
   if (neighbours.empty() && nothing_within(std::span(proximity), model.far_m)) return sum;
   sum = sum_along_sensors(obstacle_strengths(proximity, model));
@@ -73,6 +73,12 @@ Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neig
     sum.x += strength * neighbour.direction_x;
     sum.y += strength * neighbour.direction_y;
   }
+  return sum;
+}
+
+Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
+                        const ObstacleModel& model) {
+  Vector2 sum = obstacle_sum(proximity, neighbours, model);
   const double square = sum.x * sum.x + sum.y * sum.y;
   if (square > model.longest_sum * model.longest_sum) {
     const double factor = model.longest_sum / std::sqrt(square);

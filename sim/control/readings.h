@@ -62,6 +62,10 @@ double neighbour_strength(double distance_m, const ObstacleModel& model);
 /// section 4.1). Pass no neighbours when the model does not take them for obstacles.
 Vector2 obstacle_vector(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
                         const ObstacleModel& model);
+/// The same before it is shortened to the model's longest: for who asks for its direction, or
+/// whether it is longer than what is shorter than that.
+Vector2 obstacle_sum(const ProximityReadings& proximity, std::span<const Neighbour> neighbours,
+                     const ObstacleModel& model);
 
 /// Vector of the light: w_l of the thesis (eq. 5.1), each reading as light_i in [0, 1].
 Vector2 light_vector(const LightReadings& lux, const LightModel& model);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <bit>
 #include <cstdint>
-#include <cstring>
 #include <deque>
 #include <stdexcept>
 #include <string>
@@ -26,12 +25,11 @@ struct LateCommand {
   Command command;
 };
 
-/// `to` becomes `from`, within the wheels' range. Part by part, and LEDs only when they change:
-/// after a copy in one piece, whoever reads a part of it next waits for all of it.
-void renew(Command& to, const Command& from) {
-  to.left_mps = within_wheel_speed(from.left_mps);
-  to.right_mps = within_wheel_speed(from.right_mps);
-  if (std::memcmp(&to.leds, &from.leds, sizeof to.leds) != 0) to.leds = from.leds;
+/// The treads' part of `to` becomes that of `from`. Part by part: after a copy in one piece,
+/// whoever reads a part of it next waits for all of it.
+void renew_treads(Command& to, const Command& from) {
+  to.left_mps = from.left_mps;
+  to.right_mps = from.right_mps;
 }
 
 /// A robot with what it needs to act on its own clock.
@@ -41,7 +39,7 @@ struct Agent {
   RobotClock clock;
   std::int64_t cycle = 0;              ///< control cycles done
   Command command{};                   ///< the last one computed
-  Command acting{};                    ///< what the drive follows
+  Command acting{};                    ///< what the drive follows; the treads' part alone
   std::deque<LateCommand> late{};      ///< oldest first
   const Readings* readings = nullptr;  ///< what the recorder asked for
 
@@ -98,10 +96,9 @@ class Run {
  private:
   /// Sensors, scores and digests would go on with what is no number, and say nothing of it.
   void check(std::int64_t now) const {
-    for (int i = 0; i < world_.movers(); ++i) {
-      if (!is_sound(world_.body(i))) [[unlikely]]
-        break_down(i, now);
-    }
+    const int unsound = world_.find_unsound();
+    if (unsound >= 0) [[unlikely]]
+      break_down(unsound, now);
   }
 
   [[noreturn]] void break_down(int mover, std::int64_t now) const {
@@ -123,7 +120,7 @@ class Run {
     if (acts) decide(agent, now);
     bool arrived = false;
     while (!agent.late.empty() && agent.late.front().from <= now) {
-      agent.acting = agent.late.front().command;
+      renew_treads(agent.acting, agent.late.front().command);
       agent.late.pop_front();
       arrived = true;
     }
@@ -140,11 +137,14 @@ class Run {
     agent.senses.begin_cycle({.number = agent.cycle,
                               .time_s = kSubStep_s * static_cast<double>(now),
                               .acted = agent.acting});
-    renew(agent.command, agent.control.step(agent.senses));
+    const Command command = agent.control.step(agent.senses);
+    agent.command.left_mps = within_wheel_speed(command.left_mps);
+    agent.command.right_mps = within_wheel_speed(command.right_mps);
+    if (recorder_.observe) agent.command.leds = command.leds;  // nobody else sees them
     if (!recorder_.sensors.empty()) agent.readings = &agent.senses.read(recorder_.sensors);
     const std::int64_t arrival = agent.clock.arrival_of_command(now);
     if (arrival == now && agent.late.empty()) {
-      renew(agent.acting, agent.command);
+      renew_treads(agent.acting, agent.command);
     } else {
       agent.late.push_back({arrival, agent.command});
     }

@@ -3,10 +3,13 @@ known (the program film)."""
 import json
 import math
 import pathlib
+import re
 import shutil
+import struct
 import subprocess
 import tempfile
 import unittest
+import zlib
 
 from programs import BIN, PATIENCE
 
@@ -107,6 +110,91 @@ class Truth(Laboratory):
         run = track("check", "arena.toml", "--json", cwd=self.root)
         self.assertEqual(run.returncode, 0, run.stderr)
         self.assertTrue(json.loads(run.stdout)["ready"])
+
+
+class Live(Laboratory):
+    def test_the_preview_says_what_the_board_covers_so_far(self):
+        # Pictures come at the pace of a video; how many of them are dropped is the machine's.
+        run = track("live", "--arena", self.arena, "--camera", self.root / "ceiling.board",
+                    "--board", BOARD, "--port", "0")
+        self.assertEqual(run.returncode, 0, run.stderr)
+        said = re.search(r"board: (\d+) views, (\d) of 9 ninths, (\d+) % of the frame", run.stderr)
+        self.assertIsNotNone(said, run.stderr)
+        views, ninths, share = map(int, said.groups())
+        self.assertGreater(views, 0)
+        self.assertGreater(ninths, 0)
+        self.assertGreater(share, 0)
+
+    def test_a_board_that_is_none(self):
+        self.refused(2, ["live", "--arena", self.arena, "--camera", self.root / "ceiling.board",
+                         "--board", "chess", "--port", "0"], "board")
+
+
+def cells_of_tag(folder, tag):
+    """The tag's 8 x 8 cells, True where black, from the sheet that is printed."""
+    sheet = folder / f"tag{tag}.svg"
+    run = track("print", "tags", "--ids", tag, "--edge", "0.10", "-o", sheet)
+    assert run.returncode == 0, run.stderr
+    # Rows of strokes: "M x y", "m dx dy", "h length", in mm of a sheet.
+    path = next(text for text in re.findall(r'd="(M[^"]*h[^"]*)"', sheet.read_text()))
+    edge, left, cells = 12.5, None, [[False] * 8 for _ in range(8)]
+    x = y = top = 0.0
+    for word, numbers in re.findall(r"([Mmh])([^Mmh]*)", path):
+        values = [float(number) for number in re.findall(r"-?[0-9.]+", numbers)]
+        if word == "h":
+            for k in range(round(values[0] / edge)):
+                cells[round((y - top) / edge)][round((x - left) / edge) + k] = True
+            x += values[0]
+            continue
+        x, y = (values[0], values[1]) if word == "M" else (x + values[0], y + values[1])
+        if left is None:
+            left, top = x, y
+    return cells
+
+
+def write_picture(file, cells, places, mirrored=False, size=(960, 540), cell=6):
+    """A grey PNG with one tag at each of the places, upright."""
+    rows = [bytearray(b"\xc0" * size[0]) for _ in range(size[1])]
+    for left, top in places:
+        for y in range(-cell, 9 * cell):
+            for x in range(-cell, 9 * cell):
+                inside = 0 <= x < 8 * cell and 0 <= y < 8 * cell
+                black = inside and cells[y // cell][x // cell]
+                rows[top + y][left + x] = 0x10 if black else 0xf0
+    lines = b"".join(b"\0" + (row[::-1] if mirrored else row) for row in rows)
+
+    def chunk(kind, data):
+        return (struct.pack(">I", len(data)) + kind + data +
+                struct.pack(">I", zlib.crc32(kind + data)))
+    file.write_bytes(b"\x89PNG\r\n\x1a\n" +
+                     chunk(b"IHDR", struct.pack(">IIBBBBB", *size, 8, 0, 0, 0, 0)) +
+                     chunk(b"IDAT", zlib.compress(lines)) + chunk(b"IEND", b""))
+
+
+class Pictures(Laboratory):
+    """What people put before the camera, and the advice that they get."""
+    places = [(90 + 200 * column, 60 + 160 * row) for row in range(3) for column in range(4)]
+
+    def test_twelve_floor_tags_of_one_number(self):
+        pictures = pathlib.Path(tempfile.mkdtemp(dir=self.copy.parent))
+        self.addCleanup(shutil.rmtree, pictures)
+        cells = cells_of_tag(pictures, 100)
+        write_picture(pictures / "same.png", cells, self.places)
+        self.refused(1, ["calibrate", "arena", pictures / "same.png", "--arena", self.arena],
+                     "tag 100 is in the picture 12 times: each floor tag has a number of its own")
+        seen = json.loads(track("detect", pictures / "same.png", "--json").stdout)
+        self.assertEqual([(tag["tag"], tag["twice"]) for tag in seen["tags"]], [(100, 1)])
+
+    def test_a_mirrored_picture(self):
+        pictures = pathlib.Path(tempfile.mkdtemp(dir=self.copy.parent))
+        self.addCleanup(shutil.rmtree, pictures)
+        cells = cells_of_tag(pictures, 100)
+        write_picture(pictures / "mirrored.png", cells, self.places[:3], mirrored=True)
+        self.refused(1, ["calibrate", "arena", pictures / "mirrored.png", "--arena", self.arena],
+                     "mirror")
+        run = track("detect", pictures / "mirrored.png", "--json")
+        self.assertEqual(json.loads(run.stdout)["tags"], [])
+        self.assertTrue(json.loads(run.stdout)["mirrored"])
 
 
 class Cameras(Laboratory):

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "sim/control/reference_model.h"
+#include "sim/engine/internal/two.h"
 #include "sim/mission/mission.h"
 #include "sim/mission/pose.h"
 
@@ -69,13 +70,24 @@ struct Dynamics {
 inline constexpr double kMostSound = 1e6;
 
 /// Whether all of its numbers are finite, and within `kMostSound`.
-bool is_sound(const Body& body);
+inline bool is_sound(const Body& body) {
+  // Written so that what is not a number is not sound.
+  const auto within = [](Two pair) { return (pair <= kMostSound) & (pair >= -kMostSound); };
+  const auto sound = within(Two{body.x, body.y}) & within(Two{body.cos, body.sin}) &
+                     within(Two{body.vx, body.vy}) & within(both(body.spin));
+  return (sound[0] & sound[1]) != 0;
+}
 
 /// A body that stands at the pose.
 Body body_at(const Pose& pose);
 Pose pose_of(const Body& body);
 
 /// Set-point of a command that starts to act at the body's present heading.
-SetPoint set_point_of(const Command& command, const Body& body);
+inline SetPoint set_point_of(const Command& command, const Body& body) {
+  const double speed = (command.left_mps + command.right_mps) / 2;
+  return {.vx = speed * body.cos,
+          .vy = speed * body.sin,
+          .spin = (command.right_mps - command.left_mps) / kWheelSeparation_m};
+}
 
 }  // namespace swarmsmith

@@ -87,14 +87,18 @@ class Corners {
   Point at(std::size_t i) const { return {pairs_[i / 2].x[i % 2], pairs_[i / 2].y[i % 2]}; }
   double distance2(std::size_t i) const { return pairs_[i / 2].distance2[i % 2]; }
 
-  /// The rays between two of them. Only which whole numbers lie between matters, so that the quick
-  /// way does wherever no such number, and no other border, is too close to tell.
-  Sweep sweep_between(std::size_t from, std::size_t to) const {
-    const Sweep quick = swarmsmith::sweep_between(quick_ray(from), quick_ray(to));
-    const bool sure = is_sure(from) && is_sure(to) && quick.width > 2 * kQuickError &&
-                      quick.width < kLidarRays / 2.0 - 2 * kQuickError;
-    if (sure) return quick;
-    return swarmsmith::sweep_between(ray_through(at(from)), ray_through(at(to)));
+  /// The rays between two of them, the quick way. Only which whole numbers lie between matters, so
+  /// that it does wherever no such number, and no other border, is too close to tell: where it is
+  /// sure.
+  Sweep quick_sweep(std::size_t from, std::size_t to) const {
+    return sweep_between(quick_ray(from), quick_ray(to));
+  }
+  bool is_sure(const Sweep& quick, std::size_t from, std::size_t to) const {
+    return is_sure(from) && is_sure(to) && quick.width > 2 * kQuickError &&
+           quick.width < kLidarRays / 2.0 - 2 * kQuickError;
+  }
+  Sweep exact_sweep(std::size_t from, std::size_t to) const {
+    return sweep_between(ray_through(at(from)), ray_through(at(to)));
   }
 
  private:
@@ -131,6 +135,10 @@ const Directions& directions_by_coordinate() {
   return directions;
 }
 
+/// Distances between these are within the lidar's limits, whatever rounding does.
+constexpr double kSurelyFar_m = kLidarLeast_m + 1e-6;
+constexpr double kSurelySeen_m = kLidarMost_m - 1e-6;
+
 /// One scan under way.
 class Scanner {
  public:
@@ -147,12 +155,23 @@ class Scanner {
       const Point& second = walls[std::min(i + 1, n - 1)].from;
       corners_.add(self_, Two{first.x, second.x}, Two{first.y, second.y});
     }
-    for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t i = 0; i < n; ++i) {
       add_face(i, i + 1 < n ? i + 1 : 0);
+      within_limits_ &= corners_.distance2(i) <= kSurelySeen_m * kSurelySeen_m;
+    }
+    for (std::size_t i = 0; i < seen_; ++i) {
+      const Face& face = faces_[i];
+      const double edge2 = face.edge.x * face.edge.x + face.edge.y * face.edge.y;
+      within_limits_ &= face.area * face.area >= kSurelyFar_m * kSurelyFar_m * edge2;
+    }
     meet_faces();
   }
 
   void meet_solid(const Form& form, const Body& at) {
+    const double distance2 = distance2_of(self_, at);
+    const double near = form.radius_m + kSurelyFar_m;
+    const double far = kSurelySeen_m - form.radius_m;
+    within_limits_ &= distance2 >= near * near && far > 0 && distance2 <= far * far;
     if (form.is_circle()) return meet_circle(at, form.radius_m);
     const std::size_t n = form.corners.size();
     start_faces(n);
@@ -166,8 +185,11 @@ class Scanner {
     // Counter-clockwise corners: seen from outside, on the right.
     for (std::size_t i = 0; i < n; ++i)
       add_face(i + 1 < n ? i + 1 : 0, i);
-    meet_faces();
+    if (seen_ != 2 || !meet_corner()) meet_faces();
   }
+
+  /// Whether all distances so far are surely within the lidar's limits.
+  bool is_within_limits() const { return within_limits_; }
 
   /// Not met from inside, as with polygons.
   void meet_circle(const Body& at, double radius_m) {
@@ -179,7 +201,7 @@ class Scanner {
     if (tangent2 <= 0) return;
     const double half = atan2(radius_m, std::sqrt(tangent2)) * kRaysPerRadian;
     const double ray = ray_through(centre);
-    for_stretches(ray - half, ray + half, [&](int first, int last) {
+    for_stretches(ray - half, ray + half, [&](int first, int last, int /*shift*/) {
       for (int i = first; i <= last; ++i) {
         const double ahead = x_[i] * centre.x + y_[i] * centre.y;
         const double aside = x_[i] * centre.y - y_[i] * centre.x;
@@ -223,9 +245,60 @@ class Scanner {
       meet_face(faces_[i]);
   }
 
+  /// Both faces that are seen, if they are neighbours and all three corners are surely between
+  /// rays; says whether it met them. In one go, since how many rays meet a face is what nobody can
+  /// guess. No ray is near a corner here, nor along a face, so that each ends within its face: the
+  /// farther corner, which is the bound elsewhere, is farther by 1e-10 of the distance at least,
+  /// and rounding is far below.
+  bool meet_corner() {
+    const bool in_order = faces_[0].second == faces_[1].first;
+    const Face& right = faces_[in_order ? 0 : 1];
+    const Face& left = faces_[in_order ? 1 : 0];
+    if (right.second != left.first) return false;
+    const Sweep on_right = corners_.quick_sweep(right.first, right.second);
+    const Sweep on_left = corners_.quick_sweep(left.first, left.second);
+    if (!corners_.is_sure(on_right, right.first, right.second) ||
+        !corners_.is_sure(on_left, left.first, left.second)) {
+      return false;
+    }
+    const double corner = on_right.from + on_right.width;
+    const Two right_x = both(right.edge.x);
+    const Two right_y = both(right.edge.y);
+    const Two right_area = both(right.area);
+    const Two left_x = both(left.edge.x);
+    const Two left_y = both(left.edge.y);
+    const Two left_area = both(left.area);
+    for_stretches(on_right.from, corner + on_left.width, [&](int first, int last, int shift) {
+      const Two border = both(corner + shift);
+      const auto meet = [&](Two ray, Two x, Two y, Two range) {
+        const auto is_right = ray < border;
+        const Two edge_x = is_right ? right_x : left_x;
+        const Two edge_y = is_right ? right_y : left_y;
+        const Two area = is_right ? right_area : left_area;
+        return lesser(range, area / (x * edge_y - y * edge_x));
+      };
+      if (first == last) {
+        ranges_[last] = meet(both(last), both(x_[last]), both(y_[last]), both(ranges_[last]))[0];
+        return;
+      }
+      const auto meet_two = [&](int i) {
+        const Two ray = both(i) + Two{0, 1};
+        store_two(meet(ray, load_two(x_ + i), load_two(y_ + i), load_two(ranges_ + i)),
+                  ranges_ + i);
+      };
+      for (int i = first; i < last - 1; i += 2)
+        meet_two(i);
+      meet_two(last - 1);
+    });
+    return true;
+  }
+
   /// Neighbouring faces end at the same place between two rays, so that no ray slips between them.
   void meet_face(const Face& face) {
-    const Sweep sweep = corners_.sweep_between(face.first, face.second);
+    const Sweep quick = corners_.quick_sweep(face.first, face.second);
+    const Sweep sweep = corners_.is_sure(quick, face.first, face.second)
+                            ? quick
+                            : corners_.exact_sweep(face.first, face.second);
     // Seen end-on: rounding put the corners in wrong order.
     if (sweep.width > kLidarRays / 2.0) return;
     const Point edge = face.edge;
@@ -240,7 +313,7 @@ class Scanner {
     const auto meet_two = [=, this](int i) {
       store_two(meet(load_two(x_ + i), load_two(y_ + i), load_two(ranges_ + i)), ranges_ + i);
     };
-    for_stretches(sweep.from, sweep.from + sweep.width, [&](int first, int last) {
+    for_stretches(sweep.from, sweep.from + sweep.width, [&](int first, int last, int /*shift*/) {
       if (first == last) {
         ranges_[last] = meet(both(x_[last]), both(y_[last]), both(ranges_[last]))[0];
       } else {
@@ -251,17 +324,18 @@ class Scanner {
     });
   }
 
-  /// Calls act(first, last) for the rays from one place, which is between -719 and 718, to another
-  /// less than a turn further, both included; twice where they go on behind the last ray.
+  /// Calls act(first, last, shift) for the rays from one place, which is between -719 and 718, to
+  /// another less than a turn further, both included; twice where they go on behind the last ray.
+  /// A place on the way and the shift make the ray's number.
   template <class Act>
   static void for_stretches(double from, double to, const Act& act) {
     const int around = from > -1 ? 0 : kLidarRays;
     const int first = ceil_of(from) + around;
     const int last = floor_of(to) + around;
     if (first > last) return;
-    act(first, std::min(last, kLidarRays - 1));
+    act(first, std::min(last, kLidarRays - 1), around);
     if (last >= kLidarRays) [[unlikely]]
-      act(0, last - kLidarRays);
+      act(0, last - kLidarRays, around - kLidarRays);
   }
 
   const Body& self_;
@@ -271,6 +345,7 @@ class Scanner {
   Corners corners_;
   std::vector<Face> faces_;
   std::size_t seen_ = 0;  ///< the first of them
+  bool within_limits_ = true;
 };
 
 double limited_to_lidar(double distance_m) {
@@ -280,7 +355,7 @@ double limited_to_lidar(double distance_m) {
 
 }  // namespace
 
-void scan_surroundings(const World& world, int robot, std::span<double> ranges_m) {
+bool scan_surroundings(const World& world, int robot, std::span<double> ranges_m) {
   Scanner scanner(world.body(robot), ranges_m);
   scanner.meet_walls(world.walls().planes);  // each wall ends where the next one begins
   for (const FixedSolid& obstacle : world.obstacles()) {
@@ -290,6 +365,7 @@ void scan_surroundings(const World& world, int robot, std::span<double> ranges_m
     if (mover == robot || world.form(mover).height_m < kLidarHeight_m) continue;
     scanner.meet_solid(world.form(mover), world.body(mover));
   }
+  return scanner.is_within_limits();
 }
 
 void scan_turrets(const World& world, int robot, std::span<double> ranges_m) {

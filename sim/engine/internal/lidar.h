@@ -21,7 +21,8 @@ inline constexpr double kTurretRadius_m = 0.035;
 
 /// Physical distances along the rays to walls, other robots, obstacles and objects, each whatever
 /// its height, +infinity where nothing is met. `ranges_m` holds kLidarRays values, all replaced.
-void scan_surroundings(const World& world, int robot, std::span<double> ranges_m);
+/// Says whether the lidar's limits surely leave all of them as they are.
+bool scan_surroundings(const World& world, int robot, std::span<double> ranges_m);
 
 /// The same where only the other robots' turrets are seen: they stand above all else.
 void scan_turrets(const World& world, int robot, std::span<double> ranges_m);

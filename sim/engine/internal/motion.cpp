@@ -56,14 +56,6 @@ Approach approach(double distance, double step, int sub_steps) {
 
 }  // namespace
 
-bool is_sound(const Body& body) {
-  // Written so that what is not a number is not sound.
-  return std::fabs(body.x) <= kMostSound && std::fabs(body.y) <= kMostSound &&
-         std::fabs(body.cos) <= kMostSound && std::fabs(body.sin) <= kMostSound &&
-         std::fabs(body.vx) <= kMostSound && std::fabs(body.vy) <= kMostSound &&
-         std::fabs(body.spin) <= kMostSound;
-}
-
 Body body_at(const Pose& pose) {
   const SinCos heading = sin_cos(pose.theta);
   return {.x = pose.x, .y = pose.y, .cos = heading.cos, .sin = heading.sin};
@@ -71,13 +63,6 @@ Body body_at(const Pose& pose) {
 
 Pose pose_of(const Body& body) {
   return {body.x, body.y, atan2(body.sin, body.cos)};
-}
-
-SetPoint set_point_of(const Command& command, const Body& body) {
-  const double speed = (command.left_mps + command.right_mps) / 2;
-  return {.vx = speed * body.cos,
-          .vy = speed * body.sin,
-          .spin = (command.right_mps - command.left_mps) / kWheelSeparation_m};
 }
 
 void turn(Body& body, double angle_rad) {

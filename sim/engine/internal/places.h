@@ -59,6 +59,22 @@ class Places {
       visit(other);
   }
 
+  /// Whether any two centres are at most `radius_m` apart.
+  bool any_pair_near(std::span<const Mover> movers, double radius_m, std::vector<int>& room) const {
+    bool any = false;
+    if (movers.size() <= kFew) {  // all of them, without a branch for each
+      const double radius2 = radius_m * radius_m;
+      for (std::size_t i = 1; i < movers.size(); ++i) {
+        for (std::size_t j = 0; j < i; ++j)
+          any |= distance2_of(movers[j].body, movers[i].body) <= radius2;
+      }
+      return any;
+    }
+    for (std::size_t i = 0; i < movers.size() && !any; ++i)
+      visit_near(movers, i, radius_m, i + 1, room, [&](int) { any = true; });
+    return any;
+  }
+
  private:
   static constexpr std::size_t kFew = 16;
   /// What lists are for: about what sensors and contacts reach.

@@ -3,10 +3,18 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/engine/internal/two.h"
+
 namespace swarmsmith {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+/// As rays.h has it, for two at once.
+Two limited(Two distance_m, double range_m) {
+  const Two seen = distance_m > range_m ? both(kInfinity) : distance_m;
+  return distance_m < kBlindZone_m ? both(-kInfinity) : seen;
+}
 
 }  // namespace
 
@@ -29,8 +37,10 @@ ProximityNoise::ProximityNoise(const ProximitySensing& sensing, const Rng& run, 
 
 void ProximityNoise::apply(std::span<double> readings, std::int64_t cycle) const {
   const double range = sensing_->range_m;
-  for (double& reading : readings)
-    reading = limited(reading, range);
+  std::size_t pairs = 0;
+  for (; pairs + 2 <= readings.size(); pairs += 2)
+    store_two(limited(load_two(&readings[pairs]), range), &readings[pairs]);
+  if (pairs < readings.size()) readings[pairs] = limited(readings[pairs], range);
   if (ideal_) return;
   const auto first = static_cast<std::uint64_t>(cycle) * kProximitySensors;
   for (std::size_t i = 0; i < readings.size(); ++i) {

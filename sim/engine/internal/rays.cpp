@@ -77,11 +77,15 @@ bool is_on_face(const Body& self, const WallPlane& wall, double depth, Vector2 n
 
 void meet_walls(const Body& self, double start_m, const Walls& walls, double range_m,
                 RayDistances& distances) {
-  if (walls.planes.empty()) return;
+  constexpr Two kNone = {kInfinity, kInfinity};
   const double sight = start_m + range_m;
   const double clear = walls.clear_radius_m - sight;
-  if (clear > 0 && self.x * self.x + self.y * self.y < clear * clear) return;
-  constexpr Two kNone = {kInfinity, kInfinity};
+  const bool sees_none = clear > 0 && self.x * self.x + self.y * self.y < clear * clear;
+  if (sees_none || walls.planes.empty()) {
+    for (std::size_t i = 0; i < distances.size(); i += 2)
+      store_two(kNone, &distances[i]);
+    return;
+  }
   constexpr Two kZero = {0, 0};
   std::array<Two, 2> ahead = {kNone, kNone};
   std::array<Two, 2> back = {kNone, kNone};
@@ -105,13 +109,14 @@ void meet_walls(const Body& self, double start_m, const Walls& walls, double ran
       back[i] = lesser(back[i], cosine > 0 ? kNone : met);
     }
   }
-  for (std::size_t i = 0; i < kLines.size(); ++i) {
-    const auto shorten = [&](std::size_t ray, double met) {
-      distances[ray] = std::min(distances[ray], met);
-    };
-    shorten(kLines[i].ahead, ahead[i / 2][i % 2]);
-    shorten(kLines[i].back, back[i / 2][i % 2]);
-  }
+  // Two by two, as they are read next: who reads at once what was written one by one waits.
+  static_assert(kLines[2].ahead == 0 && kLines[0].ahead == 1 && kLines[3].back == 2 &&
+                kLines[1].back == 3 && kLines[2].back == 4 && kLines[0].back == 5 &&
+                kLines[3].ahead == 6 && kLines[1].ahead == 7);
+  store_two(Two{ahead[1][0], ahead[0][0]}, &distances[0]);
+  store_two(Two{back[1][1], back[0][1]}, &distances[2]);
+  store_two(Two{back[1][0], back[0][0]}, &distances[4]);
+  store_two(Two{ahead[1][1], ahead[0][1]}, &distances[6]);
 }
 
 void meet_solid(const Body& self, double start_m, const Form& form, const Body& at, double range_m,

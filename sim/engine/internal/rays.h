@@ -21,14 +21,14 @@ inline double ray_start_m(const Form& robot) {
 /// nothing was met. Physical distances: limits and noise come later.
 using RayDistances = std::array<double, kProximitySensors>;
 
-/// Shortens the rays of `self`, which start `start_m` from its centre, where they meet a wall
-/// within `range_m`; hits beyond it may be left out. A ray that starts behind the face of a wall
+/// The rays of `self`, which start `start_m` from its centre, as if there were only walls: all are
+/// replaced. Hits beyond `range_m` may be left out. A ray that starts behind the face of a wall
 /// reads 0.
 void meet_walls(const Body& self, double start_m, const Walls& walls, double range_m,
                 RayDistances& distances);
 
-/// The same for a solid of any form. A ray that starts inside of it does not meet it (simulator
-/// facts, section 4.1).
+/// Shortens the rays where they meet a solid of any form. A ray that starts inside of it does not
+/// meet it (simulator facts, section 4.1).
 void meet_solid(const Body& self, double start_m, const Form& form, const Body& at, double range_m,
                 RayDistances& distances);
 

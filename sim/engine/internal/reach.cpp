@@ -33,7 +33,7 @@ Reach::Reach(const Surroundings& surroundings, std::size_t movers, double larges
 
 std::span<const Island> Reach::find(const Swarm& swarm, int sub_steps) {
   const double span_s = sub_steps * kSubStep_s;
-  std::fill(in_island_.begin(), in_island_.end(), char{0});
+  if (count_ > 0) std::fill(in_island_.begin(), in_island_.end(), char{0});
   count_ = 0;
   const bool pairs = any_pair_near(swarm, span_s);
   if (!pairs && !any_wall_near(swarm, span_s) && !any_obstacle_near(swarm, span_s)) return {};
@@ -49,19 +49,17 @@ std::span<const Island> Reach::find(const Swarm& swarm, int sub_steps) {
 
 bool Reach::any_pair_near(const Swarm& swarm, double span_s) {
   const double reach = 2 * (largest_radius_m_ + swarm.speed_limit_mps * span_s + kRounding_m);
-  bool any = false;
-  for (std::size_t i = 0; i < swarm.movers.size() && !any; ++i) {
-    swarm.places.visit_near(swarm.movers, i, reach, i + 1, room_, [&](int) { any = true; });
-  }
-  return any;
+  return swarm.places.any_pair_near(swarm.movers, reach, room_);
 }
 
 bool Reach::any_wall_near(const Swarm& swarm, double span_s) const {
   const double clear = surroundings_->walls.clear_radius_m - largest_radius_m_ -
                        swarm.speed_limit_mps * span_s - kRounding_m;
-  return std::any_of(swarm.movers.begin(), swarm.movers.end(), [&](const Mover& mover) {
-    return clear <= 0 || square(mover.body.x) + square(mover.body.y) >= square(clear);
-  });
+  if (clear <= 0) return !swarm.movers.empty();
+  bool any = false;
+  for (const Mover& mover : swarm.movers)
+    any |= square(mover.body.x) + square(mover.body.y) >= square(clear);
+  return any;
 }
 
 bool Reach::any_obstacle_near(const Swarm& swarm, double span_s) const {

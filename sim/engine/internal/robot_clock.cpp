@@ -15,17 +15,7 @@ RobotClock::RobotClock(const ControlTiming& timing, const Rng& run, int robot)
   next_cycle();
 }
 
-void RobotClock::next_cycle() {
-  const double jitter =
-      timing_->jitter == 0 ? 0 : jitter_.uniform(-timing_->jitter, timing_->jitter);
-  due_ += period_ * (1 + jitter);
-  const auto nearest =
-      static_cast<std::int64_t>(due_ + 0.5);  // NOLINT(bugprone-incorrect-roundings)
-  next_ = std::max(next_ + 1, nearest);
-}
-
-std::int64_t RobotClock::arrival_of_command(std::int64_t now) {
-  if (timing_->delays.empty()) return now;
+std::int64_t RobotClock::draw_arrival(std::int64_t now) {
   double u = latency_.uniform();
   int delay = timing_->delays.back().sub_steps;
   for (const ControlTiming::Delay& choice : timing_->delays) {

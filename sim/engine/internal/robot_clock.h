@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 
 #include "base/rng.h"
@@ -19,13 +20,24 @@ class RobotClock {
   std::int64_t next() const { return next_; }
 
   /// The present cycle is over.
-  void next_cycle();
+  void next_cycle() {
+    const double jitter =
+        timing_->jitter == 0 ? 0 : jitter_.uniform(-timing_->jitter, timing_->jitter);
+    due_ += period_ * (1 + jitter);
+    const auto nearest =
+        static_cast<std::int64_t>(due_ + 0.5);  // NOLINT(bugprone-incorrect-roundings)
+    next_ = std::max(next_ + 1, nearest);
+  }
 
   /// When the command that is computed at `now` begins to act: after a delay that is drawn for it,
   /// but never before the command ahead of it.
-  std::int64_t arrival_of_command(std::int64_t now);
+  std::int64_t arrival_of_command(std::int64_t now) {
+    return timing_->delays.empty() ? now : draw_arrival(now);
+  }
 
  private:
+  std::int64_t draw_arrival(std::int64_t now);
+
   const ControlTiming* timing_;
   Rng jitter_;
   Rng latency_;

@@ -147,7 +147,8 @@ void RobotSenses::read_motion(Sensors sensors) {
 
 void RobotSenses::read_lidar() {
   readings_.lidar_m.resize(kLidarRays);
-  scan_surroundings(*world_, robot_, readings_.lidar_m);
+  const bool within_limits = scan_surroundings(*world_, robot_, readings_.lidar_m);
+  if (within_limits && profile_->lidar.half_width_m == 0) return;
   add_lidar_noise(readings_.lidar_m, profile_->lidar.half_width_m, lidar_noise_, cycle_.number);
 }
 

@@ -1,7 +1,6 @@
 #include "sim/engine/internal/sensing.h"
 
 #include <cmath>
-#include <limits>
 
 #include "sim/engine/internal/robot_senses.h"
 
@@ -38,7 +37,6 @@ void ProximityRays::look_around() {
 }
 
 void ProximityRays::cast(RayDistances& distances) {
-  distances.fill(std::numeric_limits<double>::infinity());
   const Body& self = world_->body(robot_);
   if (distance2_of(self, looked_from_) > kStroll_m * kStroll_m) look_around();
   meet_walls(self, start_m_, walls_, range_m_, distances);

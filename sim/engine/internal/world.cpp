@@ -52,13 +52,6 @@ World::World(const Arena& arena, const Outline& robot, std::span<const Pose> sta
   places_.update(movers_);
 }
 
-void World::command(int robot, const Command& command) {
-  Mover& mover = movers_[static_cast<std::size_t>(robot)];
-  mover.set_point = set_point_of(command, mover.body);
-  speed_limit_mps_ = std::max(speed_limit_mps_,
-                              std::max(std::fabs(command.left_mps), std::fabs(command.right_mps)));
-}
-
 void World::advance(int sub_steps) {
   const std::span<const Island> islands = reach_.find(
       {.movers = movers_, .places = places_, .speed_limit_mps = speed_limit_mps_}, sub_steps);

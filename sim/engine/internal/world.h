@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <span>
 #include <vector>
@@ -45,10 +47,24 @@ class World {
   double largest_radius_m() const { return largest_radius_m_; }
 
   /// From now on the robot's drive steers towards the command, along its present heading.
-  void command(int robot, const Command& command);
+  void command(int robot, const Command& command) {
+    Mover& mover = movers_[static_cast<std::size_t>(robot)];
+    mover.set_point = set_point_of(command, mover.body);
+    speed_limit_mps_ = std::max(
+        speed_limit_mps_, std::max(std::fabs(command.left_mps), std::fabs(command.right_mps)));
+  }
 
   /// Moves all movers: free ones in closed form, islands through the contact solver.
   void advance(int sub_steps);
+
+  /// The first mover that is not sound, or -1.
+  int find_unsound() const {
+    for (std::size_t i = 0; i < movers_.size(); ++i) {
+      if (!is_sound(movers_[i].body)) [[unlikely]]
+        return static_cast<int>(i);
+    }
+    return -1;
+  }
 
   /// How many sub-steps of movers went through the contact solver so far.
   long solved_sub_steps() const { return solved_sub_steps_; }

@@ -12,7 +12,8 @@ std::int64_t sum_of_ages(std::int64_t duration) {
 
 }  // namespace
 
-CoverageScorer::CoverageScorer(const Coverage& rule, const Arena& /*arena*/) : rule_(rule) {
+CoverageScorer::CoverageScorer(const Coverage& rule, const Arena& /*arena*/)
+    : rule_(rule), tiles_per_metre_(rule.tiles / rule.side_m) {
   // At the first instant all tiles are of age 0, visited or not (rvr-automode facts, section 8).
   const auto tiles = static_cast<std::size_t>(rule.tiles);
   visited_.assign(tiles * tiles, 1);
@@ -22,10 +23,9 @@ CoverageScorer::CoverageScorer(const Coverage& rule, const Arena& /*arena*/) : r
 void CoverageScorer::observe(const Positions& seen) {
   ++instant_;
   const double tiles = rule_.tiles;
-  const double per_metre = tiles / rule_.side_m;
   for (const Point& robot : seen.robots) {
-    const double column = robot.x * per_metre + 0.5 * tiles;
-    const double row = robot.y * per_metre + 0.5 * tiles;
+    const double column = robot.x * tiles_per_metre_ + 0.5 * tiles;
+    const double row = robot.y * tiles_per_metre_ + 0.5 * tiles;
     if (!(column >= 0 && column < tiles && row >= 0 && row < tiles)) continue;
     const std::size_t tile = static_cast<std::size_t>(row) * static_cast<std::size_t>(rule_.tiles) +
                              static_cast<std::size_t>(column);

@@ -38,6 +38,7 @@ class CoverageScorer {
 
  private:
   Coverage rule_;
+  double tiles_per_metre_;
   /// Instead of ages, the instant at which each tile was last of age 0, and the sum of the ages up
   /// to those instants.
   std::vector<std::int64_t> visited_;

@@ -99,6 +99,12 @@ TEST(Flavour, AValueOfOnesOwnHasTheTurnClockThatWasChosen) {
   EXPECT_FALSE(find_flavour("melon", TurnClock::Cycles).has_value());
 }
 
+TEST(Flavour, ASumOfObstaclesIsNotShortenedBelowWhatTurnsExploration) {
+  // Exploration looks at the sum as it was before (turn_from_sum).
+  for (const Flavour* flavour : all_flavours())
+    EXPECT_GE(flavour->obstacles.longest_sum, 2 * flavour->exploration.threshold) << flavour->name;
+}
+
 TEST(Flavour, AParameterOfOneSymbolIsTheSameInAllModules) {
   for (const ModuleSpec& one : watermelon().conditions) {
     for (const ModuleSpec& other : watermelon().conditions) {

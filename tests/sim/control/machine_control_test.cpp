@@ -47,7 +47,7 @@ TEST(MachineControl, TestsNoConditionInTheFirstCycleOfAState) {
   EXPECT_EQ(senses.ground_asked, 0);
   EXPECT_EQ(software.state(), 0);
   software.step(senses);
-  EXPECT_EQ(senses.ground_asked, 1);
+  EXPECT_GT(senses.ground_asked, 0);
   EXPECT_EQ(software.state(), 1);
   software.step(senses);
   EXPECT_EQ(senses.neighbours_asked, 0);
@@ -144,6 +144,34 @@ TEST(MachineControl, ManyNeighboursAreBeyondTheTableAndStillCount) {
   for (int i = 0; i < 20; ++i)
     senses.neighbour(0.5, 18.0 * i);
   EXPECT_EQ(first_targets(machine, senses, 100)[1], 100);
+}
+
+TEST(MachineControl, EachCycleLooksAtTheFloorThatIsThere) {
+  // Black leads on, and nothing else; what a floor gave before is no answer for another one.
+  const Machine machine = machine_of(
+      "--nstates 2 --s0 1 --n0 2 --n0x0 0 --c0x0 0 --p0x0 1 --n0x1 0 --c0x1 6 --p0x1 1 --l0x1 0 "
+      "--s1 1 --n1 1 --n1x0 0 --c1x0 2 --p1x0 1");
+  const Rgb black = {0, 0, 0};
+  const Rgb white = {255, 255, 255};
+  const Rgb blue = {0, 0, 255};
+  const Rgb green = {0, 255, 0};
+  MachineControl software(machine, watermelon(), Rng(1));
+  FakeSenses senses;
+  const auto state_on = [&](const Rgb& floor) {
+    senses.floor = floor;
+    software.step(senses);
+    return software.state();
+  };
+  for (int round = 0; round < 3; ++round) {
+    EXPECT_EQ(state_on(white), 0);  // the first cycle of a state
+    EXPECT_EQ(state_on(white), 0);
+    EXPECT_EQ(state_on(blue), 0);
+    EXPECT_EQ(state_on(white), 0);
+    EXPECT_EQ(state_on(round % 2 == 0 ? black : green), 1);
+    EXPECT_EQ(state_on(black), 1);
+    EXPECT_EQ(state_on(black), 1);
+    EXPECT_EQ(state_on(white), 0);
+  }
 }
 
 TEST(MachineControl, ProbabilityZeroNeverFires) {

@@ -165,6 +165,34 @@ TEST(Determinism, AWorldOfSolidsHasItsFixedHash) {
             "568338e4ec873ed8f67f363bbd9bdaa5");
 }
 
+TEST(Determinism, TheLidarOfThirtyRobotsHasItsFixedHash) {
+  Mission mission = built_in_mission("grid_exploration").value();
+  mission.robots = 30;
+  mission.cycles = 200;
+  mission.arena = regular_dodecagon(49);
+  mission.placement = PlaceInDisc{.centre = {}, .radius_m = 3.6};
+  const Machine machine = parse_machine(machines().at("watermelon"), watermelon()).value();
+  const Profile profile = built_in_profile("argos3").value();
+  const Instance instance = instance_of(mission, 3).value();
+  Digest digest;
+  simulate({.controller = machine,
+            .flavour = watermelon(),
+            .profile = profile,
+            .mission = mission,
+            .instance = instance,
+            .seed = 3},
+           Recorder(
+               [&](const Snapshot& now) {
+                 for (const RobotRecord& robot : now.robots) {
+                   if (robot.readings == nullptr) continue;
+                   for (const double range : robot.readings->lidar_m)
+                     digest.add(range);
+                 }
+               },
+               Sensor::Lidar));
+  EXPECT_EQ(digest.hex(), "76ea48c85afd6102dbe2d664b9020b81");
+}
+
 TEST(Determinism, ThreadsChangeNothing) {
   const std::string alone = table_of_hashes();
   for (const std::size_t threads : {2U, 5U}) {

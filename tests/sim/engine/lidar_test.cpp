@@ -131,6 +131,35 @@ TEST(Lidar, SeesOnlyTurretsWhereRobotsAreSought) {
   EXPECT_NEAR(met, 10.68 + 16.03, 2);
 }
 
+TEST(Lidar, SaysThatLimitsChangeNothingOnlyWhereTheyDo) {
+  Rng rng(5);
+  int sure = 0;
+  int changed = 0;
+  for (int i = 0; i < 300; ++i) {
+    // From crowded to so wide that walls are out of sight.
+    const double area = i % 3 == 0 ? 6 : i % 3 == 1 ? 40 : 700;
+    const Arena arena = regular_dodecagon(area);
+    const double reach = 0.4 * std::sqrt(area);
+    std::vector<Pose> poses;
+    while (poses.size() < 6) {
+      poses.push_back(
+          {rng.uniform(-reach, reach), rng.uniform(-reach, reach), rng.uniform(-kPi, kPi)});
+    }
+    const World world(arena, kRvr, poses, ContactModel::Exact);
+    std::vector<double> ranges(kLidarRays);
+    const bool within = scan_surroundings(world, 0, ranges);
+    std::vector<double> limited = ranges;
+    add_lidar_noise(limited, 0, {}, 0);
+    if (within) {
+      EXPECT_EQ(limited, ranges) << i;
+    }
+    sure += within ? 1 : 0;
+    changed += limited != ranges ? 1 : 0;
+  }
+  EXPECT_GT(sure, 100);
+  EXPECT_GT(changed, 50);
+}
+
 TEST(Lidar, LimitsAreItsRange) {
   std::vector<double> ranges(kLidarRays, 1.0);
   ranges[0] = 0.0999;
