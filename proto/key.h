@@ -1,9 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <optional>
-
-#include "proto/wire.pb.h"
 
 namespace swarmsmith {
 
@@ -46,20 +43,6 @@ constexpr std::int32_t purpose_of(PackedKey key) {
 /// The candidate's number within its design: irace's id of the configuration, from 1.
 constexpr std::int64_t number_of(PackedKey key) {
   return (candidate_of(key) - 1) % kMostCandidates + 1;
-}
-
-/// Nothing for a key that cannot be one.
-inline std::optional<PackedKey> pack(const pb::Key& key) {
-  if (!is_valid_key(key.candidate(), key.purpose(), key.pair())) return std::nullopt;
-  if (key.campaign() >= kMaxCampaigns) return std::nullopt;
-  return pack(key.candidate(), key.purpose(), key.pair(), key.campaign());
-}
-
-inline void unpack(PackedKey packed, pb::Key& key) {
-  key.set_campaign(campaign_of(packed));
-  key.set_candidate(candidate_of(packed));
-  key.set_pair(static_cast<std::int64_t>(packed >> 3U & 0xfffffU));
-  key.set_purpose(static_cast<std::int32_t>(packed & 7U));
 }
 
 }  // namespace swarmsmith

@@ -22,10 +22,4 @@ struct Result {
   std::uint64_t signature = 0;  ///< of the lease under which it ran
 };
 
-/// The caller has checked the key, as `decode_to_coordinator` does. A score of -0 becomes 0, the
-/// only zero that stores know.
-Result result_of(const pb::Result& message);
-/// Texts are cut to what a message may carry.
-void write(const Result& result, pb::Result& message);
-
 }  // namespace swarmsmith

@@ -31,8 +31,4 @@ struct LeasedTask : EvaluationInput {
   bool alone = false;           ///< the worker says when it begins, and runs nothing beside it
 };
 
-/// The caller has checked the key, as `decode_to_worker` does.
-LeasedTask task_of(const pb::Task& message);
-void write(const LeasedTask& task, pb::Task& message);
-
 }  // namespace swarmsmith

@@ -1,8 +1,21 @@
-#include "proto/result.h"
-#include "proto/task.h"
+#include "proto/task_messages.h"
+
 #include "proto/wire.h"
 
 namespace swarmsmith {
+
+std::optional<PackedKey> pack(const pb::Key& key) {
+  if (!is_valid_key(key.candidate(), key.purpose(), key.pair())) return std::nullopt;
+  if (key.campaign() >= kMaxCampaigns) return std::nullopt;
+  return pack(key.candidate(), key.purpose(), key.pair(), key.campaign());
+}
+
+void unpack(PackedKey packed, pb::Key& key) {
+  key.set_campaign(campaign_of(packed));
+  key.set_candidate(candidate_of(packed));
+  key.set_pair(static_cast<std::int64_t>(packed >> 3U & 0xfffffU));
+  key.set_purpose(static_cast<std::int32_t>(packed & 7U));
+}
 
 LeasedTask task_of(const pb::Task& message) {
   return {{.mission = message.mission(),

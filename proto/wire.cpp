@@ -8,7 +8,7 @@
 #include <type_traits>
 
 #include "base/hash.h"
-#include "proto/key.h"
+#include "proto/task_messages.h"
 
 namespace swarmsmith {
 namespace {

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "proto/task_messages.h"
+
 namespace swarmsmith {
 namespace {
 

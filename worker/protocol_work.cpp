@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "proto/task_messages.h"
+
 // The part of the protocol that carries work: tasks in, results out, credit for more.
 
 namespace swarmsmith {

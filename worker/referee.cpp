@@ -5,6 +5,7 @@
 #include <string>
 
 #include "proto/frame_pipe.h"
+#include "proto/task_messages.h"
 #include "worker/pool.h"
 
 namespace swarmsmith {

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <boost/math/distributions/chi_squared.hpp>
-#include <boost/math/distributions/students_t.hpp>
-
 #include "base/ranks.h"
+#include "base/special_functions.h"
 
 namespace swarmsmith {
 namespace {
@@ -36,7 +34,7 @@ RankSums rank_sums(const std::vector<std::vector<double>>& values) {
 }  // namespace
 
 FriedmanTest friedman_test(const std::vector<std::vector<double>>& values) {
-  constexpr double kBothTails = 0.975;
+  constexpr double kOneTail = 0.025;
   const RankSums sums = rank_sums(values);
   FriedmanTest test{.treatments = values.front().size(), .blocks = values.size()};
   test.degrees = test.treatments - 1;
@@ -52,14 +50,12 @@ FriedmanTest friedman_test(const std::vector<std::vector<double>>& values) {
   }
   test.statistic = 12 * between / (b * k * (k + 1) - sums.ties / (k - 1));
   if (!std::isnan(test.statistic)) {
-    const boost::math::chi_squared_distribution<double> chi(k - 1);
-    test.p_value = boost::math::cdf(boost::math::complement(chi, test.statistic));
+    test.p_value = chi_square_upper_tail(test.statistic, k - 1);
   }
   if (test.blocks > 1) {
     const double freedom = (b - 1) * (k - 1);
-    const boost::math::students_t_distribution<double> student(freedom);
     const double spread = std::max(0.0, 2 * (b * sums.squares - squared_sums) / freedom);
-    test.half_width = boost::math::quantile(student, kBothTails) * std::sqrt(spread) / (2 * b);
+    test.half_width = student_t_upper_quantile(kOneTail, freedom) * std::sqrt(spread) / (2 * b);
   }
   return test;
 }

@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include <boost/math/distributions/students_t.hpp>
+#include "base/special_functions.h"
 
 namespace swarmsmith {
 namespace {
@@ -62,12 +62,11 @@ Summary summary_of(std::span<const double> values) {
 }
 
 MeanInterval mean_interval(std::span<const double> values) {
-  constexpr double kBothTails = 0.975;
+  constexpr double kOneTail = 0.025;
   const Summary summary = summary_of(values);
   if (summary.n < 2) return {summary.mean, 0};
   const auto n = static_cast<double>(summary.n);
-  const boost::math::students_t_distribution<double> student(n - 1);
-  return {summary.mean, boost::math::quantile(student, kBothTails) * summary.sd / std::sqrt(n)};
+  return {summary.mean, student_t_upper_quantile(kOneTail, n - 1) * summary.sd / std::sqrt(n)};
 }
 
 }  // namespace swarmsmith

@@ -4,8 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include <boost/math/distributions/normal.hpp>
-
+#include "base/math.h"
 #include "base/ranks.h"
 
 namespace swarmsmith {
@@ -20,10 +19,9 @@ double sign_of(double value) {
 
 /// By the normal approximation, the statistic moved by half a step towards its expected value.
 std::optional<double> approximate_p(double off, double sd, Alternative alternative) {
-  const boost::math::normal_distribution<double> normal;
   const auto lower = [&](double z) {
     if (std::isinf(z)) return z > 0 ? 1.0 : 0.0;
-    return boost::math::cdf(normal, z);
+    return normal_cdf(z);
   };
   double correction = 0;
   switch (alternative) {

@@ -1,4 +1,4 @@
-#include "cli/commands/export_irace.h"
+#include "cli/commands/export_formats.h"
 
 #include <filesystem>
 

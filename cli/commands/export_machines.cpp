@@ -1,4 +1,4 @@
-#include "cli/commands/export_machines.h"
+#include "cli/commands/export_formats.h"
 
 #include <algorithm>
 #include <filesystem>

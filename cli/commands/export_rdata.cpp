@@ -1,4 +1,4 @@
-#include "cli/commands/export_rdata.h"
+#include "cli/commands/export_formats.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -5,12 +5,8 @@
 
 #include "base/log.h"
 #include "cli/commands/commands.h"
-#include "cli/irace/irace_ablation.h"
-#include "cli/irace/irace_check.h"
+#include "cli/irace/irace_actions.h"
 #include "cli/irace/irace_console.h"
-#include "cli/irace/irace_init.h"
-#include "cli/irace/irace_only_test.h"
-#include "cli/irace/irace_psrace.h"
 #include "cli/irace/irace_run.h"
 #include "console/wrapped.h"
 #include "coordinator/campaign/irace_campaign.h"

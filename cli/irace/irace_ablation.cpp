@@ -1,4 +1,4 @@
-#include "cli/irace/irace_ablation.h"
+#include "cli/irace/irace_actions.h"
 
 #include <fmt/format.h>
 #include <atomic>

@@ -1,4 +1,4 @@
-#include "cli/irace/irace_check.h"
+#include "cli/irace/irace_actions.h"
 
 #include <fmt/format.h>
 #include <chrono>

@@ -1,4 +1,4 @@
-#include "cli/irace/irace_init.h"
+#include "cli/irace/irace_actions.h"
 
 #include <filesystem>
 

@@ -1,4 +1,4 @@
-#include "cli/irace/irace_only_test.h"
+#include "cli/irace/irace_actions.h"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "cli/irace/irace_psrace.h"
+#include "cli/irace/irace_actions.h"
 
 #include <fmt/format.h>
 #include <algorithm>

@@ -7,6 +7,7 @@
 #include "base/overloaded.h"
 #include "coordinator/pool/event_text.h"
 #include "coordinator/service/paused_designs.h"
+#include "proto/task_messages.h"
 #include "proto/wire.h"
 
 namespace swarmsmith {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "proto/task_messages.h"
 #include "proto/wire.h"
 
 namespace swarmsmith {

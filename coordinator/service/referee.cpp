@@ -19,6 +19,7 @@
 #include "coordinator/pool/task_key.h"
 #include "coordinator/service/messages.h"
 #include "proto/frame_pipe.h"
+#include "proto/task_messages.h"
 #include "proto/wire.h"
 #include "storage/answer.h"
 

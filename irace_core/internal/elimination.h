@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
+#include "base/special_functions.h"
 #include "irace_core/internal/ranks.h"
-#include "irace_core/internal/special_functions.h"
 #include "irace_core/scenario.h"
 
 namespace swarmsmith::irace {

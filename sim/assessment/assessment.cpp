@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "sim/assessment/internal/behaviour_checks.h"
-#include "sim/assessment/internal/condition_checks.h"
-#include "sim/assessment/internal/condition_rates.h"
+#include "sim/assessment/internal/checks.h"
 #include "sim/assessment/internal/condition_test.h"
 
 namespace swarmsmith::assessment {

@@ -9,9 +9,7 @@
 #include "base/text/document.h"
 #include "base/text/table_reader.h"
 #include "base/text/whole_file.h"
-#include "sim/files/internal/read_arena.h"
-#include "sim/files/internal/read_placement.h"
-#include "sim/files/internal/read_score.h"
+#include "sim/files/internal/read_mission.h"
 #include "sim/files/internal/read_solids.h"
 
 namespace swarmsmith {

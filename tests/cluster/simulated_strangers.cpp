@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "coordinator/pool/task_key.h"
+#include "proto/task_messages.h"
 #include "proto/wire.h"
 #include "storage/answer.h"
 #include "tests/cluster/simulated_cluster.h"

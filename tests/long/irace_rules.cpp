@@ -19,6 +19,7 @@
 
 #include "base/ranks.h"
 #include "base/rng.h"
+#include "base/special_functions.h"
 #include "irace_core/expression.h"
 #include "irace_core/files/expression_text.h"
 #include "irace_core/internal/agreement.h"
@@ -28,7 +29,6 @@
 #include "irace_core/internal/ranks.h"
 #include "irace_core/internal/rounding.h"
 #include "irace_core/internal/schedule.h"
-#include "irace_core/internal/special_functions.h"
 
 namespace swarmsmith {
 namespace {

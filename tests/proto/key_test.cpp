@@ -1,4 +1,4 @@
-#include "proto/key.h"
+#include "proto/task_messages.h"
 
 #include <gtest/gtest.h>
 

@@ -1,9 +1,9 @@
+#include "proto/task_messages.h"
+
 #include <gtest/gtest.h>
 #include <cmath>
 #include <string>
 
-#include "proto/result.h"
-#include "proto/task.h"
 #include "proto/wire.h"
 
 namespace swarmsmith {

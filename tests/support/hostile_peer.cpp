@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "proto/key.h"
+#include "proto/task_messages.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {

@@ -5,6 +5,8 @@
 #include <deque>
 #include <numeric>
 
+#include "proto/task_messages.h"
+
 namespace swarmsmith {
 namespace {
 

@@ -1,4 +1,4 @@
-#include "sim/assessment/internal/condition_rates.h"
+#include "sim/assessment/internal/checks.h"
 
 #include <fmt/format.h>
 

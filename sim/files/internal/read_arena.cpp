@@ -1,7 +1,6 @@
-#include "sim/files/internal/read_arena.h"
+#include "sim/files/internal/read_mission.h"
 
 #include "sim/files/internal/read_solids.h"
-#include "sim/files/internal/read_walls.h"
 
 namespace swarmsmith {
 

@@ -1,4 +1,4 @@
-#include "sim/files/internal/read_placement.h"
+#include "sim/files/internal/read_mission.h"
 
 #include <string>
 

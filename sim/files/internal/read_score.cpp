@@ -1,4 +1,4 @@
-#include "sim/files/internal/read_score.h"
+#include "sim/files/internal/read_mission.h"
 
 #include <cstdint>
 #include <string>

@@ -1,4 +1,4 @@
-#include "sim/files/internal/read_walls.h"
+#include "sim/files/internal/read_mission.h"
 
 #include <algorithm>
 #include <array>

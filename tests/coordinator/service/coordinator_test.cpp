@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "proto/task_messages.h"
 #include "proto/wire.h"
 #include "tests/coordinator/synthetic_campaign.h"
 

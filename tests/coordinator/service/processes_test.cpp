@@ -15,6 +15,7 @@
 #include "coordinator/service/referee.h"
 #include "coordinator/service/service.h"
 #include "proto/scenario/scenario.h"
+#include "proto/task_messages.h"
 #include "proto/wire.h"
 #include "sim/control/flavour.h"
 #include "sim/control/machine_text.h"

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "base/rng.h"
+#include "proto/task_messages.h"
 #include "proto/wire.h"
 #include "tests/coordinator/synthetic_campaign.h"
 #include "tests/support/memory_store.h"

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <vector>
 
-namespace swarmsmith::irace {
+namespace swarmsmith {
 
 /// Natural logarithm of the gamma function, x > 0.
 double log_gamma(double x);
@@ -30,4 +30,4 @@ class StudentQuantiles {
   std::vector<double> known_;  ///< by degrees of freedom; 0 is not yet computed
 };
 
-}  // namespace swarmsmith::irace
+}  // namespace swarmsmith

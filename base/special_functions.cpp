@@ -1,11 +1,11 @@
-#include "irace_core/internal/special_functions.h"
+#include "base/special_functions.h"
 
 #include <cmath>
 
 #include "base/assert.h"
 #include "base/math.h"
 
-namespace swarmsmith::irace {
+namespace swarmsmith {
 namespace {
 
 constexpr double kHalfLogTwoPi = 0.9189385332046728;
@@ -160,4 +160,4 @@ double StudentQuantiles::operator()(std::int64_t dof) {
   return quantile;
 }
 
-}  // namespace swarmsmith::irace
+}  // namespace swarmsmith

@@ -1,4 +1,4 @@
-#include "irace_core/internal/special_functions.h"
+#include "base/special_functions.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numeric>
 
-namespace swarmsmith::irace {
+namespace swarmsmith {
 namespace {
 
 void expect_relative(double ours, double theirs, double error) {
@@ -64,4 +64,4 @@ TEST(SpecialFunctions, RememberedQuantilesAreTheSame) {
 }
 
 }  // namespace
-}  // namespace swarmsmith::irace
+}  // namespace swarmsmith

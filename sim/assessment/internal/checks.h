@@ -1,0 +1,25 @@
+#pragma once
+
+#include <vector>
+
+#include "sim/assessment/assessment.h"
+#include "sim/assessment/internal/condition_test.h"
+
+namespace swarmsmith::assessment {
+
+/// Runs a behaviour alone in all three robots. A behaviour without a test is a failed assertion.
+std::vector<Check> check_behaviour(const ModuleSpec& spec, const Flavour& flavour,
+                                   const Profile& profile);
+
+/// The machine Exploration -> Stop, whose only transition is the condition. With beta = 1 it must
+/// fire in the first tested cycle whose reading satisfies it, and in no other; with eta = 0 the
+/// firing cycles must follow the geometric law of one half.
+Check check_condition(const ConditionTest& test, const Flavour& flavour, const Profile& profile);
+
+/// How often the condition fires with beta = 0.3, or with eta = 5 and xi = 1 for each number of
+/// neighbours. The machine is Exploration <-> Exploration, with the condition both ways: it goes on
+/// after a firing, so that each run gives many trials.
+std::vector<Rate> rates_of(const ConditionTest& test, const Flavour& flavour,
+                           const Profile& profile);
+
+}  // namespace swarmsmith::assessment
