@@ -2,7 +2,8 @@
 # The gates of `./dev gate`: all that a commit can be put through, each on its own. Read in by ./dev,
 # whose functions it uses. A gate is a function; it ends with a number for the table, written to file
 # descriptor 3. In build-gate it leaves NAME.log, and NAME.row, its line of the table. What is green
-# for a commit is not run for it again.
+# is in the ledger, and is not run again.
+. tests/gates/ledger.sh
 
 all_gates=(format tidy test long debug clang asan tsan fuzz)
 
@@ -16,7 +17,7 @@ what_runs() {
     clang) echo "hashes of trajectories, clang" ;;
     asan) echo "tests, AddressSanitizer and UBSan" ;;
     tsan) echo "tests, ThreadSanitizer" ;;
-    fuzz) echo "fuzz targets, ${SWARMSMITH_FUZZ_SECONDS:-600} s each" ;;
+    fuzz) echo "fuzz targets, ${SWARMSMITH_FUZZ_SECONDS:-600} s of processor each" ;;
     *) return 1 ;;
   esac
 }
@@ -31,9 +32,10 @@ packages_for() {
   esac
 }
 
-# The commit, when nothing has been changed since; what its gates find can be remembered.
-clean_commit() {
-  [ -n "$(git status --porcelain)" ] || git rev-parse HEAD
+# The digest of all files but the ledger; none while something is in no commit.
+tree_digest() {
+  [ -n "$(git status --porcelain -- . ":!$ledger")" ] ||
+    git ls-files -s -- . ":!$ledger" | sha256sum | cut -c 1-16
 }
 
 gate_format() {
@@ -41,18 +43,15 @@ gate_format() {
   git ls-files '*.h' '*.cpp' | wc -l | sed 's/$/ files/' >&3
 }
 
-# The units of the asan build, as they stand beside the same headers: one that has passed is not
-# looked at again, in any commit.
+# The units of the asan build but the tests', each on its own.
 gate_tidy() {
+  local units
   configure build-asan --preset asan
   cmake --build build-asan -j "$jobs" --target swarmsmith_pb
-  mkdir -p build-gate/tidy
-  local units headers
-  headers=$(git ls-files '*.h' '*.proto' .clang-tidy | xargs cat | sha1sum)
-  mapfile -t units < <(sed -n 's/^  "file": "\(.*\)",*$/\1/p' build-asan/compile_commands.json |
-    grep -v -e _verify_interface_ -e "^$PWD/tests/" -e /build-asan/tests/ -e /generated/ | sort -u)
-  printf '%s\n' "${units[@]}" | xargs -P "$jobs" -n 1 tests/tidy_one "$headers"
-  echo "${#units[@]} units" >&3
+  units=$(python3 tests/gates/digests.py units)
+  cut -d' ' -f1 <<<"$units" | keep_units tidy
+  cut -d' ' -f2 <<<"$units" | xargs -P "$jobs" -n 1 tests/gates/tidy_one
+  echo "$(wc -l <<<"$units") units" >&3
 }
 
 # Tests wait for processes much of their time: half as many again as there are cores.
@@ -66,6 +65,43 @@ ctest_gate() {
     status=$?
   tr '\n\t' '  ' <build-gate/tests.xml | sed -n \
     's/.* tests="\([0-9]*\)" *failures="\([0-9]*\)" *disabled="[0-9]*" *skipped="\([0-9]*\)".*/\1 tests, \2 failed, \3 skipped/p' >&3
+  return "$status"
+}
+
+# tests_gate GATE FOLDER [CTEST-ARGUMENT...]: those that are not green yet, a dozen at a time: what has ended is in the
+# ledger. No test is, if a sanitizer reports anything: reports of every process that they start, also of those that are
+# killed, go to files.
+tests_gate() {
+  local gate=$1 folder=$2 reports=$PWD/build-gate/$1-reports status=0 tree digest name seconds begin green open=()
+  local -A digests
+  shift 2
+  tree=$(tree_digest)
+  while read -r digest name; do
+    digests[$name]=$digest
+    is_green "$gate" "$name" "$digest" || open+=("$name")
+  done < <(python3 tests/gates/digests.py tests "$folder" "${tree:-changed}" "$@")
+  for name in "${!digests[@]}"; do echo "$name ${digests[$name]}"; done | keep_units "$gate"
+  green=$((${#digests[@]} - ${#open[@]}))
+  for ((begin = 0; begin < ${#open[@]}; begin += 12)); do
+    rm -rf "$reports"
+    mkdir -p "$reports"
+    ASAN_OPTIONS=log_path=$reports/report UBSAN_OPTIONS=print_stacktrace=1:log_path=$reports/report \
+      TSAN_OPTIONS=log_path=$reports/report:suppressions=$PWD/tests/thread_sanitizer.supp \
+      SWARMSMITH_SANITIZER=$gate ctest_gate "$folder" -R "^($(
+        printf '%s\n' "${open[@]:begin:12}" | sed 's/[^[:alnum:]_]/\\&/g' | paste -sd '|'))\$" 3>/dev/null || status=$?
+    if [ -n "$(ls "$reports")" ]; then
+      find "$reports" -type f -exec cat {} + | head -n 400
+      status=1
+      continue
+    fi
+    [ "$(tree_digest)" = "$tree" ] || tree=  # edited meanwhile
+    while IFS=$'\t' read -r name seconds; do
+      green=$((green + 1))
+      [ -z "$tree" ] || note_green "$gate" "$name" "${digests[$name]}" "test" "$seconds"
+    done < <(tr '\n\t' '  ' <build-gate/tests.xml | sed 's/<testcase/\n&/g' |
+      sed -n 's/^<testcase name="\([^"]*\)".* time="\([0-9.]*\)" status="run".*/\1\t\2/p')
+  done
+  echo "$green of ${#digests[@]} tests" >&3
   return "$status"
 }
 
@@ -93,7 +129,7 @@ gate_test() {
 
 gate_long() {
   build_all
-  SWARMSMITH_LONG=1 ctest_gate build -L 'long|cluster'
+  SWARMSMITH_LONG=1 tests_gate long build -L 'long|cluster'
 }
 
 # The same bits without optimisation, and from another compiler.
@@ -106,73 +142,74 @@ hashes_gate() {
 gate_debug() { hashes_gate debug; }
 gate_clang() { hashes_gate clang; }
 
-# Reports of every process that the tests start, also of those that are killed, go to files: one is
-# enough to fail.
 sanitizer_gate() {
-  local reports=$PWD/build-gate/$1-reports status=0
-  rm -rf "$reports"
-  mkdir -p "$reports"
   configure "build-$1" --preset "$1"
   cmake --build "build-$1" -j "$jobs"
-  ASAN_OPTIONS=log_path=$reports/report UBSAN_OPTIONS=print_stacktrace=1:log_path=$reports/report \
-    TSAN_OPTIONS=log_path=$reports/report:suppressions=$PWD/tests/thread_sanitizer.supp \
-    SWARMSMITH_SANITIZER=$1 ctest_gate "build-$1" -LE 'long|slow' || status=$?
-  find "$reports" -type f -exec cat {} + | head -n 400
-  [ -z "$(ls "$reports")" ] && return "$status"
+  tests_gate "$1" "build-$1" -LE 'long|slow'
 }
 gate_asan() { sanitizer_gate asan; }
 gate_tsan() { sanitizer_gate tsan; }
 
-# Each target from its seeds and what earlier runs have found worth keeping; a row of the table each.
-# One that is the same program as in another commit, and was green there, is not run again.
+# Each target from its seeds and what earlier runs have found worth keeping.
 gate_fuzz() {
-  local row
+  local seconds=${SWARMSMITH_FUZZ_SECONDS:-600} program digest name seeds open=()
+  local -A digests
   configure build-asan --preset asan
-  cmake --build build-asan -j "$jobs" --target fuzzers
+  cmake --build build-asan -j "$jobs" --target swarmsmith_pb
   mkdir -p build-fuzz/found
-  for row in build-gate/fuzz-*.row; do  # of targets that are there no more
-    [[ " $(cut -d' ' -f1 build-asan/fuzzers.txt | tr '\n' ' ')" == *" $(basename "${row#*fuzz-}" .row) "* ]] || rm -f "$row"
-  done
+  while read -r program digest; do digests[${program#fuzz_}]=$digest; done < <(
+    sed 's/^\([^ ]*\).*/fuzz_\1/' build-asan/fuzzers.txt | xargs python3 tests/gates/digests.py programs)
+  for name in "${!digests[@]}"; do echo "$name ${digests[$name]}"; done | keep_units fuzz
+  while read -r name seeds; do
+    is_green fuzz "$name" "${digests[$name]}" "$seconds" || open+=("$name ${digests[$name]} $seeds")
+  done <build-asan/fuzzers.txt
   echo "$(wc -l <build-asan/fuzzers.txt) targets" >&3
-  xargs -P 2 -L 1 tests/fuzz/run_one "${SWARMSMITH_FUZZ_SECONDS:-600}" <build-asan/fuzzers.txt
+  [ ${#open[@]} -gt 0 ] || return 0
+  printf 'fuzz_%s\n' "${open[@]%% *}" | xargs cmake --build build-asan -j "$jobs" --target
+  printf '%s\n' "${open[@]}" | xargs -P 2 -L 1 tests/fuzz/run_one "$seconds"
 }
+
+# Whether all of a gate has one line in the ledger; the others have one for each unit, target or test.
+is_one_line() { [[ " format test debug clang " == *" $1 "* ]]; }
 
 # run_gate NAME. Called alone, not as a condition: its subshell ends at the first command that fails.
 run_gate() {
-  local row=build-gate/$1.row log=build-gate/$1.log commit began=$SECONDS status number
-  commit=$(clean_commit)
-  if [ -n "$commit" ] && grep -qs "^$commit	$1	$(what_runs "$1")	.*	green	" "$row"; then
-    say "$1: green already at this commit"
-    return 0
+  local row=build-gate/$1.row log=build-gate/$1.log tree began=$SECONDS status=0 number
+  tree=$(tree_digest)
+  if is_one_line "$1" && [ -n "$tree" ] && is_green "$1" all "$tree"; then
+    say "$1: green already"
+    number=$(awk -F '\t' -v gate="$1" '$1 == gate && $2 == "all" { print $4 }' "$ledger")
+  else
+    say "$1: $(what_runs "$1"); see $log"
+    set +e
+    number=$(set -e; exec 3>&1 >"$log" 2>&1; "gate_$1")
+    status=$?
+    set -e
+    if [ $status -ne 0 ]; then
+      tail -n 30 "$log" >&2
+    elif is_one_line "$1" && [ -n "$tree" ] && [ "$(tree_digest)" = "$tree" ]; then
+      note_green "$1" all "$tree" "$number" $((SECONDS - began))
+    fi
   fi
-  say "$1: $(what_runs "$1"); see $log"
-  set +e
-  number=$(set -e; exec 3>&1 >"$log" 2>&1; "gate_$1")
-  status=$?
-  set -e
-  [ "$(clean_commit)" = "$commit" ] || commit=  # edited meanwhile
-  printf '%s\t%s\t%s\t%s\t%s\t%s\n' "${commit:-changed}" "$1" "$(what_runs "$1")" "${number:--}" \
+  printf '%s\t%s\t%s\t%s\t%s\n' "$1" "$(what_runs "$1")" "${number:--}" \
     "$([ $status -eq 0 ] && echo green || echo RED)" "$((SECONDS - began)) s" >"$row"
-  [ $status -eq 0 ] || tail -n 30 "$log" >&2
 }
 
 # gate [NAME...]: all of them without a name. Says yes only when all are green.
 gate() {
-  local name rows=()
-  shopt -s nullglob
+  local name
   [ $# -gt 0 ] || set -- "${all_gates[@]}"
   for name in "$@"; do
     what_runs "$name" >/dev/null || { echo "dev: no gate '$name'; there are ${all_gates[*]}" >&2; exit 2; }
   done
-  mkdir -p build-gate
+  mkdir -p build-gate/tidy
   for name in "$@"; do packages_for "$name"; done
-  for name in "$@"; do
-    run_gate "$name"
-    rows+=("build-gate/$name.row")
-    [ "$name" != fuzz ] || rows+=(build-gate/fuzz-*.row)
-  done
+  for name in "$@"; do run_gate "$name"; done
   echo
-  awk -F '\t' 'BEGIN { printf "%-20s %-38s %-34s %-6s %9s\n", "gate", "what ran", "how many", "result", "time" }
-    { printf "%-20s %-38s %-34s %-6s %9s\n", $2, $3, $4, $5, $6; red += $5 != "green" }
-    END { exit red > 0 }' "${rows[@]}"
+  for name in "$@"; do
+    cat "build-gate/$name.row"
+    [ "$name" != fuzz ] || awk -F '\t' '$1 == "fuzz" { print "fuzz " $2 "\t\t" $4 "\tgreen\t" $5 " s" }' "$ledger"
+  done | awk -F '\t' 'BEGIN { printf "%-24s %-46s %-44s %-6s %9s\n", "gate", "what ran", "how many", "result", "time" }
+    { printf "%-24s %-46s %-44s %-6s %9s\n", $1, $2, $3, $4, $5; red += $4 != "green" }
+    END { exit red > 0 }'
 }

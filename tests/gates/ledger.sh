@@ -1,6 +1,7 @@
 # shellcheck shell=bash
 # The ledger of what is green: tests/gates/green.tsv, a line for each gate and unit. Read in by the scripts of gates.
-#   gate, unit, digest of what was tried, what ran, seconds of processor, commit, date
+#   gate, unit, digest of what was tried, what ran, seconds, commit, date
+# Seconds are of the processor for tidy and fuzz, of the clock for all others.
 # A line counts for what has its digest, in any clone; a later one for the same unit takes its place.
 
 ledger=tests/gates/green.tsv
@@ -24,9 +25,11 @@ note_green() {
   ) 9>build-gate/ledger.lock
 }
 
-# keep_units GATE: only those units of it whose names are read from standard input; what is no longer there goes.
+# keep_units GATE: of its lines, only those of units that standard input names, with the digest that may stand beside.
 keep_units() {
-  awk -F '\t' -v gate="$1" 'NR == FNR { there[$0]; next } $1 != gate || $2 in there' - $ledger >build-gate/green.tsv
+  awk -v gate="$1" 'NR == FNR { digest[$1] = $2; next }
+    { split($0, part, "\t") }
+    part[1] != gate || part[2] in digest && (digest[part[2]] == "" || digest[part[2]] == part[3])' - $ledger >build-gate/green.tsv
   cat build-gate/green.tsv >$ledger
 }
 
