@@ -28,11 +28,13 @@ struct ClientSocket::Impl {
   std::uint64_t connections = 0;
   bool refused = false;
 
+  /// Throws nothing: the destructor calls it.
   void drop(std::chrono::milliseconds linger) {
     if (!socket) return;
     stop_watching(socket);
     monitor.close();
-    socket.set(zmq::sockopt::linger, milliseconds(linger));
+    const int most = milliseconds(linger);
+    zmq_setsockopt(socket.handle(), ZMQ_LINGER, &most, sizeof most);
     socket.close();
   }
 };

@@ -8,6 +8,6 @@
 namespace swarmsmith::cli {
 
 /// `swarmsmith irace`: the words after it are irace's own and those of docs/command-line.md.
-ExitCode run_irace(const std::vector<std::string>& words, Output& output);
+ExitCode run_irace(const std::vector<std::string>& given, Output& output);
 
 }  // namespace swarmsmith::cli

@@ -1,9 +1,9 @@
 #include "cli/commands/irace_converter.h"
 
-#include <stdlib.h>
 #include <sys/wait.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <string_view>
 #include <system_error>
 #include <thread>

@@ -1,10 +1,10 @@
 #include "coordinator/service/referee.h"
 
-#include <signal.h>
 #include <sys/wait.h>
 #include <unistd.h>
 #include <chrono>
 #include <condition_variable>
+#include <csignal>
 #include <cstring>
 #include <deque>
 #include <mutex>

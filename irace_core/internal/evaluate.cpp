@@ -246,7 +246,9 @@ Values range(const Values& from, const Values& to) {
   const std::optional<Sequence> numbers = sequence(from, to);
   if (!numbers || numbers->steps >= kLongestRange) return Scalar::missing_of(Type::Integer);
   std::vector<Scalar> result;
-  for (double i = 0; i <= numbers->steps; ++i)
+  const auto steps = static_cast<int>(numbers->steps);
+  result.reserve(static_cast<std::size_t>(steps) + 1);
+  for (int i = 0; i <= steps; ++i)
     result.push_back(numbers->at(i));
   return Values(std::move(result));
 }

@@ -54,6 +54,7 @@ std::vector<std::size_t> choose_for_postselection(
     }
   }
   std::vector<std::int64_t> needs;
+  needs.reserve(considered.size());
   for (const std::size_t i : considered)
     needs.push_back(candidates[i].missing + step);
   // 14.2 takes whoever misses nothing for nothing.

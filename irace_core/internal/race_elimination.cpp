@@ -160,7 +160,7 @@ void Race::find_uncovered() {
 
 /// irace facts, 9.3.10: the least rank (11), the first of equals.
 void Race::describe_best(RaceStep& step) const {
-  std::size_t best = alive_.front();
+  std::size_t best = 0;
   if (settings_.test_type == TestType::FTest) {
     best = *std::min_element(alive_.begin(), alive_.end(), [&](auto a, auto b) {
       return ranks_.rank_sum(a) < ranks_.rank_sum(b);

@@ -42,6 +42,7 @@ bool IteratedRace::State::begin_postselection() {
       irace::choose_for_postselection(all, left, asks ? schedule_.pairs_between_tests() : 0);
   if (chosen.size() < 2) return false;
   std::vector<std::int64_t> contestants;
+  contestants.reserve(chosen.size());
   for (const std::size_t i : chosen)
     contestants.push_back(ids[i]);
   ++iteration;

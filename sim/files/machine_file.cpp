@@ -111,7 +111,8 @@ class Reader {
     } else if (text.starts_with("--") && !machines_.empty() && !has_head_) {
       machines_.back().text += " " + std::string(text);
     } else {
-      errors_.push_back({ErrorKind::BadInput, "control software begins with one of " + first_switches(),
+      errors_.push_back({ErrorKind::BadInput,
+                         "control software begins with one of " + first_switches(),
                          file_ + ":" + std::to_string(number_)});
     }
   }

@@ -173,8 +173,8 @@ std::vector<BlackBox> black_boxes_of(const Board& board) {
     cv::aruco::drawMarker(printed->dictionary, printed->ids[i], cells, picture);
     // The marker's first corner is its upper left one; y goes down.
     const cv::Point3f corner = printed->objPoints[i].front();
-    const double left = static_cast<double>(corner.x);
-    const double top = static_cast<double>(corner.y);
+    const auto left = static_cast<double>(corner.x);
+    const auto top = static_cast<double>(corner.y);
     for (int row = 0; row < cells; ++row) {
       for (int column = 0; column < cells; ++column) {
         if (picture.at<std::uint8_t>(row, column) != 0) continue;

@@ -134,6 +134,7 @@ SolvedView view_of(const Points& points, std::size_t i, const Fit& fit, Lens len
 std::optional<std::size_t> outlier_of(const std::vector<SolvedView>& views,
                                       const std::vector<std::size_t>& used) {
   std::vector<double> all;
+  all.reserve(used.size());
   for (const std::size_t i : used)
     all.push_back(views[i].rms_px);
   std::ranges::nth_element(all, all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2));

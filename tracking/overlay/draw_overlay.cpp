@@ -69,6 +69,7 @@ std::vector<Point> outline_of(const Patch& patch) {
 
 std::vector<Point3> at_height(const std::vector<Point>& points, double height_m) {
   std::vector<Point3> result;
+  result.reserve(points.size());
   for (const Point& point : points)
     result.push_back({point.x, point.y, height_m});
   return result;
@@ -99,10 +100,11 @@ void draw_tiles(Brush& brush, const View& view, const Coverage& rule,
   std::vector<double> shares;
   for (std::size_t i = 0; i < ages_s.size(); ++i) {
     const auto tiles = static_cast<std::size_t>(rule.tiles);
+    const std::size_t row = i / tiles;
     const double x = -rule.side_m / 2 + side_m * (static_cast<double>(i % tiles) + 0.5);
-    const double y = -rule.side_m / 2 + side_m * (static_cast<double>(i / tiles) + 0.5);
+    const double y = -rule.side_m / 2 + side_m * (static_cast<double>(row) + 0.5);
     shapes.push_back(
-        brush.seen(view, at_height(outline_of(Rectangle{{x, y}, side_m, side_m}), 0), true));
+        Brush::seen(view, at_height(outline_of(Rectangle{{x, y}, side_m, side_m}), 0), true));
     shares.push_back(kTileShare * std::exp(-ages_s[i] / kTileFades_s));
   }
   brush.fill(shapes, kTile, shares);
@@ -145,19 +147,19 @@ void draw_floor(ColorImage& image, const View& view, const Mission& mission,
       coverage != nullptr && !tile_ages_s.empty())
     draw_tiles(brush, view, *coverage, tile_ages_s);
   for (const Patch& patch : mission.arena.patches)
-    brush.line(brush.seen(view, at_height(outline_of(patch), 0), true), line_color_of(patch), 2,
+    brush.line(Brush::seen(view, at_height(outline_of(patch), 0), true), line_color_of(patch), 2,
                true);
   std::vector<Point> corners;
   for (const Wall& wall : mission.arena.walls)
     corners.push_back(wall.from);
-  brush.line(brush.seen(view, at_height(corners, 0), true), kWhite, 1.5, true);
+  brush.line(Brush::seen(view, at_height(corners, 0), true), kWhite, 1.5, true);
 }
 
 void draw_robots(ColorImage& image, const View& view, const Outline& body,
                  const std::vector<OverlayRobot>& robots) {
   Brush brush(image);
   for (std::size_t i = 0; i < robots.size(); ++i)
-    brush.line(brush.seen(view, at_height(robots[i].trail, 0), false),
+    brush.line(Brush::seen(view, at_height(robots[i].trail, 0), false),
                kRobotColors[i % kRobotColors.size()], 2, false);
   for (std::size_t i = 0; i < robots.size(); ++i) {
     const OverlayRobot& robot = robots[i];
@@ -168,7 +170,7 @@ void draw_robots(ColorImage& image, const View& view, const Outline& body,
       around.push_back(on_robot(robot, corner));
       reach_m = std::max(reach_m, corner.x);
     }
-    const std::vector<cv::Point2d> shape = brush.seen(view, around, true);
+    const std::vector<cv::Point2d> shape = Brush::seen(view, around, true);
     if (robot.kind == CycleKind::Measured) brush.fill({shape}, color, std::array{0.35});
     brush.line(shape, color, robot.kind == CycleKind::Measured ? 2 : 1, true);
     // Ahead is where the line leaves the body.

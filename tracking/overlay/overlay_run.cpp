@@ -37,9 +37,9 @@ bool concerns(const Issue& issue, double time_s) {
 
 }  // namespace
 
-OverlayRun::OverlayRun(const TrackedRun& run, const Rig& rig, const Mission& mission,
+OverlayRun::OverlayRun(const TrackedRun& run, const Rig& rig, Mission mission,
                        std::vector<Issue> issues)
-    : mission_(mission), issues_(std::move(issues)), cycles_(run.trajectory.instants()) {
+    : mission_(std::move(mission)), issues_(std::move(issues)), cycles_(run.trajectory.instants()) {
   for (std::size_t i = 0; i < run.robots.size(); ++i) {
     const TrackedRobot& tracked = run.robots[i];
     Robot robot{tracked.name, 0, {run.starts.at(i)}, tracked.cycles};

@@ -33,8 +33,7 @@ class OverlayRun {
  public:
   /// `mission` with the patches of the run in its arena; `issues`: those of scoring, or of
   /// tracking.
-  OverlayRun(const TrackedRun& run, const Rig& rig, const Mission& mission,
-             std::vector<Issue> issues);
+  OverlayRun(const TrackedRun& run, const Rig& rig, Mission mission, std::vector<Issue> issues);
 
   /// Between cycles poses are interpolated, the score is that of the last cycle. There are no
   /// robots before the run; after it they stay where they ended.

@@ -67,7 +67,7 @@ constexpr std::array<std::string_view, 12> kFunctions = {
 
 /// The library's own word for a place, without the blanks that it leaves around.
 std::string token_of(const mu::Parser::exception_type& error) {
-  const std::string token = error.GetToken();
+  const std::string& token = error.GetToken();
   const std::size_t first = token.find_first_not_of(' ');
   if (first == std::string::npos) return "";
   return token.substr(first, token.find_last_not_of(' ') - first + 1);

@@ -27,9 +27,20 @@ cv::Point fine(cv::Point2d point) {
 
 std::vector<cv::Point> fine(const std::vector<cv::Point2d>& points) {
   std::vector<cv::Point> result;
+  result.reserve(points.size());
   for (const cv::Point2d& point : points)
     result.push_back(fine(point));
   return result;
+}
+
+std::string cut(std::string text, double font, int most_px) {
+  const auto width = [&](const std::string& of) {
+    return cv::getTextSize(of, kFont, font, 1, nullptr).width;
+  };
+  if (width(text) <= most_px) return text;
+  while (!text.empty() && width(text + "...") > most_px)
+    text.pop_back();
+  return text + "...";
 }
 
 }  // namespace
@@ -39,7 +50,7 @@ Brush::Brush(ColorImage& image)
       scale_(std::max(0.55, image.height / 1080.0)) {}
 
 std::vector<cv::Point2d> Brush::seen(const View& view, std::span<const Point3> points,
-                                     bool closed) const {
+                                     bool closed) {
   std::vector<cv::Point2d> line;
   const auto add = [&](const Point3& world) {
     if (view.place.seen_from_camera(world).z <= 0.05) return;
@@ -117,16 +128,6 @@ void Brush::label(cv::Point2d at, const std::string& text, Rgb color) {
   cv::rectangle(picture_, cv::Rect(left, top, width, height), kRim, cv::FILLED);
   cv::putText(picture_, text, {left + rim, top + rim / 2 + size.height}, kFont, font,
               scalar_of(color), wide, cv::LINE_AA);
-}
-
-std::string Brush::cut(std::string text, double font, int most_px) const {
-  const auto width = [&](const std::string& of) {
-    return cv::getTextSize(of, kFont, font, 1, nullptr).width;
-  };
-  if (width(text) <= most_px) return text;
-  while (!text.empty() && width(text + "...") > most_px)
-    text.pop_back();
-  return text + "...";
 }
 
 void Brush::panel(const std::vector<std::string>& lines, Rgb color, bool at_top) {

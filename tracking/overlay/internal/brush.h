@@ -18,8 +18,8 @@ class Brush {
   explicit Brush(ColorImage& image);
 
   /// Points of the world as a line on the picture; long pieces bend as the lens bends them.
-  std::vector<cv::Point2d> seen(const View& view, std::span<const Point3> points,
-                                bool closed) const;
+  static std::vector<cv::Point2d> seen(const View& view, std::span<const Point3> points,
+                                       bool closed);
   void line(const std::vector<cv::Point2d>& points, Rgb color, double width, bool closed);
   /// Thin, closed, without a rim.
   void hairline(const std::vector<cv::Point2d>& points, Rgb color);
@@ -38,8 +38,6 @@ class Brush {
   double scale() const { return scale_; }
 
  private:
-  std::string cut(std::string text, double font, int most_px) const;
-
   cv::Mat picture_;
   double scale_;  ///< 1 for a height of 1080
 };

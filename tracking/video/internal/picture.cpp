@@ -73,6 +73,19 @@ AVPixelFormat without_range(AVPixelFormat format) {
   }
 }
 
+SwsContext* scaler(Scaler& kept, const AVFrame& frame, AVPixelFormat to) {
+  const AVPixelFormat from = without_range(static_cast<AVPixelFormat>(frame.format));
+  kept.reset(sws_getCachedContext(kept.release(), frame.width, frame.height, from, frame.width,
+                                  frame.height, to, kExact, nullptr, nullptr, nullptr));
+  if (kept == nullptr) return nullptr;
+  constexpr int kOne = 1 << 16;  // of contrast and saturation
+  // Fails for grey to grey, where there is nothing to set.
+  sws_setColorspaceDetails(kept.get(), sws_getCoefficients(matrix_of(frame)),
+                           is_full_range(frame) ? 1 : 0, sws_getCoefficients(SWS_CS_ITU601), 1, 0,
+                           kOne, kOne);
+  return kept.get();
+}
+
 }  // namespace
 
 bool is_taken(int width, int height, std::int64_t most_pixels) {
@@ -88,19 +101,6 @@ Expected<void> check_size(int width, int height, const std::string& where,
       fmt::format("pictures of {} x {} pixels are not taken (at most {} a side, {} megapixels)",
                   width, height, kMostSide, most_pixels / 1'000'000),
       where));
-}
-
-SwsContext* Pictures::scaler(Scaler& kept, const AVFrame& frame, AVPixelFormat to) {
-  const AVPixelFormat from = without_range(static_cast<AVPixelFormat>(frame.format));
-  kept.reset(sws_getCachedContext(kept.release(), frame.width, frame.height, from, frame.width,
-                                  frame.height, to, kExact, nullptr, nullptr, nullptr));
-  if (kept == nullptr) return nullptr;
-  constexpr int kOne = 1 << 16;  // of contrast and saturation
-  // Fails for grey to grey, where there is nothing to set.
-  sws_setColorspaceDetails(kept.get(), sws_getCoefficients(matrix_of(frame)),
-                           is_full_range(frame) ? 1 : 0, sws_getCoefficients(SWS_CS_ITU601), 1, 0,
-                           kOne, kOne);
-  return kept.get();
 }
 
 std::optional<GrayImage> Pictures::gray(const AVFrame& frame) {

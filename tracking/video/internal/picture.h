@@ -24,8 +24,6 @@ class Pictures {
   ColorImage color(const AVFrame& frame);
 
  private:
-  SwsContext* scaler(Scaler& kept, const AVFrame& frame, AVPixelFormat to);
-
   Scaler to_gray_;
   Scaler to_color_;
   std::vector<std::uint8_t> gray_;
