@@ -16,7 +16,7 @@ const kMarkers: Record<string, string> = {
 };
 const kRows = 400;
 // Parts of the picture, in CSS pixels.
-const kLeft = 64, kRight = 16, kAlive = 46, kMarks = 18, kTop = kAlive + kMarks, kBottom = 18;
+const kLeft = 86, kRight = 16, kAlive = 46, kMarks = 18, kTop = kAlive + kMarks, kBottom = 18;
 
 /// What the matrix shows, made once of an answer: the rank of each cell as a part from 0 (best) to 1.
 class Matrix {
@@ -96,7 +96,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
   private draw = (context: CanvasRenderingContext2D, width: number, height: number, inks: Inks) => {
     const { matrix, until, cell } = this.props;
     const columns = matrix.race.steps.length;
-    this.area = { width, column: Math.min(30, (width - kLeft - kRight) / Math.max(1, columns)), row: this.row_height() };
+    this.area = { width, column: Math.min(48, (width - kLeft - kRight) / Math.max(1, columns)), row: this.row_height() };
     const dark = document.documentElement.dataset.theme === "dark";
     const scale = context.canvas.width / width;
     const key = [matrix, until, width, dark, scale];
