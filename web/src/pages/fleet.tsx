@@ -47,12 +47,13 @@ function SlotTime({ status }: { status: Status }) {
     <div class="scroll" tabIndex={0} role="region" aria-label="slot time by cause"><table>
       <caption class="unseen">Slot time by cause</caption>
       <thead><tr><th scope="col">cause</th><th scope="col" class="n">last minute</th><th scope="col" class="n">since start</th><th scope="col" class="n">slot time</th><th scope="col">because</th></tr></thead>
-      <tbody>{kCauses.map((cause) => <tr key={cause.name}>
+      <tbody>{kCauses.filter((cause) => seconds_of(whole_time, cause.name) > 0).map((cause) => <tr key={cause.name}>
         <th scope="row"><span class="swatch" style={{ background: cause.color }} /> {cause.name}</th>
         <td class="n">{percent(part(minute, cause.name))}</td><td class="n">{percent(part(whole_time, cause.name))}</td>
         <td class="n">{duration(seconds_of(whole_time, cause.name))}</td>
         <td class="because">{cause.what}</td></tr>)}</tbody>
     </table></div>
+    <p class="faint small">Causes that took no time are left out.</p>
   </div>;
 }
 

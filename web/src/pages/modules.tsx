@@ -9,24 +9,30 @@ import { Columns, Design } from "../types";
 import { version_of } from "./campaigns";
 import { rows_of } from "./design";
 
-interface Use { module: string; mission: string; method: string; count: number | null; rate: number | null; reachable: number | null }
+/// A module's use by one method; numbers by mission.
+interface Use { module: string; method: string; of: Record<string, { count: number | null; rate: number | null; reachable: number | null }> }
+
+function quoted(text: string): string { return "'" + text.replace(/'/g, "''") + "'"; }
 
 class Modules extends Component<PageProps, {}> {
-  private table(c: string, all: Use[], mission: string, method: string) {
-    const rows = all.filter((one) => (!mission || one.mission === mission) && (!method || one.method === method));
-    const sql = (one: Use) => `SELECT d.design, d.best_candidate, m.occurrences, m.reachable FROM v_designs AS d JOIN v_modules AS m ON m.candidate = d.best_candidate`
-      + ` WHERE d.state = 'finished' AND d.mission = '${one.mission.replace(/'/g, "''")}' AND d.method = '${one.method.replace(/'/g, "''")}' AND m.module = '${one.module.replace(/'/g, "''")}'`;
-    const rate = (part: number | null) => part === null ? <span class="faint">not in this flavour</span>
-      : <span class="meter-cell"><span class="meter" aria-hidden="true"><span style={{ width: `${100 * part}%` }} /></span>{percent(part)}</span>;
-    return <Table<Use> name="m" caption="Modules of winners" rows={rows} sort="-rate" row_key={(one) => `${one.mission} ${one.method} ${one.module}`} page_size={60}
+  private table(c: string, rows: Use[], missions: string[]) {
+    const sql = (one: Use, mission: string) => "SELECT d.design, d.best_candidate, m.occurrences, m.reachable FROM v_designs AS d JOIN v_modules AS m ON m.candidate = d.best_candidate"
+      + ` WHERE d.state = 'finished' AND d.mission = ${quoted(mission)} AND d.method = ${quoted(one.method)} AND m.module = ${quoted(one.module)}`;
+    return <Table<Use> name="m" caption="Modules of winners" rows={rows} sort="module" row_key={(one) => `${one.method} ${one.module}`}
       columns={[
         { key: "module", label: "module", value: (one) => words(one.module) },
-        { key: "mission", label: "mission", value: (one) => words(one.mission) },
         { key: "method", label: "method", value: (one) => one.method },
-        { key: "count", label: "mean count", numeric: true, value: (one) => one.count, show: (one) => number(one.count, 3), title: "in a winner's machine" },
-        { key: "rate", label: "winners that have it", numeric: true, value: (one) => one.rate, show: (one) => rate(one.rate) },
-        { key: "reachable", label: "in states that can be reached", numeric: true, value: (one) => one.reachable, show: (one) => one.reachable === null ? "–" : percent(one.reachable) },
-        { key: "designs", label: "designs", value: () => "", show: (one) => one.rate ? <a href={href([c, "sql"], { q: sql(one) })} aria-label={`designs that use ${words(one.module)}`}>which</a> : "" },
+        ...missions.map((mission) => ({
+          key: mission, label: words(mission), numeric: true, value: (one: Use) => one.of[mission]?.rate,
+          title: "share of the winners that have it; mean count in a winner; how many of these are in states that can be reached",
+          show: (one: Use) => {
+            const use = one.of[mission];
+            if (!use || use.rate === null) return <span class="faint">–</span>;
+            const part = use.rate;
+            return <a class="meter-cell" href={href([c, "sql"], { q: sql(one, mission) })} title={`which designs; ${percent(use.reachable ?? 0)} have it in a state that can be reached`}>
+              <span class="meter" aria-hidden="true"><span style={{ width: `${100 * part}%` }} /></span>{percent(part)}<span class="faint small">{number(use.count, 2)}</span></a>;
+          },
+        })),
       ]} />;
   }
 
@@ -49,9 +55,17 @@ class Modules extends Component<PageProps, {}> {
           <Figure key={mission + "/" + method} c={c} kind="modules" options={{ mission, method }} name="Modules of winners" version={version} missing={(error) => finished ? <Empty>{error.message}</Empty> : nothing} /></Panel>
         <Panel title="In numbers">
           <Get<Columns> path={`${c}/modules`} version={version} render={(columns) => {
-            const uses = rows_of(columns).map((row) => ({ module: String(row.module), mission: String(row.mission), method: String(row.method),
-              count: row.avg_occurrences as number | null, rate: row.occurrence_rate as number | null, reachable: row.reachable_rate as number | null }));
-            return uses.length === 0 ? nothing : this.table(c, uses, mission, method);
+            const uses = new Map<string, Use>();
+            for (const row of rows_of(columns)) {
+              const [module, at, by] = [String(row.module), String(row.mission), String(row.method)];
+              if (mission && at !== mission || method && by !== method) continue;
+              const use = uses.get(by + " " + module) ?? { module, method: by, of: {} };
+              use.of[at] = { count: row.avg_occurrences as number | null, rate: row.occurrence_rate as number | null, reachable: row.reachable_rate as number | null };
+              uses.set(by + " " + module, use);
+            }
+            // Networks and parameters of programs have no modules: rows without any say nothing.
+            const some = [...uses.values()].filter((use) => Object.values(use.of).some((one) => one.rate));
+            return some.length === 0 ? nothing : this.table(c, some, mission ? [mission] : distinct((one) => one.mission));
           }} /></Panel>
       </div>
     </div>;

@@ -353,7 +353,7 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
           <button type="button" class="quiet" aria-label={this.state.playing ? "pause the replay of the race" : "replay the race"} onClick={() => this.play(race.steps, until)}>{this.state.playing ? "❚❚" : "▶"}</button>
           <input id="step" type="range" min={0} max={last} value={String(until)} aria-valuetext={`step ${now}, ${race.alive[until]} alive`}
             onInput={(e) => { const to = Number((e.target as HTMLInputElement).value); set_query({ step: to === last ? null : race.steps[to] }); }} />
-          <span class="faint">{until < last ? `as it was then; ${last - until} steps later are hidden` : `${count(last + 1, "step")}`}</span>
+          <span class="faint">{until < last ? `as it was then; ${count(last - until, "later step")} hidden` : `${count(last + 1, "step")}`}</span>
         </div>
         <RaceMap matrix={matrix} until={until} cell={cell} pick={pick} watch={watch}
           label={`Race ${race.iteration} of ${d}: ${race.candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
@@ -428,7 +428,7 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
         { key: "dropped", label: "dropped after step", numeric: true, value: (row) => row.dropped },
         { key: "reason", label: "why", value: (row) => row.reason },
         { key: "elite", label: "elite", value: (row) => row.elite },
-        { key: "cell", label: "cell", value: () => "", show: (row) => <button type="button" class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
+        { key: "cell", label: "cell", value: () => null, show: (row) => <button type="button" class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
       ]} />;
   }
 
