@@ -31,6 +31,11 @@ function switch_theme(): void {
 
 export interface Look { text: string; address: string }
 
+/// Not finished, and no process works on it as far as this one knows.
+export function is_at_rest(live: Live, campaign: Campaign): boolean {
+  return !live.running && campaign.state === "running";
+}
+
 /// What somebody should know of, worst first.
 export function looks(live: Live): Look[] {
   const found: Look[] = [];
@@ -47,6 +52,8 @@ export function looks(live: Live): Look[] {
     say(s.failed, `${count(s.failed, "attempt")} failed`, href(["c1"]));
     say(s.malformed, `${count(s.malformed, "frame")} dropped as malformed`);
   }
+  for (const campaign of live.campaigns)
+    say(is_at_rest(live, campaign), `${campaign.name} is not finished, and nobody runs it`, href([campaign.c]));
   for (const campaign of live.campaigns)
     for (const design of campaign.designs)
       if (design.state === "stopped") say(true, `${design.id} has stopped`, href([campaign.c, design.id]));

@@ -6,7 +6,7 @@ import { count, number, percent, shell_word, when, whole, words } from "../forma
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
-import { eta_of, looks } from "../shell";
+import { eta_of, is_at_rest, looks } from "../shell";
 import { Campaign, Design, Event, Live } from "../types";
 
 /// "iteration 4", or how another search says where it is; nothing before it begins.
@@ -104,13 +104,14 @@ class Campaigns extends Component<PageProps, {}> {
           {count(paused, "paused design")} will get work again.</Confirm>,
         <Copy what="Copy as command" text={`swarmsmith ls ${shell_word(campaign.store)}`} />]}>
         <dl class="facts">
-          <Fact name="state"><StateWord state={campaign.state} paused={paused > 0 && paused === designs.length} /></Fact>
+          <Fact name="state"><StateWord state={is_at_rest(live, campaign) ? "at rest" : campaign.state} paused={paused > 0 && paused === designs.length} /></Fact>
           <Fact name="designs" title={states}>{whole(designs.length)} <span class="small faint">{states}{paused > 0 && `, ${paused} paused`}</span></Fact>
           <Fact name="experiments">{whole(campaign.used)} <span class="small faint">of {whole(campaign.budget)}, {percent(campaign.budget > 0 ? campaign.used / campaign.budget : 0)}</span></Fact>
           {campaign.state === "running" && live.running && <Fact name="ETA" title="the rest of the budgets at the rate of the last minute">{eta_of(live, campaign.eta_s)}</Fact>}
           <Fact name="store"><span class="small">{campaign.store}</span></Fact>
           <Fact name="digest" title="of all that decides the answer"><code class="small">{campaign.digest.slice(0, 12) || "–"}</code></Fact>
         </dl>
+        {is_at_rest(live, campaign) && <Empty>It is not finished, and no process works on it here. <code>swarmsmith run CAMPAIGN.toml --store {campaign.store}</code> continues it.</Empty>}
         {designs.length === 0
           ? <Empty>This store holds no design yet. <code>swarmsmith run CAMPAIGN.toml --store {campaign.store}</code> begins them, <code>swarmsmith import</code> brings results from elsewhere.</Empty>
           : <Grid campaign={campaign} />}

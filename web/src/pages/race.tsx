@@ -445,7 +445,7 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
     const shown = iteration ?? newest;
     return <div>
       <DesignTitle c={c} design={design} />
-      <div class="slider"><label for="iteration">iteration {shown} of {newest}</label>
+      <div class="slider"><label for="iteration">iteration {shown}{shown > newest ? `; the newest is ${newest}` : ` of ${newest}`}</label>
         <button type="button" class="quiet" aria-label="iteration before" disabled={shown <= 1} onClick={() => to(shown - 1)}>‹</button>
         <input id="iteration" type="range" min={1} max={newest} value={String(shown)} disabled={newest < 2} onInput={(e) => to(Number((e.target as HTMLInputElement).value))} />
         <button type="button" class="quiet" aria-label="iteration after" disabled={shown >= newest} onClick={() => to(shown + 1)}>›</button>
