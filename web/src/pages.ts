@@ -1,0 +1,17 @@
+// All pages, a line each; the order is that of the navigation.
+import { Page } from "./page";
+import { campaigns } from "./pages/campaigns";
+import { design } from "./pages/design";
+import { race } from "./pages/race";
+import { modules } from "./pages/modules";
+import { fleet } from "./pages/fleet";
+import { data } from "./pages/data";
+
+export const pages: Page[] = [
+  campaigns,
+  design,
+  race,
+  modules,
+  fleet,
+  data,
+];
