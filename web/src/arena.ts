@@ -1,5 +1,7 @@
 // A run seen from above, on a canvas: arena, things, robots and their trails at one instant.
 
+import { Inks } from "./canvas";
+
 export type Place = [number, number];
 export type Color = string;
 
@@ -67,7 +69,6 @@ export interface View {
   trail_cycles: number;  ///< how long trails are
   tint: Tint;
   chosen: number | null; ///< robot that is followed
-  ink: string;           ///< of texts beside the arena
 }
 
 /// The last value of [cycle, value] pairs at or before a cycle.
@@ -93,18 +94,6 @@ export function pose_at(track: Track, cycle: number): { x: number; y: number; th
   let turn = (track.theta_mrad[end]! - track.theta_mrad[from]!) / 1000;
   turn = Math.atan2(Math.sin(turn), Math.cos(turn));
   return { x: mix(track.x_mm), y: mix(track.y_mm), theta: track.theta_mrad[from]! / 1000 + part * turn };
-}
-
-/// The states of all robots at a cycle: how many are in each.
-export function robots_in_states(run: Trajectory, cycle: number): Map<number, number[]> {
-  const found = new Map<number, number[]>();
-  run.robots.forEach((robot, number) => {
-    const state = value_at(robot.state, cycle);
-    if (state === null) return;
-    if (!found.has(state)) found.set(state, []);
-    found.get(state)!.push(number);
-  });
-  return found;
 }
 
 export function color_of_robot(run: Trajectory, number: number, cycle: number, tint: Tint): Color {
@@ -323,44 +312,50 @@ function draw_robot(pen: CanvasRenderingContext2D, frame: Frame, run: Trajectory
   pen.restore();
 }
 
-/// The score so far of several runs, with the instant: a strip that can be clicked.
+/// The score so far of several runs, with the instant.
 export function draw_scores(pen: CanvasRenderingContext2D, runs: Trajectory[], cycle: number, width: number, height: number,
-                            ink: string, faint: string): void {
-  const values = runs.flatMap((run) => run.score_at.filter((value): value is number => value !== null));
-  if (values.length === 0) return;
-  let low = Math.min(0, ...[Math.min(...values)]), high = Math.max(...values);
-  if (low === high) { low -= 1; high += 1; }
-  const longest = Math.max(...runs.map((run) => run.cycles));
-  const to_y = (value: number) => 5 + (height - 10) * (1 - (value - low) / (high - low));
-  pen.strokeStyle = faint;
+                            { ink, faint, line, font }: Inks): void {
+  let low = 0, high = 0;
+  for (const run of runs)
+    for (const value of run.score_at) if (value !== null) { low = Math.min(low, value); high = Math.max(high, value); }
+  if (low === high) high = low + 1;
+  const longest = Math.max(1, ...runs.map((run) => run.cycles));
+  const to_y = (value: number) => 4 + (height - 8) * (1 - (value - low) / (high - low));
+  const to_x = (at: number) => width * at / longest;
+  pen.strokeStyle = line;
   pen.lineWidth = 1;
-  pen.beginPath();
-  pen.moveTo(0, to_y(0));
-  pen.lineTo(width, to_y(0));
-  pen.stroke();
-  const dashes = [[], [6, 3], [2, 2], [8, 3, 2, 3]];
+  for (const value of [low, high]) {
+    pen.beginPath();
+    pen.moveTo(0, to_y(value));
+    pen.lineTo(width, to_y(value));
+    pen.stroke();
+  }
   runs.forEach((run, number) => {
     pen.beginPath();
     let is_open = false;
     const step = Math.max(1, Math.floor(run.score_at.length / (2 * width)));
     for (let at = 0; at < run.score_at.length; at += step) {
-      const value = run.score_at[Math.min(at, run.score_at.length - 1)];
+      const value = run.score_at[at];
       if (value === null) { is_open = false; continue; }
-      const x = width * at / longest;
-      if (is_open) pen.lineTo(x, to_y(value)); else pen.moveTo(x, to_y(value));
+      if (is_open) pen.lineTo(to_x(at), to_y(value)); else pen.moveTo(to_x(at), to_y(value));
       is_open = true;
     }
-    pen.setLineDash(dashes[number % dashes.length]);
+    pen.setLineDash([[], [6, 3], [2, 2], [8, 3, 2, 3]][number % 4]);
     pen.strokeStyle = number === 0 ? ink : kDistinct[(number - 1) % 4];
     pen.lineWidth = 1.5;
     pen.stroke();
   });
   pen.setLineDash([]);
-  const x = width * cycle / longest;
   pen.strokeStyle = kDistinct[1];
   pen.lineWidth = 2;
   pen.beginPath();
-  pen.moveTo(x, 0);
-  pen.lineTo(x, height);
+  pen.moveTo(to_x(cycle), 0);
+  pen.lineTo(to_x(cycle), height);
   pen.stroke();
+  pen.fillStyle = faint;
+  pen.font = `11px ${font}`;
+  pen.textBaseline = "bottom";
+  pen.textAlign = "left";
+  pen.fillText(String(Number(high.toPrecision(6))), 2, to_y(high) + 13);
+  if (low !== 0) pen.fillText(String(Number(low.toPrecision(6))), 2, to_y(low) - 1);
 }

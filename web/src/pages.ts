@@ -3,6 +3,8 @@ import { Page } from "./page";
 import { campaigns } from "./pages/campaigns";
 import { design } from "./pages/design";
 import { race } from "./pages/race";
+import { run } from "./pages/run";
+import { space } from "./pages/space";
 import { modules } from "./pages/modules";
 import { fleet } from "./pages/fleet";
 import { data } from "./pages/data";
@@ -11,6 +13,8 @@ export const pages: Page[] = [
   campaigns,
   design,
   race,
+  run,
+  space,
   modules,
   fleet,
   data,

@@ -1,11 +1,14 @@
 // The run player: "#/c1/runs/e81200007?t=42&beside=c812-7,r7". Up to four runs on one clock.
 
 import { Component, h } from "preact";
-import { ApiError, get } from "../api";
-import { draw_place, draw_run, draw_scores, pose_at, robot_at, robots_in_states, shape_of, Tint, Trajectory, value_at } from "../arena";
-import { number, words } from "../format";
+import { ApiError, ask, feed } from "../api";
+import { draw_place, draw_run, draw_scores, kDistinct, pose_at, robot_at, shape_of, Tint, Trajectory, value_at } from "../arena";
+import { Canvas, Inks } from "../canvas";
+import { Copy, Failure, Panel, Waiting } from "../components";
+import { Figure } from "../figure";
+import { number, shell_word, words } from "../format";
+import { Page, PageProps } from "../page";
 import { href, set_query } from "../route";
-import { MachineDrawing } from "../machine";
 
 const kMostRuns = 4;
 const kSpeeds = [0.25, 0.5, 1, 2, 5, 10, 30];
@@ -13,7 +16,6 @@ const kUsualSpeed = 5;
 const kTrails: [string, number][] = [["none", 0], ["10 s", 100], ["30 s", 300], ["all", 1e9]];
 const kTints: [string, Tint][] = [["state", "state"], ["robot", "robot"], ["LEDs", "leds"]];
 
-interface Props { c: string; id: string; query: Record<string, string> }
 interface State {
   /// By id: the run, or why there is none.
   runs: Record<string, Trajectory | ApiError>;
@@ -32,66 +34,97 @@ function seconds(cycle: number): string {
   return `${(Math.round(cycle) / 10).toFixed(1)}\u2009s`;
 }
 
-/// What acts in a state, or how the robot was seen.
+function metres(value: number): string {
+  return value.toFixed(2).replace("-", "\u2212");
+}
+
+/// What acts in a robot.
 function doing(run: Trajectory, robot: number, cycle: number): string {
   const state = value_at(run.robots[robot].state, cycle);
   return state === null ? "" : words(run.behaviours[state] ?? `state ${state}`);
 }
 
-export class RunPage extends Component<Props, State> {
+/// Lights up the states of a drawn machine that act, with the robots that are in them.
+function light(svg: SVGSVGElement, run: Trajectory, cycle: number, chosen: number | null): void {
+  svg.querySelectorAll<SVGGElement>("g[data-state]").forEach((part) => {
+    const state = Number(part.dataset.state);
+    const here = run.robots.map((_, robot) => robot).filter((robot) => value_at(run.robots[robot].state, cycle) === state);
+    const is_lit = chosen === null ? here.length > 0 : here.includes(chosen);
+    part.classList.toggle("lit", is_lit);
+    let text = part.querySelector<SVGTextElement>("text.here");
+    if (!text) {
+      const circle = part.querySelector("circle");
+      if (!circle) return;
+      text = document.createElementNS("http://www.w3.org/2000/svg", "text");
+      text.classList.add("here");
+      text.setAttribute("x", circle.getAttribute("cx")!);
+      text.setAttribute("y", String(Number(circle.getAttribute("cy")) - Number(circle.getAttribute("r")) - 1));
+      text.setAttribute("font-size", "2.6");
+      text.setAttribute("text-anchor", "middle");
+      part.append(text);
+    }
+    const said = here.length === 0 ? "" : here.length > 6 ? `${here.length} robots` : `robot ${here.join(", ")}`;
+    if (text.textContent !== said) text.textContent = said;
+  });
+}
+
+class RunPage extends Component<PageProps, State> {
   state: State = { runs: {}, playing: false, cycle: 0, chosen: null, said: "", wanted: "" };
   private cycle = 0;
   private last_frame = 0;
   private last_text = 0;
   private frame = 0;
   private has_begun = false;
-  private canvases = new Map<string, HTMLCanvasElement>();
+  private canvases = new Map<string, Canvas>();
+  private strip: Canvas | null = null;
   private places = new Map<string, HTMLCanvasElement>();  ///< what does not move, drawn once a size
   private images = new Map<string, HTMLImageElement>();
-  private strip: HTMLCanvasElement | null = null;
-  private resizes = new ResizeObserver(() => { this.places.clear(); this.draw(); });
-  private dark = matchMedia("(prefers-color-scheme: dark)");
-  private themes = new MutationObserver(() => this.draw());
+  private machines = new Map<string, SVGSVGElement>();    ///< by run
+  private asking = new Set<string>();
 
   componentDidMount(): void {
     addEventListener("keydown", this.on_key);
-    this.dark.addEventListener("change", this.draw);
-    this.themes.observe(document.documentElement, { attributes: true });
     this.cycle = this.asked_cycle(this.props) ?? 0;
     this.load();
   }
 
   componentWillUnmount(): void {
     removeEventListener("keydown", this.on_key);
-    this.dark.removeEventListener("change", this.draw);
-    this.themes.disconnect();
-    this.resizes.disconnect();
     cancelAnimationFrame(this.frame);
   }
 
-  componentWillReceiveProps(next: Props): void {
-    if (next.id !== this.props.id || next.c !== this.props.c) {
+  componentWillReceiveProps(next: PageProps): void {
+    if (next.params.id !== this.props.params.id || next.params.c !== this.props.params.c) {
+      cancelAnimationFrame(this.frame);
       this.has_begun = false;
-      this.cycle = 0;
-      this.setState({ playing: false, chosen: null });
+      this.cycle = this.asked_cycle(next) ?? 0;
+      this.setState({ playing: false, chosen: null, cycle: this.cycle });
+      if (next.params.c !== this.props.params.c) this.setState({ runs: {} });
     }
     const asked = this.asked_cycle(next);
-    if (!this.state.playing && asked !== null && Math.round(asked) !== Math.round(this.cycle)) this.cycle = asked;
+    if (!this.state.playing && asked !== null && Math.round(asked) !== Math.round(this.cycle)) {
+      this.cycle = asked;
+      this.setState({ cycle: asked });
+    }
   }
 
   componentDidUpdate(): void {
     this.load();
     this.draw();
+    for (const run of this.shown()) {
+      const svg = this.machines.get(run.id);
+      if (svg) light(svg, run, this.state.cycle, this.state.chosen);
+    }
   }
 
-  private asked_cycle(props: Props): number | null {
+  private asked_cycle(props: PageProps): number | null {
     const t = Number(props.query.t);
     return props.query.t !== undefined && isFinite(t) && t >= 0 ? 10 * t : null;
   }
 
   private ids(): string[] {
     const beside = (this.props.query.beside ?? "").split(",").filter((id) => id !== "");
-    return [...new Set([this.props.id, ...beside])].slice(0, kMostRuns);
+    return [...new Set([this.props.params.id, ...beside])].slice(0, kMostRuns);
   }
 
   /// The runs that are there, in order.
@@ -118,23 +151,21 @@ export class RunPage extends Component<Props, State> {
     return tint === "state" && !has_states ? "robot" : tint;
   }
 
-  private asking = new Set<string>();
-
   private load(): void {
     for (const id of this.ids()) {
       if (this.state.runs[id] || this.asking.has(id)) continue;
       this.asking.add(id);
       const keep = (run: Trajectory | ApiError) => {
         this.asking.delete(id);
-        this.setState(({ runs }) => ({ runs: { ...runs, [id]: run } }), () => this.begin());
+        this.setState({ runs: { ...this.state.runs, [id]: run } }, () => this.begin());
       };
-      get<Trajectory>(`${this.props.c}/runs/${id}/trajectory`).then(keep, keep);
+      ask(`${this.props.params.c}/runs/${id}/trajectory`).then(({ data }) => keep(data as Trajectory), keep);
     }
   }
 
   /// Plays, once the run is there, unless the address says when, or the reader wants it calm.
   private begin(): void {
-    if (this.has_begun || !is_run(this.state.runs[this.props.id])) return;
+    if (this.has_begun || !is_run(this.state.runs[this.props.params.id])) return;
     this.has_begun = true;
     const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
     if (this.asked_cycle(this.props) === null && !calm) this.play(); else this.seek(this.cycle);
@@ -217,31 +248,19 @@ export class RunPage extends Component<Props, State> {
   // --- drawing ------------------------------------------------------------------------------------
 
   private draw = (): void => {
-    const style = getComputedStyle(document.documentElement);
-    const ink = style.getPropertyValue("--ink").trim() || "#000";
-    const faint = style.getPropertyValue("--faint").trim() || "#888";
-    const view = { cycle: this.cycle, trail_cycles: this.trail(), tint: this.tint(), chosen: this.state.chosen };
-    for (const run of this.shown()) {
-      const canvas = this.canvases.get(run.id);
-      if (!canvas || !fit(canvas, shape_of(run.arena))) continue;
-      const pen = canvas.getContext("2d")!;
-      pen.setTransform(1, 0, 0, 1, 0, 0);
-      pen.clearRect(0, 0, canvas.width, canvas.height);
-      pen.drawImage(this.place(run, canvas), 0, 0);
-      pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-      draw_run(pen, run, view, canvas.clientWidth, canvas.clientHeight);
-    }
-    if (this.strip && fit(this.strip)) {
-      const pen = this.strip.getContext("2d")!;
-      pen.setTransform(devicePixelRatio, 0, 0, devicePixelRatio, 0, 0);
-      pen.clearRect(0, 0, this.strip.clientWidth, this.strip.clientHeight);
-      draw_scores(pen, this.shown(), this.cycle, this.strip.clientWidth, this.strip.clientHeight, ink, faint);
-    }
+    this.canvases.forEach((canvas) => canvas.paint());
+    this.strip?.paint();
   };
 
-  private place(run: Trajectory, canvas: HTMLCanvasElement): HTMLCanvasElement {
+  private draw_arena(run: Trajectory, pen: CanvasRenderingContext2D, width: number, height: number): void {
+    pen.drawImage(this.place(run, width, height), 0, 0, width, height);
+    draw_run(pen, run, { cycle: this.cycle, trail_cycles: this.trail(), tint: this.tint(), chosen: this.state.chosen }, width, height);
+  }
+
+  private place(run: Trajectory, width: number, height: number): HTMLCanvasElement {
+    const scale = devicePixelRatio || 1;
     const kept = this.places.get(run.id);
-    if (kept && kept.width === canvas.width && kept.height === canvas.height) return kept;
+    if (kept && kept.width === Math.round(width * scale)) return kept;
     for (const { image } of run.arena.patches) {
       if (!image || this.images.has(image)) continue;
       const picture = new Image();
@@ -250,29 +269,20 @@ export class RunPage extends Component<Props, State> {
       this.images.set(image, picture);
     }
     const place = document.createElement("canvas");
-    place.width = canvas.width;
-    place.height = canvas.height;
+    place.width = Math.round(width * scale);
+    place.height = Math.round(height * scale);
     const pen = place.getContext("2d")!;
-    pen.scale(devicePixelRatio, devicePixelRatio);
-    draw_place(pen, run.arena, canvas.clientWidth, canvas.clientHeight, this.images);
+    pen.scale(scale, scale);
+    draw_place(pen, run.arena, width, height, this.images);
     this.places.set(run.id, place);
     return place;
   }
 
-  private choose = (run: Trajectory, event: MouseEvent): void => {
-    const canvas = event.currentTarget as HTMLCanvasElement;
-    const box = canvas.getBoundingClientRect();
+  private choose(run: Trajectory, event: MouseEvent): void {
+    const box = (event.currentTarget as HTMLCanvasElement).getBoundingClientRect();
     const found = robot_at(run, this.cycle, box.width, box.height, event.clientX - box.left, event.clientY - box.top);
     this.setState({ chosen: found === this.state.chosen ? null : found });
-  };
-
-  private keep = (id: string) => (element?: Element): void => {
-    const before = this.canvases.get(id);
-    if (before && before !== element) this.resizes.unobserve(before);
-    if (!element) { this.canvases.delete(id); return; }
-    if (before !== element) this.resizes.observe(element);
-    this.canvases.set(id, element as HTMLCanvasElement);
-  };
+  }
 
   // --- beside -------------------------------------------------------------------------------------
 
@@ -287,16 +297,15 @@ export class RunPage extends Component<Props, State> {
   };
 
   render() {
-    const { c, id } = this.props;
+    const { params: { c, id } } = this.props;
     const run = this.state.runs[id];
     const ids = this.ids();
-    return <div class="run-page">
-      <h1>Run {id}{is_run(run) ? <span class="sub"> {words(run.mission)}{run.design ? <span>, design <a href={href([c, run.design])}>{run.design}</a></span> : null}</span> : null}</h1>
+    return <div>
+      <h1>Run {id} {is_run(run) && <span class="sub">{words(run.mission)}{run.design && <span>, design <a href={href([c, run.design])}>{run.design}</a></span>}</span>}</h1>
       {this.controls()}
-      <div class={`run-panels of-${ids.length}`}>{ids.map((one) => this.panel(one))}</div>
-      <p class="unseen" aria-live="polite">{this.state.playing ? "" : this.state.said}</p>
-      {this.beside(ids)}
-      {is_run(run) ? this.elsewhere(run) : null}
+      <div class={ids.length === 1 ? "runs alone" : "runs"}>{ids.map((one) => this.panel(one))}</div>
+      <p class="unseen" role="status">{this.state.playing ? "" : this.state.said}</p>
+      {is_run(run) && <div class="grid">{ids.length < kMostRuns && this.beside(run)}{this.elsewhere(run)}</div>}
     </div>;
   }
 
@@ -304,105 +313,115 @@ export class RunPage extends Component<Props, State> {
     const { playing, cycle } = this.state;
     const end = this.end();
     const choice = (label: string, name: string, value: string, options: [string, string][]) =>
-      <label class="choice">{label} <select value={value} onChange={(event: Event) => set_query({ [name]: (event.target as HTMLSelectElement).value })}>
+      <label>{label} <select onChange={(event) => set_query({ [name]: (event.target as HTMLSelectElement).value })}>
         {options.map(([text, word]) => <option value={word} selected={word === value}>{text}</option>)}
       </select></label>;
-    return <section class="run-controls" aria-label="Player">
-      <div class="run-buttons">
-        <button class="play" onClick={this.toggle} aria-keyshortcuts="Space">{playing ? "Pause" : "Play"}</button>
-        <button onClick={() => this.seek(0)} aria-label="To the start" aria-keyshortcuts="Home">|◀</button>
-        <button onClick={() => this.step(-1)} aria-label="One cycle back" aria-keyshortcuts=",">◀</button>
-        <button onClick={() => this.step(1)} aria-label="One cycle on" aria-keyshortcuts=".">▶</button>
-        <output class="run-time">{seconds(cycle)} of {seconds(end)}</output>
+    return <section class="panel player" aria-label="player">
+      <div class="tools">
+        <button type="button" class="main play" onClick={this.toggle} aria-keyshortcuts="Space">{playing ? "Pause" : "Play"}</button>
+        <button type="button" onClick={() => this.seek(0)} aria-label="to the start" aria-keyshortcuts="Home">«</button>
+        <button type="button" onClick={() => this.step(-1)} aria-label="one cycle back" aria-keyshortcuts=",">‹</button>
+        <button type="button" onClick={() => this.step(1)} aria-label="one cycle on" aria-keyshortcuts=".">›</button>
+        <output class="time">{seconds(cycle)} <span class="faint">of {seconds(end)}</span></output>
+        <span class="push" />
         {choice("Speed", "speed", String(this.speed()), kSpeeds.map((speed) => [`${speed}×`, String(speed)]))}
         {choice("Trails", "trail", kTrails.find(([, value]) => value === this.trail())![0], kTrails.map(([name]) => [name, name]))}
         {choice("Colour by", "colour", this.tint(), kTints)}
       </div>
-      <input type="range" class="run-slider" aria-label="Time" aria-valuetext={seconds(cycle)} min={0} max={end} step={1} value={String(cycle)}
-        onInput={(event: Event) => this.seek(Number((event.target as HTMLInputElement).value))} />
-      <canvas class="run-strip" role="img" aria-label={`Score so far, higher is better: ${this.shown().map((one) => `${one.id} ${number(this.score(one))}`).join(", ")}`}
-        ref={(element?: Element) => { this.strip = (element as HTMLCanvasElement) ?? null; }}
-        onClick={(event: MouseEvent) => this.seek(this.end() * event.offsetX / (event.target as HTMLElement).clientWidth)} />
-      <p class="hint">Score so far above its time (higher is better). Keys: space plays, ← → one second, <kbd>,</kbd> <kbd>.</kbd> one cycle, <kbd>[</kbd> <kbd>]</kbd> speed, Home, End.</p>
+      <input type="range" aria-label="time" aria-valuetext={seconds(cycle)} min={0} max={end} step={1} value={String(cycle)}
+        onInput={(event) => this.seek(Number((event.target as HTMLInputElement).value))} />
+      <Canvas ref={(it: any) => { this.strip = it; }} height={() => 46}
+        label={`Score so far, higher is better: ${this.shown().map((one) => `${one.id} ${number(this.score(one))}`).join(", ")}`}
+        draw={(pen, width, height, inks: Inks) => draw_scores(pen, this.shown(), this.cycle, width, height, inks)}
+        attributes={{ onClick: (event: MouseEvent) => this.seek(end * event.offsetX / (event.target as HTMLElement).clientWidth) }} />
+      <p class="faint small">Below the slider: the score so far (higher is better). Space plays, <kbd>←</kbd> <kbd>→</kbd> one second, <kbd>,</kbd> <kbd>.</kbd> one cycle, <kbd>[</kbd> <kbd>]</kbd> speed. Click a robot to follow it.</p>
     </section>;
   }
 
   private panel(id: string) {
     const run = this.state.runs[id];
-    const is_first = id === this.props.id;
-    const away = is_first ? null : <button class="away" aria-label={`Take ${id} away`} onClick={() => this.take_away(id)}>×</button>;
-    if (run === undefined) return <section key={id} class="card run-panel" aria-label={id}><h2>{id}{away}</h2><p>Simulating…</p></section>;
-    if (!is_run(run)) return <section key={id} class="card run-panel" aria-label={id}><h2>{id}{away}</h2><p class="error" role="alert">{run.message}</p></section>;
-    return <section key={id} class="card run-panel" aria-label={`Run ${id}`}>
-      <h2>{this.heading(run)}{away}</h2>
-      <canvas class="arena" role="img" aria-label={`Arena of ${words(run.mission)} from above with ${run.robots.length} robots at ${seconds(this.state.cycle)}`}
-        ref={this.keep(id)} onClick={(event: MouseEvent) => this.choose(run, event)} />
-      <dl class="run-facts">
-        <dt>score so far</dt><dd class="score">{number(this.score(run))}</dd>
-        <dt>at the end</dt><dd>{number(run.score)}</dd>
-        <dt>bits</dt><dd>{this.bits(run)}</dd>
+    const away = id !== this.props.params.id
+      && <button type="button" class="quiet" aria-label={`take ${id} away`} onClick={() => this.take_away(id)}>✕</button>;
+    const head = (title: any) => <div class="panel-head"><h2>{title}</h2>{away}</div>;
+    if (run === undefined) return <section key={id} class="panel" aria-label={id}>{head(id)}<Waiting /></section>;
+    if (!is_run(run)) return <section key={id} class="panel" aria-label={id}>{head(id)}<Failure error={run} /></section>;
+    const has_machine = run.candidate && run.robots.some((robot) => robot.state.length > 0);
+    return <section key={id} class="panel run" data-run={id} aria-label={`run ${id}`}>
+      {head(this.heading(run))}
+      <Canvas ref={(it: any) => { if (it) this.canvases.set(id, it); else this.canvases.delete(id); }}
+        label={`${words(run.mission)} from above, ${run.robots.length} robots, at ${seconds(this.state.cycle)}`}
+        height={(width) => Math.min(width * shape_of(run.arena), 640)}
+        draw={(pen, width, height) => this.draw_arena(run, pen, width, height)}
+        attributes={{ onClick: (event: MouseEvent) => this.choose(run, event) }} />
+      <dl class="facts">
+        <div class="fact"><dt>score so far</dt><dd data-what="score">{number(this.score(run))}</dd></div>
+        <div class="fact"><dt>at the end</dt><dd>{number(run.score)}</dd></div>
+        <div class="fact"><dt>{run.verdict ? "verdict" : "simulated again"}</dt><dd>{this.bits(run)}</dd></div>
       </dl>
       {this.robots(run)}
-      {run.candidate && run.robots.some((robot) => robot.state.length > 0)
-        ? <MachineDrawing c={this.props.c} candidate={run.candidate} lit={robots_in_states(run, this.state.cycle)} chosen={this.state.chosen} /> : null}
+      {has_machine && <Figure c={this.props.params.c} kind="machine" options={{ candidate: run.candidate }} name={`control software of ${run.candidate}`}
+        placed={(svg) => { this.machines.set(id, svg); light(svg, run, this.state.cycle, this.state.chosen); }} />}
     </section>;
   }
 
   private heading(run: Trajectory) {
-    const { c } = this.props;
-    const candidate = run.candidate ? <a href={href([c, run.candidate])}>{run.candidate}</a> : "no candidate";
-    return <span>{run.id.startsWith("r") ? <span>{run.id}{run.name ? ` ${run.name}` : ""}, </span> : null}{candidate}{run.seed === null ? null : `, seed ${run.seed}`}, {run.source}</span>;
+    const { c } = this.props.params;
+    return <span>{run.verdict && <span>{run.id} {run.name ?? ""}, </span>}{run.candidate && <a href={href([c, run.candidate])}>{run.candidate}</a>}
+      {run.seed !== null && `, seed ${run.seed}`}, {run.source}</span>;
   }
 
   private bits(run: Trajectory) {
-    if (run.verdict !== undefined && run.verdict !== null) return <span>filmed; verdict: {run.verdict}</span>;
-    if (run.same_bits === null) return <span>the store holds no such run to compare with</span>;
-    return run.same_bits ? <span class="good" title={`state digest ${run.digest}`}>✓ same bits as stored</span>
-      : <span class="bad">differs from the stored run: {number(run.stored_score)}, made by another engine</span>;
+    if (run.verdict) return <span>{run.verdict}</span>;
+    if (run.same_bits === null) return <span class="faint">nothing stored to compare with</span>;
+    return run.same_bits ? <span class="good" title={`state digest ${run.digest}`}>✓ same bits</span>
+      : <span class="warn">differs: the store has {number(run.stored_score)}</span>;
   }
 
   private robots(run: Trajectory) {
-    const has_kinds = run.robots.some((robot) => robot.kind?.length);
     const { cycle, chosen } = this.state;
-    return <details class="run-robots" open={run.robots.length <= 5}>
+    const has_kinds = run.robots.some((robot) => robot.kind?.length);
+    const tint = this.tint();
+    return <details open={run.robots.length <= 6}>
       <summary>{run.robots.length} robots at {seconds(cycle)}</summary>
-      <table><thead><tr><th scope="col">robot</th><th scope="col">does</th>{has_kinds ? <th scope="col">pose is</th> : null}
-        <th scope="col" class="num">x, m</th><th scope="col" class="num">y, m</th></tr></thead>
+      <div class="scroll"><table class="robots"><thead><tr><th scope="col">robot</th><th scope="col">does</th>{has_kinds && <th scope="col">pose is</th>}
+        <th scope="col" class="n">x, m</th><th scope="col" class="n">y, m</th></tr></thead>
         <tbody>{run.robots.map((robot, at) => {
           const pose = pose_at(robot, cycle);
+          const state = tint === "state" ? value_at(robot.state, cycle) : at;
           return <tr class={chosen === at ? "chosen" : ""}>
-            <th scope="row"><button class="link" aria-pressed={String(chosen === at)} onClick={() => this.setState({ chosen: chosen === at ? null : at })}>
+            <th scope="row"><button type="button" class="quiet" aria-pressed={chosen === at ? "true" : "false"}
+              onClick={() => this.setState({ chosen: chosen === at ? null : at })}>
+              <svg class="swatch" viewBox="0 0 10 10" aria-hidden="true"><circle cx="5" cy="5" r="4.5" fill={kDistinct[(state ?? at) % kDistinct.length]} /></svg>
               {at}{robot.name ? ` ${robot.name}` : ""}</button></th>
-            <td>{doing(run, at, cycle) || "–"}</td>{has_kinds ? <td>{value_at(robot.kind, cycle) ?? "–"}</td> : null}
-            <td class="num">{pose ? pose.x.toFixed(2) : "–"}</td><td class="num">{pose ? pose.y.toFixed(2) : "–"}</td></tr>;
-        })}</tbody></table>
+            <td>{doing(run, at, cycle) || "–"}</td>{has_kinds && <td>{value_at(robot.kind, cycle) ?? "–"}</td>}
+            <td class="n">{pose ? metres(pose.x) : "–"}</td><td class="n">{pose ? metres(pose.y) : "–"}</td></tr>;
+        })}</tbody></table></div>
     </details>;
   }
 
-  private beside(ids: string[]) {
-    const run = this.state.runs[this.props.id];
-    if (!is_run(run) || ids.length >= kMostRuns) return null;
-    return <section class="card run-beside" aria-label="Beside">
-      <h2>Put another run beside it</h2>
-      <form onSubmit={(event: Event) => { event.preventDefault(); this.put_beside(this.state.wanted.trim()); }}>
-        <label>An evaluation (e81200007), a candidate and a seed (c812-{run.seed ?? 7}), or a real run (r7){" "}
-          <input name="beside" value={this.state.wanted} autocomplete="off" spellcheck={false} size={14}
-            onInput={(event: Event) => this.setState({ wanted: (event.target as HTMLInputElement).value })} /></label>
+  private beside(run: Trajectory) {
+    return <Panel title="Put another run beside it">
+      <form class="tools" onSubmit={(event) => { event.preventDefault(); this.put_beside(this.state.wanted.trim()); }}>
+        <label>Run <input name="beside" value={this.state.wanted} autocomplete="off" size={14}
+          onInput={(event) => this.setState({ wanted: (event.target as HTMLInputElement).value })} /></label>
         <button type="submit">Put beside</button>
       </form>
-    </section>;
+      <p class="faint small">An evaluation (e81200007), a candidate and a seed (c812-{run.seed ?? 7}), or a real run (r7). All run on one clock.</p>
+    </Panel>;
   }
 
   private elsewhere(run: Trajectory) {
-    return <p class="hint">The same as a table: <a href={`api/v1/${this.props.c}/runs/${run.id}/trajectory.csv`} download>{run.id}.csv</a>.</p>;
+    const { c } = this.props.params;
+    const store = feed.live?.campaigns.find((one) => one.c === c)?.store ?? "STORE";
+    const which = run.id.includes("-") ? `${run.candidate} ${shell_word(store)} --seed ${run.seed}` : `${run.id} ${shell_word(store)}`;
+    const command = `swarmsmith replay ${which} --csv run.csv`;
+    return <Panel title="Elsewhere">
+      <p><a href={`api/v1/${c}/runs/${run.id}/trajectory.csv`} download={`${run.id}.csv`}>All poses as CSV</a></p>
+      <p><code>{command}</code> <Copy text={command} what="Copy as command" /></p>
+    </Panel>;
   }
 }
 
-/// Sets a canvas' pixels to its size on the page; false while it has none.
-function fit(canvas: HTMLCanvasElement, shape = 0): boolean {
-  if (shape) canvas.style.height = `${Math.round(canvas.clientWidth * shape)}px`;
-  const [width, height] = [Math.round(canvas.clientWidth * devicePixelRatio), Math.round(canvas.clientHeight * devicePixelRatio)];
-  if (!width || !height) return false;
-  if (canvas.width !== width || canvas.height !== height) { canvas.width = width; canvas.height = height; }
-  return true;
-}
+export const run: Page = { pattern: ":c/runs/:id", title: ({ id }) => `run ${id}`, view: RunPage,
+  keys: [{ key: "space", what: "play or pause" }, { key: "← →", what: "one second back or on" }, { key: ", .", what: "one cycle back or on" },
+    { key: "[ ]", what: "slower or faster" }, { key: "Home End", what: "to the start or the end" }] };
