@@ -144,7 +144,7 @@ class Page:
         end = time.monotonic() + timeout * PATIENCE
         waiting = """new Promise(done => { const end = Date.now() + 2000; (function look() {
             let value; try { value = (%s) } catch (error) { value = undefined }
-            if (value || Date.now() > end) done(value); else setTimeout(look, 15) })() })""" % expression
+            if (value || Date.now() > end) done(value instanceof Node ? true : value); else setTimeout(look, 15) })() })""" % expression
         while time.monotonic() < end:
             try:
                 value = self.js(waiting)

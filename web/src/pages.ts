@@ -4,6 +4,9 @@ import { campaigns } from "./pages/campaigns";
 import { design } from "./pages/design";
 import { race } from "./pages/race";
 import { run } from "./pages/run";
+import { candidate } from "./pages/candidate";
+import { machines } from "./pages/machines";
+import { results } from "./pages/results";
 import { space } from "./pages/space";
 import { modules } from "./pages/modules";
 import { fleet } from "./pages/fleet";
@@ -15,7 +18,10 @@ export const pages: Page[] = [
   race,
   run,
   space,
+  candidate,
+  machines,
   modules,
+  results,
   fleet,
   data,
 ];

@@ -28,7 +28,7 @@ export interface Axis {
 /// From and to, as parts of the axis: 0 is its foot.
 export interface Brush { from: number; to: number }
 
-const kTop = 34, kFoot = 40, kSide = 44;
+const kTop = 34, kFoot = 40, kSide = 66;
 
 /// Whether candidates differ in it; those without a value count as one more.
 export function varies(values: Cell[]): boolean {
@@ -44,6 +44,11 @@ export function axis_of(name: string, values: Cell[]): Axis {
   let low = Infinity, high = -Infinity;
   for (const value of known as number[]) { low = Math.min(low, value); high = Math.max(high, value); }
   if (low > high) [low, high] = [0, 1];
+  // Few whole numbers are words, too.
+  if (high - low <= 8 && known.every(Number.isInteger)) {
+    const words = Array.from({ length: high - low + 1 }, (_, i) => String(low + i));
+    return { name, values, words, low: 0, high: Math.max(1, words.length - 1) };
+  }
   if (low === high) [low, high] = [low - 0.5, high + 0.5];
   return { name, values, words: null, low, high };
 }

@@ -58,7 +58,8 @@ function light(svg: SVGSVGElement, run: Trajectory, cycle: number, chosen: numbe
       text = document.createElementNS("http://www.w3.org/2000/svg", "text");
       text.classList.add("here");
       text.setAttribute("x", circle.getAttribute("cx")!);
-      text.setAttribute("y", String(Number(circle.getAttribute("cy")) - Number(circle.getAttribute("r")) - 1));
+      const [middle, radius] = [Number(circle.getAttribute("cy")), Number(circle.getAttribute("r"))];
+      text.setAttribute("y", String(middle - radius > 4 ? middle - radius - 1 : middle + radius + 3));
       text.setAttribute("font-size", "2.6");
       text.setAttribute("text-anchor", "middle");
       part.append(text);
@@ -383,7 +384,7 @@ class RunPage extends Component<PageProps, State> {
     const tint = this.tint();
     return <details open={run.robots.length <= 6}>
       <summary>{run.robots.length} robots at {seconds(cycle)}</summary>
-      <div class="scroll"><table class="robots"><thead><tr><th scope="col">robot</th><th scope="col">does</th>{has_kinds && <th scope="col">pose is</th>}
+      <div class="scroll"><table class="robots"><caption class="unseen">robots of {run.id}</caption><thead><tr><th scope="col">robot</th><th scope="col">does</th>{has_kinds && <th scope="col">pose is</th>}
         <th scope="col" class="n">x, m</th><th scope="col" class="n">y, m</th></tr></thead>
         <tbody>{run.robots.map((robot, at) => {
           const pose = pose_at(robot, cycle);
