@@ -145,3 +145,31 @@ export interface Race {
   /// [step][i] of candidate i; a candidate that was dropped before has none.
   scores: (number | null)[][];
 }
+
+export interface Iteration {
+  iteration: number;
+  planned: number;
+  budget: number;
+  configurations: number;
+  elites: number;
+  soft_restart: number;
+  postselection: number;
+}
+
+export interface Elite {
+  iteration: number;
+  rank: number;
+  candidate: number;
+  mean: number | null;
+  n: number;
+  experiments_used: number;
+}
+
+export interface DesignAnswer {
+  design: { seed: number; reason: string | null; flavour: string; name: string } & Record<string, Cell>;
+  iterations: Iteration[];
+  elites: Elite[];
+  machine: { candidate: number; text: string } | null;
+  tests: { n: number; mean: number; low: number; high: number } | null;
+  commands: { number: number; at: string; who: string; kind: string; step: number | null; budget: number | null }[];
+}
