@@ -88,28 +88,28 @@ class CandidatePage extends Component<PageProps, {}> {
         <Panel title="Scores by pair, in its races">
           <Table<(typeof rows)[0]> name="r" caption={`scores of ${id} by pair`} rows={rows} row_key={(row) => `${row.iteration} ${row.pair}`} page_size={15}
             empty="It has not run yet." columns={[
-              { key: "pair", label: "pair", numeric: true, value: (row) => row.pair },
-              { key: "instance", label: "instance", numeric: true, value: (row) => row.instance },
-              { key: "seed", label: "seed", numeric: true, value: (row) => row.seed, show: (row) => String(row.seed) },
-              { key: "iteration", label: "iteration", numeric: true, value: (row) => row.iteration },
-              { key: "score", label: "score", numeric: true, value: (row) => row.score, show: (row) => row.score === null ? "rejected" : number(row.score) },
-              { key: "watch", label: "run", value: () => "", show: (row) => <a href={play(row.seed)} aria-label={`watch seed ${row.seed}`}>watch</a> },
+              { key: "pair", numeric: true },
+              { key: "instance", numeric: true },
+              { key: "seed", numeric: true, show: (row) => String(row.seed) },
+              { key: "iteration", numeric: true },
+              { key: "score", numeric: true, show: (row) => row.score === null ? "rejected" : number(row.score) },
+              { key: "run", show: (row) => <a href={play(row.seed)} aria-label={`watch seed ${row.seed}`}>watch</a> },
             ]} />
         </Panel>
         <Panel title="Later scores">
           <Table<Later> name="l" caption={`later scores of ${id}`} rows={later} row_key={(row) => row.id} page_size={15}
             empty={<span>None. Winners are tested at a design's end; any candidate is scored by <code>swarmsmith evaluate {id} --store {shell_word(store)} --seeds 1-10</code></span>} columns={[
-              { key: "purpose", label: "purpose", value: (row) => row.purpose },
-              { key: "source", label: "source", value: (row) => row.source },
-              { key: "seed", label: "seed", numeric: true, value: (row) => row.seed, show: (row) => row.seed === null ? "–" : String(row.seed) },
-              { key: "score", label: "score", numeric: true, value: (row) => row.score },
-              { key: "watch", label: "run", value: () => "", show: (row) => row.source === "real" ? null : <a href={href([c, "runs", row.id])} aria-label={`watch ${row.id}`}>watch</a> },
+              { key: "purpose" },
+              { key: "source" },
+              { key: "seed", numeric: true, show: (row) => row.seed === null ? "–" : String(row.seed) },
+              { key: "score", numeric: true },
+              { key: "run", show: (row) => row.source === "real" ? null : <a href={href([c, "runs", row.id])} aria-label={`watch ${row.id}`}>watch</a> },
             ]} />
         </Panel>
         {parameters.length > 0 && <Panel title="Parameters">
           <Table<[string, Cell]> name="p" caption={`parameters of ${id}`} rows={parameters} row_key={([name]) => name} page_size={30} columns={[
-            { key: "parameter", label: "parameter", value: ([name]) => name },
-            { key: "value", label: "value", value: ([, value]) => value, show: ([, value]) => value === null ? "not used" : typeof value === "number" ? number(value, 6) : String(value) },
+            { key: "parameter", value: ([name]) => name },
+            { key: "value", value: ([, value]) => value, show: ([, value]) => value === null ? "not used" : typeof value === "number" ? number(value, 6) : String(value) },
           ]} />
         </Panel>}
       </div>

@@ -1,7 +1,7 @@
 // The winners of all designs, as pictures.
 
 import { Component, h } from "preact";
-import { Empty, Panel } from "../components";
+import { Choice, Empty, Panel } from "../components";
 import { Figure } from "../figure";
 import { number, words } from "../format";
 import { Page, PageProps } from "../page";
@@ -33,9 +33,7 @@ class Machines extends Component<PageProps, {}> {
   private choice(label: string, name: string, all: string[]) {
     const values = [...new Set(all)];
     if (values.length < 2) return null;
-    return <label>{label} <select onChange={(event) => set_query({ [name]: (event.target as HTMLSelectElement).value })}>
-      <option value="" selected={!this.props.query[name]}>all</option>
-      {values.map((value) => <option value={value} selected={value === this.props.query[name]}>{words(value)}</option>)}</select></label>;
+    return <Choice label={label} name={name} value={this.props.query[name] ?? ""} options={[["all", ""], ...values.map((value): [string, string] => [words(value), value])]} />;
   }
 
   private card(design: Design) {

@@ -4,7 +4,7 @@ import { Component, h } from "preact";
 import { ApiError, ask, feed } from "../api";
 import { draw_place, draw_run, draw_scores, kDistinct, pose_at, robot_at, shape_of, Tint, Trajectory, value_at } from "../arena";
 import { Canvas, Inks } from "../canvas";
-import { Copy, Failure, Panel, Waiting } from "../components";
+import { Choice, Copy, Fact, Failure, Panel, Waiting } from "../components";
 import { Figure } from "../figure";
 import { number, shell_word, words } from "../format";
 import { Page, PageProps } from "../page";
@@ -313,10 +313,6 @@ class RunPage extends Component<PageProps, State> {
   private controls() {
     const { playing, cycle } = this.state;
     const end = this.end();
-    const choice = (label: string, name: string, value: string, options: [string, string][]) =>
-      <label>{label} <select onChange={(event) => set_query({ [name]: (event.target as HTMLSelectElement).value })}>
-        {options.map(([text, word]) => <option value={word} selected={word === value}>{text}</option>)}
-      </select></label>;
     return <section class="panel player" aria-label="player">
       <div class="tools">
         <button type="button" class="main play" onClick={this.toggle} aria-keyshortcuts="Space">{playing ? "Pause" : "Play"}</button>
@@ -325,9 +321,9 @@ class RunPage extends Component<PageProps, State> {
         <button type="button" onClick={() => this.step(1)} aria-label="one cycle on" aria-keyshortcuts=".">›</button>
         <output class="time">{seconds(cycle)} <span class="faint">of {seconds(end)}</span></output>
         <span class="push" />
-        {choice("Speed", "speed", String(this.speed()), kSpeeds.map((speed) => [`${speed}×`, String(speed)]))}
-        {choice("Trails", "trail", kTrails.find(([, value]) => value === this.trail())![0], kTrails.map(([name]) => [name, name]))}
-        {choice("Colour by", "colour", this.tint(), kTints)}
+        <Choice label="Speed" name="speed" value={String(this.speed())} options={kSpeeds.map((speed) => [`${speed}×`, String(speed)])} />
+        <Choice label="Trails" name="trail" value={kTrails.find(([, value]) => value === this.trail())![0]} options={kTrails.map(([name]) => [name, name])} />
+        <Choice label="Colour by" name="colour" value={this.tint()} options={kTints} />
       </div>
       <input type="range" aria-label="time" aria-valuetext={seconds(cycle)} min={0} max={end} step={1} value={String(cycle)}
         onInput={(event) => this.seek(Number((event.target as HTMLInputElement).value))} />
@@ -355,9 +351,9 @@ class RunPage extends Component<PageProps, State> {
         draw={(pen, width, height) => this.draw_arena(run, pen, width, height)}
         attributes={{ onClick: (event: MouseEvent) => this.choose(run, event) }} />
       <dl class="facts">
-        <div class="fact"><dt>score so far</dt><dd data-what="score">{number(this.score(run))}</dd></div>
-        <div class="fact"><dt>at the end</dt><dd>{number(run.score)}</dd></div>
-        <div class="fact"><dt>{run.verdict ? "verdict" : "simulated again"}</dt><dd>{this.bits(run)}</dd></div>
+        <Fact name="score so far"><span data-what="score">{number(this.score(run))}</span></Fact>
+        <Fact name="at the end">{number(run.score)}</Fact>
+        <Fact name={run.verdict ? "verdict" : "simulated again"}>{this.bits(run)}</Fact>
       </dl>
       {this.robots(run)}
       {has_machine && <Figure c={this.props.params.c} kind="machine" options={{ candidate: run.candidate }} name={`control software of ${run.candidate}`}

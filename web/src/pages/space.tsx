@@ -3,7 +3,7 @@
 import { Component, h } from "preact";
 import { path_of } from "../api";
 import { Canvas, Inks } from "../canvas";
-import { announce, Empty, Panel, Table } from "../components";
+import { announce, Choice, Empty, Panel, Table } from "../components";
 import { number, percent, whole } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
@@ -182,16 +182,13 @@ class Parallel extends Component<ParallelProps, ParallelState> {
   private tools() {
     const { data, query, again } = this.props;
     const names = Object.keys(data.parameters);
-    const choice = (label: string, name: string, value: string, options: [string, string][]) =>
-      <label>{label} <select onChange={(event) => set_query({ [name]: (event.target as HTMLSelectElement).value })}>
-        {options.map(([text, word]) => <option value={word} selected={word === value}>{text}</option>)}</select></label>;
     return <div class="tools">
       <button type="button" onClick={() => this.show(names)}>All</button>
       <button type="button" onClick={() => this.show([])}>None</button>
       <button type="button" onClick={() => this.show(names.filter((name) => varies(data.parameters[name])))}>Only varying</button>
       <button type="button" onClick={() => set_query({ p: null, b: null })}>Usual</button>
-      {choice("Colour by", "colour", query.colour === "score" ? "score" : "iteration", [["iteration", "iteration"], ["mean score", "score"]])}
-      {choice("Sample", "sample", query.sample ?? "1000", kSamples.map((size) => [whole(size), String(size)]))}
+      <Choice label="Colour by" name="colour" value={query.colour ?? ""} options={[["iteration", ""], ["mean score", "score"]]} />
+      <Choice label="Sample" name="sample" value={query.sample ?? "1000"} options={kSamples.map((size) => [whole(size), String(size)])} />
       <button type="button" onClick={again}>Ask again</button>
     </div>;
   }
@@ -224,11 +221,10 @@ class Parallel extends Component<ParallelProps, ParallelState> {
 
   private share_table(shares: Shares[]) {
     const rows = shares.flatMap(({ axis, iterations, rows: values, share }) => values.flatMap((value, row) =>
-      iterations.map((iteration, column) => ({ name: axis.name, value, iteration, share: share[row][column] }))));
-    return <Table name="s" caption="shares of values by iteration" rows={rows} row_key={(row) => `${row.name} ${row.value} ${row.iteration}`} page_size={25}
-      columns={[{ key: "parameter", label: "parameter", value: (row) => row.name }, { key: "value", label: "value", value: (row) => row.value },
-        { key: "iteration", label: "iteration", numeric: true, value: (row) => row.iteration },
-        { key: "share", label: "share", numeric: true, value: (row) => row.share, show: (row) => percent(row.share) }]} />;
+      iterations.map((iteration, column) => ({ parameter: axis.name, value, iteration, share: share[row][column] }))));
+    return <Table name="s" caption="shares of values by iteration" rows={rows} row_key={(row) => `${row.parameter} ${row.value} ${row.iteration}`} page_size={25}
+      columns={[{ key: "parameter" }, { key: "value" }, { key: "iteration", numeric: true },
+        { key: "share", numeric: true, show: (row) => percent(row.share) }]} />;
   }
 
   private candidates(axes: Axis[], chosen: boolean[]) {
@@ -237,12 +233,12 @@ class Parallel extends Component<ParallelProps, ParallelState> {
     return <Table<number> name="k" caption="candidates" rows={rows} row_key={(at) => String(data.candidates[at])} sort="-mean" page_size={15}
       empty="No candidate lies in all chosen ranges."
       columns={[
-        { key: "candidate", label: "candidate", value: (at) => `c${data.candidates[at]}`, show: (at) => <a href={href([c, `c${data.candidates[at]}`])}>c{data.candidates[at]}</a> },
-        { key: "iteration", label: "iteration", numeric: true, value: (at) => data.iteration[at] },
+        { key: "candidate", value: (at) => `c${data.candidates[at]}`, show: (at) => <a href={href([c, `c${data.candidates[at]}`])}>c{data.candidates[at]}</a> },
+        { key: "iteration", numeric: true, value: (at) => data.iteration[at] },
         { key: "mean", label: "mean score", numeric: true, value: (at) => data.mean[at], title: "higher is better" },
-        { key: "runs", label: "runs", numeric: true, value: (at) => data.runs[at] },
-        { key: "elite", label: "elite", value: (at) => data.elite[at] ? "elite" : "" },
-        ...axes.map((axis) => ({ key: axis.name, label: axis.name, numeric: !axis.words, value: (at: number) => axis.values[at] ?? null })),
+        { key: "runs", numeric: true, value: (at) => data.runs[at] },
+        { key: "elite", value: (at) => data.elite[at] ? "elite" : "" },
+        ...axes.map((axis) => ({ key: axis.name, numeric: !axis.words, value: (at: number) => axis.values[at] ?? null })),
       ]} />;
   }
 }
