@@ -22,8 +22,8 @@ interface FigureProps {
 }
 
 /// A figure of our C++ writers, with its SVG, CSV and table. It keeps a white ground.
-export class Figure extends Component<FigureProps, { table: boolean; error: ApiError | null; width: number }> {
-  state = { table: false, error: null, width: 0 };
+export class Figure extends Component<FigureProps, { table: boolean; error: ApiError | null; width: number; empty: boolean }> {
+  state = { table: false, error: null, width: 0, empty: false };
   private box: HTMLElement | null = null;
 
   componentDidMount() { this.setState({ width: this.props.width ?? this.width() }); }
@@ -49,19 +49,25 @@ export class Figure extends Component<FigureProps, { table: boolean; error: ApiE
   }
 
   render() {
-    const { name, version, placed, missing } = this.props;
-    const { table, error, width } = this.state;
+    const { name, version, placed } = this.props;
+    const { table, error, width, empty } = this.state;
+    // What is not there has no SVG either.
+    const missing = this.props.missing && ((why: ApiError) => {
+      if (!empty) this.setState({ empty: true });
+      return this.props.missing!(why);
+    });
+    const there = () => { if (empty) this.setState({ empty: false }); };
     return <figure class="figure" ref={(e?: Element) => { if (e) this.box = e as HTMLElement; }}>
       {width > 0 && (table
-        ? <Get<string> path={this.path("csv", null)} version={version} missing={missing} render={(text) => <CsvTable text={text} name={name} id={this.props.kind} />} />
-        : <Get<string> path={this.path("svg", width)} version={version} keep missing={missing} render={(text) => <Svg text={text} placed={placed} />} />)}
+        ? <Get<string> path={this.path("csv", null)} version={version} missing={missing} render={(text) => { there(); return <CsvTable text={text} name={name} id={this.props.kind} />; }} />
+        : <Get<string> path={this.path("svg", width)} version={version} keep missing={missing} render={(text) => { there(); return <Svg text={text} placed={placed} />; }} />)}
       {error && <Failure error={error} />}
-      <figcaption class="tools">
+      {!empty && <figcaption class="tools">
         <button type="button" class="quiet" aria-label={`SVG: ${name}`} onClick={() => this.save("svg")}>SVG</button>
         <button type="button" class="quiet" aria-label={`CSV: ${name}`} onClick={() => this.save("csv")}>CSV</button>
         <button type="button" class="quiet" aria-pressed={table} onClick={() => this.setState({ table: !table })}
           aria-label={`${table ? "as picture" : "as table"}: ${name}`}>{table ? "as picture" : "as table"}</button>
-      </figcaption>
+      </figcaption>}
     </figure>;
   }
 }

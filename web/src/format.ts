@@ -27,7 +27,7 @@ export function percent(part: number): string {
 export function duration(seconds: number | null | undefined): string {
   if (seconds === null || seconds === undefined || !isFinite(seconds) || seconds < 0) return "–";
   const s = Math.round(seconds);
-  if (s < 60) return `${seconds < 10 && s !== seconds ? number(seconds, 2) : s}${kThin}s`;
+  if (s < 60) return `${seconds < 10 ? Number(seconds.toPrecision(seconds < 0.01 ? 1 : 2)) : s}${kThin}s`;
   if (s < 3600) return `${Math.floor(s / 60)}${kThin}min ${s % 60}${kThin}s`;
   if (s < 86400) return `${Math.floor(s / 3600)}${kThin}h ${Math.floor(s / 60) % 60}${kThin}min`;
   return `${Math.floor(s / 86400)}${kThin}d ${Math.floor(s / 3600) % 24}${kThin}h`;

@@ -55,6 +55,11 @@ export function looks(live: Live): Look[] {
 
 // --- the page around all pages -----------------------------------------------------------------------
 
+/// The rate is that of the last minute: a process that has just begun has none.
+export function eta_of(live: Live, eta_s: number | null): string {
+  return eta_s !== null ? duration(eta_s) : live.status && live.status.uptime_s < 60 ? "not known yet" : "none: nothing moves";
+}
+
 /// The campaign and design that the address is about, else those most worth a look.
 function place_of(route: Route, live: Live, before: Place | null): Place | null {
   const known = (c: string) => live.campaigns.find((campaign) => campaign.c === c);
@@ -86,7 +91,7 @@ class Head extends Component<{ live: Live | null; now: number }, {}> {
       {live && <span class="progress" title={`${whole(used)} of ${whole(budget)} experiments`}>
         <Bar value={used} of={budget} name="experiments used" /> {percent(budget > 0 ? used / budget : 0)}</span>}
       {s && live.running && <span><b>{number(s.evaluations_per_s, 3)}</b> evaluations/s</span>}
-      {s && live.running && <span>ETA <b>{s.eta_s === null ? "none" : duration(s.eta_s)}</b></span>}
+      {s && live.running && <span>ETA <b>{eta_of(live, s.eta_s)}</b></span>}
       {todo.length > 0 && <details class="looks"><summary>{count(todo.length, "thing needs", "things need")} a look</summary>
         <ul>{todo.slice(0, 12).map((look) => <li><a href={look.address}>{look.text}</a></li>)}</ul></details>}
       <span class="push faint" title={feed.at ? feed.at.toISOString() : ""}>{feed.at ? `as of ${clock(feed.at)}` : ""}</span>

@@ -173,3 +173,16 @@ export interface DesignAnswer {
   tests: { n: number; mean: number; low: number; high: number } | null;
   commands: { number: number; at: string; who: string; kind: string; step: number | null; budget: number | null }[];
 }
+
+/// Rings of the coordinator's memory: shares of the slots' time by cause, since the process began.
+export interface History {
+  t_s: number[];
+  evaluations_per_s: (number | null)[];
+  [name: string]: any;
+}
+
+export interface View {
+  name: string;
+  summary: string;
+  columns: { name: string; meaning: string }[];
+}

@@ -2,11 +2,11 @@ import { Component, h } from "preact";
 import { post } from "../api";
 import { Bar, Confirm, Copy, Empty, Fact, Panel, StateWord, Table } from "../components";
 import { Figure } from "../figure";
-import { count, duration, number, percent, shell_word, when, whole, words } from "../format";
+import { count, number, percent, shell_word, when, whole, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
-import { looks } from "../shell";
+import { eta_of, looks } from "../shell";
 import { Campaign, Design, Event, Live } from "../types";
 
 /// "iteration 4", or how another search says where it is; nothing before it begins.
@@ -40,7 +40,9 @@ function Card({ c, design, leads }: { c: string; design: Design; leads: boolean 
 
 function Grid({ campaign }: { campaign: Campaign }) {
   const { designs, c } = campaign;
-  return <div>{in_order(designs.map((one) => one.mission)).map((mission) => {
+  // Missions stand beside each other where their rows are short.
+  const wide = Math.max(...designs.map((one) => one.repetition)) > 3;
+  return <div class={wide ? "" : "missions"}>{in_order(designs.map((one) => one.mission)).map((mission) => {
     const here = designs.filter((one) => one.mission === mission);
     const leader = here.length > 1 ? best_of(here) : null;
     return <div class="mission">
@@ -48,7 +50,7 @@ function Grid({ campaign }: { campaign: Campaign }) {
       {in_order(here.map((one) => one.method)).map((method) => <div class="method">
         <div class="method-name">{method}</div>
         <div class="cards">{here.filter((one) => one.method === method).sort((a, b) => a.repetition - b.repetition)
-          .map((one) => <Card key={one.id} c={c} design={one} leads={one === leader} />)}</div>
+          .map((one) => <Card key={one.id} c={c} design={one} leads={leader !== null && one.best_mean === leader.best_mean} />)}</div>
       </div>)}
     </div>;
   })}</div>;
@@ -105,7 +107,7 @@ class Campaigns extends Component<PageProps, {}> {
           <Fact name="state"><StateWord state={campaign.state} paused={paused > 0 && paused === designs.length} /></Fact>
           <Fact name="designs" title={states}>{whole(designs.length)} <span class="small faint">{states}{paused > 0 && `, ${paused} paused`}</span></Fact>
           <Fact name="experiments">{whole(campaign.used)} <span class="small faint">of {whole(campaign.budget)}, {percent(campaign.budget > 0 ? campaign.used / campaign.budget : 0)}</span></Fact>
-          {campaign.state === "running" && live.running && <Fact name="ETA" title="the rest of the budgets at the rate of the last minute">{campaign.eta_s === null ? "none: nothing moves" : duration(campaign.eta_s)}</Fact>}
+          {campaign.state === "running" && live.running && <Fact name="ETA" title="the rest of the budgets at the rate of the last minute">{eta_of(live, campaign.eta_s)}</Fact>}
           <Fact name="store"><span class="small">{campaign.store}</span></Fact>
           <Fact name="digest" title="of all that decides the answer"><code class="small">{campaign.digest.slice(0, 12) || "–"}</code></Fact>
         </dl>

@@ -1,11 +1,179 @@
 import { Component, h } from "preact";
+import { Canvas, Inks } from "../canvas";
+import { Copy, Empty, Fact, Panel, StateWord, Table } from "../components";
+import { count, duration, number, percent, shell_word, whole } from "../format";
+import { Get } from "../get";
 import { Page, PageProps } from "../page";
+import { History, SlotTimes, Status, Worker } from "../types";
 
-class Fleet extends Component<PageProps, {}> {
+interface Cause { name: string; color: string; what: string; todo: string }
+
+/// Why slots idle (docs/observability.md), and what a person can do. Names as in /status.
+const kCauses: Cause[] = [
+  { name: "busy", color: "#0072b2", what: "evaluating", todo: "" },
+  { name: "start-up", color: "#56b4e9", what: "new workers get what they must know", todo: "It passes by itself." },
+  { name: "barrier", color: "#e69f00", what: "races wait for the last results of a step", todo: "Run more designs at the same time, or use fewer slots." },
+  { name: "credit", color: "#cc79a7", what: "workers ask for less than they have slots for", todo: "They drain, or have many results that are not acknowledged: look at their silence below." },
+  { name: "alone", color: "#999999", what: "workers are kept free for a task that may have killed one", todo: "It passes when that task has run alone." },
+  { name: "commit", color: "#d55e00", what: "the store cannot write as fast, or not at all", todo: "Look at the disk of the store: space, speed." },
+  { name: "held", color: "#f0e442", what: "what is wanted is of paused designs, or the coordinator ends", todo: "Resume the paused designs." },
+  { name: "network", color: "#009e73", what: "tasks and results are on their way", todo: "Short evaluations, slow connections, or worker hosts whose processors are taken by others." },
+];
+
+function seconds_of(times: SlotTimes, cause: string): number {
+  return cause === "busy" ? times.busy_s : times.idle_s[cause] ?? 0;
+}
+
+function Split({ times, name }: { times: SlotTimes; name: string }) {
+  const parts = kCauses.map((cause) => ({ cause, part: seconds_of(times, cause.name) / times.slots_s })).filter(({ part }) => part > 0.002);
+  return <div class="split-row"><span class="split-name">{name}</span>
+    {times.slots_s > 0 ? <div class="split" role="img" aria-label={`${name}: ${parts.map(({ cause, part }) => `${cause.name} ${percent(part)}`).join(", ")}`}>
+      {parts.map(({ cause, part }) => <span key={cause.name} title={`${cause.name} ${percent(part)}`} style={{ width: `${100 * part}%`, background: cause.color }} />)}</div>
+      : <span class="faint">no slot yet</span>}
+  </div>;
+}
+
+function SlotTime({ status }: { status: Status }) {
+  const [minute, whole_time] = [status.slot_times_last_minute, status.slot_times];
+  const part = (times: SlotTimes, name: string) => times.slots_s > 0 ? seconds_of(times, name) / times.slots_s : 0;
+  const worst = kCauses.slice(1).reduce((a, b) => part(minute, a.name) >= part(minute, b.name) ? a : b);
+  const lost = part(minute, worst.name);
+  return <div>
+    <p>{minute.slots_s <= 0 ? "No slot has worked in the last minute." : lost < 0.1
+      ? `The slots are used well: ${percent(part(minute, "busy"))} of their time was spent on evaluations in the last minute.`
+      : <span><b>{percent(lost)} of the slots' time goes to {worst.name}</b>: {worst.what}. {worst.todo}</span>}</p>
+    <Split times={minute} name="last minute" />
+    <Split times={whole_time} name="since start" />
+    <div class="scroll" tabIndex={0} role="region" aria-label="slot time by cause"><table>
+      <caption class="unseen">Slot time by cause</caption>
+      <thead><tr><th scope="col">cause</th><th scope="col" class="n">last minute</th><th scope="col" class="n">since start</th><th scope="col" class="n">slot time</th><th scope="col">because</th></tr></thead>
+      <tbody>{kCauses.filter((cause) => seconds_of(whole_time, cause.name) > 0).map((cause) => <tr key={cause.name}>
+        <th scope="row"><span class="swatch" style={{ background: cause.color }} /> {cause.name}</th>
+        <td class="n">{percent(part(minute, cause.name))}</td><td class="n">{percent(part(whole_time, cause.name))}</td>
+        <td class="n">{duration(seconds_of(whole_time, cause.name))}</td>
+        <td class="because">{cause.what}</td></tr>)}</tbody>
+    </table></div>
+    <p class="faint small">Causes that took no time are left out.</p>
+  </div>;
+}
+
+/// Shares of the slots' time as areas above each other, and evaluations a second as a line.
+class Past extends Component<{ history: History }, {}> {
+  private draw = (to: CanvasRenderingContext2D, width: number, height: number, inks: Inks) => {
+    const { history } = this.props;
+    const n = history.t_s.length;
+    const left = 52, right = 44, top = 8, bottom = 20;
+    const [first, last] = [history.t_s[0], history.t_s[n - 1]];
+    const x = (i: number) => left + (width - left - right) * (last > first ? (history.t_s[i] - first) / (last - first) : 0);
+    const y = (part: number) => height - bottom - (height - top - bottom) * part;
+    const base = new Array<number>(n).fill(0);
+    to.font = `11px ${inks.font}`;
+    for (const cause of kCauses) {
+      const values = history[cause.name.replace("-", "_")];
+      if (!values) continue;
+      to.beginPath();
+      for (let i = 0; i < n; ++i) to.lineTo(x(i), y(base[i]));
+      for (let i = n - 1; i >= 0; --i) {
+        base[i] += values[i] ?? 0;
+        to.lineTo(x(i), y(Math.min(1, base[i])));
+      }
+      to.closePath();
+      to.fillStyle = cause.color;
+      to.globalAlpha = cause.name === "busy" ? 0.35 : 0.75;
+      to.fill();
+    }
+    to.globalAlpha = 1;
+    const rate = history.evaluations_per_s;
+    const most = Math.max(1, ...rate.map((value) => value ?? 0));
+    to.beginPath();
+    for (let i = 0; i < n; ++i) if (rate[i] !== null) to.lineTo(x(i), y(rate[i]! / most));
+    to.strokeStyle = inks.ink;
+    to.lineWidth = 1.5;
+    to.stroke();
+    to.fillStyle = inks.faint;
+    to.textAlign = "right";
+    to.textBaseline = "middle";
+    for (const part of [0, 0.5, 1]) to.fillText(number(most * part, 3), left - 6, y(part));
+    to.textAlign = "left";
+    for (const part of [0, 0.5, 1]) to.fillText(percent(part), width - right + 6, y(part));
+    to.textAlign = "center";
+    const parts = width > 500 ? 4 : 2;
+    for (let k = 0; k <= parts; ++k) {
+      const t = first + (last - first) * k / parts;
+      to.fillText(k === parts ? "now" : `−${duration(last - t)}`, Math.min(width - right, left + (width - left - right) * k / parts), height - 8);
+    }
+  };
   render() {
-    return <h1>Fleet</h1>;
+    const { history } = this.props;
+    if (history.t_s.length < 2) return <Empty>The process has just begun: its history comes second by second.</Empty>;
+    const rate = history.evaluations_per_s;
+    return <div><Canvas height={() => 190} draw={this.draw}
+      label={`Evaluations a second over the last ${duration(history.t_s[history.t_s.length - 1] - history.t_s[0])}: now ${number(rate[rate.length - 1], 3)}, at most ${number(Math.max(...rate.map((v) => v ?? 0)), 3)}; areas: share of the slots' time by cause`} />
+      <p class="faint small">Line: evaluations a second (left). Areas: share of the slots' time, busy and by cause (right), colours as above. It begins with this process.</p></div>;
   }
 }
 
-export const fleet: Page = { pattern: "fleet", title: () => "Fleet", view: Fleet,
-  nav: { label: "Fleet", letter: "f", path: () => ["fleet"] } };
+/// Lost and quarantined workers first, then those with failures, then the most silent.
+function worst_first(workers: Worker[]): Worker[] {
+  const weight = (one: Worker) => (one.state === "quarantined" ? 3 : one.state !== "connected" ? 2 : one.failed > 0 ? 1 : 0);
+  return [...workers].sort((a, b) => weight(b) - weight(a) || b.failed - a.failed || (b.last_heard_s ?? 0) - (a.last_heard_s ?? 0) || a.number - b.number);
+}
+
+class Fleet extends Component<PageProps, {}> {
+  private workers(workers: Worker[], running: boolean, store: string) {
+    return <Table<Worker> name="w" caption="Workers, worst first" rows={worst_first(workers)} row_key={(one) => String(one.number)}
+      row_class={(one) => one.state === "connected" ? "" : "bad"}
+      empty={<span>No worker{running ? " is connected" : " has ever been connected"}: <code>swarmsmith worker --coordinator {store}.coordinator</code> on any host that has this file.</span>}
+      columns={[
+        { key: "worker", label: "worker", numeric: true, value: (one) => one.number },
+        { key: "state", label: "state", value: (one) => one.state, show: (one) => <StateWord state={one.state} /> },
+        { key: "host", label: "host", value: (one) => one.host },
+        { key: "job", label: "job", value: (one) => one.job },
+        { key: "slots", label: "slots", numeric: true, value: (one) => one.slots },
+        { key: "running", label: "running", numeric: true, value: (one) => one.running, title: "evaluations, as it last said" },
+        { key: "held", label: "held", numeric: true, value: (one) => one.held, title: "leases" },
+        { key: "rate", label: "evals/s", numeric: true, value: (one) => one.done_per_s, show: (one) => number(one.done_per_s, 3) },
+        { key: "busy", label: "busy", numeric: true, value: (one) => one.busy, show: (one) => percent(one.busy), title: "share of its slots' time, over the last seconds" },
+        { key: "silence", label: "silent for", numeric: true, value: (one) => one.last_heard_s, show: (one) => duration(one.last_heard_s) },
+        { key: "done", label: "done", numeric: true, value: (one) => one.done },
+        { key: "failed", label: "failed", numeric: true, value: (one) => one.failed, show: (one) => one.failed > 0 ? <b class="warn">{whole(one.failed)}</b> : "0" },
+        { key: "connections", label: "connected", numeric: true, value: (one) => one.connections, show: (one) => count(one.connections, "time") },
+      ]} />;
+  }
+
+  render() {
+    const { live } = this.props;
+    const s = live.status;
+    const store = live.campaigns[0]?.store ?? "STORE";
+    return <div>
+      <h1>Fleet</h1>
+      {!live.running && <Empty>No campaign runs here, so no worker works for it. Below are those that did, as the store knows them.</Empty>}
+      {s && live.running && <dl class="facts framed">
+        <Fact name="workers">{whole(s.workers)}</Fact>
+        <Fact name="slots">{whole(s.slots)}</Fact>
+        <Fact name="evaluations/s">{number(s.evaluations_per_s, 3)}</Fact>
+        <Fact name="leased" title="tasks that workers hold">{whole(s.leased)}</Fact>
+        <Fact name="ready" title="tasks that wait for a slot">{whole(s.ready)}</Fact>
+        <Fact name="done">{whole(s.done)}</Fact>
+        <Fact name="failed attempts">{whole(s.failed)}</Fact>
+        <Fact name="back in the queue" title="leases that went back">{whole(s.requeued)}</Fact>
+        <Fact name="lost workers">{whole(s.lost_workers)}</Fact>
+        <Fact name="uncommitted" title="outcomes that are not on disk yet">{whole(s.uncommitted)}</Fact>
+        <Fact name="up for">{duration(s.uptime_s)}</Fact>
+      </dl>}
+      {s?.launcher?.name && <p class="faint">Workers are started by {s.launcher.name}: {count(s.launcher.running, "of", "of")} {whole(s.launcher.wanted)} run{s.launcher.pending > 0 && `, ${whole(s.launcher.pending)} wait for ${s.launcher.waits_for || "their turn"}`}. {s.launcher.note}</p>}
+      <div class="grid">
+        {s && live.running && <Panel title="Where the slots' time goes"><SlotTime status={s} /></Panel>}
+        {live.running && <Panel title="The last minutes"><Get<History> path="history" every_s={2} render={(history) => <Past history={history} />}
+          missing={(error) => <Empty>{error.message}</Empty>} /></Panel>}
+        <Panel wide title="Workers, worst first" tools={<Copy what="Copy as command" text={`swarmsmith status ${shell_word(store)} --watch`} />}>
+          <Get<{ workers: Worker[] }> path="workers" every_s={live.running ? 1 : 30} render={({ workers }) => this.workers(workers, live.running, store)} /></Panel>
+      </div>
+    </div>;
+  }
+}
+
+export const fleet: Page = {
+  pattern: "fleet", title: () => "Fleet", view: Fleet,
+  nav: { label: "Fleet", letter: "f", path: () => ["fleet"] },
+};

@@ -16,7 +16,7 @@ const kMarkers: Record<string, string> = {
 };
 const kRows = 400;
 // Parts of the picture, in CSS pixels.
-const kLeft = 64, kRight = 16, kAlive = 46, kMarks = 18, kTop = kAlive + kMarks, kBottom = 18;
+const kLeft = 86, kRight = 16, kAlive = 46, kMarks = 18, kTop = kAlive + kMarks, kBottom = 18;
 
 /// What the matrix shows, made once of an answer: the rank of each cell as a part from 0 (best) to 1.
 class Matrix {
@@ -96,7 +96,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
   private draw = (context: CanvasRenderingContext2D, width: number, height: number, inks: Inks) => {
     const { matrix, until, cell } = this.props;
     const columns = matrix.race.steps.length;
-    this.area = { width, column: Math.min(30, (width - kLeft - kRight) / Math.max(1, columns)), row: this.row_height() };
+    this.area = { width, column: Math.min(48, (width - kLeft - kRight) / Math.max(1, columns)), row: this.row_height() };
     const dark = document.documentElement.dataset.theme === "dark";
     const scale = context.canvas.width / width;
     const key = [matrix, until, width, dark, scale];
@@ -353,7 +353,7 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
           <button type="button" class="quiet" aria-label={this.state.playing ? "pause the replay of the race" : "replay the race"} onClick={() => this.play(race.steps, until)}>{this.state.playing ? "❚❚" : "▶"}</button>
           <input id="step" type="range" min={0} max={last} value={String(until)} aria-valuetext={`step ${now}, ${race.alive[until]} alive`}
             onInput={(e) => { const to = Number((e.target as HTMLInputElement).value); set_query({ step: to === last ? null : race.steps[to] }); }} />
-          <span class="faint">{until < last ? `as it was then; ${last - until} steps later are hidden` : `${count(last + 1, "step")}`}</span>
+          <span class="faint">{until < last ? `as it was then; ${count(last - until, "later step")} hidden` : `${count(last + 1, "step")}`}</span>
         </div>
         <RaceMap matrix={matrix} until={until} cell={cell} pick={pick} watch={watch}
           label={`Race ${race.iteration} of ${d}: ${race.candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
@@ -428,7 +428,7 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
         { key: "dropped", label: "dropped after step", numeric: true, value: (row) => row.dropped },
         { key: "reason", label: "why", value: (row) => row.reason },
         { key: "elite", label: "elite", value: (row) => row.elite },
-        { key: "cell", label: "cell", value: () => "", show: (row) => <button type="button" class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
+        { key: "cell", label: "cell", value: () => null, show: (row) => <button type="button" class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
       ]} />;
   }
 
