@@ -57,6 +57,12 @@ export function Bar({ value, of, name }: { value: number; of: number; name: stri
     <div class="bar-done" style={{ width: `${100 * part}%` }} /></div>;
 }
 
+/// A list of one choice that the address keeps: pairs of the text and the word in the address.
+export function Choice({ label, name, value, options }: { label: string; name: string; value: string; options: [string, string][] }) {
+  return <label>{label} <select onChange={(event) => set_query({ [name]: (event.target as HTMLSelectElement).value })}>
+    {options.map(([text, word]) => <option value={word} selected={word === value}>{text}</option>)}</select></label>;
+}
+
 /// The state of a design, a campaign or a worker: always a word, the mark beside it only helps.
 export function StateWord({ state, paused }: { state: string; paused?: boolean }) {
   const word = paused ? "paused" : state;
@@ -149,9 +155,10 @@ export class Confirm extends Component<ConfirmProps, { open: boolean; busy: bool
 
 export interface Column<Row> {
   key: string;
-  label: string;
-  /// What it is sorted and filtered by, and what CSV has.
-  value: (row: Row) => string | number | null | undefined;
+  /// Else the key, in words.
+  label?: string;
+  /// What it is sorted and filtered by, and what CSV has; else the row's field of the key's name.
+  value?: (row: Row) => string | number | null | undefined;
   /// What is shown; else the value.
   show?: (row: Row) => Children;
   numeric?: boolean;
@@ -174,13 +181,17 @@ interface TableProps<Row> {
   page_size?: number;
 }
 
+function value_of<Row>({ key, value }: Column<Row>, row: Row): string | number | null | undefined {
+  return value ? value(row) : (row as any)[key];
+}
+
 /// A table that sorts, filters and pages.
 export class Table<Row> extends Component<TableProps<Row>, {}> {
   private sorted(rows: Row[], sort: string): Row[] {
     const down = sort.startsWith("-");
     const column = this.props.columns.find((c) => c.key === sort.replace(/^-/, ""));
     if (!column) return rows;
-    return rows.map((row) => ({ row, value: column.value(row) })).sort((a, b) => {
+    return rows.map((row) => ({ row, value: value_of(column, row) })).sort((a, b) => {
       const [x, y] = [a.value, b.value];
       // What is not known comes last, whichever way.
       if (x === null || x === undefined) return y === null || y === undefined ? 0 : 1;
@@ -198,7 +209,7 @@ export class Table<Row> extends Component<TableProps<Row>, {}> {
     const sort = query[name + ".sort"] ?? first_sort ?? "";
     const filter = (query[name + ".q"] ?? "").toLowerCase();
     const matching = filter === "" ? rows
-      : rows.filter((row) => columns.some((c) => String(c.value(row) ?? "").toLowerCase().includes(filter)));
+      : rows.filter((row) => columns.some((c) => String(value_of(c, row) ?? "").toLowerCase().includes(filter)));
     const pages = Math.max(1, Math.ceil(matching.length / page_size));
     const page = Math.min(pages, Math.max(1, Number(query[name + ".page"] ?? 1) || 1));
     const shown = this.sorted(matching, sort).slice((page - 1) * page_size, page * page_size);
@@ -210,7 +221,7 @@ export class Table<Row> extends Component<TableProps<Row>, {}> {
         <span class="faint" role="status">{filter ? `${whole(matching.length)} of ${whole(rows.length)}` : `${whole(rows.length)} rows`}</span>
         <button type="button" class="quiet" aria-label={`CSV: ${caption}`} onClick={() =>
           save_as(caption.replace(/\W+/g, "-") + ".csv", "text/csv",
-            csv([columns.map((c) => c.key), ...this.sorted(matching, sort).map((row) => columns.map((c) => c.value(row)))]))}>CSV</button>
+            csv([columns.map((c) => c.key), ...this.sorted(matching, sort).map((row) => columns.map((c) => value_of(c, row)))]))}>CSV</button>
       </div>}
       <div class="scroll" tabIndex={0} role="region" aria-label={caption}>
         <table>
@@ -221,10 +232,10 @@ export class Table<Row> extends Component<TableProps<Row>, {}> {
             const next = now === "none" ? (column.numeric ? "-" : "") + column.key : now === "ascending" ? "-" + column.key : column.key;
             return <th scope="col" class={column.numeric ? "n" : ""} aria-sort={now} title={column.title}>
               <button type="button" onClick={() => set_query({ [name + ".sort"]: next, [name + ".page"]: null })}>
-                {column.label}<span aria-hidden="true" class="arrow">{now === "ascending" ? "▲" : now === "descending" ? "▼" : ""}</span></button></th>;
+                {column.label ?? column.key.replace(/_/g, " ")}<span aria-hidden="true" class="arrow">{now === "ascending" ? "▲" : now === "descending" ? "▼" : ""}</span></button></th>;
           })}</tr></thead>
           <tbody>{shown.map((row) => <tr key={row_key(row)} class={row_class?.(row) ?? ""}>{columns.map((column) => {
-            const value = column.value(row);
+            const value = value_of(column, row);
             return <td class={column.numeric ? "n" : ""}>{(column.show ? column.show(row) : typeof value === "number" ? number(value) : value ?? "–") as JSX.Element}</td>;
           })}</tr>)}</tbody>
         </table>
