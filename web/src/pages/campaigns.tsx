@@ -1,8 +1,8 @@
 import { Component, h } from "preact";
 import { post } from "../api";
-import { Bar, Confirm, Copy, Empty, Fact, Panel, StateWord, Table } from "../components";
+import { Bar, Confirm, Empty, Fact, Panel, StateWord, Table } from "../components";
 import { Figure } from "../figure";
-import { count, number, percent, shell_word, when, whole, words } from "../format";
+import { count, number, percent, shell_word, whole, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
@@ -74,10 +74,10 @@ export class Events extends Component<{ c: string; version: number }, {}> {
         row_class={(event) => event.severity === "error" ? "bad" : ""}
         empty="Nothing has happened that people should know of: no failure, no command, no conflict. Progress is not an event."
         columns={[
-          { key: "at", label: "when", value: (e) => e.at, show: (e) => <time dateTime={e.at} title={`${e.at} UTC`}>{when(e.at)}</time> },
-          { key: "severity", label: "severity", value: (e) => e.severity },
+          { key: "at", label: "when" },
+          { key: "severity" },
           { key: "kind", label: "what", value: (e) => words(e.kind) },
-          { key: "data", label: "details", value: (e) => said(e.data), show: (e) => <span class="long">{said(e.data)}</span> },
+          { key: "data", label: "details", value: (e) => said(e.data) },
         ]} />} />;
   }
 }
@@ -101,8 +101,7 @@ class Campaigns extends Component<PageProps, {}> {
         live.may_act && open && paused < designs.length && <Confirm label="Pause all" title={`Pause all designs of ${campaign.name}?`} act={() => act("pause")}>
           Evaluations that run now end and count; nothing more is given out until somebody resumes. Nothing is lost.</Confirm>,
         live.may_act && paused > 0 && <Confirm label="Resume all" title={`Resume all designs of ${campaign.name}?`} act={() => act("resume")}>
-          {count(paused, "paused design")} will get work again.</Confirm>,
-        <Copy what="Copy as command" text={`swarmsmith ls ${shell_word(campaign.store)}`} />]}>
+          {count(paused, "paused design")} will get work again.</Confirm>]} command={`swarmsmith ls ${shell_word(campaign.store)}`}>
         <dl class="facts">
           <Fact name="state"><StateWord state={is_at_rest(live, campaign) ? "at rest" : campaign.state} paused={paused > 0 && paused === designs.length} /></Fact>
           <Fact name="designs" title={states}>{whole(designs.length)} <span class="small faint">{states}{paused > 0 && `, ${paused} paused`}</span></Fact>

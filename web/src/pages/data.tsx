@@ -1,10 +1,10 @@
 import { Component, h } from "preact";
 import { ApiError, ask, path_of } from "../api";
-import { Copy, Empty, Failure, Panel, save_as, Table } from "../components";
-import { count, duration, number, shell_word, whole } from "../format";
+import { Empty, Failure, Panel, save_as, Table } from "../components";
+import { count, duration, shell_word, whole } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
-import { href, set_query } from "../route";
+import { set_query } from "../route";
 import { Cell, Rows, View } from "../types";
 
 /// To begin with: the numbers of the other pages.
@@ -19,15 +19,6 @@ const kQueries: [string, string][] = [
   ["commands", "SELECT * FROM v_commands"],
   ["workers", "SELECT worker, host, slots, state, done, failed, cpu FROM v_workers"],
 ];
-
-/// A cell whose column names a thing leads to it.
-function linked(c: string, column: string, value: Cell) {
-  if (value === null) return <span class="faint">NULL</span>;
-  if (/^(best_)?candidate$|^best$|^parent$/.test(column) && typeof value === "number") return <a href={href([c, "c" + value])}>c{value}</a>;
-  if (column === "design" && typeof value === "number") return <a href={href([c, "d" + value])}>d{value}</a>;
-  if (column === "id" && /^[er]\d+[a-z]?$/.test(String(value))) return <a href={href([c, "runs", String(value)])}>{value}</a>;
-  return typeof value === "number" ? number(value, 6) : String(value);
-}
 
 class Data extends Component<PageProps, { sql: string; asked: string; error: ApiError | null }> {
   state = { sql: this.props.query.q ?? "", asked: this.props.query.q ?? "", error: null };
@@ -48,15 +39,12 @@ class Data extends Component<PageProps, { sql: string; asked: string; error: Api
     } catch (error) { this.setState({ error: error as ApiError }); }
   };
 
-  private result(c: string, { columns, rows, truncated, seconds }: Rows) {
+  private result({ columns, rows, truncated, seconds }: Rows) {
     return <div>
       <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut at {whole(rows.length)}: add a WHERE or a LIMIT, or take the command line</b>}, {duration(seconds)}</span>
         <button type="button" class="quiet" onClick={this.csv}>CSV of all</button></div>
       <Table<Cell[]> name="q" caption="Result" rows={rows} row_key={(row) => String(rows.indexOf(row))} empty="No rows."
-        columns={columns.map((label, i) => ({
-          key: label, label, value: (row) => row[i], show: (row) => linked(c, label, row[i]),
-          numeric: rows.slice(0, 20).every((row) => row[i] === null || typeof row[i] === "number"),
-        }))} />
+        columns={columns.map((key, i) => ({ key, label: key, value: (row) => row[i] }))} />
     </div>;
   }
 
@@ -68,7 +56,7 @@ class Data extends Component<PageProps, { sql: string; asked: string; error: Api
     return <div>
       <h1>Data <span class="light">of {campaign.store}</span></h1>
       <div class="grid">
-        <Panel title="Ask in SQL, read-only" tools={<Copy what="Copy as command" text={`swarmsmith query ${shell_word(sql)} ${shell_word(campaign.store)}`} />}>
+        <Panel title="Ask in SQL, read-only" command={`swarmsmith query ${shell_word(sql)} ${shell_word(campaign.store)}`}>
           <form onSubmit={(e) => { e.preventDefault(); this.run(sql); }}>
             <textarea rows={6} {...{ spellcheck: false }} aria-label="SQL" value={sql} placeholder="SELECT * FROM v_designs"
               onInput={(e) => this.setState({ sql: (e.target as HTMLTextAreaElement).value })}
@@ -86,7 +74,7 @@ class Data extends Component<PageProps, { sql: string; asked: string; error: Api
         </Panel>
         {asked && <Panel wide title="Result">
           {error && <Failure error={error} />}
-          <Get<Rows> key={asked} path={path_of(`${c}/query`, { sql: asked })} render={(rows) => this.result(c, rows)} /></Panel>}
+          <Get<Rows> key={asked} path={path_of(`${c}/query`, { sql: asked })} render={(rows) => this.result(rows)} /></Panel>}
       </div>
     </div>;
   }

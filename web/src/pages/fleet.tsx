@@ -1,7 +1,7 @@
 import { Component, h } from "preact";
 import { Canvas, Inks } from "../canvas";
-import { Copy, Empty, Fact, Panel, StateWord, Table } from "../components";
-import { count, duration, number, percent, shell_word, whole } from "../format";
+import { Empty, Fact, Panel, StateWord, Table } from "../components";
+import { count, duration, number, percent, shell_word, whole, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { History, SlotTimes, Status, Worker } from "../types";
@@ -119,25 +119,31 @@ function worst_first(workers: Worker[]): Worker[] {
   return [...workers].sort((a, b) => weight(b) - weight(a) || b.failed - a.failed || (b.last_heard_s ?? 0) - (a.last_heard_s ?? 0) || a.number - b.number);
 }
 
+/// What the counts mean whose names do not say it.
+const kCounts: Record<string, string> = {
+  leased: "tasks that workers hold", ready: "tasks that wait for a slot", failed: "attempts without a score",
+  requeued: "leases that went back to the queue", uncommitted: "outcomes that are not on disk yet",
+};
+
 class Fleet extends Component<PageProps, {}> {
   private workers(workers: Worker[], running: boolean, store: string) {
-    return <Table<Worker> name="w" caption="Workers, worst first" rows={worst_first(workers)} row_key={(one) => String(one.number)}
+    return <Table<Worker> name="w" caption="Workers, worst first" rows={worst_first(workers)}
       row_class={(one) => one.state === "connected" ? "" : "bad"}
       empty={<span>No worker{running ? " is connected" : " has ever been connected"}: <code>swarmsmith worker --coordinator {store}.coordinator</code> on any host that has this file.</span>}
       columns={[
-        { key: "worker", label: "worker", numeric: true, value: (one) => one.number },
-        { key: "state", label: "state", value: (one) => one.state, show: (one) => <StateWord state={one.state} /> },
-        { key: "host", label: "host", value: (one) => one.host },
-        { key: "job", label: "job", value: (one) => one.job },
-        { key: "slots", label: "slots", numeric: true, value: (one) => one.slots },
-        { key: "running", label: "running", numeric: true, value: (one) => one.running, title: "evaluations, as it last said" },
-        { key: "held", label: "held", numeric: true, value: (one) => one.held, title: "leases" },
-        { key: "rate", label: "evals/s", numeric: true, value: (one) => one.done_per_s, show: (one) => number(one.done_per_s, 3) },
-        { key: "busy", label: "busy", numeric: true, value: (one) => one.busy, show: (one) => percent(one.busy), title: "share of its slots' time, over the last seconds" },
-        { key: "silence", label: "silent for", numeric: true, value: (one) => one.last_heard_s, show: (one) => duration(one.last_heard_s) },
-        { key: "done", label: "done", numeric: true, value: (one) => one.done },
-        { key: "failed", label: "failed", numeric: true, value: (one) => one.failed, show: (one) => one.failed > 0 ? <b class="warn">{whole(one.failed)}</b> : "0" },
-        { key: "connections", label: "connected", numeric: true, value: (one) => one.connections, show: (one) => count(one.connections, "time") },
+        { key: "number", label: "worker" },
+        { key: "state", show: (one) => <StateWord state={one.state} /> },
+        { key: "host" },
+        { key: "job" },
+        { key: "slots" },
+        { key: "running", title: "evaluations, as it last said" },
+        { key: "held", title: "leases" },
+        { key: "done_per_s", label: "evals/s", show: (one) => number(one.done_per_s, 3) },
+        { key: "busy", show: (one) => percent(one.busy), title: "share of its slots' time, over the last seconds" },
+        { key: "last_heard_s", label: "silent for", show: (one) => duration(one.last_heard_s) },
+        { key: "done" },
+        { key: "failed", show: (one) => <b class={one.failed ? "warn" : "faint"}>{whole(one.failed)}</b> },
+        { key: "connections" },
       ]} />;
   }
 
@@ -149,16 +155,9 @@ class Fleet extends Component<PageProps, {}> {
       <h1>Fleet</h1>
       {!live.running && <Empty>No campaign runs here, so no worker works for it. Below are those that did, as the store knows them.</Empty>}
       {s && live.running && <dl class="facts framed">
-        <Fact name="workers">{whole(s.workers)}</Fact>
-        <Fact name="slots">{whole(s.slots)}</Fact>
+        {(["workers", "slots", "leased", "ready", "done", "failed", "requeued", "lost_workers", "uncommitted"] as const).map((name) =>
+          <Fact name={words(name)} title={kCounts[name]}>{whole(s[name])}</Fact>)}
         <Fact name="evaluations/s">{number(s.evaluations_per_s, 3)}</Fact>
-        <Fact name="leased" title="tasks that workers hold">{whole(s.leased)}</Fact>
-        <Fact name="ready" title="tasks that wait for a slot">{whole(s.ready)}</Fact>
-        <Fact name="done">{whole(s.done)}</Fact>
-        <Fact name="failed attempts">{whole(s.failed)}</Fact>
-        <Fact name="back in the queue" title="leases that went back">{whole(s.requeued)}</Fact>
-        <Fact name="lost workers">{whole(s.lost_workers)}</Fact>
-        <Fact name="uncommitted" title="outcomes that are not on disk yet">{whole(s.uncommitted)}</Fact>
         <Fact name="up for">{duration(s.uptime_s)}</Fact>
       </dl>}
       {s?.launcher?.name && <p class="faint">Workers are started by {s.launcher.name}: {count(s.launcher.running, "of", "of")} {whole(s.launcher.wanted)} run{s.launcher.pending > 0 && `, ${whole(s.launcher.pending)} wait for ${s.launcher.waits_for || "their turn"}`}. {s.launcher.note}</p>}
@@ -166,7 +165,7 @@ class Fleet extends Component<PageProps, {}> {
         {s && live.running && <Panel title="Where the slots' time goes"><SlotTime status={s} /></Panel>}
         {live.running && <Panel title="The last minutes"><Get<History> path="history" every_s={2} render={(history) => <Past history={history} />}
           missing={(error) => <Empty>{error.message}</Empty>} /></Panel>}
-        <Panel wide title="Workers, worst first" tools={<Copy what="Copy as command" text={`swarmsmith status ${shell_word(store)} --watch`} />}>
+        <Panel wide title="Workers, worst first" command={`swarmsmith status ${shell_word(store)} --watch`}>
           <Get<{ workers: Worker[] }> path="workers" every_s={live.running ? 1 : 30} render={({ workers }) => this.workers(workers, live.running, store)} /></Panel>
       </div>
     </div>;

@@ -1,6 +1,7 @@
 import { Component, h } from "preact";
-import { ask, path_of } from "../api";
-import { announce, Copy, Empty, Fact, Panel, save_as, Table } from "../components";
+import { path_of } from "../api";
+import { announce, Copy, Empty, Fact, Panel, Table, To } from "../components";
+import { Files } from "../figure";
 import { Canvas, Inks, viridis } from "../canvas";
 import { count, number, shell_word, whole } from "../format";
 import { Get } from "../get";
@@ -280,35 +281,17 @@ export function evaluation_id(candidate: number, pair: number): string {
   return `e${candidate * 100000 + pair}`;
 }
 
-class Legend extends Component<{}, {}> {
-  render() {
-    return <ul class="legend">
-      <li><span class="swatch viridis" /> rank, best to worst</li>
-      <li><span class="swatch dropped-end" /> dropped here</li>
-      <li><span class="swatch gone" /> no longer in the race</li>
-      <li><span class="swatch elite" /> elite before (left), after (right)</li>
-    </ul>;
-  }
+function Legend() {
+  return <ul class="legend">
+    <li><span class="swatch viridis" /> rank, best to worst</li>
+    <li><span class="swatch dropped-end" /> dropped here</li>
+    <li><span class="swatch gone" /> no longer in the race</li>
+    <li><span class="swatch elite" /> elite before (left), after (right)</li>
+  </ul>;
 }
 
-class RacePage extends Component<PageProps, { playing: boolean }> {
-  state = { playing: false };
+class RacePage extends Component<PageProps, {}> {
   private matrix: Matrix | null = null;
-  private timer = 0;
-
-  componentWillUnmount() { clearInterval(this.timer); }
-
-  private play = (steps: number[], from: number) => {
-    if (this.state.playing) { clearInterval(this.timer); this.setState({ playing: false }); return; }
-    let at = from >= steps.length - 1 ? 0 : from;
-    this.setState({ playing: true });
-    const each = Math.max(1, Math.ceil(steps.length / 120));
-    this.timer = window.setInterval(() => {
-      at = Math.min(steps.length - 1, at + each);
-      set_query({ step: at === steps.length - 1 ? null : steps[at] });
-      if (at === steps.length - 1) { clearInterval(this.timer); this.setState({ playing: false }); }
-    }, 120);
-  };
 
   private cell_of(matrix: Matrix, until: number): At | null {
     const found = /^c(\d+)(?:,(\d+))?$/.exec(this.props.query.cell ?? "");
@@ -337,20 +320,12 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
     };
     const now = race.steps[until];
     const fallen = race.candidates.filter((_, row) => matrix.dropped(row, now) !== null).length;
-    const save = async (ending: string) => {
-      try {
-        const { text } = await ask(path_of(`${c}/figures/race.${ending}`, { design: d, iteration: race.iteration, width: ending === "svg" ? 175 : null }));
-        save_as(`race-${d}-${race.iteration}.${ending}`, ending === "svg" ? "image/svg+xml" : "text/csv", text);
-      } catch (error) { announce((error as Error).message); }
-    };
     return <div class="beside">
-      <Panel title={`Race ${race.iteration}${race.ended ? "" : ", running"}: candidates by step`} tools={[
-        <button type="button" class="quiet" onClick={() => save("svg")} aria-label="SVG: race">SVG</button>,
-        <button type="button" class="quiet" onClick={() => save("csv")} aria-label="CSV: race">CSV</button>,
-        <Copy what="Copy as command" text={`swarmsmith figure race ${store} --design ${d} --iteration ${race.iteration} -o race.svg`} />,
-        <a class="small" href={href([c, "sql"], { q: `SELECT * FROM v_race_matrix WHERE design = ${d.slice(1)} AND iteration = ${race.iteration}` })}>SQL</a>]}>
+      <Panel title={`Race ${race.iteration}${race.ended ? "" : ", running"}: candidates by step`}
+        command={`swarmsmith figure race ${store} --design ${d} --iteration ${race.iteration} -o race.svg`}
+        sql={`SELECT * FROM v_race_matrix WHERE design = ${d.slice(1)} AND iteration = ${race.iteration}`}
+        tools={<Files c={c} kind="race" name="race" options={{ design: d, iteration: race.iteration }} />}>
         <div class="slider"><label for="step">after step {now}{until === last && !race.ended ? ", the newest" : ""}</label>
-          <button type="button" class="quiet" aria-label={this.state.playing ? "pause the replay of the race" : "replay the race"} onClick={() => this.play(race.steps, until)}>{this.state.playing ? "❚❚" : "▶"}</button>
           <input id="step" type="range" min={0} max={last} value={String(until)} aria-valuetext={`step ${now}, ${race.alive[until]} alive`}
             onInput={(e) => { const to = Number((e.target as HTMLInputElement).value); set_query({ step: to === last ? null : race.steps[to] }); }} />
           <span class="faint">{until < last ? `as it was then; ${count(last - until, "later step")} hidden` : `${count(last + 1, "step")}`}</span>
@@ -377,14 +352,11 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
     const dropped = race.dropped_at[at.row];
     return <div>
       <dl class="facts">
-        <Fact name="candidate"><a href={href([c, "c" + candidate])}>c{candidate}</a></Fact>
+        <Fact name="candidate">{To("c", candidate)}</Fact>
         <Fact name="score" title="higher is better">{number(score, 6)}</Fact>
         <Fact name="rank">{number(matrix.rank[at.step][at.row])} <span class="small faint">of {matrix.ranked[at.step]}</span></Fact>
-        <Fact name="step">{race.steps[at.step]}</Fact>
-        <Fact name="instance">{race.instances[at.step]}</Fact>
-        <Fact name="seed"><span class="small">{race.seeds[at.step]}</span></Fact>
       </dl>
-      <p>{dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[at.row]}.` : race.elite_after[at.row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
+      <p>Step {race.steps[at.step]}, instance {race.instances[at.step]}, seed {race.seeds[at.step]}. {dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[at.row]}.` : race.elite_after[at.row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
       {score !== null ? <div>
         <p class="tools"><button type="button" class="main" onClick={() => watch(at)}>Watch this run</button>
           <Copy what="Copy as command" text={`swarmsmith explain ${id} ${shell_word(campaign.store)}`} /></p>
@@ -402,12 +374,10 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
       return <dl class="facts">
         <Fact name="test"><code>{race.markers[until]}</code> <span class="small">{kMarkers[race.markers[until]]}</span></Fact>
         <Fact name="alive">{whole(race.alive[until])}</Fact>
-        <Fact name="best">{of("best") ? <a href={href([c, "c" + of("best")])}>c{of("best")}</a> : "–"}</Fact>
+        <Fact name="best">{of("best") ? To("c", of("best")!) : "–"}</Fact>
         <Fact name="its mean">{number(of("mean_best") as number | null)}</Fact>
         <Fact name="p value">{p === null ? "–" : p < 0.0001 ? "< 0.0001" : number(p, 3)}</Fact>
-        <Fact name="statistic">{number(of("statistic") as number | null)}</Fact>
         <Fact name="Kendall's W" title="how much the pairs agree, 0 to 1">{number(of("kendall_w") as number | null, 3)}</Fact>
-        <Fact name="experiments used">{whole(of("used") as number | null)}</Fact>
       </dl>;
     }} />;
   }
@@ -420,15 +390,15 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
       return { candidate, row, ...matrix.mean(row, until), dropped, reason: dropped === null ? null : race.reasons[row],
         elite: race.elite_before[row] ? "before" + (race.elite_after[row] ? " and after" : "") : race.elite_after[row] ? "after" : "" };
     });
-    return <Table<typeof rows[0]> name="r" caption={`Candidates after step ${now}`} rows={rows} row_key={(row) => String(row.candidate)} page_size={25}
+    return <Table<typeof rows[0]> name="r" caption={`Candidates after step ${now}`} rows={rows} page_size={25}
       columns={[
-        { key: "candidate", label: "candidate", value: (row) => row.candidate, show: (row) => <a href={href([c, "c" + row.candidate])}>c{row.candidate}</a> },
-        { key: "mean", label: "mean score here", numeric: true, value: (row) => row.mean, title: "over the pairs of this race; higher is better" },
-        { key: "n", label: "pairs", numeric: true, value: (row) => row.n },
-        { key: "dropped", label: "dropped after step", numeric: true, value: (row) => row.dropped },
-        { key: "reason", label: "why", value: (row) => row.reason },
-        { key: "elite", label: "elite", value: (row) => row.elite },
-        { key: "cell", label: "cell", value: () => null, show: (row) => <button type="button" class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
+        { key: "candidate" },
+        { key: "mean", label: "mean score here", title: "over the pairs of this race; higher is better" },
+        { key: "n", label: "pairs" },
+        { key: "dropped", label: "dropped after step" },
+        { key: "reason", label: "why" },
+        { key: "elite" },
+        { key: "cell", show: (row) => <button type="button" class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
       ]} />;
   }
 
