@@ -2,7 +2,7 @@ import { Component, h } from "preact";
 import { path_of } from "../api";
 import { announce, Copy, Empty, Fact, Panel, Table, To } from "../components";
 import { Files } from "../figure";
-import { Canvas, Inks, viridis } from "../canvas";
+import { Canvas, Inks, pen, viridis } from "../canvas";
 import { count, number, shell_word, whole } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
@@ -118,85 +118,46 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
     const { matrix, until } = this.props;
     const { race } = matrix;
     const { column, row } = this.area;
-    const rows = race.candidates.length;
+    const { box, say, line } = pen(to, inks);
+    const rows = race.candidates.length, columns = race.steps.length;
     const now = race.steps[until];
-    to.font = `11px ${inks.font}`;
-    to.textBaseline = "middle";
-    // Grey where a candidate had fallen, the ground of what has not been evaluated.
-    for (let i = 0; i < rows; ++i) {
-      const y = kTop + i * row;
-      const dropped = matrix.dropped(i, now);
-      const from = dropped === null ? until + 1 : race.steps.indexOf(dropped) + 1;
-      if (from <= until) {
-        to.fillStyle = inks.soft;
-        to.fillRect(kLeft + from * column, y, (until + 1 - from) * column, row);
-      }
-    }
-    const gap_x = column >= 6 ? 0.5 : 0, gap_y = row >= 6 ? 0.5 : 0;
-    for (let s = 0; s <= until; ++s)
-      for (let i = 0; i < rows; ++i) {
-        const part = matrix.part(s, i);
-        if (part === null) continue;
-        // The best is farthest from the ground.
-        to.fillStyle = viridis(dark ? part : 1 - part);
-        to.fillRect(kLeft + s * column, kTop + i * row, Math.max(column - gap_x, 0.7), row - gap_y);
-      }
-    // Ends of those that a test or capping dropped; elites before and after.
+    const x_of = (step: number) => kLeft + step * column;
     const vermilion = dark ? "#ff7b2e" : "#d55e00";
-    for (let i = 0; i < rows; ++i) {
+    const gap_x = column >= 6 ? 0.5 : 0, gap_y = row >= 6 ? 0.5 : 0, mark = Math.min(4, row);
+    race.candidates.forEach((candidate, i) => {
       const y = kTop + i * row;
       const dropped = matrix.dropped(i, now);
-      if (dropped !== null && race.reasons[i] !== "not kept") {
-        to.fillStyle = vermilion;
-        to.fillRect(kLeft + (race.steps.indexOf(dropped) + 1) * column - 1, y, 2.5, row);
+      const end = dropped === null ? until + 1 : race.steps.indexOf(dropped) + 1;
+      // Grey where a candidate had fallen, the ground of what has not been evaluated.
+      box(inks.soft, x_of(end), y, (until + 1 - end) * column, row);
+      for (let s = 0; s <= until; ++s) {
+        const part = matrix.part(s, i);
+        // The best is farthest from the ground.
+        if (part !== null) box(viridis(dark ? part : 1 - part), x_of(s), y, Math.max(column - gap_x, 0.7), row - gap_y);
       }
-      to.fillStyle = inks.ink;
-      if (race.elite_before[i]) to.fillRect(kLeft - 6, y + row / 2 - Math.min(2, row / 2), 4, Math.min(4, row));
-      if (race.elite_after[i] && until === race.steps.length - 1)
-        to.fillRect(kLeft + race.steps.length * column + 4, y + row / 2 - Math.min(2, row / 2), 4, Math.min(4, row));
-    }
-    // Names of rows, as many as there is room for.
-    to.fillStyle = inks.faint;
-    to.textAlign = "right";
-    const each = Math.ceil(12 / row);
-    for (let i = 0; i < rows; i += each) to.fillText("c" + race.candidates[i], kLeft - 9, kTop + i * row + Math.max(row, 4) / 2);
-    // Markers: letters where they fit, else a tick where the test dropped some.
-    to.textAlign = "center";
-    for (let s = 0; s <= until; ++s) {
-      const x = kLeft + (s + 0.5) * column;
-      if (column >= 8) {
-        to.fillStyle = race.markers[s] === "-" || race.markers[s] === "c" ? vermilion : inks.faint;
-        to.fillText(race.markers[s], x, kAlive + kMarks / 2);
-      } else if (race.markers[s] === "-" || race.markers[s] === "c") {
-        to.fillStyle = vermilion;
-        to.fillRect(x - 0.5, kAlive + 6, Math.max(1, column), 8);
-      }
-    }
-    // How many were alive after each step.
-    const most = Math.max(1, ...race.alive, race.rows_total);
+      if (dropped !== null && race.reasons[i] !== "not kept") box(vermilion, x_of(end) - 1, y, 2.5, row);
+      if (race.elite_before[i]) box(inks.ink, kLeft - 6, y + (row - mark) / 2, 4, mark);
+      if (race.elite_after[i] && until === columns - 1) box(inks.ink, x_of(columns) + 4, y + (row - mark) / 2, 4, mark);
+      if (i % Math.ceil(12 / row) === 0) say("c" + candidate, kLeft - 9, y + Math.max(row, 4) / 2, "right");
+    });
+    // Above: how many were alive after each step, and markers: letters where they fit, else a tick where some fell.
+    const most = Math.max(1, race.rows_total);
     const y_of = (alive: number) => kAlive - 2 - (alive / most) * (kAlive - 10);
-    to.beginPath();
-    to.moveTo(kLeft, y_of(most));
+    const curve: [number, number][] = [[kLeft, y_of(most)]];
     for (let s = 0; s <= until; ++s) {
-      to.lineTo(kLeft + (s + 1) * column, y_of(s === 0 ? most : race.alive[s - 1]));
-      to.lineTo(kLeft + (s + 1) * column, y_of(race.alive[s]));
+      curve.push([x_of(s + 1), curve[curve.length - 1][1]], [x_of(s + 1), y_of(race.alive[s])]);
+      const fell = /[-c]/.test(race.markers[s]);
+      if (column >= 8) say(race.markers[s], x_of(s + 0.5), kAlive + kMarks / 2, "center", fell ? vermilion : inks.faint);
+      else if (fell) box(vermilion, x_of(s), kAlive + 6, Math.max(1, column), 8);
     }
-    to.strokeStyle = inks.link;
-    to.lineWidth = 1.5;
-    to.stroke();
-    to.fillStyle = inks.faint;
-    to.textAlign = "right";
-    to.fillText(`${whole(most)}`, kLeft - 9, y_of(most) + 4);
-    to.fillText("alive", kLeft - 9, y_of(0) - 4);
-    to.textAlign = "left";
-    to.fillText(whole(race.alive[until]), kLeft + (until + 1) * column + 4, y_of(race.alive[until]));
-    // Pairs below, as many as there is room for.
-    to.textAlign = "center";
-    const apart = Math.ceil(46 / column);
-    for (let s = 0; s < race.steps.length; s += apart)
-      to.fillText(String(race.steps[s]), kLeft + (s + 0.5) * column, kTop + rows * row + kBottom / 2 + 2);
-    to.textAlign = "right";
-    to.fillText("step", kLeft - 9, kTop + rows * row + kBottom / 2 + 2);
+    line(inks.link, curve);
+    say(whole(most), kLeft - 9, y_of(most) + 4, "right");
+    say("alive", kLeft - 9, y_of(0) - 4, "right");
+    say(whole(race.alive[until]), x_of(until + 1) + 4, y_of(race.alive[until]), "left");
+    // Below: steps, as many as there is room for.
+    const y = kTop + rows * row + kBottom / 2 + 2;
+    for (let s = 0; s < columns; s += Math.ceil(46 / column)) say(String(race.steps[s]), x_of(s + 0.5), y);
+    say("step", kLeft - 9, y, "right");
   }
 
   private frame(to: CanvasRenderingContext2D, { row, step }: At, inks: Inks, chosen: boolean) {
