@@ -22,7 +22,7 @@ interface FigureProps {
 }
 
 function figure_path({ c, kind, options }: FigureProps, ending: string, width: number | null): string {
-  return path_of(`${c}/figures/${kind}.${ending}`, { ...options, width });
+  return path_of(`${c}/figures/${kind}.${ending}`, { ...options, width: width && `${width}mm` });
 }
 
 /// Buttons that save a figure as it goes to a paper, and its numbers.

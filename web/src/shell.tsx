@@ -31,11 +31,6 @@ function switch_theme(): void {
 
 export interface Look { text: string; address: string }
 
-/// Not finished, and no process works on it as far as this one knows.
-export function is_at_rest(live: Live, campaign: Campaign): boolean {
-  return !live.running && campaign.state === "running";
-}
-
 /// What somebody should know of, worst first.
 export function looks(live: Live): Look[] {
   const found: Look[] = [];
@@ -52,11 +47,11 @@ export function looks(live: Live): Look[] {
     say(s.failed, `${count(s.failed, "attempt")} failed`, href(["c1"]));
     say(s.malformed, `${count(s.malformed, "frame")} dropped as malformed`);
   }
-  for (const campaign of live.campaigns)
-    say(is_at_rest(live, campaign), `${campaign.name} is not finished, and nobody runs it`, href([campaign.c]));
-  for (const campaign of live.campaigns)
-    for (const design of campaign.designs)
-      if (design.state === "stopped") say(true, `${design.id} has stopped`, href([campaign.c, design.id]));
+  for (const { c, name, trouble, state, designs } of live.campaigns) {
+    say(trouble, `${name}: ${trouble}`, href([c]));
+    say(state === "interrupted", `${name} is not finished, and nobody runs it`, href([c]));
+    for (const { id, state } of designs) say(state === "stopped", `${id} has stopped`, href([c, id]));
+  }
   return found;
 }
 

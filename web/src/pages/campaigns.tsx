@@ -6,7 +6,7 @@ import { count, number, percent, shell_word, whole, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
-import { eta_of, is_at_rest, looks } from "../shell";
+import { eta_of, looks } from "../shell";
 import { Campaign, Design, Event, Live } from "../types";
 
 /// "iteration 4", or how another search says where it is; nothing before it begins.
@@ -91,7 +91,7 @@ class Campaigns extends Component<PageProps, {}> {
   private one(live: Live, campaign: Campaign) {
     const { c, designs } = campaign;
     const of = (state: string) => designs.filter((one) => one.state === state).length;
-    const states = ["finished", "racing", "testing", "waiting", "stopped"].filter((state) => of(state) > 0)
+    const states = ["finished", "racing", "testing", "waiting", "interrupted", "stopped"].filter((state) => of(state) > 0)
       .map((state) => `${whole(of(state))} ${state}`).join(", ");
     const paused = designs.filter((one) => one.paused).length;
     const open = designs.some((one) => one.state !== "finished" && one.state !== "stopped");
@@ -103,14 +103,14 @@ class Campaigns extends Component<PageProps, {}> {
         live.may_act && paused > 0 && <Confirm label="Resume all" title={`Resume all designs of ${campaign.name}?`} act={() => act("resume")}>
           {count(paused, "paused design")} will get work again.</Confirm>]} command={`swarmsmith ls ${shell_word(campaign.store)}`}>
         <dl class="facts">
-          <Fact name="state"><StateWord state={is_at_rest(live, campaign) ? "at rest" : campaign.state} paused={paused > 0 && paused === designs.length} /></Fact>
+          <Fact name="state"><StateWord state={campaign.state} paused={paused > 0 && paused === designs.length} /></Fact>
           <Fact name="designs" title={states}>{whole(designs.length)} <span class="small faint">{states}{paused > 0 && `, ${paused} paused`}</span></Fact>
           <Fact name="experiments">{whole(campaign.used)} <span class="small faint">of {whole(campaign.budget)}, {percent(campaign.budget > 0 ? campaign.used / campaign.budget : 0)}</span></Fact>
           {campaign.state === "running" && live.running && <Fact name="ETA" title="the rest of the budgets at the rate of the last minute">{eta_of(live, campaign.eta_s)}</Fact>}
           <Fact name="store"><span class="small">{campaign.store}</span></Fact>
           <Fact name="digest" title="of all that decides the answer"><code class="small">{campaign.digest.slice(0, 12) || "–"}</code></Fact>
         </dl>
-        {is_at_rest(live, campaign) && <Empty>It is not finished, and no process works on it here. <code>swarmsmith run CAMPAIGN.toml --store {campaign.store}</code> continues it.</Empty>}
+        {campaign.state === "interrupted" && <Empty>It is not finished, and no process works on it here. <code>swarmsmith run CAMPAIGN.toml --store {campaign.store}</code> continues it.</Empty>}
         {designs.length === 0
           ? <Empty>This store holds no design yet. <code>swarmsmith run CAMPAIGN.toml --store {campaign.store}</code> begins them, <code>swarmsmith import</code> brings results from elsewhere.</Empty>
           : <Grid campaign={campaign} />}

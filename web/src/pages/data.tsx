@@ -67,8 +67,8 @@ class Data extends Component<PageProps, { sql: string; asked: string; error: Api
         </Panel>
         <Panel title="Views, the public schema">
           <Get<{ views: View[] }> path={`${c}/views`} render={({ views }) => <div class="views">{views.map((view) => <details key={view.name}>
-            <summary><code>{view.name}</code> <span class="faint small">{view.summary}</span></summary>
-            <dl class="pairs">{view.columns.map((column) => <div><dt><code>{column.name}</code></dt><dd>{column.meaning}</dd></div>)}</dl>
+            <summary><code>{view.name}</code> <span class="faint small">{view.text}</span></summary>
+            <dl class="pairs">{view.columns.map((column) => <div><dt><code>{column.name}</code></dt><dd>{column.text}</dd></div>)}</dl>
             <button type="button" class="quiet" onClick={() => this.run(`SELECT * FROM ${view.name} LIMIT 100`)}>first 100 rows</button>
           </details>)}</div>} />
         </Panel>

@@ -7,7 +7,7 @@ import { count, number, shell_word, whole } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { go, href, set_query } from "../route";
-import { Campaign, Cell, Columns, Design, Race } from "../types";
+import { Campaign, Design, Race } from "../types";
 import { said } from "./campaigns";
 import { DesignTitle, find_design, NoDesign } from "./design";
 
@@ -298,9 +298,9 @@ class RacePage extends Component<PageProps, {}> {
       </Panel>
       <div class="side">
         <Panel title="Cell">{cell ? this.cell(campaign, matrix, cell, watch) : <Empty>Click a cell to see what made its score, and to watch the run.</Empty>}</Panel>
-        <Panel title={`Step ${now}`}>{this.step(c, d, race, until)}</Panel>
+        <Panel title={`Step ${now}`}>{this.step(race, until)}</Panel>
       </div>
-      <Panel wide title={`Candidates after step ${now}`}>{this.table(c, matrix, until)}</Panel>
+      <Panel wide title={`Candidates after step ${now}`}>{this.table(matrix, until)}</Panel>
     </div>;
   }
 
@@ -327,23 +327,18 @@ class RacePage extends Component<PageProps, {}> {
     </div>;
   }
 
-  private step(c: string, d: string, race: Race, until: number) {
-    return <Get<Columns> path={`${c}/designs/${d}/steps?after=${race.steps[0] - 1}`} version={race.steps.length} keep render={(columns) => {
-      const i = (columns.step ?? []).indexOf(race.steps[until]);
-      const of = (name: string): Cell => i >= 0 ? columns[name]?.[i] ?? null : null;
-      const p = of("p_value") as number | null;
-      return <dl class="facts">
-        <Fact name="test"><code>{race.markers[until]}</code> <span class="small">{kMarkers[race.markers[until]]}</span></Fact>
-        <Fact name="alive">{whole(race.alive[until])}</Fact>
-        <Fact name="best">{of("best") ? To("c", of("best")!) : "–"}</Fact>
-        <Fact name="its mean">{number(of("mean_best") as number | null)}</Fact>
-        <Fact name="p value">{p === null ? "–" : p < 0.0001 ? "< 0.0001" : number(p, 3)}</Fact>
-        <Fact name="Kendall's W" title="how much the pairs agree, 0 to 1">{number(of("kendall_w") as number | null, 3)}</Fact>
-      </dl>;
-    }} />;
+  private step(race: Race, until: number) {
+    const p = race.p_value[until], best = race.best[until];
+    return <dl class="facts">
+      <Fact name="test"><code>{race.markers[until]}</code> <span class="small">{kMarkers[race.markers[until]]}</span></Fact>
+      <Fact name="p value">{p !== null && p < 0.0001 ? "< 0.0001" : number(p, 3)}</Fact>
+      <Fact name="alive">{whole(race.alive[until])}</Fact>
+      <Fact name="best">{best ? To("c", best) : "–"}</Fact>
+      <Fact name="its mean">{number(race.mean_best[until])}</Fact>
+    </dl>;
   }
 
-  private table(c: string, matrix: Matrix, until: number) {
+  private table(matrix: Matrix, until: number) {
     const { race } = matrix;
     const now = race.steps[until];
     const rows = race.candidates.map((candidate, row) => {
