@@ -63,6 +63,11 @@ export function words(name: string): string {
   return name.replace(/_/g, " ");
 }
 
+/// "c812" from a column's 812, or from what is a text already; null: none.
+export function id_of(letter: string, value: string | number | null | undefined): string | null {
+  return value === null || value === undefined ? null : typeof value === "number" ? letter + value : value;
+}
+
 /// A word of a shell's command line, quoted if it must be.
 export function shell_word(text: string): string {
   return /^[\w@%+=:,./-]+$/.test(text) ? text : "'" + text.replace(/'/g, "'\\''") + "'";

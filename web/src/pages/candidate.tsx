@@ -4,7 +4,7 @@ import { Component, h } from "preact";
 import { feed } from "../api";
 import { Copy, Empty, Fact, Panel, Table } from "../components";
 import { Figure } from "../figure";
-import { number, shell_word, whole, words } from "../format";
+import { id_of, number, shell_word, whole, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
@@ -12,10 +12,10 @@ import { Cell } from "../types";
 
 /// A row of v_candidates; parameters are an object, or its JSON text.
 interface Candidate {
-  candidate: number;
-  design: number;
+  candidate: number | string;
+  design: number | string;
   iteration: number;
-  parent: number | null;
+  parent: number | string | null;
   n_states: number | null;
   n_transitions: number | null;
   fsm_config: string | null;
@@ -57,13 +57,13 @@ class CandidatePage extends Component<PageProps, {}> {
 
   private answer({ candidate: one, ancestors, scores, later }: Answer) {
     const { c } = this.props.params;
-    const id = `c${one.candidate}`;
+    const id = id_of("c", one.candidate)!, d = id_of("d", one.design)!;
     const store = feed.live?.campaigns.find((campaign) => campaign.c === c)?.store ?? "STORE";
     const parameters = parameters_of(one);
     const play = (seed: number) => href([c, "runs", `${id}-${seed}`]);
     const rows = scores.pair.map((pair, at) => ({ pair, instance: scores.instance[at], seed: scores.seed[at], iteration: scores.iteration[at], score: scores.score[at] }));
     return <div>
-      <h1>Candidate {id} <span class="sub">of <a href={href([c, `d${one.design}`])}>d{one.design}</a></span></h1>
+      <h1>Candidate {id} <span class="sub">of <a href={href([c, d])}>{d}</a></span></h1>
       <div class="columns">
         <Panel title="In the race">
           <dl class="facts">
@@ -71,11 +71,11 @@ class CandidatePage extends Component<PageProps, {}> {
             <Fact name="runs">{whole(one.runs)}</Fact>
             <Fact name="made in iteration">{whole(one.iteration)}</Fact>
             {one.n_states !== null && <Fact name="states, transitions">{one.n_states}, {one.n_transitions}</Fact>}
-            <Fact name="end"><a class="plain" href={href([c, `d${one.design}`, "race", String(one.eliminated_in ?? one.iteration)], { cell: id })}>{fate(one)}</a></Fact>
+            <Fact name="end"><a class="plain" href={href([c, d, "race", String(one.eliminated_in ?? one.iteration)], { cell: id })}>{fate(one)}</a></Fact>
           </dl>
           <h3>Ancestors</h3>
-          {ancestors.length === 0 ? <p class="faint">None: it was drawn from the whole space{one.parent !== null && `, its parent c${one.parent} is not in the store`}.</p>
-            : <ol class="ancestors">{ancestors.map((other) => <li><a href={href([c, `c${other.candidate}`])}>c{other.candidate}</a>
+          {ancestors.length === 0 ? <p class="faint">None: it was drawn from the whole space{one.parent !== null && `, its parent ${id_of("c", one.parent)} is not in the store`}.</p>
+            : <ol class="ancestors">{ancestors.map((other) => <li><a href={href([c, id_of("c", other.candidate)!])}>{id_of("c", other.candidate)}</a>
               <span class="faint"> iteration {other.iteration}, mean {number(other.mean)} of {whole(other.runs)} runs</span></li>)}</ol>}
         </Panel>
         <Panel title="Control software">

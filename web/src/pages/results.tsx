@@ -3,7 +3,7 @@
 import { Component, h } from "preact";
 import { Choice, Copy, Empty, Panel, Table } from "../components";
 import { Figure } from "../figure";
-import { duration, shell_word, when, words } from "../format";
+import { duration, id_of, shell_word, when, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
@@ -16,11 +16,6 @@ function rows_of(columns: Columns | Record<string, unknown>): Row[] {
   const names = Object.keys(columns).filter((name) => Array.isArray(columns[name]));
   if (names.length === 0) return [];
   return (columns[names[0]] as Cell[]).map((_, at) => Object.fromEntries(names.map((name) => [name, (columns[name] as Cell[])[at]])));
-}
-
-/// A letter's id from a number or a text that has it already.
-function id_of(letter: string, value: Cell): string | null {
-  return value === null || value === undefined ? null : typeof value === "number" ? letter + value : value;
 }
 
 class Results extends Component<PageProps, {}> {

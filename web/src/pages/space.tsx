@@ -4,14 +4,16 @@ import { Component, h } from "preact";
 import { path_of } from "../api";
 import { Canvas, Inks } from "../canvas";
 import { announce, Choice, Empty, Panel, Table } from "../components";
-import { number, percent, whole } from "../format";
+import { number, whole } from "../format";
+import { Figure } from "../figure";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
-import { Axis, axis_at, axis_of, Brush, chosen_by, draw_parallel, draw_shares, line_at, part_of_y, Plot, Sample, Shares, shares_of,
-  varies } from "../parallel";
+import { Axis, axis_at, axis_of, Brush, chosen_by, draw_parallel, line_at, part_of_y, Plot, Sample, varies } from "../parallel";
 import { go, href, set_query } from "../route";
 
 const kUsualAxes = 9;
+/// Figures of more candidates than that are drawn when asked for: they read all of them.
+const kMuch = 20000;
 const kSamples = [300, 1000, 5000];
 
 function is_dark(): boolean { return document.documentElement.dataset.theme === "dark"; }
@@ -68,16 +70,16 @@ class Space extends Component<PageProps, { asked: number }> {
         render={(data) => data.candidates.length === 0
           ? <Empty>No candidate yet: the first iteration draws them as soon as the design's turn has come.</Empty>
           : Object.keys(data.parameters).length === 0 ? <Empty>This design searches no named parameters.</Empty>
-          : <Parallel c={c} data={data} query={query} again={() => this.setState({ asked: this.state.asked + 1 })} />} />
+          : <Parallel c={c} d={d} data={data} query={query} again={() => this.setState({ asked: this.state.asked + 1 })} />} />
     </div>;
   }
 }
 
-interface ParallelProps { c: string; data: Sample; query: Record<string, string>; again: () => void }
-interface ParallelState { met: number | null; drag: { axis: number; from: number; to: number } | null; table: boolean }
+interface ParallelProps { c: string; d: string; data: Sample; query: Record<string, string>; again: () => void }
+interface ParallelState { met: number | null; drag: { axis: number; from: number; to: number } | null }
 
 class Parallel extends Component<ParallelProps, ParallelState> {
-  state: ParallelState = { met: null, drag: null, table: false };
+  state: ParallelState = { met: null, drag: null };
   private width = 0;
   private height = 0;
 
@@ -141,13 +143,12 @@ class Parallel extends Component<ParallelProps, ParallelState> {
   // --- what is shown --------------------------------------------------------------------------------
 
   render() {
-    const { data } = this.props;
+    const { c, d, data, query } = this.props;
     const plot = this.plot();
     const { axes, chosen, brushes, met } = plot;
     const count = chosen.filter(Boolean).length;
     const names = Object.keys(data.parameters);
     const elites = data.elite.filter(Boolean).length;
-    const shares = axes.map((axis) => shares_of(axis, data.iteration));
     return <div class="grid">
       <Panel wide title="Candidates, a line each" tools={this.tools()}>
         <p><b>{whole(data.candidates.length)} of {whole(data.total)}</b> candidates{data.candidates.length < data.total && ", evenly spaced"};{" "}
@@ -169,12 +170,10 @@ class Parallel extends Component<ParallelProps, ParallelState> {
             {" "}{name}</label>)}</div></details>
         {axes.length > 0 && <details><summary>Ranges</summary><div class="ranges">{axes.map((axis) => this.range(axis, brushes[axis.name]))}</div></details>}
       </Panel>
-      <Panel wide title="Where the race looked, by iteration" tools={<button type="button" class="quiet" aria-pressed={this.state.table ? "true" : "false"}
-        onClick={() => this.setState({ table: !this.state.table })}>{this.state.table ? "as pictures" : "as table"}</button>}>
-        <p class="faint small">Of the candidates of an iteration that have the parameter, the share with each value: {is_dark() ? "bright" : "dark"} is much.</p>
-        {this.state.table ? this.share_table(shares)
-          : <div class="shares">{shares.map((one) => this.share(one))}</div>}
-      </Panel>
+      {[["sampling", "Where the race looked, by iteration"], ["importance", "How much of the scores goes with each parameter"]].map(([kind, title]) =>
+        <Panel title={title}>{data.total > kMuch && query.drawn !== "1"
+          ? <button type="button" onClick={() => set_query({ drawn: 1 })}>Draw it of all {whole(data.total)} candidates</button>
+          : <Figure c={c} kind={kind} options={{ design: d }} name={title} missing={(error) => <Empty>{error.message}</Empty>} />}</Panel>)}
       <Panel wide title={Object.keys(brushes).length ? "Candidates in the chosen ranges" : "Candidates"}>{this.candidates(axes, chosen)}</Panel>
     </div>;
   }
@@ -207,24 +206,6 @@ class Parallel extends Component<ParallelProps, ParallelState> {
       ? <select aria-label={`${axis.name} ${end}`} onChange={set(end)}>{axis.words.map((word, i) => <option value={String(i)} selected={i === Math.round(value(part))}>{word}</option>)}</select>
       : <input type="number" step="any" aria-label={`${axis.name} ${end}`} value={String(value(part))} onChange={set(end)} />;
     return <div role="group" aria-label={`range of ${axis.name}`}><b>{axis.name}</b> {field("from", from)} to {field("to", to)}</div>;
-  }
-
-  private share(shares: Shares) {
-    const last = shares.iterations.length - 1;
-    const most = (column: number) => shares.rows.reduce((best, _, row) => shares.share[row][column] > shares.share[best][column] ? row : best, 0);
-    return <figure key={shares.axis.name}>
-      <figcaption><b>{shares.axis.name}</b> <span class="faint small">{shares.used[last] < 1 && `used by ${percent(shares.used[last])} at last`}</span></figcaption>
-      <Canvas label={`${shares.axis.name}: most often ${shares.rows[most(0)]} in iteration ${shares.iterations[0]} and ${shares.rows[most(last)]} in iteration ${shares.iterations[last]}`}
-        height={() => 26 + Math.max(72, 13 * shares.rows.length)} draw={(pen, width, height, inks) => draw_shares(pen, shares, width, height, inks, is_dark())} />
-    </figure>;
-  }
-
-  private share_table(shares: Shares[]) {
-    const rows = shares.flatMap(({ axis, iterations, rows: values, share }) => values.flatMap((value, row) =>
-      iterations.map((iteration, column) => ({ parameter: axis.name, value, iteration, share: share[row][column] }))));
-    return <Table name="s" caption="shares of values by iteration" rows={rows} row_key={(row) => `${row.parameter} ${row.value} ${row.iteration}`} page_size={25}
-      columns={[{ key: "parameter" }, { key: "value" }, { key: "iteration", numeric: true },
-        { key: "share", numeric: true, show: (row) => percent(row.share) }]} />;
   }
 
   private candidates(axes: Axis[], chosen: boolean[]) {
