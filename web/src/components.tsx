@@ -12,7 +12,7 @@ export function Failure({ error, again }: { error: ApiError; again?: () => void 
   return <div class="failure" role="alert">
     <strong>{error.where ? `${error.where}: ` : ""}</strong>{error.message}
     {error.status === 401 && <span> Open the address that the coordinator printed, with its token.</span>}
-    {again && <button type="button" onClick={again}>Try again</button>}
+    {again && <button onClick={again}>Try again</button>}
   </div>;
 }
 
@@ -89,26 +89,16 @@ export function StateWord({ state, paused }: { state: string; paused?: boolean }
 export class Copy extends Component<{ text: string; what: string }, { done: string }> {
   state = { done: "" };
   copy = async () => {
-    let done = "Copied";
-    try { await navigator.clipboard.writeText(this.props.text); } catch { done = copy_by_hand(this.props.text) ? "Copied" : "Not allowed here"; }
-    this.setState({ done });
-    announce(`${done}: ${this.props.what}`);
+    const { text, what } = this.props;
+    // Browsers refuse it where the address is neither local nor https: by hand, then.
+    try { await navigator.clipboard.writeText(text); } catch { prompt(what, text); return; }
+    this.setState({ done: "Copied" });
+    announce(`Copied: ${what}`);
     setTimeout(() => this.setState({ done: "" }), 1500);
   };
   render() {
-    return <button type="button" class="quiet" onClick={this.copy} title={this.props.text}>{this.state.done || this.props.what}</button>;
+    return <button class="quiet" onClick={this.copy} title={this.props.text}>{this.state.done || this.props.what}</button>;
   }
-}
-
-/// Where the clipboard's interface is refused: addresses that are neither local nor https.
-function copy_by_hand(text: string): boolean {
-  const field = document.createElement("textarea");
-  field.value = text;
-  document.body.append(field);
-  field.select();
-  const done = document.execCommand("copy");
-  field.remove();
-  return done;
 }
 
 export function save_as(name: string, type: string, text: string): void {
@@ -152,16 +142,16 @@ export class Confirm extends Component<ConfirmProps, { open: boolean; busy: bool
     const { label, title, children, danger } = this.props;
     const { open, busy, said, failed } = this.state;
     return <span class="confirm">
-      <button type="button" class={danger ? "danger" : ""} onClick={this.open}>{label}</button>
-      {open && <dialog ref={(e?: Element) => { this.dialog = (e as HTMLDialogElement) ?? null; }} aria-label={title}
+      <button class={danger ? "danger" : ""} onClick={this.open}>{label}</button>
+      {open && <dialog ref={(e: any) => (this.dialog = e)} aria-label={title}
         {...{ onClose: () => this.setState({ open: false }) }}>
         <h2>{title}</h2>
         {!said && <div>{children as JSX.Element}</div>}
         {!said && !token() && <p class="warn">This needs the coordinator's token. Open the address with <code>#t=...</code> that it printed on its terminal; it is also in the file <code>.token</code> beside the store.</p>}
         {said && <p class={failed ? "failure" : "done"} role="status">{said}</p>}
         <div class="tools">
-          <button type="button" onClick={this.close}>{said ? "Close" : "Leave it"}</button>
-          {!said && <button type="button" class={danger ? "danger" : "main"} disabled={busy || !token()} onClick={this.act}>{busy ? "Doing it …" : label}</button>}
+          <button onClick={this.close}>{said ? "Close" : "Leave it"}</button>
+          {!said && <button class={danger ? "danger" : "main"} disabled={busy || !token()} onClick={this.act}>{busy ? "Doing it …" : label}</button>}
         </div>
       </dialog>}
     </span>;
@@ -253,7 +243,7 @@ export class Table<Row> extends Component<TableProps<Row>, {}> {
         <input type="search" placeholder="filter" aria-label={`filter: ${caption}`} value={query[name + ".q"] ?? ""}
           onInput={(e) => set_query({ [name + ".q"]: (e.target as HTMLInputElement).value, [name + ".page"]: null })} />
         <span class="faint" role="status">{filter ? `${whole(matching.length)} of ${whole(rows.length)}` : `${whole(rows.length)} rows`}</span>
-        <button type="button" class="quiet" aria-label={`CSV: ${caption}`} onClick={() =>
+        <button class="quiet" aria-label={`CSV: ${caption}`} onClick={() =>
           save_as(caption.replace(/\W+/g, "-") + ".csv", "text/csv",
             csv([columns.map((c) => c.key), ...this.sorted(matching, sort).map((row) => columns.map((c) => value_of(c, row)))]))}>CSV</button>
       </div>}
@@ -265,7 +255,7 @@ export class Table<Row> extends Component<TableProps<Row>, {}> {
             // Numbers are most wanted with the largest first.
             const next = now === "none" ? (numeric.has(column.key) ? "-" : "") + column.key : now === "ascending" ? "-" + column.key : column.key;
             return <th scope="col" class={numeric.has(column.key) ? "n" : ""} aria-sort={now} title={column.title}>
-              <button type="button" onClick={() => set_query({ [name + ".sort"]: next, [name + ".page"]: null })}>
+              <button onClick={() => set_query({ [name + ".sort"]: next, [name + ".page"]: null })}>
                 {column.label ?? column.key.replace(/_/g, " ")}<span aria-hidden="true" class="arrow">{now === "ascending" ? "▲" : now === "descending" ? "▼" : ""}</span></button></th>;
           })}</tr></thead>
           <tbody>{shown.map((row) => <tr key={row_key ? row_key(row) : String(value_of(columns[0], row))} class={row_class?.(row) ?? ""}>{columns.map((column) => {
@@ -276,9 +266,9 @@ export class Table<Row> extends Component<TableProps<Row>, {}> {
       </div>
       {matching.length === 0 && <p class="empty">No row has “{filter}”.</p>}
       {pages > 1 && <div class="tools pages">
-        <button type="button" disabled={page === 1} onClick={() => turn(page - 1)} aria-label={`previous page: ${caption}`}>‹</button>
+        <button disabled={page === 1} onClick={() => turn(page - 1)} aria-label={`previous page: ${caption}`}>‹</button>
         <span>page {whole(page)} of {whole(pages)}</span>
-        <button type="button" disabled={page === pages} onClick={() => turn(page + 1)} aria-label={`next page: ${caption}`}>›</button>
+        <button disabled={page === pages} onClick={() => turn(page + 1)} aria-label={`next page: ${caption}`}>›</button>
       </div>}
     </div>;
   }

@@ -39,8 +39,8 @@ export class Files extends Component<FigureProps, { error: ApiError | null }> {
     const { name } = this.props;
     const { error } = this.state;
     return <span class="files">
-      <button type="button" class="quiet" aria-label={`SVG: ${name}`} onClick={() => this.save("svg", "image/svg+xml", 175)}>SVG</button>
-      <button type="button" class="quiet" aria-label={`CSV: ${name}`} onClick={() => this.save("csv", "text/csv", null)}>CSV</button>
+      <button class="quiet" aria-label={`SVG: ${name}`} onClick={() => this.save("svg", "image/svg+xml", 175)}>SVG</button>
+      <button class="quiet" aria-label={`CSV: ${name}`} onClick={() => this.save("csv", "text/csv", null)}>CSV</button>
       {error && <Failure error={error} />}
     </span>;
   }
@@ -69,13 +69,13 @@ export class Figure extends Component<FigureProps, { table: boolean; width: numb
       return this.props.missing!(why);
     });
     const there = () => { if (empty) this.setState({ empty: false }); };
-    return <figure class="figure" ref={(e?: Element) => { if (e) this.box = e as HTMLElement; }}>
+    return <figure class="figure" ref={(e: any) => (this.box = e)}>
       {width > 0 && (table
         ? <Get<string> path={figure_path(this.props, "csv", null)} version={version} missing={missing} render={(text) => { there(); return <CsvTable text={text} name={name} id={this.props.kind} />; }} />
         : <Get<string> path={figure_path(this.props, "svg", width)} version={version} keep missing={missing} render={(text) => { there(); return <Svg text={text} placed={placed} />; }} />)}
       {!empty && <figcaption class="tools">
         <Files c={this.props.c} kind={this.props.kind} options={this.props.options} name={name} />
-        <button type="button" class="quiet" aria-pressed={table} onClick={() => this.setState({ table: !table })}
+        <button class="quiet" aria-pressed={table} onClick={() => this.setState({ table: !table })}
           aria-label={`${table ? "as picture" : "as table"}: ${name}`}>{table ? "as picture" : "as table"}</button>
       </figcaption>}
     </figure>;
@@ -98,7 +98,7 @@ export class Svg extends Component<{ text: string; placed?: (svg: SVGSVGElement)
     this.box.replaceChildren(svg);
     this.props.placed?.(svg);
   }
-  render() { return <div class="svg" ref={(e?: Element) => { if (e) this.box = e as HTMLElement; }} />; }
+  render() { return <div class="svg" ref={(e: any) => (this.box = e)} />; }
 }
 
 function CsvTable({ text, name, id }: { text: string; name: string; id: string }) {

@@ -12,12 +12,8 @@ const kQueries: [string, string][] = [
   ["designs", "SELECT design, mission, method, repetition, state, used, budget, best_candidate, best_mean FROM v_designs"],
   ["winners", "SELECT * FROM v_leaderboard"],
   ["convergence", "SELECT * FROM v_convergence WHERE rank = 1"],
-  ["candidates of a design", "SELECT candidate, iteration, runs, mean, eliminated_by FROM v_candidates WHERE design = 1 ORDER BY mean DESC LIMIT 100"],
-  ["steps of a race", "SELECT step, iteration, marker, alive_after, best, mean_best, p_value FROM v_race_steps WHERE design = 1"],
   ["modules", "SELECT * FROM v_module_frequency"],
   ["failures", "SELECT id, reason, host, at FROM v_failures LIMIT 100"],
-  ["commands", "SELECT * FROM v_commands"],
-  ["workers", "SELECT worker, host, slots, state, done, failed, cpu FROM v_workers"],
 ];
 
 class Data extends Component<PageProps, { sql: string; asked: string; error: ApiError | null }> {
@@ -42,7 +38,7 @@ class Data extends Component<PageProps, { sql: string; asked: string; error: Api
   private result({ columns, rows, truncated, seconds }: Rows) {
     return <div>
       <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut at {whole(rows.length)}: add a WHERE or a LIMIT, or take the command line</b>}, {duration(seconds)}</span>
-        <button type="button" class="quiet" onClick={this.csv}>CSV of all</button></div>
+        <button class="quiet" onClick={this.csv}>CSV of all</button></div>
       <Table<Cell[]> name="q" caption="Result" rows={rows} row_key={(row) => String(rows.indexOf(row))} empty="No rows."
         columns={columns.map((key, i) => ({ key, label: key, value: (row) => row[i] }))} />
     </div>;
@@ -63,13 +59,13 @@ class Data extends Component<PageProps, { sql: string; asked: string; error: Api
               onKeyDown={(e) => { if (e.key === "Enter" && (e.ctrlKey || e.metaKey)) { e.preventDefault(); this.run(sql); } }} />
             <div class="tools"><button type="submit" class="main" disabled={!sql.trim()}>Ask</button><span class="faint small">or Ctrl+Enter; one statement, at most 10 s and 10{"\u2009"}000 rows; nothing can be written</span></div>
           </form>
-          <p class="tools"><span class="faint">To begin with:</span> {kQueries.map(([name, text]) => <button type="button" class="quiet" onClick={() => this.run(text)}>{name}</button>)}</p>
+          <p class="tools"><span class="faint">To begin with:</span> {kQueries.map(([name, text]) => <button class="quiet" onClick={() => this.run(text)}>{name}</button>)}</p>
         </Panel>
         <Panel title="Views, the public schema">
           <Get<{ views: View[] }> path={`${c}/views`} render={({ views }) => <div class="views">{views.map((view) => <details key={view.name}>
             <summary><code>{view.name}</code> <span class="faint small">{view.text}</span></summary>
             <dl class="pairs">{view.columns.map((column) => <div><dt><code>{column.name}</code></dt><dd>{column.text}</dd></div>)}</dl>
-            <button type="button" class="quiet" onClick={() => this.run(`SELECT * FROM ${view.name} LIMIT 100`)}>first 100 rows</button>
+            <button class="quiet" onClick={() => this.run(`SELECT * FROM ${view.name} LIMIT 100`)}>first 100 rows</button>
           </details>)}</div>} />
         </Panel>
         {asked && <Panel wide title="Result">

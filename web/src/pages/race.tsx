@@ -294,7 +294,7 @@ class RacePage extends Component<PageProps, {}> {
         <RaceMap matrix={matrix} until={until} cell={cell} pick={pick} watch={watch}
           label={`Race ${race.iteration} of ${d}: ${race.candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
         <Legend />
-        {race.rows_total > race.candidates.length && <p class="faint">The best {whole(race.candidates.length)} of {whole(race.rows_total)} candidates. <button type="button" class="quiet" onClick={() => set_query({ rows: race.rows_total })}>Show all</button></p>}
+        {race.rows_total > race.candidates.length && <p class="faint">The best {whole(race.candidates.length)} of {whole(race.rows_total)} candidates. <button class="quiet" onClick={() => set_query({ rows: race.rows_total })}>Show all</button></p>}
       </Panel>
       <div class="side">
         <Panel title="Cell">{cell ? this.cell(campaign, matrix, cell, watch) : <Empty>Click a cell to see what made its score, and to watch the run.</Empty>}</Panel>
@@ -319,7 +319,7 @@ class RacePage extends Component<PageProps, {}> {
       </dl>
       <p>Step {race.steps[at.step]}, instance {race.instances[at.step]}, seed {race.seeds[at.step]}. {dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[at.row]}.` : race.elite_after[at.row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
       {score !== null ? <div>
-        <p class="tools"><button type="button" class="main" onClick={() => watch(at)}>Watch this run</button>
+        <p class="tools"><button class="main" onClick={() => watch(at)}>Watch this run</button>
           <Copy what="Copy as command" text={`swarmsmith explain ${id} ${shell_word(campaign.store)}`} /></p>
         <Get<Record<string, unknown>> path={`${c}/evaluations/${id}`} keep render={(answer) => <details open><summary>Who made it</summary><Explained answer={answer} /></details>}
           missing={() => <p class="faint small">Of this evaluation no more is known.</p>} />
@@ -354,7 +354,7 @@ class RacePage extends Component<PageProps, {}> {
         { key: "dropped", label: "dropped after step" },
         { key: "reason", label: "why" },
         { key: "elite" },
-        { key: "cell", show: (row) => <button type="button" class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
+        { key: "cell", show: (row) => <button class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
       ]} />;
   }
 
@@ -372,9 +372,9 @@ class RacePage extends Component<PageProps, {}> {
     return <div>
       <DesignTitle c={c} design={design} />
       <div class="slider"><label for="iteration">iteration {shown}{shown > newest ? `; the newest is ${newest}` : ` of ${newest}`}</label>
-        <button type="button" class="quiet" aria-label="iteration before" disabled={shown <= 1} onClick={() => to(shown - 1)}>‹</button>
+        <button class="quiet" aria-label="iteration before" disabled={shown <= 1} onClick={() => to(shown - 1)}>‹</button>
         <input id="iteration" type="range" min={1} max={newest} value={String(shown)} disabled={newest < 2} onInput={(e) => to(Number((e.target as HTMLInputElement).value))} />
-        <button type="button" class="quiet" aria-label="iteration after" disabled={shown >= newest} onClick={() => to(shown + 1)}>›</button>
+        <button class="quiet" aria-label="iteration after" disabled={shown >= newest} onClick={() => to(shown + 1)}>›</button>
         {iteration !== null && iteration !== newest || iteration !== null && design.state === "racing" ? <a href={href([c, design.id, "race"])}>the newest</a> : null}
       </div>
       <Get<Race> path={path_of(`${c}/designs/${design.id}/race`, { iteration, rows: query.rows && Number(query.rows) !== kRows ? query.rows : null })} keep
