@@ -146,25 +146,24 @@ ExitCode show(const DashboardArguments& arguments, Output& output) {
   LiveNumbers numbers(arguments.coordinator,
                       coordinator_file_of(real_store(stores->front().file)).string());
   std::weak_ptr<HttpSite> site;
-  auto setup = DashboardSetup::make({.stores = std::move(*stores),
-                                     .version = program_name(),
-                                     .before_live =
-                                         [&] {
-                                           if (const auto shown = site.lock())
-                                             numbers.refresh(*shown);
-                                         }},
-                                    arguments.coordinator, !arguments.token_file.empty());
-  if (!setup) return fail(output, ExitCode::Unreachable, setup.error());
-  site = (*setup)->site();
-  http.site = (*setup)->site();
-  http.act_token = (*setup)->token();
+  const auto refresh = [&] {
+    if (const auto shown = site.lock()) numbers.refresh(*shown);
+  };
+  const auto setup = DashboardSetup::make(
+      {.stores = std::move(*stores), .version = program_name(), .before_live = refresh},
+      arguments.coordinator,
+      arguments.token_file.empty() ? DashboardSetup::Secret::Joined
+                                   : DashboardSetup::Secret::OfOnesOwn);
+  site = setup->site();
+  http.site = setup->site();
+  http.act_token = setup->token();
   catch_ending_signals();
   const auto server = HttpServer::start(std::move(http));
   if (!server) {
     const bool usage = server.error().kind == ErrorKind::BadInput;
     return fail(output, usage ? ExitCode::Usage : ExitCode::Unreachable, server.error());
   }
-  (*setup)->announce(output, (*server)->address());
+  setup->announce(output, (*server)->address());
   print_note(output, "Ctrl-C ends it");
   while (ending_signal() == 0)
     std::this_thread::sleep_for(std::chrono::milliseconds(100));

@@ -11,6 +11,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace swarmsmith::cli {
 
@@ -76,7 +77,10 @@ class Turnstile {
     explicit Pass(Turnstile& turnstile) : turnstile_(&turnstile) {}
     ~Pass();
     Pass(Pass&& other) noexcept : turnstile_(std::exchange(other.turnstile_, nullptr)) {}
-    Pass& operator=(Pass&&) = delete;
+    Pass& operator=(Pass&& other) noexcept {
+      std::swap(turnstile_, other.turnstile_);
+      return *this;
+    }
 
    private:
     Turnstile* turnstile_;

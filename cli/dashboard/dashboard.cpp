@@ -4,6 +4,7 @@
 #include <pwd.h>
 #include <sys/stat.h>
 #include <unistd.h>
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <chrono>
@@ -28,6 +29,7 @@
 #include "cli/dashboard/run_answers.h"
 #include "cli/dashboard/sql_answers.h"
 #include "cli/dashboard/store_answers.h"
+#include "coordinator/campaign/campaign.h"
 #include "proto/access/address.h"
 #include "sim/engine/simulate.h"
 #include "web/pages.h"

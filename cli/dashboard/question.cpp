@@ -31,8 +31,8 @@ Expected<std::int64_t> integer_parameter(const Parameters& parameters, const std
 Expected<std::optional<DesignId>> Question::design_parameter() const {
   const std::string& given = text("design");
   if (given.empty()) return std::optional<DesignId>();
-  const auto id = id_from_text<DesignTag>(given);
-  if (id) return std::optional(*id);
+  const auto named = id_from_text<DesignTag>(given);
+  if (named) return std::optional(*named);
   return bad_input("wants a design such as d3, not \"" + given + "\"", "design");
 }
 

@@ -34,6 +34,7 @@ struct Question {
   DesignId design{};
   /// Whether who asked has gone away since; empty: is never asked.
   std::function<bool()> is_gone{};
+  bool is_snapshot = false;  ///< see DashboardOptions
 
   /// Empty without it.
   const std::string& text(const std::string& name) const;
@@ -47,7 +48,7 @@ struct Question {
 
 struct Answer {
   std::string type = "application/json";
-  std::string body;
+  std::string body{};
   /// It stays as it is, whatever becomes of the store.
   bool is_final = false;
 };

@@ -7,9 +7,13 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <set>
+#include <span>
 #include <string_view>
+#include <tuple>
 #include <utility>
+#include <vector>
 
 #include "analysis/records/records.h"
 
@@ -50,7 +54,7 @@ struct Racer {
 
 /// Those who came further first; among them elites by rank, then the better mean.
 bool came_further(const Racer& a, const Racer& b) {
-  constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
+  static constexpr std::int64_t kLast = std::numeric_limits<std::int64_t>::max();
   const auto order = [](const Racer& racer) {
     return std::tuple(-racer.dropped_at.value_or(kLast),
                       racer.elite_after == 0 ? kLast : racer.elite_after, -racer.mean(),
@@ -121,8 +125,11 @@ Expected<Race> read_race(const Question& question, std::int64_t iteration) {
   if (!after) return Unexpected(after.error());
   std::map<std::int64_t, Racer> racers;
   for (const auto& row : cells->cells) {
+    // A race that goes on may be a step further than its list of steps was.
+    const auto place = places.find(integer_of(row[1]));
+    if (place == places.end()) continue;
     Racer& racer = racers[integer_of(row[0])];
-    racer.scores[places[integer_of(row[1])]] = cell_as_json(row[2]).text;
+    racer.scores[place->second] = cell_as_json(row[2]).text;
     if (row[2].type == Cell::Type::Null) continue;
     racer.sum += real_of(row[2]);
     ++racer.runs;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -63,7 +64,8 @@ std::string hex(std::uint64_t digest) {
   return fmt::format("{:016x}", digest);
 }
 
-std::string color_text(Rgb color) {
+/// Names of colours mean others in browsers.
+std::string css_color(Rgb color) {
   return fmt::format("#{:02x}{:02x}{:02x}", color.r, color.g, color.b);
 }
 
@@ -102,12 +104,12 @@ JsonObject patch_json(const Patch& patch) {
   std::visit(
       Overloaded{
           [&](const Disc& disc) {
-            object.add("color", color_text(patch.color))
+            object.add("color", css_color(patch.color))
                 .add("centre", place(disc.centre))
                 .add("radius_m", disc.radius_m);
           },
           [&](const Rectangle& area) {
-            object.add("color", color_text(patch.color)).add("corners", places(corners_of(area)));
+            object.add("color", css_color(patch.color)).add("corners", places(corners_of(area)));
           },
           [&](const FloorImage& image) {
             object.add("corners", places(corners_of(image.area)))
@@ -120,7 +122,7 @@ JsonObject patch_json(const Patch& patch) {
 JsonObject arena_json(const Arena& arena) {
   return std::move(JsonObject()
                        .add("walls", places(swarmsmith::corners_of(arena)))
-                       .add("floor", color_text(arena.floor))
+                       .add("floor", css_color(arena.floor))
                        .add("patches", json_list(arena.patches, patch_json))
                        .add("obstacles", json_list(arena.obstacles,
                                                    [](const Obstacle& obstacle) {
@@ -205,7 +207,6 @@ struct RobotColumns {
   Changes leds{};
   Changes kinds{};
   std::string name{};
-  int states_seen = 0;
 
   JsonObject json() const {
     JsonObject object = track.json();

@@ -1,6 +1,7 @@
 #include "cli/dashboard/snapshot.h"
 
 #include <algorithm>
+#include <iterator>
 #include <memory>
 #include <set>
 #include <string_view>

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <utility>
 
 #include "analysis/records/records.h"
@@ -30,6 +32,13 @@ std::string cell_of(const Rows& rows, std::size_t row, std::string_view column) 
 
 std::optional<JsonObject> first_row(const Rows& rows) {
   return rows.cells.empty() ? std::nullopt : std::optional(row_as_json(rows, 0));
+}
+
+/// The first error among them.
+Expected<void> all_read(std::initializer_list<const Expected<Rows>*> all) {
+  for (const Expected<Rows>* rows : all)
+    if (!*rows) return Unexpected(rows->error());
+  return {};
 }
 
 /// Where a column is a text of JSON, its value.
@@ -224,8 +233,8 @@ Expected<Answer> design_answer(const Question& question) {
                                 "SELECT number, at, who, kind, step, budget FROM "
                                 "v_commands" +
                                     own + " ORDER BY number");
-  for (const auto* rows : {&design, &iterations, &elites, &machine, &commands})
-    if (!*rows) return Unexpected(rows->error());
+  if (auto read = all_read({&design, &iterations, &elites, &machine, &commands}); !read)
+    return Unexpected(read.error());
   const auto tests = tests_of(question);
   if (!tests) return Unexpected(tests.error());
   letter_ids(*design);
@@ -272,8 +281,8 @@ Expected<Answer> candidate_answer(const Question& question) {
                               "SELECT design, mission, method, repetition, state, "
                               "best_candidate, flavour FROM v_designs WHERE design = " +
                                   cell_of(*candidate, 0, "design"));
-  for (const auto* rows : {&ancestors, &scores, &later, &design})
-    if (!*rows) return Unexpected(rows->error());
+  if (auto read = all_read({&ancestors, &scores, &later, &design}); !read)
+    return Unexpected(read.error());
   Rows lettered = *design;
   letter_ids(lettered);
   letter_ids(*candidate);

@@ -17,11 +17,33 @@ std::string cell_text(const Rows& rows, const std::string& column) {
   return {};
 }
 
+namespace {
+
+/// " AND m.iteration IN (...) AND m.step IN (...)": where the design raced on the pair. Named one
+/// by one, so that v_race_matrix makes these steps alone, and not all races of the design.
+Expected<std::string> steps_of_pair(StoreReader& store, const std::string& design,
+                                    const std::string& pair) {
+  const auto steps =
+      select(store, "SELECT iteration, step FROM v_race_steps WHERE design = " + design +
+                        " AND pair = " + pair);
+  if (!steps) return Unexpected(steps.error());
+  std::string lists[2];
+  for (const auto& cells : steps->cells) {
+    for (std::size_t i = 0; i < 2; ++i)
+      lists[i] += (lists[i].empty() ? "" : ",") + cells[i].text;
+  }
+  return " AND m.iteration IN (" + lists[0] + ") AND m.step IN (" + lists[1] + ")";
+}
+
+}  // namespace
+
 Expected<EvaluationHistory> read_history(StoreReader& store, const ThingId& id) {
   const std::string candidate = id.digits + " / 100000";
   const std::string pair = id.digits + " % 100000";
   const std::string is_it = is_evaluation(id);
-  const std::string design = "(" + candidate + " - 1) / 1000000 + 1";
+  const std::string design = std::to_string(design_of_thing(id).value);
+  const auto of_pair = steps_of_pair(store, design, pair);
+  if (!of_pair) return Unexpected(of_pair.error());
   EvaluationHistory history;
   const std::pair<std::string, Rows*> parts[] = {
       {"SELECT candidate, design, iteration, parent, fsm_config, parameters, eliminated_in, "
@@ -32,7 +54,7 @@ Expected<EvaluationHistory> read_history(StoreReader& store, const ThingId& id) 
       {"SELECT m.iteration, m.step, m.rank, s.marker, s.alive_before, s.alive_after FROM "
        "v_race_matrix AS m JOIN v_race_steps AS s ON s.design = m.design AND s.step = m.step "
        "WHERE m.design = " +
-           design + " AND m.candidate = " + candidate + " AND m.pair = " + pair +
+           design + " AND m.candidate = " + candidate + *of_pair +
            (id.purpose.empty() ? "" : " AND 0") + " ORDER BY m.step",
        &history.steps},
       {"SELECT at, attempt, worker, host, held_ms, outcome FROM v_attempts WHERE " + is_it +

@@ -88,8 +88,8 @@ class CampaignRun {
   }
 
   /// The dashboard of all campaigns that run here.
-  Expected<void> make_dashboard() {
-    if (!options_.dashboard || options_.http.empty()) return {};
+  void make_dashboard() {
+    if (!options_.dashboard || options_.http.empty()) return;
     DashboardOptions dashboard;
     for (std::size_t place = 0; place < members_.size(); ++place) {
       const auto& running = members_.running();
@@ -109,16 +109,15 @@ class CampaignRun {
       if (std::filesystem::exists(key, none)) coordinator.key = key.string();
     }
     coordinator.insecure_plaintext = access_.insecure_plaintext;
-    auto made =
-        DashboardSetup::make(std::move(dashboard), coordinator, !options_.http_token_file.empty());
-    if (!made) return Unexpected(made.error());
-    dashboard_ = std::move(*made);
-    return {};
+    dashboard_ =
+        DashboardSetup::make(std::move(dashboard), coordinator,
+                             options_.http_token_file.empty() ? DashboardSetup::Secret::New
+                                                              : DashboardSetup::Secret::OfOnesOwn);
   }
 
   /// Nobody asked for an address that is usual: without it the campaign goes on.
   Expected<void> show_pages() {
-    if (auto made = make_dashboard(); !made) return made;
+    make_dashboard();
     auto pages = dashboard_ ? open_pages(options_, dashboard_->site(), dashboard_->token())
                             : open_pages(options_, nullptr, "");
     if (!pages && !options_.http_next_port) return Unexpected(pages.error());

@@ -11,19 +11,26 @@
 
 namespace swarmsmith::cli {
 
-Expected<std::unique_ptr<DashboardSetup>> DashboardSetup::make(
-    DashboardOptions options, const CoordinatorArgument& coordinator, bool own_token) {
+std::unique_ptr<DashboardSetup> DashboardSetup::make(DashboardOptions options,
+                                                     const CoordinatorArgument& coordinator,
+                                                     Secret secret) {
   std::unique_ptr<DashboardSetup> setup(new DashboardSetup());
-  bool may_act = own_token;
-  std::optional<Error> trouble;
-  if (!own_token) {
-    setup->token_ = new_token();
-    const std::filesystem::path file = token_file_of(options.stores.front().file);
-    const auto written = write_token(file, setup->token_);
-    may_act = written.has_value();
-    if (may_act) setup->file_ = file;
-    // A store in somebody else's folder can be looked at.
-    if (!may_act) setup->token_.clear();
+  bool may_act = secret == Secret::OfOnesOwn;
+  if (!may_act) {
+    const std::filesystem::path& store = options.stores.front().file;
+    const std::filesystem::path file = token_file_of(store);
+    if (secret == Secret::Joined && has_writer(store))
+      setup->token_ = read_token(file).value_or("");
+    if (setup->token_.empty()) {
+      setup->token_ = new_token();
+      // A store in somebody else's folder can be looked at, and no more.
+      if (write_token(file, setup->token_)) {
+        setup->file_ = file;
+      } else {
+        setup->token_.clear();
+      }
+    }
+    may_act = !setup->token_.empty();
   }
   if (may_act) {
     options.act = [coordinator](const std::filesystem::path& store, const CommandRow& command) {

@@ -16,11 +16,15 @@ namespace swarmsmith::cli {
 /// A dashboard with the secret that acts need; the secret's file lives as long as this.
 class DashboardSetup {
  public:
-  /// `coordinator`: who is asked to act on campaigns that run. Without a token file of one's own
-  /// (`own_token` false) a new secret is written beside the first store.
-  static Expected<std::unique_ptr<DashboardSetup>> make(DashboardOptions options,
-                                                        const CoordinatorArgument& coordinator,
-                                                        bool own_token);
+  enum class Secret {
+    OfOnesOwn,  ///< in a token file
+    New,        ///< written beside the first store
+    Joined,     ///< that of the process that runs the first store's campaign; new without one
+  };
+  /// `coordinator`: who is asked to act on campaigns that run.
+  static std::unique_ptr<DashboardSetup> make(DashboardOptions options,
+                                              const CoordinatorArgument& coordinator,
+                                              Secret secret);
   ~DashboardSetup();
   DashboardSetup(const DashboardSetup&) = delete;
   DashboardSetup& operator=(const DashboardSetup&) = delete;

@@ -13,11 +13,11 @@ namespace swarmsmith {
 
 /// What somebody asks for who may ask for it.
 struct SiteRequest {
-  bool acts = false;  ///< POST; the token was there
-  std::string path;   ///< "/api/v1/live"
-  std::map<std::string, std::string> parameters;
-  std::string peer;  ///< who asks: "anna@127.0.0.1"
-  std::string etag;  ///< of what the asker has already
+  bool acts = false;   ///< POST; the token was there
+  std::string path{};  ///< "/api/v1/live"
+  std::map<std::string, std::string> parameters{};
+  std::string peer{};  ///< who asks: "anna@127.0.0.1"
+  std::string etag{};  ///< of what the asker has already
   bool accepts_gzip = false;
   /// Whether who asked has gone away since; empty: is never asked.
   std::function<bool()> is_gone{};
@@ -25,8 +25,8 @@ struct SiteRequest {
 
 struct SiteAnswer {
   int status = 200;
-  std::string type;
-  std::string body;
+  std::string type{};
+  std::string body{};
   std::vector<std::pair<std::string, std::string>> headers{};
 };
 
