@@ -82,6 +82,13 @@ export class Events extends Component<{ c: string; version: number }, {}> {
   }
 }
 
+/// Of a campaign or of a design. It begins with the end of an iteration.
+export function Convergence({ c, designs, design, version }: { c: string; designs: Design[]; design?: string; version: number | string }) {
+  const none = <Empty>No iteration has ended yet: convergence comes after the first.</Empty>;
+  return designs.some((one) => one.iteration > (one.state === "racing" || one.state === "interrupted" ? 1 : 0))
+    ? <Figure c={c} kind="convergence" options={{ design }} name="Convergence" version={version} missing={() => none} /> : none;
+}
+
 /// Moves when any design of it does.
 export function version_of(campaign: Campaign): number {
   return campaign.designs.reduce((sum, one) => sum + one.version + (one.state === "finished" ? 1 : 0), 0);
@@ -116,8 +123,7 @@ class Campaigns extends Component<PageProps, {}> {
           : <Grid campaign={campaign} />}
       </Panel>
       {designs.length > 0 && <Panel title="Convergence: mean score of the best, over experiments used">
-        <Figure c={c} kind="convergence" name="Convergence" version={version_of(campaign)}
-          missing={() => <Empty>No iteration has ended yet: convergence comes after the first.</Empty>} /></Panel>}
+        <Convergence c={c} designs={designs} version={version_of(campaign)} /></Panel>}
       <Panel title="Events, newest first"><Events c={c} version={campaign.last_event} /></Panel>
     </div>;
   }
