@@ -77,7 +77,7 @@ class Results extends Component<PageProps, {}> {
         { key: "duration_s", label: "length", numeric: true, show: (row) => duration(row.duration_s as number) },
         { key: "recorded", label: "filmed", show: (row) => <span title={String(row.recorded ?? "")}>{when(row.recorded as string)}</span> },
         { key: "watch", show: (row) => row.candidate === null ? null
-          : <a href={href([c, "runs", id_of("r", row.id)!], { beside: `${id_of("c", row.candidate)}-1`, speed: 1 })}>beside its simulation</a> },
+          : <a href={href([c, "runs", id_of("r", row.id)!], { beside: [1, 2].map((seed) => `${id_of("r", row.id)}-${seed}`).join(","), speed: 1 })}>beside its simulations</a> },
       ]} />;
   }
 }

@@ -7,13 +7,16 @@ import { Canvas, Inks } from "../canvas";
 import { Choice, Copy, Fact, Failure, Panel, Waiting } from "../components";
 import { Figure } from "../figure";
 import { number, shell_word, words } from "../format";
+import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href, set_query } from "../route";
+import { DesignAnswer } from "../types";
 
 const kMostRuns = 4;
 const kSpeeds = [0.25, 0.5, 1, 2, 5, 10, 30];
 const kUsualSpeed = 5;
 const kTrails: [string, number][] = [["none", 0], ["10 s", 100], ["30 s", 300], ["all", 1e9]];
+const kProfiles = ["rvr", "argos3", "pseudo-reality"];
 const kTints: [string, Tint][] = [["state", "state"], ["robot", "robot"], ["LEDs", "leds"]];
 
 interface State {
@@ -397,13 +400,28 @@ class RunPage extends Component<PageProps, State> {
   }
 
   private beside(run: Trajectory) {
+    const { c } = this.props.params;
+    const seed = run.seed ?? 1;
+    const shown = this.ids();
+    const offer = (name: string, runs: [string, string][]) => {
+      const open = runs.filter(([id]) => !shown.includes(id));
+      return open.length > 0 && <p class="tools"><span class="faint">{name}</span>
+        {open.map(([id, text]) => <button type="button" onClick={() => this.put_beside(id)}>{text}</button>)}</p>;
+    };
     return <Panel title="Put another run beside it">
+      {run.verdict && run.candidate && offer("Simulated from the same starts:", [1, 2, 3].map((n) => [`${run.id}-${n}`, `seed ${n}`]))}
+      {!run.verdict && offer("The same under:", kProfiles.filter((name) => name !== run.source).map((name) => [`${run.candidate}-${seed}@${name}`, name]))}
+      {run.design && !run.verdict && <Get<DesignAnswer> path={`${c}/designs/${run.design}`} render={({ elites }) => {
+        const last = Math.max(0, ...elites.map(({ iteration }) => iteration));
+        return offer("On the same seed, elites:", elites.filter(({ iteration }) => iteration === last).map(({ candidate }): [string, string] => [`c${candidate}-${seed}`, `c${candidate}`])
+          .filter(([, name]) => name !== run.candidate).slice(0, 4)) || null;
+      }} />}
       <form class="tools" onSubmit={(event) => { event.preventDefault(); this.put_beside(this.state.wanted.trim()); }}>
         <label>Run <input name="beside" value={this.state.wanted} autocomplete="off" size={14}
           onInput={(event) => this.setState({ wanted: (event.target as HTMLInputElement).value })} /></label>
         <button type="submit">Put beside</button>
       </form>
-      <p class="faint small">An evaluation (e81200007), a candidate and a seed (c812-{run.seed ?? 7}), or a real run (r7). All run on one clock.</p>
+      <p class="faint small">An evaluation (e81200007), a candidate and a seed (c812-{seed}), or a real run (r7). All run on one clock.</p>
     </Panel>;
   }
 
