@@ -10,6 +10,30 @@ export function inks(): Inks {
     font: getComputedStyle(document.body).fontFamily };
 }
 
+/// Short words for what pictures here are made of.
+export function pen(to: CanvasRenderingContext2D, inks: Inks) {
+  to.font = `11px ${inks.font}`;
+  to.textBaseline = "middle";
+  return {
+    box(color: string, x: number, y: number, width: number, height: number) {
+      to.fillStyle = color;
+      to.fillRect(x, y, width, height);
+    },
+    say(text: string, x: number, y: number, align: CanvasTextAlign = "center", color = inks.faint) {
+      to.fillStyle = color;
+      to.textAlign = align;
+      to.fillText(text, x, y);
+    },
+    line(color: string, points: [number, number][]) {
+      to.beginPath();
+      for (const [x, y] of points) to.lineTo(x, y);
+      to.strokeStyle = color;
+      to.lineWidth = 1.5;
+      to.stroke();
+    },
+  };
+}
+
 interface CanvasProps {
   /// What it shows, for who cannot see it.
   label: string;

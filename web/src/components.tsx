@@ -1,7 +1,7 @@
 import { Component, h } from "preact";
 import { ApiError, token } from "./api";
-import { csv, number, percent, whole } from "./format";
-import { current_route, set_query } from "./route";
+import { csv, number, percent, when, whole } from "./format";
+import { current_route, href, set_query } from "./route";
 
 type Child = JSX.Element | string | number | null | undefined | false;
 type Children = Child | Children[];
@@ -12,7 +12,7 @@ export function Failure({ error, again }: { error: ApiError; again?: () => void 
   return <div class="failure" role="alert">
     <strong>{error.where ? `${error.where}: ` : ""}</strong>{error.message}
     {error.status === 401 && <span> Open the address that the coordinator printed, with its token.</span>}
-    {again && <button type="button" onClick={again}>Try again</button>}
+    {again && <button onClick={again}>Try again</button>}
   </div>;
 }
 
@@ -38,11 +38,28 @@ export function announce(text: string): void {
 
 // --- small parts ------------------------------------------------------------------------------------
 
-export function Panel({ title, children, wide, tools }: { title: string; children?: Children; wide?: boolean; tools?: Children }) {
+interface PanelProps {
+  title: string;
+  wide?: boolean;
+  /// The command line, and the statement for the data page, that give the same.
+  command?: string;
+  sql?: string;
+  tools?: Children;
+  children?: Children;
+}
+
+export function Panel({ title, children, wide, tools, command, sql }: PanelProps) {
   return <section class={wide ? "panel wide" : "panel"} aria-label={title}>
-    <div class="panel-head"><h2>{title}</h2>{tools && <div class="tools">{tools as JSX.Element}</div>}</div>
+    <div class="panel-head"><h2>{title}</h2><div class="tools">{tools as JSX.Element}
+      {command && <Copy what="Copy as command" text={command} />}
+      {sql && <a class="small" href={href([current_route().path[0], "sql"], { q: sql })} aria-label={`SQL: ${title}`}>SQL</a>}</div></div>
     {children as JSX.Element}
   </section>;
+}
+
+/// Leads to a candidate or a design of the campaign that is looked at: To("c", 812).
+export function To(letter: string, number: number | string) {
+  return <a href={href([current_route().path[0], letter + number])}>{letter}{number}</a>;
 }
 
 /// A number with its name above.
@@ -72,26 +89,16 @@ export function StateWord({ state, paused }: { state: string; paused?: boolean }
 export class Copy extends Component<{ text: string; what: string }, { done: string }> {
   state = { done: "" };
   copy = async () => {
-    let done = "Copied";
-    try { await navigator.clipboard.writeText(this.props.text); } catch { done = copy_by_hand(this.props.text) ? "Copied" : "Not allowed here"; }
-    this.setState({ done });
-    announce(`${done}: ${this.props.what}`);
+    const { text, what } = this.props;
+    // Browsers refuse it where the address is neither local nor https: by hand, then.
+    try { await navigator.clipboard.writeText(text); } catch { prompt(what, text); return; }
+    this.setState({ done: "Copied" });
+    announce(`Copied: ${what}`);
     setTimeout(() => this.setState({ done: "" }), 1500);
   };
   render() {
-    return <button type="button" class="quiet" onClick={this.copy} title={this.props.text}>{this.state.done || this.props.what}</button>;
+    return <button class="quiet" onClick={this.copy} title={this.props.text}>{this.state.done || this.props.what}</button>;
   }
-}
-
-/// Where the clipboard's interface is refused: addresses that are neither local nor https.
-function copy_by_hand(text: string): boolean {
-  const field = document.createElement("textarea");
-  field.value = text;
-  document.body.append(field);
-  field.select();
-  const done = document.execCommand("copy");
-  field.remove();
-  return done;
 }
 
 export function save_as(name: string, type: string, text: string): void {
@@ -135,16 +142,16 @@ export class Confirm extends Component<ConfirmProps, { open: boolean; busy: bool
     const { label, title, children, danger } = this.props;
     const { open, busy, said, failed } = this.state;
     return <span class="confirm">
-      <button type="button" class={danger ? "danger" : ""} onClick={this.open}>{label}</button>
-      {open && <dialog ref={(e?: Element) => { this.dialog = (e as HTMLDialogElement) ?? null; }} aria-label={title}
+      <button class={danger ? "danger" : ""} onClick={this.open}>{label}</button>
+      {open && <dialog ref={(e: any) => (this.dialog = e)} aria-label={title}
         {...{ onClose: () => this.setState({ open: false }) }}>
         <h2>{title}</h2>
         {!said && <div>{children as JSX.Element}</div>}
         {!said && !token() && <p class="warn">This needs the coordinator's token. Open the address with <code>#t=...</code> that it printed on its terminal; it is also in the file <code>.token</code> beside the store.</p>}
         {said && <p class={failed ? "failure" : "done"} role="status">{said}</p>}
         <div class="tools">
-          <button type="button" onClick={this.close}>{said ? "Close" : "Leave it"}</button>
-          {!said && <button type="button" class={danger ? "danger" : "main"} disabled={busy || !token()} onClick={this.act}>{busy ? "Doing it …" : label}</button>}
+          <button onClick={this.close}>{said ? "Close" : "Leave it"}</button>
+          {!said && <button class={danger ? "danger" : "main"} disabled={busy || !token()} onClick={this.act}>{busy ? "Doing it …" : label}</button>}
         </div>
       </dialog>}
     </span>;
@@ -153,14 +160,17 @@ export class Confirm extends Component<ConfirmProps, { open: boolean; busy: bool
 
 // --- tables -----------------------------------------------------------------------------------------
 
+type Value = string | number | null | undefined;
+
 export interface Column<Row> {
   key: string;
   /// Else the key, in words.
   label?: string;
   /// What it is sorted and filtered by, and what CSV has; else the row's field of the key's name.
-  value?: (row: Row) => string | number | null | undefined;
-  /// What is shown; else the value.
+  value?: (row: Row) => Value;
+  /// What is shown; else the value as `usual` shows it.
   show?: (row: Row) => Children;
+  /// Else when all its values are numbers.
   numeric?: boolean;
   title?: string;
 }
@@ -174,14 +184,24 @@ interface TableProps<Row> {
   rows: Row[];
   /// Sorted so unless the address says otherwise: "-busy" puts the largest first.
   sort?: string;
-  /// A stable name of the row, so that focus stays with it.
-  row_key: (row: Row) => string;
+  /// A stable name of the row, so that focus stays with it; else the value of its first column.
+  row_key?: (row: Row) => string;
   row_class?: (row: Row) => string;
   empty?: Children;
   page_size?: number;
 }
 
-function value_of<Row>({ key, value }: Column<Row>, row: Row): string | number | null | undefined {
+/// A value as its column's name says: things lead to their pages, times are those of the reader.
+function usual(column: string, value: Value): Children {
+  if (value === null || value === undefined) return "–";
+  if (/^(best_?)?(candidate)?$|^parent$/.test(column) && typeof value === "number") return To("c", value);
+  if (column === "design" && typeof value === "number") return To("d", value);
+  if (column === "id" && /^[er]\d/.test(String(value))) return <a href={href([current_route().path[0], "runs", String(value)])}>{value}</a>;
+  if (column === "at") return <time dateTime={String(value)} title={`${value} UTC`}>{when(String(value))}</time>;
+  return typeof value === "number" && column !== "seed" ? number(value) : value;
+}
+
+function value_of<Row>({ key, value }: Column<Row>, row: Row): Value {
   return value ? value(row) : (row as any)[key];
 }
 
@@ -213,13 +233,17 @@ export class Table<Row> extends Component<TableProps<Row>, {}> {
     const pages = Math.max(1, Math.ceil(matching.length / page_size));
     const page = Math.min(pages, Math.max(1, Number(query[name + ".page"] ?? 1) || 1));
     const shown = this.sorted(matching, sort).slice((page - 1) * page_size, page * page_size);
+    const numeric = new Set(columns.filter((column) => {
+      const kinds = new Set(rows.slice(0, 50).map((row) => typeof (value_of(column, row) ?? undefined)));
+      return column.numeric ?? (kinds.delete("undefined"), kinds.size === 1 && kinds.has("number"));
+    }).map((column) => column.key));
     const turn = (to: number) => set_query({ [name + ".page"]: to > 1 ? to : null });
     return <div class="table">
       {(rows.length > 8 || filter) && <div class="tools">
         <input type="search" placeholder="filter" aria-label={`filter: ${caption}`} value={query[name + ".q"] ?? ""}
           onInput={(e) => set_query({ [name + ".q"]: (e.target as HTMLInputElement).value, [name + ".page"]: null })} />
         <span class="faint" role="status">{filter ? `${whole(matching.length)} of ${whole(rows.length)}` : `${whole(rows.length)} rows`}</span>
-        <button type="button" class="quiet" aria-label={`CSV: ${caption}`} onClick={() =>
+        <button class="quiet" aria-label={`CSV: ${caption}`} onClick={() =>
           save_as(caption.replace(/\W+/g, "-") + ".csv", "text/csv",
             csv([columns.map((c) => c.key), ...this.sorted(matching, sort).map((row) => columns.map((c) => value_of(c, row)))]))}>CSV</button>
       </div>}
@@ -229,22 +253,22 @@ export class Table<Row> extends Component<TableProps<Row>, {}> {
           <thead><tr>{columns.map((column) => {
             const now = sort === column.key ? "ascending" : sort === "-" + column.key ? "descending" : "none";
             // Numbers are most wanted with the largest first.
-            const next = now === "none" ? (column.numeric ? "-" : "") + column.key : now === "ascending" ? "-" + column.key : column.key;
-            return <th scope="col" class={column.numeric ? "n" : ""} aria-sort={now} title={column.title}>
-              <button type="button" onClick={() => set_query({ [name + ".sort"]: next, [name + ".page"]: null })}>
+            const next = now === "none" ? (numeric.has(column.key) ? "-" : "") + column.key : now === "ascending" ? "-" + column.key : column.key;
+            return <th scope="col" class={numeric.has(column.key) ? "n" : ""} aria-sort={now} title={column.title}>
+              <button onClick={() => set_query({ [name + ".sort"]: next, [name + ".page"]: null })}>
                 {column.label ?? column.key.replace(/_/g, " ")}<span aria-hidden="true" class="arrow">{now === "ascending" ? "▲" : now === "descending" ? "▼" : ""}</span></button></th>;
           })}</tr></thead>
-          <tbody>{shown.map((row) => <tr key={row_key(row)} class={row_class?.(row) ?? ""}>{columns.map((column) => {
-            const value = value_of(column, row);
-            return <td class={column.numeric ? "n" : ""}>{(column.show ? column.show(row) : typeof value === "number" ? number(value) : value ?? "–") as JSX.Element}</td>;
+          <tbody>{shown.map((row) => <tr key={row_key ? row_key(row) : String(value_of(columns[0], row))} class={row_class?.(row) ?? ""}>{columns.map((column) => {
+            const shown = column.show ? column.show(row) : usual(column.key, value_of(column, row));
+            return <td class={numeric.has(column.key) ? "n" : ""}>{shown as JSX.Element}</td>;
           })}</tr>)}</tbody>
         </table>
       </div>
       {matching.length === 0 && <p class="empty">No row has “{filter}”.</p>}
       {pages > 1 && <div class="tools pages">
-        <button type="button" disabled={page === 1} onClick={() => turn(page - 1)} aria-label={`previous page: ${caption}`}>‹</button>
+        <button disabled={page === 1} onClick={() => turn(page - 1)} aria-label={`previous page: ${caption}`}>‹</button>
         <span>page {whole(page)} of {whole(pages)}</span>
-        <button type="button" disabled={page === pages} onClick={() => turn(page + 1)} aria-label={`next page: ${caption}`}>›</button>
+        <button disabled={page === pages} onClick={() => turn(page + 1)} aria-label={`next page: ${caption}`}>›</button>
       </div>}
     </div>;
   }

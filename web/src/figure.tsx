@@ -21,9 +21,34 @@ interface FigureProps {
   width?: number;
 }
 
+function figure_path({ c, kind, options }: FigureProps, ending: string, width: number | null): string {
+  return path_of(`${c}/figures/${kind}.${ending}`, { ...options, width: width && `${width}mm` });
+}
+
+/// Buttons that save a figure as it goes to a paper, and its numbers.
+export class Files extends Component<FigureProps, { error: ApiError | null }> {
+  state = { error: null };
+  private async save(ending: string, type: string, width: number | null) {
+    try {
+      save_as(`${this.props.kind}.${ending}`, type, (await ask(figure_path(this.props, ending, width))).text);
+    } catch (error) {
+      this.setState({ error: error as ApiError });
+    }
+  }
+  render() {
+    const { name } = this.props;
+    const { error } = this.state;
+    return <span class="files">
+      <button class="quiet" aria-label={`SVG: ${name}`} onClick={() => this.save("svg", "image/svg+xml", 175)}>SVG</button>
+      <button class="quiet" aria-label={`CSV: ${name}`} onClick={() => this.save("csv", "text/csv", null)}>CSV</button>
+      {error && <Failure error={error} />}
+    </span>;
+  }
+}
+
 /// A figure of our C++ writers, with its SVG, CSV and table. It keeps a white ground.
-export class Figure extends Component<FigureProps, { table: boolean; error: ApiError | null; width: number; empty: boolean }> {
-  state = { table: false, error: null, width: 0, empty: false };
+export class Figure extends Component<FigureProps, { table: boolean; width: number; empty: boolean }> {
+  state = { table: false, width: 0, empty: false };
   private box: HTMLElement | null = null;
 
   componentDidMount() { this.setState({ width: this.props.width ?? this.width() }); }
@@ -35,37 +60,22 @@ export class Figure extends Component<FigureProps, { table: boolean; error: ApiE
     return [240, 200, 160, 130, 100].find((mm) => mm * 3.78 <= pixels) ?? 84;
   }
 
-  private path(ending: string, width: number | null): string {
-    return path_of(`${this.props.c}/figures/${this.props.kind}.${ending}`, { ...this.props.options, width });
-  }
-
-  private async save(ending: string) {
-    try {
-      const { text } = await ask(this.path(ending, ending === "svg" ? 175 : null));
-      save_as(`${this.props.kind}.${ending}`, ending === "svg" ? "image/svg+xml" : "text/csv", text);
-    } catch (error) {
-      this.setState({ error: error as ApiError });
-    }
-  }
-
   render() {
     const { name, version, placed } = this.props;
-    const { table, error, width, empty } = this.state;
+    const { table, width, empty } = this.state;
     // What is not there has no SVG either.
     const missing = this.props.missing && ((why: ApiError) => {
       if (!empty) this.setState({ empty: true });
       return this.props.missing!(why);
     });
     const there = () => { if (empty) this.setState({ empty: false }); };
-    return <figure class="figure" ref={(e?: Element) => { if (e) this.box = e as HTMLElement; }}>
+    return <figure class="figure" ref={(e: any) => (this.box = e)}>
       {width > 0 && (table
-        ? <Get<string> path={this.path("csv", null)} version={version} missing={missing} render={(text) => { there(); return <CsvTable text={text} name={name} id={this.props.kind} />; }} />
-        : <Get<string> path={this.path("svg", width)} version={version} keep missing={missing} render={(text) => { there(); return <Svg text={text} placed={placed} />; }} />)}
-      {error && <Failure error={error} />}
+        ? <Get<string> path={figure_path(this.props, "csv", null)} version={version} missing={missing} render={(text) => { there(); return <CsvTable text={text} name={name} id={this.props.kind} />; }} />
+        : <Get<string> path={figure_path(this.props, "svg", width)} version={version} keep missing={missing} render={(text) => { there(); return <Svg text={text} placed={placed} />; }} />)}
       {!empty && <figcaption class="tools">
-        <button type="button" class="quiet" aria-label={`SVG: ${name}`} onClick={() => this.save("svg")}>SVG</button>
-        <button type="button" class="quiet" aria-label={`CSV: ${name}`} onClick={() => this.save("csv")}>CSV</button>
-        <button type="button" class="quiet" aria-pressed={table} onClick={() => this.setState({ table: !table })}
+        <Files c={this.props.c} kind={this.props.kind} options={this.props.options} name={name} />
+        <button class="quiet" aria-pressed={table} onClick={() => this.setState({ table: !table })}
           aria-label={`${table ? "as picture" : "as table"}: ${name}`}>{table ? "as picture" : "as table"}</button>
       </figcaption>}
     </figure>;
@@ -88,7 +98,7 @@ export class Svg extends Component<{ text: string; placed?: (svg: SVGSVGElement)
     this.box.replaceChildren(svg);
     this.props.placed?.(svg);
   }
-  render() { return <div class="svg" ref={(e?: Element) => { if (e) this.box = e as HTMLElement; }} />; }
+  render() { return <div class="svg" ref={(e: any) => (this.box = e)} />; }
 }
 
 function CsvTable({ text, name, id }: { text: string; name: string; id: string }) {

@@ -14,7 +14,7 @@ export function whole(value: number | null | undefined): string {
 export function number(value: number | null | undefined, digits = 4): string {
   if (value === null || value === undefined || !isFinite(value)) return "–";
   const size = Math.abs(value);
-  if (Number.isInteger(value) && size < 1e9 || size >= 10 ** (digits - 1) && size < 1e9) return whole(value);
+  if (Number.isSafeInteger(value) || size >= 10 ** (digits - 1) && size < 1e9) return whole(value);
   if (size !== 0 && (size < 1e-4 || size >= 1e9)) return value.toExponential(digits - 2).replace("-", kMinus);
   return String(Number(value.toPrecision(digits))).replace("-", kMinus);
 }

@@ -68,6 +68,14 @@ export class Get<T> extends Component<Props<T>, State> {
     if (this.props.every_s) this.load_later(1000 * this.props.every_s);
   };
 
+  /// An answer of another version may lack what the page needs: the rest of the page stays.
+  private drawn(data: T, text: string) {
+    try { return this.props.render(data, text); } catch (error) {
+      console.error(error);
+      return <Failure error={new ApiError(-1, "page", `the page cannot show this answer: ${(error as Error).message}`, this.props.path)} />;
+    }
+  }
+
   render() {
     const { path, data, text, error } = this.state;
     const current = path === this.props.path;
@@ -76,7 +84,7 @@ export class Get<T> extends Component<Props<T>, State> {
     if (data === undefined || !current && !this.props.keep) return <Waiting />;
     return <div class={current ? "got" : "got old"} aria-busy={current ? undefined : "true"}>
       {error && <Failure error={error} again={this.load} />}
-      {this.props.render(data as T, text)}
+      {this.drawn(data as T, text)}
     </div>;
   }
 }

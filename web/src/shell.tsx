@@ -1,7 +1,7 @@
 import { Component, h } from "preact";
 import { feed, is_snapshot } from "./api";
 import { announce, Bar } from "./components";
-import { clock, count, duration, number, percent, whole } from "./format";
+import { clock, count, duration, number, percent, shell_word, whole } from "./format";
 import { Key, Page, Place } from "./page";
 import { current_route, go, href, match, Route } from "./route";
 import { Campaign, Live } from "./types";
@@ -47,9 +47,11 @@ export function looks(live: Live): Look[] {
     say(s.failed, `${count(s.failed, "attempt")} failed`, href(["c1"]));
     say(s.malformed, `${count(s.malformed, "frame")} dropped as malformed`);
   }
-  for (const campaign of live.campaigns)
-    for (const design of campaign.designs)
-      if (design.state === "stopped") say(true, `${design.id} has stopped`, href([campaign.c, design.id]));
+  for (const { c, name, trouble, state, designs } of live.campaigns) {
+    say(trouble, `${name}: ${trouble}`, href([c]));
+    say(state === "interrupted", `${name} is not finished, and nobody runs it`, href([c]));
+    for (const { id, state } of designs) say(state === "stopped", `${id} has stopped`, href([c, id]));
+  }
   return found;
 }
 
@@ -95,8 +97,8 @@ class Head extends Component<{ live: Live | null; now: number }, {}> {
       {todo.length > 0 && <details class="looks"><summary>{count(todo.length, "thing needs", "things need")} a look</summary>
         <ul>{todo.slice(0, 12).map((look) => <li><a href={look.address}>{look.text}</a></li>)}</ul></details>}
       <span class="push faint" title={feed.at ? feed.at.toISOString() : ""}>{feed.at ? `as of ${clock(feed.at)}` : ""}</span>
-      <button type="button" class="quiet" aria-label="light or dark" title="light or dark" onClick={switch_theme}>◐</button>
-      <button type="button" class="quiet" aria-label="keys" title="keys (?)" onClick={() => document.dispatchEvent(new CustomEvent("help"))}>?</button>
+      <button class="quiet" aria-label="light or dark" title="light or dark" onClick={switch_theme}>◐</button>
+      <button class="quiet" aria-label="keys" title="keys (?)" onClick={() => document.dispatchEvent(new CustomEvent("help"))}>?</button>
     </header>;
   }
 }
@@ -111,10 +113,11 @@ function Connection() {
   if (!failure) return null;
   const over = live && !live.campaigns.some((one) => one.state === "running") && failure.unreachable;
   const again = next_try ? Math.max(0, Math.ceil(-seconds_since(next_try))) : 0;
-  if (over && live)
-    return <p class="banner" role="status">{live.campaigns.length === 1 ? "The campaign has" : "The campaigns have"} ended, and so has the process that served this page. See it again: <code>swarmsmith dashboard {live.campaigns.map((one) => one.store).join(" ")}</code></p>;
+  const command = `swarmsmith dashboard ${live?.campaigns.map((one) => shell_word(one.store)).join(" ") ?? "STORE"}`;
+  if (over)
+    return <p class="banner" role="status">Nothing runs any more, and the process that served this page has ended. See it again: <code>{command}</code></p>;
   return <p class="banner warn" role="status">{failure.unreachable
-    ? `No answer since ${at ? clock(at) : "the page was opened"}; trying again ${again > 0 ? `in ${again} s` : "now"}. The numbers below are old.`
+    ? `No answer since ${at ? clock(at) : "the page was opened"}, trying again ${again > 0 ? `in ${again} s` : "now"}. The numbers below are old. If the process has ended, see them again: ${command}`
     : `${failure.where ? failure.where + ": " : ""}${failure.message}`}</p>;
 }
 
@@ -128,10 +131,10 @@ class Help extends Component<{ pages: Page[]; keys: Key[] }, {}> {
     const all: Key[] = [{ key: "?", what: "these keys" },
       ...pages.filter((page) => page.nav).map((page) => ({ key: "g " + page.nav!.letter, what: "go to " + page.nav!.label.toLowerCase() })),
       { key: "/", what: "filter the first table" }, ...keys];
-    return <dialog aria-label="Keys" ref={(e?: Element) => { this.dialog = (e as HTMLDialogElement) ?? null; }}>
+    return <dialog aria-label="Keys" ref={(e: any) => (this.dialog = e)}>
       <h2>Keys</h2>
       <dl class="keys">{all.map(({ key, what }) => <div><dt><kbd>{key}</kbd></dt><dd>{what}</dd></div>)}</dl>
-      <div class="tools"><button type="button" onClick={() => this.dialog?.close()}>Close</button></div>
+      <div class="tools"><button onClick={() => this.dialog?.close()}>Close</button></div>
     </dialog>;
   }
 }
@@ -212,7 +215,7 @@ export class Shell extends Component<{ pages: Page[] }, ShellState> {
         const path = this.nav_path(one);
         return path && <li><a href={href(path)} aria-current={one === page ? "page" : undefined}>{one.nav!.label}</a></li>;
       })}</ul></nav>
-      {notice && <p class="banner" role="status">{notice} <button type="button" class="quiet" onClick={() => this.setState({ notice: "" })}>Close</button></p>}
+      {notice && <p class="banner" role="status">{notice} <button class="quiet" onClick={() => this.setState({ notice: "" })}>Close</button></p>}
       <Connection />
       <main id="main" tabIndex={-1}>{!live
         ? feed.failure ? null : <p class="waiting">Asking the server …</p>

@@ -6,7 +6,7 @@ export interface Design {
   mission: string;
   method: string;
   repetition: number;
-  state: "waiting" | "racing" | "testing" | "finished" | "stopped";
+  state: "waiting" | "racing" | "testing" | "finished" | "stopped" | "interrupted";
   used: number;
   budget: number;
   iteration: number;
@@ -29,6 +29,8 @@ export interface Campaign {
   used: number;
   budget: number;
   eta_s: number | null;
+  /// Why its store cannot be written; empty when well.
+  trouble: string;
   last_event: number;
   designs: Design[];
 }
@@ -136,9 +138,13 @@ export interface Race {
   markers: string[];
   /// Candidates alive after the step.
   alive: number[];
+  p_value: (number | null)[];
+  best: (number | null)[];
+  mean_best: (number | null)[];
   candidates: number[];
-  elite_before: (boolean | number)[];
-  elite_after: (boolean | number)[];
+  /// Rank among the elites; null for none.
+  elite_before: (number | null)[];
+  elite_after: (number | null)[];
   /// The step that dropped the candidate; null: it is alive, or was at the end.
   dropped_at: (number | null)[];
   reasons: (string | null)[];
@@ -183,6 +189,6 @@ export interface History {
 
 export interface View {
   name: string;
-  summary: string;
-  columns: { name: string; meaning: string }[];
+  text: string;
+  columns: { name: string; text: string }[];
 }

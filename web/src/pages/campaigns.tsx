@@ -1,8 +1,8 @@
 import { Component, h } from "preact";
 import { post } from "../api";
-import { Bar, Confirm, Copy, Empty, Fact, Panel, StateWord, Table } from "../components";
+import { Bar, Confirm, Empty, Fact, Panel, StateWord, Table } from "../components";
 import { Figure } from "../figure";
-import { count, number, percent, shell_word, when, whole, words } from "../format";
+import { count, number, percent, shell_word, whole, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
@@ -74,10 +74,10 @@ export class Events extends Component<{ c: string; version: number }, {}> {
         row_class={(event) => event.severity === "error" ? "bad" : ""}
         empty="Nothing has happened that people should know of: no failure, no command, no conflict. Progress is not an event."
         columns={[
-          { key: "at", label: "when", value: (e) => e.at, show: (e) => <time dateTime={e.at} title={`${e.at} UTC`}>{when(e.at)}</time> },
-          { key: "severity", label: "severity", value: (e) => e.severity },
+          { key: "at", label: "when" },
+          { key: "severity" },
           { key: "kind", label: "what", value: (e) => words(e.kind) },
-          { key: "data", label: "details", value: (e) => said(e.data), show: (e) => <span class="long">{said(e.data)}</span> },
+          { key: "data", label: "details", value: (e) => said(e.data) },
         ]} />} />;
   }
 }
@@ -91,7 +91,7 @@ class Campaigns extends Component<PageProps, {}> {
   private one(live: Live, campaign: Campaign) {
     const { c, designs } = campaign;
     const of = (state: string) => designs.filter((one) => one.state === state).length;
-    const states = ["finished", "racing", "testing", "waiting", "stopped"].filter((state) => of(state) > 0)
+    const states = ["finished", "racing", "testing", "waiting", "interrupted", "stopped"].filter((state) => of(state) > 0)
       .map((state) => `${whole(of(state))} ${state}`).join(", ");
     const paused = designs.filter((one) => one.paused).length;
     const open = designs.some((one) => one.state !== "finished" && one.state !== "stopped");
@@ -101,8 +101,7 @@ class Campaigns extends Component<PageProps, {}> {
         live.may_act && open && paused < designs.length && <Confirm label="Pause all" title={`Pause all designs of ${campaign.name}?`} act={() => act("pause")}>
           Evaluations that run now end and count; nothing more is given out until somebody resumes. Nothing is lost.</Confirm>,
         live.may_act && paused > 0 && <Confirm label="Resume all" title={`Resume all designs of ${campaign.name}?`} act={() => act("resume")}>
-          {count(paused, "paused design")} will get work again.</Confirm>,
-        <Copy what="Copy as command" text={`swarmsmith ls ${shell_word(campaign.store)}`} />]}>
+          {count(paused, "paused design")} will get work again.</Confirm>]} command={`swarmsmith ls ${shell_word(campaign.store)}`}>
         <dl class="facts">
           <Fact name="state"><StateWord state={campaign.state} paused={paused > 0 && paused === designs.length} /></Fact>
           <Fact name="designs" title={states}>{whole(designs.length)} <span class="small faint">{states}{paused > 0 && `, ${paused} paused`}</span></Fact>
@@ -111,6 +110,7 @@ class Campaigns extends Component<PageProps, {}> {
           <Fact name="store"><span class="small">{campaign.store}</span></Fact>
           <Fact name="digest" title="of all that decides the answer"><code class="small">{campaign.digest.slice(0, 12) || "–"}</code></Fact>
         </dl>
+        {campaign.state === "interrupted" && <Empty>It is not finished, and no process works on it here. <code>swarmsmith run CAMPAIGN.toml --store {campaign.store}</code> continues it.</Empty>}
         {designs.length === 0
           ? <Empty>This store holds no design yet. <code>swarmsmith run CAMPAIGN.toml --store {campaign.store}</code> begins them, <code>swarmsmith import</code> brings results from elsewhere.</Empty>
           : <Grid campaign={campaign} />}

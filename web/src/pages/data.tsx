@@ -1,10 +1,10 @@
 import { Component, h } from "preact";
 import { ApiError, ask, path_of } from "../api";
-import { Copy, Empty, Failure, Panel, save_as, Table } from "../components";
-import { count, duration, number, shell_word, whole } from "../format";
+import { Empty, Failure, Panel, save_as, Table } from "../components";
+import { count, duration, shell_word, whole } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
-import { href, set_query } from "../route";
+import { set_query } from "../route";
 import { Cell, Rows, View } from "../types";
 
 /// To begin with: the numbers of the other pages.
@@ -12,22 +12,9 @@ const kQueries: [string, string][] = [
   ["designs", "SELECT design, mission, method, repetition, state, used, budget, best_candidate, best_mean FROM v_designs"],
   ["winners", "SELECT * FROM v_leaderboard"],
   ["convergence", "SELECT * FROM v_convergence WHERE rank = 1"],
-  ["candidates of a design", "SELECT candidate, iteration, runs, mean, eliminated_by FROM v_candidates WHERE design = 1 ORDER BY mean DESC LIMIT 100"],
-  ["steps of a race", "SELECT step, iteration, marker, alive_after, best, mean_best, p_value FROM v_race_steps WHERE design = 1"],
   ["modules", "SELECT * FROM v_module_frequency"],
   ["failures", "SELECT id, reason, host, at FROM v_failures LIMIT 100"],
-  ["commands", "SELECT * FROM v_commands"],
-  ["workers", "SELECT worker, host, slots, state, done, failed, cpu FROM v_workers"],
 ];
-
-/// A cell whose column names a thing leads to it.
-function linked(c: string, column: string, value: Cell) {
-  if (value === null) return <span class="faint">NULL</span>;
-  if (/^(best_)?candidate$|^best$|^parent$/.test(column) && typeof value === "number") return <a href={href([c, "c" + value])}>c{value}</a>;
-  if (column === "design" && typeof value === "number") return <a href={href([c, "d" + value])}>d{value}</a>;
-  if (column === "id" && /^[er]\d+[a-z]?$/.test(String(value))) return <a href={href([c, "runs", String(value)])}>{value}</a>;
-  return typeof value === "number" ? number(value, 6) : String(value);
-}
 
 class Data extends Component<PageProps, { sql: string; asked: string; error: ApiError | null }> {
   state = { sql: this.props.query.q ?? "", asked: this.props.query.q ?? "", error: null };
@@ -48,15 +35,12 @@ class Data extends Component<PageProps, { sql: string; asked: string; error: Api
     } catch (error) { this.setState({ error: error as ApiError }); }
   };
 
-  private result(c: string, { columns, rows, truncated, seconds }: Rows) {
+  private result({ columns, rows, truncated, seconds }: Rows) {
     return <div>
       <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut at {whole(rows.length)}: add a WHERE or a LIMIT, or take the command line</b>}, {duration(seconds)}</span>
-        <button type="button" class="quiet" onClick={this.csv}>CSV of all</button></div>
+        <button class="quiet" onClick={this.csv}>CSV of all</button></div>
       <Table<Cell[]> name="q" caption="Result" rows={rows} row_key={(row) => String(rows.indexOf(row))} empty="No rows."
-        columns={columns.map((label, i) => ({
-          key: label, label, value: (row) => row[i], show: (row) => linked(c, label, row[i]),
-          numeric: rows.slice(0, 20).every((row) => row[i] === null || typeof row[i] === "number"),
-        }))} />
+        columns={columns.map((key, i) => ({ key, label: key, value: (row) => row[i] }))} />
     </div>;
   }
 
@@ -68,25 +52,25 @@ class Data extends Component<PageProps, { sql: string; asked: string; error: Api
     return <div>
       <h1>Data <span class="light">of {campaign.store}</span></h1>
       <div class="grid">
-        <Panel title="Ask in SQL, read-only" tools={<Copy what="Copy as command" text={`swarmsmith query ${shell_word(sql)} ${shell_word(campaign.store)}`} />}>
+        <Panel title="Ask in SQL, read-only" command={`swarmsmith query ${shell_word(sql)} ${shell_word(campaign.store)}`}>
           <form onSubmit={(e) => { e.preventDefault(); this.run(sql); }}>
             <textarea rows={6} {...{ spellcheck: false }} aria-label="SQL" value={sql} placeholder="SELECT * FROM v_designs"
               onInput={(e) => this.setState({ sql: (e.target as HTMLTextAreaElement).value })}
               onKeyDown={(e) => { if (e.key === "Enter" && (e.ctrlKey || e.metaKey)) { e.preventDefault(); this.run(sql); } }} />
             <div class="tools"><button type="submit" class="main" disabled={!sql.trim()}>Ask</button><span class="faint small">or Ctrl+Enter; one statement, at most 10 s and 10{"\u2009"}000 rows; nothing can be written</span></div>
           </form>
-          <p class="tools"><span class="faint">To begin with:</span> {kQueries.map(([name, text]) => <button type="button" class="quiet" onClick={() => this.run(text)}>{name}</button>)}</p>
+          <p class="tools"><span class="faint">To begin with:</span> {kQueries.map(([name, text]) => <button class="quiet" onClick={() => this.run(text)}>{name}</button>)}</p>
         </Panel>
         <Panel title="Views, the public schema">
           <Get<{ views: View[] }> path={`${c}/views`} render={({ views }) => <div class="views">{views.map((view) => <details key={view.name}>
-            <summary><code>{view.name}</code> <span class="faint small">{view.summary}</span></summary>
-            <dl class="pairs">{view.columns.map((column) => <div><dt><code>{column.name}</code></dt><dd>{column.meaning}</dd></div>)}</dl>
-            <button type="button" class="quiet" onClick={() => this.run(`SELECT * FROM ${view.name} LIMIT 100`)}>first 100 rows</button>
+            <summary><code>{view.name}</code> <span class="faint small">{view.text}</span></summary>
+            <dl class="pairs">{view.columns.map((column) => <div><dt><code>{column.name}</code></dt><dd>{column.text}</dd></div>)}</dl>
+            <button class="quiet" onClick={() => this.run(`SELECT * FROM ${view.name} LIMIT 100`)}>first 100 rows</button>
           </details>)}</div>} />
         </Panel>
         {asked && <Panel wide title="Result">
           {error && <Failure error={error} />}
-          <Get<Rows> key={asked} path={path_of(`${c}/query`, { sql: asked })} render={(rows) => this.result(c, rows)} /></Panel>}
+          <Get<Rows> key={asked} path={path_of(`${c}/query`, { sql: asked })} render={(rows) => this.result(rows)} /></Panel>}
       </div>
     </div>;
   }

@@ -2,7 +2,7 @@ import { Component, h } from "preact";
 import { post } from "../api";
 import { Bar, Confirm, Copy, Empty, Fact, Panel, StateWord, Table } from "../components";
 import { Figure } from "../figure";
-import { count, number, percent, shell_word, when, whole, words } from "../format";
+import { count, number, percent, shell_word, whole, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
@@ -61,24 +61,22 @@ class Iterations extends Component<{ c: string; design: Design; iterations: Iter
       const rows = iterations.map((iteration) => {
         const own = steps.filter((step) => step.iteration === iteration.iteration);
         const best = elites.find((elite) => elite.iteration === iteration.iteration && elite.rank === 1);
-        const last = own[own.length - 1];
-        return { ...iteration, own, best, last,
-          alive: last ? Number(last.alive_after) : null,
+        return { ...iteration, best: best?.candidate, mean: best?.mean, steps: own.length,
+          alive: own[own.length - 1]?.alive_after,
           used: own.reduce((sum, step) => sum + Number(step.evaluated), 0),
           markers: own.map((step) => step.marker).join("") };
       });
-      return <Table<typeof rows[0]> name="i" caption="Iterations" sort="-iteration" rows={rows} row_key={(row) => String(row.iteration)} page_size={20}
+      return <Table<typeof rows[0]> name="i" caption="Iterations" sort="-iteration" rows={rows} page_size={20}
         empty="The race has not begun."
         columns={[
-          { key: "iteration", label: "iteration", numeric: true, value: (row) => row.iteration,
-            show: (row) => <a href={href([c, design.id, "race", String(row.iteration)])}>{row.postselection ? `${row.iteration}, last race` : String(row.iteration)}</a> },
-          { key: "candidates", label: "candidates", numeric: true, value: (row) => row.configurations, title: "with the elites of the iteration before" },
-          { key: "steps", label: "steps", numeric: true, value: (row) => row.own.length },
-          { key: "used", label: "experiments", numeric: true, value: (row) => row.used },
-          { key: "alive", label: "alive at the end", numeric: true, value: (row) => row.alive },
-          { key: "mean", label: "best mean", numeric: true, value: (row) => row.best?.mean },
-          { key: "best", label: "best", value: (row) => row.best?.candidate, show: (row) => row.best ? <a href={href([c, "c" + row.best.candidate])}>c{row.best.candidate}</a> : "–" },
-          { key: "markers", label: "tests", value: (row) => row.markers, title: "a letter a step: x no test, - some dropped, = nobody dropped, ! would drop elites, . nobody had to run",
+          { key: "iteration", show: (row) => <a href={href([c, design.id, "race", String(row.iteration)])}>{row.postselection ? `${row.iteration}, last race` : String(row.iteration)}</a> },
+          { key: "configurations", label: "candidates", title: "with the elites of the iteration before" },
+          { key: "steps" },
+          { key: "used", label: "experiments" },
+          { key: "alive", label: "alive at the end" },
+          { key: "mean", label: "best mean" },
+          { key: "best" },
+          { key: "markers", label: "tests", title: "a letter a step: x no test, - some dropped, = nobody dropped, ! would drop elites, . nobody had to run",
             show: (row) => <code class="markers">{row.markers}</code> },
         ]} />;
     }} />;
@@ -102,11 +100,11 @@ class DesignPage extends Component<PageProps, {}> {
         {row.reason && <Fact name="why it ended"><span class="small">{row.reason}</span></Fact>}
       </dl>
       <div class="grid">
-        <Panel title="Convergence: mean score of the best, band of the elites" tools={<Copy what="Copy as command" text={`swarmsmith figure convergence ${store} --design ${design.id} -o convergence.svg`} />}>
+        <Panel title="Convergence: mean score of the best, band of the elites" command={`swarmsmith figure convergence ${store} --design ${design.id} -o convergence.svg`}>
           <Figure c={c} kind="convergence" options={{ design: design.id }} name={`Convergence of ${design.id}`} version={design.version}
             missing={() => <Empty>No iteration has ended yet: convergence comes after the first.</Empty>} /></Panel>
         <Panel title={design.best ? `${over ? "The winner" : "Best so far"}: ${design.best}` : "Best so far"}
-          tools={machine && [<Copy what="Copy its text" text={machine.text} />, <Copy what="Copy as command" text={`swarmsmith show ${design.best} ${store}`} />]}>
+          command={design.best ? `swarmsmith show ${design.best} ${store}` : ""} tools={machine && <Copy what="Copy its text" text={machine.text} />}>
           {!design.best ? <Empty>None yet: it comes with the end of the first step.</Empty>
             : <Figure c={c} kind="machine" options={{ candidate: design.best }} name={`Drawing of ${design.best}`} missing={(error) => <Empty>{error.message}</Empty>} />}
           {machine?.text && <details><summary>Its text</summary><pre>{machine.text}</pre></details>}
@@ -117,23 +115,23 @@ class DesignPage extends Component<PageProps, {}> {
             : <Iterations c={c} design={design} iterations={iterations} elites={elites} />}
         </Panel>
         <Panel title={last > 0 ? `Elites after iteration ${last}` : "Elites"}>
-          <Table<Elite> name="el" caption={`Elites after iteration ${last}`} rows={elites.filter((elite) => elite.iteration === last)} row_key={(row) => String(row.candidate)}
+          <Table<Elite> name="el" caption={`Elites after iteration ${last}`} rows={elites.filter((elite) => elite.iteration === last)} 
             empty="No iteration has ended yet: elites come after the first."
             columns={[
-              { key: "rank", label: "rank", numeric: true, value: (row) => row.rank },
-              { key: "candidate", label: "candidate", value: (row) => row.candidate, show: (row) => <a href={href([c, "c" + row.candidate])}>c{row.candidate}</a> },
-              { key: "mean", label: "mean score", numeric: true, value: (row) => row.mean, title: "higher is better" },
-              { key: "n", label: "pairs", numeric: true, value: (row) => row.n, title: "(instance, seed) that it has met" },
+              { key: "rank" },
+              { key: "candidate" },
+              { key: "mean", label: "mean score", title: "higher is better" },
+              { key: "n", label: "pairs", title: "(instance, seed) that it has met" },
             ]} /></Panel>
         <Panel title="Commands that people gave">
           <Table<DesignAnswer["commands"][0]> name="co" caption="Commands" rows={commands} row_key={(row) => String(row.number)}
             empty="None: nobody paused, resumed, extended or cancelled it."
             columns={[
-              { key: "at", label: "when", value: (row) => row.at, show: (row) => <time dateTime={row.at} title={`${row.at} UTC`}>{when(row.at)}</time> },
-              { key: "kind", label: "command", value: (row) => row.kind },
-              { key: "who", label: "who", value: (row) => row.who },
-              { key: "budget", label: "experiments", numeric: true, value: (row) => row.budget },
-              { key: "step", label: "after step", numeric: true, value: (row) => row.step },
+              { key: "at", label: "when" },
+              { key: "kind", label: "command" },
+              { key: "who" },
+              { key: "budget", label: "experiments" },
+              { key: "step", label: "after step" },
             ]} /></Panel>
       </div>
     </div>;

@@ -1,7 +1,7 @@
 import { Component, h } from "preact";
-import { Canvas, Inks } from "../canvas";
-import { Copy, Empty, Fact, Panel, StateWord, Table } from "../components";
-import { count, duration, number, percent, shell_word, whole } from "../format";
+import { Canvas, Inks, pen } from "../canvas";
+import { Empty, Fact, Panel, StateWord, Table } from "../components";
+import { count, duration, number, percent, shell_word, whole, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { History, SlotTimes, Status, Worker } from "../types";
@@ -24,15 +24,6 @@ function seconds_of(times: SlotTimes, cause: string): number {
   return cause === "busy" ? times.busy_s : times.idle_s[cause] ?? 0;
 }
 
-function Split({ times, name }: { times: SlotTimes; name: string }) {
-  const parts = kCauses.map((cause) => ({ cause, part: seconds_of(times, cause.name) / times.slots_s })).filter(({ part }) => part > 0.002);
-  return <div class="split-row"><span class="split-name">{name}</span>
-    {times.slots_s > 0 ? <div class="split" role="img" aria-label={`${name}: ${parts.map(({ cause, part }) => `${cause.name} ${percent(part)}`).join(", ")}`}>
-      {parts.map(({ cause, part }) => <span key={cause.name} title={`${cause.name} ${percent(part)}`} style={{ width: `${100 * part}%`, background: cause.color }} />)}</div>
-      : <span class="faint">no slot yet</span>}
-  </div>;
-}
-
 function SlotTime({ status }: { status: Status }) {
   const [minute, whole_time] = [status.slot_times_last_minute, status.slot_times];
   const part = (times: SlotTimes, name: string) => times.slots_s > 0 ? seconds_of(times, name) / times.slots_s : 0;
@@ -42,17 +33,14 @@ function SlotTime({ status }: { status: Status }) {
     <p>{minute.slots_s <= 0 ? "No slot has worked in the last minute." : lost < 0.1
       ? `The slots are used well: ${percent(part(minute, "busy"))} of their time was spent on evaluations in the last minute.`
       : <span><b>{percent(lost)} of the slots' time goes to {worst.name}</b>: {worst.what}. {worst.todo}</span>}</p>
-    <Split times={minute} name="last minute" />
-    <Split times={whole_time} name="since start" />
-    <div class="scroll" tabIndex={0} role="region" aria-label="slot time by cause"><table>
-      <caption class="unseen">Slot time by cause</caption>
-      <thead><tr><th scope="col">cause</th><th scope="col" class="n">last minute</th><th scope="col" class="n">since start</th><th scope="col" class="n">slot time</th><th scope="col">because</th></tr></thead>
-      <tbody>{kCauses.filter((cause) => seconds_of(whole_time, cause.name) > 0).map((cause) => <tr key={cause.name}>
-        <th scope="row"><span class="swatch" style={{ background: cause.color }} /> {cause.name}</th>
-        <td class="n">{percent(part(minute, cause.name))}</td><td class="n">{percent(part(whole_time, cause.name))}</td>
-        <td class="n">{duration(seconds_of(whole_time, cause.name))}</td>
-        <td class="because">{cause.what}</td></tr>)}</tbody>
-    </table></div>
+    <div class="split" aria-hidden="true">{kCauses.map((cause) => <span style={{ width: `${100 * part(minute, cause.name)}%`, background: cause.color }} />)}</div>
+    <Table<Cause> name="t" caption="Slot time by cause" rows={kCauses.filter((cause) => seconds_of(whole_time, cause.name) > 0)}
+      columns={[
+        { key: "name", label: "cause", show: (cause) => <span><span class="swatch" style={{ background: cause.color }} /> {cause.name}</span> },
+        { key: "minute", label: "last minute", value: (cause) => part(minute, cause.name), show: (cause) => percent(part(minute, cause.name)) },
+        { key: "all", label: "since start", value: (cause) => part(whole_time, cause.name), show: (cause) => percent(part(whole_time, cause.name)) },
+        { key: "what", label: "because" },
+      ]} />
     <p class="faint small">Causes that took no time are left out.</p>
   </div>;
 }
@@ -61,54 +49,38 @@ function SlotTime({ status }: { status: Status }) {
 class Past extends Component<{ history: History }, {}> {
   private draw = (to: CanvasRenderingContext2D, width: number, height: number, inks: Inks) => {
     const { history } = this.props;
-    const n = history.t_s.length;
-    const left = 52, right = 44, top = 8, bottom = 20;
-    const [first, last] = [history.t_s[0], history.t_s[n - 1]];
-    const x = (i: number) => left + (width - left - right) * (last > first ? (history.t_s[i] - first) / (last - first) : 0);
-    const y = (part: number) => height - bottom - (height - top - bottom) * part;
-    const base = new Array<number>(n).fill(0);
-    to.font = `11px ${inks.font}`;
-    for (const cause of kCauses) {
-      const values = history[cause.name.replace("-", "_")];
+    const { say, line } = pen(to, inks);
+    const times = history.t_s, n = times.length;
+    const left = 52, right = width - 44, top = 8, bottom = height - 20;
+    const span = Math.max(1, times[n - 1] - times[0]);
+    const x = (i: number) => left + (right - left) * (times[i] - times[0]) / span;
+    const y = (part: number) => bottom - (bottom - top) * Math.min(1, part);
+    const base = times.map(() => 0);
+    for (const { name, color } of kCauses) {
+      const values: number[] | undefined = history[name.replace("-", "_")];
       if (!values) continue;
       to.beginPath();
       for (let i = 0; i < n; ++i) to.lineTo(x(i), y(base[i]));
-      for (let i = n - 1; i >= 0; --i) {
-        base[i] += values[i] ?? 0;
-        to.lineTo(x(i), y(Math.min(1, base[i])));
-      }
-      to.closePath();
-      to.fillStyle = cause.color;
-      to.globalAlpha = cause.name === "busy" ? 0.35 : 0.75;
+      for (let i = n; i-- > 0;) to.lineTo(x(i), y(base[i] += values[i] ?? 0));
+      to.fillStyle = color;
+      to.globalAlpha = name === "busy" ? 0.35 : 0.75;
       to.fill();
     }
     to.globalAlpha = 1;
-    const rate = history.evaluations_per_s;
-    const most = Math.max(1, ...rate.map((value) => value ?? 0));
-    to.beginPath();
-    for (let i = 0; i < n; ++i) if (rate[i] !== null) to.lineTo(x(i), y(rate[i]! / most));
-    to.strokeStyle = inks.ink;
-    to.lineWidth = 1.5;
-    to.stroke();
-    to.fillStyle = inks.faint;
-    to.textAlign = "right";
-    to.textBaseline = "middle";
-    for (const part of [0, 0.5, 1]) to.fillText(number(most * part, 3), left - 6, y(part));
-    to.textAlign = "left";
-    for (const part of [0, 0.5, 1]) to.fillText(percent(part), width - right + 6, y(part));
-    to.textAlign = "center";
-    const parts = width > 500 ? 4 : 2;
-    for (let k = 0; k <= parts; ++k) {
-      const t = first + (last - first) * k / parts;
-      to.fillText(k === parts ? "now" : `−${duration(last - t)}`, Math.min(width - right, left + (width - left - right) * k / parts), height - 8);
+    const rate = history.evaluations_per_s.map((value) => value ?? 0);
+    const most = Math.max(1, ...rate);
+    line(inks.ink, rate.map((value, i) => [x(i), y(value / most)]));
+    for (const part of [0, 0.5, 1]) {
+      say(number(most * part, 3), left - 6, y(part), "right");
+      say(percent(part), right + 6, y(part), "left");
+      say(part === 1 ? "now" : "−" + duration(span * (1 - part)), left + (right - left) * part, height - 8);
     }
   };
   render() {
     const { history } = this.props;
     if (history.t_s.length < 2) return <Empty>The process has just begun: its history comes second by second.</Empty>;
-    const rate = history.evaluations_per_s;
     return <div><Canvas height={() => 190} draw={this.draw}
-      label={`Evaluations a second over the last ${duration(history.t_s[history.t_s.length - 1] - history.t_s[0])}: now ${number(rate[rate.length - 1], 3)}, at most ${number(Math.max(...rate.map((v) => v ?? 0)), 3)}; areas: share of the slots' time by cause`} />
+      label="Evaluations a second, and shares of the slots' time by cause, since the process began or over the last minutes" />
       <p class="faint small">Line: evaluations a second (left). Areas: share of the slots' time, busy and by cause (right), colours as above. It begins with this process.</p></div>;
   }
 }
@@ -119,25 +91,31 @@ function worst_first(workers: Worker[]): Worker[] {
   return [...workers].sort((a, b) => weight(b) - weight(a) || b.failed - a.failed || (b.last_heard_s ?? 0) - (a.last_heard_s ?? 0) || a.number - b.number);
 }
 
+/// What the counts mean whose names do not say it.
+const kCounts: Record<string, string> = {
+  leased: "tasks that workers hold", ready: "tasks that wait for a slot", failed: "attempts without a score",
+  requeued: "leases that went back to the queue", uncommitted: "outcomes that are not on disk yet",
+};
+
 class Fleet extends Component<PageProps, {}> {
   private workers(workers: Worker[], running: boolean, store: string) {
-    return <Table<Worker> name="w" caption="Workers, worst first" rows={worst_first(workers)} row_key={(one) => String(one.number)}
+    return <Table<Worker> name="w" caption="Workers, worst first" rows={worst_first(workers)}
       row_class={(one) => one.state === "connected" ? "" : "bad"}
       empty={<span>No worker{running ? " is connected" : " has ever been connected"}: <code>swarmsmith worker --coordinator {store}.coordinator</code> on any host that has this file.</span>}
       columns={[
-        { key: "worker", label: "worker", numeric: true, value: (one) => one.number },
-        { key: "state", label: "state", value: (one) => one.state, show: (one) => <StateWord state={one.state} /> },
-        { key: "host", label: "host", value: (one) => one.host },
-        { key: "job", label: "job", value: (one) => one.job },
-        { key: "slots", label: "slots", numeric: true, value: (one) => one.slots },
-        { key: "running", label: "running", numeric: true, value: (one) => one.running, title: "evaluations, as it last said" },
-        { key: "held", label: "held", numeric: true, value: (one) => one.held, title: "leases" },
-        { key: "rate", label: "evals/s", numeric: true, value: (one) => one.done_per_s, show: (one) => number(one.done_per_s, 3) },
-        { key: "busy", label: "busy", numeric: true, value: (one) => one.busy, show: (one) => percent(one.busy), title: "share of its slots' time, over the last seconds" },
-        { key: "silence", label: "silent for", numeric: true, value: (one) => one.last_heard_s, show: (one) => duration(one.last_heard_s) },
-        { key: "done", label: "done", numeric: true, value: (one) => one.done },
-        { key: "failed", label: "failed", numeric: true, value: (one) => one.failed, show: (one) => one.failed > 0 ? <b class="warn">{whole(one.failed)}</b> : "0" },
-        { key: "connections", label: "connected", numeric: true, value: (one) => one.connections, show: (one) => count(one.connections, "time") },
+        { key: "number", label: "worker" },
+        { key: "state", show: (one) => <StateWord state={one.state} /> },
+        { key: "host" },
+        { key: "job" },
+        { key: "slots" },
+        { key: "running", title: "evaluations, as it last said" },
+        { key: "held", title: "leases" },
+        { key: "done_per_s", label: "evals/s", show: (one) => number(one.done_per_s, 3) },
+        { key: "busy", show: (one) => percent(one.busy), title: "share of its slots' time, over the last seconds" },
+        { key: "last_heard_s", label: "silent for", show: (one) => duration(one.last_heard_s) },
+        { key: "done" },
+        { key: "failed", show: (one) => <b class={one.failed ? "warn" : "faint"}>{whole(one.failed)}</b> },
+        { key: "connections" },
       ]} />;
   }
 
@@ -149,16 +127,9 @@ class Fleet extends Component<PageProps, {}> {
       <h1>Fleet</h1>
       {!live.running && <Empty>No campaign runs here, so no worker works for it. Below are those that did, as the store knows them.</Empty>}
       {s && live.running && <dl class="facts framed">
-        <Fact name="workers">{whole(s.workers)}</Fact>
-        <Fact name="slots">{whole(s.slots)}</Fact>
+        {(["workers", "slots", "leased", "ready", "done", "failed", "requeued", "lost_workers", "uncommitted"] as const).map((name) =>
+          <Fact name={words(name)} title={kCounts[name]}>{whole(s[name])}</Fact>)}
         <Fact name="evaluations/s">{number(s.evaluations_per_s, 3)}</Fact>
-        <Fact name="leased" title="tasks that workers hold">{whole(s.leased)}</Fact>
-        <Fact name="ready" title="tasks that wait for a slot">{whole(s.ready)}</Fact>
-        <Fact name="done">{whole(s.done)}</Fact>
-        <Fact name="failed attempts">{whole(s.failed)}</Fact>
-        <Fact name="back in the queue" title="leases that went back">{whole(s.requeued)}</Fact>
-        <Fact name="lost workers">{whole(s.lost_workers)}</Fact>
-        <Fact name="uncommitted" title="outcomes that are not on disk yet">{whole(s.uncommitted)}</Fact>
         <Fact name="up for">{duration(s.uptime_s)}</Fact>
       </dl>}
       {s?.launcher?.name && <p class="faint">Workers are started by {s.launcher.name}: {count(s.launcher.running, "of", "of")} {whole(s.launcher.wanted)} run{s.launcher.pending > 0 && `, ${whole(s.launcher.pending)} wait for ${s.launcher.waits_for || "their turn"}`}. {s.launcher.note}</p>}
@@ -166,7 +137,7 @@ class Fleet extends Component<PageProps, {}> {
         {s && live.running && <Panel title="Where the slots' time goes"><SlotTime status={s} /></Panel>}
         {live.running && <Panel title="The last minutes"><Get<History> path="history" every_s={2} render={(history) => <Past history={history} />}
           missing={(error) => <Empty>{error.message}</Empty>} /></Panel>}
-        <Panel wide title="Workers, worst first" tools={<Copy what="Copy as command" text={`swarmsmith status ${shell_word(store)} --watch`} />}>
+        <Panel wide title="Workers, worst first" command={`swarmsmith status ${shell_word(store)} --watch`}>
           <Get<{ workers: Worker[] }> path="workers" every_s={live.running ? 1 : 30} render={({ workers }) => this.workers(workers, live.running, store)} /></Panel>
       </div>
     </div>;

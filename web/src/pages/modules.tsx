@@ -1,10 +1,10 @@
 import { Component, h } from "preact";
-import { Copy, Empty, Panel, Table } from "../components";
+import { Choice, Empty, Panel, Table } from "../components";
 import { Figure } from "../figure";
 import { number, percent, shell_word, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
-import { href, set_query } from "../route";
+import { href } from "../route";
 import { Columns, Design } from "../types";
 import { version_of } from "./campaigns";
 import { rows_of } from "./design";
@@ -20,10 +20,10 @@ class Modules extends Component<PageProps, {}> {
       + ` WHERE d.state = 'finished' AND d.mission = ${quoted(mission)} AND d.method = ${quoted(one.method)} AND m.module = ${quoted(one.module)}`;
     return <Table<Use> name="m" caption="Modules of winners" rows={rows} sort="module" row_key={(one) => `${one.method} ${one.module}`}
       columns={[
-        { key: "module", label: "module", value: (one) => words(one.module) },
-        { key: "method", label: "method", value: (one) => one.method },
+        { key: "module", value: (one) => words(one.module) },
+        { key: "method" },
         ...missions.map((mission) => ({
-          key: mission, label: words(mission), numeric: true, value: (one: Use) => one.of[mission]?.rate,
+          key: mission, label: words(mission), value: (one: Use) => one.of[mission]?.rate,
           title: "share of the winners that have it; mean count in a winner; how many of these are in states that can be reached",
           show: (one: Use) => {
             const use = one.of[mission];
@@ -42,8 +42,8 @@ class Modules extends Component<PageProps, {}> {
     if (!campaign) return <Empty>There is no campaign {c} here. <a href="#/">All campaigns</a></Empty>;
     const finished = campaign.designs.filter((one) => one.state === "finished").length;
     const mission = query.mission ?? "", method = query.method ?? "";
-    const choice = (name: string, value: string, values: string[]) => <label>{name} <select onChange={(e) => set_query({ [name]: (e.target as HTMLSelectElement).value })}>
-      <option value="" selected={value === ""}>all</option>{values.map((one) => <option value={one} selected={one === value}>{words(one)}</option>)}</select></label>;
+    const choice = (name: string, value: string, values: string[]) =>
+      <Choice label={name} name={name} value={value} options={[["all", ""], ...values.map((one): [string, string] => [words(one), one])]} />;
     const distinct = (of: (one: Design) => string) => [...new Set(campaign.designs.map(of))].sort();
     const nothing = <Empty>{finished === 0 ? "No design has finished yet: modules are counted in the machines that won." : "No winner here is a machine of modules: networks and parameters of programs have none."}</Empty>;
     const version = version_of(campaign);
@@ -51,7 +51,7 @@ class Modules extends Component<PageProps, {}> {
       <h1>Modules <span class="light">of the winners of {finished === 1 ? "1 finished design" : `${finished} finished designs`}</span></h1>
       <div class="tools">{choice("mission", mission, distinct((one) => one.mission))}{choice("method", method, distinct((one) => one.method))}</div>
       <div class="grid">
-        <Panel title="How often winners have each module" tools={<Copy what="Copy as command" text={`swarmsmith figure modules ${shell_word(campaign.store)}${mission && ` --mission ${shell_word(mission)}`}${method && ` --method ${shell_word(method)}`} -o modules.svg`} />}>
+        <Panel title="How often winners have each module" command={`swarmsmith figure modules ${shell_word(campaign.store)}${mission && ` --mission ${shell_word(mission)}`}${method && ` --method ${shell_word(method)}`} -o modules.svg`}>
           <Figure key={mission + "/" + method} c={c} kind="modules" options={{ mission, method }} name="Modules of winners" version={version} missing={(error) => finished ? <Empty>{error.message}</Empty> : nothing} /></Panel>
         <Panel title="In numbers">
           <Get<Columns> path={`${c}/modules`} version={version} render={(columns) => {

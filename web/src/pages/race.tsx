@@ -1,12 +1,13 @@
 import { Component, h } from "preact";
-import { ask, path_of } from "../api";
-import { announce, Copy, Empty, Fact, Panel, save_as, Table } from "../components";
-import { Canvas, Inks, viridis } from "../canvas";
+import { path_of } from "../api";
+import { announce, Copy, Empty, Fact, Panel, Table, To } from "../components";
+import { Files } from "../figure";
+import { Canvas, Inks, pen, viridis } from "../canvas";
 import { count, number, shell_word, whole } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { go, href, set_query } from "../route";
-import { Campaign, Cell, Columns, Design, Race } from "../types";
+import { Campaign, Design, Race } from "../types";
 import { said } from "./campaigns";
 import { DesignTitle, find_design, NoDesign } from "./design";
 
@@ -117,85 +118,46 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
     const { matrix, until } = this.props;
     const { race } = matrix;
     const { column, row } = this.area;
-    const rows = race.candidates.length;
+    const { box, say, line } = pen(to, inks);
+    const rows = race.candidates.length, columns = race.steps.length;
     const now = race.steps[until];
-    to.font = `11px ${inks.font}`;
-    to.textBaseline = "middle";
-    // Grey where a candidate had fallen, the ground of what has not been evaluated.
-    for (let i = 0; i < rows; ++i) {
-      const y = kTop + i * row;
-      const dropped = matrix.dropped(i, now);
-      const from = dropped === null ? until + 1 : race.steps.indexOf(dropped) + 1;
-      if (from <= until) {
-        to.fillStyle = inks.soft;
-        to.fillRect(kLeft + from * column, y, (until + 1 - from) * column, row);
-      }
-    }
-    const gap_x = column >= 6 ? 0.5 : 0, gap_y = row >= 6 ? 0.5 : 0;
-    for (let s = 0; s <= until; ++s)
-      for (let i = 0; i < rows; ++i) {
-        const part = matrix.part(s, i);
-        if (part === null) continue;
-        // The best is farthest from the ground.
-        to.fillStyle = viridis(dark ? part : 1 - part);
-        to.fillRect(kLeft + s * column, kTop + i * row, Math.max(column - gap_x, 0.7), row - gap_y);
-      }
-    // Ends of those that a test or capping dropped; elites before and after.
+    const x_of = (step: number) => kLeft + step * column;
     const vermilion = dark ? "#ff7b2e" : "#d55e00";
-    for (let i = 0; i < rows; ++i) {
+    const gap_x = column >= 6 ? 0.5 : 0, gap_y = row >= 6 ? 0.5 : 0, mark = Math.min(4, row);
+    race.candidates.forEach((candidate, i) => {
       const y = kTop + i * row;
       const dropped = matrix.dropped(i, now);
-      if (dropped !== null && race.reasons[i] !== "not kept") {
-        to.fillStyle = vermilion;
-        to.fillRect(kLeft + (race.steps.indexOf(dropped) + 1) * column - 1, y, 2.5, row);
+      const end = dropped === null ? until + 1 : race.steps.indexOf(dropped) + 1;
+      // Grey where a candidate had fallen, the ground of what has not been evaluated.
+      box(inks.soft, x_of(end), y, (until + 1 - end) * column, row);
+      for (let s = 0; s <= until; ++s) {
+        const part = matrix.part(s, i);
+        // The best is farthest from the ground.
+        if (part !== null) box(viridis(dark ? part : 1 - part), x_of(s), y, Math.max(column - gap_x, 0.7), row - gap_y);
       }
-      to.fillStyle = inks.ink;
-      if (race.elite_before[i]) to.fillRect(kLeft - 6, y + row / 2 - Math.min(2, row / 2), 4, Math.min(4, row));
-      if (race.elite_after[i] && until === race.steps.length - 1)
-        to.fillRect(kLeft + race.steps.length * column + 4, y + row / 2 - Math.min(2, row / 2), 4, Math.min(4, row));
-    }
-    // Names of rows, as many as there is room for.
-    to.fillStyle = inks.faint;
-    to.textAlign = "right";
-    const each = Math.ceil(12 / row);
-    for (let i = 0; i < rows; i += each) to.fillText("c" + race.candidates[i], kLeft - 9, kTop + i * row + Math.max(row, 4) / 2);
-    // Markers: letters where they fit, else a tick where the test dropped some.
-    to.textAlign = "center";
-    for (let s = 0; s <= until; ++s) {
-      const x = kLeft + (s + 0.5) * column;
-      if (column >= 8) {
-        to.fillStyle = race.markers[s] === "-" || race.markers[s] === "c" ? vermilion : inks.faint;
-        to.fillText(race.markers[s], x, kAlive + kMarks / 2);
-      } else if (race.markers[s] === "-" || race.markers[s] === "c") {
-        to.fillStyle = vermilion;
-        to.fillRect(x - 0.5, kAlive + 6, Math.max(1, column), 8);
-      }
-    }
-    // How many were alive after each step.
-    const most = Math.max(1, ...race.alive, race.rows_total);
+      if (dropped !== null && race.reasons[i] !== "not kept") box(vermilion, x_of(end) - 1, y, 2.5, row);
+      if (race.elite_before[i]) box(inks.ink, kLeft - 6, y + (row - mark) / 2, 4, mark);
+      if (race.elite_after[i] && until === columns - 1) box(inks.ink, x_of(columns) + 4, y + (row - mark) / 2, 4, mark);
+      if (i % Math.ceil(12 / row) === 0) say("c" + candidate, kLeft - 9, y + Math.max(row, 4) / 2, "right");
+    });
+    // Above: how many were alive after each step, and markers: letters where they fit, else a tick where some fell.
+    const most = Math.max(1, race.rows_total);
     const y_of = (alive: number) => kAlive - 2 - (alive / most) * (kAlive - 10);
-    to.beginPath();
-    to.moveTo(kLeft, y_of(most));
+    const curve: [number, number][] = [[kLeft, y_of(most)]];
     for (let s = 0; s <= until; ++s) {
-      to.lineTo(kLeft + (s + 1) * column, y_of(s === 0 ? most : race.alive[s - 1]));
-      to.lineTo(kLeft + (s + 1) * column, y_of(race.alive[s]));
+      curve.push([x_of(s + 1), curve[curve.length - 1][1]], [x_of(s + 1), y_of(race.alive[s])]);
+      const fell = /[-c]/.test(race.markers[s]);
+      if (column >= 8) say(race.markers[s], x_of(s + 0.5), kAlive + kMarks / 2, "center", fell ? vermilion : inks.faint);
+      else if (fell) box(vermilion, x_of(s), kAlive + 6, Math.max(1, column), 8);
     }
-    to.strokeStyle = inks.link;
-    to.lineWidth = 1.5;
-    to.stroke();
-    to.fillStyle = inks.faint;
-    to.textAlign = "right";
-    to.fillText(`${whole(most)}`, kLeft - 9, y_of(most) + 4);
-    to.fillText("alive", kLeft - 9, y_of(0) - 4);
-    to.textAlign = "left";
-    to.fillText(whole(race.alive[until]), kLeft + (until + 1) * column + 4, y_of(race.alive[until]));
-    // Pairs below, as many as there is room for.
-    to.textAlign = "center";
-    const apart = Math.ceil(46 / column);
-    for (let s = 0; s < race.steps.length; s += apart)
-      to.fillText(String(race.steps[s]), kLeft + (s + 0.5) * column, kTop + rows * row + kBottom / 2 + 2);
-    to.textAlign = "right";
-    to.fillText("step", kLeft - 9, kTop + rows * row + kBottom / 2 + 2);
+    line(inks.link, curve);
+    say(whole(most), kLeft - 9, y_of(most) + 4, "right");
+    say("alive", kLeft - 9, y_of(0) - 4, "right");
+    say(whole(race.alive[until]), x_of(until + 1) + 4, y_of(race.alive[until]), "left");
+    // Below: steps, as many as there is room for.
+    const y = kTop + rows * row + kBottom / 2 + 2;
+    for (let s = 0; s < columns; s += Math.ceil(46 / column)) say(String(race.steps[s]), x_of(s + 0.5), y);
+    say("step", kLeft - 9, y, "right");
   }
 
   private frame(to: CanvasRenderingContext2D, { row, step }: At, inks: Inks, chosen: boolean) {
@@ -280,35 +242,17 @@ export function evaluation_id(candidate: number, pair: number): string {
   return `e${candidate * 100000 + pair}`;
 }
 
-class Legend extends Component<{}, {}> {
-  render() {
-    return <ul class="legend">
-      <li><span class="swatch viridis" /> rank, best to worst</li>
-      <li><span class="swatch dropped-end" /> dropped here</li>
-      <li><span class="swatch gone" /> no longer in the race</li>
-      <li><span class="swatch elite" /> elite before (left), after (right)</li>
-    </ul>;
-  }
+function Legend() {
+  return <ul class="legend">
+    <li><span class="swatch viridis" /> rank, best to worst</li>
+    <li><span class="swatch dropped-end" /> dropped here</li>
+    <li><span class="swatch gone" /> no longer in the race</li>
+    <li><span class="swatch elite" /> elite before (left), after (right)</li>
+  </ul>;
 }
 
-class RacePage extends Component<PageProps, { playing: boolean }> {
-  state = { playing: false };
+class RacePage extends Component<PageProps, {}> {
   private matrix: Matrix | null = null;
-  private timer = 0;
-
-  componentWillUnmount() { clearInterval(this.timer); }
-
-  private play = (steps: number[], from: number) => {
-    if (this.state.playing) { clearInterval(this.timer); this.setState({ playing: false }); return; }
-    let at = from >= steps.length - 1 ? 0 : from;
-    this.setState({ playing: true });
-    const each = Math.max(1, Math.ceil(steps.length / 120));
-    this.timer = window.setInterval(() => {
-      at = Math.min(steps.length - 1, at + each);
-      set_query({ step: at === steps.length - 1 ? null : steps[at] });
-      if (at === steps.length - 1) { clearInterval(this.timer); this.setState({ playing: false }); }
-    }, 120);
-  };
 
   private cell_of(matrix: Matrix, until: number): At | null {
     const found = /^c(\d+)(?:,(\d+))?$/.exec(this.props.query.cell ?? "");
@@ -337,20 +281,12 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
     };
     const now = race.steps[until];
     const fallen = race.candidates.filter((_, row) => matrix.dropped(row, now) !== null).length;
-    const save = async (ending: string) => {
-      try {
-        const { text } = await ask(path_of(`${c}/figures/race.${ending}`, { design: d, iteration: race.iteration, width: ending === "svg" ? 175 : null }));
-        save_as(`race-${d}-${race.iteration}.${ending}`, ending === "svg" ? "image/svg+xml" : "text/csv", text);
-      } catch (error) { announce((error as Error).message); }
-    };
     return <div class="beside">
-      <Panel title={`Race ${race.iteration}${race.ended ? "" : ", running"}: candidates by step`} tools={[
-        <button type="button" class="quiet" onClick={() => save("svg")} aria-label="SVG: race">SVG</button>,
-        <button type="button" class="quiet" onClick={() => save("csv")} aria-label="CSV: race">CSV</button>,
-        <Copy what="Copy as command" text={`swarmsmith figure race ${store} --design ${d} --iteration ${race.iteration} -o race.svg`} />,
-        <a class="small" href={href([c, "sql"], { q: `SELECT * FROM v_race_matrix WHERE design = ${d.slice(1)} AND iteration = ${race.iteration}` })}>SQL</a>]}>
+      <Panel title={`Race ${race.iteration}${race.ended ? "" : ", running"}: candidates by step`}
+        command={`swarmsmith figure race ${store} --design ${d} --iteration ${race.iteration} -o race.svg`}
+        sql={`SELECT * FROM v_race_matrix WHERE design = ${d.slice(1)} AND iteration = ${race.iteration}`}
+        tools={<Files c={c} kind="race" name="race" options={{ design: d, iteration: race.iteration }} />}>
         <div class="slider"><label for="step">after step {now}{until === last && !race.ended ? ", the newest" : ""}</label>
-          <button type="button" class="quiet" aria-label={this.state.playing ? "pause the replay of the race" : "replay the race"} onClick={() => this.play(race.steps, until)}>{this.state.playing ? "❚❚" : "▶"}</button>
           <input id="step" type="range" min={0} max={last} value={String(until)} aria-valuetext={`step ${now}, ${race.alive[until]} alive`}
             onInput={(e) => { const to = Number((e.target as HTMLInputElement).value); set_query({ step: to === last ? null : race.steps[to] }); }} />
           <span class="faint">{until < last ? `as it was then; ${count(last - until, "later step")} hidden` : `${count(last + 1, "step")}`}</span>
@@ -358,13 +294,13 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
         <RaceMap matrix={matrix} until={until} cell={cell} pick={pick} watch={watch}
           label={`Race ${race.iteration} of ${d}: ${race.candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
         <Legend />
-        {race.rows_total > race.candidates.length && <p class="faint">The best {whole(race.candidates.length)} of {whole(race.rows_total)} candidates. <button type="button" class="quiet" onClick={() => set_query({ rows: race.rows_total })}>Show all</button></p>}
+        {race.rows_total > race.candidates.length && <p class="faint">The best {whole(race.candidates.length)} of {whole(race.rows_total)} candidates. <button class="quiet" onClick={() => set_query({ rows: race.rows_total })}>Show all</button></p>}
       </Panel>
       <div class="side">
         <Panel title="Cell">{cell ? this.cell(campaign, matrix, cell, watch) : <Empty>Click a cell to see what made its score, and to watch the run.</Empty>}</Panel>
-        <Panel title={`Step ${now}`}>{this.step(c, d, race, until)}</Panel>
+        <Panel title={`Step ${now}`}>{this.step(race, until)}</Panel>
       </div>
-      <Panel wide title={`Candidates after step ${now}`}>{this.table(c, matrix, until)}</Panel>
+      <Panel wide title={`Candidates after step ${now}`}>{this.table(matrix, until)}</Panel>
     </div>;
   }
 
@@ -377,16 +313,13 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
     const dropped = race.dropped_at[at.row];
     return <div>
       <dl class="facts">
-        <Fact name="candidate"><a href={href([c, "c" + candidate])}>c{candidate}</a></Fact>
+        <Fact name="candidate">{To("c", candidate)}</Fact>
         <Fact name="score" title="higher is better">{number(score, 6)}</Fact>
         <Fact name="rank">{number(matrix.rank[at.step][at.row])} <span class="small faint">of {matrix.ranked[at.step]}</span></Fact>
-        <Fact name="step">{race.steps[at.step]}</Fact>
-        <Fact name="instance">{race.instances[at.step]}</Fact>
-        <Fact name="seed"><span class="small">{race.seeds[at.step]}</span></Fact>
       </dl>
-      <p>{dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[at.row]}.` : race.elite_after[at.row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
+      <p>Step {race.steps[at.step]}, instance {race.instances[at.step]}, seed {race.seeds[at.step]}. {dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[at.row]}.` : race.elite_after[at.row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
       {score !== null ? <div>
-        <p class="tools"><button type="button" class="main" onClick={() => watch(at)}>Watch this run</button>
+        <p class="tools"><button class="main" onClick={() => watch(at)}>Watch this run</button>
           <Copy what="Copy as command" text={`swarmsmith explain ${id} ${shell_word(campaign.store)}`} /></p>
         <Get<Record<string, unknown>> path={`${c}/evaluations/${id}`} keep render={(answer) => <details open><summary>Who made it</summary><Explained answer={answer} /></details>}
           missing={() => <p class="faint small">Of this evaluation no more is known.</p>} />
@@ -394,25 +327,18 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
     </div>;
   }
 
-  private step(c: string, d: string, race: Race, until: number) {
-    return <Get<Columns> path={`${c}/designs/${d}/steps?after=${race.steps[0] - 1}`} version={race.steps.length} keep render={(columns) => {
-      const i = (columns.step ?? []).indexOf(race.steps[until]);
-      const of = (name: string): Cell => i >= 0 ? columns[name]?.[i] ?? null : null;
-      const p = of("p_value") as number | null;
-      return <dl class="facts">
-        <Fact name="test"><code>{race.markers[until]}</code> <span class="small">{kMarkers[race.markers[until]]}</span></Fact>
-        <Fact name="alive">{whole(race.alive[until])}</Fact>
-        <Fact name="best">{of("best") ? <a href={href([c, "c" + of("best")])}>c{of("best")}</a> : "–"}</Fact>
-        <Fact name="its mean">{number(of("mean_best") as number | null)}</Fact>
-        <Fact name="p value">{p === null ? "–" : p < 0.0001 ? "< 0.0001" : number(p, 3)}</Fact>
-        <Fact name="statistic">{number(of("statistic") as number | null)}</Fact>
-        <Fact name="Kendall's W" title="how much the pairs agree, 0 to 1">{number(of("kendall_w") as number | null, 3)}</Fact>
-        <Fact name="experiments used">{whole(of("used") as number | null)}</Fact>
-      </dl>;
-    }} />;
+  private step(race: Race, until: number) {
+    const p = race.p_value[until], best = race.best[until];
+    return <dl class="facts">
+      <Fact name="test"><code>{race.markers[until]}</code> <span class="small">{kMarkers[race.markers[until]]}</span></Fact>
+      <Fact name="p value">{p !== null && p < 0.0001 ? "< 0.0001" : number(p, 3)}</Fact>
+      <Fact name="alive">{whole(race.alive[until])}</Fact>
+      <Fact name="best">{best ? To("c", best) : "–"}</Fact>
+      <Fact name="its mean">{number(race.mean_best[until])}</Fact>
+    </dl>;
   }
 
-  private table(c: string, matrix: Matrix, until: number) {
+  private table(matrix: Matrix, until: number) {
     const { race } = matrix;
     const now = race.steps[until];
     const rows = race.candidates.map((candidate, row) => {
@@ -420,15 +346,15 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
       return { candidate, row, ...matrix.mean(row, until), dropped, reason: dropped === null ? null : race.reasons[row],
         elite: race.elite_before[row] ? "before" + (race.elite_after[row] ? " and after" : "") : race.elite_after[row] ? "after" : "" };
     });
-    return <Table<typeof rows[0]> name="r" caption={`Candidates after step ${now}`} rows={rows} row_key={(row) => String(row.candidate)} page_size={25}
+    return <Table<typeof rows[0]> name="r" caption={`Candidates after step ${now}`} rows={rows} page_size={25}
       columns={[
-        { key: "candidate", label: "candidate", value: (row) => row.candidate, show: (row) => <a href={href([c, "c" + row.candidate])}>c{row.candidate}</a> },
-        { key: "mean", label: "mean score here", numeric: true, value: (row) => row.mean, title: "over the pairs of this race; higher is better" },
-        { key: "n", label: "pairs", numeric: true, value: (row) => row.n },
-        { key: "dropped", label: "dropped after step", numeric: true, value: (row) => row.dropped },
-        { key: "reason", label: "why", value: (row) => row.reason },
-        { key: "elite", label: "elite", value: (row) => row.elite },
-        { key: "cell", label: "cell", value: () => null, show: (row) => <button type="button" class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
+        { key: "candidate" },
+        { key: "mean", label: "mean score here", title: "over the pairs of this race; higher is better" },
+        { key: "n", label: "pairs" },
+        { key: "dropped", label: "dropped after step" },
+        { key: "reason", label: "why" },
+        { key: "elite" },
+        { key: "cell", show: (row) => <button class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
       ]} />;
   }
 
@@ -445,10 +371,10 @@ class RacePage extends Component<PageProps, { playing: boolean }> {
     const shown = iteration ?? newest;
     return <div>
       <DesignTitle c={c} design={design} />
-      <div class="slider"><label for="iteration">iteration {shown} of {newest}</label>
-        <button type="button" class="quiet" aria-label="iteration before" disabled={shown <= 1} onClick={() => to(shown - 1)}>‹</button>
+      <div class="slider"><label for="iteration">iteration {shown}{shown > newest ? `; the newest is ${newest}` : ` of ${newest}`}</label>
+        <button class="quiet" aria-label="iteration before" disabled={shown <= 1} onClick={() => to(shown - 1)}>‹</button>
         <input id="iteration" type="range" min={1} max={newest} value={String(shown)} disabled={newest < 2} onInput={(e) => to(Number((e.target as HTMLInputElement).value))} />
-        <button type="button" class="quiet" aria-label="iteration after" disabled={shown >= newest} onClick={() => to(shown + 1)}>›</button>
+        <button class="quiet" aria-label="iteration after" disabled={shown >= newest} onClick={() => to(shown + 1)}>›</button>
         {iteration !== null && iteration !== newest || iteration !== null && design.state === "racing" ? <a href={href([c, design.id, "race"])}>the newest</a> : null}
       </div>
       <Get<Race> path={path_of(`${c}/designs/${design.id}/race`, { iteration, rows: query.rows && Number(query.rows) !== kRows ? query.rows : null })} keep
