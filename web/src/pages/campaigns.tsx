@@ -69,7 +69,7 @@ export class Events extends Component<{ c: string; version: number }, {}> {
   render() {
     const { c, version } = this.props;
     return <Get<{ events: Event[] }> path={`${c}/events`} version={version} render={({ events }) =>
-      <Table<Event> name="e" caption="Events, newest first" rows={events} page_size={12}
+      <Table<Event> name={"e" + c} caption="Events, newest first" rows={events} page_size={12}
         row_key={(event) => `${event.kind}-${event.seq}-${event.at}`}
         row_class={(event) => event.severity === "error" ? "bad" : ""}
         empty="Nothing has happened that people should know of: no failure, no command, no conflict. Progress is not an event."

@@ -110,8 +110,8 @@ class DesignPage extends Component<PageProps, {}> {
           {machine?.text && <details><summary>Its text</summary><pre>{machine.text}</pre></details>}
         </Panel>
         <Panel wide title="Iterations, newest first">
-          {design.search && design.search !== "irace" && iterations.length === 0
-            ? <Empty>This method does not race: it is at {design.stage}.</Empty>
+          {iterations.length === 0 && (over || design.stage)
+            ? <Empty>{design.stage ? `This method does not race: it is at ${design.stage}.` : "No race: this method takes what it is given, or what it draws."}</Empty>
             : <Iterations c={c} design={design} iterations={iterations} elites={elites} />}
         </Panel>
         <Panel title={last > 0 ? `Elites after iteration ${last}` : "Elites"}>

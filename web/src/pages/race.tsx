@@ -380,7 +380,7 @@ class RacePage extends Component<PageProps, {}> {
       <Get<Race> path={path_of(`${c}/designs/${design.id}/race`, { iteration, rows: query.rows && Number(query.rows) !== kRows ? query.rows : null })} keep
         version={moves ? design.version : "ended"} render={(race) => this.show(campaign, design, race)}
         missing={(error) => <Empty>{design.iteration === 0
-          ? design.state === "waiting" ? "No step of the race has ended yet: its cells come one by one." : "This method does not race: it tries its machines without dropping any on the way."
+          ? design.state === "finished" ? "No race: this method takes what it is given, or what it draws." : "No step of the race has ended yet: its cells come one by one."
           : error.message}</Empty>} />
     </div>;
   }
