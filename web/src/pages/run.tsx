@@ -318,10 +318,10 @@ class RunPage extends Component<PageProps, State> {
     const end = this.end();
     return <section class="panel player" aria-label="player">
       <div class="tools">
-        <button type="button" class="main play" onClick={this.toggle} aria-keyshortcuts="Space">{playing ? "Pause" : "Play"}</button>
-        <button type="button" onClick={() => this.seek(0)} aria-label="to the start" aria-keyshortcuts="Home">«</button>
-        <button type="button" onClick={() => this.step(-1)} aria-label="one cycle back" aria-keyshortcuts=",">‹</button>
-        <button type="button" onClick={() => this.step(1)} aria-label="one cycle on" aria-keyshortcuts=".">›</button>
+        <button class="main play" onClick={this.toggle} aria-keyshortcuts="Space">{playing ? "Pause" : "Play"}</button>
+        <button onClick={() => this.seek(0)} aria-label="to the start" aria-keyshortcuts="Home">«</button>
+        <button onClick={() => this.step(-1)} aria-label="one cycle back" aria-keyshortcuts=",">‹</button>
+        <button onClick={() => this.step(1)} aria-label="one cycle on" aria-keyshortcuts=".">›</button>
         <output class="time">{seconds(cycle)} <span class="faint">of {seconds(end)}</span></output>
         <span class="push" />
         <Choice label="Speed" name="speed" value={String(this.speed())} options={kSpeeds.map((speed) => [`${speed}×`, String(speed)])} />
@@ -341,7 +341,7 @@ class RunPage extends Component<PageProps, State> {
   private panel(id: string) {
     const run = this.state.runs[id];
     const away = id !== this.props.params.id
-      && <button type="button" class="quiet" aria-label={`take ${id} away`} onClick={() => this.take_away(id)}>✕</button>;
+      && <button class="quiet" aria-label={`take ${id} away`} onClick={() => this.take_away(id)}>✕</button>;
     const head = (title: any) => <div class="panel-head"><h2>{title}</h2>{away}</div>;
     if (run === undefined) return <section key={id} class="panel" aria-label={id}>{head(id)}<Waiting /></section>;
     if (!is_run(run)) return <section key={id} class="panel" aria-label={id}>{head(id)}<Failure error={run} /></section>;
@@ -389,7 +389,7 @@ class RunPage extends Component<PageProps, State> {
           const pose = pose_at(robot, cycle);
           const state = tint === "state" ? value_at(robot.state, cycle) : at;
           return <tr class={chosen === at ? "chosen" : ""}>
-            <th scope="row"><button type="button" class="quiet" aria-pressed={chosen === at ? "true" : "false"}
+            <th scope="row"><button class="quiet" aria-pressed={chosen === at ? "true" : "false"}
               onClick={() => this.setState({ chosen: chosen === at ? null : at })}>
               <svg class="swatch" viewBox="0 0 10 10" aria-hidden="true"><circle cx="5" cy="5" r="4.5" fill={kDistinct[(state ?? at) % kDistinct.length]} /></svg>
               {at}{robot.name ? ` ${robot.name}` : ""}</button></th>
@@ -406,7 +406,7 @@ class RunPage extends Component<PageProps, State> {
     const offer = (name: string, runs: [string, string][]) => {
       const open = runs.filter(([id]) => !shown.includes(id));
       return open.length > 0 && <p class="tools"><span class="faint">{name}</span>
-        {open.map(([id, text]) => <button type="button" onClick={() => this.put_beside(id)}>{text}</button>)}</p>;
+        {open.map(([id, text]) => <button onClick={() => this.put_beside(id)}>{text}</button>)}</p>;
     };
     return <Panel title="Put another run beside it">
       {run.verdict && run.candidate && offer("Simulated from the same starts:", [1, 2, 3].map((n) => [`${run.id}-${n}`, `seed ${n}`]))}
