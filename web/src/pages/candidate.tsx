@@ -32,7 +32,7 @@ interface Later { id: string; purpose: string; source: string; seed: number; sco
 interface Answer {
   candidate: Candidate;
   ancestors: Candidate[];
-  scores: { pair: number[]; instance: number[]; seed: number[]; iteration: number[]; score: (number | null)[] };
+  scores: { id: string[]; pair: number[]; instance: number[]; seed: number[]; iteration: number[]; score: (number | null)[] };
   later: Later[];
 }
 
@@ -60,8 +60,7 @@ class CandidatePage extends Component<PageProps, {}> {
     const id = id_of("c", one.candidate)!, d = id_of("d", one.design)!;
     const store = feed.live?.campaigns.find((campaign) => campaign.c === c)?.store ?? "STORE";
     const parameters = parameters_of(one);
-    const play = (seed: number) => href([c, "runs", `${id}-${seed}`]);
-    const rows = scores.pair.map((pair, at) => ({ pair, instance: scores.instance[at], seed: scores.seed[at], iteration: scores.iteration[at], score: scores.score[at] }));
+    const rows = scores.pair.map((pair, at) => ({ pair, id: scores.id[at], instance: scores.instance[at], seed: scores.seed[at], iteration: scores.iteration[at], score: scores.score[at] }));
     return <div>
       <h1>Candidate {id} <span class="sub">of <a href={href([c, d])}>{d}</a></span></h1>
       <div class="columns">
@@ -93,7 +92,7 @@ class CandidatePage extends Component<PageProps, {}> {
               { key: "seed" },
               { key: "iteration" },
               { key: "score", show: (row) => row.score === null ? "rejected" : number(row.score) },
-              { key: "run", show: (row) => <a href={play(row.seed)} aria-label={`watch seed ${row.seed}`}>watch</a> },
+              { key: "run", show: (row) => <a href={href([c, "runs", row.id])} aria-label={`watch ${row.id}`}>watch</a> },
             ]} />
         </Panel>
         <Panel title="Later scores">
