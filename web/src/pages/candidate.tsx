@@ -102,7 +102,7 @@ class CandidatePage extends Component<PageProps, {}> {
               { key: "source" },
               { key: "seed" },
               { key: "score" },
-              { key: "run", show: (row) => row.source === "real" ? null : <a href={href([c, "runs", row.id])} aria-label={`watch ${row.id}`}>watch</a> },
+              { key: "run", show: (row) => row.source === "real" && !row.id.startsWith("r") ? null : <a href={href([c, "runs", row.id])} aria-label={`watch ${row.id}`}>watch</a> },
             ]} />
         </Panel>
         {parameters.length > 0 && <Panel title="Parameters">
