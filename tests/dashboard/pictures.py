@@ -1,0 +1,35 @@
+"""Makes the pictures of docs/dashboard.md anew: the pages of a small campaign, as the tests look at them.
+
+Usage: pictures.py FOLDER, with SWARMSMITH_BIN as in the tests.
+"""
+import pathlib
+import shutil
+import sys
+import unittest
+
+from dashboards import DashboardTest, add_real_run, finished_store, query, shared_folder
+from pages_test import pages_of
+
+#: Name of the file, page of `pages_of`, dark, height in pixels.
+PICTURES = (("campaigns", "campaigns", False, 900), ("race", "race", True, 1000), ("run", "run", False, 830),
+            ("runs", "runs beside each other", True, 1000), ("space", "space", False, 1000), ("results", "results", False, 900))
+
+
+class Pictures(DashboardTest):
+    def test_pictures(self):
+        store = shared_folder() / "demo.db"
+        shutil.copy(finished_store(), store)
+        add_real_run(store, "c%d" % query(store, "SELECT best_candidate AS best FROM v_designs WHERE design = 1")[0]["best"])
+        serving = self.dashboard(store)
+        pages = {name: rest for name, *rest in pages_of(store)}
+        for name, page_name, dark, height in PICTURES:
+            page = self.page(serving, *pages[page_name], width=1280, dark=dark)
+            page.viewport(1280, height)
+            page.wait("!document.querySelector('.waiting')")
+            page.shot(str(FOLDER / f"dashboard-{name}.webp"), whole=False)
+            page.close()
+
+
+if __name__ == "__main__":
+    FOLDER = pathlib.Path(sys.argv.pop(1))
+    unittest.main()
