@@ -7,7 +7,7 @@ import shutil
 import sys
 import unittest
 
-from dashboards import DashboardTest, add_real_run, finished_store, query, shared_folder
+from dashboards import CAMPAIGN, TWO_MISSIONS, DashboardTest, add_real_run, finished_store, query, shared_folder
 from pages_test import pages_of
 
 #: Name of the file, page of `pages_of`, dark, height in pixels.
@@ -28,6 +28,17 @@ class Pictures(DashboardTest):
             page.wait("!document.querySelector('.waiting')")
             page.shot(str(FOLDER / f"dashboard-{name}.webp"), whole=False)
             page.close()
+
+    def test_picture_of_the_fleet_while_it_works(self):
+        file = shared_folder() / "working.toml"
+        file.write_text(CAMPAIGN.format(seed=7, budget=100_000, tests=20) + TWO_MISSIONS)
+        serving = self.start_serving("run", file, "--store", shared_folder() / "working.db", "--workers", "2", "--http", "127.0.0.1:*")
+        page = self.page(serving, "#/fleet", "document.querySelector('canvas')", width=1280)
+        page.viewport(1280, 760)
+        # Half a minute of its history.
+        page.wait("fetch('api/v1/history').then((answer) => answer.json()).then((past) => past.t_s.length > 30)", timeout=120)
+        page.wait("document.querySelectorAll('td').length > 10")
+        page.shot(str(FOLDER / "dashboard-fleet.webp"), whole=False)
 
 
 if __name__ == "__main__":
