@@ -36,8 +36,7 @@ class Pictures(DashboardTest):
         page = self.page(serving, "#/fleet", "document.querySelector('canvas')", width=1280)
         page.viewport(1280, 760)
         # Half a minute of its history.
-        page.wait("fetch('api/v1/history').then((answer) => answer.json()).then((past) => past.t_s.length > 30)", timeout=120)
-        page.wait("document.querySelectorAll('td').length > 10")
+        page.wait(r"/up for([3-5]\d\D|\d+\Dmin)/.test(document.querySelector('main').textContent)", timeout=120)
         page.shot(str(FOLDER / "dashboard-fleet.webp"), whole=False)
 
 
