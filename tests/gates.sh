@@ -8,7 +8,7 @@ all_gates=(format tidy test long debug clang asan tsan fuzz)
 
 what_runs() {
   case $1 in
-    format) echo "clang-format" ;;
+    format) echo "clang-format; types of the pages" ;;
     tidy) echo "clang-tidy, without tests" ;;
     test) echo "tests, release build" ;;
     long) echo "long tests, release build" ;;
@@ -37,6 +37,7 @@ clean_commit() {
 }
 
 gate_format() {
+  tsc -p web
   git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
   git ls-files '*.h' '*.cpp' | wc -l | sed 's/$/ files/' >&3
 }

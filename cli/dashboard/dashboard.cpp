@@ -69,7 +69,7 @@ struct Pattern {
   bool is_heavy = false;
 };
 
-constexpr std::array<Pattern, 17> kRoutes = {{
+constexpr std::array<Pattern, 18> kRoutes = {{
     {"", campaign_answer},
     {"events", events_answer},
     {"convergence", convergence_answer},
@@ -82,6 +82,7 @@ constexpr std::array<Pattern, 17> kRoutes = {{
     {"runs/*/trajectory", trajectory_answer, true},
     {"runs/*/trajectory.csv", trajectory_csv_answer, true},
     {"figures/*", figure_answer, true},
+    {"comparison/*", comparison_answer, true},
     {"scores", scores_answer},
     {"leaderboard", leaderboard_answer},
     {"modules", modules_answer},

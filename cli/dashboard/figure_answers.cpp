@@ -3,6 +3,8 @@
 #include <array>
 #include <utility>
 
+#include "analysis/comparison/comparison.h"
+#include "analysis/comparison/comparison_tables.h"
 #include "analysis/drawing/svg.h"
 #include "analysis/figures/figure.h"
 #include "cli/arguments/score_words.h"
@@ -66,6 +68,13 @@ Error in_words_of_addresses(Error error) {
   return error;
 }
 
+/// What there is nothing of yet is an answer: a browser complains of every request that fails.
+Expected<Answer> nothing_or_error(const Error& error) {
+  if (error.kind != ErrorKind::NotFound && error.kind != ErrorKind::BadInput)
+    return Unexpected(in_words_of_addresses(error));
+  return json_answer(answer_object().add("nothing", error.message));
+}
+
 }  // namespace
 
 Expected<Answer> figure_answer(const Question& question) {
@@ -87,9 +96,31 @@ Expected<Answer> figure_answer(const Question& question) {
   if (const auto missing = missing_in(question.store, *options))
     return Unexpected(in_words_of_addresses(*missing));
   auto figure = kind->make(question.store, *options);
-  if (!figure) return Unexpected(in_words_of_addresses(figure.error()));
+  if (!figure) return nothing_or_error(figure.error());
   if (ending == ".csv") return Answer{.type = kCsvType, .body = std::move(figure->csv)};
   return Answer{.type = kSvgType, .body = std::move(figure->svg)};
+}
+
+Expected<Answer> comparison_answer(const Question& question) {
+  const bool is_of_pairs = question.id == "pairs.csv";
+  if (!is_of_pairs && question.id != "groups.csv")
+    return unexpected(ErrorKind::NotFound, "there are pairs.csv and groups.csv", question.id);
+  const auto by = word_of(question, "by", {"source", "method", "mission"});
+  if (!by) return Unexpected(by.error());
+  ComparisonOptions options;
+  if (*by == "method") options.by = CompareBy::Method;
+  if (*by == "mission") options.by = CompareBy::Mission;
+  if (!question.text("mission").empty()) options.missions.push_back(question.text("mission"));
+  const auto comparison = compare(question.store, options);
+  if (!comparison) return nothing_or_error(comparison.error());
+  if (is_of_pairs && comparison->pairs.empty()) {
+    std::string why;
+    for (const std::string& note : comparison->notes)
+      why += (why.empty() ? "" : "; ") + note;
+    return json_answer(answer_object().add("nothing", why));
+  }
+  return Answer{.type = kCsvType,
+                .body = is_of_pairs ? pairs_csv(*comparison) : groups_csv(*comparison)};
 }
 
 }  // namespace swarmsmith::cli

@@ -16,6 +16,7 @@
 #include "cli/replay/real_replay.h"
 #include "cli/replay/recording.h"
 #include "cli/replay/stored_runs.h"
+#include "sim/files/profile_file.h"
 #include "sim/mission/score.h"
 
 namespace swarmsmith::cli {
@@ -24,24 +25,35 @@ namespace {
 /// Which run is meant.
 struct RunName {
   ThingId id;
-  std::int64_t seed = 0;  ///< of a candidate
+  std::int64_t seed = 0;  ///< of a candidate, or of a simulation beside a real run; else 0
+  std::string profile;    ///< in place of the candidate's own; empty: its own
 };
 
+/// "7" as a seed; 0 when it is none.
+std::int64_t seed_of(std::string_view text) {
+  std::int64_t seed = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), seed);
+  const bool good = error == std::errc() && stop == text.data() + text.size();
+  return good && seed >= 1 && seed <= 2'147'483'647 ? seed : 0;
+}
+
 Expected<RunName> name_of_run(const std::string& text) {
-  const std::size_t dash = text.find('-');
+  const std::size_t at = std::min(text.find('@'), text.size());
+  const std::size_t dash = std::min(text.find('-'), at);
   const auto id = parse_thing_id(text.substr(0, dash));
-  const bool has_seed = dash != std::string::npos;
   RunName name;
   if (id) name.id = *id;
-  bool good = id && id->letter != 'd' && has_seed == (id->letter == 'c');
-  if (good && has_seed) {
-    const char* const end = text.data() + text.size();
-    const auto [stop, error] = std::from_chars(text.data() + dash + 1, end, name.seed);
-    good = error == std::errc() && stop == end && name.seed >= 1 && name.seed <= 2'147'483'647;
-  }
-  if (good) return name;
+  if (dash < at) name.seed = seed_of(std::string_view(text).substr(dash + 1, at - dash - 1));
+  if (at < text.size()) name.profile = text.substr(at + 1);
+  const char letter = id ? id->letter : ' ';
+  const bool has_seed = name.seed > 0;
+  const bool good = (letter == 'e' && dash == text.size()) || (letter == 'c' && has_seed) ||
+                    (letter == 'r' && has_seed == (dash < at));
+  const bool good_profile = at == text.size() || (letter == 'c' && !name.profile.empty());
+  if (good && good_profile) return name;
   return bad_input(
-      "wants an evaluation (e81200007), a candidate with a seed (c812-7), or a real run (r7)",
+      "wants an evaluation (e81200007), a candidate with a seed (c812-7) and perhaps a profile "
+      "(c812-7@pseudo-reality), a real run (r7), or a simulation beside it (r7-1)",
       text);
 }
 
@@ -49,9 +61,20 @@ Expected<StoredRun> find_run(const Question& question, const RunName& name) {
   // Runs own their reader.
   auto reader = StoreReader::open(question.file);
   if (!reader) return Unexpected(reader.error());
+  if (name.id.letter == 'r')
+    return simulation_beside(std::move(*reader), RealRunId{std::stoll(name.id.digits)}, name.seed);
   auto runs = StoredRuns::open(std::move(*reader));
   if (!runs) return Unexpected(runs.error());
-  return name.id.letter == 'e' ? runs->evaluation(name.id) : runs->candidate(name.id, name.seed);
+  if (name.id.letter == 'e') return runs->evaluation(name.id);
+  auto run = runs->candidate(name.id, name.seed);
+  if (!run || name.profile.empty() || name.profile == run->profile.name) return run;
+  auto profile = built_in_profile(name.profile);
+  if (!profile) return Unexpected(profile.error());
+  run->profile = std::move(*profile);
+  // What the store has of that seed was made under its own profile.
+  run->id.clear();
+  run->outcome.reset();
+  return run;
 }
 
 Expected<RealReplay> find_real_run(const Question& question, const RunName& name) {
@@ -374,7 +397,7 @@ Answer real_answer(const Question& question, const RealReplay& replay) {
 Expected<Answer> trajectory_answer(const Question& question) {
   const auto name = name_of_run(question.id);
   if (!name) return Unexpected(name.error());
-  if (name->id.letter == 'r') {
+  if (name->id.letter == 'r' && name->seed == 0) {
     const auto replay = find_real_run(question, *name);
     if (!replay) return Unexpected(replay.error());
     return real_answer(question, *replay);
@@ -387,7 +410,7 @@ Expected<Answer> trajectory_answer(const Question& question) {
 Expected<Answer> trajectory_csv_answer(const Question& question) {
   const auto name = name_of_run(question.id);
   if (!name) return Unexpected(name.error());
-  if (name->id.letter == 'r') {
+  if (name->id.letter == 'r' && name->seed == 0) {
     const auto replay = find_real_run(question, *name);
     if (!replay) return Unexpected(replay.error());
     return Answer{.type = kCsvType,

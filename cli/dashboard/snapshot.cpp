@@ -80,6 +80,8 @@ class Paths {
         for (const char* by : {"method", "source"})
           add_figure(kind, with_mission({{"by", by}}, mission));
       }
+      for (const char* by : {"method", "source"})
+        add({"c1/comparison/pairs.csv", with_mission({{"by", by}}, mission)});
       for (const char* kind : {"training", "gap", "modules"})
         add_figure(kind, with_mission({}, mission));
     }

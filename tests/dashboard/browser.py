@@ -191,7 +191,8 @@ class Page:
         return {part.netloc for part in parts if part.scheme not in ("data", "blob", "file", "about")}
 
     def shot(self, path, whole=True):
-        data = self.call("Page.captureScreenshot", format="png", captureBeyondViewport=whole)["data"]
+        kind = pathlib.Path(path).suffix[1:]
+        data = self.call("Page.captureScreenshot", format=kind, captureBeyondViewport=whole)["data"]
         pathlib.Path(path).write_bytes(base64.b64decode(data))
 
     def media(self, dark=False, calm=False):

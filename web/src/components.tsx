@@ -30,7 +30,7 @@ export function Empty({ children }: { children?: Children }) {
   return <p class="empty">{children as JSX.Element}</p>;
 }
 
-/// Tells people who hear the page. The shell has the region.
+/// Tells people who hear the page; the region stands in index.html, where no renewal empties it.
 export function announce(text: string): void {
   const region = document.getElementById("announcer");
   if (region) region.textContent = text;

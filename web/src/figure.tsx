@@ -101,7 +101,8 @@ export class Svg extends Component<{ text: string; placed?: (svg: SVGSVGElement)
   render() { return <div class="svg" ref={(e: any) => (this.box = e)} />; }
 }
 
-function CsvTable({ text, name, id }: { text: string; name: string; id: string }) {
+/// A table of the server as a table of the page.
+export function CsvTable({ text, name, id }: { text: string; name: string; id: string }) {
   const [head, ...rows] = parse_csv(text);
   const numeric = head.map((_, i) => rows.every((row) => row[i] === "" || isFinite(Number(row[i]))));
   return <Table<{ key: string; cells: string[] }> name={"t-" + id} caption={name} rows={rows.map((cells, i) => ({ key: String(i), cells }))}

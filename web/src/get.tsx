@@ -59,6 +59,9 @@ export class Get<T> extends Component<Props<T>, State> {
     try {
       const answer = await ask(path);
       this.cost_ms = answer.cost_ms;
+      // "Nothing yet" is an answer: browsers complain of every request that fails.
+      const { nothing } = answer.data as { nothing?: string };
+      if (nothing !== undefined) throw new ApiError(404, "nothing", nothing);
       next = { path, data: answer.data, text: answer.text, error: null };
     } catch (error) {
       next = this.state.path === path ? { error: error as ApiError } : { path, data: undefined, text: "", error: error as ApiError };

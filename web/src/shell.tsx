@@ -221,7 +221,6 @@ export class Shell extends Component<{ pages: Page[] }, ShellState> {
         ? feed.failure ? null : <p class="waiting">Asking the server …</p>
         : page ? h(page.view as any, { key: page.pattern, params, query: route.query, live })
           : <p class="empty">There is no page at {location.hash}. <a href="#/">All campaigns</a></p>}</main>
-      <div id="announcer" class="unseen" role="status" aria-live="polite" />
       <Help pages={pages} keys={page?.keys ?? []} />
     </div>;
   }

@@ -175,7 +175,8 @@ export interface DesignAnswer {
   design: { seed: number; reason: string | null; flavour: string; name: string } & Record<string, Cell>;
   iterations: Iteration[];
   elites: Elite[];
-  machine: { candidate: number; text: string } | null;
+  /// Without a flavour: of a program.
+  machine: { candidate: number; text: string; flavour: string } | null;
   tests: { n: number; mean: number; low: number; high: number } | null;
   commands: { number: number; at: string; who: string; kind: string; step: number | null; budget: number | null }[];
 }

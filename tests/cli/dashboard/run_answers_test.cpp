@@ -160,10 +160,23 @@ TEST_F(RunAnswersTest, ACandidateRunsOnAnySeed) {
   EXPECT_EQ(known["same_bits"], true);
 }
 
+TEST_F(RunAnswersTest, ACandidateRunsUnderAnotherProfile) {
+  const Asking asking(store_);
+  const json own = asking.json("c1/runs/c1-21/trajectory");
+  const json other = asking.json("c1/runs/c1-21@pseudo-reality/trajectory");
+  EXPECT_EQ(other["source"], "pseudo-reality");
+  EXPECT_NE(other["digest"], own["digest"]);
+  EXPECT_TRUE(other["same_bits"].is_null());
+  EXPECT_TRUE(other["evaluation"].is_null());
+  // Its own profile by name is its own run.
+  EXPECT_EQ(asking.json("c1/runs/c1-21@rvr/trajectory")["same_bits"], true);
+  EXPECT_EQ(asking.error("c1/runs/c1-21@nowhere/trajectory"), "400 bad_input");
+}
+
 TEST_F(RunAnswersTest, WhatIsNoRunIsSaidToBeNone) {
   const Asking asking(store_);
-  for (const char* id :
-       {"c1", "d1", "e", "c1-", "c1-x", "c1-0", "e100001-3", "c1-99999999999", ".."})
+  for (const char* id : {"c1", "d1", "e", "c1-", "c1-x", "c1-0", "e100001-3", "c1-99999999999",
+                         "..", "c1-7@", "e100001@rvr", "r1-0", "r1-x", "r1@rvr", "r1-2@rvr"})
     EXPECT_EQ(asking.error(std::string("c1/runs/") + id + "/trajectory"), "400 bad_input") << id;
   EXPECT_EQ(asking.error("c1/runs/e100077/trajectory"), "404 not_found");
   EXPECT_EQ(asking.error("c1/runs/c77-1/trajectory"), "404 not_found");
@@ -213,6 +226,17 @@ TEST_F(RunAnswersTest, ARealRunIsShownAsItWasMeasured) {
             json::parse(R"([[0,"measured"],[7,"interpolated"],[8,"missing"],[9,"measured"]])"));
   EXPECT_EQ(asking.text("c1/runs/r1/trajectory.csv"),
             cli::run({"replay", "r1", store_, "--csv", "-"}).out);
+  // Beside it: its machine from the same starts, which the store knows nothing of.
+  const json beside = asking.json("c1/runs/r1-5/trajectory");
+  EXPECT_EQ(beside["seed"], 5);
+  EXPECT_EQ(beside["source"], "rvr");
+  EXPECT_EQ(beside["cycles"], 100);
+  EXPECT_TRUE(beside["same_bits"].is_null());
+  for (const std::size_t robot : {0, 1, 2})
+    EXPECT_EQ(beside["robots"][robot]["x_mm"][0], run["robots"][robot]["x_mm"][0]);
+  // The film was made of that very run.
+  EXPECT_EQ(beside["robots"][1]["x_mm"][100], run["robots"][1]["x_mm"][100]);
+  EXPECT_NE(asking.json("c1/runs/r1-6/trajectory")["digest"], beside["digest"]);
   const json list = asking.json("c1/real-runs");
   EXPECT_EQ(list["id"][0], "r1");
   EXPECT_TRUE(list.contains("reasons"));

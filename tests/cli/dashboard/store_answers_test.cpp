@@ -71,6 +71,20 @@ TEST_F(StoreAnswersTest, FiguresAreThoseOfTheCommandLine) {
   EXPECT_EQ(asking.error("c1/figures/machine.svg", {{"candidate", "c77"}}), "404 not_found");
 }
 
+TEST_F(StoreAnswersTest, WhatHasNothingToShowYetIsAnAnswerThatSaysSo) {
+  const Asking asking(store_);
+  for (const char* path : {"c1/figures/ranks.svg", "c1/figures/gap.csv", "c1/comparison/pairs.csv"})
+    EXPECT_FALSE(asking.json(path)["nothing"].get<std::string>().empty()) << path;
+}
+
+TEST_F(StoreAnswersTest, ComparisonsAreThoseOfTheCommandLine) {
+  const Asking asking(store_);
+  EXPECT_EQ(asking.text("c1/comparison/groups.csv", {{"by", "method"}}),
+            run({"compare", store_, "--by", "method", "--csv", "--table", "groups"}).out);
+  EXPECT_EQ(asking.error("c1/comparison/pairs.pdf"), "404 not_found");
+  EXPECT_EQ(asking.error("c1/comparison/pairs.csv", {{"by", "luck"}}), "400 bad_input");
+}
+
 TEST_F(StoreAnswersTest, ColumnsAreTheViews) {
   const Asking asking(store_);
   const std::vector<std::pair<std::string, std::string>> views = {

@@ -69,7 +69,7 @@ export class Events extends Component<{ c: string; version: number }, {}> {
   render() {
     const { c, version } = this.props;
     return <Get<{ events: Event[] }> path={`${c}/events`} version={version} render={({ events }) =>
-      <Table<Event> name="e" caption="Events, newest first" rows={events} page_size={12}
+      <Table<Event> name={"e" + c} caption="Events, newest first" rows={events} page_size={12}
         row_key={(event) => `${event.kind}-${event.seq}-${event.at}`}
         row_class={(event) => event.severity === "error" ? "bad" : ""}
         empty="Nothing has happened that people should know of: no failure, no command, no conflict. Progress is not an event."
@@ -80,6 +80,13 @@ export class Events extends Component<{ c: string; version: number }, {}> {
           { key: "data", label: "details", value: (e) => said(e.data) },
         ]} />} />;
   }
+}
+
+/// Of a campaign or of a design. It begins with the end of an iteration.
+export function Convergence({ c, designs, design, version }: { c: string; designs: Design[]; design?: string; version: number | string }) {
+  const none = <Empty>No iteration has ended yet: convergence comes after the first.</Empty>;
+  return designs.some((one) => one.iteration > (one.state === "racing" || one.state === "interrupted" ? 1 : 0))
+    ? <Figure c={c} kind="convergence" options={{ design }} name="Convergence" version={version} missing={() => none} /> : none;
 }
 
 /// Moves when any design of it does.
@@ -116,8 +123,7 @@ class Campaigns extends Component<PageProps, {}> {
           : <Grid campaign={campaign} />}
       </Panel>
       {designs.length > 0 && <Panel title="Convergence: mean score of the best, over experiments used">
-        <Figure c={c} kind="convergence" name="Convergence" version={version_of(campaign)}
-          missing={() => <Empty>No iteration has ended yet: convergence comes after the first.</Empty>} /></Panel>}
+        <Convergence c={c} designs={designs} version={version_of(campaign)} /></Panel>}
       <Panel title="Events, newest first"><Events c={c} version={campaign.last_event} /></Panel>
     </div>;
   }

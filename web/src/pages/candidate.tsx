@@ -32,7 +32,7 @@ interface Later { id: string; purpose: string; source: string; seed: number; sco
 interface Answer {
   candidate: Candidate;
   ancestors: Candidate[];
-  scores: { pair: number[]; instance: number[]; seed: number[]; iteration: number[]; score: (number | null)[] };
+  scores: { id: string[]; pair: number[]; instance: number[]; seed: number[]; iteration: number[]; score: (number | null)[] };
   later: Later[];
 }
 
@@ -60,8 +60,7 @@ class CandidatePage extends Component<PageProps, {}> {
     const id = id_of("c", one.candidate)!, d = id_of("d", one.design)!;
     const store = feed.live?.campaigns.find((campaign) => campaign.c === c)?.store ?? "STORE";
     const parameters = parameters_of(one);
-    const play = (seed: number) => href([c, "runs", `${id}-${seed}`]);
-    const rows = scores.pair.map((pair, at) => ({ pair, instance: scores.instance[at], seed: scores.seed[at], iteration: scores.iteration[at], score: scores.score[at] }));
+    const rows = scores.pair.map((pair, at) => ({ pair, id: scores.id[at], instance: scores.instance[at], seed: scores.seed[at], iteration: scores.iteration[at], score: scores.score[at] }));
     return <div>
       <h1>Candidate {id} <span class="sub">of <a href={href([c, d])}>{d}</a></span></h1>
       <div class="columns">
@@ -88,26 +87,26 @@ class CandidatePage extends Component<PageProps, {}> {
         <Panel title="Scores by pair, in its races">
           <Table<(typeof rows)[0]> name="r" caption={`scores of ${id} by pair`} rows={rows} row_key={(row) => `${row.iteration} ${row.pair}`} page_size={15}
             empty="It has not run yet." columns={[
-              { key: "pair", numeric: true },
-              { key: "instance", numeric: true },
-              { key: "seed", numeric: true, show: (row) => String(row.seed) },
-              { key: "iteration", numeric: true },
-              { key: "score", numeric: true, show: (row) => row.score === null ? "rejected" : number(row.score) },
-              { key: "run", show: (row) => <a href={play(row.seed)} aria-label={`watch seed ${row.seed}`}>watch</a> },
+              { key: "pair" },
+              { key: "instance" },
+              { key: "seed" },
+              { key: "iteration" },
+              { key: "score", show: (row) => row.score === null ? "rejected" : number(row.score) },
+              { key: "run", show: (row) => <a href={href([c, "runs", row.id])} aria-label={`watch ${row.id}`}>watch</a> },
             ]} />
         </Panel>
         <Panel title="Later scores">
-          <Table<Later> name="l" caption={`later scores of ${id}`} rows={later} row_key={(row) => row.id} page_size={15}
+          <Table<Later> name="l" caption={`later scores of ${id}`} rows={later} page_size={15}
             empty={<span>None. Winners are tested at a design's end; any candidate is scored by <code>swarmsmith evaluate {id} --store {shell_word(store)} --seeds 1-10</code></span>} columns={[
               { key: "purpose" },
               { key: "source" },
-              { key: "seed", numeric: true, show: (row) => row.seed === null ? "–" : String(row.seed) },
-              { key: "score", numeric: true },
-              { key: "run", show: (row) => row.source === "real" ? null : <a href={href([c, "runs", row.id])} aria-label={`watch ${row.id}`}>watch</a> },
+              { key: "seed" },
+              { key: "score" },
+              { key: "run", show: (row) => row.source === "real" && !row.id.startsWith("r") ? null : <a href={href([c, "runs", row.id])} aria-label={`watch ${row.id}`}>watch</a> },
             ]} />
         </Panel>
         {parameters.length > 0 && <Panel title="Parameters">
-          <Table<[string, Cell]> name="p" caption={`parameters of ${id}`} rows={parameters} row_key={([name]) => name} page_size={30} columns={[
+          <Table<[string, Cell]> name="p" caption={`parameters of ${id}`} rows={parameters} page_size={30} columns={[
             { key: "parameter", value: ([name]) => name },
             { key: "value", value: ([, value]) => value, show: ([, value]) => value === null ? "not used" : typeof value === "number" ? number(value, 6) : String(value) },
           ]} />

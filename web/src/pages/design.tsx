@@ -7,7 +7,7 @@ import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
 import { Campaign, Columns, Design, DesignAnswer, Elite, Iteration } from "../types";
-import { stage_of } from "./campaigns";
+import { Convergence, stage_of } from "./campaigns";
 
 /// The parts of an address that a view of a design needs.
 export function find_design(props: PageProps): { campaign: Campaign; design: Design } | null {
@@ -101,17 +101,17 @@ class DesignPage extends Component<PageProps, {}> {
       </dl>
       <div class="grid">
         <Panel title="Convergence: mean score of the best, band of the elites" command={`swarmsmith figure convergence ${store} --design ${design.id} -o convergence.svg`}>
-          <Figure c={c} kind="convergence" options={{ design: design.id }} name={`Convergence of ${design.id}`} version={design.version}
-            missing={() => <Empty>No iteration has ended yet: convergence comes after the first.</Empty>} /></Panel>
+          <Convergence c={c} designs={[design]} design={design.id} version={design.version} /></Panel>
         <Panel title={design.best ? `${over ? "The winner" : "Best so far"}: ${design.best}` : "Best so far"}
           command={design.best ? `swarmsmith show ${design.best} ${store}` : ""} tools={machine && <Copy what="Copy its text" text={machine.text} />}>
           {!design.best ? <Empty>None yet: it comes with the end of the first step.</Empty>
+            : machine && !machine.flavour ? <Empty>A configuration of a program: its words are below.</Empty>
             : <Figure c={c} kind="machine" options={{ candidate: design.best }} name={`Drawing of ${design.best}`} missing={(error) => <Empty>{error.message}</Empty>} />}
-          {machine?.text && <details><summary>Its text</summary><pre>{machine.text}</pre></details>}
+          {machine?.text && <details open={!machine.flavour}><summary>Its text</summary><pre>{machine.text}</pre></details>}
         </Panel>
         <Panel wide title="Iterations, newest first">
-          {design.search && design.search !== "irace" && iterations.length === 0
-            ? <Empty>This method does not race: it is at {design.stage}.</Empty>
+          {iterations.length === 0 && (over || design.stage)
+            ? <Empty>{design.stage ? `This method does not race: it is at ${design.stage}.` : "No race: this method takes what it is given, or what it draws."}</Empty>
             : <Iterations c={c} design={design} iterations={iterations} elites={elites} />}
         </Panel>
         <Panel title={last > 0 ? `Elites after iteration ${last}` : "Elites"}>

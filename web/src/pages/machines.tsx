@@ -26,7 +26,7 @@ class Machines extends Component<PageProps, {}> {
       </div>}
       {drawn.length === 0 && <Empty>{shown.length > 0 ? "No design has a best candidate yet: it comes with the first iteration's end." : "No design is of this mission and method."}</Empty>}
       <div class="columns">{drawn.slice(0, most).map((one) => this.card(one))}</div>
-      {drawn.length > most && <div class="tools"><button type="button" onClick={() => set_query({ all: 1 })}>Show all {drawn.length}</button></div>}
+      {drawn.length > most && <div class="tools"><button onClick={() => set_query({ all: 1 })}>Show all {drawn.length}</button></div>}
     </div>;
   }
 

@@ -50,24 +50,23 @@ class Modules extends Component<PageProps, {}> {
     return <div>
       <h1>Modules <span class="light">of the winners of {finished === 1 ? "1 finished design" : `${finished} finished designs`}</span></h1>
       <div class="tools">{choice("mission", mission, distinct((one) => one.mission))}{choice("method", method, distinct((one) => one.method))}</div>
-      <div class="grid">
-        <Panel title="How often winners have each module" command={`swarmsmith figure modules ${shell_word(campaign.store)}${mission && ` --mission ${shell_word(mission)}`}${method && ` --method ${shell_word(method)}`} -o modules.svg`}>
-          <Figure key={mission + "/" + method} c={c} kind="modules" options={{ mission, method }} name="Modules of winners" version={version} missing={(error) => finished ? <Empty>{error.message}</Empty> : nothing} /></Panel>
-        <Panel title="In numbers">
-          <Get<Columns> path={`${c}/modules`} version={version} render={(columns) => {
-            const uses = new Map<string, Use>();
-            for (const row of rows_of(columns)) {
-              const [module, at, by] = [String(row.module), String(row.mission), String(row.method)];
-              if (mission && at !== mission || method && by !== method) continue;
-              const use = uses.get(by + " " + module) ?? { module, method: by, of: {} };
-              use.of[at] = { count: row.avg_occurrences as number | null, rate: row.occurrence_rate as number | null, reachable: row.reachable_rate as number | null };
-              uses.set(by + " " + module, use);
-            }
-            // Networks and parameters of programs have no modules: rows without any say nothing.
-            const some = [...uses.values()].filter((use) => Object.values(use.of).some((one) => one.rate));
-            return some.length === 0 ? nothing : this.table(c, some, mission ? [mission] : distinct((one) => one.mission));
-          }} /></Panel>
-      </div>
+      {finished === 0 ? nothing : <Get<Columns> path={`${c}/modules`} version={version} render={(columns) => {
+        const uses = new Map<string, Use>();
+        for (const row of rows_of(columns)) {
+          const [module, at, by] = [String(row.module), String(row.mission), String(row.method)];
+          if (mission && at !== mission || method && by !== method) continue;
+          const use = uses.get(by + " " + module) ?? { module, method: by, of: {} };
+          use.of[at] = { count: row.avg_occurrences as number | null, rate: row.occurrence_rate as number | null, reachable: row.reachable_rate as number | null };
+          uses.set(by + " " + module, use);
+        }
+        // Networks and parameters of programs have no modules: rows without any say nothing.
+        const some = [...uses.values()].filter((use) => Object.values(use.of).some((one) => one.rate));
+        return some.length === 0 ? nothing : <div class="grid">
+          <Panel title="How often winners have each module" command={`swarmsmith figure modules ${shell_word(campaign.store)}${mission && ` --mission ${shell_word(mission)}`}${method && ` --method ${shell_word(method)}`} -o modules.svg`}>
+            <Figure key={mission + "/" + method} c={c} kind="modules" options={{ mission, method }} name="Modules of winners" version={version} missing={(error) => <Empty>{error.message}</Empty>} /></Panel>
+          <Panel title="In numbers">{this.table(c, some, mission ? [mission] : distinct((one) => one.mission))}</Panel>
+        </div>;
+      }} />}
     </div>;
   }
 }

@@ -251,7 +251,8 @@ function Legend() {
   </ul>;
 }
 
-class RacePage extends Component<PageProps, {}> {
+class RacePage extends Component<PageProps, { who: boolean }> {
+  state = { who: false };
   private matrix: Matrix | null = null;
 
   private cell_of(matrix: Matrix, until: number): At | null {
@@ -321,8 +322,8 @@ class RacePage extends Component<PageProps, {}> {
       {score !== null ? <div>
         <p class="tools"><button class="main" onClick={() => watch(at)}>Watch this run</button>
           <Copy what="Copy as command" text={`swarmsmith explain ${id} ${shell_word(campaign.store)}`} /></p>
-        <Get<Record<string, unknown>> path={`${c}/evaluations/${id}`} keep render={(answer) => <details open><summary>Who made it</summary><Explained answer={answer} /></details>}
-          missing={() => <p class="faint small">Of this evaluation no more is known.</p>} />
+        <p><button aria-expanded={this.state.who} onClick={() => this.setState({ who: !this.state.who })}>Who made it</button></p>
+        {this.state.who && <Get<Record<string, unknown>> path={`${c}/evaluations/${id}`} keep render={(answer) => <Explained answer={answer} />} />}
       </div> : <p class="faint">It was not evaluated here.</p>}
     </div>;
   }
@@ -377,11 +378,10 @@ class RacePage extends Component<PageProps, {}> {
         <button class="quiet" aria-label="iteration after" disabled={shown >= newest} onClick={() => to(shown + 1)}>›</button>
         {iteration !== null && iteration !== newest || iteration !== null && design.state === "racing" ? <a href={href([c, design.id, "race"])}>the newest</a> : null}
       </div>
-      <Get<Race> path={path_of(`${c}/designs/${design.id}/race`, { iteration, rows: query.rows && Number(query.rows) !== kRows ? query.rows : null })} keep
-        version={moves ? design.version : "ended"} render={(race) => this.show(campaign, design, race)}
-        missing={(error) => <Empty>{design.iteration === 0
-          ? design.state === "waiting" ? "No step of the race has ended yet: its cells come one by one." : "This method does not race: it tries its machines without dropping any on the way."
-          : error.message}</Empty>} />
+      {design.iteration === 0 ? <Empty>{design.state === "finished" ? "No race: this method takes what it is given, or what it draws."
+        : "No step of the race has ended yet: its cells come one by one."}</Empty>
+        : <Get<Race> path={path_of(`${c}/designs/${design.id}/race`, { iteration, rows: query.rows && Number(query.rows) !== kRows ? query.rows : null })} keep
+          version={moves ? design.version : "ended"} render={(race) => this.show(campaign, design, race)} missing={(error) => <Empty>{error.message}</Empty>} />}
     </div>;
   }
 }

@@ -1,22 +1,19 @@
 // Results: who is best, by how much, whether that is more than chance, and what became of it on real robots.
 
 import { Component, h } from "preact";
+import { ApiError, path_of } from "../api";
 import { Choice, Copy, Empty, Panel, Table } from "../components";
-import { Figure } from "../figure";
-import { duration, id_of, shell_word, when, words } from "../format";
+import { CsvTable, Figure } from "../figure";
+import { duration, shell_word, when, words } from "../format";
 import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href } from "../route";
 import { Cell, Columns } from "../types";
+import { rows_of } from "./design";
 
 type Row = Record<string, Cell>;
 
-/// Columns as rows; what is no column, such as v, is left out.
-function rows_of(columns: Columns | Record<string, unknown>): Row[] {
-  const names = Object.keys(columns).filter((name) => Array.isArray(columns[name]));
-  if (names.length === 0) return [];
-  return (columns[names[0]] as Cell[]).map((_, at) => Object.fromEntries(names.map((name) => [name, (columns[name] as Cell[])[at]])));
-}
+function nothing(error: ApiError) { return <Empty>{error.message}</Empty>; }
 
 class Results extends Component<PageProps, {}> {
   render() {
@@ -40,46 +37,46 @@ class Results extends Component<PageProps, {}> {
       </div>
       <div class="grid"><Panel wide title="Leaderboard"><Get<Columns> path={`${c}/leaderboard`} version={version} render={(data) => this.leaderboard(rows_of(data))} /></Panel></div>
       <div class="columns">
+        <Panel title={`Tests by ${by}`}><Get<string> path={path_of(`${c}/comparison/pairs.csv`, options)} version={version} missing={nothing}
+          render={(text) => <CsvTable text={text} name={`tests by ${by}`} id="pairs" />} /></Panel>
         {figures.map(([kind, title, compares]) => <Panel title={title}><Figure c={c} kind={kind} options={compares ? options : { mission: options.mission }}
-          version={version} name={title} missing={(error) => <Empty>{error.message}</Empty>} /></Panel>)}
+          version={version} name={title} missing={nothing} /></Panel>)}
       </div>
       <div class="grid"><Panel wide title="Real runs"><Get<Columns> path={`${c}/real-runs`} version={version} render={(data) => this.real_runs(rows_of(data))} /></Panel></div>
     </div>;
   }
 
   private leaderboard(rows: Row[]) {
-    const { c } = this.props.params;
     return <Table<Row> name="b" caption="leaderboard" rows={rows} row_key={(row) => String(row.design)} page_size={30}
       empty="No design has a winner yet: it has one when it has finished." columns={[
-        { key: "mission", show: (row) => words(String(row.mission)) },
-        { key: "rank", numeric: true },
-        { key: "design", value: (row) => id_of("d", row.design), show: (row) => <a href={href([c, id_of("d", row.design)!])}>{id_of("d", row.design)}</a> },
-        { key: "method" },
-        { key: "repetition", numeric: true },
-        { key: "candidate", label: "winner", value: (row) => id_of("c", row.candidate), show: (row) => row.candidate === null ? "–" : <a href={href([c, id_of("c", row.candidate)!])}>{id_of("c", row.candidate)}</a> },
-        { key: "test_mean", label: "mean of tests", numeric: true, title: "higher is better" },
-        { key: "test_runs", label: "tests", numeric: true },
-        { key: "race_mean", label: "mean in the race", numeric: true },
+        { key: "mission", show: (row) => words(String(row.mission)) }, { key: "rank" }, { key: "design" }, { key: "method" }, { key: "repetition" },
+        { key: "candidate", label: "winner" }, { key: "test_mean", label: "mean of tests", title: "higher is better" },
+        { key: "test_runs", label: "tests" }, { key: "race_mean", label: "mean in the race" },
       ]} />;
   }
 
   private real_runs(rows: Row[]) {
     const { c } = this.props.params;
-    return <Table<Row> name="f" caption="real runs" rows={rows} row_key={(row) => String(row.id)} page_size={30}
+    return <Table<Row> name="f" caption="real runs" rows={rows} page_size={30}
       empty={<span>No real run. Film one and score it: <code>swarmsmith track score VIDEO --arena ARENA.toml --into STORE</code></span>} columns={[
-        { key: "id", label: "run", value: (row) => id_of("r", row.id), show: (row) => <a href={href([c, "runs", id_of("r", row.id)!])}>{id_of("r", row.id)}</a> },
-        { key: "name" },
-        { key: "mission", show: (row) => words(String(row.mission ?? "–")) },
-        { key: "candidate", value: (row) => id_of("c", row.candidate), show: (row) => row.candidate === null ? "–" : <a href={href([c, id_of("c", row.candidate)!])}>{id_of("c", row.candidate)}</a> },
-        { key: "score", numeric: true, title: "higher is better" },
+        { key: "id", label: "run" }, { key: "name" }, { key: "mission", show: (row) => words(String(row.mission ?? "–")) }, { key: "candidate" },
+        { key: "score", title: "higher is better" },
         { key: "verdict", show: (row) => <span class={row.counts ? "" : "warn"}>{row.verdict}{row.counts ? "" : ", does not count"}</span> },
-        { key: "reason", label: "why", value: (row) => [row.reason, row.overridden_by && `said by ${row.overridden_by}`].filter(Boolean).join("; ") || null },
-        { key: "duration_s", label: "length", numeric: true, show: (row) => duration(row.duration_s as number) },
-        { key: "recorded", label: "filmed", show: (row) => <span title={String(row.recorded ?? "")}>{when(row.recorded as string)}</span> },
+        { key: "reason", label: "why", value: (row) => [row.reason, row.overridden_by && `said by ${row.overridden_by}`, reasons_of(row.reasons)].filter(Boolean).join("; ") || null },
+        { key: "duration_s", label: "length", show: (row) => duration(row.duration_s as number) },
+        { key: "recorded", label: "filmed", show: (row) => when(row.recorded as string) },
         { key: "watch", show: (row) => row.candidate === null ? null
-          : <a href={href([c, "runs", id_of("r", row.id)!], { beside: `${id_of("c", row.candidate)}-1`, speed: 1 })}>beside its simulation</a> },
+          : <a href={href([c, "runs", String(row.id)], { beside: `${row.id}-1,${row.id}-2`, speed: 1 })}>beside its simulations</a> },
       ]} />;
   }
+}
+
+/// What the scoring said: a JSON list of texts or of objects with one, or what is already a text.
+function reasons_of(value: Cell | undefined): string {
+  try {
+    return (JSON.parse(String(value ?? "[]")) as (string | { text?: string; code?: string })[])
+      .map((one) => typeof one === "string" ? one : one.text ?? one.code ?? "").join("; ");
+  } catch { return String(value); }
 }
 
 export const results: Page = { pattern: ":c/results", title: () => "results", view: Results,

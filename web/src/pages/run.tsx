@@ -7,13 +7,16 @@ import { Canvas, Inks } from "../canvas";
 import { Choice, Copy, Fact, Failure, Panel, Waiting } from "../components";
 import { Figure } from "../figure";
 import { number, shell_word, words } from "../format";
+import { Get } from "../get";
 import { Page, PageProps } from "../page";
 import { href, set_query } from "../route";
+import { DesignAnswer } from "../types";
 
 const kMostRuns = 4;
 const kSpeeds = [0.25, 0.5, 1, 2, 5, 10, 30];
 const kUsualSpeed = 5;
 const kTrails: [string, number][] = [["none", 0], ["10 s", 100], ["30 s", 300], ["all", 1e9]];
+const kProfiles = ["rvr", "argos3", "pseudo-reality"];
 const kTints: [string, Tint][] = [["state", "state"], ["robot", "robot"], ["LEDs", "leds"]];
 
 interface State {
@@ -315,10 +318,10 @@ class RunPage extends Component<PageProps, State> {
     const end = this.end();
     return <section class="panel player" aria-label="player">
       <div class="tools">
-        <button type="button" class="main play" onClick={this.toggle} aria-keyshortcuts="Space">{playing ? "Pause" : "Play"}</button>
-        <button type="button" onClick={() => this.seek(0)} aria-label="to the start" aria-keyshortcuts="Home">«</button>
-        <button type="button" onClick={() => this.step(-1)} aria-label="one cycle back" aria-keyshortcuts=",">‹</button>
-        <button type="button" onClick={() => this.step(1)} aria-label="one cycle on" aria-keyshortcuts=".">›</button>
+        <button class="main play" onClick={this.toggle} aria-keyshortcuts="Space">{playing ? "Pause" : "Play"}</button>
+        <button onClick={() => this.seek(0)} aria-label="to the start" aria-keyshortcuts="Home">«</button>
+        <button onClick={() => this.step(-1)} aria-label="one cycle back" aria-keyshortcuts=",">‹</button>
+        <button onClick={() => this.step(1)} aria-label="one cycle on" aria-keyshortcuts=".">›</button>
         <output class="time">{seconds(cycle)} <span class="faint">of {seconds(end)}</span></output>
         <span class="push" />
         <Choice label="Speed" name="speed" value={String(this.speed())} options={kSpeeds.map((speed) => [`${speed}×`, String(speed)])} />
@@ -338,7 +341,7 @@ class RunPage extends Component<PageProps, State> {
   private panel(id: string) {
     const run = this.state.runs[id];
     const away = id !== this.props.params.id
-      && <button type="button" class="quiet" aria-label={`take ${id} away`} onClick={() => this.take_away(id)}>✕</button>;
+      && <button class="quiet" aria-label={`take ${id} away`} onClick={() => this.take_away(id)}>✕</button>;
     const head = (title: any) => <div class="panel-head"><h2>{title}</h2>{away}</div>;
     if (run === undefined) return <section key={id} class="panel" aria-label={id}>{head(id)}<Waiting /></section>;
     if (!is_run(run)) return <section key={id} class="panel" aria-label={id}>{head(id)}<Failure error={run} /></section>;
@@ -386,7 +389,7 @@ class RunPage extends Component<PageProps, State> {
           const pose = pose_at(robot, cycle);
           const state = tint === "state" ? value_at(robot.state, cycle) : at;
           return <tr class={chosen === at ? "chosen" : ""}>
-            <th scope="row"><button type="button" class="quiet" aria-pressed={chosen === at ? "true" : "false"}
+            <th scope="row"><button class="quiet" aria-pressed={chosen === at ? "true" : "false"}
               onClick={() => this.setState({ chosen: chosen === at ? null : at })}>
               <svg class="swatch" viewBox="0 0 10 10" aria-hidden="true"><circle cx="5" cy="5" r="4.5" fill={kDistinct[(state ?? at) % kDistinct.length]} /></svg>
               {at}{robot.name ? ` ${robot.name}` : ""}</button></th>
@@ -397,13 +400,28 @@ class RunPage extends Component<PageProps, State> {
   }
 
   private beside(run: Trajectory) {
+    const { c } = this.props.params;
+    const seed = run.seed ?? 1;
+    const shown = this.ids();
+    const offer = (name: string, runs: [string, string][]) => {
+      const open = runs.filter(([id]) => !shown.includes(id));
+      return open.length > 0 && <p class="tools"><span class="faint">{name}</span>
+        {open.map(([id, text]) => <button onClick={() => this.put_beside(id)}>{text}</button>)}</p>;
+    };
     return <Panel title="Put another run beside it">
+      {run.verdict && run.candidate && offer("Simulated from the same starts:", [1, 2, 3].map((n) => [`${run.id}-${n}`, `seed ${n}`]))}
+      {!run.verdict && offer("The same under:", kProfiles.filter((name) => name !== run.source).map((name) => [`${run.candidate}-${seed}@${name}`, name]))}
+      {run.design && !run.verdict && <Get<DesignAnswer> path={`${c}/designs/${run.design}`} render={({ elites }) => {
+        const last = Math.max(0, ...elites.map(({ iteration }) => iteration));
+        return offer("On the same seed, elites:", elites.filter(({ iteration }) => iteration === last).map(({ candidate }): [string, string] => [`c${candidate}-${seed}`, `c${candidate}`])
+          .filter(([, name]) => name !== run.candidate).slice(0, 4)) || null;
+      }} />}
       <form class="tools" onSubmit={(event) => { event.preventDefault(); this.put_beside(this.state.wanted.trim()); }}>
         <label>Run <input name="beside" value={this.state.wanted} autocomplete="off" size={14}
           onInput={(event) => this.setState({ wanted: (event.target as HTMLInputElement).value })} /></label>
         <button type="submit">Put beside</button>
       </form>
-      <p class="faint small">An evaluation (e81200007), a candidate and a seed (c812-{run.seed ?? 7}), or a real run (r7). All run on one clock.</p>
+      <p class="faint small">An evaluation (e81200007), a candidate and a seed (c812-{seed}), or a real run (r7). All run on one clock.</p>
     </Panel>;
   }
 

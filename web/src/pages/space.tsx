@@ -153,7 +153,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
       <Panel wide title="Candidates, a line each" tools={this.tools()}>
         <p><b>{whole(data.candidates.length)} of {whole(data.total)}</b> candidates{data.candidates.length < data.total && ", evenly spaced"};{" "}
           {whole(elites)} {elites === 1 ? "was an elite" : "were elites"} (vermilion, bold).
-          {Object.keys(brushes).length > 0 && <span> <b data-what="chosen">{whole(count)}</b> in the chosen ranges. <button type="button" onClick={() => set_query({ b: null })}>All ranges</button></span>}</p>
+          {Object.keys(brushes).length > 0 && <span> <b data-what="chosen">{whole(count)}</b> in the chosen ranges. <button onClick={() => set_query({ b: null })}>All ranges</button></span>}</p>
         {axes.length === 0 ? <Empty>No parameter is shown: choose some above.</Empty> : <div class="scroll" tabIndex={0} role="region" aria-label="parallel coordinates">
           <div style={{ minWidth: `${132 + 74 * (axes.length - 1)}px` }}>
             <Canvas label={`Parallel coordinates of ${axes.length} parameters and ${count} candidates. Their ranges and values are in the tables below.`}
@@ -172,7 +172,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
       </Panel>
       {[["sampling", "Where the race looked, by iteration"], ["importance", "How much of the scores goes with each parameter"]].map(([kind, title]) =>
         <Panel title={title}>{data.total > kMuch && query.drawn !== "1"
-          ? <button type="button" onClick={() => set_query({ drawn: 1 })}>Draw it of all {whole(data.total)} candidates</button>
+          ? <button onClick={() => set_query({ drawn: 1 })}>Draw it of all {whole(data.total)} candidates</button>
           : <Figure c={c} kind={kind} options={{ design: d }} name={title} missing={(error) => <Empty>{error.message}</Empty>} />}</Panel>)}
       <Panel wide title={Object.keys(brushes).length ? "Candidates in the chosen ranges" : "Candidates"}>{this.candidates(axes, chosen)}</Panel>
     </div>;
@@ -182,13 +182,13 @@ class Parallel extends Component<ParallelProps, ParallelState> {
     const { data, query, again } = this.props;
     const names = Object.keys(data.parameters);
     return <div class="tools">
-      <button type="button" onClick={() => this.show(names)}>All</button>
-      <button type="button" onClick={() => this.show([])}>None</button>
-      <button type="button" onClick={() => this.show(names.filter((name) => varies(data.parameters[name])))}>Only varying</button>
-      <button type="button" onClick={() => set_query({ p: null, b: null })}>Usual</button>
+      <button onClick={() => this.show(names)}>All</button>
+      <button onClick={() => this.show([])}>None</button>
+      <button onClick={() => this.show(names.filter((name) => varies(data.parameters[name])))}>Only varying</button>
+      <button onClick={() => set_query({ p: null, b: null })}>Usual</button>
       <Choice label="Colour by" name="colour" value={query.colour ?? ""} options={[["iteration", ""], ["mean score", "score"]]} />
       <Choice label="Sample" name="sample" value={query.sample ?? "1000"} options={kSamples.map((size) => [whole(size), String(size)])} />
-      <button type="button" onClick={again}>Ask again</button>
+      <button onClick={again}>Ask again</button>
     </div>;
   }
 
@@ -209,17 +209,17 @@ class Parallel extends Component<ParallelProps, ParallelState> {
   }
 
   private candidates(axes: Axis[], chosen: boolean[]) {
-    const { c, data } = this.props;
+    const { data } = this.props;
     const rows = data.candidates.map((_, at) => at).filter((at) => chosen[at]);
-    return <Table<number> name="k" caption="candidates" rows={rows} row_key={(at) => String(data.candidates[at])} sort="-mean" page_size={15}
+    return <Table<number> name="k" caption="candidates" rows={rows} sort="-mean" page_size={15}
       empty="No candidate lies in all chosen ranges."
       columns={[
-        { key: "candidate", value: (at) => `c${data.candidates[at]}`, show: (at) => <a href={href([c, `c${data.candidates[at]}`])}>c{data.candidates[at]}</a> },
-        { key: "iteration", numeric: true, value: (at) => data.iteration[at] },
-        { key: "mean", label: "mean score", numeric: true, value: (at) => data.mean[at], title: "higher is better" },
-        { key: "runs", numeric: true, value: (at) => data.runs[at] },
+        { key: "candidate", value: (at) => data.candidates[at] },
+        { key: "iteration", value: (at) => data.iteration[at] },
+        { key: "mean", label: "mean score", value: (at) => data.mean[at], title: "higher is better" },
+        { key: "runs", value: (at) => data.runs[at] },
         { key: "elite", value: (at) => data.elite[at] ? "elite" : "" },
-        ...axes.map((axis) => ({ key: axis.name, numeric: !axis.words, value: (at: number) => axis.values[at] ?? null })),
+        ...axes.map((axis) => ({ key: axis.name, value: (at: number) => axis.values[at] ?? null })),
       ]} />;
   }
 }
