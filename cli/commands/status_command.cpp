@@ -19,6 +19,7 @@
 #include "console/terminal.h"
 #include "proto/access/coordinator_file.h"
 #include "proto/access/find_coordinator.h"
+#include "proto/socket.h"
 
 namespace swarmsmith::cli {
 namespace {

@@ -65,7 +65,9 @@ Expected<Answer> sql_answer(const Question& question, const std::string& program
   } else {
     words.insert(words.end(), {"--json", "--lists"});
   }
-  words.insert(words.end(), {"--", sql});
+  // Behind a blank a comment is no option.
+  const std::string word = " " + sql;
+  words.push_back(word);
   const auto begin = std::chrono::steady_clock::now();
   const Watch watch(question.is_gone);
   const auto end = run_process({.words = std::move(words),
@@ -84,7 +86,7 @@ Expected<Answer> sql_answer(const Question& question, const std::string& program
                      "sql");
   }
   if (end->exit_code != 0 || end->signal != 0) {
-    const std::string said = sentence_of(end->errors.text, sql);
+    const std::string said = sentence_of(end->errors.text, word);
     return bad_input(said.empty() ? "the statement could not be carried out" : said, "sql");
   }
   if (!end->output.complete()) {

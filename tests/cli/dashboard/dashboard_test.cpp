@@ -348,7 +348,7 @@ TEST_F(DashboardTest, MoreHeavyQuestionsThanFitAreTurnedAway) {
 
 TEST_F(DashboardTest, MarkupInNamesStaysText) {
   const std::string hostile = (folder_ / "hostile.db").string();
-  const std::string name = R"(<img src=x onerror="alert(1)">)";
+  const std::string name = R"x(<img src=x onerror="alert(1)">)x";
   Campaign campaign = one_design_campaign();
   campaign.name = name;
   write_store(hostile, campaign);

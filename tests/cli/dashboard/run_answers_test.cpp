@@ -232,7 +232,7 @@ TEST_F(RunAnswersTest, ARealRunIsShownAsItWasMeasured) {
   EXPECT_EQ(beside["source"], "rvr");
   EXPECT_EQ(beside["cycles"], 100);
   EXPECT_TRUE(beside["same_bits"].is_null());
-  for (const std::size_t robot : {0, 1, 2})
+  for (const std::size_t robot : {0U, 1U, 2U})
     EXPECT_EQ(beside["robots"][robot]["x_mm"][0], run["robots"][robot]["x_mm"][0]);
   // The film was made of that very run.
   EXPECT_EQ(beside["robots"][1]["x_mm"][100], run["robots"][1]["x_mm"][100]);

@@ -128,6 +128,10 @@ TEST_F(StoreAnswersTest, StatementsAnswerAsTheCommandLine) {
   EXPECT_EQ(asking.text("c1/query", {{"sql", sql}, {"format", "csv"}}),
             run({"query", store_, sql, "--csv"}).out);
   EXPECT_EQ(asking.json("c1/query", {{"sql", sql}, {"limit", "1"}})["truncated"], true);
+  EXPECT_EQ(asking.json("c1/query", {{"sql", "-- one\nSELECT 1"}})["rows"], json::parse("[[1]]"));
+  // Columns of one name are two.
+  EXPECT_EQ(asking.json("c1/query", {{"sql", "SELECT 1 AS a, 2 AS a"}})["rows"],
+            json::parse("[[1,2]]"));
 }
 
 TEST_F(StoreAnswersTest, StatementsMayOnlyRead) {
