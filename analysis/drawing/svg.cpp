@@ -227,6 +227,14 @@ void Svg::text(PagePoint at, std::string_view text, const TextStyle& style) {
   shapes_ += attribute("fill", style.fill) + ">" + escaped(text) + "</text>\n";
 }
 
+void Svg::begin_part(std::string_view name, std::size_t number) {
+  shapes_ += "<g" + attribute("data-" + std::string(name), std::to_string(number)) + ">\n";
+}
+
+void Svg::end_part() {
+  shapes_ += "</g>\n";
+}
+
 void Svg::add(const Svg& other, PagePoint at) {
   shapes_ += "<g" + attribute("transform", "translate(" + number(at.x) + " " + number(at.y) + ")") +
              ">\n" + other.shapes_ + "</g>\n";

@@ -98,6 +98,9 @@ class Svg {
   void image(PagePoint top_left, double width, double height, std::string_view png, double opacity);
   /// `at` is on the base line.
   void text(PagePoint at, std::string_view text, const TextStyle& style);
+  /// What is drawn until `end_part` belongs together, and a page finds it as `data-NAME="number"`.
+  void begin_part(std::string_view name, std::size_t number);
+  void end_part();
   /// All shapes of another picture, its upper left corner at `at`.
   void add(const Svg& other, PagePoint at);
 

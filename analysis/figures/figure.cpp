@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "analysis/figures/makers.h"
+#include "base/suggestion.h"
 
 namespace swarmsmith {
 namespace {
@@ -24,6 +25,18 @@ bool has_word(std::string_view words, std::string_view word) {
   while (!words.empty())
     if (next_word(words) == word) return true;
   return false;
+}
+
+/// A name that no design of the store has, with those that there are.
+std::optional<Error> unknown_name(const std::string& given, const char* option,
+                                  std::vector<std::string> known) {
+  if (given.empty() || std::ranges::find(known, given) != known.end()) return std::nullopt;
+  std::ranges::sort(known);
+  known.erase(std::unique(known.begin(), known.end()), known.end());
+  return Error{ErrorKind::BadInput,
+               "the store has no \"" + given + "\"" + did_you_mean(given, known) +
+                   "; it has: " + joined(known),
+               option};
 }
 
 }  // namespace
@@ -88,6 +101,33 @@ std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions&
                  "--" + std::string(name)};
   }
   return std::nullopt;
+}
+
+std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options) {
+  const auto all = designs(store, {});
+  if (!all) return all.error();
+  std::vector<std::string> missions;
+  std::vector<std::string> methods;
+  bool has_design = !options.filter.design;
+  for (const DesignRecord& design : *all) {
+    missions.push_back(design.mission);
+    methods.push_back(design.method);
+    has_design = has_design || design.design == *options.filter.design;
+  }
+  if (auto error = unknown_name(options.filter.mission, "--mission", std::move(missions)))
+    return error;
+  if (auto error = unknown_name(options.filter.method, "--method", std::move(methods)))
+    return error;
+  if (!has_design) {
+    return Error{ErrorKind::NotFound,
+                 "the store has no design " + to_string(*options.filter.design), "--design"};
+  }
+  if (!options.candidate) return std::nullopt;
+  const auto found = candidate(store, *options.candidate);
+  if (found) return std::nullopt;
+  if (found.error().kind != ErrorKind::NotFound) return found.error();
+  return Error{ErrorKind::NotFound, "the store has no candidate " + to_string(*options.candidate),
+               "--candidate"};
 }
 
 }  // namespace swarmsmith

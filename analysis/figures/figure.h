@@ -59,4 +59,8 @@ const FigureKind* find_figure_kind(std::string_view name);
 /// its place is the option as typed.
 std::optional<Error> refused_option(const FigureKind& kind, const FigureOptions& options);
 
+/// What is asked for and not in the store: a mission, a method (BadInput), an id (NotFound);
+/// Corrupt for views of an older schema.
+std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options);
+
 }  // namespace swarmsmith

@@ -16,7 +16,9 @@ struct ControllerDrawing {
   std::string dot;  ///< places are Graphviz' own; a network's inputs and wheels are nodes there
 };
 
-/// `title` is what a screen reader says and nothing visible. The height follows from the width.
+/// `title` is what a screen reader says and nothing visible. States of a machine and actions of a
+/// tree are parts named `data-state`, numbered as `ControlSoftware::state` is. The height follows
+/// from the width.
 ///
 /// Throws std::invalid_argument when a module is none of the flavour's, a machine or tree is not as
 /// it must be (`lay_out`), or the page is narrower than `kNarrowestMachine_mm`.

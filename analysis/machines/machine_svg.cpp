@@ -33,9 +33,11 @@ Svg drawing_of(const MachineLayout& layout, std::string_view title) {
     const StateShape& shape = layout.states[i];
     Paint paint = stroked(color_of(layout, i), kStateWidth);
     paint.fill = fill_of(layout, i);
+    svg.begin_part("state", i);
     svg.circle(shape.centre, shape.radius, paint);
     if (shape.initial) svg.circle(shape.centre, shape.radius - kInitialRing, paint);
     draw_lines(svg, shape.lines, !shape.reachable);
+    svg.end_part();
   }
   for (const ConditionShape& shape : layout.conditions) {
     Paint paint = stroked(color_of(layout, shape.source), kEdgeWidth);

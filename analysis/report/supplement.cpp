@@ -219,6 +219,11 @@ Expected<std::vector<SupplementFile>> supplement(StoreReader& store,
     if (!tables) return Unexpected(tables.error());
     std::ranges::move(*tables, std::back_inserter(files));
   }
+  if (options.dashboard) {
+    auto page = options.dashboard();
+    if (!page) return Unexpected(page.error());
+    files.push_back({"dashboard.html", std::move(*page)});
+  }
   files.push_back({"README.md", supplement_readme(files, *asked, store.digest(), options)});
   std::ranges::sort(files, {}, &SupplementFile::path);
   return files;

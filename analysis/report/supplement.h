@@ -25,6 +25,8 @@ struct SupplementOptions {
   std::function<Expected<std::vector<SupplementFile>>()> instance_tables;
   /// As in ReportOptions.
   std::function<Expected<std::string>(DesignId)> runs_from_above;
+  /// The text of `dashboard.html`; may be empty.
+  std::function<Expected<std::string>()> dashboard;
   /// Receives now and then the number of files made.
   std::function<void(std::size_t)> progress;
 };

@@ -1,6 +1,7 @@
 #include "base/http/page_server.h"
 
 #include <poll.h>
+#include <sys/resource.h>
 #include <sys/socket.h>
 #include <unistd.h>
 #include <algorithm>
@@ -15,6 +16,25 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::string_view kBusy =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\n\r\n";
+
+thread_local int asked_by = -1;
+
+/// While a request is answered.
+class Asked {
+ public:
+  explicit Asked(int socket) { asked_by = socket; }
+  ~Asked() { asked_by = -1; }
+  Asked(const Asked&) = delete;
+  Asked& operator=(const Asked&) = delete;
+};
+
+/// Of this thread alone.
+void stand_back(int nice) {
+  thread_local bool done = false;
+  if (done || nice == 0) return;
+  done = true;
+  ::setpriority(PRIO_PROCESS, static_cast<id_t>(::gettid()), nice);
+}
 
 /// A request's head that is there already; what is written is kept.
 class HeadStream : public httplib::Stream {
@@ -32,7 +52,7 @@ class HeadStream : public httplib::Stream {
     written_.append(data, size);
     return static_cast<ssize_t>(size);
   }
-  // Nobody asks for these, since nothing is logged about peers.
+  // Nobody asks for these: see PageServer::socket_of_request.
   void get_remote_ip_and_port(std::string&, int&) const override {}
   void get_local_ip_and_port(std::string&, int&) const override {}
   socket_t socket() const override { return socket_; }
@@ -86,38 +106,57 @@ void close_connection(int socket) {
   ::close(socket);
 }
 
+/// Whether the line is the header of this name, which has small letters and a colon.
+bool has_name(std::string_view line, std::string_view name) {
+  return line.size() >= name.size() &&
+         std::equal(name.begin(), name.end(), line.begin(), [](char expected, char letter) {
+           const bool upper = letter >= 'A' && letter <= 'Z';
+           return expected == (upper ? letter + 32 : letter);
+         });
+}
+
 bool is_read_by_pages(std::string_view line) {
-  constexpr std::array<std::string_view, 2> kNames = {"host:", "authorization:"};
-  return std::ranges::any_of(kNames, [&](std::string_view name) {
-    return line.size() >= name.size() &&
-           std::equal(name.begin(), name.end(), line.begin(), [](char expected, char letter) {
-             const bool upper = letter >= 'A' && letter <= 'Z';
-             return expected == (upper ? letter + 32 : letter);
-           });
-  });
+  constexpr std::array<std::string_view, 5> kNames = {
+      "host:", "authorization:", "origin:", "sec-fetch-site:", "if-none-match:"};
+  return std::ranges::any_of(kNames, [&](std::string_view name) { return has_name(line, name); });
 }
 
 /// The request line and the headers that pages read.
 std::string bare(std::string_view head) {
+  constexpr std::string_view kEncoding = "accept-encoding:";
   std::string kept;
   while (!head.empty()) {
     const std::size_t end = head.find('\n');
     const std::string_view line = head.substr(0, end == std::string_view::npos ? end : end + 1);
     head.remove_prefix(line.size());
-    if (kept.empty() || is_read_by_pages(line)) kept += line;
+    if (kept.empty() || is_read_by_pages(line)) {
+      kept += line;
+    } else if (has_name(line, kEncoding)) {
+      kept += PageServer::kAccepts;
+      kept += line.substr(kEncoding.size() - 1);
+    }
   }
   return kept + "\r\n";
 }
 
 /// The path that a request line asks for; empty when there is none.
 std::string_view path_of(std::string_view head) {
-  constexpr std::string_view kGet = "GET ";
-  if (!head.starts_with(kGet)) return {};
-  head.remove_prefix(kGet.size());
+  const std::size_t blank = head.find(' ');
+  if (blank == std::string_view::npos) return {};
+  head.remove_prefix(blank + 1);
   return head.substr(0, head.find_first_of(" ?\r\n"));
 }
 
 }  // namespace
+
+int PageServer::socket_of_request() {
+  return asked_by;
+}
+
+bool PageServer::is_asker_gone() {
+  pollfd state{.fd = asked_by, .events = POLLRDHUP, .revents = 0};
+  return asked_by >= 0 && ::poll(&state, 1, 0) > 0;
+}
 
 PageServer::PageServer(PageServerOptions options) : options_(std::move(options)) {
   set_payload_max_length(0);
@@ -145,7 +184,7 @@ void PageServer::stop_serving() {
 
 void PageServer::on_request(int socket, std::string head) {
   const std::string_view path = path_of(head);
-  if (std::ranges::count(options_.at_once, path) > 0) {
+  if (head.starts_with("GET ") && std::ranges::count(options_.at_once, path) > 0) {
     return answer_at_once(socket, std::move(head));
   }
   if (waiting_ >= options_.waiting) {
@@ -161,6 +200,7 @@ void PageServer::on_request(int socket, std::string head) {
 
 /// It is short, so that the system takes all of it, whether it is read or not.
 void PageServer::answer_at_once(int socket, std::string head) {
+  const Asked asked(socket);
   HeadStream stream(socket, std::move(head));
   bool closed = false;
   process_request(stream, true, closed, nullptr);
@@ -170,8 +210,13 @@ void PageServer::answer_at_once(int socket, std::string head) {
 }
 
 void PageServer::answer(int socket, std::string head) {
-  const auto deadline =
-      options_.answer_time ? std::optional(Clock::now() + *options_.answer_time) : std::nullopt;
+  stand_back(options_.nice);
+  const Asked asked(socket);
+  auto time = options_.answer_time;
+  if (options_.other_time) {
+    if (const auto other = options_.other_time(path_of(head))) time = other;
+  }
+  const auto deadline = time ? std::optional(Clock::now() + *time) : std::nullopt;
   DeadlineStream stream(socket, std::move(head), deadline);
   bool closed = false;
   process_request(stream, true, closed, nullptr);

@@ -4,9 +4,11 @@
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/http/request_door.h"
@@ -20,13 +22,18 @@ struct PageServerOptions {
   std::size_t waiting = 64;
   /// Time from the request to the last byte of the answer; none: no limit.
   std::optional<std::chrono::milliseconds> answer_time = std::chrono::milliseconds(3000);
+  /// The same of some paths, where it differs; empty: nowhere.
+  std::function<std::optional<std::chrono::milliseconds>(std::string_view path)> other_time{};
+  /// How far the threads that answer stand back behind others (nice).
+  int nice = 0;
   /// Paths whose answers are short and cost nothing: the door answers them itself, without waiting.
   std::vector<std::string> at_once{};
 };
 
-/// The library's routing behind a RequestDoor: pages by GET, one request per connection. Pages see
-/// the headers Host and Authorization; no other header has an effect: no ranges, which multiply an
-/// answer, no compression, no bodies.
+/// The library's routing behind a RequestDoor: one request per connection, without a body. Pages
+/// see the headers Host, Authorization, Origin, Sec-Fetch-Site and If-None-Match, and
+/// Accept-Encoding under the name of `kAccepts`; no other header has an effect: no ranges, which
+/// multiply an answer, no compression by the library.
 class PageServer : public httplib::Server {
  public:
   explicit PageServer(PageServerOptions options);
@@ -37,6 +44,14 @@ class PageServer : public httplib::Server {
   void serve(ListeningSocket listening);
   /// Waits for the answers in progress; handlers are no longer called.
   void stop_serving();
+
+  /// For handlers: the socket that the request of this thread came by; -1 outside of them.
+  static int socket_of_request();
+  /// Whether who asked has gone away since.
+  static bool is_asker_gone();
+
+  /// The header Accept-Encoding, which the library would act upon.
+  static constexpr const char* kAccepts = "Accepts";
 
  private:
   void on_request(int socket, std::string head);

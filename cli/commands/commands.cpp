@@ -166,6 +166,17 @@ Examples:
   swarmsmith explain d1 demo.db
   swarmsmith explain e1000007 demo.db --json)";
 
+constexpr std::string_view kDashboardDetails =
+    R"(Serves pages about the stores: campaigns, races, machines, runs that are simulated again, results,
+SQL. `run` and `serve` have the same pages while a campaign runs. Here any store will do: finished,
+merged, imported, or of a campaign that runs elsewhere. It shows them to you alone, on this host; from
+another one, use ssh -L (docs/dashboard.md).
+
+Examples:
+  swarmsmith dashboard demo.db
+  swarmsmith dashboard first.db second.db --http 127.0.0.1:9000
+  swarmsmith dashboard demo.db --export demo.html --design d1)";
+
 constexpr std::string_view kLsDetails =
     R"(Conditions and order are SQL over the columns. --json shows all columns.
 
@@ -319,6 +330,8 @@ constexpr std::array kCommands = {
     Command{"irace", "Configure an algorithm from irace's files, as irace does", kIraceDetails,
             nullptr, run_irace},
     Command{"status", "Show how far a campaign is", kStatusDetails, declare_status},
+    Command{"dashboard", "Show stores and campaigns in the browser", kDashboardDetails,
+            declare_dashboard},
     Command{"ls", "List designs, candidates, evaluations, elites or workers", kLsDetails,
             declare_ls},
     Command{"show", "Show one design, candidate or evaluation", kShowDetails, declare_show},

@@ -31,6 +31,7 @@ Run declare_evaluate(Options& options);
 Run declare_replay(Options& options);
 Run declare_profile(Options& options);
 Run declare_status(Options& options);
+Run declare_dashboard(Options& options);
 Run declare_ls(Options& options);
 Run declare_explain(Options& options);
 Run declare_show(Options& options);

@@ -1,15 +1,12 @@
 #include "cli/commands/figure_arguments.h"
 
-#include <algorithm>
 #include <charconv>
 #include <utility>
 
 #include "analysis/drawing/svg.h"
-#include "base/suggestion.h"
 #include "cli/arguments/score_words.h"
 #include "cli/arguments/thing_id.h"
 #include "cli/commands/trajectories_figure.h"
-#include "cli/output/query_output.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -20,18 +17,6 @@ Expected<std::int64_t> number_of(const std::string& text, char letter, const cha
   if (id && id->letter == letter) return std::stoll(id->digits);
   const std::string example = letter == 'd' ? "d3" : "c812";
   return bad_input("wants an id such as " + example + ", not \"" + text + "\"", option);
-}
-
-/// A name that no design of the store has, with those that there are.
-std::optional<Error> unknown_name(const std::string& given, const char* option,
-                                  std::vector<std::string> known) {
-  if (given.empty() || std::ranges::find(known, given) != known.end()) return std::nullopt;
-  std::ranges::sort(known);
-  known.erase(std::unique(known.begin(), known.end()), known.end());
-  return Error{ErrorKind::BadInput,
-               "the store has no \"" + given + "\"" + did_you_mean(given, known) +
-                   "; it has: " + joined(known),
-               option};
 }
 
 }  // namespace
@@ -108,34 +93,6 @@ Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments)
     seeds.push_back(seed);
   }
   return seeds;
-}
-
-std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options) {
-  const auto all = designs(store, {});
-  if (!all) return all.error();
-  std::vector<std::string> missions;
-  std::vector<std::string> methods;
-  bool has_design = !options.filter.design;
-  for (const DesignRecord& design : *all) {
-    missions.push_back(design.mission);
-    methods.push_back(design.method);
-    has_design = has_design || design.design == *options.filter.design;
-  }
-  if (auto error = unknown_name(options.filter.mission, "--mission", std::move(missions)))
-    return error;
-  if (auto error = unknown_name(options.filter.method, "--method", std::move(methods)))
-    return error;
-  if (!has_design) {
-    return Error{ErrorKind::NotFound,
-                 "the store has no design " + to_string(*options.filter.design), "--design"};
-  }
-  if (!options.candidate) return std::nullopt;
-  const auto found = select(store, "SELECT 1 FROM v_candidates WHERE candidate = " +
-                                       std::to_string(options.candidate->value));
-  if (!found) return found.error();
-  if (!found->cells.empty()) return std::nullopt;
-  return Error{ErrorKind::NotFound, "the store has no candidate " + to_string(*options.candidate),
-               "--candidate"};
 }
 
 }  // namespace swarmsmith::cli

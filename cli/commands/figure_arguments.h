@@ -40,8 +40,4 @@ Expected<FigureOptions> read_options(const FigureArguments& arguments);
 /// Seeds of runs that are simulated again.
 Expected<std::vector<std::int64_t>> read_seeds(const FigureArguments& arguments);
 
-/// What is asked for and not in the store: a mission, a method (BadInput), an id (NotFound);
-/// Corrupt for views of an older schema.
-std::optional<Error> missing_in(StoreReader& store, const FigureOptions& options);
-
 }  // namespace swarmsmith::cli

@@ -1,6 +1,7 @@
 #include <cstdint>
 #include <limits>
 #include <memory>
+#include <optional>
 
 #include "base/text/csv.h"
 #include "cli/arguments/store_argument.h"
@@ -15,6 +16,16 @@ struct QueryArguments {
   StoreArgument store;
   std::vector<std::string> words;
   bool csv = false;
+  bool lists = false;
+  std::optional<std::int64_t> limit;
+  std::optional<std::int64_t> seconds;
+
+  StoreReader::QueryLimits limits() const {
+    StoreReader::QueryLimits limits;
+    if (limit) limits.rows = *limit;
+    if (seconds) limits.seconds = static_cast<double>(*seconds);
+    return limits;
+  }
 };
 
 constexpr const char* kViews =
@@ -42,9 +53,11 @@ std::string take_sql(QueryArguments& arguments) {
 }
 
 /// Writes rows as they come: a table of millions is not held.
-ExitCode write_csv(StoreReader& store, const std::string& sql, Output& output) {
+ExitCode write_csv(StoreReader& store, const std::string& sql, StoreReader::QueryLimits limits,
+                   Output& output) {
+  limits.bytes = std::numeric_limits<std::int64_t>::max();
   const auto end = store.query(
-      sql, {.bytes = std::numeric_limits<std::int64_t>::max()},
+      sql, limits,
       [&](const std::vector<std::string>& columns) { write_data(output, csv_line(columns)); },
       [&](const std::vector<StoreReader::Cell>& cells) {
         write_data(output, cells_as_csv(cells));
@@ -59,10 +72,11 @@ ExitCode run_query(QueryArguments& arguments, Output& output) {
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const std::string statement = sql.empty() ? kViews : sql;
-  if (arguments.csv) return write_csv(**store, statement, output);
-  const auto rows = select(**store, statement);
+  if (arguments.csv) return write_csv(**store, statement, arguments.limits(), output);
+  const auto rows = select(**store, statement, arguments.limits());
   if (!rows) return fail(output, ExitCode::Usage, rows.error());
-  write_rows(output, *rows, output.json ? Form::Json : Form::Text);
+  const Form json = arguments.lists ? Form::JsonLists : Form::Json;
+  write_rows(output, *rows, output.json ? json : Form::Text);
   return ExitCode::Done;
 }
 
@@ -73,6 +87,12 @@ Run declare_query(Options& options) {
   options.words("SQL_AND_STORE", arguments->words, "The statement, then the store's file");
   arguments->store.declare(options, false);
   options.flag("--csv", arguments->csv, "Write CSV: a header, full precision");
+  options.flag("--lists", arguments->lists,
+               "With --json: each row a list in the order of the columns, not an object");
+  options.integer("--limit", arguments->limit, {1, 1'000'000'000},
+                  "Maximum number of rows (default 1,000,000)");
+  options.integer("--seconds", arguments->seconds, {1, 1'000'000},
+                  "Longest time of the statement (default 60)");
   return [arguments](Output& output) { return run_query(*arguments, output); };
 }
 

@@ -15,7 +15,6 @@ Run declare_run(Options& options) {
     AccessFlags access;
     std::string workers;
     std::optional<std::int64_t> slots;
-    bool no_dashboard = false;
     HttpFlags http;
   };
   auto arguments = std::make_shared<Arguments>();
@@ -26,15 +25,15 @@ Run declare_run(Options& options) {
   options.integer(
       "--slots", arguments->slots, {1, 10'000},
       "Parallel evaluations on this host (default: one per worker; with auto one per core)");
-  options.flag("--no-dashboard", arguments->no_dashboard,
-               "Accepted; this version has no dashboard");
   arguments->access.declare(options);
-  arguments->http.declare(options, "default none");
+  arguments->http.declare(options);
   return [arguments](Output& output) {
     const auto campaigns = arguments->campaign.read(output);
     if (!campaigns) return ExitCode::Usage;
     RunOptions run{.access = arguments->access};
-    arguments->http.put(run, "");
+    arguments->http.put(run, *campaigns);
+    // Whoever does not want the dashboard has not asked for pages of numbers either.
+    if (arguments->http.no_dashboard && arguments->http.http.empty()) run.http.clear();
     if (!arguments->workers.empty()) {
       const auto launch = parse_workers(arguments->workers, campaigns->front().launch);
       if (!launch) {

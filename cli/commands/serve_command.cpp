@@ -18,7 +18,7 @@ Run declare_serve(Options& options) {
   arguments->campaign.declare(options, Options::Need::Required);
   options.text("--bind", arguments->bind,
                "Address and port for workers (default 127.0.0.1:5555, or the next free port)");
-  arguments->http.declare(options, "default 127.0.0.1:8347, or the next port that is free; none");
+  arguments->http.declare(options);
   arguments->access.declare(options);
   return [arguments](Output& output) {
     const auto campaigns = arguments->campaign.read(output);
@@ -29,7 +29,7 @@ Run declare_serve(Options& options) {
       run.bind = "127.0.0.1:5555";
       run.next_port = true;
     }
-    arguments->http.put(run, "127.0.0.1:8347");
+    arguments->http.put(run, *campaigns);
     return run_campaigns(output, *campaigns, run);
   };
 }

@@ -15,10 +15,12 @@
 #include "cli/arguments/store_argument.h"
 #include "cli/commands/commands.h"
 #include "cli/commands/trajectories_figure.h"
+#include "cli/dashboard/snapshot.h"
 #include "cli/replay/machine_filer.h"
 #include "cli/replay/stored_instances.h"
 #include "console/counter.h"
 #include "console/pdf.h"
+#include "web/pages.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -109,6 +111,11 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
   const auto store = arguments.store.open();
   if (!store) return fail(output, exit_code_of_store(store.error()), store.error());
   const bool with_pdfs = find_program("rsvg-convert").has_value();
+  // A program without pages has none to give.
+  std::function<Expected<std::string>()> dashboard;
+  if (!page_files().empty()) {
+    dashboard = [&] { return snapshot_page(*arguments.store.path(), {.version = program_name()}); };
+  }
   auto filer = MachineFiler::open(**store);
   if (!filer) return fail(output, ExitCode::Store, filer.error());
   Counter counter(output, "made", "files");
@@ -119,6 +126,7 @@ ExitCode run_supplement(const SupplementArguments& arguments, Output& output) {
        .with_pdfs = with_pdfs,
        .instance_tables = [&store] { return instance_tables(**store); },
        .runs_from_above = [&](DesignId design) { return runs_from_above(arguments.store, design); },
+       .dashboard = dashboard,
        .progress = [&](std::size_t made) { counter.tell(static_cast<std::int64_t>(made), 0); }});
   if (files) {
     const auto made = static_cast<std::int64_t>(files->size());

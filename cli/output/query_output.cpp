@@ -34,21 +34,6 @@ bool is_number(const Cell& cell) {
   return cell.type == Type::Integer || cell.type == Type::Real;
 }
 
-/// Numbers in full precision.
-JsonPiece json_value(const Cell& cell) {
-  switch (cell.type) {
-    case Type::Null:
-      return {"null"};
-    case Type::Integer:
-      return {cell.text};
-    case Type::Real:
-      return {json_number(std::strtod(cell.text.c_str(), nullptr))};
-    case Type::Text:
-      break;
-  }
-  return {json_text(cell.text)};
-}
-
 char letter_of(const std::string& column) {
   if (column == "design") return 'd';
   if (column == "candidate" || column == "parent" || column == "best_candidate") return 'c';
@@ -145,10 +130,24 @@ std::string rows_as_csv(const Rows& rows) {
   return text;
 }
 
+JsonPiece cell_as_json(const Cell& cell) {
+  switch (cell.type) {
+    case Type::Null:
+      return {"null"};
+    case Type::Integer:
+      return {cell.text};
+    case Type::Real:
+      return {json_number(std::strtod(cell.text.c_str(), nullptr))};
+    case Type::Text:
+      break;
+  }
+  return {json_text(cell.text)};
+}
+
 JsonObject row_as_json(const Rows& rows, std::size_t row) {
   JsonObject object;
   for (std::size_t column = 0; column < rows.columns.size(); ++column)
-    object.add(rows.columns[column], json_value(rows.cells[row][column]));
+    object.add(rows.columns[column], cell_as_json(rows.cells[row][column]));
   return object;
 }
 
@@ -156,6 +155,15 @@ JsonPiece rows_as_json(const Rows& rows) {
   return json_list(std::views::iota(std::size_t{0}, rows.cells.size()),
                    [&](std::size_t row) { return row_as_json(rows, row); });
 }
+
+namespace {
+
+JsonPiece rows_as_lists(const Rows& rows) {
+  return json_list(rows.cells,
+                   [](const std::vector<Cell>& cells) { return json_list(cells, cell_as_json); });
+}
+
+}  // namespace
 
 void write_rows(Output& output, const Rows& rows, Form form) {
   switch (form) {
@@ -166,9 +174,10 @@ void write_rows(Output& output, const Rows& rows, Form form) {
       write_data(output, rows_as_csv(rows));
       break;
     case Form::Json:
+    case Form::JsonLists:
       output.out << JsonObject()
                         .add("columns", rows.columns)
-                        .add("rows", rows_as_json(rows))
+                        .add("rows", form == Form::Json ? rows_as_json(rows) : rows_as_lists(rows))
                         .add("truncated", rows.truncated)
                         .text()
                  << "\n";

@@ -12,8 +12,8 @@
 namespace swarmsmith::cli {
 
 /// How rows are written: aligned columns for people, CSV (base/text/csv.h), or one JSON object
-/// {"columns":[...],"rows":[{...}],"truncated":false}.
-enum class Form { Text, Csv, Json };
+/// {"columns":[...],"rows":[{...}],"truncated":false}, or the same with each row a list.
+enum class Form { Text, Csv, Json, JsonLists };
 
 /// Rows of a query, held.
 struct Rows {
@@ -42,6 +42,8 @@ std::string rows_as_text(const Rows& rows);
 std::string cells_as_csv(const std::vector<StoreReader::Cell>& cells);
 /// CSV with a headline; null is empty; full precision.
 std::string rows_as_csv(const Rows& rows);
+/// Numbers in full precision.
+JsonPiece cell_as_json(const StoreReader::Cell& cell);
 /// The "rows" array alone.
 JsonPiece rows_as_json(const Rows& rows);
 /// One row, to which keys may be added.

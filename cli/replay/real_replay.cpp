@@ -10,7 +10,6 @@
 #include "analysis/arena/arena_panels.h"
 #include "base/text/csv.h"
 #include "cli/output/progress_text.h"
-#include "cli/replay/stored_runs.h"
 #include "sim/control/module.h"
 #include "sim/mission/trajectory_csv.h"
 
@@ -52,8 +51,33 @@ bool can_start(const Mission& mission, const std::vector<Pose>& starts) {
   return true;
 }
 
-ShownRun simulated(const StoredRun& stored, const FilmedRun& filmed, Instance instance) {
-  ShownRun run{.source = stored.profile.name, .seed = stored.seed};
+/// The run's machine on a seed, where it was filmed: from the real starts, where a simulated swarm
+/// can begin there, else from drawn ones.
+Expected<StoredRun> as_filmed(StoredRuns& runs, const RealRunRows& rows, const FilmedRun& filmed,
+                              std::int64_t seed) {
+  const ThingId machine{
+      .letter = 'c', .digits = std::to_string(rows.candidate.value), .purpose = {}};
+  auto run = runs.candidate(machine, seed);
+  if (!run) return run;
+  run->mission = filmed.mission;
+  run->instance = filmed.instance;
+  // What the store has of that seed began elsewhere.
+  run->id.clear();
+  run->outcome.reset();
+  if (can_start(filmed.mission, filmed.instance.starts)) return run;
+  auto drawn = instance_of(filmed.mission, seed);
+  if (!drawn) return Unexpected(drawn.error());
+  run->instance.starts = std::move(drawn->starts);
+  return run;
+}
+
+Unexpected no_machine(RealRunId id) {
+  return bad_input("the run names no candidate: there is nothing to simulate beside it",
+                   to_string(id));
+}
+
+ShownRun simulated(const StoredRun& stored) {
+  ShownRun run{.source = stored.profile.name, .seed = stored.seed, .instance = stored.instance};
   const auto observe = [&](const Snapshot& snapshot) {
     run.robots.resize(snapshot.robots.size());
     run.labels.resize(snapshot.robots.size());
@@ -65,15 +89,7 @@ ShownRun simulated(const StoredRun& stored, const FilmedRun& filmed, Instance in
     for (std::size_t i = 0; i < snapshot.objects.size(); ++i)
       run.objects[i].push_back(snapshot.objects[i]);
   };
-  run.instance = std::move(instance);
-  run.score = simulate({.controller = stored.controller,
-                        .flavour = stored.flavour,
-                        .profile = stored.profile,
-                        .mission = filmed.mission,
-                        .instance = run.instance,
-                        .seed = stored.seed},
-                       Recorder(observe))
-                  .score;
+  run.score = simulate(stored.setup(), Recorder(observe)).score;
   return run;
 }
 
@@ -91,27 +107,28 @@ Expected<RealReplay> replay_real_run(std::unique_ptr<StoreReader> store, RealRun
   replay.score = score_again(replay.filmed);
   replay.runs.push_back(shown(replay.rows, replay.filmed, replay.score));
   if (seeds.empty()) return replay;
-  const CandidateId candidate = replay.rows.candidate;
-  if (!candidate) {
-    return bad_input("the run names no candidate: there is nothing to simulate beside it",
-                     to_string(id));
-  }
+  if (!replay.rows.candidate) return no_machine(id);
   auto runs = StoredRuns::open(std::move(store));
   if (!runs) return Unexpected(runs.error());
-  const ThingId machine{.letter = 'c', .digits = std::to_string(candidate.value), .purpose = {}};
   replay.starts_as_real = can_start(replay.filmed.mission, replay.filmed.instance.starts);
   for (const std::int64_t seed : seeds) {
-    const auto stored = runs->candidate(machine, seed);
-    if (!stored) return Unexpected(stored.error());
-    Instance instance = replay.filmed.instance;
-    if (!replay.starts_as_real) {
-      auto drawn = instance_of(replay.filmed.mission, seed);
-      if (!drawn) return Unexpected(drawn.error());
-      instance.starts = std::move(drawn->starts);
-    }
-    replay.runs.push_back(simulated(*stored, replay.filmed, std::move(instance)));
+    const auto run = as_filmed(*runs, replay.rows, replay.filmed, seed);
+    if (!run) return Unexpected(run.error());
+    replay.runs.push_back(simulated(*run));
   }
   return replay;
+}
+
+Expected<StoredRun> simulation_beside(std::unique_ptr<StoreReader> store, RealRunId id,
+                                      std::int64_t seed) {
+  const auto rows = store->real_run(id);
+  if (!rows) return Unexpected(rows.error());
+  const auto filmed = filmed_run(*rows);
+  if (!filmed) return Unexpected(filmed.error());
+  if (!rows->candidate) return no_machine(id);
+  auto runs = StoredRuns::open(std::move(store));
+  if (!runs) return Unexpected(runs.error());
+  return as_filmed(*runs, *rows, *filmed, seed);
 }
 
 std::string picture_of(const RealReplay& replay, RealRunId id, double width_mm) {

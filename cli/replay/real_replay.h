@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/expected.h"
+#include "cli/replay/stored_runs.h"
 #include "coordinator/results/filmed_run.h"
 #include "storage/store.h"
 
@@ -38,6 +39,10 @@ struct RealReplay {
 /// no candidate, or one that this program cannot simulate.
 Expected<RealReplay> replay_real_run(std::unique_ptr<StoreReader> store, RealRunId id,
                                      const std::vector<std::int64_t>& seeds);
+
+/// What is simulated beside a real run with a seed. NotFound and BadInput as above.
+Expected<StoredRun> simulation_beside(std::unique_ptr<StoreReader> store, RealRunId id,
+                                      std::int64_t seed);
 
 /// All of them side by side, as SVG.
 std::string picture_of(const RealReplay& replay, RealRunId id, double width_mm);

@@ -107,16 +107,31 @@ std::optional<std::vector<Campaign>> CampaignFlags::read(Output& output) const {
   return campaigns;
 }
 
-void HttpFlags::declare(Options& options, const std::string& otherwise) {
-  options.text("--http", http,
-               "Address and port of /metrics, /healthz, /readyz, /status (" + otherwise + ")");
+void HttpFlags::declare(Options& options) {
+  options.text(
+      "--http", http,
+      "Address and port of the dashboard, /metrics, /healthz, /readyz and /status (default "
+      "127.0.0.1:8347, or the next port that is free; `none`: no pages)");
   options.text("--http-token-file", token_file, "File of the secret that their readers must show");
+  options.texts("--http-name", names,
+                "Name of this host in addresses of the pages, such as a proxy's");
+  options.flag("--no-dashboard", no_dashboard, "No dashboard; other pages only with --http");
 }
 
-void HttpFlags::put(RunOptions& run, const std::string& otherwise) const {
-  run.http = http == "none" ? "" : http.empty() ? otherwise : http;
-  run.http_next_port = http.empty();
+void HttpFlags::put(RunOptions& run, const std::vector<Campaign>& campaigns) const {
+  constexpr const char* kUsual = "127.0.0.1:8347";
+  const std::string& of_file = campaigns.front().dashboard_bind;
+  run.dashboard = http != "none" && !no_dashboard;
+  if (http == "none") {
+    run.http.clear();
+  } else if (!http.empty()) {
+    run.http = http;
+  } else {
+    run.http = of_file.empty() ? kUsual : of_file;
+  }
+  run.http_next_port = http.empty() && of_file.empty();
   run.http_token_file = token_file;
+  run.http_names = names;
 }
 
 }  // namespace swarmsmith::cli

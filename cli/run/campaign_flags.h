@@ -40,11 +40,13 @@ Expected<void> check_pool(const std::vector<Campaign>& campaigns);
 struct HttpFlags {
   std::string http;
   std::string token_file;
+  std::vector<std::string> names;
+  bool no_dashboard = false;
 
-  /// Declares --http and --http-token-file.
-  void declare(Options& options, const std::string& otherwise);
-  /// `otherwise` is the default address of the pages; empty for no pages.
-  void put(RunOptions& run, const std::string& otherwise) const;
+  /// Declares --http, --http-token-file, --http-name and --no-dashboard.
+  void declare(Options& options);
+  /// Of the command line, of the campaigns' files, else 127.0.0.1:8347 or the next free port.
+  void put(RunOptions& run, const std::vector<Campaign>& campaigns) const;
 };
 
 }  // namespace swarmsmith::cli

@@ -6,10 +6,12 @@
 #include <utility>
 
 #include "base/descriptor_limit.h"
+#include "cli/arguments/program_name.h"
 #include "cli/arguments/store_argument.h"
 #include "cli/output/progress.h"
 #include "cli/run/campaign_members.h"
 #include "cli/run/campaign_result.h"
+#include "cli/run/dashboard_setup.h"
 #include "cli/run/pool_setup.h"
 #include "cli/run/run_signals.h"
 #include "coordinator/campaign/campaign_rows.h"
@@ -68,10 +70,8 @@ class CampaignRun {
     auto service = listen();
     if (!service) return fail(output_, exit_code_of(service.error()), service.error());
     // Before the coordinator's file, where their address stands.
-    auto pages = open_pages(options_);
-    if (!pages) return fail(output_, exit_code_of(pages.error()), pages.error());
-    pages_ = std::move(*pages);
-    if (pages_) print_note(output_, "metrics, health and status: http://" + pages_->address());
+    if (const auto opened = show_pages(); !opened)
+      return fail(output_, exit_code_of(opened.error()), opened.error());
     const std::string endpoint = (*service)->endpoint();
     CoordinatorFile file = coordinator_file(options_.access, access_, endpoint);
     if (pages_) file.http = "http://" + pages_->address();
@@ -85,6 +85,55 @@ class CampaignRun {
     for (const std::filesystem::path& path : coordinator_files())
       remove_coordinator_file(path, file);
     return ended;
+  }
+
+  /// The dashboard of all campaigns that run here.
+  void make_dashboard() {
+    if (!options_.dashboard || options_.http.empty()) return;
+    DashboardOptions dashboard;
+    for (std::size_t place = 0; place < members_.size(); ++place) {
+      const auto& running = members_.running();
+      const auto found = std::ranges::find(running, place);
+      std::optional<std::size_t> served;
+      if (found != running.end()) served = static_cast<std::size_t>(found - running.begin());
+      dashboard.stores.push_back(
+          {std::filesystem::absolute(members_.campaign(place).store), served});
+    }
+    dashboard.version = program_name();
+    CoordinatorArgument coordinator;
+    if (!options_.access.coordinator_file.empty())
+      coordinator.coordinator = options_.access.coordinator_file;
+    if (access_.keys) {
+      const auto key = access_.local_key.parent_path() / "operator.key";
+      std::error_code none;
+      if (std::filesystem::exists(key, none)) coordinator.key = key.string();
+    }
+    coordinator.insecure_plaintext = access_.insecure_plaintext;
+    dashboard_ =
+        DashboardSetup::make(std::move(dashboard), coordinator,
+                             options_.http_token_file.empty() ? DashboardSetup::Secret::New
+                                                              : DashboardSetup::Secret::OfOnesOwn);
+  }
+
+  /// Nobody asked for an address that is usual: without it the campaign goes on.
+  Expected<void> show_pages() {
+    make_dashboard();
+    auto pages = dashboard_ ? open_pages(options_, dashboard_->site(), dashboard_->token())
+                            : open_pages(options_, nullptr, "");
+    if (!pages && !options_.http_next_port) return Unexpected(pages.error());
+    if (!pages) {
+      print_note(output_, "no dashboard: " + to_string(pages.error()));
+      dashboard_.reset();
+      return {};
+    }
+    pages_ = std::move(*pages);
+    if (!pages_) return {};
+    if (dashboard_) {
+      dashboard_->announce(output_, pages_->address());
+    } else {
+      print_note(output_, "metrics, health and status: http://" + pages_->address());
+    }
+    return {};
   }
 
   /// Keys and clients, or plaintext; false after having said what is wrong.
@@ -175,6 +224,9 @@ class CampaignRun {
             },
     };
     const ServiceEnd end = service.run(stop.get_token(), hooks);
+    // Their readers would keep the stores from being folded up.
+    pages_.reset();
+    dashboard_.reset();
     const std::string left_behind =
         workers == nullptr ? "" : workers->stop(std::chrono::seconds(2));
     listener_.finish(last_);
@@ -198,6 +250,7 @@ class CampaignRun {
   CampaignMembers members_;
   SystemClock clock_;
   LiveStatus last_;
+  std::unique_ptr<DashboardSetup> dashboard_;
   std::unique_ptr<HttpServer> pages_;
   Access access_;
   std::string local_secret_;

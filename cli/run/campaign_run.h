@@ -29,6 +29,9 @@ struct RunOptions {
   std::string http{};  ///< host:port of the pages; empty: none
   bool http_next_port = false;
   std::string http_token_file{};
+  std::vector<std::string> http_names{};  ///< what requests may call this host besides
+  /// Whether the dashboard is among the pages; its absence ends no run.
+  bool dashboard = false;
   /// Whether an interrupted run can continue later; else its store is deleted.
   bool keeps_store = true;
 };

@@ -115,11 +115,18 @@ Expected<std::unique_ptr<Service>> open_service(ServiceOptions options,
   }
 }
 
-Expected<std::unique_ptr<HttpServer>> open_pages(const RunOptions& options) {
+Expected<std::unique_ptr<HttpServer>> open_pages(const RunOptions& options,
+                                                 std::shared_ptr<HttpSite> site,
+                                                 const std::string& act_token) {
   if (options.http.empty()) return std::unique_ptr<HttpServer>();
   auto address = parse_http_address(options.http);
   if (!address) return Unexpected(address.error());
-  HttpOptions http{.address = *address, .next_port = options.http_next_port, .token = {}};
+  HttpOptions http{.address = *address,
+                   .next_port = options.http_next_port,
+                   .token = {},
+                   .names = options.http_names,
+                   .site = std::move(site),
+                   .act_token = act_token};
   if (!options.http_token_file.empty()) {
     auto token = read_token(options.http_token_file);
     if (!token) return Unexpected(token.error());

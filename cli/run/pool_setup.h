@@ -33,7 +33,10 @@ Expected<std::unique_ptr<Service>> open_service(ServiceOptions options,
                                                 const std::vector<ServiceCampaign>& campaigns,
                                                 bool next_port);
 
-/// Pages over HTTP where they were asked for; else null.
-Expected<std::unique_ptr<HttpServer>> open_pages(const RunOptions& options);
+/// Pages over HTTP with this site (null: none), where they were asked for; else null. `act_token`:
+/// see HttpOptions.
+Expected<std::unique_ptr<HttpServer>> open_pages(const RunOptions& options,
+                                                 std::shared_ptr<HttpSite> site,
+                                                 const std::string& act_token);
 
 }  // namespace swarmsmith::cli

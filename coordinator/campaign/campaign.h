@@ -104,6 +104,7 @@ struct Campaign {
   std::optional<std::int64_t> local_workers;  ///< processes; none: as many slots as cores
   LaunchOptions launch;                       ///< who starts workers, but for `local_workers`
   std::string bind;                           ///< empty: a free port on loopback
+  std::string dashboard_bind{};               ///< of the pages; empty: as the command has it
   double task_timeout_s = 30;
   std::int64_t retries = 2;
   bool stop_on_failure = false;    ///< else an evaluation that fails for good is a rejection

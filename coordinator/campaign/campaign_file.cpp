@@ -166,11 +166,10 @@ void read_tests(TableReader& root, const std::filesystem::path& folder, Campaign
   tests->finish();
 }
 
-/// [dashboard] is checked, so that files can have it, and not kept.
-void read_dashboard(TableReader& root) {
+void read_dashboard(TableReader& root, Campaign& campaign) {
   auto table = root.table("dashboard");
   if (!table) return;
-  read_bind(*table);
+  campaign.dashboard_bind = read_bind(*table).value_or("");
   table->finish();
 }
 
@@ -237,7 +236,7 @@ CampaignOrErrors parse_campaign(std::string_view text, const std::filesystem::pa
   read_race(root, folder, campaign);
   complete_target(campaign);
   read_workers(root, folder, campaign);
-  read_dashboard(root);
+  read_dashboard(root, campaign);
   root.finish();
   if (budget) {
     campaign.race.max_experiments = *budget;

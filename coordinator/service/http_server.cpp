@@ -1,13 +1,17 @@
 #include "coordinator/service/http_server.h"
 
+#include <pwd.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <memory>
 #include <mutex>
+#include <optional>
+#include <string_view>
 
 #include "base/http/page_server.h"
+#include "base/http/peer_user.h"
 #include "coordinator/service/metrics_text.h"
 
 namespace swarmsmith {
@@ -17,6 +21,25 @@ using Clock = std::chrono::steady_clock;
 
 /// Ports after the first one that are tried.
 constexpr int kMorePorts = 100;
+
+/// Of threads that answer: a race never waits for who looks at it.
+constexpr int kNice = 10;
+/// For answers that take their time, or are long.
+constexpr std::chrono::milliseconds kAnswerTime{20'000};
+constexpr std::chrono::milliseconds kExportTime{90'000};
+
+std::optional<std::chrono::milliseconds> time_of(std::string_view path) {
+  if (!path.starts_with("/api/")) return std::nullopt;
+  return path.ends_with("/export.html") ? kExportTime : kAnswerTime;
+}
+
+std::string name_of_user(uid_t user) {
+  std::array<char, 4096> room{};
+  passwd entry = {};
+  passwd* found = nullptr;
+  getpwuid_r(user, &entry, room.data(), room.size(), &found);
+  return found != nullptr ? std::string(found->pw_name) : std::to_string(user);
+}
 
 std::string name_of_this_host() {
   std::array<char, 256> name{};
@@ -29,7 +52,10 @@ class Pages final : public HttpServer {
       : options_(std::move(options)),
         host_name_(name_of_this_host()),
         http_({.door = {.head_time = options_.request_time},
+               .threads = 12,
                .answer_time = options_.request_time,
+               .other_time = [](std::string_view path) { return time_of(path); },
+               .nice = options_.site ? kNice : 0,
                .at_once = {"/healthz", "/readyz"}}) {
     http_.set_pre_routing_handler(
         [this](const httplib::Request& request, httplib::Response& response) {
@@ -41,6 +67,7 @@ class Pages final : public HttpServer {
     http_.Get("/readyz", [this](const httplib::Request& request, httplib::Response& response) {
       show_ready(request, response);
     });
+    if (!options_.has_loop) return;
     page("/metrics", "text/plain; version=0.0.4; charset=utf-8", metrics_text);
     page("/status", "application/json",
          [](const LiveStatus& status) { return to_json(status) + "\n"; });
@@ -66,6 +93,7 @@ class Pages final : public HttpServer {
   std::string address() const override { return to_string(options_.address); }
 
   void publish(LiveStatus status) override {
+    if (options_.site) options_.site->publish(status);
     auto fresh = std::make_shared<const Published>(Published{std::move(status), Clock::now()});
     const std::scoped_lock lock(mutex_);
     published_.swap(fresh);
@@ -82,34 +110,125 @@ class Pages final : public HttpServer {
     return published_;
   }
 
+  static bool has_token_of(const httplib::Request& request, const std::string& token) {
+    return !token.empty() && has_token(request.get_header_value("Authorization"), token);
+  }
   bool is_known(const httplib::Request& request) const {
-    return options_.token.empty() ||
-           has_token(request.get_header_value("Authorization"), options_.token);
+    return options_.token.empty() || has_token_of(request, options_.token);
+  }
+
+  bool is_our_name(const std::string& header) const {
+    const std::string host = header.substr(0, header.rfind(':'));
+    return is_our_host(header, options_.address, host_name_) ||
+           std::ranges::any_of(options_.names, [&](const std::string& name) {
+             return header == name || host == name;
+           });
+  }
+
+  static bool is_own(std::string_view path) {
+    return path == "/healthz" || path == "/readyz" || path == "/metrics" || path == "/status";
+  }
+
+  using Handled = httplib::Server::HandlerResponse;
+
+  Handled refuse(const httplib::Request& request, httplib::Response& response, int status,
+                 const char* kind, const std::string& why) const {
+    response.status = status;
+    if (options_.site && options_.site->is_api(request.path)) {
+      response.set_content(options_.site->error_json(kind, why), "application/json");
+    } else {
+      response.set_content(why + "\n", "text/plain");
+    }
+    return Handled::Handled;
   }
 
   /// Who may ask for what.
-  httplib::Server::HandlerResponse gate(const httplib::Request& request,
-                                        httplib::Response& response) {
-    const auto refuse = [&](int status, const std::string& why) {
-      response.status = status;
-      response.set_content(why + "\n", "text/plain");
-      return httplib::Server::HandlerResponse::Handled;
+  Handled gate(const httplib::Request& request, httplib::Response& response) {
+    const auto no = [&](int status, const char* kind, const std::string& why) {
+      return refuse(request, response, status, kind, why);
     };
+    const bool of_site = options_.site && !is_own(request.path);
     response.set_header("X-Content-Type-Options", "nosniff");
-    response.set_header("Cache-Control", "no-store");
-    if (request.method != "GET") {
-      response.set_header("Allow", "GET");
-      return refuse(405, "only GET");
+    response.set_header("Cache-Control", of_site ? "no-cache" : "no-store");
+    const bool is_act = of_site && options_.site->is_act(request.path);
+    const char* allowed = is_act ? "POST" : "GET";
+    if (request.method != allowed) {
+      response.set_header("Allow", allowed);
+      return no(405, "bad_method", std::string("only ") + allowed);
     }
-    if (!is_our_host(request.get_header_value("Host"), options_.address, host_name_)) {
-      return refuse(421, "this is another host");
+    if (!is_our_name(request.get_header_value("Host"))) {
+      return no(421, "other_host", "this is another host");
     }
+    if (of_site) return show_site(request, response, is_act);
     const bool is_open = request.path == "/healthz" || request.path == "/readyz";
-    if (!is_open && !is_known(request)) {
-      response.set_header("WWW-Authenticate", "Bearer");
-      return refuse(401, "a token is needed: Authorization: Bearer TOKEN");
+    if (!is_open && !is_known(request)) return ask_for_token(request, response);
+    return Handled::Unhandled;
+  }
+
+  Handled ask_for_token(const httplib::Request& request, httplib::Response& response) const {
+    response.set_header("WWW-Authenticate", "Bearer");
+    return refuse(request, response, 401, "no_token",
+                  "a token is needed: Authorization: Bearer TOKEN");
+  }
+
+  /// Empty: nobody that may look.
+  std::optional<std::string> name_of_asker() const {
+    const int socket = PageServer::socket_of_request();
+    const auto user = user_of_peer(socket);
+    if (options_.token.empty() && (!user || (*user != geteuid() && *user != 0)))
+      return std::nullopt;
+    return (user ? name_of_user(*user) : std::string("somebody")) + "@" + address_of_peer(socket);
+  }
+
+  Handled show_site(const httplib::Request& request, httplib::Response& response, bool is_act) {
+    HttpSite& site = *options_.site;
+    const bool open = site.is_open(request.path);
+    if (!open && !is_known(request)) return ask_for_token(request, response);
+    std::optional<std::string> peer = open && !options_.token.empty() ? "" : name_of_asker();
+    // Whoever knows the secret of acts is no stranger, whatever the kernel says of them.
+    if (!peer && has_token_of(request, options_.act_token)) {
+      peer = "somebody@" + address_of_peer(PageServer::socket_of_request());
     }
-    return httplib::Server::HandlerResponse::Unhandled;
+    if (!peer) {
+      return refuse(request, response, 403, "other_user",
+                    "these pages are of another user of this host; with --http-token-file they "
+                    "open to everybody who has the token");
+    }
+    if (is_act) {
+      if (const std::string why = foreign_origin(request); !why.empty())
+        return refuse(request, response, 403, "other_origin", why);
+      const std::string& token = options_.token.empty() ? options_.act_token : options_.token;
+      if (!has_token_of(request, token)) return ask_for_token(request, response);
+    }
+    SiteRequest asked{.acts = is_act,
+                      .path = request.path,
+                      .parameters = {},
+                      .peer = *peer,
+                      .etag = request.get_header_value("If-None-Match"),
+                      .accepts_gzip = request.get_header_value(PageServer::kAccepts).find("gzip") !=
+                                      std::string::npos,
+                      .is_gone = PageServer::is_asker_gone};
+    for (const auto& [name, value] : request.params)
+      asked.parameters[name] = value;
+    SiteAnswer answer = site.answer(asked);
+    response.status = answer.status;
+    for (const auto& [name, value] : answer.headers)
+      response.set_header(name.c_str(), value);
+    if (!answer.body.empty()) response.set_content(answer.body, answer.type);
+    return Handled::Handled;
+  }
+
+  /// Why a page that sends this is none of ours; empty when it may be.
+  static std::string foreign_origin(const httplib::Request& request) {
+    const std::string site = request.get_header_value("Sec-Fetch-Site");
+    if (!site.empty() && site != "same-origin" && site != "none")
+      return "a page of another origin may not act";
+    const std::string origin = request.get_header_value("Origin");
+    if (origin.empty()) return "";
+    const std::size_t host = origin.find("://");
+    const bool ours =
+        host != std::string::npos && origin.substr(host + 3) == request.get_header_value("Host");
+    return ours ? "" : "a page of another origin may not act";
   }
 
   /// Why no work can be done now; empty when it can.

@@ -3,9 +3,11 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "base/expected.h"
 #include "coordinator/service/http_address.h"
+#include "coordinator/service/http_site.h"
 #include "coordinator/service/live_status.h"
 
 namespace swarmsmith {
@@ -14,6 +16,13 @@ struct HttpOptions {
   HttpAddress address;
   bool next_port = false;  ///< when another program listens there, one of the next hundred will do
   std::string token;       ///< that requests must carry; must not be empty beyond loopback
+  /// What the Host header may name besides: this server's name at a proxy.
+  std::vector<std::string> names{};
+  std::shared_ptr<HttpSite> site{};  ///< what is shown besides; null: nothing
+  /// That acts must carry, where `token` is empty; empty: nobody may act.
+  std::string act_token{};
+  /// Whether there is a coordinator's loop that publishes; else the site is all there is.
+  bool has_loop = true;
   /// For a request's head to come, and again for the answer to go.
   std::chrono::milliseconds request_time{3000};
   /// Older numbers than that mean that the coordinator's loop has stalled.
@@ -21,9 +30,13 @@ struct HttpOptions {
 };
 
 /// Serves what the coordinator's loop publishes, from threads of its own: /metrics (Prometheus),
-/// /healthz, /readyz, /status (JSON). GET only, one request a connection, bounded in size, number
+/// /healthz, /readyz, /status (JSON), and a site. One request a connection, bounded in size, number
 /// and time. The pages of health need no token, say no more than "ok" without one, and wait for
 /// nobody: not for slow connections, nor for those who read the other pages.
+///
+/// The site's pages are shown to whom the token lets in; on loopback, without one, to the user of
+/// this process and to root. Only the site's acts may be asked for by POST, always with a token,
+/// and by no page of another origin.
 class HttpServer {
  public:
   /// Errors: BadInput (beyond loopback without a token, no address of this host), Conflict (the

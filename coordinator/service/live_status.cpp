@@ -115,7 +115,9 @@ double seconds_left(const LiveStatus& status) {
   return status.used_per_s > 0 ? static_cast<double>(left) / status.used_per_s : -1;
 }
 
-std::string to_json(const LiveStatus& status) {
+namespace {
+
+ordered_json head_of(const LiveStatus& status) {
   ordered_json json{{"v", 1}};
   each_field(json, status,
              [](ordered_json& out, const char* name, const auto& value) { out[name] = value; });
@@ -124,12 +126,34 @@ std::string to_json(const LiveStatus& status) {
   json["slot_times"] = json_of(status.slot_times);
   json["slot_times_last_minute"] = json_of(status.slot_times_last_minute);
   json["launcher"] = nlohmann::json(status.launcher);
+  return json;
+}
+
+ordered_json fleet_of(const LiveStatus& status) {
+  return status.fleet ? ordered_json(nlohmann::json(*status.fleet)) : ordered_json::array();
+}
+
+/// Texts of other processes need not be UTF-8.
+std::string text_of(const ordered_json& json) {
+  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+}  // namespace
+
+std::string to_json(const LiveStatus& status) {
+  ordered_json json = head_of(status);
   json["campaigns"] = ordered_json::array();
   if (status.campaigns) json["campaigns"] = nlohmann::json(*status.campaigns);
-  json["fleet"] = ordered_json::array();
-  if (status.fleet) json["fleet"] = nlohmann::json(*status.fleet);
-  // Texts of other processes need not be UTF-8.
-  return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+  json["fleet"] = fleet_of(status);
+  return text_of(json);
+}
+
+std::string head_json(const LiveStatus& status) {
+  return text_of(head_of(status));
+}
+
+std::string fleet_json(const LiveStatus& status) {
+  return text_of(fleet_of(status));
 }
 
 Expected<LiveStatus> live_status_of(const std::string& text) {

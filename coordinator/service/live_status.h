@@ -115,7 +115,11 @@ double seconds_left(const LiveStatus& status);
 
 /// One JSON object with the fields by name; docs/observability.md describes it.
 std::string to_json(const LiveStatus& status);
-/// The same back, without histograms. Errors: no such object.
+/// The same without `campaigns` and `fleet`.
+std::string head_json(const LiveStatus& status);
+/// The array `fleet` alone.
+std::string fleet_json(const LiveStatus& status);
+/// `to_json` back, without histograms. Errors: no such object.
 Expected<LiveStatus> live_status_of(const std::string& json);
 
 }  // namespace swarmsmith

@@ -4,6 +4,9 @@
 #include <array>
 #include <cctype>
 #include <chrono>
+#include <mutex>
+#include <numeric>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -63,6 +66,43 @@ constexpr std::array<Limit, 5> kLimits{{{SQLITE_LIMIT_LENGTH, kMostValueBytes},
                                         {SQLITE_LIMIT_ATTACHED, 0},
                                         {SQLITE_LIMIT_WORKER_THREADS, 0}}};
 
+/// The memory that statements may need beside what SQLite has already. Its limit is the process's:
+/// statements of several threads share the sum of what each may have, until the last one ends.
+class SharedMemory {
+ public:
+  void add(std::int64_t bytes) {
+    const std::scoped_lock lock(mutex_);
+    if (allowed_.empty()) {
+      used_before_ = sqlite3_memory_used();
+      limit_before_ = sqlite3_hard_heap_limit64(-1);
+    }
+    allowed_.insert(bytes);
+    set();
+  }
+  void remove(std::int64_t bytes) {
+    const std::scoped_lock lock(mutex_);
+    allowed_.erase(allowed_.find(bytes));
+    set();
+  }
+
+ private:
+  void set() const {
+    sqlite3_hard_heap_limit64(
+        allowed_.empty() ? limit_before_
+                         : std::accumulate(allowed_.begin(), allowed_.end(), used_before_));
+  }
+
+  std::mutex mutex_;
+  std::multiset<std::int64_t> allowed_;
+  std::int64_t used_before_ = 0;
+  std::int64_t limit_before_ = 0;
+};
+
+SharedMemory& shared_memory() {
+  static SharedMemory memory;
+  return memory;
+}
+
 /// The rules of a user's statement, on the connection while this lives.
 class Rules {
  public:
@@ -71,8 +111,8 @@ class Rules {
         deadline_(SteadyClock::now() +
                   std::chrono::duration_cast<SteadyClock::duration>(
                       std::chrono::duration<double>(std::clamp(limits.seconds, 0.0, 1e6)))),
-        memory_before_(sqlite3_hard_heap_limit64(sqlite3_memory_used() +
-                                                 std::max<std::int64_t>(limits.memory, 1 << 20))) {
+        memory_(std::max<std::int64_t>(limits.memory, 1 << 20)) {
+    shared_memory().add(memory_);
     constexpr int kInstructions = 2000;  // some 20 us
     for (std::size_t i = 0; i < kLimits.size(); ++i)
       limits_before_[i] = sqlite3_limit(handle_, kLimits[i].which, kLimits[i].value);
@@ -88,14 +128,14 @@ class Rules {
     sqlite3_progress_handler(handle_, 0, nullptr, nullptr);
     for (std::size_t i = 0; i < kLimits.size(); ++i)
       sqlite3_limit(handle_, kLimits[i].which, limits_before_[i]);
-    sqlite3_hard_heap_limit64(memory_before_);
+    shared_memory().remove(memory_);
   }
   bool late() const { return SteadyClock::now() >= deadline_; }
 
  private:
   sqlite3* handle_;
   SteadyClock::time_point deadline_;
-  std::int64_t memory_before_;
+  std::int64_t memory_;
   std::array<int, kLimits.size()> limits_before_{};
 };
 

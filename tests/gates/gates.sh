@@ -9,7 +9,7 @@ all_gates=(format tidy test long debug clang asan tsan fuzz)
 
 what_runs() {
   case $1 in
-    format) echo "clang-format" ;;
+    format) echo "clang-format; types of the pages" ;;
     tidy) echo "clang-tidy, without tests" ;;
     test) echo "tests, release build" ;;
     long) echo "long tests, release build" ;;
@@ -39,6 +39,7 @@ tree_digest() {
 }
 
 gate_format() {
+  tsc -p web
   git ls-files '*.h' '*.cpp' | xargs clang-format --dry-run --Werror
   git ls-files '*.h' '*.cpp' | wc -l | sed 's/$/ files/' >&3
 }

@@ -10,7 +10,7 @@ import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 TOP = ("base", "irace_core", "programs", "sim", "proto", "storage", "worker", "analysis", "coordinator", "console", "cli",
-       "tracking")
+       "tracking", "web")
 WORDS = ("SOURCES", "HEADERS", "PUBLIC", "PRIVATE")
 
 

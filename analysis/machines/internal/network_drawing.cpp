@@ -160,7 +160,7 @@ void draw_scale(Sketch& sketch, const Table& table) {
 Sketch sketch_of(const Network& network, double width_mm) {
   if (width_mm < kNarrowestMachine_mm) throw std::invalid_argument("the page is too narrow");
   const Table table = table_of(network, width_mm);
-  Sketch sketch{.width = width_mm, .height = 0, .shapes = {}};
+  Sketch sketch{.width = width_mm, .height = 0, .shapes = {}, .states = {}};
   draw_columns(sketch, table);
   draw_rows(sketch, table, network);
   draw_scale(sketch, table);

@@ -71,8 +71,16 @@ void Sketch::label(const std::vector<LabelLine>& lines) {
 
 Svg svg_of(const Sketch& sketch, std::string_view title, std::string_view description) {
   Svg svg(sketch.width, sketch.height, title, description);
-  for (const SketchShape& shape : sketch.shapes)
-    std::visit(SvgPen{&svg}, shape);
+  std::size_t state = 0;
+  for (std::size_t i = 0; i < sketch.shapes.size(); ++i) {
+    const bool is_part = state < sketch.states.size();
+    if (is_part && i == sketch.states[state].first) svg.begin_part("state", state);
+    std::visit(SvgPen{&svg}, sketch.shapes[i]);
+    if (is_part && i + 1 == sketch.states[state].second) {
+      svg.end_part();
+      ++state;
+    }
+  }
   return svg;
 }
 

@@ -2,6 +2,7 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -40,6 +41,8 @@ struct Sketch {
   double width = 0;
   double height = 0;
   std::vector<SketchShape> shapes;  ///< later ones on top
+  /// For each state, the first of its shapes and the one behind its last: in order, apart.
+  std::vector<std::pair<std::size_t, std::size_t>> states;
 
   /// A rectangle.
   void box(PagePoint top_left, double wide, double high, const Paint& paint);

@@ -43,14 +43,16 @@ void draw_leaves(Sketch& sketch, const SubtreeShape& shape, std::size_t number) 
   sketch.label(box.lines);
   paint = stroked(state_color(number), kStateWidth);
   paint.fill = state_fill(number);
+  const std::size_t first = sketch.shapes.size();
   sketch.shapes.emplace_back(SketchCircle{shape.action.centre, shape.action.width / 2, paint});
   sketch.label(shape.action.lines);
+  sketch.states.emplace_back(first, sketch.shapes.size());
 }
 
 }  // namespace
 
 Sketch sketch_of(const TreeLayout& layout) {
-  Sketch sketch{.width = layout.width, .height = layout.height, .shapes = {}};
+  Sketch sketch{.width = layout.width, .height = layout.height, .shapes = {}, .states = {}};
   for (std::size_t i = 0; i < layout.subtrees.size(); ++i)
     draw_edges(sketch, layout.subtrees[i], i);
   draw_node(sketch, layout, layout.root, kSequenceWithMemory, kInk);

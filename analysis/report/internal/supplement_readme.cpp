@@ -23,6 +23,10 @@ constexpr Kind kKinds[] = {
     {"report.html", "report.html", "",
      "results, statistics, modules, winners, races, what was asked, provenance; opens in any "
      "browser, offline"},
+    {"dashboard.html", "dashboard.html", "",
+     "the dashboard with all races, machines, parameters and some runs of the winners; opens in "
+     "any "
+     "browser, offline"},
     {"designs/*.html", "designs/", ".html",
      "a page a design: its winner, race, elites, parameters"},
     {"results.csv", "results.csv", "",

@@ -169,6 +169,16 @@ TEST(TreeDrawing, HasTheSignsAndTheNamesWithTheirParameters) {
   EXPECT_EQ(occurrences(svg, "<circle"), 2U);
 }
 
+TEST(TreeDrawing, NamesEachActionAsAPartForPagesThatLightItUp) {
+  const std::string svg = drawing_of(small_tree(), watermelon(), 84, "").svg.finish();
+  EXPECT_EQ(occurrences(svg, "<g data-state="), 2U);
+  EXPECT_EQ(occurrences(svg, "</g>"), 2U);
+  const std::string last = svg.substr(svg.find("<g data-state=\"1\">"));
+  const std::string part = last.substr(0, last.find("</g>"));
+  EXPECT_EQ(occurrences(part, "<circle"), 1U);
+  EXPECT_EQ(occurrences(part, "<path"), 0U);
+}
+
 TEST(TreeDrawing, IsTextOfGraphviz) {
   EXPECT_EQ(drawing_of(Tree{{{BlackFloor{0.5}, Stop{}}}}, watermelon(), 84, "d1 c7").dot,
             "digraph \"d1 c7\" {\n"

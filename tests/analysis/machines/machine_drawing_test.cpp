@@ -43,6 +43,16 @@ TEST(MachineSvg, HasNamesParametersAndTwoCirclesForTheInitialState) {
   EXPECT_EQ(occurrences(svg, "<circle"), 3U);
 }
 
+TEST(MachineSvg, NamesEachStateAsAPartForPagesThatLightItUp) {
+  const std::string svg = svg_of(small_layout(), "d1 c7");
+  EXPECT_EQ(occurrences(svg, "<g data-state="), 2U);
+  const std::string first = svg.substr(svg.find("<g data-state=\"0\">"));
+  const std::string part = first.substr(0, first.find("</g>"));
+  EXPECT_EQ(occurrences(part, "<circle"), 2U);
+  EXPECT_THAT(part, HasSubstr(">Exploration<"));
+  EXPECT_EQ(occurrences(svg, "</g>"), 2U);
+}
+
 TEST(MachineSvg, CanStandInAPageWithOthers) {
   const std::string svg = svg_of(small_layout(), "");
   for (const char* word : {" id=", "marker", "<style", "url(", "<defs"})

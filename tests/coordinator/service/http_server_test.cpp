@@ -1,14 +1,11 @@
 #include "coordinator/service/http_server.h"
 
 #include <gmock/gmock.h>
-#include <netinet/in.h>
-#include <sys/socket.h>
-#include <unistd.h>
-#include <array>
 #include <memory>
 #include <utility>
 #include <vector>
 
+#include "tests/support/http_peer.h"
 #include "tests/support/peak_memory.h"
 
 namespace swarmsmith {
@@ -28,48 +25,6 @@ HttpOptions on_loopback(int port = 0, bool next_port = false) {
 int port_of(const HttpServer& server) {
   const std::string address = server.address();
   return std::stoi(address.substr(address.rfind(':') + 1));
-}
-
-/// A connection of a peer that need not behave.
-class Peer {
- public:
-  explicit Peer(int port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
-    sockaddr_in address = {};
-    address.sin_family = AF_INET;
-    address.sin_port = htons(static_cast<std::uint16_t>(port));
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    const timeval patience{.tv_sec = 20, .tv_usec = 0};
-    setsockopt(socket_, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-    EXPECT_EQ(connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address), 0);
-  }
-  Peer(Peer&& other) noexcept : socket_(std::exchange(other.socket_, -1)) {}
-  Peer& operator=(Peer&&) = delete;
-  ~Peer() {
-    if (socket_ >= 0) ::close(socket_);
-  }
-
-  Peer& say(const std::string& text) {
-    (void)!::send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
-    return *this;
-  }
-  /// Until the other side closes.
-  std::string hear() {
-    std::string heard;
-    std::array<char, 65536> bytes{};
-    ssize_t got = 0;
-    while ((got = ::recv(socket_, bytes.data(), bytes.size(), 0)) > 0)
-      heard.append(bytes.data(), static_cast<std::size_t>(got));
-    return heard;
-  }
-
- private:
-  int socket_;
-};
-
-std::string get(int port, const std::string& path, const std::string& headers = "") {
-  return Peer(port)
-      .say("GET " + path + " HTTP/1.1\r\nHost: localhost\r\n" + headers + "\r\n")
-      .hear();
 }
 
 /// A fleet whose page is some megabytes long.
@@ -138,7 +93,7 @@ TEST(HttpServerTest, SlowConnectionsKeepNoProbeWaiting) {
   const auto server = HttpServer::start(on_loopback()).value();
   server->publish({});
   const int port = port_of(*server);
-  std::vector<Peer> slow;
+  std::vector<HttpPeer> slow;
   for (int i = 0; i < 900; ++i) {
     slow.emplace_back(port).say("GET /healthz HTT");
     if (i % 100 != 99) continue;
@@ -152,7 +107,7 @@ TEST(HttpServerTest, SlowReadersKeepNoProbeWaiting) {
   const auto server = HttpServer::start(on_loopback()).value();
   server->publish(large_status());
   const int port = port_of(*server);
-  std::vector<Peer> slow;
+  std::vector<HttpPeer> slow;
   for (int i = 0; i < 200; ++i)
     slow.emplace_back(port).say("GET /status HTTP/1.1\r\nHost: localhost\r\n\r\n");
   EXPECT_THAT(get(port, "/healthz"), EndsWith("ok\n"));
@@ -165,7 +120,7 @@ TEST(HttpServerTest, AHeadWithoutAnEndIsNoRequest) {
   std::string endless = "GET /healthz HTTP/1.1\r\nHost: localhost\r\n";
   while (endless.size() < 100'000)
     endless += "X: " + std::string(1000, 'a') + "\r\n";
-  EXPECT_EQ(Peer(port).say(endless).hear(), "");
+  EXPECT_EQ(HttpPeer(port).say(endless).hear(), "");
   EXPECT_THAT(get(port, "/healthz"), EndsWith("ok\n"));
 }
 

@@ -1,0 +1,102 @@
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <list>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace swarmsmith::cli {
+
+/// An answer as it goes out.
+struct KeptAnswer {
+  int status = 200;
+  std::string type;
+  std::string packed;  ///< its bytes, by gzip
+  std::string etag;
+  double seconds = 0;  ///< that it took
+  /// It is worth keeping: no error, and not cut short.
+  bool is_good = true;
+  bool is_final = false;  ///< it stays as it is
+};
+
+/// Answers that are the same for everybody who asks: equal questions at the same time share one
+/// computation, and the newest answers are kept, least recently used ones dropped.
+class AnswerCache {
+ public:
+  using Answer = std::shared_ptr<const KeptAnswer>;
+  using Clock = std::chrono::steady_clock;
+
+  explicit AnswerCache(std::size_t most_bytes) : most_bytes_(most_bytes) {}
+
+  /// The answer to `question`, made by `make` unless one is kept that is final, that was made of
+  /// the same `stamp` (empty: of no known one), or that is younger than `fresh`. `shared` is set
+  /// when nothing was made for this question.
+  Answer get(const std::string& question, const std::string& stamp, std::chrono::milliseconds fresh,
+             const std::function<KeptAnswer()>& make, bool& shared);
+  /// What was kept may be wrong now, but for what is final.
+  void forget();
+
+ private:
+  struct Kept {
+    std::string question;
+    std::string stamp;
+    Clock::time_point when;
+    Answer answer;
+  };
+  using Order = std::list<Kept>;  ///< newest use first
+
+  void keep(const std::string& question, const std::string& stamp, Clock::time_point when,
+            const Answer& answer);
+  static std::size_t weight(const Kept& kept);
+
+  std::size_t most_bytes_;
+  std::mutex mutex_;
+  Order order_;
+  std::map<std::string, Order::iterator> kept_;
+  std::map<std::string, std::shared_future<Answer>> under_way_;
+  std::size_t bytes_ = 0;
+  std::uint64_t forgotten_ = 0;
+};
+
+/// So many at a time, so many wait, the others are turned away.
+class Turnstile {
+ public:
+  Turnstile(int at_a_time, int waiting) : at_a_time_(at_a_time), most_waiting_(waiting) {}
+
+  /// A place, while it lives.
+  class Pass {
+   public:
+    explicit Pass(Turnstile& turnstile) : turnstile_(&turnstile) {}
+    ~Pass();
+    Pass(Pass&& other) noexcept : turnstile_(std::exchange(other.turnstile_, nullptr)) {}
+    Pass& operator=(Pass&& other) noexcept {
+      std::swap(turnstile_, other.turnstile_);
+      return *this;
+    }
+
+   private:
+    Turnstile* turnstile_;
+  };
+  /// Waits for a place; nothing when too many wait already.
+  std::optional<Pass> enter();
+  /// How many wait now.
+  int waiting();
+
+ private:
+  int at_a_time_;
+  int most_waiting_;
+  std::mutex mutex_;
+  std::condition_variable left_;
+  int inside_ = 0;
+  int waiting_ = 0;
+};
+
+}  // namespace swarmsmith::cli

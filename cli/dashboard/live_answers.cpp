@@ -1,0 +1,218 @@
+#include "cli/dashboard/live_answers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include "analysis/records/records.h"
+#include "base/id.h"
+#include "cli/output/stored_stages.h"
+#include "storage/rows.h"
+
+namespace swarmsmith::cli {
+namespace {
+
+using Cell = StoreReader::Cell;
+
+/// A version moves with all that pages show of a design: its steps, its state, its tests, what
+/// people asked of it. The last step may be of the iteration before: its survivors are not those
+/// who race now.
+constexpr const char* kDesigns =
+    "SELECT d.design AS id, d.mission, d.method, d.repetition, d.state, d.used, d.budget, "
+    "d.iteration, "
+    "coalesce((SELECT s.alive_after FROM race_step AS s WHERE s.design = d.design AND s.iteration "
+    "= "
+    "d.iteration ORDER BY s.step DESC LIMIT 1), (SELECT i.configurations FROM iteration AS i WHERE "
+    "i.design = d.design AND i.number = d.iteration)) AS alive, "
+    "d.best_candidate AS best, d.best_mean, "
+    "d.state NOT IN ('finished', 'stopped') AND coalesce((SELECT c.kind FROM v_commands AS c WHERE "
+    "c.design = d.design AND c.kind IN ('pause', 'resume') ORDER BY c.number DESC LIMIT 1), '') = "
+    "'pause' AS paused, "
+    "coalesce((SELECT max(s.step) FROM race_step AS s WHERE s.design = d.design), 0) + d.iteration "
+    "+ "
+    "(d.state = 'testing') + 2 * (d.state IN ('finished', 'stopped')) + "
+    "(SELECT count(*) FROM v_commands AS c WHERE c.design = d.design) AS version "
+    "FROM v_designs AS d ORDER BY d.design";
+
+/// A campaign that nobody runs does not run.
+void correct_states(Rows& rows) {
+  const auto state = std::ranges::find(rows.columns, "state") - rows.columns.begin();
+  for (auto& cells : rows.cells) {
+    std::string& text = cells[static_cast<std::size_t>(state)].text;
+    if (text == "running" || text == "racing" || text == "testing") text = "interrupted";
+  }
+}
+
+Cell& cell_of(Rows& rows, std::size_t row, std::string_view column) {
+  const auto at = std::ranges::find(rows.columns, column) - rows.columns.begin();
+  return rows.cells[row][static_cast<std::size_t>(at)];
+}
+
+Cell integer_cell(std::int64_t value) {
+  return {Cell::Type::Integer, std::to_string(value)};
+}
+
+/// What the coordinator's memory knows better.
+void update(Rows& designs, std::size_t row, const DesignStatus& now) {
+  cell_of(designs, row, "state") = {Cell::Type::Text, std::string(word_of(now.state))};
+  cell_of(designs, row, "used") = integer_cell(now.used);
+  cell_of(designs, row, "budget") = integer_cell(now.budget);
+  cell_of(designs, row, "paused") = integer_cell(now.paused ? 1 : 0);
+  if (now.best == 0) return;
+  cell_of(designs, row, "best") = integer_cell(now.best);
+  cell_of(designs, row, "best_mean") = {Cell::Type::Real, json_number(now.best_mean)};
+}
+
+JsonObject design_json(Rows& designs, std::size_t row, const DesignStatus* now) {
+  if (now != nullptr) update(designs, row, *now);
+  JsonObject object;
+  for (std::size_t column = 0; column < designs.columns.size(); ++column) {
+    const std::string& name = designs.columns[column];
+    const Cell& cell = designs.cells[row][column];
+    if (name == "paused") {
+      object.add(name, cell.text == "1");
+    } else if (name == "id" || name == "best") {
+      const char* letter = name == "id" ? "d" : "c";
+      object.add(name,
+                 cell.type == Cell::Type::Null ? std::nullopt : std::optional(letter + cell.text));
+    } else if (name != "stage" || !cell.text.empty()) {
+      object.add(name, cell_as_json(cell));
+    }
+  }
+  if (now != nullptr && !now->search.empty())
+    object.add("stage", now->stage).add("search", now->search);
+  return object;
+}
+
+}  // namespace
+
+Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written) {
+  StoredCampaignState state;
+  auto campaign = select(store,
+                         "SELECT c.name, c.digest, c.state, "
+                         "(SELECT coalesce(sum(d.used), 0) FROM v_designs AS d WHERE d.campaign = "
+                         "c.campaign) AS used, "
+                         "(SELECT coalesce(sum(CASE WHEN d.state IN ('finished', 'stopped') THEN "
+                         "d.used ELSE d.budget END), 0) FROM v_designs AS d WHERE d.campaign = "
+                         "c.campaign) AS budget FROM v_campaigns AS c ORDER BY c.campaign",
+                         kRecordLimits);
+  if (!campaign) return Unexpected(campaign.error());
+  auto designs = select(store, kDesigns, kRecordLimits);
+  if (!designs) return Unexpected(designs.error());
+  const auto event = select(store, "SELECT coalesce(max(seq), 0) FROM event", kRecordLimits);
+  if (!event) return Unexpected(event.error());
+  state.campaign = std::move(*campaign);
+  state.designs = std::move(*designs);
+  state.last_event = event->cells.front().front().text;
+  if (is_written) return state;
+  correct_states(state.campaign);
+  correct_states(state.designs);
+  return state;
+}
+
+JsonObject campaign_json(const std::string& c, const std::filesystem::path& file,
+                         const StoredCampaignState& state, const CampaignStatus* now,
+                         double left_s) {
+  Rows heads = state.campaign;
+  Rows designs = state.designs;
+  // Merged stores hold several.
+  std::string name;
+  std::string state_word;
+  std::int64_t used = 0;
+  std::int64_t budget = 0;
+  for (std::size_t i = 0; i < heads.cells.size(); ++i) {
+    name += (i == 0 ? "" : ", ") + cell_of(heads, i, "name").text;
+    if (i == 0 || state_word == "finished") state_word = cell_of(heads, i, "state").text;
+    used += std::atoll(cell_of(heads, i, "used").text.c_str());
+    budget += std::atoll(cell_of(heads, i, "budget").text.c_str());
+  }
+  if (now != nullptr) {
+    used = now->used;
+    budget = now->budget;
+  }
+  std::string list;
+  for (std::size_t i = 0; i < designs.cells.size(); ++i) {
+    const DesignStatus* live = nullptr;
+    if (now != nullptr) {
+      const auto found = std::ranges::find(
+          now->designs, std::atoll(cell_of(designs, i, "id").text.c_str()), &DesignStatus::id);
+      if (found != now->designs.end()) live = &*found;
+    }
+    list += (i == 0 ? "" : ",") + design_json(designs, i, live).text();
+  }
+  const bool moves = now != nullptr && left_s >= 0;
+  return std::move(JsonObject()
+                       .add("c", c)
+                       .add("name", name)
+                       .add("store", file.string())
+                       .add("digest", heads.cells.empty() ? "" : cell_of(heads, 0, "digest").text)
+                       .add("state", state_word)
+                       .add("used", used)
+                       .add("budget", budget)
+                       .add("eta_s", moves ? std::optional(left_s) : std::nullopt)
+                       .add("trouble", now != nullptr ? now->trouble : std::string())
+                       .add("last_event", JsonPiece{state.last_event})
+                       .add("designs", JsonPiece{"[" + list + "]"}));
+}
+
+void History::add(const LiveStatus& status, Time now) {
+  const double at = std::chrono::duration<double>(now.time_since_epoch()).count();
+  for (Ring& ring : rings_) {
+    const bool first = ring.samples.empty();
+    const double span = first ? 0 : at - ring.samples.back().at_s;
+    if (!first && span < ring.apart_s) continue;
+    Sample sample{.at_s = at,
+                  .evaluations_per_s = status.evaluations_per_s,
+                  .times = {},
+                  .slots = status.slots,
+                  .ready = status.ready,
+                  .uncommitted = status.uncommitted};
+    const SlotTimes& times = status.slot_times;
+    const double all = times.slots - ring.before.slots;
+    if (!first && all > 0) {
+      sample.times.busy = (times.busy - ring.before.busy) / all;
+      for (std::size_t i = 0; i < kIdleCauses; ++i)
+        sample.times.idle[i] = (times.idle[i] - ring.before.idle[i]) / all;
+      sample.evaluations_per_s = static_cast<double>(status.done - ring.done_before) / span;
+    }
+    ring.before = times;
+    ring.done_before = status.done;
+    ring.samples.push_back(sample);
+    if (ring.samples.size() > ring.most) ring.samples.pop_front();
+  }
+}
+
+JsonObject History::json(double after_s) const {
+  std::vector<const Sample*> shown;
+  // The coarse rings until the finer ones begin.
+  for (std::size_t i = rings_.size(); i-- > 0;) {
+    const double until = i == 0 || rings_[i - 1].samples.empty()
+                             ? std::numeric_limits<double>::infinity()
+                             : rings_[i - 1].samples.front().at_s;
+    for (const Sample& sample : rings_[i].samples)
+      if (sample.at_s > after_s && sample.at_s < until) shown.push_back(&sample);
+  }
+  const auto rounded = [](double value) { return std::round(value * 1000) / 1000; };
+  const auto column = [&](const auto& of) {
+    return json_list(shown, [&](const Sample* sample) { return of(*sample); });
+  };
+  JsonObject object;
+  object.add("v", 1)
+      .add("t_s", column([&](const Sample& s) { return rounded(s.at_s); }))
+      .add("evaluations_per_s",
+           column([&](const Sample& s) { return rounded(s.evaluations_per_s); }))
+      .add("busy", column([&](const Sample& s) { return rounded(s.times.busy); }));
+  for (std::size_t i = 0; i < kIdleCauses; ++i) {
+    std::string name(name_of(static_cast<IdleCause>(i)));
+    std::ranges::replace(name, '-', '_');
+    object.add(name, column([&](const Sample& s) { return rounded(s.times.idle[i]); }));
+  }
+  return std::move(object.add("slots", column([](const Sample& s) { return s.slots; }))
+                       .add("ready", column([](const Sample& s) { return s.ready; }))
+                       .add("uncommitted", column([](const Sample& s) { return s.uncommitted; })));
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,14 @@
+#pragma once
+
+#include "cli/dashboard/question.h"
+
+namespace swarmsmith::cli {
+
+/// A run, cycle by cycle: an evaluation (e81200007) or a candidate on a seed (c812-7), simulated
+/// again and compared with what is stored; or a real run (r7), as it was measured.
+Expected<Answer> trajectory_answer(const Question& question);
+
+/// The same as a table, with the bytes of `replay --csv`.
+Expected<Answer> trajectory_csv_answer(const Question& question);
+
+}  // namespace swarmsmith::cli

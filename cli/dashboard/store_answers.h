@@ -1,0 +1,25 @@
+#pragma once
+
+#include "cli/dashboard/question.h"
+
+namespace swarmsmith::cli {
+
+/// Of a store as a whole, of its designs and candidates.
+
+Expected<Answer> campaign_answer(const Question& question);
+Expected<Answer> events_answer(const Question& question);
+Expected<Answer> convergence_answer(const Question& question);
+Expected<Answer> design_answer(const Question& question);
+Expected<Answer> steps_answer(const Question& question);
+Expected<Answer> candidate_answer(const Question& question);
+Expected<Answer> evaluation_answer(const Question& question);
+Expected<Answer> scores_answer(const Question& question);
+Expected<Answer> leaderboard_answer(const Question& question);
+Expected<Answer> modules_answer(const Question& question);
+Expected<Answer> real_runs_answer(const Question& question);
+Expected<Answer> views_answer(const Question& question);
+
+/// Workers that the store knows, as `live` names their fields.
+Expected<JsonPiece> stored_workers(StoreReader& store, bool is_written);
+
+}  // namespace swarmsmith::cli

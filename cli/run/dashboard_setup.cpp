@@ -1,0 +1,60 @@
+#include "cli/run/dashboard_setup.h"
+
+#include <unistd.h>
+#include <system_error>
+#include <utility>
+
+#include "base/environment.h"
+#include "cli/run/ask_campaign.h"
+#include "coordinator/service/http_address.h"
+#include "storage/store.h"
+
+namespace swarmsmith::cli {
+
+std::unique_ptr<DashboardSetup> DashboardSetup::make(DashboardOptions options,
+                                                     const CoordinatorArgument& coordinator,
+                                                     Secret secret) {
+  std::unique_ptr<DashboardSetup> setup(new DashboardSetup());
+  bool may_act = secret == Secret::OfOnesOwn;
+  if (!may_act) {
+    const std::filesystem::path& store = options.stores.front().file;
+    const std::filesystem::path file = token_file_of(store);
+    if (secret == Secret::Joined && has_writer(store))
+      setup->token_ = read_token(file).value_or("");
+    if (setup->token_.empty()) {
+      setup->token_ = new_token();
+      // A store in somebody else's folder can be looked at, and no more.
+      if (write_token(file, setup->token_)) {
+        setup->file_ = file;
+      } else {
+        setup->token_.clear();
+      }
+    }
+    may_act = !setup->token_.empty();
+  }
+  if (may_act) {
+    options.act = [coordinator](const std::filesystem::path& store, const CommandRow& command) {
+      return ask_campaign(store, coordinator, command);
+    };
+  }
+  // The program that this is: what runs beside it is of the same version.
+  if (options.program.empty()) options.program = "/proc/self/exe";
+  setup->site_ = make_dashboard(std::move(options));
+  return setup;
+}
+
+DashboardSetup::~DashboardSetup() {
+  std::error_code none;
+  if (!file_.empty()) std::filesystem::remove(file_, none);
+}
+
+void DashboardSetup::announce(Output& output, const std::string& address) const {
+  const std::string secret = output.err_is_terminal && !token_.empty() ? "#t=" + token_ : "";
+  print_note(output, "dashboard: http://" + address + "/" + secret);
+  const auto parsed = parse_http_address(address);
+  if (environment("SSH_CONNECTION").empty() || !parsed || !is_loopback(*parsed)) return;
+  print_note(output, "from your desk: ssh -NL " + std::to_string(parsed->port) + ":" + address +
+                         " " + user_and_host());
+}
+
+}  // namespace swarmsmith::cli

@@ -1,0 +1,131 @@
+#include "cli/dashboard/answer_cache.h"
+
+#include <gmock/gmock.h>
+
+#include <atomic>
+#include <latch>
+#include <thread>
+#include <vector>
+
+namespace swarmsmith::cli {
+namespace {
+
+using std::chrono::hours;
+using std::chrono::milliseconds;
+
+KeptAnswer of(const std::string& bytes) {
+  KeptAnswer answer;
+  answer.packed = bytes;
+  return answer;
+}
+
+std::string get(AnswerCache& cache, const std::string& question, const std::string& stamp,
+                const KeptAnswer& fresh, milliseconds young = milliseconds(0)) {
+  bool shared = false;
+  return cache
+      .get(
+          question, stamp, young, [&] { return fresh; }, shared)
+      ->packed;
+}
+
+TEST(AnswerCacheTest, AnswersOfTheSameStampAreKept) {
+  AnswerCache cache(1 << 20);
+  EXPECT_EQ(get(cache, "race", "1", of("a")), "a");
+  EXPECT_EQ(get(cache, "race", "1", of("b")), "a");
+  EXPECT_EQ(get(cache, "race", "2", of("b")), "b") << "the store has moved on";
+  EXPECT_EQ(get(cache, "race", "", of("c")), "c") << "the store moves";
+  EXPECT_EQ(get(cache, "race", "", of("d")), "d");
+}
+
+TEST(AnswerCacheTest, YoungAndFinalAnswersAreKept) {
+  AnswerCache cache(1 << 20);
+  EXPECT_EQ(get(cache, "live", "", of("a"), hours(1)), "a");
+  EXPECT_EQ(get(cache, "live", "", of("b"), hours(1)), "a");
+  KeptAnswer last = of("over");
+  last.is_final = true;
+  EXPECT_EQ(get(cache, "race 3", "1", last), "over");
+  EXPECT_EQ(get(cache, "race 3", "2", of("b")), "over");
+  cache.forget();
+  EXPECT_EQ(get(cache, "live", "", of("b"), hours(1)), "b");
+  EXPECT_EQ(get(cache, "race 3", "3", of("b")), "over");
+}
+
+TEST(AnswerCacheTest, ErrorsAreNotKept) {
+  AnswerCache cache(1 << 20);
+  KeptAnswer error = of("no");
+  error.is_good = false;
+  EXPECT_EQ(get(cache, "race", "1", error, hours(1)), "no");
+  EXPECT_EQ(get(cache, "race", "1", of("yes"), hours(1)), "yes");
+}
+
+TEST(AnswerCacheTest, WhatWasNotAskedForGoesFirst) {
+  AnswerCache cache(10'000);
+  const std::string large(4'000, 'x');
+  get(cache, "1", "s", of(large));
+  get(cache, "2", "s", of(large));
+  get(cache, "1", "s", of("again"));
+  get(cache, "3", "s", of(large));
+  EXPECT_EQ(get(cache, "1", "s", of("new")), large);
+  EXPECT_EQ(get(cache, "2", "s", of("new")), "new");
+}
+
+TEST(AnswerCacheTest, EqualQuestionsShareOneComputation) {
+  AnswerCache cache(1 << 20);
+  constexpr int kAskers = 8;
+  std::atomic<int> made = 0;
+  std::atomic<int> shared_by = 0;
+  std::latch begun(1);
+  std::latch others(kAskers - 1);
+  const auto ask = [&](bool first) {
+    bool shared = false;
+    if (!first) {
+      begun.wait();
+      others.count_down();
+    }
+    const auto answer = cache.get(
+        "race", "", hours(1),
+        [&] {
+          ++made;
+          begun.count_down();
+          // They ask while this is under way, or find it kept.
+          others.wait();
+          return of("a");
+        },
+        shared);
+    if (shared) ++shared_by;
+    EXPECT_EQ(answer->packed, "a");
+  };
+  std::vector<std::jthread> askers;
+  askers.emplace_back(ask, true);
+  for (int i = 1; i < kAskers; ++i)
+    askers.emplace_back(ask, false);
+  askers.clear();
+  EXPECT_EQ(made, 1);
+  EXPECT_EQ(shared_by, kAskers - 1);
+}
+
+TEST(TurnstileTest, SomePassSomeWaitOthersAreTurnedAway) {
+  Turnstile turnstile(2, 1);
+  auto first = turnstile.enter();
+  auto second = turnstile.enter();
+  ASSERT_TRUE(first.has_value());
+  ASSERT_TRUE(second.has_value());
+  std::atomic<bool> inside = false;
+  std::jthread waiting([&] {
+    const auto pass = turnstile.enter();
+    inside = pass.has_value();
+  });
+  // Whoever waits takes the only place of those who wait: from then on all others are refused.
+  while (turnstile.waiting() == 0)
+    std::this_thread::yield();
+  EXPECT_FALSE(turnstile.enter().has_value());
+  EXPECT_FALSE(inside);
+  first.reset();
+  waiting.join();
+  EXPECT_TRUE(inside);
+  second.reset();
+  EXPECT_TRUE(turnstile.enter().has_value());
+}
+
+}  // namespace
+}  // namespace swarmsmith::cli

@@ -1,0 +1,195 @@
+// Answers of the HTTP API (docs/http-api.md). Ids are texts with letters where one thing is meant
+// ("d3"), numbers in columns. Times end in _s and are seconds, or are UTC texts.
+
+export interface Design {
+  id: string;
+  mission: string;
+  method: string;
+  repetition: number;
+  state: "waiting" | "racing" | "testing" | "finished" | "stopped" | "interrupted";
+  used: number;
+  budget: number;
+  iteration: number;
+  alive: number | null;
+  best: string | null;
+  best_mean: number | null;
+  paused: boolean;
+  /// Moves when something of the design is new.
+  version: number;
+  stage?: string;
+  search?: string;
+}
+
+export interface Campaign {
+  c: string;
+  name: string;
+  store: string;
+  digest: string;
+  state: string;
+  used: number;
+  budget: number;
+  eta_s: number | null;
+  /// Why its store cannot be written; empty when well.
+  trouble: string;
+  last_event: number;
+  designs: Design[];
+}
+
+export interface SlotTimes {
+  slots_s: number;
+  busy_s: number;
+  idle_s: Record<string, number>;
+}
+
+/// As /status, without campaigns and fleet.
+export interface Status {
+  workers: number;
+  slots: number;
+  ready: number;
+  leased: number;
+  credit: number;
+  done: number;
+  rejected: number;
+  failed: number;
+  requeued: number;
+  expired: number;
+  duplicates: number;
+  conflicts: number;
+  unknown: number;
+  unleased: number;
+  quarantined: number;
+  lost_workers: number;
+  reconnects: number;
+  malformed: number;
+  uncommitted: number;
+  gone_workers: number;
+  uptime_s: number;
+  evaluations_per_s: number;
+  used_per_s: number;
+  trouble: string;
+  insecure_plaintext: boolean;
+  refused: Record<string, number>;
+  launcher: { name: string; wanted: number; running: number; pending: number; waits_for: string; note: string };
+  eta_s: number | null;
+  slot_times: SlotTimes;
+  slot_times_last_minute: SlotTimes;
+}
+
+export interface Live {
+  v: number;
+  boot: string;
+  now: string;
+  host: string;
+  user: string;
+  pid: number;
+  version: string;
+  engine: number | string;
+  may_act: boolean;
+  running: boolean;
+  status: Status | null;
+  campaigns: Campaign[];
+}
+
+export interface Worker {
+  number: number;
+  state: string;
+  host: string;
+  job: string;
+  client: string;
+  slots: number;
+  held: number;
+  running: number;
+  done: number;
+  failed: number;
+  connections: number;
+  done_per_s: number;
+  busy: number;
+  last_heard_s: number;
+}
+
+export type Cell = string | number | null;
+
+/// Rows of a view, by column.
+export type Columns = Record<string, Cell[]>;
+
+export interface Rows {
+  columns: string[];
+  rows: Cell[][];
+  truncated: boolean;
+  seconds: number;
+}
+
+export interface Event {
+  seq: number;
+  at: string;
+  severity: string;
+  kind: string;
+  data: unknown;
+}
+
+export interface Race {
+  iteration: number;
+  ended: boolean;
+  rows_total: number;
+  steps: number[];
+  pairs: number[];
+  instances: number[];
+  seeds: number[];
+  markers: string[];
+  /// Candidates alive after the step.
+  alive: number[];
+  p_value: (number | null)[];
+  best: (number | null)[];
+  mean_best: (number | null)[];
+  candidates: number[];
+  /// Rank among the elites; null for none.
+  elite_before: (number | null)[];
+  elite_after: (number | null)[];
+  /// The step that dropped the candidate; null: it is alive, or was at the end.
+  dropped_at: (number | null)[];
+  reasons: (string | null)[];
+  /// [step][i] of candidate i; a candidate that was dropped before has none.
+  scores: (number | null)[][];
+}
+
+export interface Iteration {
+  iteration: number;
+  planned: number;
+  budget: number;
+  configurations: number;
+  elites: number;
+  soft_restart: number;
+  postselection: number;
+}
+
+export interface Elite {
+  iteration: number;
+  rank: number;
+  candidate: number;
+  mean: number | null;
+  n: number;
+  experiments_used: number;
+}
+
+export interface DesignAnswer {
+  design: { seed: number; reason: string | null; flavour: string; name: string } & Record<string, Cell>;
+  iterations: Iteration[];
+  elites: Elite[];
+  /// Without a flavour: of a program.
+  machine: { candidate: number; text: string; flavour: string } | null;
+  tests: { n: number; mean: number; low: number; high: number } | null;
+  commands: { number: number; at: string; who: string; kind: string; step: number | null; budget: number | null }[];
+}
+
+/// Rings of the coordinator's memory: shares of the slots' time by cause, since the process began.
+export interface History {
+  t_s: number[];
+  evaluations_per_s: (number | null)[];
+  [name: string]: any;
+}
+
+export interface View {
+  name: string;
+  text: string;
+  columns: { name: string; text: string }[];
+}
