@@ -1,6 +1,7 @@
 #include "cli/dashboard/figure_answers.h"
 
 #include <array>
+#include <optional>
 #include <utility>
 
 #include "analysis/comparison/comparison.h"
@@ -75,6 +76,25 @@ Expected<Answer> nothing_or_error(const Error& error) {
   return json_answer(answer_object().add("nothing", error.message));
 }
 
+/// A snapshot has picture and table of each figure, one after the other: what takes a second is
+/// made once for both.
+Expected<Figure> made(const FigureKind& kind, const Question& question,
+                      const FigureOptions& options) {
+  if (!question.is_snapshot) return kind.make(question.store, options);
+  thread_local std::optional<std::pair<std::string, Figure>> last;
+  std::string key = question.file.string() + '\n' + std::string(kind.name);
+  for (const auto& [name, value] : question.parameters)
+    key += '\n' + name + '=' + value;
+  if (last && last->first == key) {
+    Figure figure = std::move(last->second);
+    last.reset();
+    return figure;
+  }
+  auto figure = kind.make(question.store, options);
+  if (figure) last = std::pair(std::move(key), *figure);
+  return figure;
+}
+
 }  // namespace
 
 Expected<Answer> figure_answer(const Question& question) {
@@ -95,7 +115,7 @@ Expected<Answer> figure_answer(const Question& question) {
     return Unexpected(in_words_of_addresses(*refused));
   if (const auto missing = missing_in(question.store, *options))
     return Unexpected(in_words_of_addresses(*missing));
-  auto figure = kind->make(question.store, *options);
+  auto figure = made(*kind, question, *options);
   if (!figure) return nothing_or_error(figure.error());
   if (ending == ".csv") return Answer{.type = kCsvType, .body = std::move(figure->csv)};
   return Answer{.type = kSvgType, .body = std::move(figure->svg)};

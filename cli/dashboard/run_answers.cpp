@@ -69,7 +69,7 @@ Expected<StoredRun> find_run(const Question& question, const RunName& name) {
   auto run = runs->candidate(name.id, name.seed);
   if (!run || name.profile.empty() || name.profile == run->profile.name) return run;
   auto profile = built_in_profile(name.profile);
-  if (!profile) return Unexpected(profile.error());
+  if (!profile) return bad_input(profile.error().message, name.profile);
   run->profile = std::move(*profile);
   // What the store has of that seed was made under its own profile.
   run->id.clear();

@@ -112,8 +112,8 @@ class Page:
         return self.browser.call(method, self.session, **parameters)
 
     def close(self):
-        self.browser.call("Target.disposeBrowserContext", browserContextId=self.context)
-        del self.browser.pages[self.session]
+        if self.browser.pages.pop(self.session, None):
+            self.browser.call("Target.disposeBrowserContext", browserContextId=self.context)
 
     def happened(self, method, event):
         if method == "Runtime.exceptionThrown":

@@ -94,7 +94,7 @@ class Pages(DashboardTest):
                 if name not in ("store", "meta", "campaign"):
                     connection.execute(f'DELETE FROM "{name}"')
         serving = self.dashboard(empty)
-        for address in ("#/", "#/c1", "#/c1/results", "#/c1/machines", "#/c1/modules", "#/fleet", "#/c1/sql", "#/c1/d1", "#/c9", "#/nowhere"):
+        for address in ("#/", "#/c1", "#/c1/results", "#/c1/machines", "#/c1/modules", "#/fleet", "#/c1/sql?q=SELECT 1 WHERE 0", "#/c1/d1", "#/c9", "#/nowhere"):
             with self.subTest(page=address):
                 page = shared_browser().page()
                 page.open(serving.address + address, "document.querySelector('main .empty')")

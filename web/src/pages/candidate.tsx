@@ -96,7 +96,7 @@ class CandidatePage extends Component<PageProps, {}> {
             ]} />
         </Panel>
         <Panel title="Later scores">
-          <Table<Later> name="l" caption={`later scores of ${id}`} rows={later} page_size={15}
+          <Table<Later> name="l" caption={`later scores of ${id}`} rows={later} row_key={(row) => row.id} page_size={15}
             empty={<span>None. Winners are tested at a design's end; any candidate is scored by <code>swarmsmith evaluate {id} --store {shell_word(store)} --seeds 1-10</code></span>} columns={[
               { key: "purpose" },
               { key: "source" },
