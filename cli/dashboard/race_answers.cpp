@@ -77,7 +77,8 @@ Expected<std::map<std::int64_t, std::int64_t>> elites_of(const Question& questio
   return ranks;
 }
 
-/// The iteration that is asked for, else the last one that has begun.
+/// The iteration that is asked for, else the last one that has a step: most of an iteration's time
+/// goes before its first step ends, and a page shows the race before it until then.
 Expected<std::int64_t> iteration_of(const Question& question) {
   const auto last = rows_of(question, fmt::format("SELECT coalesce(max(iteration), 0) FROM "
                                                   "v_iterations WHERE design = {}",
@@ -88,7 +89,12 @@ Expected<std::int64_t> iteration_of(const Question& question) {
     return unexpected(ErrorKind::NotFound, "no iteration has begun yet",
                       to_string(question.design));
   }
-  const auto asked = question.integer("iteration", newest, 1, kMostIterations);
+  const auto stepped = rows_of(question, fmt::format("SELECT coalesce(max(iteration), {}) FROM "
+                                                     "v_race_steps WHERE design = {}",
+                                                     newest, question.design.value));
+  if (!stepped) return Unexpected(stepped.error());
+  const auto asked =
+      question.integer("iteration", integer_of(stepped->cells.front().front()), 1, kMostIterations);
   if (!asked || *asked <= newest) return asked;
   return unexpected(ErrorKind::NotFound,
                     fmt::format("the design has no such iteration; it has 1 to {}", newest),
@@ -242,7 +248,11 @@ Expected<Answer> race_answer(const Question& question) {
   const auto from = question.integer("from", 0, 0, 1'000'000);
   if (!from) return Unexpected(from.error());
   const auto iteration = iteration_of(question);
-  if (!iteration) return Unexpected(iteration.error());
+  if (!iteration) {
+    if (iteration.error().kind != ErrorKind::NotFound || !question.text("iteration").empty())
+      return Unexpected(iteration.error());
+    return json_answer(answer_object().add("nothing", iteration.error().message));
+  }
   const auto race = read_race(question, *iteration);
   if (!race) return Unexpected(race.error());
   const auto over = rows_of(

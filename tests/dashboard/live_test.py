@@ -49,6 +49,11 @@ class Proxy(http.server.BaseHTTPRequestHandler):
 class Live(DashboardTest):
     budget = 60000
 
+    def setUp(self):
+        super().setUp()
+        # Four designs, so that it does not end while it is looked at.
+        self.file.write_text(self.file.read_text().replace("[campaign]", "[campaign]\nrepetitions = 4"))
+
     def running(self, http="127.0.0.1:*"):
         self.store = self.folder / "live.db"
         return self.start_serving("run", self.file, "--store", self.store, "--workers", "1", "--http", http)

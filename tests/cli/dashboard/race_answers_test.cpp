@@ -5,6 +5,7 @@
 #include <map>
 #include <utility>
 
+#include "storage/internal/sqlite.h"
 #include "tests/cli/dashboard/asking.h"
 
 namespace swarmsmith::cli {
@@ -115,6 +116,17 @@ TEST_F(RaceAnswersTest, TheLastIterationIsTheUsualOne) {
   EXPECT_EQ(asking.error("c1/designs/d1/race", {{"iteration", "4"}}), "404 not_found");
   EXPECT_EQ(asking.error("c1/designs/d1/race", {{"iteration", "0"}}), "400 bad_input");
   EXPECT_EQ(asking.error("c1/designs/d8/race"), "404 not_found");
+}
+
+TEST_F(RaceAnswersTest, UntilItsFirstStepARaceIsNotShown) {
+  const auto change = [&](const std::string& sql) {
+    sqlite::Connection(store_, SQLITE_OPEN_READWRITE).execute(sql);
+  };
+  change("DELETE FROM race_step WHERE design = 1 AND iteration = 3");
+  EXPECT_EQ(Asking(store_).json("c1/designs/d1/race")["iteration"], 2);
+  EXPECT_EQ(Asking(store_).json("c1/designs/d1/race", {{"iteration", "3"}})["steps"].size(), 0U);
+  change("PRAGMA foreign_keys = OFF; DELETE FROM iteration WHERE design = 1");
+  EXPECT_FALSE(Asking(store_).json("c1/designs/d1/race")["nothing"].get<std::string>().empty());
 }
 
 TEST_F(RaceAnswersTest, StepsAreThoseAfterTheOneNamed) {
