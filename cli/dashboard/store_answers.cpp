@@ -71,7 +71,8 @@ struct Happening {
   std::string data;
 };
 
-/// A list of things that happened, its first column the time.
+/// A list of things that happened, its first column the time. Audits that found the same bits, some
+/// a second, are none: they would hide all else.
 struct List {
   const char* kind;
   const char* severity;
@@ -89,7 +90,7 @@ constexpr std::array<List, 4> kLists = {{
     {"attempt", "info",
      "SELECT at, id, 'd' || design AS design, 'c' || candidate AS candidate, attempt, worker, "
      "host, "
-     "held_ms, outcome FROM v_attempts WHERE {} ORDER BY at DESC"},
+     "held_ms, outcome FROM v_attempts WHERE outcome <> 'audited' AND {} ORDER BY at DESC"},
     {"conflict", "error",
      "SELECT * FROM (SELECT time AS at, 'c' || candidate AS candidate, pair, kept_score, "
      "other_score, other_worker FROM conflict) WHERE {} ORDER BY at DESC"},

@@ -61,7 +61,7 @@ export function said(value: unknown): string {
   if (value === null || value === undefined || value === "") return "";
   if (typeof value === "number") return number(value, 6);
   if (typeof value !== "object") return String(value);
-  return Object.entries(value as Record<string, unknown>).filter(([, part]) => part !== null && part !== "")
+  return Object.entries(value as Record<string, unknown>).filter(([name, part]) => part !== null && part !== "" && name !== "at")
     .map(([name, part]) => Array.isArray(value) ? said(part) : `${words(name)} ${said(part)}`).join(", ");
 }
 

@@ -68,9 +68,10 @@ class Data extends Component<PageProps, { sql: string; asked: string; error: Api
             <button class="quiet" onClick={() => this.run(`SELECT * FROM ${view.name} LIMIT 100`)}>first 100 rows</button>
           </details>)}</div>} />
         </Panel>
-        {asked && <Panel wide title="Result">
+        <Panel wide title="Result">
           {error && <Failure error={error} />}
-          <Get<Rows> key={asked} path={path_of(`${c}/query`, { sql: asked })} render={(rows) => this.result(rows)} /></Panel>}
+          {asked ? <Get<Rows> key={asked} path={path_of(`${c}/query`, { sql: asked })} render={(rows) => this.result(rows)} />
+            : <Empty>Ask something, and the answer stands here.</Empty>}</Panel>
       </div>
     </div>;
   }

@@ -115,7 +115,7 @@ class DesignPage extends Component<PageProps, {}> {
             : <Iterations c={c} design={design} iterations={iterations} elites={elites} />}
         </Panel>
         <Panel title={last > 0 ? `Elites after iteration ${last}` : "Elites"}>
-          <Table<Elite> name="el" caption={`Elites after iteration ${last}`} rows={elites.filter((elite) => elite.iteration === last)} 
+          <Table<Elite> name="el" page_size={10} caption={`Elites after iteration ${last}`} rows={elites.filter((elite) => elite.iteration === last)} 
             empty="No iteration has ended yet: elites come after the first."
             columns={[
               { key: "rank" },

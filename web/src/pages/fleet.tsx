@@ -36,7 +36,7 @@ function SlotTime({ status }: { status: Status }) {
     <div class="split" aria-hidden="true">{kCauses.map((cause) => <span style={{ width: `${100 * part(minute, cause.name)}%`, background: cause.color }} />)}</div>
     <Table<Cause> name="t" caption="Slot time by cause" rows={kCauses.filter((cause) => seconds_of(whole_time, cause.name) > 0)}
       columns={[
-        { key: "name", label: "cause", show: (cause) => <span><span class="swatch" style={{ background: cause.color }} /> {cause.name}</span> },
+        { key: "name", label: "cause", show: (cause) => <span class="meter-cell"><span class="swatch" style={{ background: cause.color }} /> {cause.name}</span> },
         { key: "minute", label: "last minute", value: (cause) => part(minute, cause.name), show: (cause) => percent(part(minute, cause.name)) },
         { key: "all", label: "since start", value: (cause) => part(whole_time, cause.name), show: (cause) => percent(part(whole_time, cause.name)) },
         { key: "what", label: "because" },

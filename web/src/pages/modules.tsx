@@ -45,7 +45,7 @@ class Modules extends Component<PageProps, {}> {
     const choice = (name: string, value: string, values: string[]) =>
       <Choice label={name} name={name} value={value} options={[["all", ""], ...values.map((one): [string, string] => [words(one), one])]} />;
     const distinct = (of: (one: Design) => string) => [...new Set(campaign.designs.map(of))].sort();
-    const nothing = <Empty>{finished === 0 ? "No design has finished yet: modules are counted in the machines that won." : "No winner here is a machine of modules: networks and parameters of programs have none."}</Empty>;
+    const nothing = <Panel title="How often winners have each module"><Empty>{finished === 0 ? "No design has finished yet: modules are counted in the machines that won." : "No winner here is a machine of modules: networks and parameters of programs have none."}</Empty></Panel>;
     const version = version_of(campaign);
     return <div>
       <h1>Modules <span class="light">of the winners of {finished === 1 ? "1 finished design" : `${finished} finished designs`}</span></h1>

@@ -367,9 +367,9 @@ class RacePage extends Component<PageProps, { who: boolean }> {
     const { c } = campaign;
     const newest = Math.max(1, design.iteration);
     const iteration = params.iteration ? Number(params.iteration) : null;
-    const moves = iteration === null || iteration === design.iteration;
-    const to = (n: number) => go(href([c, design.id, "race", String(n)]));
     const shown = iteration ?? newest;
+    const moves = shown === design.iteration;
+    const to = (n: number) => go(href([c, design.id, "race", String(n)]));
     return <div>
       <DesignTitle c={c} design={design} />
       <div class="slider"><label for="iteration">iteration {shown}{shown > newest ? `; the newest is ${newest}` : ` of ${newest}`}</label>
@@ -380,7 +380,7 @@ class RacePage extends Component<PageProps, { who: boolean }> {
       </div>
       {design.iteration === 0 ? <Empty>{design.state === "finished" ? "No race: this method takes what it is given, or what it draws."
         : "No step of the race has ended yet: its cells come one by one."}</Empty>
-        : <Get<Race> path={path_of(`${c}/designs/${design.id}/race`, { iteration, rows: query.rows && Number(query.rows) !== kRows ? query.rows : null })} keep
+        : <Get<Race> path={path_of(`${c}/designs/${design.id}/race`, { iteration: shown, rows: query.rows && Number(query.rows) !== kRows ? query.rows : null })} keep
           version={moves ? design.version : "ended"} render={(race) => this.show(campaign, design, race)} missing={(error) => <Empty>{error.message}</Empty>} />}
     </div>;
   }
