@@ -83,7 +83,7 @@ class Live(DashboardTest):
         for address in ("#/", "#/c1/d1", "#/c1/d1/race", "#/c1/d1/space", "#/c1/machines", "#/c1/modules", "#/c1/results", "#/fleet", "#/c1/sql"):
             with self.subTest(page=address):
                 page = self.page(serving, address)
-                page.wait("document.querySelectorAll('main .panel').length > 0")
+                page.wait("document.querySelector('main .panel, main .empty')")
                 self.assertEqual(page.js(looks.CONTRAST), [])
                 self.assertEqual(looks.nameless(page), [])
                 self.keep(page, "running-" + (re.sub(r"\W+", "-", address).strip("-") or "campaigns"))

@@ -134,7 +134,7 @@ class Runs(DashboardTest):
         page = self.page(serving, "#/c1/d1/space?p=NumStates,S0", "document.querySelector('.canvas canvas')")
         sample = serving.get("c1/designs/d1/parameters?sample=1000")
         x, y, width, height = page.js("(() => { const b = document.querySelector('.canvas canvas').getBoundingClientRect(); return [b.x, b.y, b.width, b.height] })()")
-        axis = x + 66
+        axis = x + 74
         page.mouse("mouseMoved", axis, y + 30)
         page.mouse("mousePressed", axis, y + 30)
         page.mouse("mouseMoved", axis, y + 80)

@@ -28,7 +28,7 @@ export interface Axis {
 /// From and to, as parts of the axis: 0 is its foot.
 export interface Brush { from: number; to: number }
 
-const kTop = 34, kFoot = 40, kSide = 66;
+const kTop = 34, kFoot = 40, kSide = 74;
 
 /// Whether candidates differ in it; those without a value count as one more.
 export function varies(values: Cell[]): boolean {

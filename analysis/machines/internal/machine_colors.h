@@ -32,7 +32,7 @@ inline std::string fill_of(const MachineLayout& layout, std::size_t state) {
   return layout.states[state].reachable ? state_fill(state) : "#f6f6f6";
 }
 
-inline constexpr std::string_view kGreyText = "#8c8c8c";
+inline constexpr std::string_view kGreyText = "#6b6b6b";
 
 /// Lengths of strokes and gaps, mm; empty for a full line.
 inline std::string_view state_dashes(std::size_t state) {

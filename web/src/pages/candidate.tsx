@@ -88,11 +88,11 @@ class CandidatePage extends Component<PageProps, {}> {
           <Table<(typeof rows)[0]> name="r" caption={`scores of ${id} by pair`} rows={rows} row_key={(row) => `${row.iteration} ${row.pair}`} page_size={15}
             empty="It has not run yet." columns={[
               { key: "pair" },
-              { key: "instance" },
-              { key: "seed" },
-              { key: "iteration" },
               { key: "score", show: (row) => row.score === null ? "rejected" : number(row.score) },
               { key: "run", show: (row) => <a href={href([c, "runs", row.id])} aria-label={`watch ${row.id}`}>watch</a> },
+              { key: "seed" },
+              { key: "instance" },
+              { key: "iteration" },
             ]} />
         </Panel>
         <Panel title="Later scores">

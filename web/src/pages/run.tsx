@@ -372,7 +372,7 @@ class RunPage extends Component<PageProps, State> {
 
   private bits(run: Trajectory) {
     if (run.verdict) return <span>{run.verdict}</span>;
-    if (run.same_bits === null) return <span class="faint">nothing stored to compare with</span>;
+    if (run.same_bits === null) return <span class="faint small">nothing stored to compare with</span>;
     return run.same_bits ? <span class="good" title={`state digest ${run.digest}`}>✓ same bits</span>
       : <span class="warn">differs: the store has {number(run.stored_score)}</span>;
   }
@@ -391,7 +391,7 @@ class RunPage extends Component<PageProps, State> {
           return <tr class={chosen === at ? "chosen" : ""}>
             <th scope="row"><button class="quiet" aria-pressed={chosen === at ? "true" : "false"}
               onClick={() => this.setState({ chosen: chosen === at ? null : at })}>
-              <svg class="swatch" viewBox="0 0 10 10" aria-hidden="true"><circle cx="5" cy="5" r="4.5" fill={kDistinct[(state ?? at) % kDistinct.length]} /></svg>
+              <svg class="dot" viewBox="0 0 10 10" aria-hidden="true"><circle cx="5" cy="5" r="4.5" fill={kDistinct[(state ?? at) % kDistinct.length]} /></svg>
               {at}{robot.name ? ` ${robot.name}` : ""}</button></th>
             <td>{doing(run, at, cycle) || "–"}</td>{has_kinds && <td>{value_at(robot.kind, cycle) ?? "–"}</td>}
             <td class="n">{pose ? metres(pose.x) : "–"}</td><td class="n">{pose ? metres(pose.y) : "–"}</td></tr>;

@@ -155,7 +155,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
           {whole(elites)} {elites === 1 ? "was an elite" : "were elites"} (vermilion, bold).
           {Object.keys(brushes).length > 0 && <span> <b data-what="chosen">{whole(count)}</b> in the chosen ranges. <button onClick={() => set_query({ b: null })}>All ranges</button></span>}</p>
         {axes.length === 0 ? <Empty>No parameter is shown: choose some above.</Empty> : <div class="scroll" tabIndex={0} role="region" aria-label="parallel coordinates">
-          <div style={{ minWidth: `${132 + 74 * (axes.length - 1)}px` }}>
+          <div style={{ minWidth: `${148 + 74 * (axes.length - 1)}px` }}>
             <Canvas label={`Parallel coordinates of ${axes.length} parameters and ${count} candidates. Their ranges and values are in the tables below.`}
               height={() => 400}
               draw={(pen, width, height, inks: Inks) => { this.width = width; this.height = height; draw_parallel(pen, plot, width, height, inks, is_dark()); }}
