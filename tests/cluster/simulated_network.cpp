@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "coordinator/service/paused_designs.h"
+#include "proto/task_messages.h"
 #include "proto/wire.h"
 
 namespace swarmsmith::cluster {
