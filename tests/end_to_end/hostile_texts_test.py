@@ -51,6 +51,7 @@ ARGUMENTS = {
     "import": [["{file}", "--into", "{store}"]],
     "report": [["{store}", "-o", "{new}.html"]],
     "supplement": [["{store}", "-o", "{new}"]],
+    "dashboard": [["{store}", "--export", "{new}.html"], ["{store}", "--http", "{store}"]],
     "backup": [["{store}", "{new}.db"]],
     "merge": [["{store}", "{store}", "-o", "{new}.db"]],
     "recover": [["{store}", "-o", "{new}.db"]],

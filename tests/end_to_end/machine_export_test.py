@@ -36,7 +36,7 @@ class MachineExport(ProgramTest):
         svg = ElementTree.fromstring(self.export("svg", "--width", "174mm"))
         self.assertEqual(svg.get("width"), "174mm")
         # The initial state has two circles.
-        self.assertEqual(len(svg.findall(SVG + "circle")), states + 1)
+        self.assertEqual(len(svg.findall(f".//{SVG}circle")), states + 1)
         curves = [path for path in svg.findall(SVG + "path") if "Q" in path.get("d")]
         self.assertEqual(len(curves), transitions)
         tikz = self.export("tikz")

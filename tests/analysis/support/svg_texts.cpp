@@ -91,18 +91,25 @@ std::vector<double> coordinates(std::string_view data) {
   return values;
 }
 
-/// Where the group begins that an element stands in; 0, 0 outside of groups.
+/// Where the groups begin that an element stands in; 0, 0 outside of groups.
 std::pair<double, double> origin_of(std::string_view svg, std::string_view element) {
   const std::string_view before =
       svg.substr(0, static_cast<std::size_t>(element.data() - svg.data()));
-  constexpr std::string_view kGroup = "<g transform=\"translate(";
-  const std::size_t group = before.rfind(kGroup);
-  const std::size_t end = before.rfind("</g>");
-  if (group == std::string_view::npos) return {0, 0};
-  if (end != std::string_view::npos && end > group) return {0, 0};
-  const std::vector<double> at = coordinates(
-      before.substr(group + kGroup.size(), before.find(')', group) - group - kGroup.size()));
-  return {at.at(0), at.at(1)};
+  constexpr std::string_view kMoved = "<g transform=\"translate(";
+  std::vector<std::pair<double, double>> open = {{0, 0}};
+  for (std::size_t at = 0; (at = before.find('<', at)) != std::string_view::npos; ++at) {
+    const std::string_view tag = before.substr(at);
+    if (tag.starts_with("</g>")) {
+      open.pop_back();
+    } else if (tag.starts_with(kMoved)) {
+      const std::vector<double> moved =
+          coordinates(tag.substr(kMoved.size(), tag.find(')') - kMoved.size()));
+      open.emplace_back(open.back().first + moved.at(0), open.back().second + moved.at(1));
+    } else if (tag.starts_with("<g ") || tag.starts_with("<g>")) {
+      open.push_back(open.back());
+    }
+  }
+  return open.back();
 }
 
 bool overlap(const TextBox& a, const TextBox& b) {
