@@ -472,11 +472,11 @@ class Dashboard final : public HttpSite {
       if (runs && store.place && now->status.campaigns &&
           *store.place < now->status.campaigns->size())
         status = &(*now->status.campaigns)[*store.place];
-      campaigns += (i == 0 ? "" : ",") +
-                   campaign_json("c" + std::to_string(i + 1),
-                                 options_.is_snapshot ? store.file.filename() : store.file, *state,
-                                 status, runs ? seconds_left(now->status) : -1)
-                       .text();
+      campaigns +=
+          (i == 0 ? "" : ",") + campaign_json("c" + std::to_string(i + 1),
+                                              options_.is_snapshot ? kSomeStore : store.file,
+                                              *state, status, runs ? seconds_left(now->status) : -1)
+                                    .text();
     }
     return json_answer(
         answer_object()

@@ -53,6 +53,9 @@ struct Answer {
   bool is_final = false;
 };
 
+/// What a snapshot calls its store, whose name says nothing to who reads it elsewhere.
+inline const std::filesystem::path kSomeStore = "STORE";
+
 inline constexpr const char* kCsvType = "text/csv; charset=utf-8";
 inline constexpr const char* kSvgType = "image/svg+xml; charset=utf-8";
 

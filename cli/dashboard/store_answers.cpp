@@ -152,13 +152,12 @@ Expected<Answer> campaign_answer(const Question& question) {
   const auto rows = rows_of(question, "SELECT * FROM v_campaigns ORDER BY campaign");
   if (!rows) return Unexpected(rows.error());
   if (rows->cells.empty()) return unexpected(ErrorKind::Corrupt, "the store has no campaign");
-  return json_answer(
-      answer_object()
-          .add("campaign", row_as_json(*rows, 0))
-          .add("campaigns", rows_as_json(*rows))
-          .add("store", (question.is_snapshot ? question.file.filename() : question.file).string())
-          .add("schema", question.store.schema())
-          .add("is_written", !question.is_snapshot && has_writer(question.file)));
+  return json_answer(answer_object()
+                         .add("campaign", row_as_json(*rows, 0))
+                         .add("campaigns", rows_as_json(*rows))
+                         .add("store", (question.is_snapshot ? kSomeStore : question.file).string())
+                         .add("schema", question.store.schema())
+                         .add("is_written", !question.is_snapshot && has_writer(question.file)));
 }
 
 Expected<Answer> events_answer(const Question& question) {
