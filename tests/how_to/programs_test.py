@@ -62,6 +62,8 @@ class Programs(unittest.TestCase):
         shutil.copy(SOURCE / "CMakeLists.txt", cls.folder)
         for name in FOLDERS:
             shutil.copytree(SOURCE / name, cls.folder / name)
+        (cls.folder / "docs").mkdir()
+        shutil.copy(SOURCE / "docs/storage.md", cls.folder / "docs")  # the dashboard tells what views are by it
         for path, text in files_of(MISSIONS):
             if path == LIST:
                 old = (cls.folder / path).read_text()
