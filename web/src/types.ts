@@ -109,6 +109,8 @@ export interface Worker {
 
 export type Cell = string | number | null;
 
+export type Row = Record<string, Cell>;
+
 /// Rows of a view, by column.
 export type Columns = Record<string, Cell[]>;
 
