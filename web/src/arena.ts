@@ -1,6 +1,7 @@
 // A run seen from above, on a canvas: arena, things, robots and their trails at one instant.
 
 import { Pen, Point as Place } from "./canvas";
+import { clamp } from "./format";
 
 export type Color = string;
 
@@ -88,11 +89,11 @@ export interface Pose { x: number; y: number; theta: number }
 export function pose_at(track: Track, cycle: number): Pose | null {
   const { x_mm, y_mm, theta_mrad } = track;
   const last = x_mm.length - 1;
-  const from = Math.max(0, Math.min(Math.floor(cycle), last));
+  const from = clamp(Math.floor(cycle), 0, last);
   const known = (at: number) => x_mm[at] !== null && y_mm[at] !== null && theta_mrad[at] !== null;
   if (!known(from)) return null;
   const to = from < last && known(from + 1) ? from + 1 : from;
-  const part = Math.min(1, Math.max(0, cycle - from));
+  const part = clamp(cycle - from, 0, 1);
   const mix = (values: (number | null)[]) => (values[from]! + part * (values[to]! - values[from]!)) / 1000;
   const turn = (theta_mrad[to]! - theta_mrad[from]!) / 1000;
   return { x: mix(x_mm), y: mix(y_mm), theta: theta_mrad[from]! / 1000 + part * Math.atan2(Math.sin(turn), Math.cos(turn)) };
@@ -176,12 +177,10 @@ export function draw_place(pen: Pen, arena: Arena, images: Map<string, HTMLImage
   pen.path(walls, true).stroke("#7a5c3a", 4);
   for (const thing of arena.obstacles) around(pen, frame, thing, thing.x_m, thing.y_m, thing.theta_rad).fill("#7a5c3a");
   for (const { x_m, y_m } of arena.lights) {
-    const [x, y] = frame.at([x_m, y_m]);
-    pen.disc([x, y], 5).fill("#f0e442").stroke("#000");
-    for (let ray = 0; ray < 8; ++ray) {
-      const [cos, sin] = [Math.cos(ray * Math.PI / 4), Math.sin(ray * Math.PI / 4)];
-      pen.path([[x + 7 * cos, y + 7 * sin], [x + 10 * cos, y + 10 * sin]]).stroke("#000");
-    }
+    const place = frame.at([x_m, y_m]);
+    pen.disc(place, 5).fill("#f0e442").stroke("#000");
+    // Eight rays are a ring of dashes.
+    pen.disc(place, 8.5).stroke("#000", 3, [1, 2 * Math.PI * 8.5 / 8 - 1]);
   }
 }
 
@@ -212,8 +211,7 @@ export function draw_run(pen: Pen, run: Trajectory, view: View): void {
 }
 
 function draw_robot(pen: Pen, frame: Frame, run: Trajectory, number: number, pose: Pose, view: View): void {
-  const [x, y] = frame.at([pose.x, pose.y]);
-  const body = frame.scale * reach_of(run.body);
+  const reach = reach_of(run.body);
   const color = color_of_robot(run, number, view);
   const is_chosen = view.chosen === number;
   // Where a camera did not see it, the body is hollow and its rim dashed.
@@ -222,10 +220,10 @@ function draw_robot(pen: Pen, frame: Frame, run: Trajectory, number: number, pos
   if (is_seen) pen.fill(color);
   pen.stroke("#fff", is_chosen ? 5 : 3).stroke(is_seen ? "#000" : color, is_chosen ? 2.5 : 1, is_seen ? [] : [4, 3]);
   // The heading: a wedge that points forward.
-  const [cos, sin] = [body * Math.cos(pose.theta), body * -Math.sin(pose.theta)];
-  pen.path([[x + 0.62 * cos, y + 0.62 * sin], [x - 0.3 * cos - 0.32 * sin, y - 0.3 * sin + 0.32 * cos],
-            [x - 0.3 * cos + 0.32 * sin, y - 0.3 * sin - 0.32 * cos]], true).fill("#fff").stroke("#000", 0.75);
-  if (body >= 8) pen.say(String(number), x + 0.04 * cos, y + 0.04 * sin, "center", "#000", `${Math.max(9, Math.min(13, 0.45 * body))}px`);
+  const corners: Place[] = [[0.62 * reach, 0], [-0.3 * reach, 0.32 * reach], [-0.3 * reach, -0.32 * reach]];
+  around(pen, frame, { corners }, pose.x, pose.y, pose.theta).fill("#fff").stroke("#000", 0.75);
+  const body = frame.scale * reach;
+  if (body >= 8) pen.say(String(number), ...frame.at([pose.x, pose.y]), "center", "#000", `${clamp(0.45 * body, 9, 13)}px`);
 }
 
 /// The score so far of several runs, with the instant.

@@ -1,4 +1,5 @@
 import { Component, h } from "preact";
+import { clamp } from "./format";
 
 export type Point = [number, number];
 
@@ -140,7 +141,7 @@ export class Canvas extends Component<CanvasProps, {}> {
 /// from five of its colours.
 const kViridis = [[253, 231, 37], [94, 201, 98], [33, 145, 140], [59, 82, 139], [68, 1, 84]];
 export function viridis(part: number): string {
-  const at = Math.max(0, Math.min(1, part)) * 4;
+  const at = clamp(part, 0, 1) * 4;
   const i = Math.min(3, Math.floor(at));
   return `rgb(${kViridis[i].map((from, k) => Math.round(from + (at - i) * (kViridis[i + 1][k] - from)))})`;
 }

@@ -1,6 +1,6 @@
 import { Component, h } from "preact";
 import { ApiError, feed, token } from "./api";
-import { csv, in_order, is_known, number, percent, shell_word, when, whole, words } from "./format";
+import { clamp, csv, in_order, is_known, number, percent, shell_word, when, whole, words } from "./format";
 import { current_route, href, Query, set_query } from "./route";
 import { Campaign } from "./types";
 
@@ -26,12 +26,8 @@ export function Failure({ error, again }: { error: ApiError; again?: () => void 
   </div>;
 }
 
-/// Says so only after a moment: most answers are faster than a person reads.
-export class Waiting extends Component<{}, { long: boolean }> {
-  #timer = setTimeout(() => this.setState({ long: true }), 300);
-  componentWillUnmount() { clearTimeout(this.#timer); }
-  render(_: {}, { long }: { long: boolean }) { return <p class="waiting" aria-busy="true">{long ? "Asking the server …" : "\u00a0"}</p>; }
-}
+/// style.css shows it only after a moment.
+export function Waiting() { return <p class="waiting" aria-busy="true">Asking the server …</p>; }
 
 /// Why there is nothing here, and what to do.
 export function Empty({ children }: { children?: Children }) {
@@ -91,8 +87,8 @@ export function Panel({ title, children, wide, tools, command, sql }: PanelProps
 }
 
 /// A small button; `label` names it where its text alone does not.
-export function Quiet({ act, label, children, ...rest }: { act: () => void; label?: string; children?: Children } & JSX.HTMLAttributes) {
-  return <button class="quiet" aria-label={label} onClick={act} {...rest}>{children as JSX.Element}</button>;
+export function Quiet({ act, label, children, title = label, ...rest }: { act: () => void; label?: string; children?: Children } & JSX.HTMLAttributes) {
+  return <button class="quiet" aria-label={label} title={title} onClick={act} {...rest}>{children as JSX.Element}</button>;
 }
 
 /// Names and what they stand for, with a word on it for the pointer. What is false is left out.
@@ -101,7 +97,7 @@ export function pairs(kind: string, list: ([name: Children, value: Children, tit
 }
 
 export function Bar({ value, of, name }: { value: number; of: number; name: string }) {
-  const part = of > 0 ? Math.min(1, value / of) : 0;
+  const part = of > 0 ? clamp(value / of, 0, 1) : 0;
   return <div class="bar" role="progressbar" aria-label={name} aria-valuemin={0} aria-valuemax={100}
     aria-valuenow={Math.round(100 * part)} aria-valuetext={`${whole(value)} of ${whole(of)}, ${percent(part)}`}>
     <div style={{ width: `${100 * part}%` }} /></div>;
@@ -290,7 +286,7 @@ export function Table<Row>({ name, caption, columns: given, rows, row_key, row_c
   const matching = sorted(columns, rows.filter((row) =>
     columns.some((column) => String(value_of(column, row) ?? "").toLowerCase().includes(filter.toLowerCase()))), sort);
   const pages = Math.max(1, Math.ceil(matching.length / page_size));
-  const page = Math.min(pages, Math.max(1, Number(query[name + ".page"]) || 1));
+  const page = clamp(Number(query[name + ".page"]) || 1, 1, pages);
   const numeric = columns.map((column) => {
     const some = rows.slice(0, 50).map((row) => value_of(column, row)).filter(is_known);
     return column.numeric ?? (some.length > 0 && some.every((value) => typeof value === "number"));
@@ -316,7 +312,7 @@ export function Table<Row>({ name, caption, columns: given, rows, row_key, row_c
         })}</tr></thead>
         <tbody>{matching.slice((page - 1) * page_size, page * page_size).map((row) =>
           <tr key={String(row_key ? row_key(row) : value_of(columns[0], row))} class={row_class?.(row) || ""}>{columns.map((column, i) =>
-            <td class={numeric[i] ? "n" : ""}>{(column.show ? column.show(row) : usual(column.key, value_of(column, row))) as JSX.Element}</td>)}</tr>)}</tbody>
+            h(i ? "td" : "th", { scope: i ? undefined : "row", class: numeric[i] ? "n" : "" }, (column.show ? column.show(row) : usual(column.key, value_of(column, row))) as JSX.Element))}</tr>)}</tbody>
       </table>
     </div>
     {matching.length === 0 && <Empty>No row has “{filter}”.</Empty>}

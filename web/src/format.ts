@@ -8,6 +8,11 @@ export function is_known<T>(value: T | null | undefined): value is T {
   return value !== null && value !== undefined;
 }
 
+/// The value, or the end that is nearer.
+export function clamp(value: number, low: number, high: number): number {
+  return Math.max(low, Math.min(high, value));
+}
+
 /// 12345.6 -> "12 346" with a thin space.
 export function whole(value: number | null | undefined): string {
   if (!is_known(value) || !isFinite(value)) return "–";

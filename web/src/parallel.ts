@@ -1,7 +1,7 @@
 // Parallel coordinates: what is drawn, what a brush chooses, and which line a pointer meets.
 
 import { Pen, Point, viridis } from "./canvas";
-import { in_order, is_known, number, words } from "./format";
+import { clamp, in_order, is_known, number, words } from "./format";
 import { Cell } from "./types";
 
 /// Answer of designs/d3/parameters: columns, a value a candidate.
@@ -63,7 +63,7 @@ export function part_on(axis: Axis, candidate: number): number | null {
 
 export function text_at(axis: Axis, part: number): string {
   const value = value_of_part(axis, part);
-  return axis.words ? axis.words[Math.max(0, Math.min(axis.words.length - 1, Math.round(value)))] : number(value, 3);
+  return axis.words ? axis.words[clamp(Math.round(value), 0, axis.words.length - 1)] : number(value, 3);
 }
 
 /// Which candidates lie in all brushes.
@@ -101,7 +101,7 @@ function y_of(axis: Axis, candidate: number, height: number): number {
 }
 
 export function part_of_y(y: number, height: number): number {
-  return Math.max(0, Math.min(1, 1 - (y - kTop) / (height - kTop - kFoot)));
+  return clamp(1 - (y - kTop) / (height - kTop - kFoot), 0, 1);
 }
 
 /// The axis whose line a pointer is at; null: it is between two.
@@ -114,7 +114,7 @@ export function axis_at(axes: Axis[], x: number, width: number): number | null {
 export function line_at({ axes, chosen, elite }: Plot, x: number, y: number, width: number, height: number): number | null {
   if (axes.length < 2) return null;
   const step = (width - 2 * kSide) / (axes.length - 1);
-  const at = Math.max(0, Math.min(axes.length - 2, Math.floor((x - kSide) / step)));
+  const at = clamp(Math.floor((x - kSide) / step), 0, axes.length - 2);
   const part = (x - x_of(axes, at, width)) / step;
   if (part < -0.1 || part > 1.1) return null;
   let best: number | null = null, nearest = 7;

@@ -1,6 +1,6 @@
 import { Component, h } from "preact";
 import { feed, is_snapshot } from "./api";
-import { announce, Bar, Empty, is_typing, pairs, Quiet, state_word } from "./components";
+import { announce, Bar, Empty, is_typing, pairs, Quiet, state_word, Waiting } from "./components";
 import { clock, count, duration, number, percent, shell_word, whole } from "./format";
 import { Page } from "./page";
 import { current_route, filled, go, href, match } from "./route";
@@ -30,38 +30,10 @@ function switch_theme(): void {
   show_theme();
 }
 
-// --- what needs a look -------------------------------------------------------------------------------
-
-export interface Look { text: string; address: string }
-
-/// What somebody should know of, worst first.
-export function looks({ status: s, running, campaigns }: Live): Look[] {
-  const found: Look[] = [];
-  const say = (when: boolean | number | string, text: string, address = "#/fleet") => { if (when) found.push({ text, address }); };
-  const some = (n: number, what: string, then: string, address?: string) => say(n, count(n, what) + then, address);
-  if (s) {
-    say(s.trouble, s.trouble);
-    some(s.conflicts, "conflict", ": two results of one evaluation differ in their bits");
-    say(s.insecure_plaintext, "other hosts can connect without keys");
-    some(s.quarantined, "worker", " in quarantine");
-    say(running && !s.workers, "no worker is connected");
-    some(s.lost_workers, "worker", " lost");
-    some(s.rejected, "evaluation", " rejected", "#/c1");
-    some(s.failed, "attempt", " failed", "#/c1");
-    some(s.malformed, "frame", " dropped as malformed");
-  }
-  for (const { c, name, trouble, state, designs } of campaigns) {
-    say(trouble, `${name}: ${trouble}`, href([c]));
-    say(state === "interrupted", `${name} is not finished, and nobody runs it`, href([c]));
-    for (const { id, state } of designs) say(state === "stopped", `${id} has stopped`, href([c, id]));
-  }
-  return found;
-}
-
-/// The looks as links.
-export function look_list(found: Look[], most: number) {
-  return <ul class="look">{found.slice(0, most).map(({ text, address }) => <li><a href={address}>{text}</a></li>)}
-    {found.length > most && <li class="faint">and {found.length - most} more</li>}</ul>;
+/// What needs a look, as links.
+export function look_list(looks: Live["looks"], most: number) {
+  return <ul class="look">{looks.slice(0, most).map(({ text, page }) => <li><a href={"#/" + page}>{text}</a></li>)}
+    {looks.length > most && <li class="faint">and {looks.length - most} more</li>}</ul>;
 }
 
 // --- the page around all pages -----------------------------------------------------------------------
@@ -82,13 +54,12 @@ function place_in([c, d]: string[], { campaigns }: Live, before: Place): Place {
 function help(): void { document.dispatchEvent(new CustomEvent("help")); }
 
 function Head({ live }: { live: Live | null }) {
-  const toggles = [<Quiet label="light or dark" title="light or dark" act={switch_theme}>◐</Quiet>,
+  const toggles = [<Quiet label="light or dark" act={switch_theme}>◐</Quiet>,
     <Quiet label="keys" title="keys (?)" act={help}>?</Quiet>];
   if (!live) return <header class="head"><a class="brand" href="#/">Swarmsmith</a>{toggles}</header>;
-  const { status, campaigns, running } = live;
+  const { status, campaigns, running, looks } = live;
   const sum = (what: "used" | "budget") => campaigns.reduce((total, one) => total + one[what], 0);
   const used = sum("used"), budget = sum("budget");
-  const todo = looks(live);
   const state = is_snapshot ? "a file" : running ? "running" : campaigns.every((one) => one.state === "finished") ? "finished" : "at rest";
   return <header class="head">
     <a class="brand" href="#/" title="All campaigns">{campaigns.length > 2 ? `${campaigns.length} campaigns` : campaigns.map(({ name }) => name).join(", ") || "Swarmsmith"}</a>
@@ -98,7 +69,7 @@ function Head({ live }: { live: Live | null }) {
       <Bar value={used} of={budget} name="experiments used" /> {percent(budget > 0 ? used / budget : 0)}</span>
     {status && running && [<span><b>{number(status.evaluations_per_s, 3)}</b> evaluations/s</span>,
       <span>ETA <b>{eta_of(live, status.eta_s)}</b></span>]}
-    {todo.length > 0 && <details class="looks"><summary>{count(todo.length, "thing needs", "things need")} a look</summary>{look_list(todo, 12)}</details>}
+    {looks.length > 0 && <details class="looks"><summary>{count(looks.length, "thing needs", "things need")} a look</summary>{look_list(looks, 12)}</details>}
     <span class="push faint" title={feed.at?.toISOString()}>{feed.at && `as of ${clock(feed.at)}`}</span>
     {toggles}
   </header>;
@@ -211,7 +182,7 @@ export class Shell extends Component<{ pages: Page[] }, ShellState> {
       })}</ul></nav>
       {notice && <p class="banner" role="status">{notice} <Quiet act={() => this.setState({ notice: null })}>Close</Quiet></p>}
       <Connection />
-      <main id="main" tabIndex={-1}>{live ? this.#view(live, page, params) : !failure && <p class="waiting">Asking the server …</p>}</main>
+      <main id="main" tabIndex={-1}>{live ? this.#view(live, page, params) : !failure && <Waiting />}</main>
       <Help pages={pages} keys={page?.keys} />
     </div>;
   }

@@ -6,7 +6,7 @@ import { count, in_order, is_known, number, whole, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { href } from "../route";
-import { eta_of, look_list, looks } from "../shell";
+import { eta_of, look_list } from "../shell";
 import { Campaign, Design, Event, Live } from "../types";
 
 /// Whether nothing more happens to it.
@@ -106,11 +106,10 @@ function campaign_panels(live: Live, campaign: Campaign) {
 }
 
 export function Campaigns({ live, campaign }: PageProps) {
-  const { campaigns } = live;
-  const found = looks(live);
+  const { campaigns, looks } = live;
   return <div>
     <h1>{campaigns.length === 1 ? "Campaign" : "Campaigns"}</h1>
-    {found.length > 0 && <Panel title="Needs a look">{look_list(found, 8)}</Panel>}
+    {looks.length > 0 && <Panel title="Needs a look">{look_list(looks, 8)}</Panel>}
     {campaigns.length === 0 && <Empty>No store is open.</Empty>}
     {(campaign ? [campaign] : campaigns).map((one) => campaign_panels(live, one))}
   </div>;

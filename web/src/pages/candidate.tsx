@@ -63,12 +63,12 @@ function shown(c: string, { candidate: one, ancestors, scores, later }: Answer) 
           <div class="tools"><Copy text={one.fsm_config} what="Copy text" /><Copy text={command(`show ${id}`)} /></div>]}
       </Panel>
       <Panel title="Scores by pair, in its races">
-        <Table name="r" caption={`scores of ${id} by pair`} rows={rows_of(scores)} row_key={({ iteration, pair }) => `${iteration} ${pair}`}
+        <Table name="r" page_size={15} caption={`scores of ${id} by pair`} rows={rows_of(scores)} row_key={({ iteration, pair }) => `${iteration} ${pair}`}
           empty="It has not run yet." columns={["pair", { key: "score", show: ({ score }) => score === null ? "rejected" : number(score as number) },
             { key: "run", show: (row) => watch(String(row.id)) }, "seed", "instance", "iteration"]} />
       </Panel>
       <Panel title="Later scores">
-        <Table name="l" caption={`later scores of ${id}`} rows={later} row_key={(row) => row.id}
+        <Table name="l" page_size={15} caption={`later scores of ${id}`} rows={later} row_key={(row) => row.id}
           empty={["None. Winners are tested at a design's end; any candidate is scored by ", <code>swarmsmith evaluate {id} --store {store_word()} --seeds 1-10</code>]}
           columns={["purpose", "source", "seed", "score", { key: "run", show: (row) => (row.source !== "real" || row.id[0] === "r") && watch(row.id) }]} />
       </Panel>

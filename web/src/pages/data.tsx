@@ -8,13 +8,7 @@ import { set_query } from "../route";
 import { Cell, Rows, View } from "../types";
 
 /// To begin with: the numbers of the other pages.
-const kQueries: [string, string][] = [
-  ["designs", "design, mission, method, repetition, state, used, budget, best_candidate, best_mean FROM v_designs"],
-  ["winners", "* FROM v_leaderboard"],
-  ["convergence", "* FROM v_convergence WHERE rank = 1"],
-  ["modules", "* FROM v_module_frequency"],
-  ["failures", "id, reason, host, at FROM v_failures LIMIT 100"],
-];
+const kViews = ["v_designs", "v_leaderboard", "v_convergence", "v_module_frequency", "v_failures"];
 
 /// `sql` is in the field, `asked` was asked last.
 interface State { sql: string; asked: string; error?: ApiError }
@@ -30,6 +24,8 @@ export class Data extends Component<PageProps, State> {
     this.setState({ sql, asked: sql, error: undefined });
     set_query({ q: sql, "q.page": null, "q.sort": null, "q.q": null }, true);
   };
+
+  #first(view: string): void { this.#run(`SELECT * FROM ${view} LIMIT 100`); }
 
   #result({ columns, rows, truncated, seconds }: Rows) {
     const csv = () => ask(path_of(`${this.props.params.c}/query`, { sql: this.state.asked, format: "csv" }))
@@ -54,13 +50,13 @@ export class Data extends Component<PageProps, State> {
               onKeyDown={(event) => { if (event.key === "Enter" && (event.ctrlKey || event.metaKey)) ask_now(event); }} />
             <div class="tools"><button type="submit" class="main" disabled={!sql.trim()}>Ask</button><small>or Ctrl+Enter; one statement, at most 10 s and 10{"\u2009"}000 rows; nothing can be written</small></div>
           </form>
-          <p class="tools"><span class="faint">To begin with:</span> {kQueries.map(([name, what]) => <Quiet act={() => this.#run("SELECT " + what)}>{name}</Quiet>)}</p>
+          <p class="tools"><span class="faint">To begin with:</span> {kViews.map((name) => <Quiet act={() => this.#first(name)}>{name.slice(2).replace("_", " ")}</Quiet>)}</p>
         </Panel>
         <Panel title="Views, the public schema">
           <Get<{ views: View[] }> path={`${c}/views`} render={({ views }) => <div class="views">{views.map(({ name, text, columns }) => <details key={name}>
             <summary><code>{name}</code> <small>{text}</small></summary>
             {pairs("pairs", columns.map((column) => [<code>{column.name}</code>, column.text]))}
-            <Quiet act={() => this.#run(`SELECT * FROM ${name} LIMIT 100`)}>first 100 rows</Quiet>
+            <Quiet act={() => this.#first(name)}>first 100 rows</Quiet>
           </details>)}</div>} />
         </Panel>
         <Panel wide title="Result">

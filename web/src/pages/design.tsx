@@ -68,7 +68,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
   const elites_title = last > 0 ? `Elites after iteration ${last}` : "Elites";
   const over = is_over(design);
   return <div>
-    {pairs("facts framed", [
+    {pairs("panel facts", [
       ["experiments", [<Bar value={design.used} of={design.budget} name="experiments used" />, used_of(design)]],
       [stage ? "search" : "iteration", [stage ?? whole(design.iteration), !over && alive !== null && <small> {whole(alive)} alive</small>]],
       ["best", best ? link(best) : "none yet"],

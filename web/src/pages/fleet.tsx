@@ -6,36 +6,28 @@ import { Get } from "../get";
 import { PageProps } from "../page";
 import { History, SlotTimes, Status, Worker } from "../types";
 
-interface Cause { name: string; color: string; what: string; todo?: string }
+/// Why slots idle, and what a person can do.
+interface Cause { name: string; why: string; todo: string }
 
-/// Why slots idle (docs/observability.md), and what a person can do. Names as in /status.
-const kCauses: Cause[] = ([
-  ["busy", "#0072b2", "evaluating"],
-  ["start-up", "#56b4e9", "new workers get what they must know", "It passes by itself."],
-  ["barrier", "#e69f00", "races wait for the last results of a step", "Run more designs at the same time, or use fewer slots."],
-  ["credit", "#cc79a7", "workers ask for less than they have slots for", "They drain, or have many results that are not acknowledged: look at their silence below."],
-  ["alone", "#999", "workers are kept free for a task that may have killed one", "It passes when that task has run alone."],
-  ["commit", "#d55e00", "the store cannot write as fast, or not at all", "Look at the disk of the store: space, speed."],
-  ["held", "#f0e442", "what is wanted is of paused designs, or the coordinator ends", "Resume the paused designs."],
-  ["network", "#009e73", "tasks and results are on their way", "Short evaluations, slow connections, or worker hosts whose processors are taken by others."],
-]).map(([name, color, what, todo]) => ({ name, color, what, todo }));
+/// Of being busy, and of each cause.
+const kColors: Record<string, string> = { busy: "#0072b2", "start-up": "#56b4e9", barrier: "#e69f00", credit: "#cc79a7", alone: "#999",
+  commit: "#d55e00", held: "#f0e442", network: "#009e73" };
 
-function slot_time({ slot_times: all, slot_times_last_minute: minute }: Status) {
-  const seconds = ({ busy_s, idle_s }: SlotTimes, { name }: Cause) => name === "busy" ? busy_s : idle_s[name] ?? 0;
-  const part = (times: SlotTimes, cause: Cause) => times.slots_s > 0 ? seconds(times, cause) / times.slots_s : 0;
-  const [busy, ...idle] = kCauses;
-  const worst = idle.reduce((a, b) => part(minute, a) >= part(minute, b) ? a : b);
-  const lost = part(minute, worst);
+function slot_time({ slot_times: all, slot_times_last_minute: minute }: Status, causes: Cause[]) {
+  const seconds = ({ busy_s, idle_s }: SlotTimes, name: string) => name === "busy" ? busy_s : idle_s[name] ?? 0;
+  const part = (times: SlotTimes, name: string) => times.slots_s > 0 ? seconds(times, name) / times.slots_s : 0;
+  const worst = causes.reduce((a, b) => part(minute, a.name) >= part(minute, b.name) ? a : b);
+  const lost = part(minute, worst.name);
   const column = (key: string, label: string, times: SlotTimes) =>
-    ({ key, label, value: (cause: Cause) => part(times, cause), show: (cause: Cause) => percent(part(times, cause)) });
+    ({ key, label, value: ({ name }: Cause) => part(times, name), show: ({ name }: Cause) => percent(part(times, name)) });
   return <div>
     <p>{minute.slots_s <= 0 ? "No slot has worked in the last minute." : lost < 0.1
-      ? `The slots are used well: ${percent(part(minute, busy))} of their time was spent on evaluations in the last minute.`
-      : [<b>{percent(lost)} of the slots' time goes to {worst.name}</b>, `: ${worst.what}. ${worst.todo}`]}</p>
-    <div class="split" aria-hidden="true">{kCauses.map((cause) => <span style={{ width: `${100 * part(minute, cause)}%`, background: cause.color }} />)}</div>
-    <Table name="t" caption="Slot time by cause" rows={kCauses.filter((cause) => seconds(all, cause) > 0)} columns={[
-      { key: "name", label: "cause", show: ({ name, color }) => <span class="meter-cell"><span class="swatch" style={{ background: color }} /> {name}</span> },
-      column("minute", "last minute", minute), column("all", "since start", all), { key: "what", label: "because" }]} />
+      ? `The slots are used well: ${percent(part(minute, "busy"))} of their time was spent on evaluations in the last minute.`
+      : [<b>{percent(lost)} of the slots' time goes to {worst.name}</b>, `: ${worst.why}. ${worst.todo}`]}</p>
+    <div class="split" aria-hidden="true">{Object.keys(kColors).map((name) => <span style={{ width: `${100 * part(minute, name)}%`, background: kColors[name] }} />)}</div>
+    <Table name="t" caption="Slot time by cause" rows={[{ name: "busy", why: "evaluating", todo: "" }, ...causes].filter(({ name }) => seconds(all, name) > 0)} columns={[
+      { key: "name", label: "cause", show: ({ name }) => <span class="meter-cell"><span class="swatch" style={{ background: kColors[name] }} /> {name}</span> },
+      column("minute", "last minute", minute), column("all", "since start", all), { key: "why", label: "because" }]} />
     <p><small>Causes that took no time are left out.</small></p>
   </div>;
 }
@@ -47,7 +39,7 @@ function draw_past(pen: Pen, history: History): void {
   const span = Math.max(1, times[n - 1] - times[0]);
   const at = (i: number, part: number): [number, number] => [left + (right - left) * (times[i] - times[0]) / span, bottom - (bottom - top) * Math.min(1, part)];
   let base = times.map(() => 0);
-  for (const { name, color } of kCauses) {
+  for (const [name, color] of Object.entries(kColors)) {
     const values: number[] | undefined = history[name.replace("-", "_")];
     if (!values) continue;
     const above = base.map((below, i) => below + (values[i] ?? 0));
@@ -107,14 +99,15 @@ export function Fleet({ live: { status, running } }: PageProps) {
   return <div>
     <h1>Fleet</h1>
     {!running && <Empty>No campaign runs here, so no worker works for it. Below are those that did, as the store knows them.</Empty>}
-    {status && running && pairs("facts framed", [
+    {status && running && pairs("panel facts", [
       ...(["workers", "slots", "leased", "ready", "done", "failed", "requeued", "lost_workers", "uncommitted"] as const)
         .map((name): [string, string, string?] => [words(name), whole(status[name]), kCounts[name]]),
       ["evaluations/s", number(status.evaluations_per_s, 3)],
       ["up for", duration(status.uptime_s)]])}
     {launcher?.name && <p class="faint">Workers are started by {launcher.name}: {count(launcher.running, "of", "of")} {whole(launcher.wanted)} run{launcher.pending > 0 && `, ${whole(launcher.pending)} wait for ${launcher.waits_for || "their turn"}`}. {launcher.note}</p>}
     <div class="grid">
-      {status && running && <Panel title="Where the slots' time goes">{slot_time(status)}</Panel>}
+      {status && running && <Panel title="Where the slots' time goes">
+        <Get<{ causes: Cause[] }> path="causes" render={({ causes }) => slot_time(status, causes)} /></Panel>}
       {running && <Panel title="The last minutes"><Get<History> path="history" every_s={2} render={past} /></Panel>}
       <Panel wide title="Workers, worst first" command={command("status", "--watch")}>
         <Get<{ workers: Worker[] }> path="workers" every_s={running ? 1 : 30} render={({ workers }) => workers_table(workers, running)} /></Panel>

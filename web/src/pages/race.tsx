@@ -3,7 +3,7 @@ import { path_of } from "../api";
 import { announce, command, Copy, Empty, link, pairs, Panel, place_of, Quiet, Slider, Table } from "../components";
 import { Files } from "../figure";
 import { Canvas, Pen, Point, viridis } from "../canvas";
-import { count, number, whole, words } from "../format";
+import { clamp, count, number, whole, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { go, set_query } from "../route";
@@ -90,8 +90,8 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
   /// Of a cell, in pixels.
   #size(): { column: number; row: number } {
     const { candidates, steps } = this.props.matrix.race;
-    return { column: Math.min(48, (this.#width - kLeft - kRight) / Math.max(1, steps.length)),
-      row: Math.max(2, Math.min(16, Math.floor(620 / Math.max(1, candidates.length)))) };
+    return { column: Math.min(48, (this.#width - kLeft - kRight) / steps.length),
+      row: clamp(Math.floor(620 / candidates.length), 2, 16) };
   }
 
   #height = (width: number) => {
@@ -179,7 +179,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
     if (moves[key]) {
       event.preventDefault();
       const [to_row, to_step] = cell ? moves[key] : [row, step];
-      const next = { row: Math.max(0, Math.min(last_row, to_row)), step: Math.max(0, Math.min(until, to_step)) };
+      const next = { row: clamp(to_row, 0, last_row), step: clamp(to_step, 0, until) };
       pick(next);
       announce(matrix.sentence(next));
     } else if (cell && key === "Enter") {

@@ -2,11 +2,11 @@
 
 import { Component, h } from "preact";
 import { ApiError, ask } from "../api";
-import { draw_place, draw_run, draw_scores, kDistinct, pose_at, robot_at, shape_of, Tint, Trajectory, value_at } from "../arena";
+import { draw_place, draw_run, draw_scores, kDistinct, pose_at, Robot, robot_at, shape_of, Tint, Trajectory, value_at } from "../arena";
 import { Canvas } from "../canvas";
-import { Choice, Copy, Failure, is_typing, link, pairs, Panel, Quiet, Slider, store_word, typed, Waiting } from "../components";
+import { Choice, Copy, Failure, is_typing, link, pairs, Panel, Quiet, Slider, store_word, Table, typed, Waiting } from "../components";
 import { Machine } from "../figure";
-import { number, words } from "../format";
+import { clamp, number, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { set_query } from "../route";
@@ -43,9 +43,9 @@ function metres(value: number | undefined): string {
 }
 
 /// What acts in a robot.
-function doing(run: Trajectory, robot: number, cycle: number): string {
-  const state = value_at(run.robots[robot].state, cycle);
-  return state === null ? "" : words(run.behaviours[state] ?? `state ${state}`);
+function doing({ behaviours }: Trajectory, robot: Robot, cycle: number): string {
+  const state = value_at(robot.state, cycle);
+  return state === null ? "" : words(behaviours[state] ?? `state ${state}`);
 }
 
 /// Lights up the states of a drawn machine that act, with the robots that are in them.
@@ -198,7 +198,7 @@ export class RunPage extends Component<PageProps, State> {
 
   /// To an instant, which the address then names.
   #seek = (cycle: number): void => {
-    this.#cycle = Math.min(this.#end(), Math.max(0, Math.round(cycle)));
+    this.#cycle = clamp(Math.round(cycle), 0, this.#end());
     this.setState({ cycle: this.#cycle, said: this.#sentence() });
     this.#draw();
     if (!this.state.playing) set_query({ t: String(this.#cycle / 10) });
@@ -206,7 +206,7 @@ export class RunPage extends Component<PageProps, State> {
 
   #sentence(): string {
     const parts = this.#shown().map((run) => {
-      const robots = run.robots.map((_, robot) => `robot ${robot} ${doing(run, robot, this.#cycle)}`).join(", ");
+      const robots = run.robots.map((robot, at) => `robot ${at} ${doing(run, robot, this.#cycle)}`).join(", ");
       return `${run.id}: score ${number(this.#score(run))}; ${robots}`;
     });
     return `${seconds(this.#cycle)}. ${parts.join(". ")}`;
@@ -219,7 +219,7 @@ export class RunPage extends Component<PageProps, State> {
   #on_key = (event: KeyboardEvent): void => {
     if (is_typing(event)) return;
     const speeds = (by: number) =>
-      set_query({ speed: kSpeeds[Math.max(0, Math.min(kSpeeds.length - 1, kSpeeds.indexOf(this.#speed()) + by))] });
+      set_query({ speed: kSpeeds[clamp(kSpeeds.indexOf(this.#speed()) + by, 0, kSpeeds.length - 1)] });
     const actions: Record<string, () => void> = {
       ArrowLeft: () => this.#seek(this.#cycle - 10), ArrowRight: () => this.#seek(this.#cycle + 10),
       ",": () => this.#step(-1), ".": () => this.#step(1), "[": () => speeds(-1), "]": () => speeds(1),
@@ -335,21 +335,22 @@ export class RunPage extends Component<PageProps, State> {
     const { cycle } = this.state;
     const has_kinds = run.robots.some(({ kind }) => kind?.length);
     const by_state = this.#tint() === "state";
-    const head = (text: string, kind = "") => <th scope="col" class={kind}>{text}</th>;
+    const poses = run.robots.map((robot) => pose_at(robot, cycle));
     return <details open={run.robots.length <= 6}>
       <summary>{run.robots.length} robots at {seconds(cycle)}</summary>
-      <div class="scroll"><table class="robots"><caption class="unseen">robots of {run.id}</caption>
-        <thead><tr>{head("robot")}{head("does")}{has_kinds && head("pose is")}{head("x, m", "n")}{head("y, m", "n")}</tr></thead>
-        <tbody>{run.robots.map((robot, at) => {
-          const pose = pose_at(robot, cycle);
-          const color = (by_state ? value_at(robot.state, cycle) : null) ?? at;
-          return <tr class={chosen === at ? "chosen" : ""}>
-            <th scope="row"><Quiet aria-pressed={chosen === at ? "true" : "false"} act={() => this.#choose(at)}>
+      <Table name={"o" + run.id} caption={`robots of ${run.id}`} rows={run.robots} page_size={run.robots.length} row_key={(robot) => run.robots.indexOf(robot)}
+        row_class={(robot) => robot === run.robots[chosen ?? -1] && "chosen"} columns={[
+          { key: "robot", value: (robot) => run.robots.indexOf(robot), numeric: false, show: (robot) => {
+            const at = run.robots.indexOf(robot);
+            const color = (by_state ? value_at(robot.state, cycle) : null) ?? at;
+            return <Quiet aria-pressed={chosen === at ? "true" : "false"} act={() => this.#choose(at)}>
               <svg class="dot" viewBox="0 0 10 10" aria-hidden="true"><circle cx="5" cy="5" r="4.5" fill={kDistinct[color % kDistinct.length]} /></svg>
-              {at} {robot.name}</Quiet></th>
-            <td>{doing(run, at, cycle) || "–"}</td>{has_kinds && <td>{value_at(robot.kind, cycle) ?? "–"}</td>}
-            <td class="n">{metres(pose?.x)}</td><td class="n">{metres(pose?.y)}</td></tr>;
-        })}</tbody></table></div>
+              {at} {robot.name}</Quiet>;
+          } },
+          { key: "does", value: (robot) => doing(run, robot, cycle) || null },
+          ...(has_kinds ? [{ key: "pose is", value: (robot: Robot) => value_at(robot.kind, cycle) }] : []),
+          ...(["x", "y"] as const).map((key) => ({ key, label: key + ", m", value: (robot: Robot) => poses[run.robots.indexOf(robot)]?.[key],
+            show: (robot: Robot) => metres(poses[run.robots.indexOf(robot)]?.[key]) }))]} />
     </details>;
   }
 

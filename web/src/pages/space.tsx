@@ -4,7 +4,7 @@ import { Component, h } from "preact";
 import { path_of } from "../api";
 import { Canvas } from "../canvas";
 import { announce, Choice, Empty, link, Panel, place_of, Table, typed } from "../components";
-import { count, is_known, number, whole, words } from "../format";
+import { clamp, count, is_known, number, whole, words } from "../format";
 import { Figure } from "../figure";
 import { Get } from "../get";
 import { PageProps } from "../page";
@@ -26,11 +26,8 @@ function usual({ parameters }: Sample): string[] {
 
 function varying(parameters: Sample["parameters"]): string[] { return Object.keys(parameters).filter((name) => varies(parameters[name])); }
 
-/// Between two parts of an axis, in any order; null where that is all of it.
-function brush_of(a: number, b: number): Brush | null {
-  const from = Math.max(0, Math.min(a, b)), to = Math.min(1, Math.max(a, b));
-  return from <= 0 && to >= 1 ? null : { from, to };
-}
+/// Between two parts of an axis, in any order.
+function brush_of(a: number, b: number): Brush { return { from: clamp(Math.min(a, b), 0, 1), to: clamp(Math.max(a, b), 0, 1) }; }
 
 /// "RWM0:10:50,S0:stop:stop", values at both ends.
 function brushes_of(text: string, axes: Axis[]): Record<string, Brush> {
@@ -39,7 +36,7 @@ function brushes_of(text: string, axes: Axis[]): Record<string, Brush> {
     const [name, ...ends] = one.split(":");
     const axis = axes.find((other) => other.name === name);
     const [a, b] = axis ? ends.map((value) => part_of(axis, value)) : [];
-    if (isFinite(a) && isFinite(b)) brushes[name] = { from: Math.max(0, Math.min(a, b)), to: Math.min(1, Math.max(a, b)) };
+    if (isFinite(a) && isFinite(b)) brushes[name] = brush_of(a, b);
   }
   return brushes;
 }
@@ -91,7 +88,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
     const names = query.p === undefined ? usual(this.props.data) : query.p.split(",").filter((name) => parameters[name]);
     const axes = names.map((name) => axis_of(name, parameters[name]));
     const brushes = brushes_of(query.b ?? "", axes);
-    if (drag && axes[drag.axis]) brushes[axes[drag.axis].name] = { from: Math.min(drag.from, drag.to), to: Math.max(drag.from, drag.to) };
+    if (drag && axes[drag.axis]) brushes[axes[drag.axis].name] = brush_of(drag.from, drag.to);
     return { axes, brushes, chosen: chosen_by(axes, brushes, candidates.length), elite, met, shade: shade_of(query.colour === "score" ? mean : iteration) };
   }
 
@@ -100,9 +97,10 @@ class Parallel extends Component<ParallelProps, ParallelState> {
     set_query({ p: names.join(",") || "none", b: text_of(axes.filter(({ name }) => names.includes(name)), brushes) });
   }
 
+  /// null, and what is all of the axis: no brush.
   #brush({ name }: Axis, brush: Brush | null): void {
     const { axes, brushes } = this.#plot();
-    if (brush) brushes[name] = brush; else delete brushes[name];
+    if (brush && brush.to - brush.from < 1) brushes[name] = brush; else delete brushes[name];
     set_query({ b: text_of(axes, brushes) });
     announce(`${count(chosen_by(axes, brushes, this.props.data.candidates.length).filter(Boolean).length, "candidate")} chosen`);
   }
@@ -176,7 +174,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
           ? <button onClick={() => set_query({ drawn: 1 })}>Draw it of all {whole(total)} candidates</button>
           : <Figure kind={kind} options={{ design: d }} name={title} />}</Panel>)}
       <Panel wide title={has_brush ? "Candidates in the chosen ranges" : "Candidates"}>
-        <Table name="k" caption="candidates" rows={[...candidates.keys()].filter((at) => chosen[at])} sort="-mean"
+        <Table name="k" caption="candidates" rows={[...candidates.keys()].filter((at) => chosen[at])} sort="-mean" page_size={15}
           empty="No candidate lies in all chosen ranges."
           columns={[
             { key: "candidate", value: (at) => candidates[at] },
