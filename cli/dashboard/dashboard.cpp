@@ -58,8 +58,8 @@ constexpr const char* kDataPolicy =
 constexpr const char* kNoPages =
     "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Swarmsmith</title>"
     "<p>This program was built without its pages: where it was built, esbuild, node-preact or "
-    "zopfli was not installed. What they show is below <a href=\"api/v1/live\">api/v1/live</a> as JSON "
-    "(docs/http-api.md).</p></html>\n";
+    "zopfli was not installed. What they show is below <a href=\"api/v1/live\">api/v1/live</a> "
+    "as JSON (docs/http-api.md).</p></html>\n";
 
 using Route = Expected<Answer> (*)(const Question&);
 

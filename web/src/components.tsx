@@ -272,7 +272,7 @@ function sorted<Row>(columns: Column<Row>[], rows: Row[], sort: string): Row[] {
   return rows.map((row) => ({ row, value: value_of(column, row) })).sort(({ value: a }, { value: b }) =>
     !is_known(a) || !is_known(b) ? Number(is_known(b)) - Number(is_known(a))
       : sign * (typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en", { numeric: true })))
-    .map(({ row }) => row);
+    .map((one) => one.row);
 }
 
 /// A table that sorts, filters and pages.
@@ -298,7 +298,7 @@ export function Table<Row>({ name, caption, columns: given, rows, row_key, row_c
       <input type="search" placeholder="filter" aria-label={`filter: ${caption}`} value={filter} onInput={(event) => set("q", typed(event))} />
       <span class="faint" role="status">{filter ? `${whole(matching.length)} of ${whole(rows.length)}` : `${whole(rows.length)} rows`}</span>
       <Quiet label={`CSV: ${caption}`} act={() => save_as(caption.replace(/\W+/g, "-") + ".csv",
-        csv([columns.map(({ key }) => key), ...matching.map((row) => columns.map((column) => value_of(column, row)))]))}>CSV</Quiet>
+        csv([columns.map((one) => one.key), ...matching.map((row) => columns.map((column) => value_of(column, row)))]))}>CSV</Quiet>
     </div>}
     <div class="scroll" tabIndex={0} role="region" aria-label={caption}>
       <table>

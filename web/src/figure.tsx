@@ -28,7 +28,7 @@ function figure_path({ c = current_route().path[0], kind, options }: FigureProps
 export class Files extends Component<FigureProps, { error?: ApiError }> {
   render({ kind, name }: FigureProps, { error }: { error?: ApiError }) {
     const button = (ending: string, width?: number) => <Quiet label={`${ending.toUpperCase()}: ${name}`} act={() =>
-      ask(figure_path(this.props, ending, width)).then(({ data }) => save_as(`${kind}.${ending}`, data as string), (why) => this.setState({ error: why }))}>
+      ask(figure_path(this.props, ending, width)).then((one) => save_as(`${kind}.${ending}`, one.data as string), (why) => this.setState({ error: why }))}>
       {ending.toUpperCase()}</Quiet>;
     return <span class="files">{button("svg", 175)}{button("csv")}{error && <Failure error={error} />}</span>;
   }

@@ -68,7 +68,7 @@ export function text_at(axis: Axis, part: number): string {
 
 /// Which candidates lie in all brushes.
 export function chosen_by(axes: Axis[], brushes: Record<string, Brush>, count: number): boolean[] {
-  const active = axes.filter(({ name }) => brushes[name]);
+  const active = axes.filter((one) => brushes[one.name]);
   return Array.from({ length: count }, (_, candidate) => active.every((axis) => {
     const part = part_on(axis, candidate);
     const { from, to } = brushes[axis.name];

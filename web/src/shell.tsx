@@ -62,8 +62,8 @@ function Head({ live }: { live: Live | null }) {
   const used = sum("used"), budget = sum("budget");
   const state = is_snapshot ? "a file" : running ? "running" : campaigns.every((one) => one.state === "finished") ? "finished" : "at rest";
   return <header class="head">
-    <a class="brand" href="#/" title="All campaigns">{campaigns.length > 2 ? `${campaigns.length} campaigns` : campaigns.map(({ name }) => name).join(", ") || "Swarmsmith"}</a>
-    <span class="faint" title={campaigns.map(({ store }) => store).join("\n")}>{live.user}@{live.host}</span>
+    <a class="brand" href="#/" title="All campaigns">{campaigns.length > 2 ? `${campaigns.length} campaigns` : campaigns.map((one) => one.name).join(", ") || "Swarmsmith"}</a>
+    <span class="faint" title={campaigns.map((one) => one.store).join("\n")}>{live.user}@{live.host}</span>
     {state_word({ state })}
     <span class="progress" title={`${whole(used)} of ${whole(budget)} experiments`}>
       <Bar value={used} of={budget} name="experiments used" /> {percent(budget > 0 ? used / budget : 0)}</span>
@@ -126,7 +126,7 @@ export class Shell extends Component<{ pages: Page[] }, ShellState> {
     const { page, params: { c, ...params } } = this.#found();
     const { live, stale } = feed;
     const title = page ? [page.label, ...Object.values(params)].join(" ") : "No such page";
-    document.title = [title, live?.campaigns.map(({ name }) => name).join(", "), live?.host, "Swarmsmith"].filter(Boolean).join(" · ");
+    document.title = [title, live?.campaigns.map((one) => one.name).join(", "), live?.host, "Swarmsmith"].filter(Boolean).join(" · ");
     document.body.classList.toggle("stale", stale);
     const path = current_route().path.join("/");
     if (path !== this.#gone_to && live) {

@@ -55,13 +55,13 @@ export function said(value: unknown): string {
 }
 
 function events({ c, last_event }: Campaign) {
-  return <Get<{ events: Event[] }> path={`${c}/events`} version={last_event} render={({ events }) =>
-    <Table name={"e" + c} caption="Events, newest first" rows={events} page_size={12}
+  return <Get<{ events: Event[] }> path={`${c}/events`} version={last_event} render={(one) =>
+    <Table name={"e" + c} caption="Events, newest first" rows={one.events} page_size={12}
       row_key={({ kind, seq, at }) => `${kind}-${seq}-${at}`}
       row_class={(event) => event.severity === "error" && "bad"}
       empty="Nothing has happened that people should know of: no failure, no command, no conflict. Progress is not an event."
-      columns={[{ key: "at", label: "when" }, "severity", { key: "kind", label: "what", value: ({ kind }) => words(kind) },
-        { key: "data", label: "details", value: ({ data }) => said(data) }]} />} />;
+      columns={[{ key: "at", label: "when" }, "severity", { key: "kind", label: "what", value: (one) => words(one.kind) },
+        { key: "data", label: "details", value: (one) => said(one.data) }]} />} />;
 }
 
 /// Of a campaign or of a design. It begins with the end of an iteration.

@@ -64,7 +64,7 @@ function shown(c: string, { candidate: one, ancestors, scores, later }: Answer) 
       </Panel>
       <Panel title="Scores by pair, in its races">
         <Table name="r" page_size={15} caption={`scores of ${id} by pair`} rows={rows_of(scores)} row_key={({ iteration, pair }) => `${iteration} ${pair}`}
-          empty="It has not run yet." columns={["pair", { key: "score", show: ({ score }) => score === null ? "rejected" : number(score as number) },
+          empty="It has not run yet." columns={["pair", { key: "score", show: (row) => row.score === null ? "rejected" : number(row.score as number) },
             { key: "run", show: (row) => watch(String(row.id)) }, "seed", "instance", "iteration"]} />
       </Panel>
       <Panel title="Later scores">

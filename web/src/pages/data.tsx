@@ -29,7 +29,7 @@ export class Data extends Component<PageProps, State> {
 
   #result({ columns, rows, truncated, seconds }: Rows) {
     const csv = () => ask(path_of(`${this.props.params.c}/query`, { sql: this.state.asked, format: "csv" }))
-      .then(({ data }) => save_as("query.csv", data as string), (error) => this.setState({ error }));
+      .then((one) => save_as("query.csv", one.data as string), (error) => this.setState({ error }));
     return <div>
       <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut at {whole(rows.length)}: add a WHERE or a LIMIT, or take the command line</b>}, {duration(seconds)}</span>
         <Quiet act={csv}>CSV of all</Quiet></div>
@@ -53,7 +53,7 @@ export class Data extends Component<PageProps, State> {
           <p class="tools"><span class="faint">To begin with:</span> {kViews.map((name) => <Quiet act={() => this.#first(name)}>{name.slice(2).replace("_", " ")}</Quiet>)}</p>
         </Panel>
         <Panel title="Views, the public schema">
-          <Get<{ views: View[] }> path={`${c}/views`} render={({ views }) => <div class="views">{views.map(({ name, text, columns }) => <details key={name}>
+          <Get<{ views: View[] }> path={`${c}/views`} render={(one) => <div class="views">{one.views.map(({ name, text, columns }) => <details key={name}>
             <summary><code>{name}</code> <small>{text}</small></summary>
             {pairs("pairs", columns.map((column) => [<code>{column.name}</code>, column.text]))}
             <Quiet act={() => this.#first(name)}>first 100 rows</Quiet>

@@ -57,14 +57,14 @@ function iterations_table(c: string, { id, version }: Design, { iterations, elit
       { key: "mean", label: "best mean" },
       "best",
       { key: "markers", label: "tests", title: "a letter a step: x no test, - some dropped, = nobody dropped, ! would drop elites, . nobody had to run",
-        show: ({ markers }) => <code class="markers">{markers}</code> }]} />;
+        show: (one) => <code class="markers">{one.markers}</code> }]} />;
   }} />;
 }
 
 function shown(c: string, design: Design, answer: DesignAnswer) {
   const { design: row, iterations, elites, machine, tests, commands } = answer;
   const { id, best, stage, alive } = design;
-  const last = Math.max(0, ...elites.map(({ iteration }) => iteration));
+  const last = Math.max(0, ...elites.map((one) => one.iteration));
   const elites_title = last > 0 ? `Elites after iteration ${last}` : "Elites";
   const over = is_over(design);
   return <div>
@@ -96,7 +96,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
             { key: "mean", label: "mean score", title: "higher is better" },
             { key: "n", label: "pairs", title: "(instance, seed) that it has met" }]} /></Panel>
       <Panel title="Commands that people gave">
-        <Table name="co" caption="Commands" rows={commands} row_key={({ number }) => number}
+        <Table name="co" caption="Commands" rows={commands} row_key={(one) => one.number}
           empty="None: nobody paused, resumed, extended or cancelled it." columns={[
             { key: "at", label: "when" }, { key: "kind", label: "command" }, "who",
             { key: "budget", label: "experiments" }, { key: "step", label: "after step" }]} /></Panel>

@@ -25,7 +25,7 @@ function slot_time({ slot_times: all, slot_times_last_minute: minute }: Status, 
       ? `The slots are used well: ${percent(part(minute, "busy"))} of their time was spent on evaluations in the last minute.`
       : [<b>{percent(lost)} of the slots' time goes to {worst.name}</b>, `: ${worst.why}. ${worst.todo}`]}</p>
     <div class="split" aria-hidden="true">{Object.keys(kColors).map((name) => <span style={{ width: `${100 * part(minute, name)}%`, background: kColors[name] }} />)}</div>
-    <Table name="t" caption="Slot time by cause" rows={[{ name: "busy", why: "evaluating", todo: "" }, ...causes].filter(({ name }) => seconds(all, name) > 0)} columns={[
+    <Table name="t" caption="Slot time by cause" rows={[{ name: "busy", why: "evaluating", todo: "" }, ...causes].filter((one) => seconds(all, one.name) > 0)} columns={[
       { key: "name", label: "cause", show: ({ name }) => <span class="meter-cell"><span class="swatch" style={{ background: kColors[name] }} /> {name}</span> },
       column("minute", "last minute", minute), column("all", "since start", all), { key: "why", label: "because" }]} />
     <p><small>Causes that took no time are left out.</small></p>
@@ -80,14 +80,14 @@ const kCounts: Record<string, string> = {
 
 function workers_table(workers: Worker[], is_running: boolean) {
   return <Table<Worker> name="w" caption="Workers, worst first" rows={worst_first(workers)} page_size={50}
-    row_class={({ state }) => state !== "connected" && "bad"}
+    row_class={(one) => one.state !== "connected" && "bad"}
     empty={[`No worker ${is_running ? "is" : "has ever been"} connected: `, <code>swarmsmith worker --coordinator {store_word()}.coordinator</code>, " on any host that has this file."]}
     columns={[
       { key: "number", label: "worker" }, { key: "state", show: state_word }, "host", "job", "slots",
       { key: "running", title: "evaluations, as it last said" },
       { key: "held", title: "leases" },
       { key: "done_per_s", label: "evals/s", show: (one) => number(one.done_per_s, 3) },
-      { key: "busy", show: ({ busy }) => percent(busy), title: "share of its slots' time, over the last seconds" },
+      { key: "busy", show: (one) => percent(one.busy), title: "share of its slots' time, over the last seconds" },
       { key: "last_heard_s", label: "silent for", show: (one) => duration(one.last_heard_s) },
       "done",
       { key: "failed", show: ({ failed }) => <b class={failed ? "warn" : "faint"}>{whole(failed)}</b> },
@@ -107,10 +107,10 @@ export function Fleet({ live: { status, running } }: PageProps) {
     {launcher?.name && <p class="faint">Workers are started by {launcher.name}: {count(launcher.running, "of", "of")} {whole(launcher.wanted)} run{launcher.pending > 0 && `, ${whole(launcher.pending)} wait for ${launcher.waits_for || "their turn"}`}. {launcher.note}</p>}
     <div class="grid">
       {status && running && <Panel title="Where the slots' time goes">
-        <Get<{ causes: Cause[] }> path="causes" render={({ causes }) => slot_time(status, causes)} /></Panel>}
+        <Get<{ causes: Cause[] }> path="causes" render={(one) => slot_time(status, one.causes)} /></Panel>}
       {running && <Panel title="The last minutes"><Get<History> path="history" every_s={2} render={past} /></Panel>}
       <Panel wide title="Workers, worst first" command={command("status", "--watch")}>
-        <Get<{ workers: Worker[] }> path="workers" every_s={running ? 1 : 30} render={({ workers }) => workers_table(workers, running)} /></Panel>
+        <Get<{ workers: Worker[] }> path="workers" every_s={running ? 1 : 30} render={(one) => workers_table(one.workers, running)} /></Panel>
     </div>
   </div>;
 }

@@ -11,7 +11,7 @@ const kFirst = 24;
 
 export function Machines({ query, campaign: { designs } }: PageProps) {
   const shown = designs.filter((one) => [one.mission, ""].includes(query.mission ?? "") && [one.method, ""].includes(query.method ?? ""));
-  const drawn = shown.filter(({ best }) => best);
+  const drawn = shown.filter((one) => one.best);
   const most = query.all ? drawn.length : kFirst;
   return <div>
     <h1>Control software <small>of the best candidate of each design</small></h1>

@@ -16,7 +16,7 @@ function quoted(text: string): string { return "'" + text.replace(/'/g, "''") + 
 
 function table(c: string, rows: Use[], missions: string[]) {
   return <Table name="m" caption="Modules of winners" rows={rows} sort="module" row_key={({ method, module }) => `${method} ${module}`}
-    columns={[{ key: "module", value: ({ module }) => words(module) }, "method", ...missions.map((mission) => ({
+    columns={[{ key: "module", value: (one) => words(one.module) }, "method", ...missions.map((mission) => ({
       key: mission, value: ({ of }: Use) => of[mission]?.occurrence_rate,
       title: "share of the winners that have it; mean count in a winner; how many of these are in states that can be reached",
       show: ({ module, method, of }: Use) => {

@@ -39,9 +39,9 @@ export function Results({ params: { c }, query, campaign: { designs } }: PagePro
 }
 
 function leaderboard(rows: Row[]) {
-  return <Table name="b" caption="leaderboard" rows={rows} row_key={({ design }) => String(design)}
+  return <Table name="b" caption="leaderboard" rows={rows} row_key={(one) => String(one.design)}
     empty="No design has a winner yet: it has one when it has finished." columns={[
-      { key: "mission", show: ({ mission }) => words(String(mission)) }, "rank", "design", "method", "repetition",
+      { key: "mission", show: (one) => words(String(one.mission)) }, "rank", "design", "method", "repetition",
       { key: "candidate", label: "winner" }, { key: "test_mean", label: "mean of tests", title: "higher is better" },
       { key: "test_runs", label: "tests" }, { key: "race_mean", label: "mean in the race" }]} />;
 }
@@ -49,12 +49,12 @@ function leaderboard(rows: Row[]) {
 function real_runs(rows: Row[]) {
   return <Table name="f" caption="real runs" rows={rows}
     empty={["No real run. Film one and score it: ", <code>swarmsmith track score VIDEO --arena ARENA.toml --into STORE</code>]} columns={[
-      { key: "id", label: "run" }, "name", { key: "mission", show: ({ mission }) => words(String(mission ?? "–")) }, "candidate",
+      { key: "id", label: "run" }, "name", { key: "mission", show: (one) => words(String(one.mission ?? "–")) }, "candidate",
       { key: "score", title: "higher is better" },
       { key: "verdict", show: ({ verdict, counts }) => counts ? verdict : <span class="warn">{verdict}, does not count</span> },
       { key: "reason", label: "why", value: ({ reason, overridden_by, reasons }) => [reason, overridden_by && `said by ${overridden_by}`, reasons_of(reasons)].filter(Boolean).join("; ") || null },
       { key: "duration_s", label: "length", show: (row) => duration(row.duration_s as number) },
-      { key: "recorded", label: "filmed", show: ({ recorded }) => when(String(recorded ?? "–")) },
+      { key: "recorded", label: "filmed", show: (one) => when(String(one.recorded ?? "–")) },
       { key: "watch", show: ({ id, candidate }) => candidate !== null
         && <a href={place_of(String(id), { beside: `${id}-1,${id}-2`, speed: 1 })}>beside its simulations</a> }]} />;
 }

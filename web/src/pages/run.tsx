@@ -32,7 +32,7 @@ interface State {
 
 function is_run(run: Trajectory | ApiError | undefined): run is Trajectory { return !!run && "robots" in run; }
 
-function has_states(run: Trajectory): boolean { return run.robots.some(({ state }) => state.length); }
+function has_states(run: Trajectory): boolean { return run.robots.some((one) => one.state.length); }
 
 function seconds(cycle: number): string {
   return `${(Math.round(cycle) / 10).toFixed(1)}\u2009s`;
@@ -153,7 +153,7 @@ export class RunPage extends Component<PageProps, State> {
         if (is_run(run)) this.#ask_for_images(run);
         this.setState({ runs: { ...this.state.runs, [id]: run } }, () => this.#begin());
       };
-      ask(`${this.props.params.c}/runs/${id}/trajectory`).then(({ data }) => keep(data as Trajectory), keep);
+      ask(`${this.props.params.c}/runs/${id}/trajectory`).then((one) => keep(one.data as Trajectory), keep);
     }
   }
 
@@ -333,7 +333,7 @@ export class RunPage extends Component<PageProps, State> {
 
   #robots(run: Trajectory, chosen: number | null) {
     const { cycle } = this.state;
-    const has_kinds = run.robots.some(({ kind }) => kind?.length);
+    const has_kinds = run.robots.some((one) => one.kind?.length);
     const by_state = this.#tint() === "state";
     const poses = run.robots.map((robot) => pose_at(robot, cycle));
     return <details open={run.robots.length <= 6}>
@@ -366,7 +366,7 @@ export class RunPage extends Component<PageProps, State> {
       {verdict ? candidate && offer("Simulated from the same starts:", [1, 2, 3].map((n) => [`${id}-${n}`, `seed ${n}`]))
         : offer("The same under:", kProfiles.filter((name) => name !== source).map((name) => [`${candidate}-${seed}@${name}`, name]))}
       {design && !verdict && <Get<DesignAnswer> path={`${this.props.params.c}/designs/${design}`} render={({ elites }) => {
-        const last = Math.max(0, ...elites.map(({ iteration }) => iteration));
+        const last = Math.max(0, ...elites.map((one) => one.iteration));
         return offer("On the same seed, elites:", elites.filter((one) => one.iteration === last && "c" + one.candidate !== candidate).slice(0, 4)
           .map((one) => [`c${one.candidate}-${seed}`, "c" + one.candidate])) || null;
       }} />}

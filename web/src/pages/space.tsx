@@ -42,7 +42,7 @@ function brushes_of(text: string, axes: Axis[]): Record<string, Brush> {
 }
 
 function text_of(axes: Axis[], brushes: Record<string, Brush>): string {
-  return axes.filter(({ name }) => brushes[name]).map((axis) => {
+  return axes.filter((one) => brushes[one.name]).map((axis) => {
     const { name, words } = axis;
     const [from, to] = [brushes[name].from, brushes[name].to].map((part) => value_of_part(axis, part));
     return words ? `${name}:${words[Math.ceil(from - 1e-9)]}:${words[Math.floor(to + 1e-9)]}` : `${name}:${Number(from.toPrecision(5))}:${Number(to.toPrecision(5))}`;
@@ -94,7 +94,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
 
   #show(names: string[]): void {
     const { axes, brushes } = this.#plot();
-    set_query({ p: names.join(",") || "none", b: text_of(axes.filter(({ name }) => names.includes(name)), brushes) });
+    set_query({ p: names.join(",") || "none", b: text_of(axes.filter((one) => names.includes(one.name)), brushes) });
   }
 
   /// null, and what is all of the axis: no brush.
@@ -145,7 +145,7 @@ class Parallel extends Component<ParallelProps, ParallelState> {
     const chosen_count = chosen.filter(Boolean).length;
     const names = Object.keys(parameters);
     const elites = data.elite.filter(Boolean).length;
-    const shown = axes.map(({ name }) => name);
+    const shown = axes.map((one) => one.name);
     const has_brush = Object.keys(brushes).length > 0;
     const show = (label: string, these: string[]) => <button onClick={() => this.#show(these)}>{label}</button>;
     return <div class="grid">
