@@ -5,9 +5,8 @@ import { Live } from "./types";
 
 /// What went wrong, as the command line says it.
 export class ApiError extends Error {
-  /// When to ask again, if the server is only busy.
-  retry_s = 0;
-  constructor(readonly status: number, readonly kind: string, message: string, readonly where = "") { super(message); }
+  /// `retry_s`: when to ask again, if the server is only busy.
+  constructor(readonly status: number, message: string, readonly where = "", readonly retry_s = 0) { super(message); }
   /// No answer came at all: it is worth trying again.
   get unreachable(): boolean { return this.status === 0; }
 }
@@ -39,7 +38,7 @@ async function from_snapshot(path: string): Promise<Answer> {
   const key = path.replace(/([?&])width=[^&]*&?/, "$1").replace(/[?&]$/, "");
   const data = (await snapshot)[key];
   if (data === undefined)
-    throw new ApiError(404, "not_found", "this file does not hold it: see it in the store with swarmsmith dashboard", key);
+    throw new ApiError(404, "this file does not hold it: see it in the store with swarmsmith dashboard", key);
   return { data, cost_ms: 0 };
 }
 
@@ -81,14 +80,13 @@ async function fetched(path: string, patience_ms: number, headers: Record<string
   try {
     response = await fetch("api/v1/" + path, { method, headers, signal: (AbortSignal as any).timeout(patience_ms), credentials: "omit" });
   } catch (error) {
-    throw new ApiError(0, "unreachable", (error as Error).name === "TimeoutError"
+    throw new ApiError(0, (error as Error).name === "TimeoutError"
       ? `no answer within ${patience_ms / 1000} s` : "no answer: the process that serves this page cannot be reached", path);
   }
   if (response.ok || response.status === 304) return response;
-  const { error = { kind: "http", message: `the server answered ${response.status} ${response.statusText}`, where: path } }
+  const { error = { message: `the server answered ${response.status} ${response.statusText}`, where: path } }
     = await response.json().catch(() => ({}));
-  throw Object.assign(new ApiError(response.status, error.kind, error.message, error.where),
-    { retry_s: response.status === 503 ? Number(response.headers.get("Retry-After") ?? 1) : 0 });
+  throw new ApiError(response.status, error.message, error.where, response.status === 503 ? Number(response.headers.get("Retry-After") ?? 1) : 0);
 }
 
 /// Data of a path below api/v1/. An answer that the server says is unchanged (ETag, 304) is the very
@@ -111,7 +109,7 @@ export async function ask(path: string, patience_ms = 65000): Promise<Answer> {
   let data: unknown;
   try {
     data = await (response.headers.get("Content-Type")?.includes("json") ? response.json() : response.text());
-  } catch { throw new ApiError(0, "unreachable", "the answer broke off", path); }
+  } catch { throw new ApiError(0, "the answer broke off", path); }
   const etag = response.headers.get("ETag");
   kept.delete(path);
   if (etag) kept.set(path, { etag, data });

@@ -60,7 +60,7 @@ export class Get<T> extends Component<Props<T>, State> {
       this.#cost_ms = cost_ms;
       // "Nothing yet" is an answer: browsers complain of every request that fails.
       const { nothing } = data as { nothing?: string };
-      if (nothing !== undefined) throw new ApiError(404, "nothing", nothing);
+      if (nothing !== undefined) throw new ApiError(404, nothing);
       next = { path, data, error: undefined };
     } catch (error) {
       next = { path, error: error as ApiError, ...(this.state.path !== path && { data: undefined }) };
@@ -74,7 +74,7 @@ export class Get<T> extends Component<Props<T>, State> {
   #drawn(data: T) {
     try { return this.props.render(data) as JSX.Element; } catch (error) {
       console.error(error);
-      return <Failure error={new ApiError(-1, "page", `the page cannot show this answer: ${(error as Error).message}`, this.props.path)} />;
+      return <Failure error={new ApiError(-1, `the page cannot show this answer: ${(error as Error).message}`, this.props.path)} />;
     }
   }
 

@@ -140,6 +140,7 @@ export interface Race {
   instances: number[];
   seeds: number[];
   markers: string[];
+  meanings: string[];
   /// Candidates alive after the step.
   alive: number[];
   p_value: (number | null)[];

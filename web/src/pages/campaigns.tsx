@@ -9,6 +9,8 @@ import { href } from "../route";
 import { eta_of, look_list } from "../shell";
 import { Campaign, Design, Event, Live } from "../types";
 
+export const kPause = "Evaluations that run now end and count; nothing more is given out until somebody resumes. Nothing is lost.";
+
 /// Whether nothing more happens to it.
 export function is_over({ state }: Design): boolean { return state === "finished" || state === "stopped"; }
 
@@ -87,7 +89,7 @@ function campaign_panels(live: Live, campaign: Campaign) {
   return <div class="grid">
     <Panel title={name} wide command={command("ls", "", campaign)} tools={live.may_act && [
       paused < designs.length && !designs.every(is_over) && confirm("Pause",
-        "Evaluations that run now end and count; nothing more is given out until somebody resumes. Nothing is lost."),
+        kPause),
       paused > 0 && confirm("Resume", `${count(paused, "paused design")} will get work again.`)]}>
       {pairs("facts", [
         ["state", state_word({ state, paused: paused > 0 && paused === designs.length })],

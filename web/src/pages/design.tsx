@@ -6,7 +6,7 @@ import { count, number, whole, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { Columns, Design, DesignAnswer, Row } from "../types";
-import { convergence, is_over, stage_of } from "./campaigns";
+import { convergence, is_over, kPause, stage_of } from "./campaigns";
 
 export function design_title(design: Design) {
   return <h1>{link(design.id)} <small>{words(design.mission)} · {design.method} · repetition {design.repetition}</small> {state_word(design)}</h1>;
@@ -24,7 +24,7 @@ class Acts extends Component<{ c: string; design: Design }, { more: string }> {
     const open = !is_over(design);
     return <div class="tools">
       {open && (paused ? act("Resume", "It will get work again.")
-        : act("Pause", "Evaluations that run now end and count; nothing more of it is given out until somebody resumes it."))}
+        : act("Pause", kPause))}
       {act("Extend", [<label>Experiments more: <input type="number" min="1" step="1" value={more} onInput={(event) => this.setState({ more: typed(event) })} /></label>,
         <p>From {whole(budget)} to {whole(budget + (Number(more) || 0))}. This cannot be taken back; the command is kept in the store, so that the same answer comes out again.</p>],
         { path: `extend?budget=${Number(more)}`, of: "Extend the budget of" })}

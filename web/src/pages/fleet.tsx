@@ -61,9 +61,8 @@ function draw_past(pen: Pen, history: History): void {
 
 function past(history: History) {
   if (history.t_s.length < 2) return <Empty>The process has just begun: its history comes second by second.</Empty>;
-  return <div><Canvas height={() => 190} draw={(pen) => draw_past(pen, history)}
-    label="Evaluations a second, and shares of the slots' time by cause, since the process began or over the last minutes" />
-    <p><small>Line: evaluations a second (left). Areas: share of the slots' time, busy and by cause (right), colours as above. It begins with this process.</small></p></div>;
+  const label = "Line: evaluations a second (left). Areas: share of the slots' time, busy and by cause (right), colours as above. It begins with this process.";
+  return <div><Canvas height={() => 190} draw={(pen) => draw_past(pen, history)} label={label} /><p><small>{label}</small></p></div>;
 }
 
 /// Lost and quarantined workers first, then those with failures, then the most silent.
@@ -98,7 +97,7 @@ export function Fleet({ live: { status, running } }: PageProps) {
   const launcher = status?.launcher;
   return <div>
     <h1>Fleet</h1>
-    {!running && <Empty>No campaign runs here, so no worker works for it. Below are those that did, as the store knows them.</Empty>}
+    {!running && <Empty>No campaign runs here. Below are the workers of before, as the store knows them.</Empty>}
     {status && running && pairs("panel facts", [
       ...(["workers", "slots", "leased", "ready", "done", "failed", "requeued", "lost_workers", "uncommitted"] as const)
         .map((name): [string, string, string?] => [words(name), whole(status[name]), kCounts[name]]),

@@ -11,10 +11,6 @@ import { Race } from "../types";
 import { said } from "./campaigns";
 import { design_title, kNoRace } from "./design";
 
-const kMarkers: Record<string, string> = {
-  "x": "no test", "-": "the test dropped some", "=": "the test dropped nobody", "!": "only protected elites would have been dropped",
-  ".": "nobody had to run", "c": "capping alone dropped some", ":": "only elites had to run", "?": "not known",
-};
 // Parts of the picture, in CSS pixels.
 const kLeft = 86, kRight = 16, kAlive = 46, kMarks = 18, kTop = kAlive + kMarks, kBottom = 18;
 
@@ -302,9 +298,9 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
 }
 
 function step_facts(race: Race, until: number) {
-  const p = race.p_value[until], best = race.best[until], marker = race.markers[until];
+  const p = race.p_value[until], best = race.best[until];
   return pairs("facts", [
-    ["test", [<code>{marker}</code>, " ", <span class="small">{kMarkers[marker]}</span>]],
+    ["test", [<code>{race.markers[until]}</code>, " ", <span class="small">{race.meanings[until]}</span>]],
     ["p value", p !== null && p < 0.0001 ? "< 0.0001" : number(p, 3)],
     ["alive", whole(race.alive[until])],
     ["best", best ? link("c" + best) : "–"],
