@@ -18,7 +18,7 @@ class Functions(unittest.TestCase):
     def setUpClass(cls):
         out = shared_folder() / "functions.js"
         preact = os.environ["SWARMSMITH_PREACT"]
-        subprocess.run(["esbuild", HERE / "functions.ts", "--bundle", "--format=iife", "--global-name=f", "--target=es2021", "--jsx-factory=h",
+        subprocess.run(["esbuild", HERE / "functions.ts", "--bundle", "--format=iife", "--global-name=f", "--target=es2022", "--jsx-factory=h",
                         f"--alias:preact={preact}/preact/src/preact.js", "--log-level=error", f"--outfile={out}"], check=True)
         cls.page = shared_browser().page()
         cls.page.js(out.read_text() + "; window.f = f; 0")
