@@ -53,6 +53,12 @@ class Functions(unittest.TestCase):
         rows = [["a", "b"], ['say "x"', "1,5"], ["", "two\nlines"]]
         self.assertEqual(self.of("parse_csv", self.of("csv", rows)), rows)
 
+    def test_no_text_of_a_csv_is_a_formula(self):
+        rows = [["=1+1", "-1.5", "--s0 1", "-cmd|x", "'=1", "@a"]]
+        text = self.of("csv", rows)
+        self.assertEqual(text, "'=1+1,-1.5,--s0 1,'-cmd|x,''=1,'@a\r\n")
+        self.assertEqual(self.of("parse_csv", text), rows)
+
     def test_addresses_read_back(self):
         address = self.of("href", ["c1", "d3", "race", "8"], {"step": 120, "cell": "c812,120", "q": "a&b=c #?", "none": None, "empty": ""})
         self.assertTrue(address.startswith("#/c1/d3/race/8?step=120&cell=c812,120&q="))

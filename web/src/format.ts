@@ -81,10 +81,14 @@ export function shell_word(text: string): string {
   return /^[\w@%+=:,./-]+$/.test(text) ? text : "'" + text.replace(/'/g, "'\\''") + "'";
 }
 
-/// RFC 4180.
+/// What a spreadsheet would calculate, but for numbers and switches (--s0 1).
+const kFormula = /^'*([=+@\t\r\n]|-(?!-?[a-z][\w .\-/:,]*$))/i;
+
+/// RFC 4180, with an apostrophe before what a spreadsheet would calculate, as the command line has it.
 export function csv(rows: unknown[][]): string {
   const cell = (value: unknown) => {
-    const text = String(value ?? "");
+    let text = String(value ?? "");
+    if (kFormula.test(text) && isNaN(Number(text))) text = "'" + text;
     return /[",\r\n]/.test(text) ? '"' + text.replace(/"/g, '""') + '"' : text;
   };
   return rows.map((row) => row.map(cell).join(",") + "\r\n").join("");
@@ -95,7 +99,8 @@ export function parse_csv(text: string): string[][] {
   const rows: string[][] = [[]];
   const cell = /(?:"((?:[^"]|"")*)"|([^",\r\n]*))(,|\r?\n|$)/g;
   for (let found; cell.lastIndex < text.length && (found = cell.exec(text));) {
-    rows[rows.length - 1].push(found[1] !== undefined ? found[1].replace(/""/g, '"') : found[2]);
+    const field = found[1] !== undefined ? found[1].replace(/""/g, '"') : found[2];
+    rows[rows.length - 1].push(field[0] === "'" && kFormula.test(field) ? field.slice(1) : field);
     if (found[3] !== "," && cell.lastIndex < text.length) rows.push([]);
   }
   return rows;

@@ -67,7 +67,12 @@ function light(svg: SVGSVGElement, run: Trajectory, cycle: number, chosen: numbe
   });
 }
 
-export class RunPage extends Component<PageProps, State> {
+/// Another run is another player.
+export function RunPage(props: PageProps) {
+  return <Player key={`${props.params.c} ${props.params.id}`} {...props} />;
+}
+
+class Player extends Component<PageProps, State> {
   state: State = { runs: {}, playing: false, cycle: 0, chosen: null, said: "", wanted: "" };
   #cycle = 0;
   #last_frame = 0;
@@ -94,17 +99,9 @@ export class RunPage extends Component<PageProps, State> {
 
   componentWillReceiveProps(next: PageProps): void {
     const asked = this.#asked_cycle(next);
-    const { id, c } = this.props.params;
-    if (next.params.id !== id || next.params.c !== c) {
-      cancelAnimationFrame(this.#frame);
-      this.#has_begun = false;
-      this.#cycle = asked ?? 0;
-      this.setState({ playing: false, chosen: null, cycle: this.#cycle });
-      if (next.params.c !== c) this.setState({ runs: {} });
-    } else if (!this.state.playing && asked !== null && Math.round(asked) !== Math.round(this.#cycle)) {
-      this.#cycle = asked;
-      this.setState({ cycle: asked });
-    }
+    if (this.state.playing || asked === null || Math.round(asked) === Math.round(this.#cycle)) return;
+    this.#cycle = asked;
+    this.setState({ cycle: asked });
   }
 
   componentDidUpdate(): void {
