@@ -94,6 +94,13 @@ ExitCode write_snapshot(const DashboardArguments& arguments, Output& output) {
         output, ExitCode::Usage,
         Error{ErrorKind::BadInput, "takes one store; `merge` makes one of several", "--export"});
   }
+  // Before the work of minutes: a name that will not do.
+  const std::filesystem::path file(arguments.file);
+  if (const auto place = output_place(file, FileKind::WebPage); !place)
+    return fail(output, ExitCode::Failed, place.error());
+  if (std::filesystem::is_directory(file) ||
+      (file.has_parent_path() && !std::filesystem::exists(file.parent_path())))
+    return fail(output, ExitCode::Failed, cannot_write(arguments.file, 0));
   SnapshotOptions options{.version = program_name()};
   for (const std::string& text : arguments.designs) {
     const auto design = id_from_text<DesignTag>(text);

@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
+#include <charconv>
 #include <chrono>
+#include <cmath>
 #include <cstring>
 #include <iterator>
 #include <mutex>
@@ -471,15 +473,16 @@ class Dashboard final : public HttpSite {
       const bool is_written = has_writer(store.file);
       auto reader = StoreReader::open(store.file);
       if (!reader) return Unexpected(reader.error());
-      const auto state = read_campaign_state(**reader, is_written);
-      if (!state) return Unexpected(state.error());
       const CampaignStatus* status = nullptr;
       if (runs && store.place && now->status.campaigns &&
           *store.place < now->status.campaigns->size())
         status = &(*now->status.campaigns)[*store.place];
+      const auto state = read_campaign_state(**reader, is_written, status == nullptr);
+      if (!state) return Unexpected(state.error());
       campaigns +=
           (i == 0 ? "" : ",") + campaign_json(c, options_.is_snapshot ? kSomeStore : store.file,
-                                              *state, status, runs ? seconds_left(now->status) : -1)
+                                              *state, status, runs ? seconds_left(now->status) : -1,
+                                              static_cast<bool>(options_.act))
                                     .text();
       std::ranges::move(looks_of(c, *state, status), std::back_inserter(looks));
     }
@@ -517,8 +520,13 @@ class Dashboard final : public HttpSite {
 
   Expected<Answer> history(const SiteRequest& request) {
     const auto after = request.parameters.find("after");
-    const double after_s =
-        after == request.parameters.end() ? 0 : std::strtod(after->second.c_str(), nullptr);
+    double after_s = 0;
+    if (after != request.parameters.end()) {
+      const std::string& text = after->second;
+      const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), after_s);
+      if (error != std::errc() || end != text.data() + text.size() || !std::isfinite(after_s))
+        return bad_input("wants seconds since 1970, not \"" + text + "\"", "after");
+    }
     const std::scoped_lock lock(mutex_);
     return json_answer(history_.json(after_s));
   }

@@ -79,7 +79,7 @@ JsonObject design_json(Rows& designs, std::size_t row, const DesignStatus* now) 
       const char* letter = name == "id" ? "d" : "c";
       object.add(name,
                  cell.type == Cell::Type::Null ? std::nullopt : std::optional(letter + cell.text));
-    } else if (name != "stage" || !cell.text.empty()) {
+    } else if ((name != "stage" && name != "search") || !cell.text.empty()) {
       object.add(name, cell_as_json(cell));
     }
   }
@@ -167,6 +167,8 @@ std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& stat
   const Head head = head_of(state);
   if (now != nullptr && !now->trouble.empty())
     looks.push_back({head.name + ": " + now->trouble, c});
+  if (now == nullptr && state.rejected > 0)
+    looks.push_back({counted(state.rejected, "evaluation") + " rejected", c});
   if (head.state == "interrupted")
     looks.push_back({head.name + " is not finished, and nobody runs it", c});
   Rows designs = state.designs;
@@ -196,7 +198,30 @@ JsonObject causes_json() {
                                    })));
 }
 
-Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written) {
+namespace {
+
+/// Columns `stage` and `search`, empty for iterated races.
+Expected<void> add_stages(StoreReader& store, Rows& designs) {
+  const auto stages = StoredStages::read(store);
+  if (!stages) return Unexpected(stages.error());
+  if (stages->empty()) return {};
+  for (std::size_t i = 0; i < designs.cells.size(); ++i) {
+    const std::string id = cell_of(designs, i, "id").text;
+    const SearchOptions* search = stages->search(id);
+    const std::string name(search == nullptr ? "" : name_of(search->kind));
+    const std::string stage =
+        search == nullptr ? "" : stages->stage(id, cell_of(designs, i, "iteration").text);
+    designs.cells[i].push_back({Cell::Type::Text, stage});
+    designs.cells[i].push_back({Cell::Type::Text, name});
+  }
+  designs.columns.insert(designs.columns.end(), {"stage", "search"});
+  return {};
+}
+
+}  // namespace
+
+Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written,
+                                                  bool stages) {
   StoredCampaignState state;
   auto campaign = select(store,
                          "SELECT c.name, c.digest, c.state, "
@@ -209,11 +234,18 @@ Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_wr
   if (!campaign) return Unexpected(campaign.error());
   auto designs = select(store, kDesigns, kRecordLimits);
   if (!designs) return Unexpected(designs.error());
-  const auto event = select(store, "SELECT coalesce(max(seq), 0) FROM event", kRecordLimits);
+  const auto event = select(store,
+                            "SELECT coalesce(max(seq), 0), coalesce(sum(kind = 'evaluation "
+                            "rejected'), 0) FROM event",
+                            kRecordLimits);
   if (!event) return Unexpected(event.error());
   state.campaign = std::move(*campaign);
   state.designs = std::move(*designs);
-  state.last_event = event->cells.front().front().text;
+  state.last_event = event->cells.front()[0].text;
+  state.rejected = std::atoll(event->cells.front()[1].text.c_str());
+  if (stages) {
+    if (auto added = add_stages(store, state.designs); !added) return Unexpected(added.error());
+  }
   if (is_written) return state;
   correct_states(state.campaign);
   correct_states(state.designs);
@@ -221,8 +253,8 @@ Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_wr
 }
 
 JsonObject campaign_json(const std::string& c, const std::filesystem::path& file,
-                         const StoredCampaignState& state, const CampaignStatus* now,
-                         double left_s) {
+                         const StoredCampaignState& state, const CampaignStatus* now, double left_s,
+                         bool may_act) {
   const Head head = head_of(state);
   Rows heads = state.campaign;
   Rows designs = state.designs;
@@ -242,18 +274,20 @@ JsonObject campaign_json(const std::string& c, const std::filesystem::path& file
     list += (i == 0 ? "" : ",") + design_json(designs, i, live).text();
   }
   const bool moves = now != nullptr && left_s >= 0;
-  return std::move(JsonObject()
-                       .add("c", c)
-                       .add("name", head.name)
-                       .add("store", file.string())
-                       .add("digest", heads.cells.empty() ? "" : cell_of(heads, 0, "digest").text)
-                       .add("state", head.state)
-                       .add("used", used)
-                       .add("budget", budget)
-                       .add("eta_s", moves ? std::optional(left_s) : std::nullopt)
-                       .add("trouble", now != nullptr ? now->trouble : std::string())
-                       .add("last_event", JsonPiece{state.last_event})
-                       .add("designs", JsonPiece{"[" + list + "]"}));
+  return std::move(
+      JsonObject()
+          .add("c", c)
+          .add("name", head.name)
+          .add("store", file.string())
+          .add("digest", heads.cells.size() == 1 ? cell_of(heads, 0, "digest").text : "")
+          .add("state", head.state)
+          .add("used", used)
+          .add("budget", budget)
+          .add("eta_s", moves ? std::optional(left_s) : std::nullopt)
+          .add("trouble", now != nullptr ? now->trouble : std::string())
+          .add("last_event", JsonPiece{state.last_event})
+          .add("may_act", may_act && heads.cells.size() == 1 && head.state != "imported")
+          .add("designs", JsonPiece{"[" + list + "]"}));
 }
 
 void History::add(const LiveStatus& status, Time now) {

@@ -22,17 +22,18 @@ struct StoredCampaignState {
   Rows campaign;  ///< name, digest, state, used, budget, a row a campaign
   Rows designs;   ///< as `live` has them
   std::string last_event;
-  bool has_stages = false;
+  std::int64_t rejected = 0;  ///< evaluations, as its events say
 };
 
-/// Errors: as a query's.
-Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written);
+/// Errors: as a query's. `stages`: with where searches are that are no iterated races, which the
+/// coordinator that runs them knows better.
+Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written, bool stages);
 
 /// The element of `campaigns` of `live`. `now`: of the coordinator that runs it, null for none, and
-/// `left_s` as seconds_left says.
+/// `left_s` as seconds_left says. Nobody acts on campaigns that were merged or imported.
 JsonObject campaign_json(const std::string& c, const std::filesystem::path& file,
-                         const StoredCampaignState& state, const CampaignStatus* now,
-                         double left_s);
+                         const StoredCampaignState& state, const CampaignStatus* now, double left_s,
+                         bool may_act);
 
 /// Something that a person should know of, and the page that shows it: "fleet", "c1", "c1/d3".
 struct Look {

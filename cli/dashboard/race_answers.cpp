@@ -17,6 +17,7 @@
 
 #include "analysis/figures/race_plot.h"
 #include "analysis/records/records.h"
+#include "cli/output/stored_stages.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -240,6 +241,29 @@ std::set<std::string> names_of(const Question& question) {
   return names;
 }
 
+/// What an iteration of another search than iterated racing is called, and why it is no race.
+struct RoundTexts {
+  std::optional<std::string> name{};
+  std::string note{};
+};
+
+Expected<RoundTexts> round_of(const Question& question, std::int64_t iteration) {
+  const auto stages = StoredStages::read(question.store);
+  if (!stages) return Unexpected(stages.error());
+  const std::string design = std::to_string(question.design.value);
+  const SearchOptions* search = stages->search(design);
+  RoundTexts texts;
+  if (search == nullptr) return texts;
+  texts.name = stages->round(design, std::to_string(iteration));
+  const SearchWords& words = words_of(search->kind);
+  if (!words.has_tests)
+    texts.note = fmt::format(
+        "This is no race: {} compares means, and no statistical test drops "
+        "anybody.",
+        words.name);
+  return texts;
+}
+
 }  // namespace
 
 Expected<Answer> race_answer(const Question& question) {
@@ -261,6 +285,8 @@ Expected<Answer> race_answer(const Question& question) {
                             "state IN ('finished', 'stopped', 'testing'))",
                             question.design.value, *iteration));
   if (!over) return Unexpected(over.error());
+  const auto round = round_of(question, *iteration);
+  if (!round) return Unexpected(round.error());
   const auto pairs = pairs_of(question, race->steps);
   if (!pairs) return Unexpected(pairs.error());
   std::span<const Racer> shown(race->racers);
@@ -276,6 +302,8 @@ Expected<Answer> race_answer(const Question& question) {
           .add("design", question.design)
           .add("iteration", *iteration)
           .add("ended", ended)
+          .add("round", round->name)
+          .add("note", round->note)
           .add("rows_total", race->racers.size())
           .add("from", *from)
           .add("steps", column_of(race->steps, 0))

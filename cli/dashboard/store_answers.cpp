@@ -15,6 +15,7 @@
 #include "cli/arguments/thing_id.h"
 #include "cli/dashboard/view_texts.h"
 #include "cli/output/evaluation_history.h"
+#include "cli/output/stored_stages.h"
 
 namespace swarmsmith::cli {
 namespace {
@@ -72,7 +73,8 @@ struct Happening {
 };
 
 /// A list of things that happened, its first column the time. Audits that found the same bits, some
-/// a second, are none: they would hide all else.
+/// a second, are none: they would hide all else. A failure is told once, by v_failures, which knows
+/// most of it.
 struct List {
   const char* kind;
   const char* severity;
@@ -90,7 +92,8 @@ constexpr std::array<List, 4> kLists = {{
     {"attempt", "info",
      "SELECT at, id, 'd' || design AS design, 'c' || candidate AS candidate, attempt, worker, "
      "host, "
-     "held_ms, outcome FROM v_attempts WHERE outcome <> 'audited' AND {} ORDER BY at DESC"},
+     "held_ms, outcome FROM v_attempts WHERE outcome NOT IN ('audited', 'failed') AND {} "
+     "ORDER BY at DESC"},
     {"conflict", "error",
      "SELECT * FROM (SELECT time AS at, 'c' || candidate AS candidate, pair, kept_score, "
      "other_score, other_worker FROM conflict) WHERE {} ORDER BY at DESC"},
@@ -167,7 +170,8 @@ Expected<Answer> events_answer(const Question& question) {
   if (!limit) return Unexpected(limit.error());
   const auto events = rows_of(
       question, fmt::format("SELECT seq, time, severity, kind, text FROM event WHERE seq > {} "
-                            "ORDER BY seq DESC LIMIT {}",
+                            "AND (kind <> 'evaluation failed' OR EXISTS (SELECT 1 FROM v_failures "
+                            "WHERE at IS NULL)) ORDER BY seq DESC LIMIT {}",
                             *after, *limit));
   if (!events) return Unexpected(events.error());
   std::vector<Happening> happenings;
@@ -214,11 +218,11 @@ Expected<Answer> design_answer(const Question& question) {
   const std::string id = std::to_string(question.design.value);
   const std::string own = " WHERE design = " + id;
   auto design = rows_of(question, "SELECT * FROM v_designs" + own);
-  const auto iterations = rows_of(question,
-                                  "SELECT iteration, planned, budget, configurations, "
-                                  "elites, soft_restart, postselection FROM "
-                                  "v_iterations" +
-                                      own + " ORDER BY iteration");
+  auto iterations = rows_of(question,
+                            "SELECT iteration, planned, budget, configurations, "
+                            "elites, soft_restart, postselection FROM "
+                            "v_iterations" +
+                                own + " ORDER BY iteration");
   const auto elites = rows_of(question,
                               "SELECT iteration, rank, candidate, mean, n, "
                               "experiments_used FROM v_convergence" +
@@ -237,6 +241,13 @@ Expected<Answer> design_answer(const Question& question) {
     return Unexpected(read.error());
   const auto tests = tests_of(question);
   if (!tests) return Unexpected(tests.error());
+  const auto stages = StoredStages::read(question.store);
+  if (!stages) return Unexpected(stages.error());
+  if (stages->search(id) != nullptr) {
+    for (auto& cells : iterations->cells)
+      cells.push_back({StoreReader::Cell::Type::Text, stages->round(id, cells.front().text)});
+    iterations->columns.emplace_back("round");
+  }
   letter_ids(*design);
   return json_answer(answer_object()
                          .add("design", first_row(*design))
@@ -268,10 +279,11 @@ Expected<Answer> candidate_answer(const Question& question) {
   if (candidate->cells.empty())
     return unexpected(ErrorKind::NotFound, "the store has no such candidate", question.id);
   const auto ancestors = ancestors_of(question, cell_of(*candidate, 0, "parent"));
-  const auto scores = rows_of(question,
-                              "SELECT id, pair, instance, seed, iteration, status, score FROM "
-                              "v_evaluations" +
-                                  own + " AND purpose = 'race' ORDER BY pair");
+  const auto scores =
+      rows_of(question,
+              "SELECT id, pair, instance, seed, iteration, status, score, source FROM "
+              "v_evaluations" +
+                  own + " AND purpose = 'race' ORDER BY pair");
   const auto later =
       rows_of(question,
               "SELECT id, purpose, source, pair, instance, seed, status, score FROM "

@@ -183,6 +183,11 @@ Expected<StoredRun> StoredRuns::candidate(const ThingId& id, std::int64_t seed) 
   const auto& cells = rows->cells.front();
   const auto world = world_of({integer_of(cells[1])});
   if (!world) return bad_input(to_string(world.error()), run.candidate);
+  if (world->has_parameters && !world->has_programs) {
+    return bad_input(
+        "it is a configuration of a program, not a machine: there is nothing to simulate",
+        run.candidate);
+  }
   if (!world->profile && !world->has_programs) {
     return bad_input("it was imported, and its store names no profile; `evaluate " + run.candidate +
                          " --profile P --seeds " + std::to_string(seed) + "` simulates it",

@@ -20,6 +20,11 @@ Expected<std::string> ask_campaign(const std::filesystem::path& path,
                       "campaign's own store",
                       path.string());
   }
+  if ((*reader)->campaigns().front().state == "imported") {
+    return unexpected(ErrorKind::Conflict,
+                      "the campaign was imported: nobody runs it, so nothing can be asked of it",
+                      path.string());
+  }
   const CampaignRow campaign = (*reader)->campaign();
   const std::vector<DesignRow> designs = (*reader)->designs();
   if (command.design && std::ranges::find(designs, command.design, &DesignRow::id) == designs.end())

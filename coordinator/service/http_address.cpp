@@ -45,6 +45,10 @@ std::string lower(std::string text) {
   return text;
 }
 
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
 bool is_loopback_host(const std::string& host) {
   return host == "localhost" || host == "::1" || (host.starts_with("127.") && is_number(host));
 }
@@ -90,8 +94,9 @@ bool is_loopback(const HttpAddress& address) {
 
 bool is_our_host(std::string_view header, const HttpAddress& address,
                  const std::string& host_name) {
-  const std::string host = lower(split(header).first);
-  if (host.empty()) return false;
+  const auto [name, port] = split(header);
+  const std::string host = lower(name);
+  if (host.empty() || (port && !std::ranges::all_of(*port, is_digit))) return false;
   if (is_loopback_host(host)) return true;
   if (is_loopback(address)) return false;
   return is_number(host) || host == lower(address.host) || host == lower(host_name);

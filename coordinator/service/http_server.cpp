@@ -1,6 +1,7 @@
 #include "coordinator/service/http_server.h"
 
 #include <pwd.h>
+#include <strings.h>
 #include <unistd.h>
 #include <algorithm>
 #include <array>
@@ -118,10 +119,13 @@ class Pages final : public HttpServer {
   }
 
   bool is_our_name(const std::string& header) const {
-    const std::string host = header.substr(0, header.rfind(':'));
+    const auto is = [](std::string_view text, std::string_view name) {
+      return text.size() == name.size() && strncasecmp(text.data(), name.data(), text.size()) == 0;
+    };
+    const std::string_view host = std::string_view(header).substr(0, header.rfind(':'));
     return is_our_host(header, options_.address, host_name_) ||
            std::ranges::any_of(options_.names, [&](const std::string& name) {
-             return header == name || host == name;
+             return is(header, name) || is(host, name);
            });
   }
 
@@ -157,7 +161,9 @@ class Pages final : public HttpServer {
       return no(405, "bad_method", std::string("only ") + allowed);
     }
     if (!is_our_name(request.get_header_value("Host"))) {
-      return no(421, "other_host", "this is another host");
+      return no(421, "other_host",
+                "the Host header names another host: use the address that was printed, or start "
+                "this program with --http-name and that name");
     }
     if (of_site) return show_site(request, response, is_act);
     const bool is_open = request.path == "/healthz" || request.path == "/readyz";

@@ -19,6 +19,7 @@ import unittest
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "end_to_end"))
 import browser  # noqa: E402
+import looks  # noqa: E402
 from programs import CAMPAIGN, PATIENCE, SWARMSMITH, ProgramTest, call  # noqa: E402
 
 #: Screenshots are kept here, where it is set.
@@ -160,6 +161,26 @@ class DashboardTest(ProgramTest):
         if PICTURES:
             pathlib.Path(PICTURES).mkdir(parents=True, exist_ok=True)
             page.shot(str(pathlib.Path(PICTURES) / f"{name}.png"))
+
+    def assert_for_everybody(self, page, serving, name, tabs=True):
+        """Contrast, width, names, the way of the Tab key, and silence, at each width, light and dark."""
+        for dark in (False, True):
+            page.media(dark=dark)
+            page.wait(f"document.documentElement.dataset.theme === '{'dark' if dark else 'light'}'")
+            with self.subTest(page=name, dark=dark):
+                self.assertEqual(page.js(looks.CONTRAST), [])
+            for width in (1440, 390, 2560):
+                page.viewport(width)
+                with self.subTest(page=name, dark=dark, width=width):
+                    self.assertEqual(page.js(looks.OVERFLOW), [])
+                if width != 2560:
+                    self.keep(page, f"{name}-{'dark' if dark else 'light'}-{width}")
+        page.viewport(1440)
+        with self.subTest(page=name):
+            self.assertEqual(looks.nameless(page), [])
+            if tabs:
+                self.assertEqual(looks.unreached(page), [])
+            self.assert_quiet(page, serving)
 
     def assert_quiet(self, page, serving, but=()):
         """No complaint of page or browser, no request to anywhere else."""

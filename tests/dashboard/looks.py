@@ -15,13 +15,24 @@ CONTRAST = r"""(() => {
     }
     return layers.reverse().reduce((below, top) => over(top, below), [255, 255, 255, 1]);
   };
+  // Drawings have a white ground, and shapes that a text stands on: the last one drawn before it.
+  const paper = (text) => {
+    const box = text.getBoundingClientRect(), x = box.x + box.width / 2, y = box.y + box.height / 2;
+    let behind = [255, 255, 255, 1];
+    for (const shape of text.ownerSVGElement.querySelectorAll('rect, circle, polygon, path')) {
+      const fill = getComputedStyle(shape).fill, its = shape.getBoundingClientRect();
+      if (!(shape.compareDocumentPosition(text) & Node.DOCUMENT_POSITION_FOLLOWING) || !/^rgb/.test(fill)) continue;
+      if (x > its.left && x < its.right && y > its.top && y < its.bottom) behind = over(parts(fill), behind);
+    }
+    return behind;
+  };
   const found = [];
   const walker = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT);
   while (walker.nextNode()) {
     const text = walker.currentNode.textContent.trim(), element = walker.currentNode.parentElement;
     if (!text || !element.checkVisibility({ checkOpacity: true, checkVisibilityCSS: true }) || element.closest('.unseen, .skip, :disabled, option, noscript')) continue;
     const style = getComputedStyle(element), is_drawn = element.namespaceURI.endsWith('svg');
-    const color = parts(is_drawn ? style.fill : style.color), behind = is_drawn ? [255, 255, 255, 1] : ground(element);
+    const color = parts(is_drawn ? style.fill : style.color), behind = is_drawn ? paper(element) : ground(element);
     for (let at = element; at; at = at.parentElement) color[3] *= Number(getComputedStyle(at).opacity);
     const [a, b] = [light(over(color, behind)), light(behind)];
     const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05), size = parseFloat(style.fontSize);

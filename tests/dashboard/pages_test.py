@@ -42,30 +42,15 @@ class Pages(DashboardTest):
         serving = self.dashboard(self.store)
         for name, address, expression in pages_of(self.store):
             page = self.page(serving, address, expression)
-            for dark in (False, True):
-                page.media(dark=dark)
-                page.wait(f"document.documentElement.dataset.theme === '{'dark' if dark else 'light'}'")
-                with self.subTest(page=name, dark=dark):
-                    self.assertEqual(page.js(looks.CONTRAST), [])
-                for width in (1440, 390, 2560):
-                    page.viewport(width)
-                    with self.subTest(page=name, dark=dark, width=width):
-                        self.assertEqual(page.js(looks.OVERFLOW), [])
-                    if width != 2560:
-                        self.keep(page, f"{name}-{'dark' if dark else 'light'}-{width}")
-            page.viewport(1440)
-            with self.subTest(page=name):
-                self.assertEqual(looks.nameless(page), [])
-                self.assertEqual(looks.unreached(page), [])
-                self.assert_quiet(page, serving)
+            self.assert_for_everybody(page, serving, name)
             page.close()
 
     def test_the_checks_of_this_file_find_what_is_wrong(self):
         page = shared_browser().page(390)
         self.addCleanup(page.close)
-        page.open("data:text/html,<p style='color:%23999'>pale</p><button></button><div style='width:500px'>wide</div>"
+        page.open("data:text/html,<p style='color:%23999'>pale</p><svg><rect width=90 height=40 fill='orange' /><text x=9 y=20 fill='white'>pale</text></svg><button></button><div style='width:500px'>wide</div>"
                   "<a href='x' tabindex=2>b</a><a href='y' tabindex=1>a</a><script>fetch('http://127.0.0.1:1/').catch(() => 0)</script>")
-        self.assertEqual(len(page.js(looks.CONTRAST)), 1)
+        self.assertEqual(len(page.js(looks.CONTRAST)), 2)
         self.assertNotEqual(page.js(looks.OVERFLOW), [])
         self.assertEqual(len(looks.nameless(page)), 1)
         self.assertNotEqual(looks.unreached(page), [])

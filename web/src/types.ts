@@ -32,6 +32,7 @@ export interface Campaign {
   /// Why its store cannot be written; empty when well.
   trouble: string;
   last_event: number;
+  may_act: boolean;
   designs: Design[];
 }
 
@@ -133,6 +134,9 @@ export interface Event {
 
 export interface Race {
   iteration: number;
+  /// "generation 4", where it is no iteration of a race by irace, and why it is none.
+  round: string | null;
+  note: string;
   ended: boolean;
   rows_total: number;
   steps: number[];
@@ -165,6 +169,7 @@ export interface Iteration {
   elites: number;
   soft_restart: number;
   postselection: number;
+  round?: string;
 }
 
 export interface Elite {

@@ -182,7 +182,8 @@ TEST_F(Coordinators, ConfirmACommandWhenItIsOnDiskAndNotBefore) {
   // There is nothing to write now.
   say(command(pb::Command::KIND_PAUSE, 1), 5);
   ASSERT_EQ(count(pb::ToWorker::kCommandReply), 2);
-  EXPECT_EQ(heard.back().command_reply().sentence(), "nothing to do: paused before");
+  EXPECT_EQ(heard.back().command_reply().sentence(),
+            "nothing to do: every design is over, or paused before");
 }
 
 TEST_F(Coordinators, LeaseNothingOfWhatIsPausedUntilItIsResumed) {

@@ -23,8 +23,9 @@ TEST(HttpAddress, OnLoopbackOnlyItsOwnNamesAreOurs) {
   const HttpAddress here{"127.0.0.1", 8347};
   for (const char* ours : {"127.0.0.1:8347", "localhost", "LOCALHOST:1", "[::1]:8347"})
     EXPECT_TRUE(is_our_host(ours, here, "node1")) << ours;
-  for (const char* other : {"", "evil.example:8347", "127.0.0.1.evil.example", "node1", "10.0.0.1",
-                            "localhost.evil.example", "[::1"})
+  for (const char* other :
+       {"", "evil.example:8347", "127.0.0.1.evil.example", "node1", "10.0.0.1",
+        "localhost.evil.example", "[::1", "localhost:8347@evil.example", "localhost:http"})
     EXPECT_FALSE(is_our_host(other, here, "node1")) << other;
 }
 

@@ -68,7 +68,7 @@ function events({ c, last_event }: Campaign) {
 
 /// Of a campaign or of a design. It begins with the end of an iteration.
 export function convergence(c: string, designs: Design[], version: number, design?: string) {
-  const none = <Empty>No iteration has ended yet: convergence comes after the first.</Empty>;
+  const none = <Empty>{designs.every(is_over) ? "None." : "No iteration has ended yet: convergence comes after the first."}</Empty>;
   return designs.some(({ state, iteration }) => iteration > (state === "racing" || state === "interrupted" ? 1 : 0))
     ? <Figure c={c} kind="convergence" options={{ design }} name="Convergence" version={version} missing={none} /> : none;
 }
@@ -87,7 +87,7 @@ function campaign_panels(live: Live, campaign: Campaign) {
   const confirm = (what: string, effect: string) =>
     <Confirm label={`${what} all`} title={`${what} all designs of ${name}?`} act={() => post(`${c}/${what.toLowerCase()}`)}>{effect}</Confirm>;
   return <div class="grid">
-    <Panel title={name} wide command={command("ls", "", campaign)} tools={live.may_act && [
+    <Panel title={name} wide command={command("ls", "", campaign)} tools={campaign.may_act && [
       paused < designs.length && !designs.every(is_over) && confirm("Pause",
         kPause),
       paused > 0 && confirm("Resume", `${count(paused, "paused design")} will get work again.`)]}>

@@ -7,7 +7,7 @@ import { id_of, number, whole, words } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { href } from "../route";
-import { Cell, Columns } from "../types";
+import { Cell, Columns, Row } from "../types";
 import { rows_of } from "./design";
 
 /// A row of v_candidates; parameters are an object, or its JSON text.
@@ -27,9 +27,7 @@ interface Candidate {
   eliminated_by: string | null;
 }
 
-interface Later { id: string; purpose: string; source: string; seed: number; score: number | null }
-
-interface Answer { candidate: Candidate; ancestors: Candidate[]; scores: Columns; later: Later[] }
+interface Answer { candidate: Candidate; ancestors: Candidate[]; scores: Columns; later: Row[] }
 
 /// How it ended, in a sentence.
 function fate({ eliminated_in, eliminated_at, eliminated_by }: Candidate) {
@@ -37,7 +35,10 @@ function fate({ eliminated_in, eliminated_at, eliminated_by }: Candidate) {
     : `dropped in iteration ${eliminated_in}${eliminated_at !== null ? ` at step ${whole(eliminated_at)}` : ""}${eliminated_by ? `: ${words(eliminated_by)}` : ""}`;
 }
 
-function watch(id: string) { return <a href={place_of(id)} aria-label={`watch ${id}`}>watch</a>; }
+/// What nobody can simulate again: programs' runs, and real ones that only have a score.
+function watch({ id, source }: Row) {
+  return source !== "command" && (source !== "real" || String(id)[0] === "r") && <a href={place_of(String(id))} aria-label={`watch ${id}`}>watch</a>;
+}
 
 function shown(c: string, { candidate: one, ancestors, scores, later }: Answer) {
   const id = id_of("c", one.candidate)!, d = id_of("d", one.design)!;
@@ -50,10 +51,10 @@ function shown(c: string, { candidate: one, ancestors, scores, later }: Answer) 
           ["mean score", number(one.mean), "higher is better"],
           ["runs", whole(one.runs)],
           ["made in iteration", whole(one.iteration)],
-          one.n_states !== null && ["states, transitions", `${one.n_states}, ${one.n_transitions}`],
+          /--nstates/.test(one.fsm_config ?? "") && ["states, transitions", `${one.n_states}, ${one.n_transitions}`],
           ["end", <a class="plain" href={href([c, d, "race", String(one.eliminated_in ?? one.iteration)], { cell: id })}>{fate(one)}</a>]])}
         <h3>Ancestors</h3>
-        {ancestors.length === 0 ? <p class="faint">None: it was drawn from the whole space{one.parent !== null && `, its parent ${id_of("c", one.parent)} is not in the store`}.</p>
+        {ancestors.length === 0 ? <p class="faint">None{one.iteration > 0 && ": it was drawn from the whole space"}{one.parent !== null && `, its parent ${id_of("c", one.parent)} is not in the store`}.</p>
           : <ol class="ancestors">{ancestors.map(({ candidate, iteration, mean, runs }) => <li>{link(id_of("c", candidate)!)}
             <span class="faint"> iteration {iteration}, mean {number(mean)} of {whole(runs)} runs</span></li>)}</ol>}
       </Panel>
@@ -65,12 +66,12 @@ function shown(c: string, { candidate: one, ancestors, scores, later }: Answer) 
       <Panel title="Scores by pair, in its races">
         <Table name="r" page_size={15} caption={`scores of ${id} by pair`} rows={rows_of(scores)} row_key={({ iteration, pair }) => `${iteration} ${pair}`}
           empty="It has not run yet." columns={["pair", { key: "score", show: (row) => row.score === null ? "rejected" : number(row.score as number) },
-            { key: "run", show: (row) => watch(String(row.id)) }, "seed", "instance", "iteration"]} />
+            { key: "run", show: watch }, "seed", "instance", "iteration"]} />
       </Panel>
       <Panel title="Later scores">
-        <Table name="l" page_size={15} caption={`later scores of ${id}`} rows={later} row_key={(row) => row.id}
+        <Table name="l" page_size={15} caption={`later scores of ${id}`} rows={later} row_key={(row) => String(row.id)}
           empty={["None. Winners are tested at a design's end; any candidate is scored by ", <code>swarmsmith evaluate {id} --store {store_word()} --seeds 1-10</code>]}
-          columns={["purpose", "source", "seed", "score", { key: "run", show: (row) => (row.source !== "real" || row.id[0] === "r") && watch(row.id) }]} />
+          columns={["purpose", "source", "seed", "score", { key: "run", show: watch }]} />
       </Panel>
       {parameters.length > 0 && <Panel title="Parameters">
         <Table name="p" caption={`parameters of ${id}`} rows={parameters} columns={[

@@ -1,7 +1,7 @@
 import { Component, h } from "preact";
 import { ApiError, ask, path_of } from "../api";
 import { command, Empty, Failure, pairs, Panel, Quiet, save_as, Table, typed } from "../components";
-import { count, duration, shell_word, whole } from "../format";
+import { count, duration, shell_word } from "../format";
 import { Get } from "../get";
 import { PageProps } from "../page";
 import { set_query } from "../route";
@@ -31,7 +31,7 @@ export class Data extends Component<PageProps, State> {
     const csv = () => ask(path_of(`${this.props.params.c}/query`, { sql: this.state.asked, format: "csv" }))
       .then((one) => save_as("query.csv", one.data as string), (error) => this.setState({ error }));
     return <div>
-      <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut at {whole(rows.length)}: add a WHERE or a LIMIT, or take the command line</b>}, {duration(seconds)}</span>
+      <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut: it had 10 s and 10{"\u2009"}000 rows. Add a WHERE or a LIMIT, or take the command line</b>}, {duration(seconds)}</span>
         <Quiet act={csv}>CSV of all</Quiet></div>
       <Table<Cell[]> name="q" caption="Result" rows={rows} row_key={(row) => rows.indexOf(row)} empty="No rows."
         columns={columns.map((key, i) => ({ key, label: key, value: (row) => row[i] }))} />

@@ -49,7 +49,7 @@ function iterations_table(c: string, { id, version }: Design, { iterations, elit
         used: own.reduce((sum, step) => sum + Number(step.evaluated), 0), markers: own.map((step) => step.marker).join("") };
     });
     return <Table name="i" caption="Iterations" sort="-iteration" rows={rows} empty="The race has not begun." columns={[
-      { key: "iteration", show: ({ iteration, postselection }) => <a href={`${place_of(id)}/race/${iteration}`}>{iteration}{postselection > 0 && ", last race"}</a> },
+      { key: "iteration", show: ({ iteration, round, postselection }) => <a href={`${place_of(id)}/race/${iteration}`}>{round ?? iteration}{!round && postselection > 0 && ", last race"}</a> },
       { key: "configurations", label: "candidates", title: "with the elites of the iteration before" },
       "steps",
       { key: "used", label: "experiments" },
@@ -72,7 +72,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
       ["experiments", [<Bar value={design.used} of={design.budget} name="experiments used" />, used_of(design)]],
       [stage ? "search" : "iteration", [stage ?? whole(design.iteration), !over && alive !== null && <small> {whole(alive)} alive</small>]],
       ["best", best ? link(best) : "none yet"],
-      ["mean in the race", number(design.best_mean), "over the pairs that the best has met; higher is better"],
+      ["mean score", number(design.best_mean), "over the pairs that the best has met; higher is better"],
       ["tests on fresh seeds", tests ? [number(tests.mean), " ", <small>{number(tests.low)} to {number(tests.high)}, {count(tests.n, "run")}</small>]
         : <small>{over ? "none" : "after the race"}</small>, "mean and its 95 % interval"],
       row.reason && ["why it ended", <span class="small">{row.reason}</span>]])}
@@ -91,7 +91,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
       </Panel>
       <Panel title={elites_title}>
         <Table name="el" caption={elites_title} rows={elites.filter(({ iteration }) => iteration === last)}
-          empty="No iteration has ended yet: elites come after the first." columns={[
+          empty={over ? "None." : "No iteration has ended yet: elites come after the first."} columns={[
             "rank", "candidate",
             { key: "mean", label: "mean score", title: "higher is better" },
             { key: "n", label: "pairs", title: "(instance, seed) that it has met" }]} /></Panel>
@@ -104,9 +104,9 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
   </div>;
 }
 
-export function DesignPage({ params: { c }, live, design }: PageProps) {
+export function DesignPage({ params: { c }, campaign, design }: PageProps) {
   return <div>
-    <div class="panel-head">{design_title(design)}{live.may_act && <Acts c={c} design={design} />}</div>
+    <div class="panel-head">{design_title(design)}{campaign.may_act && <Acts c={c} design={design} />}</div>
     {!design.iteration && design.state === "waiting" && <Empty>It waits for its turn: nothing of it has been evaluated ({stage_of(design)}).</Empty>}
     <Get<DesignAnswer> path={`${c}/designs/${design.id}`} keep version={`${design.version} ${design.state} ${design.paused}`} render={(answer) => shown(c, design, answer)} />
   </div>;

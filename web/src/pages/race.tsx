@@ -40,6 +40,9 @@ class Matrix {
   /// null: not evaluated.
   score({ row, step }: At): number | null { return this.race.scores[step][row] ?? null; }
 
+  /// A rejected run has no score.
+  has_run(at: At): boolean { return this.score(at) !== null || this.race.dropped_at[at.row] === this.race.steps[at.step] && this.race.reasons[at.row] === "rejected"; }
+
   run_of({ row, step }: At): string { return evaluation_id(this.race.candidates[row], this.race.pairs[step]); }
 
   /// A cell in words.
@@ -49,7 +52,7 @@ class Matrix {
     const score = this.score(at), dropped = race.dropped_at[row], now = race.steps[step], reason = race.reasons[row];
     const what = score !== null
       ? `score ${number(score, 6)}, rank ${number(this.rank[step][row])} of ${ranked[step]}` + (dropped === now ? `, dropped after it: ${reason}` : "")
-      : dropped !== null && dropped < now ? `dropped after step ${dropped}: ${reason}` : "not evaluated";
+      : this.has_run(at) ? reason : dropped !== null && dropped < now ? `dropped after step ${dropped}: ${reason}` : "not evaluated";
     return `c${race.candidates[row]}, step ${now}, instance ${race.instances[step]}, seed ${race.seeds[step]}: ${what}`;
   }
 }
@@ -114,7 +117,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
       for (let s = 0; s <= until; ++s) {
         const part = matrix.part(s, i);
         // The best is farthest from the ground.
-        if (part !== null) pen.box(viridis(dark ? part : 1 - part), x_of(s), y, Math.max(column - gap_x, 0.7), row - gap_y);
+        if (part !== null || matrix.has_run({ row: i, step: s })) pen.box(part === null ? vermilion : viridis(dark ? part : 1 - part), x_of(s), y, Math.max(column - gap_x, 0.7), row - gap_y);
       }
       if (dropped !== null && race.reasons[i] !== "not kept") pen.box(vermilion, x_of(end) - 1, y, 2.5, row);
       if (race.elite_before[i]) pen.box(inks.ink, kLeft - 6, y + (row - mark) / 2, 4, mark);
@@ -206,7 +209,7 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
 /// The evaluation's id as people type it.
 function evaluation_id(candidate: number, pair: number): string { return `e${candidate * 100000 + pair}`; }
 
-const kLegend = [["viridis", "rank, best to worst"], ["dropped-end", "dropped here"], ["gone", "no longer in the race"], ["elite", "elite before (left), after (right)"]];
+const kLegend = [["viridis", "rank, best to worst"], ["dropped-end", "dropped here, a whole cell: rejected"], ["gone", "no longer in the race"], ["elite", "elite before (left), after (right)"]];
 
 export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
   #matrix?: Matrix;
@@ -223,7 +226,8 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
 
   #race(race: Race) {
     const { design: { id }, query } = this.props;
-    const { steps, candidates, iteration, ended, rows_total } = race;
+    const { steps, candidates, iteration, ended, rows_total, round, note } = race;
+    const name = round ? round[0].toUpperCase() + round.slice(1) : `Race ${iteration}`;
     if (steps.length === 0) return <Empty>No step of this race has ended yet.</Empty>;
     if (this.#matrix?.race !== race) this.#matrix = new Matrix(race);
     const matrix = this.#matrix;
@@ -232,20 +236,21 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
     const until = wanted < 0 ? last : wanted;
     const cell = this.#cell(matrix, until);
     const pick = (at: At | null) => set_query({ cell: at && `c${candidates[at.row]},${steps[at.step]}` });
-    const watch = (at: At) => { if (matrix.score(at) !== null) go(place_of(matrix.run_of(at))); };
+    const watch = (at: At) => { if (matrix.has_run(at)) go(place_of(matrix.run_of(at))); };
     const now = steps[until];
     const fallen = candidates.filter((_, row) => matrix.dropped(row, now) !== null).length;
     return <div class="beside">
-      <Panel title={`Race ${iteration}${ended ? "" : ", running"}: candidates by step`}
+      <Panel title={`${name}${ended ? "" : ", running"}: candidates by step`}
         command={command("figure race", `--design ${id} --iteration ${iteration} -o race.svg`)}
         sql={`SELECT * FROM v_race_matrix WHERE design = ${id.slice(1)} AND iteration = ${iteration}`}
         tools={<Files kind="race" name="race" options={{ design: id, iteration }} />}>
+        {note && <p>{note}</p>}
         <div class="slider"><label for="step">after step {now}{until === last && !ended && ", the newest"}</label>
           <Slider id="step" max={last} value={until} text={`step ${now}, ${race.alive[until]} alive`} to={(step) => set_query({ step: step === last ? null : steps[step] })} />
           <span class="faint">{until < last ? `as it was then; ${count(last - until, "later step")} hidden` : count(last + 1, "step")}</span>
         </div>
         <RaceMap matrix={matrix} until={until} cell={cell} pick={pick} watch={watch}
-          label={`Race ${iteration} of ${id}: ${candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
+          label={`${name} of ${id}: ${candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
         <ul class="legend">{kLegend.map(([mark, what]) => <li><span class={"swatch " + mark} /> {what}</li>)}</ul>
         {rows_total > candidates.length && <p class="faint">The best {whole(candidates.length)} of {whole(rows_total)} candidates. <Quiet act={() => set_query({ rows: rows_total })}>Show all</Quiet></p>}
       </Panel>
@@ -269,7 +274,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
         ["score", number(score, 6), "higher is better"],
         ["rank", [number(matrix.rank[step][row]), <small> of {matrix.ranked[step]}</small>]]])}
       <p>Step {race.steps[step]}, instance {race.instances[step]}, seed {race.seeds[step]}. {dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[row]}.` : race.elite_after[row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
-      {score === null ? <p class="faint">It was not evaluated here.</p> : [
+      {!matrix.has_run(at) ? <p class="faint">It was not evaluated here.</p> : [
         <p class="tools"><button class="main" onClick={() => watch(at)}>Watch this run</button><Copy text={command(`explain ${id}`)} /></p>,
         <p><button aria-expanded={!!is_asked} onClick={() => this.setState({ is_asked: !is_asked })}>Who made it</button></p>,
         is_asked && <Get<Record<string, unknown>> path={`${this.props.params.c}/evaluations/${id}`} keep render={(answer) =>

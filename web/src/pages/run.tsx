@@ -4,7 +4,7 @@ import { Component, h } from "preact";
 import { ApiError, ask } from "../api";
 import { draw_place, draw_run, draw_scores, kDistinct, pose_at, Robot, robot_at, shape_of, Tint, Trajectory, value_at } from "../arena";
 import { Canvas } from "../canvas";
-import { Choice, Copy, Failure, is_typing, link, pairs, Panel, Quiet, Slider, store_word, Table, typed, Waiting } from "../components";
+import { Choice, Copy, Empty, Failure, is_typing, link, pairs, Panel, Quiet, Slider, store_word, Table, typed, Waiting } from "../components";
 import { Machine } from "../figure";
 import { clamp, number, words } from "../format";
 import { Get } from "../get";
@@ -306,7 +306,7 @@ class Player extends Component<PageProps, State> {
       {content}
     </section>;
     if (!run) return section(id, <Waiting />);
-    if (!is_run(run)) return section(id, <Failure error={run} />);
+    if (!is_run(run)) return section(id, "nothing" in run ? <Empty>{(run as any).nothing}</Empty> : <Failure error={run} />);
     return section([run.verdict && `${run.id} ${run.name ?? ""}, `, run.candidate && link(run.candidate), run.seed !== null && `, seed ${run.seed}`, `, ${run.source}`], [
       <Canvas ref={(it: any) => { if (it) this.#canvases.set(id, it); else this.#canvases.delete(id); }}
         label={`${words(run.mission)} from above, ${run.robots.length} robots, at ${seconds(cycle)}`}
