@@ -194,7 +194,10 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
     return <div class="race-map">
       <Canvas label={label} height={this.#height} ground={this.#draw_cells} ground_key={[matrix, until]} draw={this.#draw_cursors} attributes={{
         role: "application", tabIndex: 0, "aria-roledescription": "race matrix", class: "pointed", "aria-describedby": "race-help",
-        onMouseMove: (event: MouseEvent) => this.setState({ hover: this.#at(event) }),
+        onMouseMove: (event: MouseEvent) => {
+          const it = this.#at(event);
+          if (it?.row !== hover?.row || it?.step !== hover?.step) this.setState({ hover: it });
+        },
         onMouseLeave: () => this.setState({ hover: null }),
         onClick: (event: MouseEvent) => pick(this.#at(event)),
         onDblClick: (event: MouseEvent) => { const it = this.#at(event); if (it) watch(it); },

@@ -332,22 +332,21 @@ class Player extends Component<PageProps, State> {
     const { cycle } = this.state;
     const has_kinds = run.robots.some((one) => one.kind?.length);
     const by_state = this.#tint() === "state";
-    const poses = run.robots.map((robot) => pose_at(robot, cycle));
-    return <details open={run.robots.length <= 6}>
-      <summary>{run.robots.length} robots at {seconds(cycle)}</summary>
-      <Table name={"o" + run.id} caption={`robots of ${run.id}`} rows={run.robots} page_size={run.robots.length} row_key={(robot) => run.robots.indexOf(robot)}
-        row_class={(robot) => robot === run.robots[chosen ?? -1] && "chosen"} columns={[
-          { key: "robot", value: (robot) => run.robots.indexOf(robot), numeric: false, show: (robot) => {
-            const at = run.robots.indexOf(robot);
-            const color = (by_state ? value_at(robot.state, cycle) : null) ?? at;
+    const { robots } = run;
+    const poses = robots.map((robot) => pose_at(robot, cycle));
+    return <details open={robots.length <= 6}>
+      <summary>{robots.length} robots at {seconds(cycle)}</summary>
+      <Table<number> name={"o" + run.id} caption={`robots of ${run.id}`} rows={[...robots.keys()]} page_size={100}
+        row_class={(at) => at === chosen && "chosen"} columns={[
+          { key: "robot", value: (at) => at, numeric: false, show: (at) => {
+            const color = (by_state ? value_at(robots[at].state, cycle) : null) ?? at;
             return <Quiet aria-pressed={chosen === at ? "true" : "false"} act={() => this.#choose(at)}>
               <svg class="dot" viewBox="0 0 10 10" aria-hidden="true"><circle cx="5" cy="5" r="4.5" fill={kDistinct[color % kDistinct.length]} /></svg>
-              {at} {robot.name}</Quiet>;
+              {at} {robots[at].name}</Quiet>;
           } },
-          { key: "does", value: (robot) => doing(run, robot, cycle) || null },
-          ...(has_kinds ? [{ key: "pose is", value: (robot: Robot) => value_at(robot.kind, cycle) }] : []),
-          ...(["x", "y"] as const).map((key) => ({ key, label: key + ", m", value: (robot: Robot) => poses[run.robots.indexOf(robot)]?.[key],
-            show: (robot: Robot) => metres(poses[run.robots.indexOf(robot)]?.[key]) }))]} />
+          { key: "does", value: (at) => doing(run, robots[at], cycle) || null },
+          ...(has_kinds ? [{ key: "pose is", value: (at: number) => value_at(robots[at].kind, cycle) }] : []),
+          ...(["x", "y"] as const).map((key) => ({ key, label: key + ", m", value: (at: number) => poses[at]?.[key], show: (at: number) => metres(poses[at]?.[key]) }))]} />
     </details>;
   }
 
