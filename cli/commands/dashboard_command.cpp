@@ -5,6 +5,7 @@
 #include <thread>
 #include <utility>
 
+#include "base/output_file.h"
 #include "base/text/json.h"
 #include "base/text/whole_file.h"
 #include "cli/arguments/program_name.h"

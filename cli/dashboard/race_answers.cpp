@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
 #include <limits>
 #include <map>
@@ -241,9 +242,9 @@ std::set<std::string> names_of(const Question& question) {
   return names;
 }
 
-/// What an iteration of another search than iterated racing is called, and why it is no race.
+/// What an iteration is called, and why it is no race where it is none.
 struct RoundTexts {
-  std::optional<std::string> name{};
+  std::string title{};
   std::string note{};
 };
 
@@ -252,15 +253,13 @@ Expected<RoundTexts> round_of(const Question& question, std::int64_t iteration) 
   if (!stages) return Unexpected(stages.error());
   const std::string design = std::to_string(question.design.value);
   const SearchOptions* search = stages->search(design);
-  RoundTexts texts;
-  if (search == nullptr) return texts;
-  texts.name = stages->round(design, std::to_string(iteration));
+  if (search == nullptr) return RoundTexts{.title = fmt::format("Race {}", iteration)};
+  RoundTexts texts{.title = stages->round(design, std::to_string(iteration))};
+  texts.title.front() = static_cast<char>(std::toupper(texts.title.front()));
   const SearchWords& words = words_of(search->kind);
   if (!words.has_tests)
     texts.note = fmt::format(
-        "This is no race: {} compares means, and no statistical test drops "
-        "anybody.",
-        words.name);
+        "This is no race: {} compares means, and no statistical test drops anybody.", words.name);
   return texts;
 }
 
@@ -302,7 +301,7 @@ Expected<Answer> race_answer(const Question& question) {
           .add("design", question.design)
           .add("iteration", *iteration)
           .add("ended", ended)
-          .add("round", round->name)
+          .add("title", round->title)
           .add("note", round->note)
           .add("rows_total", race->racers.size())
           .add("from", *from)

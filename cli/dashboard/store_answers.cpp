@@ -243,11 +243,18 @@ Expected<Answer> design_answer(const Question& question) {
   if (!tests) return Unexpected(tests.error());
   const auto stages = StoredStages::read(question.store);
   if (!stages) return Unexpected(stages.error());
-  if (stages->search(id) != nullptr) {
-    for (auto& cells : iterations->cells)
-      cells.push_back({StoreReader::Cell::Type::Text, stages->round(id, cells.front().text)});
-    iterations->columns.emplace_back("round");
+  for (auto& cells : iterations->cells) {
+    const std::string& number = cells.front().text;
+    const bool is_last_race = cells.back().text == "1";
+    if (stages->search(id) != nullptr) {
+      cells.push_back({StoreReader::Cell::Type::Text, stages->round(id, number)});
+    } else if (is_last_race) {
+      cells.push_back({StoreReader::Cell::Type::Text, number + ", last race"});
+    } else {
+      cells.push_back({});
+    }
   }
+  iterations->columns.emplace_back("round");
   letter_ids(*design);
   return json_answer(answer_object()
                          .add("design", first_row(*design))

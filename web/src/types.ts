@@ -134,8 +134,8 @@ export interface Event {
 
 export interface Race {
   iteration: number;
-  /// "generation 4", where it is no iteration of a race by irace, and why it is none.
-  round: string | null;
+  /// "Race 4", "Generation 4"; and why it is no race.
+  title: string;
   note: string;
   ended: boolean;
   rows_total: number;
@@ -168,8 +168,8 @@ export interface Iteration {
   configurations: number;
   elites: number;
   soft_restart: number;
-  postselection: number;
-  round?: string;
+  /// What is said in place of its number.
+  round: string | null;
 }
 
 export interface Elite {

@@ -31,7 +31,7 @@ export class Data extends Component<PageProps, State> {
     const csv = () => ask(path_of(`${this.props.params.c}/query`, { sql: this.state.asked, format: "csv" }))
       .then((one) => save_as("query.csv", one.data as string), (error) => this.setState({ error }));
     return <div>
-      <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut: it had 10 s and 10{"\u2009"}000 rows. Add a WHERE or a LIMIT, or take the command line</b>}, {duration(seconds)}</span>
+      <div class="tools"><span role="status">{count(rows.length, "row")}{truncated && <b class="warn">, cut after 10{"\u2009"}000 rows or 10 s: add a WHERE or a LIMIT, or take the command line</b>}, {duration(seconds)}</span>
         <Quiet act={csv}>CSV of all</Quiet></div>
       <Table<Cell[]> name="q" caption="Result" rows={rows} row_key={(row) => rows.indexOf(row)} empty="No rows."
         columns={columns.map((key, i) => ({ key, label: key, value: (row) => row[i] }))} />

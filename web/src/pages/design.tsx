@@ -48,8 +48,8 @@ function iterations_table(c: string, { id, version }: Design, { iterations, elit
       return { ...one, best: best?.candidate, mean: best?.mean, steps: own.length, alive: own[own.length - 1]?.alive_after,
         used: own.reduce((sum, step) => sum + Number(step.evaluated), 0), markers: own.map((step) => step.marker).join("") };
     });
-    return <Table name="i" caption="Iterations" sort="-iteration" rows={rows} empty="The race has not begun." columns={[
-      { key: "iteration", show: ({ iteration, round, postselection }) => <a href={`${place_of(id)}/race/${iteration}`}>{round ?? iteration}{!round && postselection > 0 && ", last race"}</a> },
+    return <Table name="i" caption="Iterations" sort="-iteration" rows={rows} empty="It has not begun." columns={[
+      { key: "iteration", show: ({ iteration, round }) => <a href={`${place_of(id)}/race/${iteration}`}>{round ?? iteration}</a> },
       { key: "configurations", label: "candidates", title: "with the elites of the iteration before" },
       "steps",
       { key: "used", label: "experiments" },
@@ -86,8 +86,7 @@ function shown(c: string, design: Design, answer: DesignAnswer) {
         {machine?.text && <details open={!machine.flavour}><summary>Its text</summary><pre>{machine.text}</pre></details>}
       </Panel>
       <Panel wide title="Iterations, newest first">
-        {iterations.length || !over && !stage ? iterations_table(c, design, answer)
-          : <Empty>{stage ? `This method does not race: it is at ${stage}.` : kNoRace}</Empty>}
+        {iterations.length || !over ? iterations_table(c, design, answer) : <Empty>{kNoRace}</Empty>}
       </Panel>
       <Panel title={elites_title}>
         <Table name="el" caption={elites_title} rows={elites.filter(({ iteration }) => iteration === last)}

@@ -229,8 +229,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
 
   #race(race: Race) {
     const { design: { id }, query } = this.props;
-    const { steps, candidates, iteration, ended, rows_total, round, note } = race;
-    const name = round ? round[0].toUpperCase() + round.slice(1) : `Race ${iteration}`;
+    const { steps, candidates, iteration, ended, rows_total, title, note } = race;
     if (steps.length === 0) return <Empty>No step of this race has ended yet.</Empty>;
     if (this.#matrix?.race !== race) this.#matrix = new Matrix(race);
     const matrix = this.#matrix;
@@ -243,7 +242,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
     const now = steps[until];
     const fallen = candidates.filter((_, row) => matrix.dropped(row, now) !== null).length;
     return <div class="beside">
-      <Panel title={`${name}${ended ? "" : ", running"}: candidates by step`}
+      <Panel title={`${title}${ended ? "" : ", running"}: candidates by step`}
         command={command("figure race", `--design ${id} --iteration ${iteration} -o race.svg`)}
         sql={`SELECT * FROM v_race_matrix WHERE design = ${id.slice(1)} AND iteration = ${iteration}`}
         tools={<Files kind="race" name="race" options={{ design: id, iteration }} />}>
@@ -253,7 +252,7 @@ export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
           <span class="faint">{until < last ? `as it was then; ${count(last - until, "later step")} hidden` : count(last + 1, "step")}</span>
         </div>
         <RaceMap matrix={matrix} until={until} cell={cell} pick={pick} watch={watch}
-          label={`${name} of ${id}: ${candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
+          label={`${title} of ${id}: ${candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
         <ul class="legend">{kLegend.map(([mark, what]) => <li><span class={"swatch " + mark} /> {what}</li>)}</ul>
         {rows_total > candidates.length && <p class="faint">The best {whole(candidates.length)} of {whole(rows_total)} candidates. <Quiet act={() => set_query({ rows: rows_total })}>Show all</Quiet></p>}
       </Panel>
