@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <string_view>
 #include <utility>
 
@@ -92,24 +93,33 @@ Expected<std::vector<CampaignRecord>> campaigns(StoreReader& store) {
 }
 
 Expected<std::vector<DesignScore>> design_scores(StoreReader& store, const RecordFilter& filter) {
-  return read<DesignScore>(store,
-                           "SELECT design, mission, method, repetition, candidate, source, "
-                           "purpose, pair, instance, seed,"
-                           " score FROM v_design_scores" +
-                               where(filter) + " ORDER BY design, purpose, source, pair",
-                           [](const Cells& row) {
-                             return DesignScore{.design = {integer(row[0])},
-                                                .mission = row[1].text,
-                                                .method = row[2].text,
-                                                .repetition = integer(row[3]),
-                                                .candidate = {integer(row[4])},
-                                                .source = row[5].text,
-                                                .purpose = row[6].text,
-                                                .pair = integer(row[7]),
-                                                .instance = integer(row[8]),
-                                                .seed = integer(row[9]),
-                                                .score = real(row[10])};
-                           });
+  auto scores = read<DesignScore>(store,
+                                  "SELECT design, mission, method, repetition, candidate, source, "
+                                  "purpose, pair, instance, seed,"
+                                  " score FROM v_design_scores" +
+                                      where(filter) + " ORDER BY design, purpose, source, pair",
+                                  [](const Cells& row) {
+                                    return DesignScore{.design = {integer(row[0])},
+                                                       .mission = row[1].text,
+                                                       .method = row[2].text,
+                                                       .repetition = integer(row[3]),
+                                                       .candidate = {integer(row[4])},
+                                                       .source = row[5].text,
+                                                       .purpose = row[6].text,
+                                                       .pair = integer(row[7]),
+                                                       .instance = integer(row[8]),
+                                                       .seed = integer(row[9]),
+                                                       .score = real(row[10])};
+                                  });
+  if (!scores) return scores;
+  // No program writes such a score; no axis and no bin could hold it.
+  const auto wrong = std::ranges::find_if(
+      *scores, [](const DesignScore& score) { return !std::isfinite(score.score); });
+  if (wrong == scores->end()) return scores;
+  return unexpected(ErrorKind::Corrupt,
+                    fmt::format("the score of {} on pair {} ({}) is not finite: the store was "
+                                "changed by something else",
+                                to_string(wrong->candidate), wrong->pair, wrong->purpose));
 }
 
 Expected<std::vector<DesignRecord>> designs(StoreReader& store, const RecordFilter& filter) {

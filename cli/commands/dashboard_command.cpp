@@ -75,6 +75,13 @@ Expected<std::vector<DashboardStore>> stores_of(const DashboardArguments& argume
   for (const std::string& name : names) {
     const auto reader = StoreReader::open(name);
     if (!reader) return Unexpected(reader.error());
+    // Stores of before schema 4 have no such view: the error says how to make a copy.
+    auto seen = (*reader)->query(
+        "SELECT 1 FROM v_campaigns", {}, [](const auto&) {}, [](const auto&) {});
+    if (!seen) {
+      seen.error().where = name;
+      return Unexpected(seen.error());
+    }
     stores.push_back({std::filesystem::absolute(name), std::nullopt});
   }
   // One coordinator is asked: that of the first store. Its others are matched by nothing.

@@ -6,7 +6,9 @@ import json
 import os
 import pathlib
 import re
+import shutil
 import signal
+import sqlite3
 import subprocess
 import threading
 import time
@@ -169,6 +171,45 @@ class Dashboard(ProgramTest):
         process.terminate()
         self.assertEqual(process.wait(timeout=30), 0)
         self.assertFalse(os.path.exists(f"{store}.token"), "the secret ends with its process")
+
+    def test_a_store_that_is_too_old_is_refused_with_the_way_out(self):
+        old = self.folder / "old.db"
+        shutil.copy(pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/stores/schema-3.sqlite", old)
+        for words in ([], ["--export", self.folder / "old.html"]):
+            done = call("dashboard", old, "--http", "127.0.0.1:*", *words)
+            self.assertEqual(done.returncode, 3, done.stderr)
+            self.assertIn("`swarmsmith backup", done.stderr)
+        self.assertFalse((self.folder / "old.html").exists())
+        new = self.folder / "new.db"
+        self.assertEqual(call("backup", old, new).returncode, 0)
+        self.begin("dashboard", new, "--http", "127.0.0.1:*")
+        self.assertEqual(self.live()["campaigns"][0]["state"], "finished")
+
+    def test_an_export_that_cannot_be_written_does_not_begin(self):
+        kept = self.folder / "kept.txt"
+        kept.write_text("precious")
+        store = self.folder / "small.db"
+        done = call("import", pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/irace/log-acotsp", "--into", store)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        for file in (kept, self.folder, self.folder / "nowhere" / "page.html", store):
+            done = call("dashboard", store, "--export", file)
+            self.assertEqual(done.returncode, 1, done.stderr)
+            self.assertNotIn("made ", done.stderr)
+        self.assertEqual(kept.read_text(), "precious")
+
+    def test_a_score_that_no_axis_can_hold_is_damage_and_is_said_at_once(self):
+        store = self.folder / "forged.db"
+        done = call("import", pathlib.Path(os.environ["SWARMSMITH_SOURCE"]) / "tests/golden/irace/log-acotsp", "--into", store)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        with sqlite3.connect(store) as connection:
+            connection.execute("UPDATE evaluation SET score = 9e999")
+        self.begin("dashboard", store, "--http", "127.0.0.1:*")
+        for kind in ("scores", "box", "training", "gap", "ranks"):
+            status, refused = self.ask(f"c1/figures/{kind}.svg")
+            self.assertEqual((status, refused["error"]["kind"]), (409, "corrupt"), kind)
+            self.assertIn("not finite", refused["error"]["message"])
+        for path in ("live", "c1/designs/d1", "c1/designs/d1/race", "c1/candidates/c155", "c1/leaderboard"):
+            self.assertEqual(self.ask(path)[0], 200, path)
 
     def test_a_file_to_send(self):
         store = self.folder / "sent.db"
