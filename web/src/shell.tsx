@@ -63,7 +63,7 @@ function Head({ live }: { live: Live | null }) {
   const state = is_snapshot ? "a file" : running ? "running" : campaigns.every((one) => one.state === "finished") ? "finished" : "at rest";
   return <header class="head">
     <a class="brand" href="#/" title="All campaigns">{campaigns.length > 2 ? `${campaigns.length} campaigns` : campaigns.map((one) => one.name).join(", ") || "Swarmsmith"}</a>
-    <span class="faint" title={campaigns.map((one) => one.store).join("\n")}>{live.user}@{live.host}</span>
+    <span class="faint" title={campaigns.map((one) => one.store).join("\n")}>{live.host && `${live.user}@${live.host}`}</span>
     {state_word({ state })}
     <span class="progress" title={`${whole(used)} of ${whole(budget)} experiments`}>
       <Bar value={used} of={budget} name="experiments used" /> {percent(budget > 0 ? used / budget : 0)}</span>
