@@ -85,10 +85,7 @@ void ProgressModel::add(DesignProgress& progress, const Row& row) {
     progress.best_mean = step->mean_best;
   } else if (const auto* evaluation = std::get_if<EvaluationRow>(&row)) {
     // What was evaluated ahead has no iteration until a step asks for it.
-    const bool is_asked = evaluation->key.purpose == Purpose::Race && evaluation->iteration > 0;
-    progress.in_step += is_asked;
-    // The first step may take long.
-    if (is_asked && progress.state == DesignState::Waiting) progress.state = DesignState::Racing;
+    progress.in_step += evaluation->key.purpose == Purpose::Race && evaluation->iteration > 0;
   } else if (const auto* state = std::get_if<DesignStateRow>(&row)) {
     add_state(progress, *state);
   } else if (const auto* command = std::get_if<CommandRow>(&row)) {

@@ -50,16 +50,6 @@ TEST_F(Telemetries, AnExtensionCountsFromTheStepAfterWhichItActs) {
   EXPECT_EQ(one.budget, 250);
 }
 
-TEST_F(Telemetries, ADesignRacesFromTheFirstEvaluationThatWasAskedFor) {
-  EvaluationRow evaluation{.key = {.candidate = {1000001}, .purpose = Purpose::Race, .pair = 1}};
-  telemetry.on_rows(0, std::vector<Row>{evaluation}, now);
-  EXPECT_EQ(status().campaigns->front().designs[1].state, DesignState::Waiting)
-      << "it was evaluated ahead";
-  evaluation.iteration = 1;
-  telemetry.on_rows(0, std::vector<Row>{evaluation}, now);
-  EXPECT_EQ(status().campaigns->front().designs[1].state, DesignState::Racing);
-}
-
 TEST_F(Telemetries, BeginWithTheCommandsOfTheStore) {
   std::vector<TelemetryCampaign> stored = campaigns();
   stored.front().commands = {
