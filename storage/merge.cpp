@@ -37,6 +37,18 @@ constexpr std::array kCopied{
     "real_run",   "real_video", "real_robot",  "real_sample", "real_reference",
     "real_patch", "real_cycle", "real_issue",  "real_score",  "real_override"};
 
+/// What an event's text becomes: {"evaluation":"c80 on pair 6","worker":1} and {"design":"d3"} name
+/// the same things as before.
+std::string moved_event(const Move& move) {
+  return fmt::format(
+      "iif(json_valid(text), json_replace(text, "
+      "'$.design', 'd' || (CAST(substr(text ->> '$.design', 2) AS INTEGER) + {}), "
+      "'$.evaluation', 'c' || (CAST(substr(text ->> '$.evaluation', 2) AS INTEGER) + {}) || "
+      "substr(text ->> '$.evaluation', instr(text ->> '$.evaluation', ' ')), "
+      "'$.worker', iif(text ->> '$.worker' = 0, 0, (text ->> '$.worker') + {})), text)",
+      move.designs, move.designs * kCandidatesPerDesign, move.workers);
+}
+
 /// What becomes of a column: an expression over the source's row.
 std::string moved(std::string_view table, const std::string& column, const Move& move) {
   const auto plus = [&](std::int64_t by) { return fmt::format("{} + {}", column, by); };
@@ -55,6 +67,7 @@ std::string moved(std::string_view table, const std::string& column, const Move&
   if (column == "worker" || column == "other_worker") return worker();
   if (column == "number" && table == "command") return plus(move.commands);
   if (column == "run") return plus(move.real_runs);
+  if (column == "text" && table == "event") return moved_event(move);
   if (column == "seq") return "NULL";
   if (column == "source" && table == "evaluation") {
     return "(SELECT m.id FROM main.source AS m JOIN other.source AS s ON s.name = m.name"

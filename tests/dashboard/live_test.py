@@ -219,6 +219,7 @@ class Live(DashboardTest):
                 page = self.page(address, fragment, expression)
                 self.assertEqual(page.errors(), [])
                 self.assertEqual(page.hosts(), set())
+                self.assertNotIn("@", page.js("document.querySelector('.head').innerText"))  # of who wrote it
                 page.close()
 
     def test_ten_tabs_of_one_browser_stay_alive(self):

@@ -3,9 +3,11 @@ import functools
 import os
 import pathlib
 import shutil
+import sqlite3
 import unittest
 
-from dashboards import DashboardTest, needs_browser, query, shared_folder
+import looks
+from dashboards import MARKUP, DashboardTest, needs_browser, query, shared_folder
 from programs import call
 
 SOURCE = pathlib.Path(os.environ["SWARMSMITH_SOURCE"])
@@ -158,6 +160,20 @@ class Rivals(Stores):
                 if method == "maple":
                     page.wait("document.querySelector('.svg g.lit')")
                 self.assert_for_everybody(page, serving, f"run of {method}", tabs=False)
+                page.close()
+
+
+    def test_long_names_of_methods_fit_a_phone(self):
+        store = self.folder / "names.db"
+        shutil.copy(rival_store(), store)
+        with sqlite3.connect(store) as connection:
+            connection.execute("UPDATE design SET method = ? || method", [f"{MARKUP} {'with weights of its own ' * 3}"])
+        serving = self.dashboard(store)
+        for address in ("#/", "#/c1/d1", "#/c1/machines", "#/c1/modules", "#/c1/results", "#/c1/d6/space"):
+            with self.subTest(page=address):
+                page = self.page(serving, address, width=390)
+                page.wait("document.querySelector('.svg svg')")
+                self.assertEqual(page.js(looks.OVERFLOW), [])
                 page.close()
 
 

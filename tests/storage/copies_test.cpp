@@ -218,6 +218,23 @@ TEST_F(MergeTest, KeepsEachCampaignsAnswerAndEveryRow) {
   }
 }
 
+TEST_F(MergeTest, EventsNameTheSameThings) {
+  {
+    const auto reader = open_reader(b);
+    const auto store = Store::open(b, reader->campaign(), reader->designs()).value();
+    store->append({event_row("warning", "evaluation rejected",
+                             {{"evaluation", std::string("c2000007 on pair 6")},
+                              {"worker", std::int64_t{1}}}),
+                   event_row("warning", "race",
+                             {{"design", std::string("d3")}, {"text", std::string("t")}})});
+    store->flush();
+  }
+  ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
+  EXPECT_EQ(cells_of(*open_reader(out), "SELECT text FROM event ORDER BY seq DESC LIMIT 2"),
+            (std::vector<Cells>{{R"({"design":"d5","text":"t"})"},
+                                {R"({"evaluation":"c4000007 on pair 6","worker":3})"}}));
+}
+
 TEST_F(MergeTest, RenumbersWhatTheRowsName) {
   ASSERT_TRUE(merge_stores({a, b}, out, kNobodyWatches));
   const auto reader = open_reader(out);
