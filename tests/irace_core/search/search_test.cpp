@@ -167,6 +167,45 @@ TEST_P(EverySearch, GoesOnAfterAnExtensionOrSaysWhyNot) {
   EXPECT_EQ(search->experiments_used(), played.asked);
 }
 
+TEST(Search, OfOneRaceHasNoOther) {
+  auto search = started(weights_space(3), options_of(SearchKind::FRace), 3000);
+  play(*search, noisy_sphere);
+  ASSERT_TRUE(search->finished());
+  ASSERT_FALSE(search->extend(100'000));
+  EXPECT_THAT(search->least_extension().error().message, HasSubstr("drawn once"));
+}
+
+TEST(Search, OfOneRaceDrawsAsManyAsItCanTest) {
+  const auto drawn = [](Scenario scenario, const FRaceOptions& options = {}) {
+    return f_race_scenario(scenario, options).nb_configurations;
+  };
+  Scenario scenario;
+  scenario.max_experiments = 4000;
+  EXPECT_EQ(drawn(scenario), 200);
+  scenario.first_test = 25;
+  EXPECT_EQ(drawn(scenario), 4000 / 26);
+  EXPECT_EQ(drawn(scenario, {.configurations = 70}), 70);
+  scenario.first_test = 5;
+  scenario.min_experiments = 1000;
+  EXPECT_EQ(drawn(scenario), 50);
+}
+
+TEST(Search, OfOneRaceHasNeitherTimesNorElitesThatBoundThem) {
+  Scenario scenario;
+  scenario.max_time = 5000;
+  const SearchOptions options = options_of(SearchKind::FRace);
+  const auto in_time = start_search(weights_space(3), scenario, options);
+  ASSERT_FALSE(in_time);
+  EXPECT_THAT(to_string(in_time.error()), HasSubstr("the budget of f-race is max_experiments"));
+  scenario.max_time = 0;
+  scenario.max_experiments = 4000;
+  scenario.capping = true;
+  scenario.bound_max = 10;
+  const auto capped = start_search(weights_space(3), scenario, options);
+  ASSERT_FALSE(capped);
+  EXPECT_THAT(to_string(capped.error()), HasSubstr("capping: is for irace alone"));
+}
+
 TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
   for (const SearchKind kind : all_searches()) {
     if (kind == SearchKind::Irace || kind == SearchKind::FRace) continue;
