@@ -37,6 +37,7 @@ std::int64_t f_race_budget(const Scenario& scenario) {
 }
 
 Expected<void> check_f_race(const Scenario& scenario, const FRaceOptions& options) {
+  if (auto checked = check(scenario); !checked) return checked;
   // Both need elites, which one race has not.
   if (scenario.max_time > 0)
     return bad_input("is for irace alone: the budget of f-race is max_experiments", "max_time");
