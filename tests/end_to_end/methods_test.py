@@ -34,6 +34,7 @@ store = "unused.db"
 
 [[mission]]
 name = "aggregation"
+duration = "30 s"
   [mission.instances]
   test = {{ count = 10 }}
 
