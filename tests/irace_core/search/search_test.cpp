@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -111,6 +112,16 @@ TEST_P(EverySearch, FindsTheSphereBetterThanItsFirstDraws) {
   EXPECT_LT(distance, 9);
 }
 
+/// Stores take finite numbers alone, and a step or an iteration may have nobody who is any good.
+void expect_finite(const Played& played) {
+  for (const RaceStep& step : only<RaceStep>(played.events))
+    EXPECT_TRUE(std::isfinite(step.mean_best)) << "step of iteration " << step.iteration;
+  for (const IterationEnded& ended : only<IterationEnded>(played.events)) {
+    for (const Elite& elite : ended.elites)
+      EXPECT_TRUE(std::isfinite(elite.mean)) << "elite of iteration " << ended.iteration;
+  }
+}
+
 TEST_P(EverySearch, OutlivesRejectionsAndSaysWhenThereIsNothingElse) {
   const double rejected = std::numeric_limits<double>::infinity();
   auto search = started(weights_space(3), options_of(GetParam()), 3000);
@@ -119,9 +130,15 @@ TEST_P(EverySearch, OutlivesRejectionsAndSaysWhenThereIsNothingElse) {
   });
   ASSERT_FALSE(some.elites.empty());
   EXPECT_LE(search->configuration(some.elites.front().configuration)[0], 2);
+  expect_finite(some);
+
+  auto unlucky = started(weights_space(3), options_of(GetParam()), 3000);
+  expect_finite(play(*unlucky, [&](const Configuration& c, const Experiment& e) {
+    return c[0] > -4 ? rejected : noisy_sphere(c, e);
+  }));
 
   auto hopeless = started(weights_space(3), options_of(GetParam()), 3000);
-  play(*hopeless, [&](const Configuration&, const Experiment&) { return rejected; });
+  expect_finite(play(*hopeless, [&](const Configuration&, const Experiment&) { return rejected; }));
   ASSERT_TRUE(hopeless->failure());
   EXPECT_THAT(hopeless->failure()->message, HasSubstr("rejected"));
   EXPECT_TRUE(hopeless->elites().empty());
