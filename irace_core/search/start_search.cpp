@@ -117,6 +117,7 @@ Expected<std::unique_ptr<Search>> start_search(ParameterSpace space, const Scena
   for (const Configuration& given : initial) {
     if (auto checked = space.check(given); !checked) return Unexpected(checked.error());
   }
+  std::erase_if(initial, [&](const Configuration& given) { return space.is_forbidden(given); });
   // Strategies point to it.
   auto shared = std::make_unique<ParameterSpace>(std::move(space));
   Expected<std::unique_ptr<search::Strategy>> strategy =

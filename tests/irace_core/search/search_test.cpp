@@ -247,5 +247,36 @@ TEST(Search, OfWeightsAloneSaysWhatItCannotUse) {
   }
 }
 
+/// The first weight may not be 0 or less.
+ParameterSpace space_with_forbidden() {
+  std::vector<Parameter> parameters;
+  for (const char* name : {"w0", "w1"})
+    parameters.push_back({name, std::string("--") + name + " ", Real{-5.0, 5.0}, {}});
+  std::vector<Expression> forbidden;
+  forbidden.push_back(
+      Expression::call(Operation::LessEqual, {Expression::parameter("w0"), Expression::number(0)}));
+  return ParameterSpace::make(std::move(parameters), std::move(forbidden), 4).value();
+}
+
+TEST_P(EverySearch, KeepsToWhatIsNotForbiddenOrSaysThatItCannot) {
+  Scenario scenario;
+  scenario.max_experiments = 3000;
+  scenario.n_instances = 1;
+  Configuration given(2);
+  given.set(0, -1);
+  given.set(1, 1);
+  auto search = start_search(space_with_forbidden(), scenario, options_of(GetParam()), {given});
+  if (GetParam() == SearchKind::Evolution || GetParam() == SearchKind::CmaEs) {
+    ASSERT_FALSE(search);
+    EXPECT_THAT(to_string(search.error()), HasSubstr("would not keep to forbidden combinations"));
+    return;
+  }
+  ASSERT_TRUE(search) << to_string(search.error());
+  play(**search, [](const Configuration& configuration, const Experiment& experiment) {
+    EXPECT_GT(configuration[0], 0);
+    return noisy_sphere(configuration, experiment);
+  });
+}
+
 }  // namespace
 }  // namespace swarmsmith
