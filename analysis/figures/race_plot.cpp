@@ -245,6 +245,12 @@ Legend legend_of(const RacePlot& plot, const CellRuns& cells) {
 
 }  // namespace
 
+std::string_view meaning_of_marker(std::string_view marker) {
+  const auto* const found =
+      std::ranges::find(kMarkers, marker, &std::pair<std::string_view, std::string_view>::first);
+  return found == kMarkers.end() ? "not known" : found->second;
+}
+
 std::string draw(const RacePlot& plot) {
   const Layout at = layout_of(plot);
   const CellRuns cells = cell_runs(plot, kMostRuns);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace swarmsmith {
@@ -40,5 +41,8 @@ struct RacePlot {
 /// As SVG. Cells shrink with their number; where they would make too large a file, columns of
 /// several steps share the cell of their mean rank, and the figure says so.
 std::string draw(const RacePlot& plot);
+
+/// What a marker of v_race_steps says, in a few words: "nobody dropped".
+std::string_view meaning_of_marker(std::string_view marker);
 
 }  // namespace swarmsmith

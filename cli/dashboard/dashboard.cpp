@@ -9,6 +9,7 @@
 #include <cerrno>
 #include <chrono>
 #include <cstring>
+#include <iterator>
 #include <mutex>
 #include <random>
 #include <span>
@@ -56,9 +57,9 @@ constexpr const char* kDataPolicy =
 
 constexpr const char* kNoPages =
     "<!doctype html><html lang=\"en\"><meta charset=\"utf-8\"><title>Swarmsmith</title>"
-    "<p>This program was built without its pages: where it was built, esbuild and node-preact were "
-    "not installed. What they show is below <a href=\"api/v1/live\">api/v1/live</a> as JSON "
-    "(docs/http-api.md).</p></html>\n";
+    "<p>This program was built without its pages: where it was built, esbuild, node-preact or "
+    "zopfli was not installed. What they show is below <a href=\"api/v1/live\">api/v1/live</a> "
+    "as JSON (docs/http-api.md).</p></html>\n";
 
 using Route = Expected<Answer> (*)(const Question&);
 
@@ -382,6 +383,8 @@ class Dashboard final : public HttpSite {
       return made("", kFresh, [this] { return live(); });
     }
     if (first == "workers" && path.empty()) return made("", kFresh, [this] { return workers(); });
+    if (first == "causes" && path.empty())
+      return made("", kFresh, [] { return json_answer(causes_json()); });
     if (first == "history" && path.empty())
       return made("", kFresh, [&] { return history(request); });
     const auto store = store_named(first);
@@ -461,7 +464,9 @@ class Dashboard final : public HttpSite {
     const auto now = published();
     const bool runs = now && Clock::now() - now->when < kStale;
     std::string campaigns;
+    std::vector<Look> looks = runs ? looks_of(now->status) : std::vector<Look>();
     for (std::size_t i = 0; i < options_.stores.size(); ++i) {
+      const std::string c = "c" + std::to_string(i + 1);
       const DashboardStore& store = options_.stores[i];
       const bool is_written = has_writer(store.file);
       auto reader = StoreReader::open(store.file);
@@ -473,10 +478,10 @@ class Dashboard final : public HttpSite {
           *store.place < now->status.campaigns->size())
         status = &(*now->status.campaigns)[*store.place];
       campaigns +=
-          (i == 0 ? "" : ",") + campaign_json("c" + std::to_string(i + 1),
-                                              options_.is_snapshot ? kSomeStore : store.file,
+          (i == 0 ? "" : ",") + campaign_json(c, options_.is_snapshot ? kSomeStore : store.file,
                                               *state, status, runs ? seconds_left(now->status) : -1)
                                     .text();
+      std::ranges::move(looks_of(c, *state, status), std::back_inserter(looks));
     }
     return json_answer(
         answer_object()
@@ -490,6 +495,7 @@ class Dashboard final : public HttpSite {
             .add("may_act", static_cast<bool>(options_.act))
             .add("running", runs)
             .add("status", JsonPiece{runs ? head_json(now->status) : std::string("null")})
+            .add("looks", looks_json(looks))
             .add("campaigns", JsonPiece{"[" + campaigns + "]"}));
   }
 

@@ -1,6 +1,7 @@
 #include "cli/dashboard/live_answers.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -87,7 +88,113 @@ JsonObject design_json(Rows& designs, std::size_t row, const DesignStatus* now) 
   return object;
 }
 
+/// Merged stores hold several campaigns: their names, and the state of those that are not finished.
+struct Head {
+  std::string name;
+  std::string state;
+};
+
+Head head_of(const StoredCampaignState& state) {
+  Head head;
+  Rows heads = state.campaign;
+  for (std::size_t i = 0; i < heads.cells.size(); ++i) {
+    head.name += (i == 0 ? "" : ", ") + cell_of(heads, i, "name").text;
+    if (i == 0 || head.state == "finished") head.state = cell_of(heads, i, "state").text;
+  }
+  return head;
+}
+
+const DesignStatus* find_design(const CampaignStatus* now, const std::string& id) {
+  if (now == nullptr) return nullptr;
+  const auto found = std::ranges::find(now->designs, std::atoll(id.c_str()), &DesignStatus::id);
+  return found == now->designs.end() ? nullptr : &*found;
+}
+
+/// "1 worker", "2 workers".
+std::string counted(std::int64_t count, std::string_view what) {
+  return std::to_string(count) + " " + std::string(what) + (count == 1 ? "" : "s");
+}
+
+struct CauseText {
+  IdleCause cause;
+  const char* why;
+  const char* todo;
+};
+
+/// As docs/observability.md, shorter.
+constexpr std::array<CauseText, kIdleCauses> kCauseTexts{{
+    {IdleCause::StartUp, "new workers get what they must know", "It passes by itself."},
+    {IdleCause::Barrier, "races wait for the last results of a step",
+     "Run more designs at the same time, or use fewer slots."},
+    {IdleCause::Credit, "workers ask for less than they have slots for",
+     "They drain, or have many results that are not acknowledged: look at their silence below."},
+    {IdleCause::Alone, "workers are kept free for a task that may have killed one",
+     "It passes when that task has run alone."},
+    {IdleCause::Commit, "the store cannot write as fast, or not at all",
+     "Look at the disk of the store: space, speed."},
+    {IdleCause::Held, "what is wanted is of paused designs, or the coordinator ends",
+     "Resume the paused designs."},
+    {IdleCause::Network, "tasks and results are on their way",
+     "Short evaluations, slow connections, or worker hosts whose processors are taken by others."},
+}};
+
 }  // namespace
+
+std::vector<Look> looks_of(const LiveStatus& status) {
+  std::vector<Look> looks;
+  const auto say = [&](bool is_so, const std::string& text, const char* page = "fleet") {
+    if (is_so) looks.push_back({text, page});
+  };
+  const auto some = [&](std::int64_t count, std::string_view what, const char* then,
+                        const char* page = "fleet") {
+    say(count > 0, counted(count, what) + then, page);
+  };
+  say(!status.trouble.empty(), status.trouble);
+  some(status.conflicts, "conflict", ": two results of one evaluation differ in their bits");
+  say(status.insecure_plaintext, "other hosts can connect without keys");
+  some(status.quarantined, "worker", " in quarantine");
+  say(status.workers == 0, "no worker is connected");
+  some(status.lost_workers, "worker", " lost");
+  some(status.rejected, "evaluation", " rejected", "c1");
+  some(status.failed, "attempt", " failed", "c1");
+  some(status.malformed, "frame", " dropped as malformed");
+  return looks;
+}
+
+std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& state,
+                           const CampaignStatus* now) {
+  std::vector<Look> looks;
+  const Head head = head_of(state);
+  if (now != nullptr && !now->trouble.empty())
+    looks.push_back({head.name + ": " + now->trouble, c});
+  if (head.state == "interrupted")
+    looks.push_back({head.name + " is not finished, and nobody runs it", c});
+  Rows designs = state.designs;
+  for (std::size_t i = 0; i < designs.cells.size(); ++i) {
+    const std::string id = cell_of(designs, i, "id").text;
+    const DesignStatus* live = find_design(now, id);
+    const std::string word =
+        live != nullptr ? std::string(word_of(live->state)) : cell_of(designs, i, "state").text;
+    if (word == "stopped") looks.push_back({"d" + id + " has stopped", c + "/d" + id});
+  }
+  return looks;
+}
+
+JsonPiece looks_json(const std::vector<Look>& looks) {
+  return json_list(looks, [](const Look& look) {
+    return JsonObject().add("text", look.text).add("page", look.page);
+  });
+}
+
+JsonObject causes_json() {
+  return std::move(
+      JsonObject().add("v", 1).add("causes", json_list(kCauseTexts, [](const CauseText& text) {
+                                     return JsonObject()
+                                         .add("name", name_of(text.cause))
+                                         .add("why", text.why)
+                                         .add("todo", text.todo);
+                                   })));
+}
 
 Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_written) {
   StoredCampaignState state;
@@ -116,16 +223,12 @@ Expected<StoredCampaignState> read_campaign_state(StoreReader& store, bool is_wr
 JsonObject campaign_json(const std::string& c, const std::filesystem::path& file,
                          const StoredCampaignState& state, const CampaignStatus* now,
                          double left_s) {
+  const Head head = head_of(state);
   Rows heads = state.campaign;
   Rows designs = state.designs;
-  // Merged stores hold several.
-  std::string name;
-  std::string state_word;
   std::int64_t used = 0;
   std::int64_t budget = 0;
   for (std::size_t i = 0; i < heads.cells.size(); ++i) {
-    name += (i == 0 ? "" : ", ") + cell_of(heads, i, "name").text;
-    if (i == 0 || state_word == "finished") state_word = cell_of(heads, i, "state").text;
     used += std::atoll(cell_of(heads, i, "used").text.c_str());
     budget += std::atoll(cell_of(heads, i, "budget").text.c_str());
   }
@@ -135,21 +238,16 @@ JsonObject campaign_json(const std::string& c, const std::filesystem::path& file
   }
   std::string list;
   for (std::size_t i = 0; i < designs.cells.size(); ++i) {
-    const DesignStatus* live = nullptr;
-    if (now != nullptr) {
-      const auto found = std::ranges::find(
-          now->designs, std::atoll(cell_of(designs, i, "id").text.c_str()), &DesignStatus::id);
-      if (found != now->designs.end()) live = &*found;
-    }
+    const DesignStatus* live = find_design(now, cell_of(designs, i, "id").text);
     list += (i == 0 ? "" : ",") + design_json(designs, i, live).text();
   }
   const bool moves = now != nullptr && left_s >= 0;
   return std::move(JsonObject()
                        .add("c", c)
-                       .add("name", name)
+                       .add("name", head.name)
                        .add("store", file.string())
                        .add("digest", heads.cells.empty() ? "" : cell_of(heads, 0, "digest").text)
-                       .add("state", state_word)
+                       .add("state", head.state)
                        .add("used", used)
                        .add("budget", budget)
                        .add("eta_s", moves ? std::optional(left_s) : std::nullopt)

@@ -34,6 +34,24 @@ JsonObject campaign_json(const std::string& c, const std::filesystem::path& file
                          const StoredCampaignState& state, const CampaignStatus* now,
                          double left_s);
 
+/// Something that a person should know of, and the page that shows it: "fleet", "c1", "c1/d3".
+struct Look {
+  std::string text;
+  std::string page;
+};
+
+/// Of the coordinator itself, worst first.
+std::vector<Look> looks_of(const LiveStatus& status);
+/// Of a campaign and its designs. `now`: as for campaign_json.
+std::vector<Look> looks_of(const std::string& c, const StoredCampaignState& state,
+                           const CampaignStatus* now);
+/// [{"text":"2 workers lost","page":"fleet"}].
+JsonPiece looks_json(const std::vector<Look>& looks);
+
+/// {"v":1,"causes":[{"name":"barrier","why":"...","todo":"..."}]}: why slots idle, and what a
+/// person can do.
+JsonObject causes_json();
+
 /// Numbers of the last minutes, hours and day, since the process began: evaluations have no time in
 /// the store.
 class History {

@@ -15,6 +15,7 @@
 #include <utility>
 #include <vector>
 
+#include "analysis/figures/race_plot.h"
 #include "analysis/records/records.h"
 
 namespace swarmsmith::cli {
@@ -282,6 +283,9 @@ Expected<Answer> race_answer(const Question& question) {
           .add("instances", pairs->first)
           .add("seeds", pairs->second)
           .add("markers", column_of(race->steps, 2))
+          .add("meanings",
+               json_list(race->steps.cells,
+                         [](const auto& cells) { return meaning_of_marker(cells[2].text); }))
           .add("alive", column_of(race->steps, 3))
           .add("alive_before", column_of(race->steps, 9))
           .add("statistic", column_of(race->steps, 4))

@@ -225,7 +225,7 @@ Expected<std::string> snapshot_page(const std::filesystem::path& store,
   std::string page = file_named("/");
   if (page.empty()) {
     return unexpected(ErrorKind::Conflict,
-                      "this program was built without its pages (esbuild and node-preact)");
+                      "this program was built without its pages (esbuild, node-preact and zopfli)");
   }
   auto reader = StoreReader::open(store);
   if (!reader) return Unexpected(reader.error());

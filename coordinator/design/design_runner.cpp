@@ -64,6 +64,7 @@ Expected<void> DesignRunner::begin(std::vector<Task>& tasks) {
     return {};
   }
   recorder_.set_state(DesignState::Racing);
+  recorder_.record_state();  // its first step may take long, and people look at the store
   if (auto taken = take_events(); !taken) return taken;
   want_batch(tasks);
   return {};

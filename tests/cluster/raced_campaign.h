@@ -3,6 +3,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <ostream>
 #include <set>
 #include <string>
 #include <string_view>
@@ -32,6 +33,9 @@ struct PresetBudget {
   std::string_view preset;
   std::int64_t budget = 0;
 };
+inline void PrintTo(const PresetBudget& preset, std::ostream* out) {
+  *out << preset.preset;
+}
 inline constexpr std::array kPresetBudgets = {
     PresetBudget{"random", 54}, PresetBudget{"vanilla", 54}, PresetBudget{"evostick", 54},
     PresetBudget{"cma-es", 54}, PresetBudget{"icepop", 90},  PresetBudget{"maple", 90}};

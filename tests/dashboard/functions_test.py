@@ -18,7 +18,7 @@ class Functions(unittest.TestCase):
     def setUpClass(cls):
         out = shared_folder() / "functions.js"
         preact = os.environ["SWARMSMITH_PREACT"]
-        subprocess.run(["esbuild", HERE / "functions.ts", "--bundle", "--format=iife", "--global-name=f", "--target=es2021", "--jsx-factory=h",
+        subprocess.run(["esbuild", HERE / "functions.ts", "--bundle", "--format=iife", "--global-name=f", "--target=es2022", "--jsx-factory=h",
                         f"--alias:preact={preact}/preact/src/preact.js", "--log-level=error", f"--outfile={out}"], check=True)
         cls.page = shared_browser().page()
         cls.page.js(out.read_text() + "; window.f = f; 0")
@@ -52,6 +52,12 @@ class Functions(unittest.TestCase):
     def test_csv_reads_back(self):
         rows = [["a", "b"], ['say "x"', "1,5"], ["", "two\nlines"]]
         self.assertEqual(self.of("parse_csv", self.of("csv", rows)), rows)
+
+    def test_no_text_of_a_csv_is_a_formula(self):
+        rows = [["=1+1", "-1.5", "--s0 1", "-cmd|x", "'=1", "@a"]]
+        text = self.of("csv", rows)
+        self.assertEqual(text, "'=1+1,-1.5,--s0 1,'-cmd|x,''=1,'@a\r\n")
+        self.assertEqual(self.of("parse_csv", text), rows)
 
     def test_addresses_read_back(self):
         address = self.of("href", ["c1", "d3", "race", "8"], {"step": 120, "cell": "c812,120", "q": "a&b=c #?", "none": None, "empty": ""})

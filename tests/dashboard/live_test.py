@@ -51,8 +51,9 @@ class Live(DashboardTest):
 
     def setUp(self):
         super().setUp()
-        # Four designs, so that it does not end while it is looked at.
-        self.file.write_text(self.file.read_text().replace("[campaign]", "[campaign]\nrepetitions = 4"))
+        # Four designs, so that it does not end while it is looked at; many short races, so that the first soon has steps.
+        self.file.write_text(self.file.read_text().replace("[campaign]", "[campaign]\nrepetitions = 4")
+                             .replace("[race]", "[race]\nnb_iterations = 60"))
 
     def running(self, http="127.0.0.1:*"):
         self.store = self.folder / "live.db"
@@ -72,7 +73,7 @@ class Live(DashboardTest):
                 ".observe(document.querySelector('.head'), {characterData: true, childList: true, subtree: true})")
         steps = "document.querySelector('#iteration').max * 1e6 + Number(document.querySelector('#step').max)"
         before = page.js(steps)
-        page.wait("window.renewals >= 10", timeout=40)
+        page.wait("window.renewals >= 5", timeout=40)
         page.wait(f"{steps} > {before}")
         self.assertEqual(page.js("[document.activeElement === window.field, window.field.value, window.mark]"), [True, "c", 1])
         self.assert_quiet(page, serving)
@@ -223,8 +224,7 @@ class Live(DashboardTest):
     def test_ten_tabs_of_one_browser_stay_alive(self):
         serving = self.running()
         pages = [self.page(serving, "#/", f"{USED} > 0") for _ in range(10)]
-        for page in pages:
-            used = page.js(USED)
+        for page, used in [(page, page.js(USED)) for page in pages]:
             page.wait(f"{USED} > {used}")
 
     def test_two_coordinators_have_two_ports(self):

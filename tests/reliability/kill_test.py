@@ -137,7 +137,7 @@ class KillBeside(Beside):
     """Coordinator and workers are killed again and again while people look at the store, and tell it
     to pause and to go on: whatever was acknowledged or confirmed is there after each kill."""
 
-    budget = 40000 if LONG else 4000
+    budget = 60000 if LONG else 4000
     kills = 200 if LONG else 12
 
     def setUp(self):
@@ -162,7 +162,8 @@ class KillBeside(Beside):
             limit = stored(self.store) + self.rng.randrange(1, step)
             wait_for(lambda limit=limit: stored(self.store) >= limit or not self.coordinator.alive(),
                      f"{limit} evaluations in the store", 90)
-            if not self.coordinator.alive():  # the campaign is over
+            # Near its end the campaign could be over before the next kill.
+            if not self.coordinator.alive() or stored(self.store) > 0.9 * self.budget:
                 self.assertGreater(n, self.kills * 0.6)
                 break
             if n % 4 == 3:

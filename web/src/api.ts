@@ -1,17 +1,18 @@
 // Questions to the server, or to the snapshot that is in the page itself.
 
+import { given, Query } from "./route";
 import { Live } from "./types";
 
 /// What went wrong, as the command line says it.
 export class ApiError extends Error {
-  constructor(readonly status: number, readonly kind: string, message: string, readonly where = "") { super(message); }
+  /// `retry_s`: when to ask again, if the server is only busy.
+  constructor(readonly status: number, message: string, readonly where = "", readonly retry_s = 0) { super(message); }
   /// No answer came at all: it is worth trying again.
   get unreachable(): boolean { return this.status === 0; }
 }
 
-interface Kept { etag: string; text: string; data: unknown }
-
-export interface Answer { text: string; data: unknown; cost_ms: number }
+/// JSON as data, anything else as text.
+export interface Answer { data: unknown; cost_ms: number }
 
 // --- the snapshot: a page that `dashboard --export` wrote -----------------------------------------
 //
@@ -21,7 +22,7 @@ export interface Answer { text: string; data: unknown; cost_ms: number }
 
 const snapshot_text = document.getElementById("snapshot")?.textContent?.trim();
 export const is_snapshot = !!snapshot_text;
-// TypeScript 4.8 does not know it yet.
+// TypeScript 4.8 does not know it yet, nor AbortSignal.timeout.
 declare const DecompressionStream: new (format: string) => { readable: ReadableStream; writable: WritableStream };
 
 let snapshot: Promise<Record<string, unknown>> | null = null;
@@ -37,8 +38,8 @@ async function from_snapshot(path: string): Promise<Answer> {
   const key = path.replace(/([?&])width=[^&]*&?/, "$1").replace(/[?&]$/, "");
   const data = (await snapshot)[key];
   if (data === undefined)
-    throw new ApiError(404, "not_found", "this file does not hold it: see it in the store with swarmsmith dashboard", key);
-  return { text: typeof data === "string" ? data : JSON.stringify(data), data, cost_ms: 0 };
+    throw new ApiError(404, "this file does not hold it: see it in the store with swarmsmith dashboard", key);
+  return { data, cost_ms: 0 };
 }
 
 // --- the token ------------------------------------------------------------------------------------
@@ -62,77 +63,63 @@ export function set_token(text: string): void {
 // --- asking ---------------------------------------------------------------------------------------
 
 /// "c1/designs/d3/race?iteration=8": parameters in the order given, those without a value left out.
-export function path_of(path: string, parameters: Record<string, string | number | null | undefined> = {}): string {
-  const values = Object.entries(parameters)
-    .filter(([, value]) => value !== null && value !== undefined && value !== "")
-    .map(([name, value]) => `${name}=${encodeURIComponent(String(value))}`);
-  return path + (values.length ? (path.includes("?") ? "&" : "?") + values.join("&") : "");
+export function path_of(path: string, parameters: Query = {}): string {
+  const values = given(parameters).map(([name, value]) => `${name}=${encodeURIComponent(value)}`);
+  return path + (values.length ? "?" + values.join("&") : "");
 }
 
-const kept = new Map<string, Kept>();
+/// What the server said before, by path.
+const kept = new Map<string, { etag: string; data: unknown }>();
 const kMostKept = 40;
 
-async function fetched(path: string, init: RequestInit, patience_ms: number): Promise<Response> {
-  const stop = new AbortController();
-  const timer = setTimeout(() => stop.abort(), patience_ms);
-  const headers = new Headers(init.headers);
+/// An answer that is well, or "unchanged" (304). Throws ApiError.
+async function fetched(path: string, patience_ms: number, headers: Record<string, string> = {}, method = "GET"): Promise<Response> {
   const secret = token();
-  if (secret) headers.set("Authorization", "Bearer " + secret);
+  if (secret) headers.Authorization = "Bearer " + secret;
+  let response: Response;
   try {
-    return await fetch("api/v1/" + path, { ...init, headers, signal: stop.signal, credentials: "omit" });
-  } catch {
-    throw new ApiError(0, "unreachable", stop.signal.aborted
+    response = await fetch("api/v1/" + path, { method, headers, signal: (AbortSignal as any).timeout(patience_ms), credentials: "omit" });
+  } catch (error) {
+    throw new ApiError(0, (error as Error).name === "TimeoutError"
       ? `no answer within ${patience_ms / 1000} s` : "no answer: the process that serves this page cannot be reached", path);
-  } finally {
-    clearTimeout(timer);
   }
+  if (response.ok || response.status === 304) return response;
+  const { error = { message: `the server answered ${response.status} ${response.statusText}`, where: path } }
+    = await response.json().catch(() => ({}));
+  throw new ApiError(response.status, error.message, error.where, response.status === 503 ? Number(response.headers.get("Retry-After") ?? 1) : 0);
 }
 
-async function error_of(response: Response, path: string): Promise<ApiError> {
-  try {
-    const { error } = await response.json();
-    return new ApiError(response.status, error.kind, error.message, error.where ?? "");
-  } catch {
-    return new ApiError(response.status, "http", `the server answered ${response.status} ${response.statusText}`, path);
-  }
-}
-
-/// Text and data of a path below api/v1/. An answer that the server says is unchanged (ETag, 304)
-/// is the very same object as before. Throws ApiError.
+/// Data of a path below api/v1/. An answer that the server says is unchanged (ETag, 304) is the very
+/// same object as before. Throws ApiError.
 export async function ask(path: string, patience_ms = 65000): Promise<Answer> {
   if (is_snapshot) return from_snapshot(path);
   const before = kept.get(path);
-  for (let attempt = 1; ; ++attempt) {
-    const response = await fetched(path, before ? { headers: { "If-None-Match": before.etag } } : {}, patience_ms);
-    const timing = /dur=([\d.]+)/.exec(response.headers.get("Server-Timing") ?? "");
-    const cost_ms = timing ? Number(timing[1]) : 0;
-    if (response.status === 304 && before) return { ...before, cost_ms };
-    if (response.status === 503 && attempt < 4 && path !== "live") {  // others ask for heavy things, too
-      await new Promise((done) => setTimeout(done, 1000 * Number(response.headers.get("Retry-After") ?? 1)));
-      continue;
+  let response: Response | undefined;
+  for (let attempt = 1; !response; ++attempt) {
+    try {
+      response = await fetched(path, patience_ms, before && { "If-None-Match": before.etag });
+    } catch (error) {
+      const { retry_s } = error as ApiError;
+      if (!retry_s || attempt > 3 || path === "live") throw error;
+      await new Promise((done) => setTimeout(done, 1000 * retry_s));  // others ask for heavy things, too
     }
-    if (!response.ok) throw await error_of(response, path);
-    let text: string;
-    try { text = await response.text(); } catch { throw new ApiError(0, "unreachable", "the answer broke off", path); }
-    const json = (response.headers.get("Content-Type") ?? "").includes("json");
-    const data: unknown = json ? JSON.parse(text) : text;
-    const etag = response.headers.get("ETag");
-    kept.delete(path);
-    if (etag) kept.set(path, { etag, text: json ? "" : text, data });
-    if (kept.size > kMostKept) kept.delete(kept.keys().next().value as string);
-    return { text, data, cost_ms };
   }
-}
-
-export async function get<T>(path: string): Promise<T> {
-  return (await ask(path)).data as T;
+  const cost_ms = Number(/dur=([\d.]+)/.exec(response.headers.get("Server-Timing") ?? "")?.[1] ?? 0);
+  if (response.status === 304) return { data: before!.data, cost_ms };
+  let data: unknown;
+  try {
+    data = await (response.headers.get("Content-Type")?.includes("json") ? response.json() : response.text());
+  } catch { throw new ApiError(0, "the answer broke off", path); }
+  const etag = response.headers.get("ETag");
+  kept.delete(path);
+  if (etag) kept.set(path, { etag, data });
+  if (kept.size > kMostKept) kept.delete(kept.keys().next().value as string);
+  return { data, cost_ms };
 }
 
 /// An action. It needs the token; answers with the sentence of what was done. Throws ApiError.
-export async function post(path: string): Promise<{ command: string; design?: string; done: string }> {
-  const response = await fetched(path, { method: "POST" }, 15000);
-  if (!response.ok) throw await error_of(response, path);
-  return response.json();
+export async function post(path: string): Promise<string> {
+  return (await (await fetched(path, 15000, {}, "POST")).json()).done;
 }
 
 // --- live numbers ---------------------------------------------------------------------------------
@@ -143,14 +130,15 @@ class Feed {
   at: Date | null = null;             ///< of the last answer
   failure: ApiError | null = null;    ///< of the last attempt
   next_try: Date | null = null;
-  private listeners = new Set<() => void>();
-  private timer = 0;
-  private failures = 0;
-  private asking = false;
+  #listeners = new Set<() => void>();
+  #timer = 0;
+  #failures = 0;
+  #is_asking = false;
 
+  /// Returns what ends it.
   listen(what: () => void): () => void {
-    this.listeners.add(what);
-    return () => { this.listeners.delete(what); };
+    this.#listeners.add(what);
+    return () => { this.#listeners.delete(what); };
   }
 
   start(): void {
@@ -162,33 +150,30 @@ class Feed {
   get stale(): boolean { return this.failure !== null; }
 
   ask_now(): void {
-    clearTimeout(this.timer);
-    if (!this.asking) void this.turn();
+    clearTimeout(this.#timer);
+    if (!this.#is_asking) void this.#turn();
   }
 
-  private async turn(): Promise<void> {
-    this.asking = true;
+  async #turn(): Promise<void> {
+    this.#is_asking = true;
     try {
       const live = (await ask("live", 3000)).data as Live;
       if (this.live && live.boot !== this.live.boot) restarted();
       this.live = live;
       this.at = new Date();
       this.failure = null;
-      this.failures = 0;
+      this.#failures = 0;
     } catch (error) {
       this.failure = error as ApiError;
-      ++this.failures;
+      ++this.#failures;
     }
-    this.asking = false;
-    const waits = [1, 2, 4, 8, 15];
-    const wait_s = this.failure ? waits[Math.min(this.failures, waits.length) - 1]
+    this.#is_asking = false;
+    const wait_s = this.failure ? Math.min(15, 2 ** (this.#failures - 1))
       : document.hidden ? 30 : this.live?.running ? 1 : 5;
     this.next_try = this.failure ? new Date(Date.now() + 1000 * wait_s) : null;
-    if (!is_snapshot) this.timer = window.setTimeout(() => this.ask_now(), 1000 * wait_s);
-    this.tell();
+    if (!is_snapshot) this.#timer = window.setTimeout(() => this.ask_now(), 1000 * wait_s);
+    this.#listeners.forEach((listener) => listener());
   }
-
-  private tell(): void { this.listeners.forEach((listener) => listener()); }
 }
 
 /// Another process answers at this address: all that is kept is of the one before.

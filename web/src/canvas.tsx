@@ -1,37 +1,70 @@
 import { Component, h } from "preact";
+import { clamp } from "./format";
 
-/// The page's colours as the theme has them now, for canvases.
-export interface Inks { ink: string; paper: string; faint: string; line: string; soft: string; link: string; warn: string; font: string }
+export type Point = [number, number];
 
-export function inks(): Inks {
+/// The page's colours as the theme has them now.
+export interface Inks { ink: string; paper: string; faint: string; line: string; soft: string; link: string }
+
+function inks_now(): Inks {
   const style = getComputedStyle(document.documentElement);
   const of = (name: string) => style.getPropertyValue("--" + name).trim();
-  return { ink: of("ink"), paper: of("paper"), faint: of("faint"), line: of("line"), soft: of("soft"), link: of("link"), warn: of("warn"),
-    font: getComputedStyle(document.body).fontFamily };
+  return { ink: of("ink"), paper: of("paper"), faint: of("faint"), line: of("line"), soft: of("soft"), link: of("link") };
 }
 
-/// Short words for what pictures here are made of.
-export function pen(to: CanvasRenderingContext2D, inks: Inks) {
-  to.font = `11px ${inks.font}`;
-  to.textBaseline = "middle";
-  return {
-    box(color: string, x: number, y: number, width: number, height: number) {
-      to.fillStyle = color;
-      to.fillRect(x, y, width, height);
-    },
-    say(text: string, x: number, y: number, align: CanvasTextAlign = "center", color = inks.faint) {
-      to.fillStyle = color;
-      to.textAlign = align;
-      to.fillText(text, x, y);
-    },
-    line(color: string, points: [number, number][]) {
-      to.beginPath();
-      for (const [x, y] of points) to.lineTo(x, y);
-      to.strokeStyle = color;
-      to.lineWidth = 1.5;
-      to.stroke();
-    },
-  };
+/// Draws on a canvas, in CSS pixels. A path is made, then filled, stroked, or both.
+export class Pen {
+  constructor(readonly to: CanvasRenderingContext2D, readonly width: number, readonly height: number,
+              readonly inks: Inks, readonly dark: boolean) {}
+
+  /// Through points; a null breaks it.
+  path(points: (Point | null)[], closed = false): Pen {
+    const { to } = this;
+    let is_open = false;
+    to.beginPath();
+    for (const point of points) {
+      if (point) if (is_open) to.lineTo(...point); else to.moveTo(...point);
+      is_open = !!point;
+    }
+    if (closed) to.closePath();
+    return this;
+  }
+  disc([x, y]: Point, radius: number): Pen {
+    this.to.beginPath();
+    this.to.arc(x, y, radius, 0, 2 * Math.PI);
+    return this;
+  }
+  box(color: string, x: number, y: number, width: number, height: number): Pen {
+    this.to.beginPath();
+    this.to.rect(x, y, width, height);
+    return this.fill(color);
+  }
+  fill(color: string): Pen {
+    this.to.fillStyle = color;
+    this.to.fill();
+    return this;
+  }
+  stroke(color: string, width = 1, dashes: number[] = []): Pen {
+    this.to.strokeStyle = color;
+    this.to.lineWidth = width;
+    this.to.setLineDash(dashes);
+    this.to.stroke();
+    return this;
+  }
+  /// A `rim` of the ground's colour keeps lines from crossing the text.
+  say(text: string, x: number, y: number, align: CanvasTextAlign = "center", color = this.inks.faint, font = "11px", rim = false): void {
+    const { to, inks } = this;
+    to.font = `${font} ${getComputedStyle(document.body).fontFamily}`;
+    to.textBaseline = "middle";
+    to.textAlign = align;
+    if (rim) {
+      to.strokeStyle = inks.paper;
+      to.lineWidth = 4;
+      to.strokeText(text, x, y);
+    }
+    to.fillStyle = color;
+    to.fillText(text, x, y);
+  }
 }
 
 interface CanvasProps {
@@ -39,51 +72,68 @@ interface CanvasProps {
   label: string;
   /// Height in CSS pixels for a width.
   height: (width: number) => number;
-  /// Draws in CSS pixels; called when it changes, and on each change of size and theme.
-  draw: (context: CanvasRenderingContext2D, width: number, height: number, inks: Inks) => void;
+  /// Called when it changes, and on each change of size and theme.
+  draw: (pen: Pen) => void;
+  /// What lies below and seldom changes; drawn again when a part of the key does.
+  ground?: (pen: Pen) => void;
+  ground_key?: unknown[];
   /// Handlers and attributes of the element.
   attributes?: Record<string, unknown>;
-  element?: (canvas: HTMLCanvasElement) => void;
 }
 
 /// A canvas as wide as its place, in the screen's own pixels.
 export class Canvas extends Component<CanvasProps, {}> {
-  private canvas: HTMLCanvasElement | null = null;
-  private seen: ResizeObserver | null = null;
+  #canvas!: HTMLCanvasElement;
+  #below = document.createElement("canvas");
+  #key: unknown[] = [];
+  #seen = new ResizeObserver(() => this.paint());
   componentDidMount() {
-    this.seen = new ResizeObserver(() => this.paint());
-    if (this.canvas?.parentElement) this.seen.observe(this.canvas.parentElement);
+    this.#seen.observe(this.#canvas.parentElement!);
     document.addEventListener("theme", this.paint);
     this.paint();
   }
   componentWillUnmount() {
-    this.seen?.disconnect();
+    this.#seen.disconnect();
     document.removeEventListener("theme", this.paint);
   }
   componentDidUpdate() { this.paint(); }
 
   paint = () => {
-    const canvas = this.canvas;
-    const width = Math.floor(canvas?.parentElement?.clientWidth ?? 0);
-    if (!canvas || width === 0) return;
-    const height = Math.round(this.props.height(width));
-    const scale = devicePixelRatio || 1;
-    if (canvas.width !== Math.round(width * scale) || canvas.height !== Math.round(height * scale)) {
-      canvas.width = Math.round(width * scale);
-      canvas.height = Math.round(height * scale);
-      canvas.style.width = width + "px";
-      canvas.style.height = height + "px";
+    const { height: height_of, draw, ground, ground_key = [] } = this.props;
+    const canvas = this.#canvas;
+    const width = Math.floor(canvas.parentElement?.clientWidth ?? 0);
+    if (!width) return;
+    const height = Math.round(height_of(width));
+    const scale = devicePixelRatio;
+    const is_dark = document.documentElement.dataset.theme === "dark";
+    const pen_of = (it: HTMLCanvasElement) => {
+      const [w, h] = [Math.round(width * scale), Math.round(height * scale)];
+      if (it.width !== w || it.height !== h) {
+        it.width = w;
+        it.height = h;
+        it.style.width = width + "px";
+        it.style.height = height + "px";
+      }
+      const context = it.getContext("2d")!;
+      context.setTransform(scale, 0, 0, scale, 0, 0);
+      context.clearRect(0, 0, width, height);
+      return new Pen(context, width, height, inks_now(), is_dark);
+    };
+    const pen = pen_of(canvas);
+    if (ground) {
+      const key = [width, height, scale, is_dark, ...ground_key];
+      if (key.some((part, i) => part !== this.#key[i])) {
+        this.#key = key;
+        ground(pen_of(this.#below));
+      }
+      pen.to.drawImage(this.#below, 0, 0, width, height);
     }
-    const context = canvas.getContext("2d")!;
-    context.setTransform(scale, 0, 0, scale, 0, 0);
-    context.clearRect(0, 0, width, height);
-    this.props.draw(context, width, height, inks());
+    draw(pen);
   };
 
-  render() {
-    const { label, attributes, element } = this.props;
+  render({ label, attributes }: CanvasProps) {
     return <div class="canvas"><canvas role="img" aria-label={label} {...attributes}
-      ref={(e?: Element) => { if (e) { this.canvas = e as HTMLCanvasElement; element?.(this.canvas); } }} /></div>;
+      ref={(it?: Element) => { if (it) this.#canvas = it as HTMLCanvasElement; }} /></div>;
   }
 }
 
@@ -91,11 +141,7 @@ export class Canvas extends Component<CanvasProps, {}> {
 /// from five of its colours.
 const kViridis = [[253, 231, 37], [94, 201, 98], [33, 145, 140], [59, 82, 139], [68, 1, 84]];
 export function viridis(part: number): string {
-  const at = Math.max(0, Math.min(1, part)) * (kViridis.length - 1);
-  const i = Math.min(kViridis.length - 2, Math.floor(at));
-  const mix = (k: number) => Math.round(kViridis[i][k] + (at - i) * (kViridis[i + 1][k] - kViridis[i][k]));
-  return `rgb(${mix(0)},${mix(1)},${mix(2)})`;
+  const at = clamp(part, 0, 1) * 4;
+  const i = Math.min(3, Math.floor(at));
+  return `rgb(${kViridis[i].map((from, k) => Math.round(from + (at - i) * (kViridis[i + 1][k] - from)))})`;
 }
-
-/// Okabe and Ito's colours, those first that are well seen on white.
-export const kColors = ["#0072b2", "#d55e00", "#009e73", "#cc79a7", "#e69f00", "#56b4e9", "#f0e442"];

@@ -1,29 +1,33 @@
 import { Component, h } from "preact";
-import { ApiError, token } from "./api";
-import { csv, number, percent, when, whole } from "./format";
-import { current_route, href, set_query } from "./route";
+import { ApiError, feed, token } from "./api";
+import { clamp, csv, in_order, is_known, number, percent, shell_word, when, whole, words } from "./format";
+import { current_route, href, Query, set_query } from "./route";
+import { Campaign } from "./types";
 
-type Child = JSX.Element | string | number | null | undefined | false;
-type Children = Child | Children[];
+type Child = JSX.Element | string | number | boolean | null | undefined;
+export type Children = Child | Children[];
+
+/// What stands in a field or a list now.
+export function typed(event: Event): string { return (event.target as HTMLInputElement).value; }
+
+/// Whether a key is for the browser, or for the field or list that is in focus.
+export function is_typing({ target, ctrlKey, metaKey, altKey }: KeyboardEvent): boolean {
+  const { tagName, type } = target as HTMLInputElement;
+  return ctrlKey || metaKey || altKey || /^(INPUT|TEXTAREA|SELECT)$/.test(tagName) && type !== "range";
+}
 
 // --- sentences --------------------------------------------------------------------------------------
 
 export function Failure({ error, again }: { error: ApiError; again?: () => void }) {
   return <div class="failure" role="alert">
-    <strong>{error.where ? `${error.where}: ` : ""}</strong>{error.message}
-    {error.status === 401 && <span> Open the address that the coordinator printed, with its token.</span>}
+    <strong>{error.where && error.where + ": "}</strong>{error.message}
+    {error.status === 401 && " Open the address that the coordinator printed, with its token."}
     {again && <button onClick={again}>Try again</button>}
   </div>;
 }
 
-/// Says so only after a moment: most answers are faster than a person reads.
-export class Waiting extends Component<{}, { long: boolean }> {
-  private timer = 0;
-  state = { long: false };
-  componentDidMount() { this.timer = window.setTimeout(() => this.setState({ long: true }), 300); }
-  componentWillUnmount() { clearTimeout(this.timer); }
-  render() { return <p class="waiting" aria-busy="true">{this.state.long ? "Asking the server …" : "\u00a0"}</p>; }
-}
+/// style.css shows it only after a moment.
+export function Waiting() { return <p class="waiting" aria-busy="true">Asking the server …</p>; }
 
 /// Why there is nothing here, and what to do.
 export function Empty({ children }: { children?: Children }) {
@@ -32,8 +36,33 @@ export function Empty({ children }: { children?: Children }) {
 
 /// Tells people who hear the page; the region stands in index.html, where no renewal empties it.
 export function announce(text: string): void {
-  const region = document.getElementById("announcer");
-  if (region) region.textContent = text;
+  document.getElementById("announcer")!.textContent = text;
+}
+
+// --- the campaign that is looked at -----------------------------------------------------------------
+
+/// The campaign of the address, else the first; null: the store has none.
+export function current_campaign(): Campaign | undefined {
+  const campaigns = feed.live?.campaigns ?? [];
+  return campaigns.find((one) => one.c === current_route().path[0]) ?? campaigns[0];
+}
+
+/// The file of a campaign as a word of a command line.
+export function store_word(campaign = current_campaign()): string { return shell_word(campaign?.store ?? "STORE"); }
+
+/// A command line about a campaign's store: command("figure race", "--design d3").
+export function command(what: string, options = "", campaign?: Campaign): string {
+  return `swarmsmith ${what} ${store_word(campaign)} ${options}`.trim();
+}
+
+/// Where a thing of the current campaign is shown: "c812", "d3", "e81200007", "r7".
+export function place_of(id: string, query?: Query): string {
+  return href([current_route().path[0], ...(/^[er]/.test(id) ? ["runs"] : []), id], query);
+}
+
+/// Leads there.
+export function link(id: string, text: Children = id) {
+  return <a href={place_of(id)}>{text as JSX.Element}</a>;
 }
 
 // --- small parts ------------------------------------------------------------------------------------
@@ -51,63 +80,92 @@ interface PanelProps {
 export function Panel({ title, children, wide, tools, command, sql }: PanelProps) {
   return <section class={wide ? "panel wide" : "panel"} aria-label={title}>
     <div class="panel-head"><h2>{title}</h2><div class="tools">{tools as JSX.Element}
-      {command && <Copy what="Copy as command" text={command} />}
+      {command && <Copy text={command} />}
       {sql && <a class="small" href={href([current_route().path[0], "sql"], { q: sql })} aria-label={`SQL: ${title}`}>SQL</a>}</div></div>
     {children as JSX.Element}
   </section>;
 }
 
-/// Leads to a candidate or a design of the campaign that is looked at: To("c", 812).
-export function To(letter: string, number: number | string) {
-  return <a href={href([current_route().path[0], letter + number])}>{letter}{number}</a>;
+/// A small button; `label` names it where its text alone does not.
+export function Quiet({ act, label, children, title = label, ...rest }: { act: () => void; label?: string; children?: Children } & JSX.HTMLAttributes) {
+  return <button class="quiet" aria-label={label} title={title} onClick={act} {...rest}>{children as JSX.Element}</button>;
 }
 
-/// A number with its name above.
-export function Fact({ name, children, title }: { name: string; children?: Children; title?: string }) {
-  return <div class="fact" title={title}><dt>{name}</dt><dd>{children as JSX.Element}</dd></div>;
+/// Names and what they stand for, with a word on it for the pointer. What is false is left out.
+export function pairs(kind: string, list: ([name: Children, value: Children, title?: string] | false | null | "")[]) {
+  return <dl class={kind}>{list.map((one) => one && <div title={one[2]}><dt>{one[0] as JSX.Element}</dt><dd>{one[1] as JSX.Element}</dd></div>)}</dl>;
 }
 
 export function Bar({ value, of, name }: { value: number; of: number; name: string }) {
-  const part = of > 0 ? Math.min(1, value / of) : 0;
+  const part = of > 0 ? clamp(value / of, 0, 1) : 0;
   return <div class="bar" role="progressbar" aria-label={name} aria-valuemin={0} aria-valuemax={100}
     aria-valuenow={Math.round(100 * part)} aria-valuetext={`${whole(value)} of ${whole(of)}, ${percent(part)}`}>
-    <div class="bar-done" style={{ width: `${100 * part}%` }} /></div>;
+    <div style={{ width: `${100 * part}%` }} /></div>;
 }
 
-/// A list of one choice that the address keeps: pairs of the text and the word in the address.
-export function Choice({ label, name, value, options }: { label: string; name: string; value: string; options: [string, string][] }) {
-  return <label>{label} <select onChange={(event) => set_query({ [name]: (event.target as HTMLSelectElement).value })}>
-    {options.map(([text, word]) => <option value={word} selected={word === value}>{text}</option>)}</select></label>;
+/// "1 200 of 3 000, 40 %" of a budget.
+export function used_of({ used, budget }: { used: number; budget: number }): Children {
+  return [whole(used), " ", <small>of {whole(budget)}, {percent(budget > 0 ? used / budget : 0)}</small>];
+}
+
+interface ChoiceProps {
+  label: string;
+  /// Of the choice in the address; else the label's word.
+  name?: string;
+  /// Else what the address says.
+  value?: string;
+  /// Words in the address, "" for all; or pairs of text and word.
+  options: (string | [text: string, word: string])[];
+}
+
+/// A list of one choice that the address keeps.
+export function Choice({ label, name = label.toLowerCase(), value = current_route().query[name] ?? "", options }: ChoiceProps) {
+  return <label>{label} <select onChange={(event) => set_query({ [name]: typed(event) })}>
+    {options.map((one) => typeof one === "string" ? [words(one) || "all", one] : one).map(([text, word]) =>
+      <option value={word} selected={word === value}>{text}</option>)}</select></label>;
+}
+
+/// One of several values, or all; nothing to choose where there is one.
+export function choice_of(label: string, values: string[]) {
+  const all = in_order(values);
+  return all.length > 1 && <Choice label={label} options={["", ...all]} />;
+}
+
+interface SliderProps { id?: string; label?: string; text?: string; min?: number; max: number; value: number; to: (value: number) => void }
+
+/// `text` is its value as people say it.
+export function Slider({ id, label, text, min = 0, max, value, to }: SliderProps) {
+  return <input type="range" id={id} aria-label={label} aria-valuetext={text} min={min} max={max} value={String(value)} disabled={max <= min}
+    onInput={(event) => to(Number(typed(event)))} />;
 }
 
 /// The state of a design, a campaign or a worker: always a word, the mark beside it only helps.
-export function StateWord({ state, paused }: { state: string; paused?: boolean }) {
+export function state_word({ state, paused = false }: { state: string; paused?: boolean }) {
   const word = paused ? "paused" : state;
   return <span class={`state state-${word.replace(/\W/g, "-")}`}>{word}</span>;
 }
 
-export class Copy extends Component<{ text: string; what: string }, { done: string }> {
-  state = { done: "" };
-  copy = async () => {
-    const { text, what } = this.props;
+export class Copy extends Component<{ text: string; what?: string }, { done: boolean }> {
+  #copy = async () => {
+    const { text, what = "Copy as command" } = this.props;
     // Browsers refuse it where the address is neither local nor https: by hand, then.
     try { await navigator.clipboard.writeText(text); } catch { prompt(what, text); return; }
-    this.setState({ done: "Copied" });
+    this.setState({ done: true });
     announce(`Copied: ${what}`);
-    setTimeout(() => this.setState({ done: "" }), 1500);
+    setTimeout(() => this.setState({ done: false }), 1500);
   };
-  render() {
-    return <button class="quiet" onClick={this.copy} title={this.props.text}>{this.state.done || this.props.what}</button>;
+  render({ text, what = "Copy as command" }: { text: string; what?: string }, { done }: { done: boolean }) {
+    return <Quiet act={this.#copy} title={text}>{done ? "Copied" : what}</Quiet>;
   }
 }
 
-export function save_as(name: string, type: string, text: string): void {
-  const address = URL.createObjectURL(new Blob([text], { type }));
+/// Where it ends in ".csv" a table, else a picture.
+export function save_as(name: string, text: string): void {
   const link = document.createElement("a");
-  link.href = address;
+  link.href = URL.createObjectURL(new Blob([text], { type: name.endsWith("csv") ? "text/csv" : "image/svg+xml" }));
   link.download = name;
   link.click();
-  setTimeout(() => URL.revokeObjectURL(address), 1000);
+  setTimeout(() => URL.revokeObjectURL(link.href), 1000);
 }
 
 // --- a question before something is done ------------------------------------------------------------
@@ -116,42 +174,41 @@ interface ConfirmProps {
   label: string;
   title: string;
   /// What will happen, and how to undo it.
-  children?: Children;
+  children?: any;
   /// Does it; the sentence that it answers is shown.
   act: () => Promise<string>;
   danger?: boolean;
 }
 
+/// `said` is the answer of what was done, or why it was not.
+interface ConfirmState { is_open?: boolean; is_busy?: boolean; said?: string; has_failed?: boolean }
+
 /// A button that asks before it acts. Without the token it says how to get it.
-export class Confirm extends Component<ConfirmProps, { open: boolean; busy: boolean; said: string; failed: boolean }> {
-  state = { open: false, busy: false, said: "", failed: false };
-  private dialog: HTMLDialogElement | null = null;
-  open = () => { this.setState({ open: true, said: "", failed: false }, () => this.dialog?.showModal()); };
-  close = () => { this.dialog?.close(); this.setState({ open: false }); };
-  act = async () => {
-    this.setState({ busy: true });
+export class Confirm extends Component<ConfirmProps, ConfirmState> {
+  #dialog: HTMLDialogElement | null = null;
+  #open = () => this.setState({ is_open: true, said: "" }, () => this.#dialog?.showModal());
+  #closed = () => this.setState({ is_open: false });
+  #act = async () => {
+    this.setState({ is_busy: true });
+    const next: ConfirmState = { is_busy: false, has_failed: false };
     try {
-      const said = await this.props.act();
-      this.setState({ busy: false, said, failed: false });
-      announce(said);
+      announce(next.said = await this.props.act());
     } catch (error) {
-      this.setState({ busy: false, said: (error as Error).message, failed: true });
+      next.said = (error as Error).message;
+      next.has_failed = true;
     }
+    this.setState(next);
   };
-  render() {
-    const { label, title, children, danger } = this.props;
-    const { open, busy, said, failed } = this.state;
-    return <span class="confirm">
-      <button class={danger ? "danger" : ""} onClick={this.open}>{label}</button>
-      {open && <dialog ref={(e: any) => (this.dialog = e)} aria-label={title}
-        {...{ onClose: () => this.setState({ open: false }) }}>
+  render({ label, title, children, danger }: ConfirmProps, { is_open, is_busy, said, has_failed }: ConfirmState) {
+    return <span>
+      <button class={danger ? "danger" : ""} onClick={this.#open}>{label}</button>
+      {is_open && <dialog ref={(it: any) => (this.#dialog = it)} aria-label={title} {...{ onClose: this.#closed }}>
         <h2>{title}</h2>
-        {!said && <div>{children as JSX.Element}</div>}
-        {!said && !token() && <p class="warn">This needs the coordinator's token. Open the address with <code>#t=...</code> that it printed on its terminal; it is also in the file <code>.token</code> beside the store.</p>}
-        {said && <p class={failed ? "failure" : "done"} role="status">{said}</p>}
+        {said ? <p class={has_failed ? "failure" : "done"} role="status">{said}</p> : [<div>{children}</div>,
+          !token() && <p class="warn">This needs the coordinator's token. Open the address with <code>#t=...</code> that it printed on its terminal; it is also in the file <code>.token</code> beside the store.</p>]}
         <div class="tools">
-          <button onClick={this.close}>{said ? "Close" : "Leave it"}</button>
-          {!said && <button class={danger ? "danger" : "main"} disabled={busy || !token()} onClick={this.act}>{busy ? "Doing it …" : label}</button>}
+          <button onClick={() => this.#dialog?.close()}>{said ? "Close" : "Leave it"}</button>
+          {!said && <button class={danger ? "danger" : "main"} disabled={is_busy || !token()} onClick={this.#act}>{is_busy ? "Doing it …" : label}</button>}
         </div>
       </dialog>}
     </span>;
@@ -180,96 +237,87 @@ interface TableProps<Row> {
   /// view have different ones.
   name: string;
   caption: string;
-  columns: Column<Row>[];
+  /// A column that needs nothing else is its key.
+  columns: (Column<Row> | string)[];
   rows: Row[];
   /// Sorted so unless the address says otherwise: "-busy" puts the largest first.
   sort?: string;
   /// A stable name of the row, so that focus stays with it; else the value of its first column.
-  row_key?: (row: Row) => string;
-  row_class?: (row: Row) => string;
+  row_key?: (row: Row) => string | number;
+  row_class?: (row: Row) => string | false;
   empty?: Children;
   page_size?: number;
 }
 
 /// A value as its column's name says: things lead to their pages, times are those of the reader.
 function usual(column: string, value: Value): Children {
-  if (value === null || value === undefined) return "–";
-  if (/^(best_?)?(candidate)?$|^parent$/.test(column) && typeof value === "number") return To("c", value);
-  if (column === "design" && typeof value === "number") return To("d", value);
-  if (column === "id" && /^[er]\d/.test(String(value))) return <a href={href([current_route().path[0], "runs", String(value)])}>{value}</a>;
+  if (!is_known(value)) return "–";
   if (column === "at") return <time dateTime={String(value)} title={`${value} UTC`}>{when(String(value))}</time>;
-  return typeof value === "number" && column !== "seed" ? number(value) : value;
+  if (column === "id" && /^[er]\d/.test(String(value))) return link(String(value));
+  if (typeof value !== "number") return value;
+  if (/^(best_?)?(candidate)?$|^parent$/.test(column)) return link("c" + value);
+  if (column === "design") return link("d" + value);
+  return column === "seed" ? value : number(value);
 }
 
 function value_of<Row>({ key, value }: Column<Row>, row: Row): Value {
   return value ? value(row) : (row as any)[key];
 }
 
-/// A table that sorts, filters and pages.
-export class Table<Row> extends Component<TableProps<Row>, {}> {
-  private sorted(rows: Row[], sort: string): Row[] {
-    const down = sort.startsWith("-");
-    const column = this.props.columns.find((c) => c.key === sort.replace(/^-/, ""));
-    if (!column) return rows;
-    return rows.map((row) => ({ row, value: value_of(column, row) })).sort((a, b) => {
-      const [x, y] = [a.value, b.value];
-      // What is not known comes last, whichever way.
-      if (x === null || x === undefined) return y === null || y === undefined ? 0 : 1;
-      if (y === null || y === undefined) return -1;
-      const order = typeof x === "number" && typeof y === "number" ? x - y
-        : String(x).localeCompare(String(y), "en", { numeric: true });
-      return down ? -order : order;
-    }).map((entry) => entry.row);
-  }
+/// What is not known comes last, whichever way.
+function sorted<Row>(columns: Column<Row>[], rows: Row[], sort: string): Row[] {
+  const sign = sort[0] === "-" ? -1 : 1;
+  const column = columns.find(({ key }) => key === sort.replace(/^-/, ""));
+  if (!column) return rows;
+  return rows.map((row) => ({ row, value: value_of(column, row) })).sort(({ value: a }, { value: b }) =>
+    !is_known(a) || !is_known(b) ? Number(is_known(b)) - Number(is_known(a))
+      : sign * (typeof a === "number" && typeof b === "number" ? a - b : String(a).localeCompare(String(b), "en", { numeric: true })))
+    .map((one) => one.row);
+}
 
-  render() {
-    const { name, caption, columns, rows, row_key, row_class, empty, sort: first_sort, page_size = 50 } = this.props;
-    if (rows.length === 0) return <Empty>{empty ?? "Nothing here yet."}</Empty>;
-    const { query } = current_route();
-    const sort = query[name + ".sort"] ?? first_sort ?? "";
-    const filter = (query[name + ".q"] ?? "").toLowerCase();
-    const matching = filter === "" ? rows
-      : rows.filter((row) => columns.some((c) => String(value_of(c, row) ?? "").toLowerCase().includes(filter)));
-    const pages = Math.max(1, Math.ceil(matching.length / page_size));
-    const page = Math.min(pages, Math.max(1, Number(query[name + ".page"] ?? 1) || 1));
-    const shown = this.sorted(matching, sort).slice((page - 1) * page_size, page * page_size);
-    const numeric = new Set(columns.filter((column) => {
-      const kinds = new Set(rows.slice(0, 50).map((row) => typeof (value_of(column, row) ?? undefined)));
-      return column.numeric ?? (kinds.delete("undefined"), kinds.size === 1 && kinds.has("number"));
-    }).map((column) => column.key));
-    const turn = (to: number) => set_query({ [name + ".page"]: to > 1 ? to : null });
-    return <div class="table">
-      {(rows.length > 8 || filter) && <div class="tools">
-        <input type="search" placeholder="filter" aria-label={`filter: ${caption}`} value={query[name + ".q"] ?? ""}
-          onInput={(e) => set_query({ [name + ".q"]: (e.target as HTMLInputElement).value, [name + ".page"]: null })} />
-        <span class="faint" role="status">{filter ? `${whole(matching.length)} of ${whole(rows.length)}` : `${whole(rows.length)} rows`}</span>
-        <button class="quiet" aria-label={`CSV: ${caption}`} onClick={() =>
-          save_as(caption.replace(/\W+/g, "-") + ".csv", "text/csv",
-            csv([columns.map((c) => c.key), ...this.sorted(matching, sort).map((row) => columns.map((c) => value_of(c, row)))]))}>CSV</button>
-      </div>}
-      <div class="scroll" tabIndex={0} role="region" aria-label={caption}>
-        <table>
-          <caption class="unseen">{caption}</caption>
-          <thead><tr>{columns.map((column) => {
-            const now = sort === column.key ? "ascending" : sort === "-" + column.key ? "descending" : "none";
-            // Numbers are most wanted with the largest first.
-            const next = now === "none" ? (numeric.has(column.key) ? "-" : "") + column.key : now === "ascending" ? "-" + column.key : column.key;
-            return <th scope="col" class={numeric.has(column.key) ? "n" : ""} aria-sort={now} title={column.title}>
-              <button onClick={() => set_query({ [name + ".sort"]: next, [name + ".page"]: null })}>
-                {column.label ?? column.key.replace(/_/g, " ")}<span aria-hidden="true" class="arrow">{now === "ascending" ? "▲" : now === "descending" ? "▼" : ""}</span></button></th>;
-          })}</tr></thead>
-          <tbody>{shown.map((row) => <tr key={row_key ? row_key(row) : String(value_of(columns[0], row))} class={row_class?.(row) ?? ""}>{columns.map((column) => {
-            const shown = column.show ? column.show(row) : usual(column.key, value_of(column, row));
-            return <td class={numeric.has(column.key) ? "n" : ""}>{shown as JSX.Element}</td>;
-          })}</tr>)}</tbody>
-        </table>
-      </div>
-      {matching.length === 0 && <p class="empty">No row has “{filter}”.</p>}
-      {pages > 1 && <div class="tools pages">
-        <button disabled={page === 1} onClick={() => turn(page - 1)} aria-label={`previous page: ${caption}`}>‹</button>
-        <span>page {whole(page)} of {whole(pages)}</span>
-        <button disabled={page === pages} onClick={() => turn(page + 1)} aria-label={`next page: ${caption}`}>›</button>
-      </div>}
-    </div>;
-  }
+/// A table that sorts, filters and pages.
+export function Table<Row>({ name, caption, columns: given, rows, row_key, row_class, empty = "Nothing here yet.", sort: first_sort = "", page_size = 25 }: TableProps<Row>) {
+  if (rows.length === 0) return <Empty>{empty}</Empty>;
+  const columns: Column<Row>[] = given.map((one) => typeof one === "string" ? { key: one } : one);
+  const { query } = current_route();
+  const set = (what: string, value: Query[string]) => set_query({ [name + ".page"]: null, [`${name}.${what}`]: value });
+  const sort = query[name + ".sort"] ?? first_sort;
+  const filter = query[name + ".q"] ?? "";
+  const matching = sorted(columns, rows.filter((row) =>
+    columns.some((column) => String(value_of(column, row) ?? "").toLowerCase().includes(filter.toLowerCase()))), sort);
+  const pages = Math.max(1, Math.ceil(matching.length / page_size));
+  const page = clamp(Number(query[name + ".page"]) || 1, 1, pages);
+  const numeric = columns.map((column) => {
+    const some = rows.slice(0, 50).map((row) => value_of(column, row)).filter(is_known);
+    return column.numeric ?? (some.length > 0 && some.every((value) => typeof value === "number"));
+  });
+  const turn = (to: number, mark: string, label: string) =>
+    <button disabled={to < 1 || to > pages} onClick={() => set("page", to > 1 ? to : null)} aria-label={`${label} page: ${caption}`}>{mark}</button>;
+  return <div>
+    {(rows.length > 8 || filter) && <div class="tools">
+      <input type="search" placeholder="filter" aria-label={`filter: ${caption}`} value={filter} onInput={(event) => set("q", typed(event))} />
+      <span class="faint" role="status">{filter ? `${whole(matching.length)} of ${whole(rows.length)}` : `${whole(rows.length)} rows`}</span>
+      <Quiet label={`CSV: ${caption}`} act={() => save_as(caption.replace(/\W+/g, "-") + ".csv",
+        csv([columns.map((one) => one.key), ...matching.map((row) => columns.map((column) => value_of(column, row)))]))}>CSV</Quiet>
+    </div>}
+    <div class="scroll" tabIndex={0} role="region" aria-label={caption}>
+      <table>
+        <caption class="unseen">{caption}</caption>
+        <thead><tr>{columns.map(({ key, label, title }, i) => {
+          const [now, arrow] = sort === key ? ["ascending", "▲"] : sort === "-" + key ? ["descending", "▼"] : ["none", ""];
+          // Numbers are most wanted with the largest first.
+          const down = arrow ? sort === key : numeric[i];
+          return <th scope="col" class={numeric[i] ? "n" : ""} aria-sort={now} title={title}>
+            <button onClick={() => set("sort", (down ? "-" : "") + key)}>{label ?? words(key)}<span aria-hidden="true" class="arrow">{arrow}</span></button></th>;
+        })}</tr></thead>
+        <tbody>{matching.slice((page - 1) * page_size, page * page_size).map((row) =>
+          <tr key={String(row_key ? row_key(row) : value_of(columns[0], row))} class={row_class?.(row) || ""}>{columns.map((column, i) =>
+            h(i ? "td" : "th", { scope: i ? undefined : "row", class: numeric[i] ? "n" : "" }, (column.show ? column.show(row) : usual(column.key, value_of(column, row))) as JSX.Element))}</tr>)}</tbody>
+      </table>
+    </div>
+    {matching.length === 0 && <Empty>No row has “{filter}”.</Empty>}
+    {pages > 1 && <div class="tools pages">
+      {turn(page - 1, "‹", "previous")}<span>page {whole(page)} of {whole(pages)}</span>{turn(page + 1, "›", "next")}
+    </div>}
+  </div>;
 }

@@ -1,27 +1,30 @@
 // All pages, a line each; the order is that of the navigation.
 import { Page } from "./page";
-import { campaigns } from "./pages/campaigns";
-import { design } from "./pages/design";
-import { race } from "./pages/race";
-import { run } from "./pages/run";
-import { candidate } from "./pages/candidate";
-import { machines } from "./pages/machines";
-import { results } from "./pages/results";
-import { space } from "./pages/space";
-import { modules } from "./pages/modules";
-import { fleet } from "./pages/fleet";
-import { data } from "./pages/data";
+import { Campaigns } from "./pages/campaigns";
+import { DesignPage } from "./pages/design";
+import { RacePage } from "./pages/race";
+import { RunPage } from "./pages/run";
+import { CandidatePage } from "./pages/candidate";
+import { Machines } from "./pages/machines";
+import { Results } from "./pages/results";
+import { Space } from "./pages/space";
+import { Modules } from "./pages/modules";
+import { Fleet } from "./pages/fleet";
+import { Data } from "./pages/data";
 
 export const pages: Page[] = [
-  campaigns,
-  design,
-  race,
-  run,
-  space,
-  candidate,
-  machines,
-  modules,
-  results,
-  fleet,
-  data,
+  { pattern: ":c?", label: "Campaigns", letter: "o", view: Campaigns },
+  { pattern: ":c/:d", label: "Design", letter: "d", view: DesignPage },
+  { pattern: ":c/:d/race/:iteration?", label: "Race", letter: "r", view: RacePage,
+    keys: [["← → ↑ ↓", "move the cell in the matrix"], ["Enter", "watch the run of the cell"], ["Esc", "leave the cell"]] },
+  { pattern: ":c/runs/:id", label: "Run", view: RunPage,
+    keys: [["space", "play or pause"], ["← →", "one second back or on"], [", .", "one cycle back or on"], ["[ ]", "slower or faster"],
+      ["Home End", "to the start or the end"]] },
+  { pattern: ":c/:d/space", label: "Search space", letter: "p", view: Space },
+  { pattern: ":c/:candidate", label: "Candidate", view: CandidatePage },
+  { pattern: ":c/machines", label: "Machines", letter: "m", view: Machines },
+  { pattern: ":c/modules", label: "Modules", letter: "u", view: Modules },
+  { pattern: ":c/results", label: "Results", letter: "e", view: Results },
+  { pattern: "fleet", label: "Fleet", letter: "f", view: Fleet },
+  { pattern: ":c/sql", label: "Data", letter: "s", view: Data, keys: [["Ctrl Enter", "ask"]] },
 ];

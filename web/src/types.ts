@@ -87,6 +87,8 @@ export interface Live {
   may_act: boolean;
   running: boolean;
   status: Status | null;
+  /// What somebody should know of, worst first, and the page that shows it: "c1/d3".
+  looks: { text: string; page: string }[];
   campaigns: Campaign[];
 }
 
@@ -108,6 +110,8 @@ export interface Worker {
 }
 
 export type Cell = string | number | null;
+
+export type Row = Record<string, Cell>;
 
 /// Rows of a view, by column.
 export type Columns = Record<string, Cell[]>;
@@ -136,6 +140,7 @@ export interface Race {
   instances: number[];
   seeds: number[];
   markers: string[];
+  meanings: string[];
   /// Candidates alive after the step.
   alive: number[];
   p_value: (number | null)[];

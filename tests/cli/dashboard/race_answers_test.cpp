@@ -74,6 +74,8 @@ TEST_F(RaceAnswersTest, PairsElitesAndStepsAreThoseOfTheViews) {
     EXPECT_EQ(json::array({race["steps"][s], race["pairs"][s], race["markers"][s], race["alive"][s],
                            race["used"][s]}),
               steps[s]);
+  for (std::size_t s = 0; s < steps.size(); ++s)
+    EXPECT_EQ(race["meanings"][s] == "no test", race["markers"][s] == "x") << s;
   for (const json& row : query("SELECT DISTINCT pair, instance, seed FROM v_race_matrix WHERE "
                                "design = 2 AND iteration = 3")) {
     for (std::size_t s = 0; s < steps.size(); ++s) {

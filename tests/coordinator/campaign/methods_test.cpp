@@ -1,5 +1,7 @@
 #include <gmock/gmock.h>
 
+#include <ostream>
+
 #include "coordinator/campaign/campaign_rows.h"
 #include "coordinator/campaign/campaign_text.h"
 #include "coordinator/campaign/method_space.h"
@@ -32,6 +34,10 @@ struct PresetCase {
   Architecture architecture;
   SearchKind search;
 };
+
+void PrintTo(const PresetCase& preset, std::ostream* out) {
+  *out << preset.preset;
+}
 
 class Presets : public ::testing::TestWithParam<PresetCase> {};
 

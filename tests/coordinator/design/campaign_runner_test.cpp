@@ -98,6 +98,17 @@ TEST(CampaignRunner, GoesOnFromStoredScoresAsIfNothingHadHappened) {
   }
 }
 
+TEST(CampaignRunner, ADesignRacesBeforeItsFirstStep) {
+  Memory memory;
+  CampaignRunner runner(small_plans(1), {}, {});
+  run(runner, memory, Rng(1), 1);
+  ASSERT_TRUE(memory.steps().empty());
+  const auto states = memory.only<DesignStateRow>();
+  ASSERT_EQ(states.size(), 1U);
+  EXPECT_EQ(states.front().state, DesignState::Racing);
+  EXPECT_EQ(states.front().used, 0);
+}
+
 TEST(CampaignRunner, AsksForNothingThatIsStored) {
   const Memory whole = undisturbed(1);
   CampaignRunner runner(small_plans(1), by_design(whole.scores(), whole.steps(), {}), {});

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <ostream>
 #include <string>
 #include <variant>
 #include <vector>
@@ -19,6 +20,10 @@ struct Preset {
   std::string name;
   std::string options;  ///< what keeps it small
 };
+
+void PrintTo(const Preset& preset, std::ostream* out) {
+  *out << preset.name;
+}
 
 std::vector<DesignPlan> plans_of(const Preset& preset) {
   const auto campaign = parse_campaign(

@@ -1,41 +1,34 @@
 import { Component, h } from "preact";
 import { path_of } from "../api";
-import { announce, Copy, Empty, Fact, Panel, Table, To } from "../components";
+import { announce, command, Copy, Empty, link, pairs, Panel, place_of, Quiet, Slider, Table } from "../components";
 import { Files } from "../figure";
-import { Canvas, Inks, pen, viridis } from "../canvas";
-import { count, number, shell_word, whole } from "../format";
+import { Canvas, Pen, Point, viridis } from "../canvas";
+import { clamp, count, number, whole, words } from "../format";
 import { Get } from "../get";
-import { Page, PageProps } from "../page";
-import { go, href, set_query } from "../route";
-import { Campaign, Design, Race } from "../types";
+import { PageProps } from "../page";
+import { go, set_query } from "../route";
+import { Race } from "../types";
 import { said } from "./campaigns";
-import { DesignTitle, find_design, NoDesign } from "./design";
+import { design_title, kNoRace } from "./design";
 
-const kMarkers: Record<string, string> = {
-  "x": "no test", "-": "the test dropped some", "=": "the test dropped nobody", "!": "only protected elites would have been dropped",
-  ".": "nobody had to run", "c": "capping alone dropped some", ":": "only elites had to run", "?": "not known",
-};
-const kRows = 400;
 // Parts of the picture, in CSS pixels.
 const kLeft = 86, kRight = 16, kAlive = 46, kMarks = 18, kTop = kAlive + kMarks, kBottom = 18;
 
-/// What the matrix shows, made once of an answer: the rank of each cell as a part from 0 (best) to 1.
+/// What the matrix shows, made once of an answer.
 class Matrix {
   readonly rank: (number | null)[][];   ///< [step][candidate], 1 is best, ties share their mean rank
   readonly ranked: number[];            ///< how many had a score in the step
-  readonly known: Map<number, number>;  ///< candidate to row
 
   constructor(readonly race: Race) {
     this.rank = race.scores.map(ranks);
-    this.ranked = this.rank.map((step) => step.reduce<number>((n, one) => n + (one === null ? 0 : 1), 0));
-    this.known = new Map(race.candidates.map((candidate, row) => [candidate, row]));
+    this.ranked = this.rank.map((step) => step.filter((one) => one !== null).length);
   }
 
-  /// 0 is best; a step in which all are the same has the middle throughout.
+  /// The rank of a cell as a part from 0 (best) to 1; a step in which all are the same has the
+  /// middle throughout.
   part(step: number, row: number): number | null {
     const rank = this.rank[step][row] ?? null;
-    if (rank === null) return null;
-    return this.ranked[step] < 2 ? 0.5 : (rank - 1) / (this.ranked[step] - 1);
+    return rank === null ? null : this.ranked[step] < 2 ? 0.5 : (rank - 1) / (this.ranked[step] - 1);
   }
 
   /// The number of the last step that a row's candidate was in the race, as it was after `until`.
@@ -44,29 +37,34 @@ class Matrix {
     return at !== null && at <= until ? at : null;
   }
 
-  /// Mean of a row's scores up to a step (an index), and over how many.
-  mean(row: number, until: number): { mean: number | null; n: number } {
-    let [sum, n] = [0, 0];
-    for (let i = 0; i <= until; ++i) {
-      const score = this.race.scores[i][row];
-      if (score !== null && score !== undefined) { sum += score; ++n; }
-    }
-    return { mean: n ? sum / n : null, n };
+  /// null: not evaluated.
+  score({ row, step }: At): number | null { return this.race.scores[step][row] ?? null; }
+
+  run_of({ row, step }: At): string { return evaluation_id(this.race.candidates[row], this.race.pairs[step]); }
+
+  /// A cell in words.
+  sentence(at: At): string {
+    const { race, ranked } = this;
+    const { row, step } = at;
+    const score = this.score(at), dropped = race.dropped_at[row], now = race.steps[step], reason = race.reasons[row];
+    const what = score !== null
+      ? `score ${number(score, 6)}, rank ${number(this.rank[step][row])} of ${ranked[step]}` + (dropped === now ? `, dropped after it: ${reason}` : "")
+      : dropped !== null && dropped < now ? `dropped after step ${dropped}: ${reason}` : "not evaluated";
+    return `c${race.candidates[row]}, step ${now}, instance ${race.instances[step]}, seed ${race.seeds[step]}: ${what}`;
   }
 }
 
 /// Ranks of scores, largest first; null where there is none.
 export function ranks(scores: (number | null)[]): (number | null)[] {
-  const order = scores.map((score, i) => ({ score, i })).filter((one) => one.score !== null && one.score !== undefined)
-    .sort((a, b) => b.score! - a.score!);
-  const result: (number | null)[] = scores.map(() => null);
+  const order = scores.filter((score): score is number => score !== null).sort((a, b) => b - a);
+  const rank = new Map<number, number>();
   for (let i = 0; i < order.length;) {
     let end = i;
-    while (end < order.length && order[end].score === order[i].score) ++end;
-    for (let k = i; k < end; ++k) result[order[k].i] = (i + 1 + end) / 2;
+    while (order[end] === order[i]) ++end;
+    rank.set(order[i], (i + 1 + end) / 2);
     i = end;
   }
-  return result;
+  return scores.map((score) => score === null ? null : rank.get(score)!);
 }
 
 interface At { row: number; step: number }  // indices
@@ -83,43 +81,26 @@ interface MapProps {
 /// The matrix as a picture, with a cursor that pointer and arrows move.
 class RaceMap extends Component<MapProps, { hover: At | null }> {
   state: { hover: At | null } = { hover: null };
-  private picture: HTMLCanvasElement | null = null;
-  private key: unknown[] = [];
-  private area = { width: 0, column: 0, row: 0 };
+  #width = 0;
 
-  private row_height(): number {
-    const rows = this.props.matrix.race.candidates.length;
-    return Math.max(2, Math.min(16, Math.floor(620 / Math.max(1, rows))));
+  /// Of a cell, in pixels.
+  #size(): { column: number; row: number } {
+    const { candidates, steps } = this.props.matrix.race;
+    return { column: Math.min(48, (this.#width - kLeft - kRight) / steps.length),
+      row: clamp(Math.floor(620 / candidates.length), 2, 16) };
   }
 
-  private height = () => kTop + this.props.matrix.race.candidates.length * this.row_height() + kBottom;
-
-  private draw = (context: CanvasRenderingContext2D, width: number, height: number, inks: Inks) => {
-    const { matrix, until, cell } = this.props;
-    const columns = matrix.race.steps.length;
-    this.area = { width, column: Math.min(48, (width - kLeft - kRight) / Math.max(1, columns)), row: this.row_height() };
-    const dark = document.documentElement.dataset.theme === "dark";
-    const scale = context.canvas.width / width;
-    const key = [matrix, until, width, dark, scale];
-    if (!this.picture || key.some((part, i) => part !== this.key[i])) {
-      this.key = key;
-      this.picture = document.createElement("canvas");
-      this.picture.width = context.canvas.width;
-      this.picture.height = context.canvas.height;
-      const below = this.picture.getContext("2d")!;
-      below.scale(scale, scale);
-      this.paint(below, inks, dark);
-    }
-    context.drawImage(this.picture, 0, 0, width, height);
-    for (const at of [this.state.hover, cell]) if (at) this.frame(context, at, inks, at === cell);
+  #height = (width: number) => {
+    this.#width = width;
+    return kTop + this.props.matrix.race.candidates.length * this.#size().row + kBottom;
   };
 
-  private paint(to: CanvasRenderingContext2D, inks: Inks, dark: boolean) {
+  #draw_cells = (pen: Pen) => {
     const { matrix, until } = this.props;
     const { race } = matrix;
-    const { column, row } = this.area;
-    const { box, say, line } = pen(to, inks);
-    const rows = race.candidates.length, columns = race.steps.length;
+    const { column, row } = this.#size();
+    const { dark, inks } = pen;
+    const columns = race.steps.length;
     const now = race.steps[until];
     const x_of = (step: number) => kLeft + step * column;
     const vermilion = dark ? "#ff7b2e" : "#d55e00";
@@ -129,271 +110,217 @@ class RaceMap extends Component<MapProps, { hover: At | null }> {
       const dropped = matrix.dropped(i, now);
       const end = dropped === null ? until + 1 : race.steps.indexOf(dropped) + 1;
       // Grey where a candidate had fallen, the ground of what has not been evaluated.
-      box(inks.soft, x_of(end), y, (until + 1 - end) * column, row);
+      pen.box(inks.soft, x_of(end), y, (until + 1 - end) * column, row);
       for (let s = 0; s <= until; ++s) {
         const part = matrix.part(s, i);
         // The best is farthest from the ground.
-        if (part !== null) box(viridis(dark ? part : 1 - part), x_of(s), y, Math.max(column - gap_x, 0.7), row - gap_y);
+        if (part !== null) pen.box(viridis(dark ? part : 1 - part), x_of(s), y, Math.max(column - gap_x, 0.7), row - gap_y);
       }
-      if (dropped !== null && race.reasons[i] !== "not kept") box(vermilion, x_of(end) - 1, y, 2.5, row);
-      if (race.elite_before[i]) box(inks.ink, kLeft - 6, y + (row - mark) / 2, 4, mark);
-      if (race.elite_after[i] && until === columns - 1) box(inks.ink, x_of(columns) + 4, y + (row - mark) / 2, 4, mark);
-      if (i % Math.ceil(12 / row) === 0) say("c" + candidate, kLeft - 9, y + Math.max(row, 4) / 2, "right");
+      if (dropped !== null && race.reasons[i] !== "not kept") pen.box(vermilion, x_of(end) - 1, y, 2.5, row);
+      if (race.elite_before[i]) pen.box(inks.ink, kLeft - 6, y + (row - mark) / 2, 4, mark);
+      if (race.elite_after[i] && until === columns - 1) pen.box(inks.ink, x_of(columns) + 4, y + (row - mark) / 2, 4, mark);
+      if (i % Math.ceil(12 / row) === 0) pen.say("c" + candidate, kLeft - 9, y + Math.max(row, 4) / 2, "right");
     });
     // Above: how many were alive after each step, and markers: letters where they fit, else a tick where some fell.
     const most = Math.max(1, race.rows_total);
     const y_of = (alive: number) => kAlive - 2 - (alive / most) * (kAlive - 10);
-    const curve: [number, number][] = [[kLeft, y_of(most)]];
+    const curve: Point[] = [[kLeft, y_of(most)]];
     for (let s = 0; s <= until; ++s) {
       curve.push([x_of(s + 1), curve[curve.length - 1][1]], [x_of(s + 1), y_of(race.alive[s])]);
       const fell = /[-c]/.test(race.markers[s]);
-      if (column >= 8) say(race.markers[s], x_of(s + 0.5), kAlive + kMarks / 2, "center", fell ? vermilion : inks.faint);
-      else if (fell) box(vermilion, x_of(s), kAlive + 6, Math.max(1, column), 8);
+      if (column >= 8) pen.say(race.markers[s], x_of(s + 0.5), kAlive + kMarks / 2, "center", fell ? vermilion : inks.faint);
+      else if (fell) pen.box(vermilion, x_of(s), kAlive + 6, Math.max(1, column), 8);
     }
-    line(inks.link, curve);
-    say(whole(most), kLeft - 9, y_of(most) + 4, "right");
-    say("alive", kLeft - 9, y_of(0) - 4, "right");
-    say(whole(race.alive[until]), x_of(until + 1) + 4, y_of(race.alive[until]), "left");
+    pen.path(curve).stroke(inks.link, 1.5);
+    pen.say(whole(most), kLeft - 9, y_of(most) + 4, "right");
+    pen.say("alive", kLeft - 9, y_of(0) - 4, "right");
+    pen.say(whole(race.alive[until]), x_of(until + 1) + 4, y_of(race.alive[until]), "left");
     // Below: steps, as many as there is room for.
-    const y = kTop + rows * row + kBottom / 2 + 2;
-    for (let s = 0; s < columns; s += Math.ceil(46 / column)) say(String(race.steps[s]), x_of(s + 0.5), y);
-    say("step", kLeft - 9, y, "right");
-  }
+    const y = pen.height - kBottom / 2 + 2;
+    for (let s = 0; s < columns; s += Math.ceil(46 / column)) pen.say(String(race.steps[s]), x_of(s + 0.5), y);
+    pen.say("step", kLeft - 9, y, "right");
+  };
 
-  private frame(to: CanvasRenderingContext2D, { row, step }: At, inks: Inks, chosen: boolean) {
-    const x = kLeft + step * this.area.column, y = kTop + row * this.area.row;
-    to.strokeStyle = inks.paper;
-    to.lineWidth = 4;
-    const w = Math.max(this.area.column, 4), tall = Math.max(this.area.row, 4);
-    to.strokeRect(x - 0.5, y - 0.5, w, tall);
-    to.strokeStyle = inks.ink;
-    to.lineWidth = chosen ? 2 : 1;
-    to.strokeRect(x - 0.5, y - 0.5, w, tall);
-  }
-
-  private at(event: MouseEvent): At | null {
-    const box = (event.target as Element).getBoundingClientRect();
-    const step = Math.floor((event.clientX - box.left - kLeft) / this.area.column);
-    const row = Math.floor((event.clientY - box.top - kTop) / this.area.row);
-    return step >= 0 && step <= this.props.until && row >= 0 && row < this.props.matrix.race.candidates.length ? { row, step } : null;
-  }
-
-  private key_down = (event: KeyboardEvent) => {
-    const { matrix, until, cell, pick, watch } = this.props;
-    const last_row = matrix.race.candidates.length - 1;
-    const from = cell ?? { row: 0, step: until };
-    const far = event.shiftKey ? 10 : 1;
-    const moves: Record<string, At> = {
-      ArrowLeft: { row: from.row, step: from.step - far }, ArrowRight: { row: from.row, step: from.step + far },
-      ArrowUp: { row: from.row - far, step: from.step }, ArrowDown: { row: from.row + far, step: from.step },
-      Home: { row: from.row, step: 0 }, End: { row: from.row, step: until },
-      PageUp: { row: 0, step: from.step }, PageDown: { row: last_row, step: from.step },
+  #draw_cursors = ({ to, inks }: Pen) => {
+    const { column, row } = this.#size();
+    const frame = (at: At | null, width: number) => {
+      if (!at) return;
+      for (const [color, thick] of [[inks.paper, 4], [inks.ink, width]] as const) {
+        to.strokeStyle = color;
+        to.lineWidth = thick;
+        to.strokeRect(kLeft + at.step * column - 0.5, kTop + at.row * row - 0.5, Math.max(column, 4), Math.max(row, 4));
+      }
     };
-    const to = moves[event.key];
-    if (to) {
+    frame(this.state.hover, 1);
+    frame(this.props.cell, 2);
+  };
+
+  #at({ offsetX, offsetY }: MouseEvent): At | null {
+    const { until, matrix } = this.props;
+    const size = this.#size();
+    const step = Math.floor((offsetX - kLeft) / size.column), row = Math.floor((offsetY - kTop) / size.row);
+    return step >= 0 && step <= until && row >= 0 && row < matrix.race.candidates.length ? { row, step } : null;
+  }
+
+  #key = (event: KeyboardEvent) => {
+    const { matrix, until, cell, pick, watch } = this.props;
+    const { key } = event;
+    const last_row = matrix.race.candidates.length - 1;
+    const { row, step } = cell ?? { row: 0, step: until };
+    const far = event.shiftKey ? 10 : 1;
+    const moves: Record<string, [row: number, step: number]> = {
+      ArrowLeft: [row, step - far], ArrowRight: [row, step + far], ArrowUp: [row - far, step], ArrowDown: [row + far, step],
+      Home: [row, 0], End: [row, until], PageUp: [0, step], PageDown: [last_row, step],
+    };
+    if (moves[key]) {
       event.preventDefault();
-      const next = cell ? { row: Math.max(0, Math.min(last_row, to.row)), step: Math.max(0, Math.min(until, to.step)) } : from;
+      const [to_row, to_step] = cell ? moves[key] : [row, step];
+      const next = { row: clamp(to_row, 0, last_row), step: clamp(to_step, 0, until) };
       pick(next);
-      announce(sentence(matrix, next));
-    } else if (event.key === "Enter" && cell) {
+      announce(matrix.sentence(next));
+    } else if (cell && key === "Enter") {
       event.preventDefault();
       watch(cell);
-    } else if (event.key === "Escape" && cell) {
+    } else if (cell && key === "Escape") {
       pick(null);
     }
   };
 
-  render() {
-    const { matrix, pick, label, cell } = this.props;
-    const { hover } = this.state;
+  render({ matrix, until, pick, watch, label, cell }: MapProps, { hover }: { hover: At | null }) {
+    const at = hover ?? cell;
     return <div class="race-map">
-      <Canvas label={label} height={this.height} draw={this.draw} attributes={{
-        role: "application", tabIndex: 0, "aria-roledescription": "race matrix", class: "pointed",
-        "aria-describedby": "race-help",
-        onMouseMove: (e: MouseEvent) => {
-          const at = this.at(e);
-          if (at?.row !== hover?.row || at?.step !== hover?.step) this.setState({ hover: at });
+      <Canvas label={label} height={this.#height} ground={this.#draw_cells} ground_key={[matrix, until]} draw={this.#draw_cursors} attributes={{
+        role: "application", tabIndex: 0, "aria-roledescription": "race matrix", class: "pointed", "aria-describedby": "race-help",
+        onMouseMove: (event: MouseEvent) => {
+          const it = this.#at(event);
+          if (it?.row !== hover?.row || it?.step !== hover?.step) this.setState({ hover: it });
         },
         onMouseLeave: () => this.setState({ hover: null }),
-        onClick: (e: MouseEvent) => pick(this.at(e)),
-        onDblClick: (e: MouseEvent) => { const at = this.at(e); if (at) this.props.watch(at); },
-        onKeyDown: this.key_down,
+        onClick: (event: MouseEvent) => pick(this.#at(event)),
+        onDblClick: (event: MouseEvent) => { const it = this.#at(event); if (it) watch(it); },
+        onKeyDown: this.#key,
       }} />
-      <p class="hover-line" aria-hidden="true">{hover ? sentence(matrix, hover) : cell ? sentence(matrix, cell) : "Point at a cell, or move with the arrows: its score, rank and seed stand here."}</p>
+      <p class="hover-line" aria-hidden="true">{at ? matrix.sentence(at) : "Point at a cell, or move with the arrows: its score, rank and seed stand here."}</p>
       <p id="race-help" class="unseen">Arrows move from cell to cell, with shift by ten; Home and End go to the first and last step, Page Up and Page Down to the best and last candidate; Enter watches the run.</p>
     </div>;
   }
 }
 
-/// A cell in words.
-function sentence(matrix: Matrix, { row, step }: At): string {
-  const { race } = matrix;
-  const score = race.scores[step][row];
-  const dropped = race.dropped_at[row];
-  const what = score === null || score === undefined
-    ? dropped !== null && dropped < race.steps[step] ? `dropped after step ${dropped}: ${race.reasons[row]}` : "not evaluated"
-    : `score ${number(score, 6)}, rank ${number(matrix.rank[step][row])} of ${matrix.ranked[step]}`
-      + (dropped === race.steps[step] ? `, dropped after it: ${race.reasons[row]}` : "");
-  return `c${race.candidates[row]}, step ${race.steps[step]}, instance ${race.instances[step]}, seed ${race.seeds[step]}: ${what}`;
-}
-
 /// The evaluation's id as people type it.
-export function evaluation_id(candidate: number, pair: number): string {
-  return `e${candidate * 100000 + pair}`;
-}
+function evaluation_id(candidate: number, pair: number): string { return `e${candidate * 100000 + pair}`; }
 
-function Legend() {
-  return <ul class="legend">
-    <li><span class="swatch viridis" /> rank, best to worst</li>
-    <li><span class="swatch dropped-end" /> dropped here</li>
-    <li><span class="swatch gone" /> no longer in the race</li>
-    <li><span class="swatch elite" /> elite before (left), after (right)</li>
-  </ul>;
-}
+const kLegend = [["viridis", "rank, best to worst"], ["dropped-end", "dropped here"], ["gone", "no longer in the race"], ["elite", "elite before (left), after (right)"]];
 
-class RacePage extends Component<PageProps, { who: boolean }> {
-  state = { who: false };
-  private matrix: Matrix | null = null;
+export class RacePage extends Component<PageProps, { is_asked?: boolean }> {
+  #matrix?: Matrix;
 
-  private cell_of(matrix: Matrix, until: number): At | null {
-    const found = /^c(\d+)(?:,(\d+))?$/.exec(this.props.query.cell ?? "");
-    const row = found && matrix.known.get(Number(found[1]));
-    if (!found || row === null || row === undefined) return null;
-    const { steps, scores } = matrix.race;
-    let step = found[2] ? steps.indexOf(Number(found[2])) : -1;
+  #cell({ race }: Matrix, until: number): At | null {
+    const [, candidate, at] = /^c(\d+)(?:,(\d+))?$/.exec(this.props.query.cell ?? "") ?? [];
+    const row = race.candidates.indexOf(Number(candidate));
+    if (row < 0) return null;
+    let step = race.steps.indexOf(Number(at));
     // A candidate alone: its last cell.
-    if (step < 0) for (step = until; step > 0 && (scores[step][row] ?? null) === null;) --step;
+    if (step < 0) for (step = until; step > 0 && (race.scores[step][row] ?? null) === null;) --step;
     return { row, step: Math.min(step, until) };
   }
 
-  private show(campaign: Campaign, design: Design, race: Race) {
-    if (race.steps.length === 0) return <Empty>No step of this race has ended yet.</Empty>;
-    if (this.matrix?.race !== race) this.matrix = new Matrix(race);
-    const matrix = this.matrix;
-    const { c } = campaign;
-    const last = race.steps.length - 1;
-    const wanted = this.props.query.step ? race.steps.indexOf(Number(this.props.query.step)) : -1;
+  #race(race: Race) {
+    const { design: { id }, query } = this.props;
+    const { steps, candidates, iteration, ended, rows_total } = race;
+    if (steps.length === 0) return <Empty>No step of this race has ended yet.</Empty>;
+    if (this.#matrix?.race !== race) this.#matrix = new Matrix(race);
+    const matrix = this.#matrix;
+    const last = steps.length - 1;
+    const wanted = steps.indexOf(Number(query.step));
     const until = wanted < 0 ? last : wanted;
-    const cell = this.cell_of(matrix, until);
-    const d = design.id, store = shell_word(campaign.store);
-    const pick = (at: At | null) => set_query({ cell: at ? `c${race.candidates[at.row]},${race.steps[at.step]}` : null });
-    const watch = (at: At) => {
-      if ((race.scores[at.step][at.row] ?? null) !== null) go(href([c, "runs", evaluation_id(race.candidates[at.row], race.pairs[at.step])]));
-    };
-    const now = race.steps[until];
-    const fallen = race.candidates.filter((_, row) => matrix.dropped(row, now) !== null).length;
+    const cell = this.#cell(matrix, until);
+    const pick = (at: At | null) => set_query({ cell: at && `c${candidates[at.row]},${steps[at.step]}` });
+    const watch = (at: At) => { if (matrix.score(at) !== null) go(place_of(matrix.run_of(at))); };
+    const now = steps[until];
+    const fallen = candidates.filter((_, row) => matrix.dropped(row, now) !== null).length;
     return <div class="beside">
-      <Panel title={`Race ${race.iteration}${race.ended ? "" : ", running"}: candidates by step`}
-        command={`swarmsmith figure race ${store} --design ${d} --iteration ${race.iteration} -o race.svg`}
-        sql={`SELECT * FROM v_race_matrix WHERE design = ${d.slice(1)} AND iteration = ${race.iteration}`}
-        tools={<Files c={c} kind="race" name="race" options={{ design: d, iteration: race.iteration }} />}>
-        <div class="slider"><label for="step">after step {now}{until === last && !race.ended ? ", the newest" : ""}</label>
-          <input id="step" type="range" min={0} max={last} value={String(until)} aria-valuetext={`step ${now}, ${race.alive[until]} alive`}
-            onInput={(e) => { const to = Number((e.target as HTMLInputElement).value); set_query({ step: to === last ? null : race.steps[to] }); }} />
-          <span class="faint">{until < last ? `as it was then; ${count(last - until, "later step")} hidden` : `${count(last + 1, "step")}`}</span>
+      <Panel title={`Race ${iteration}${ended ? "" : ", running"}: candidates by step`}
+        command={command("figure race", `--design ${id} --iteration ${iteration} -o race.svg`)}
+        sql={`SELECT * FROM v_race_matrix WHERE design = ${id.slice(1)} AND iteration = ${iteration}`}
+        tools={<Files kind="race" name="race" options={{ design: id, iteration }} />}>
+        <div class="slider"><label for="step">after step {now}{until === last && !ended && ", the newest"}</label>
+          <Slider id="step" max={last} value={until} text={`step ${now}, ${race.alive[until]} alive`} to={(step) => set_query({ step: step === last ? null : steps[step] })} />
+          <span class="faint">{until < last ? `as it was then; ${count(last - until, "later step")} hidden` : count(last + 1, "step")}</span>
         </div>
         <RaceMap matrix={matrix} until={until} cell={cell} pick={pick} watch={watch}
-          label={`Race ${race.iteration} of ${d}: ${race.candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
-        <Legend />
-        {race.rows_total > race.candidates.length && <p class="faint">The best {whole(race.candidates.length)} of {whole(race.rows_total)} candidates. <button class="quiet" onClick={() => set_query({ rows: race.rows_total })}>Show all</button></p>}
+          label={`Race ${iteration} of ${id}: ${candidates.length} candidates, best first, by ${count(until + 1, "step")}; ${fallen} dropped, ${race.alive[until]} alive. The table below has the same.`} />
+        <ul class="legend">{kLegend.map(([mark, what]) => <li><span class={"swatch " + mark} /> {what}</li>)}</ul>
+        {rows_total > candidates.length && <p class="faint">The best {whole(candidates.length)} of {whole(rows_total)} candidates. <Quiet act={() => set_query({ rows: rows_total })}>Show all</Quiet></p>}
       </Panel>
       <div class="side">
-        <Panel title="Cell">{cell ? this.cell(campaign, matrix, cell, watch) : <Empty>Click a cell to see what made its score, and to watch the run.</Empty>}</Panel>
-        <Panel title={`Step ${now}`}>{this.step(race, until)}</Panel>
+        <Panel title="Cell">{cell ? this.#chosen(matrix, cell, watch) : <Empty>Click a cell to see what made its score, and to watch the run.</Empty>}</Panel>
+        <Panel title={`Step ${now}`}>{step_facts(race, until)}</Panel>
       </div>
-      <Panel wide title={`Candidates after step ${now}`}>{this.table(matrix, until)}</Panel>
+      <Panel wide title={`Candidates after step ${now}`}>{candidates_table(matrix, until)}</Panel>
     </div>;
   }
 
-  private cell(campaign: Campaign, matrix: Matrix, at: At, watch: (at: At) => void) {
+  #chosen(matrix: Matrix, at: At, watch: (at: At) => void) {
     const { race } = matrix;
-    const { c } = campaign;
-    const candidate = race.candidates[at.row];
-    const score = race.scores[at.step][at.row] ?? null;
-    const id = evaluation_id(candidate, race.pairs[at.step]);
-    const dropped = race.dropped_at[at.row];
+    const { row, step } = at;
+    const score = matrix.score(at), dropped = race.dropped_at[row];
+    const id = matrix.run_of(at);
+    const { is_asked } = this.state;
     return <div>
-      <dl class="facts">
-        <Fact name="candidate">{To("c", candidate)}</Fact>
-        <Fact name="score" title="higher is better">{number(score, 6)}</Fact>
-        <Fact name="rank">{number(matrix.rank[at.step][at.row])} <span class="small faint">of {matrix.ranked[at.step]}</span></Fact>
-      </dl>
-      <p>Step {race.steps[at.step]}, instance {race.instances[at.step]}, seed {race.seeds[at.step]}. {dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[at.row]}.` : race.elite_after[at.row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
-      {score !== null ? <div>
-        <p class="tools"><button class="main" onClick={() => watch(at)}>Watch this run</button>
-          <Copy what="Copy as command" text={`swarmsmith explain ${id} ${shell_word(campaign.store)}`} /></p>
-        <p><button aria-expanded={this.state.who} onClick={() => this.setState({ who: !this.state.who })}>Who made it</button></p>
-        {this.state.who && <Get<Record<string, unknown>> path={`${c}/evaluations/${id}`} keep render={(answer) => <Explained answer={answer} />} />}
-      </div> : <p class="faint">It was not evaluated here.</p>}
+      {pairs("facts", [
+        ["candidate", link("c" + race.candidates[row])],
+        ["score", number(score, 6), "higher is better"],
+        ["rank", [number(matrix.rank[step][row]), <small> of {matrix.ranked[step]}</small>]]])}
+      <p>Step {race.steps[step]}, instance {race.instances[step]}, seed {race.seeds[step]}. {dropped !== null ? `Dropped after step ${dropped}: ${race.reasons[row]}.` : race.elite_after[row] ? "An elite after this race." : race.ended ? "It stayed to the end." : "It is alive."}</p>
+      {score === null ? <p class="faint">It was not evaluated here.</p> : [
+        <p class="tools"><button class="main" onClick={() => watch(at)}>Watch this run</button><Copy text={command(`explain ${id}`)} /></p>,
+        <p><button aria-expanded={!!is_asked} onClick={() => this.setState({ is_asked: !is_asked })}>Who made it</button></p>,
+        is_asked && <Get<Record<string, unknown>> path={`${this.props.params.c}/evaluations/${id}`} keep render={(answer) =>
+          pairs("pairs", Object.entries(answer).map(([name, value]) => name !== "v" && said(value) && [words(name), said(value)]))} />]}
     </div>;
   }
 
-  private step(race: Race, until: number) {
-    const p = race.p_value[until], best = race.best[until];
-    return <dl class="facts">
-      <Fact name="test"><code>{race.markers[until]}</code> <span class="small">{kMarkers[race.markers[until]]}</span></Fact>
-      <Fact name="p value">{p !== null && p < 0.0001 ? "< 0.0001" : number(p, 3)}</Fact>
-      <Fact name="alive">{whole(race.alive[until])}</Fact>
-      <Fact name="best">{best ? To("c", best) : "–"}</Fact>
-      <Fact name="its mean">{number(race.mean_best[until])}</Fact>
-    </dl>;
-  }
-
-  private table(matrix: Matrix, until: number) {
-    const { race } = matrix;
-    const now = race.steps[until];
-    const rows = race.candidates.map((candidate, row) => {
-      const dropped = matrix.dropped(row, now);
-      return { candidate, row, ...matrix.mean(row, until), dropped, reason: dropped === null ? null : race.reasons[row],
-        elite: race.elite_before[row] ? "before" + (race.elite_after[row] ? " and after" : "") : race.elite_after[row] ? "after" : "" };
-    });
-    return <Table<typeof rows[0]> name="r" caption={`Candidates after step ${now}`} rows={rows} page_size={25}
-      columns={[
-        { key: "candidate" },
-        { key: "mean", label: "mean score here", title: "over the pairs of this race; higher is better" },
-        { key: "n", label: "pairs" },
-        { key: "dropped", label: "dropped after step" },
-        { key: "reason", label: "why" },
-        { key: "elite" },
-        { key: "cell", show: (row) => <button class="quiet" onClick={() => set_query({ cell: "c" + row.candidate })}>show</button> },
-      ]} />;
-  }
-
-  render() {
-    const { params, query } = this.props;
-    const found = find_design(this.props);
-    if (!found) return <NoDesign c={params.c} d={params.d} />;
-    const { campaign, design } = found;
-    const { c } = campaign;
+  render({ params, query, design }: PageProps) {
+    const { id } = design;
     const newest = Math.max(1, design.iteration);
-    const iteration = params.iteration ? Number(params.iteration) : null;
-    const shown = iteration ?? newest;
-    const moves = shown === design.iteration;
-    const to = (n: number) => go(href([c, design.id, "race", String(n)]));
+    const shown = params.iteration ? Number(params.iteration) : newest;
+    const to = (iteration: number) => go(`${place_of(id)}/race/${iteration}`);
+    const turn = (by: number, mark: string, label: string) =>
+      <Quiet label={"iteration " + label} disabled={shown + by < 1 || shown + by > newest} act={() => to(shown + by)}>{mark}</Quiet>;
     return <div>
-      <DesignTitle c={c} design={design} />
+      {design_title(design)}
       <div class="slider"><label for="iteration">iteration {shown}{shown > newest ? `; the newest is ${newest}` : ` of ${newest}`}</label>
-        <button class="quiet" aria-label="iteration before" disabled={shown <= 1} onClick={() => to(shown - 1)}>‹</button>
-        <input id="iteration" type="range" min={1} max={newest} value={String(shown)} disabled={newest < 2} onInput={(e) => to(Number((e.target as HTMLInputElement).value))} />
-        <button class="quiet" aria-label="iteration after" disabled={shown >= newest} onClick={() => to(shown + 1)}>›</button>
-        {iteration !== null && iteration !== newest || iteration !== null && design.state === "racing" ? <a href={href([c, design.id, "race"])}>the newest</a> : null}
+        {turn(-1, "‹", "before")}<Slider id="iteration" min={1} max={newest} value={shown} to={to} />{turn(1, "›", "after")}
+        {params.iteration && (shown !== newest || design.state === "racing") && <a href={place_of(id) + "/race"}>the newest</a>}
       </div>
-      {design.iteration === 0 ? <Empty>{design.state === "finished" ? "No race: this method takes what it is given, or what it draws."
-        : "No step of the race has ended yet: its cells come one by one."}</Empty>
-        : <Get<Race> path={path_of(`${c}/designs/${design.id}/race`, { iteration: shown, rows: query.rows && Number(query.rows) !== kRows ? query.rows : null })} keep
-          version={moves ? design.version : "ended"} render={(race) => this.show(campaign, design, race)} missing={(error) => <Empty>{error.message}</Empty>} />}
+      {design.iteration === 0 ? <Empty>{design.state === "finished" ? kNoRace : "No step of the race has ended yet: its cells come one by one."}</Empty>
+        : <Get<Race> path={path_of(`${params.c}/designs/${id}/race`, { iteration: shown, rows: query.rows })} keep
+          version={shown === design.iteration ? design.version : "ended"} render={(race) => this.#race(race)} />}
     </div>;
   }
 }
 
-/// What `explain` says, name by name.
-function Explained({ answer }: { answer: Record<string, unknown> }) {
-  return <dl class="pairs">{Object.entries(answer).filter(([name, value]) => name !== "v" && value !== null && said(value) !== "")
-    .map(([name, value]) => <div><dt>{name.replace(/_/g, " ")}</dt><dd>{said(value)}</dd></div>)}</dl>;
+function step_facts(race: Race, until: number) {
+  const p = race.p_value[until], best = race.best[until];
+  return pairs("facts", [
+    ["test", [<code>{race.markers[until]}</code>, " ", <span class="small">{race.meanings[until]}</span>]],
+    ["p value", p !== null && p < 0.0001 ? "< 0.0001" : number(p, 3)],
+    ["alive", whole(race.alive[until])],
+    ["best", best ? link("c" + best) : "–"],
+    ["its mean", number(race.mean_best[until])]]);
 }
 
-export const race: Page = {
-  pattern: ":c/:d/race/:iteration?", title: ({ d, iteration }) => `Race ${iteration ?? ""} of ${d}`, view: RacePage,
-  nav: { label: "Race", letter: "r", path: ({ c, d }) => d ? [c, d, "race"] : null },
-  keys: [{ key: "← → ↑ ↓", what: "move the cell in the matrix" }, { key: "Enter", what: "watch the run of the cell" }, { key: "Esc", what: "leave the cell" }],
-};
+function candidates_table(matrix: Matrix, until: number) {
+  const { candidates, steps, scores, reasons, elite_before, elite_after } = matrix.race;
+  const now = steps[until];
+  const rows = candidates.map((candidate, row) => {
+    const own = scores.slice(0, until + 1).map((step) => step[row] ?? null).filter((score): score is number => score !== null);
+    const dropped = matrix.dropped(row, now);
+    return { candidate, dropped, n: own.length, mean: own.length ? own.reduce((a, b) => a + b) / own.length : null, reason: dropped === null ? null : reasons[row],
+      elite: [elite_before[row] && "before", elite_after[row] && "after"].filter(Boolean).join(" and ") };
+  });
+  return <Table name="r" caption={`Candidates after step ${now}`} rows={rows} columns={["candidate",
+    { key: "mean", label: "mean score here", title: "over the pairs of this race; higher is better" },
+    { key: "n", label: "pairs" }, { key: "dropped", label: "dropped after step" }, { key: "reason", label: "why" }, "elite",
+    { key: "cell", show: ({ candidate }) => <Quiet act={() => set_query({ cell: "c" + candidate })}>show</Quiet> }]} />;
+}

@@ -1,74 +1,62 @@
 // Results: who is best, by how much, whether that is more than chance, and what became of it on real robots.
 
-import { Component, h } from "preact";
-import { ApiError, path_of } from "../api";
-import { Choice, Copy, Empty, Panel, Table } from "../components";
+import { h } from "preact";
+import { path_of } from "../api";
+import { Choice, choice_of, command, Copy, Panel, place_of, Table } from "../components";
 import { CsvTable, Figure } from "../figure";
-import { duration, shell_word, when, words } from "../format";
+import { duration, when, words } from "../format";
 import { Get } from "../get";
-import { Page, PageProps } from "../page";
-import { href } from "../route";
-import { Cell, Columns } from "../types";
+import { PageProps } from "../page";
+import { Cell, Columns, Row } from "../types";
 import { rows_of } from "./design";
 
-type Row = Record<string, Cell>;
+export function Results({ params: { c }, query, campaign: { designs } }: PageProps) {
+  const version = designs.map((one) => one.version).join(" ");
+  const missions = designs.map((one) => one.mission);
+  const ways = ["method", "source"];
+  const by = ways.includes(query.by) ? query.by : new Set(designs.map((one) => one.method)).size > 1 ? "method" : "source";
+  const mission = missions.includes(query.mission) ? query.mission : null;
+  const figures: [string, string, boolean][] = [["box", `Winners' scores by ${by}`, true], ["ranks", `Mean ranks by ${by}`, true],
+    ["scores", "How often each score occurred", true], ["training", "In the race, and tested", false],
+    ["gap", "From one source to others", false], ["modules", "Modules of the winners", false]];
+  const table = (title: string, path: string, show: (rows: Row[]) => JSX.Element) => <div class="grid"><Panel wide title={title}>
+    <Get<Columns> path={`${c}/${path}`} version={version} render={(data) => show(rows_of(data))} /></Panel></div>;
+  return <div>
+    <h1>Results</h1>
+    <div class="tools">
+      <Choice label="Compare by" name="by" value={by} options={ways} />
+      {choice_of("Mission", missions)}
+      <Copy text={command("compare", `--by ${by}`)} />
+    </div>
+    {table("Leaderboard", "leaderboard", leaderboard)}
+    <div class="columns">
+      <Panel title={`Tests by ${by}`}><Get<string> path={path_of(`${c}/comparison/pairs.csv`, { by, mission })} version={version}
+        render={(text) => <CsvTable text={text} name={`tests by ${by}`} id="pairs" />} /></Panel>
+      {figures.map(([kind, title, compares]) => <Panel title={title}><Figure kind={kind} options={{ by: compares ? by : null, mission }} version={version} name={title} /></Panel>)}
+    </div>
+    {table("Real runs", "real-runs", real_runs)}
+  </div>;
+}
 
-function nothing(error: ApiError) { return <Empty>{error.message}</Empty>; }
+function leaderboard(rows: Row[]) {
+  return <Table name="b" caption="leaderboard" rows={rows} row_key={(one) => String(one.design)}
+    empty="No design has a winner yet: it has one when it has finished." columns={[
+      { key: "mission", show: (one) => words(String(one.mission)) }, "rank", "design", "method", "repetition",
+      { key: "candidate", label: "winner" }, { key: "test_mean", label: "mean of tests", title: "higher is better" },
+      { key: "test_runs", label: "tests" }, { key: "race_mean", label: "mean in the race" }]} />;
+}
 
-class Results extends Component<PageProps, {}> {
-  render() {
-    const { params: { c }, query, live } = this.props;
-    const campaign = live.campaigns.find((one) => one.c === c);
-    const designs = campaign?.designs ?? [];
-    const version = designs.map((one) => one.version).join(" ");
-    const missions = [...new Set(designs.map((one) => one.mission))];
-    const by = query.by === "method" || query.by === "source" ? query.by : new Set(designs.map((one) => one.method)).size > 1 ? "method" : "source";
-    const options = { by, mission: missions.includes(query.mission) ? query.mission : null };
-    const figures: [string, string, boolean][] = [["box", `Winners' scores by ${by}`, true], ["ranks", `Mean ranks by ${by}`, true],
-      ["scores", "How often each score occurred", true], ["training", "In the race, and tested", false],
-      ["gap", "From one source to others", false], ["modules", "Modules of the winners", false]];
-    return <div>
-      <h1>Results</h1>
-      <div class="tools">
-        <Choice label="Compare by" name="by" value={by} options={[["method", "method"], ["source", "source"]]} />
-        {missions.length > 1 && <Choice label="Mission" name="mission" value={options.mission ?? ""}
-          options={[["all", ""], ...missions.map((mission): [string, string] => [words(mission), mission])]} />}
-        <Copy text={`swarmsmith compare ${shell_word(campaign?.store ?? "STORE")} --by ${by}`} what="Copy as command" />
-      </div>
-      <div class="grid"><Panel wide title="Leaderboard"><Get<Columns> path={`${c}/leaderboard`} version={version} render={(data) => this.leaderboard(rows_of(data))} /></Panel></div>
-      <div class="columns">
-        <Panel title={`Tests by ${by}`}><Get<string> path={path_of(`${c}/comparison/pairs.csv`, options)} version={version} missing={nothing}
-          render={(text) => <CsvTable text={text} name={`tests by ${by}`} id="pairs" />} /></Panel>
-        {figures.map(([kind, title, compares]) => <Panel title={title}><Figure c={c} kind={kind} options={compares ? options : { mission: options.mission }}
-          version={version} name={title} missing={nothing} /></Panel>)}
-      </div>
-      <div class="grid"><Panel wide title="Real runs"><Get<Columns> path={`${c}/real-runs`} version={version} render={(data) => this.real_runs(rows_of(data))} /></Panel></div>
-    </div>;
-  }
-
-  private leaderboard(rows: Row[]) {
-    return <Table<Row> name="b" caption="leaderboard" rows={rows} row_key={(row) => String(row.design)} page_size={30}
-      empty="No design has a winner yet: it has one when it has finished." columns={[
-        { key: "mission", show: (row) => words(String(row.mission)) }, { key: "rank" }, { key: "design" }, { key: "method" }, { key: "repetition" },
-        { key: "candidate", label: "winner" }, { key: "test_mean", label: "mean of tests", title: "higher is better" },
-        { key: "test_runs", label: "tests" }, { key: "race_mean", label: "mean in the race" },
-      ]} />;
-  }
-
-  private real_runs(rows: Row[]) {
-    const { c } = this.props.params;
-    return <Table<Row> name="f" caption="real runs" rows={rows} page_size={30}
-      empty={<span>No real run. Film one and score it: <code>swarmsmith track score VIDEO --arena ARENA.toml --into STORE</code></span>} columns={[
-        { key: "id", label: "run" }, { key: "name" }, { key: "mission", show: (row) => words(String(row.mission ?? "–")) }, { key: "candidate" },
-        { key: "score", title: "higher is better" },
-        { key: "verdict", show: (row) => <span class={row.counts ? "" : "warn"}>{row.verdict}{row.counts ? "" : ", does not count"}</span> },
-        { key: "reason", label: "why", value: (row) => [row.reason, row.overridden_by && `said by ${row.overridden_by}`, reasons_of(row.reasons)].filter(Boolean).join("; ") || null },
-        { key: "duration_s", label: "length", show: (row) => duration(row.duration_s as number) },
-        { key: "recorded", label: "filmed", show: (row) => when(row.recorded as string) },
-        { key: "watch", show: (row) => row.candidate === null ? null
-          : <a href={href([c, "runs", String(row.id)], { beside: `${row.id}-1,${row.id}-2`, speed: 1 })}>beside its simulations</a> },
-      ]} />;
-  }
+function real_runs(rows: Row[]) {
+  return <Table name="f" caption="real runs" rows={rows}
+    empty={["No real run. Film one and score it: ", <code>swarmsmith track score VIDEO --arena ARENA.toml --into STORE</code>]} columns={[
+      { key: "id", label: "run" }, "name", { key: "mission", show: (one) => words(String(one.mission ?? "–")) }, "candidate",
+      { key: "score", title: "higher is better" },
+      { key: "verdict", show: ({ verdict, counts }) => counts ? verdict : <span class="warn">{verdict}, does not count</span> },
+      { key: "reason", label: "why", value: ({ reason, overridden_by, reasons }) => [reason, overridden_by && `said by ${overridden_by}`, reasons_of(reasons)].filter(Boolean).join("; ") || null },
+      { key: "duration_s", label: "length", show: (row) => duration(row.duration_s as number) },
+      { key: "recorded", label: "filmed", show: (one) => when(String(one.recorded ?? "–")) },
+      { key: "watch", show: ({ id, candidate }) => candidate !== null
+        && <a href={place_of(String(id), { beside: `${id}-1,${id}-2`, speed: 1 })}>beside its simulations</a> }]} />;
 }
 
 /// What the scoring said: a JSON list of texts or of objects with one, or what is already a text.
@@ -78,6 +66,3 @@ function reasons_of(value: Cell | undefined): string {
       .map((one) => typeof one === "string" ? one : one.text ?? one.code ?? "").join("; ");
   } catch { return String(value); }
 }
-
-export const results: Page = { pattern: ":c/results", title: () => "results", view: Results,
-  nav: { label: "Results", letter: "e", path: ({ c }) => [c, "results"] } };
