@@ -8,25 +8,32 @@ namespace swarmsmith {
 namespace {
 
 char folded(char letter) {
-  if (letter == '-') return '_';
+  if (letter == '-' || letter == ' ') return '_';
   return letter >= 'A' && letter <= 'Z' ? static_cast<char>(letter - 'A' + 'a') : letter;
 }
 
-/// Optimal string alignment distance: edits and swaps of neighbours.
+constexpr std::size_t kEdit = 2;
+
+/// Of a letter that is added or left out: a dash is half a letter.
+std::size_t cost_of(char letter) {
+  return folded(letter) == '_' ? kEdit / 2 : kEdit;
+}
+
+/// Optimal string alignment distance: edits and swaps of neighbours, kEdit each.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::vector<std::size_t>> rows(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
-  for (std::size_t i = 0; i <= a.size(); ++i)
-    rows[i][0] = i;
-  for (std::size_t j = 0; j <= b.size(); ++j)
-    rows[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    rows[i][0] = rows[i - 1][0] + cost_of(a[i - 1]);
+  for (std::size_t j = 1; j <= b.size(); ++j)
+    rows[0][j] = rows[0][j - 1] + cost_of(b[j - 1]);
   for (std::size_t i = 1; i <= a.size(); ++i) {
     for (std::size_t j = 1; j <= b.size(); ++j) {
       const bool same = folded(a[i - 1]) == folded(b[j - 1]);
-      rows[i][j] =
-          std::min({rows[i - 1][j] + 1, rows[i][j - 1] + 1, rows[i - 1][j - 1] + (same ? 0U : 1U)});
+      rows[i][j] = std::min({rows[i - 1][j] + cost_of(a[i - 1]), rows[i][j - 1] + cost_of(b[j - 1]),
+                             rows[i - 1][j - 1] + (same ? 0 : kEdit)});
       const bool swapped = i > 1 && j > 1 && folded(a[i - 1]) == folded(b[j - 2]) &&
                            folded(a[i - 2]) == folded(b[j - 1]);
-      if (swapped) rows[i][j] = std::min(rows[i][j], rows[i - 2][j - 2] + 1);
+      if (swapped) rows[i][j] = std::min(rows[i][j], rows[i - 2][j - 2] + kEdit);
     }
   }
   return rows[a.size()][b.size()];
@@ -35,12 +42,12 @@ std::size_t distance(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<std::string> closest(std::string_view word, std::span<const std::string> known) {
-  const std::size_t tolerated = std::max<std::size_t>(1, word.size() / 3);
+  const std::size_t tolerated = kEdit * std::max<std::size_t>(1, word.size() / 3);
   std::size_t best = tolerated + 1;
   std::optional<std::string> found;
   for (const std::string& candidate : known) {
     const std::size_t edits = distance(word, candidate);
-    if (edits >= best || edits >= std::max(word.size(), candidate.size())) continue;
+    if (edits >= best || edits >= kEdit * std::max(word.size(), candidate.size())) continue;
     best = edits;
     found = candidate;
   }

@@ -53,7 +53,7 @@ std::int64_t total_budget(const ParameterSpace& space, const Scenario& scenario)
 /// and seeds of the pairs, in rows), "initial" (the seed of the Sobol sequence), "sampling" by
 /// iteration (parents and values, one configuration after the other, parameters in hierarchy
 /// order), "order" by iteration (past pairs).
-class IteratedRace final : public Search {
+class IteratedRace : public Search {
  public:
   /// `initial` configurations take part in the first race, before sampled ones; they get the ids
   /// from 1 in their order, and forbidden ones take no part. A budget that is too small is an error

@@ -49,7 +49,7 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
                   has_methods ? "; `--by method` compares the methods" : ""));
 }
 
-/// A method that used much less than it might is told beside one that did not.
+/// A method that used much less than it might, or was extended, is told beside one that did not.
 void note_unused_budgets(const std::vector<DesignRecord>& all, Comparison& comparison) {
   constexpr double kNearlyAll = 0.95;
   struct Runs {
@@ -69,10 +69,11 @@ void note_unused_budgets(const std::vector<DesignRecord>& all, Comparison& compa
   }
   if (methods.size() < 2) return;
   for (const auto& [method, runs] : methods) {
-    if (runs.share() >= kNearlyAll) continue;
+    if (runs.share() >= kNearlyAll && runs.share() <= 1) continue;
     comparison.notes.push_back(fmt::format(
-        "{} used {:.0f} % of its experiments ({} of {}): compare with what the others used", method,
-        100 * runs.share(), runs.used, runs.budget));
+        "{} used {:.0f} % of its experiments ({} of {}){}: compare with what the others used",
+        method, 100 * runs.share(), runs.used, runs.budget,
+        runs.share() > 1 ? ", since it was extended" : ""));
   }
 }
 

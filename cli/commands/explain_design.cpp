@@ -19,17 +19,17 @@
 namespace swarmsmith::cli {
 namespace {
 
-/// A part of the search that is over, and its best.
+/// A part of the search that is over, and its best; a walk that the final stage ended has none.
 struct Part {
   std::string line;
   std::string name;
-  EliteRecord best;
+  std::optional<EliteRecord> best;
   bool is_final = false;
 };
 
 struct Story {
   DesignRecord design;
-  std::string search;
+  std::string search;  ///< "none" of what was given, drawn or imported
   std::vector<Part> parts;
   std::optional<SampledRecord> winner;
   bool shows_costs = false;
@@ -43,21 +43,24 @@ Expected<Story> read_story(StoreReader& store, DesignRecord design, const Stored
   Story story{.design = std::move(design),
               .search = std::string(name_of(search != nullptr ? search->kind : SearchKind::Irace)),
               .shows_costs = is_of_programs(store)};
+  if (story.design.budget == 0 && story.design.used == 0) story.search = "none";
   const DesignId id = story.design.design;
   const auto best = elites(store, {.design = id});
   if (!best) return Unexpected(best.error());
   const auto all = iterations(store, id);
   if (!all) return Unexpected(all.error());
-  for (const EliteRecord& elite : *best) {
-    if (elite.rank != 1) continue;
-    const auto begun = std::ranges::find(*all, elite.iteration, &IterationRecord::iteration);
-    Part part{.line = stages.round_line(name, elite.iteration),
-              .name = stages.round(name, std::to_string(elite.iteration)),
-              .best = elite,
-              .is_final = stages.is_final(name, elite.iteration)};
-    if (search == nullptr && begun != all->end())
+  for (const IterationRecord& begun : *all) {
+    Part part{.line = stages.round_line(name, begun.iteration),
+              .name = stages.round(name, std::to_string(begun.iteration)),
+              .is_final = stages.is_final(name, begun.iteration)};
+    for (const EliteRecord& elite : *best) {
+      if (elite.rank == 1 && elite.iteration == begun.iteration) part.best = elite;
+    }
+    // One that has just begun has no end to tell of.
+    if (!part.best && begun.iteration == all->back().iteration) continue;
+    if (search == nullptr)
       part.line +=
-          fmt::format(": {} configurations, budget {}", begun->configurations, begun->budget);
+          fmt::format(": {} configurations, budget {}", begun.configurations, begun.budget);
     story.parts.push_back(std::move(part));
   }
   if (!story.design.best) return story;
@@ -68,30 +71,37 @@ Expected<Story> read_story(StoreReader& store, DesignRecord design, const Stored
   return story;
 }
 
+std::string runs_text(std::int64_t count) {
+  return fmt::format("{} run{}", count, count == 1 ? "" : "s");
+}
+
 /// "0.6 less than the best mean before it, 3 of c2000047 in generation 22".
-std::string difference(const Story& story, const Part& last, const Part& before) {
-  const double change = last.best.mean - before.best.mean;
+std::string difference(const Story& story, const EliteRecord& last, const Part& before) {
+  const double change = last.mean - before.best->mean;
   const double shown = story.shows_costs ? -change : change;
   const std::string text =
       shown == 0 ? "as much as"
                  : score_text(std::abs(shown)) + (shown < 0 ? " less than" : " more than");
   return fmt::format("{} the best mean before it, {} of {} in {}", text,
-                     story.mean(before.best.mean), to_string(before.best.candidate), before.name);
+                     story.mean(before.best->mean), to_string(before.best->candidate), before.name);
 }
 
 /// Who won, where it was made, and what the last part said of it.
 std::string sentence(const Story& story, const StoredStages& stages) {
-  if (!story.winner || story.parts.empty()) return "";
+  std::vector<const Part*> ended;
+  for (const Part& part : story.parts) {
+    if (part.best) ended.push_back(&part);
+  }
+  if (!story.winner || ended.empty()) return "";
   const std::string design = to_string(story.design.design);
-  const Part& last = story.parts.back();
+  const Part& last = *ended.back();
   std::string text = to_string(story.winner->candidate) + ", made in " +
                      stages.round(design, std::to_string(story.winner->iteration));
-  if (last.best.candidate != story.winner->candidate) return text;
-  text += fmt::format("; mean {} over {} runs in {}", story.mean(last.best.mean), last.best.runs,
-                      last.is_final ? "the final stage" : last.name);
-  const bool is_compared =
-      last.is_final && story.parts.size() > 1 && !story.parts[story.parts.size() - 2].is_final;
-  if (is_compared) text += ", " + difference(story, last, story.parts[story.parts.size() - 2]);
+  if (last.best->candidate != story.winner->candidate) return text;
+  text += fmt::format("; mean {} over {} in {}", story.mean(last.best->mean),
+                      runs_text(last.best->runs), last.is_final ? "the final stage" : last.name);
+  const bool is_compared = last.is_final && ended.size() > 1 && !ended[ended.size() - 2]->is_final;
+  if (is_compared) text += ", " + difference(story, *last.best, *ended[ended.size() - 2]);
   return text;
 }
 
@@ -106,8 +116,10 @@ void write_text(Output& output, const Story& story, const StoredStages& stages) 
              << "\n"
              << "search      " << story.search << "\n"
              << "state       "
-             << (is_searching ? std::string(words_of(search->kind).at_work) : design.state) << ", "
-             << design.used << " of " << design.budget << " experiments used\n";
+             << (is_searching ? std::string(words_of(search->kind).at_work) : design.state);
+  if (story.search != "none")
+    output.out << ", " << design.used << " of " << design.budget << " experiments used";
+  output.out << "\n";
   const std::string stage = search != nullptr ? stages.stage(id, "") : "";
   if (!stage.empty()) output.out << "stage       " << stage << "\n";
   const std::string winner = sentence(story, stages);
@@ -115,21 +127,25 @@ void write_text(Output& output, const Story& story, const StoredStages& stages) 
     output.out << (design.state == "finished" ? "winner      " : "best        ") << winner << "\n";
   if (!story.parts.empty()) output.out << "\n";
   for (const Part& part : story.parts) {
-    output.out << part.line << "; best " << to_string(part.best.candidate) << ", mean "
-               << story.mean(part.best.mean) << " over " << part.best.runs << " runs\n";
+    output.out << part.line;
+    if (part.best)
+      output.out << "; best " << to_string(part.best->candidate) << ", mean "
+                 << story.mean(part.best->mean) << " over " << runs_text(part.best->runs);
+    output.out << "\n";
   }
 }
 
 void write_json(Output& output, const Story& story, const StoredStages& stages) {
   std::string parts;
   for (const Part& part : story.parts) {
+    if (!part.best) continue;
     parts += (parts.empty() ? "" : ",") + JsonObject()
-                                              .add("iteration", part.best.iteration)
+                                              .add("iteration", part.best->iteration)
                                               .add("stage", part.name)
-                                              .add("best", part.best.candidate)
-                                              .add("mean", part.best.mean)
-                                              .add("runs", part.best.runs)
-                                              .add("used", part.best.experiments_used)
+                                              .add("best", part.best->candidate)
+                                              .add("mean", part.best->mean)
+                                              .add("runs", part.best->runs)
+                                              .add("used", part.best->experiments_used)
                                               .text();
   }
   output.out << JsonObject()

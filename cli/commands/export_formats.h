@@ -23,7 +23,7 @@ struct MachineExport {
 
 /// Writes each candidate's machine in that form, in this order. A file in a folder is called after
 /// design and candidate: `d1-c812.svg`.
-ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& candidates,
+ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& chosen,
                          const MachineExport& what, Output& output);
 
 /// Arguments of `export --format irace`.

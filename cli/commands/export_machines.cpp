@@ -113,10 +113,27 @@ ExitCode code_of(const Error& error) {
   return error.kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Failed;
 }
 
+/// Only machines have experiment files. Where some are among others, the others are left out.
+Expected<std::vector<CandidateId>> with_experiments(StoreReader& store,
+                                                    const std::vector<CandidateId>& candidates) {
+  std::vector<CandidateId> machines;
+  for (const CandidateId id : candidates) {
+    const auto record = candidate(store, id);
+    if (!record) return Unexpected(record.error());
+    if (architecture_of_text(record->machine).value_or(Architecture::Machine) ==
+        Architecture::Machine)
+      machines.push_back(id);
+  }
+  return machines.empty() ? candidates : machines;
+}
+
 }  // namespace
 
-ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& candidates,
+ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& chosen,
                          const MachineExport& what, Output& output) {
+  auto kept = what.format == "argos" ? with_experiments(store, chosen) : chosen;
+  if (!kept) return fail(output, code_of(kept.error()), kept.error());
+  const std::vector<CandidateId>& candidates = *kept;
   const auto width = width_of(what);
   if (!width) return fail(output, ExitCode::Usage, width.error());
   if (candidates.empty()) return ExitCode::Done;
@@ -155,6 +172,11 @@ ExitCode export_machines(StoreReader& store, const std::vector<CandidateId>& can
     if (const auto done = write_whole_file(files.back(), text->bytes); !done) {
       return fail(output, ExitCode::Failed, done.error());
     }
+  }
+  if (const std::size_t left_out = chosen.size() - candidates.size(); left_out > 0) {
+    print_note(output, fmt::format("{} of {} are left out: they are trees or networks, and .argos "
+                                   "files are of state machines alone",
+                                   left_out, chosen.size()));
   }
   if (what.format == "argos") remark_flavours(store, candidates.front(), output);
   if (!output.json) return ExitCode::Done;

@@ -148,6 +148,7 @@ void StoredStages::tell(Rows& rows) const {
   const auto iteration = place_of(rows, "iteration");
   if (empty() || !design || !iteration) return;
   const auto state = place_of(rows, "state");
+  const auto reason = place_of(rows, "reason");
   rows.columns[*iteration] = "stage";
   for (auto& cells : rows.cells) {
     const std::string id = cells[*design].text;
@@ -155,6 +156,12 @@ void StoredStages::tell(Rows& rows) const {
     const SearchOptions* known = search(id);
     if (known != nullptr && state && cells[*state].text == "racing")
       cells[*state].text = words_of(known->kind).at_work;
+    // What ends one race is no limit that anybody set.
+    if (known != nullptr && known->kind == SearchKind::FRace && reason &&
+        cells[*reason].text == "limit of iterations") {
+      cells[*reason].text = find(id)->now.alive == 1 ? "one configuration is left"
+                                                     : "the next task does not fit into the budget";
+    }
   }
 }
 

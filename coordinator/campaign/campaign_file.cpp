@@ -177,13 +177,17 @@ void read_dashboard(TableReader& root, Campaign& campaign) {
 std::optional<Error> check_race(const Campaign& campaign, const Method& method) {
   const auto space = MethodSpace::make(method, static_cast<int>(campaign.digits));
   if (!space) return space.error();
+  Repair repair;  // whether there is one
+  if (!campaign.repair.empty()) {
+    repair = [](const Configuration& whole) -> Expected<Configuration> { return whole; };
+  }
   std::optional<std::int64_t> checked;  // missions differ in their number of instances alone
   for (const CampaignMission& mission : campaign.missions) {
     const Scenario scenario = race_on(campaign, mission);
     if (checked == scenario.n_instances) continue;
     checked = scenario.n_instances;
     const auto search = start_search(space->parameters(), scenario, method.search, space->initial(),
-                                     {}, space->neighbourhood());
+                                     repair, space->neighbourhood());
     if (search) continue;
     Error error = search.error();
     if (campaign.missions.size() > 1) {

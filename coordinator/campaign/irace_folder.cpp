@@ -241,6 +241,11 @@ Expected<IraceFileNames> add_parameters(const ParameterSpace& space, IraceVersio
 
 Expected<IraceSetup> irace_setup(const Campaign& campaign, const DesignRow& design) {
   const Method& method = *std::ranges::find(campaign.methods, design.method, &Method::name);
+  if (!method.baseline.empty()) {
+    return bad_input("it is of the baseline " + method.name +
+                         ", which is not searched for: irace would have nothing to race",
+                     to_string(design.id));
+  }
   const CampaignMission& mission = *std::ranges::find_if(
       campaign.missions,
       [&](const CampaignMission& candidate) { return candidate.mission.name == design.mission; });

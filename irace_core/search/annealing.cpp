@@ -120,10 +120,7 @@ class Annealing final : public Strategy {
   enum class Phase { Scale, Walking, Final, Over };
 
   static Error no_extension() {
-    return {ErrorKind::BadInput,
-            "annealing cannot be extended: its temperatures follow from the whole budget. Run the "
-            "campaign with the larger budget into a new store",
-            ""};
+    return {ErrorKind::BadInput, std::string(words_of(SearchKind::Annealing).no_extension), ""};
   }
 
   std::int64_t scale_runs() const { return scale_runs_of(options_); }

@@ -11,12 +11,17 @@ namespace {
 constexpr std::array kWords = {
     SearchWords{SearchKind::Irace, "irace", "iteration", "racing", "race", "configuration", true},
     SearchWords{SearchKind::Random, "random", "part", "searching", "final stage", "configuration"},
-    SearchWords{SearchKind::FRace, "f-race", "race", "racing", "race", "configuration", true},
+    SearchWords{
+        SearchKind::FRace, "f-race", "race", "racing", "race", "configuration", true,
+        "f-race cannot be extended: its configurations are drawn once, and how many follows "
+        "from the whole budget. Run the campaign with the larger budget into a new store"},
     SearchWords{SearchKind::Evolution, "evolution", "generation", "searching", "final stage",
                 "member"},
     SearchWords{SearchKind::CmaEs, "cma-es", "generation", "searching", "final stage", "member"},
     SearchWords{SearchKind::Annealing, "annealing", "part", "searching", "final stage",
-                "configuration"},
+                "configuration", false,
+                "annealing cannot be extended: its temperatures follow from the whole budget. Run "
+                "the campaign with the larger budget into a new store"},
 };
 
 constexpr auto kAll = [] {

@@ -25,12 +25,13 @@ std::span<const SearchKind> all_searches();
 /// What people call a search and its parts.
 struct SearchWords {
   SearchKind kind;
-  std::string_view name;       ///< in campaign files
-  std::string_view round;      ///< an iteration as its events count them: "generation"
-  std::string_view at_work;    ///< "racing", "searching"
-  std::string_view where;      ///< where the winner's mean is from: "race", "final stage"
-  std::string_view candidate;  ///< "member", "configuration"
-  bool has_tests = false;      ///< statistical ones, that drop candidates
+  std::string_view name;               ///< in campaign files
+  std::string_view round;              ///< an iteration as its events count them: "generation"
+  std::string_view at_work;            ///< "racing", "searching"
+  std::string_view where;              ///< where the winner's mean is from: "race", "final stage"
+  std::string_view candidate;          ///< "member", "configuration"
+  bool has_tests = false;              ///< statistical ones, that drop candidates
+  std::string_view no_extension = {};  ///< why a finished one cannot go on; empty if it can
 };
 
 const SearchWords& words_of(SearchKind kind);

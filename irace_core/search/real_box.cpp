@@ -21,6 +21,11 @@ std::string objection(const ParameterSpace& space, std::size_t index) {
 }  // namespace
 
 Expected<RealBox> RealBox::of(const ParameterSpace& space, std::string_view search) {
+  if (!space.forbidden().empty()) {
+    return bad_input("the search " + std::string(search) +
+                         " makes weights one by one, and would not keep to forbidden combinations",
+                     "forbidden");
+  }
   RealBox box;
   box.digits_ = space.digits();
   for (std::size_t i = 0; i < space.size(); ++i) {

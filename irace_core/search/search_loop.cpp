@@ -99,6 +99,8 @@ void SearchLoop::tell(std::span<const Measurement> measurements) {
     verdict.ended->iteration = iteration_;
     verdict.ended->used = used_;
     verdict.ended->remaining = budget() - used_;
+    // The strategy may go on from rejected ones, when it has no others.
+    std::erase_if(verdict.ended->elites, [](const Elite& elite) { return std::isinf(elite.mean); });
     elites_ = verdict.ended->elites;
     events_.emplace_back(std::move(*verdict.ended));
     // Who is out is seldom looked at again.
@@ -127,15 +129,16 @@ void SearchLoop::report_steps(std::span<const double> costs) {
 void SearchLoop::report_step(std::size_t first, std::size_t end, std::span<const double> costs) {
   const auto count = static_cast<std::int64_t>(end - first);
   used_ += count;
-  // The best so far in this round.
-  const std::vector<Scored> order = ranked(std::span(round_.runs).first(end), costs.first(end));
+  // The best so far in this round; nobody, as in races, when all were rejected.
+  Scored best = ranked(std::span(round_.runs).first(end), costs.first(end)).front();
+  if (std::isinf(best.mean)) best = {};
   RaceStep step{.iteration = iteration_,
                 .task = ++steps_,
                 .pair = wanted_[end - 1].pair,
                 .alive_before = n_alive(),
                 .alive_after = n_alive(),
-                .best = order.front().id,
-                .mean_best = order.front().mean,
+                .best = best.id,
+                .mean_best = best.mean,
                 .experiments_used = used_};
   Digest digest;
   digest.add(round_digest_);
@@ -152,7 +155,7 @@ void SearchLoop::report_step(std::size_t first, std::size_t end, std::span<const
 void SearchLoop::stop() {
   finished_ = true;
   wanted_.clear();
-  if (!failure_ && (elites_.empty() || std::isinf(elites_.front().mean))) {
+  if (!failure_ && elites_.empty()) {
     failure_ = Error{ErrorKind::BadInput, "every configuration was rejected", ""};
   }
   if (failure_) elites_.clear();

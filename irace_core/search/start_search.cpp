@@ -26,14 +26,58 @@ Expected<void> check_for_races_alone(const Scenario& scenario, SearchKind kind) 
   return {};
 }
 
+/// What irace plans for a configuration of a first race: until the first test, and on to the next.
+std::int64_t first_test_cost(const Scenario& scenario) {
+  return std::max(scenario.mu, scenario.first_test * scenario.block_size) +
+         scenario.each_test * scenario.block_size;
+}
+
+std::int64_t f_race_budget(const Scenario& scenario) {
+  return scenario.min_experiments.value_or(scenario.max_experiments);
+}
+
+Expected<void> check_f_race(const Scenario& scenario, const FRaceOptions& options) {
+  if (auto checked = check(scenario); !checked) return checked;
+  // Both need elites, which one race has not.
+  if (scenario.max_time > 0)
+    return bad_input("is for irace alone: the budget of f-race is max_experiments", "max_time");
+  if (uses_capping(scenario))
+    return bad_input("is for irace alone: f-race has no elites whose times are bounds", "capping");
+  if (options.configurations == 0) return {};
+  const std::int64_t budget = f_race_budget(scenario);
+  const std::int64_t least = options.configurations * first_test_cost(scenario);
+  if (budget >= least) return {};
+  return bad_input("`configurations` is " + std::to_string(options.configurations) +
+                       ", and a budget of " + std::to_string(budget) +
+                       " experiments is too small for so many: it must be at least " +
+                       std::to_string(least),
+                   "max_experiments");
+}
+
+/// One race is all of it: a further one would draw around the best, as iterated racing does.
+class FRace final : public IteratedRace {
+ public:
+  explicit FRace(IteratedRace race) : IteratedRace(std::move(race)) {}
+  Expected<void> extend(std::int64_t) override { return Unexpected(no_extension()); }
+  Expected<std::int64_t> least_extension() const override { return Unexpected(no_extension()); }
+
+ private:
+  static Error no_extension() {
+    return {ErrorKind::BadInput, std::string(words_of(SearchKind::FRace).no_extension), ""};
+  }
+};
+
 }  // namespace
 
 Scenario f_race_scenario(Scenario scenario, const FRaceOptions& options) {
   constexpr std::int64_t kShare = 20;
+  constexpr std::int64_t kLeast = 2;
+  const std::int64_t budget = f_race_budget(scenario);
+  const std::int64_t most = std::max(kLeast, budget / first_test_cost(scenario));
   scenario.nb_iterations = 1;
   scenario.nb_configurations = options.configurations > 0
                                    ? options.configurations
-                                   : std::max<std::int64_t>(2, scenario.max_experiments / kShare);
+                                   : std::clamp(budget / kShare, kLeast, most);
   scenario.max_configurations_per_race =
       std::max(scenario.max_configurations_per_race, scenario.nb_configurations);
   scenario.elitist = false;
@@ -49,19 +93,31 @@ Expected<std::unique_ptr<Search>> start_search(ParameterSpace space, const Scena
                                                std::vector<Configuration> initial, Repair repair,
                                                std::optional<search::Neighbourhood> neighbourhood) {
   if (options.kind == SearchKind::Irace || options.kind == SearchKind::FRace) {
-    auto race = IteratedRace::start(
-        std::move(space),
-        options.kind == SearchKind::FRace ? f_race_scenario(scenario, options.f_race) : scenario,
-        std::move(initial), std::move(repair));
+    const bool is_one = options.kind == SearchKind::FRace;
+    if (is_one) {
+      if (auto checked = check_f_race(scenario, options.f_race); !checked)
+        return Unexpected(checked.error());
+    }
+    auto race = IteratedRace::start(std::move(space),
+                                    is_one ? f_race_scenario(scenario, options.f_race) : scenario,
+                                    std::move(initial), std::move(repair));
     if (!race) return Unexpected(race.error());
+    if (is_one) return std::make_unique<FRace>(std::move(*race));
     return std::make_unique<IteratedRace>(std::move(*race));
   }
   if (auto checked = check(scenario); !checked) return Unexpected(checked.error());
   if (auto checked = check_for_races_alone(scenario, options.kind); !checked)
     return Unexpected(checked.error());
+  if (repair && options.kind != SearchKind::Random) {
+    return bad_input("is for irace, f-race and random: the search " +
+                         std::string(name_of(options.kind)) +
+                         " goes on from what it made itself, not from what was repaired",
+                     "repair_configuration");
+  }
   for (const Configuration& given : initial) {
     if (auto checked = space.check(given); !checked) return Unexpected(checked.error());
   }
+  std::erase_if(initial, [&](const Configuration& given) { return space.is_forbidden(given); });
   // Strategies point to it.
   auto shared = std::make_unique<ParameterSpace>(std::move(space));
   Expected<std::unique_ptr<search::Strategy>> strategy =
@@ -75,13 +131,12 @@ Expected<std::unique_ptr<Search>> start_search(ParameterSpace space, const Scena
       strategy = search::make_evolution(*shared, scenario, options.evolution, std::move(initial));
       break;
     case SearchKind::CmaEs:
-      if (repair) return bad_input("cannot be used with the search cma-es", "repair");
       strategy = search::make_cma_es(*shared, scenario, options.cma_es, initial);
       break;
     case SearchKind::Annealing: {
       if (!neighbourhood) {
         Rng rng = Rng(scenario.seed).split("start");
-        auto start = initial.empty() ? search::draw_uniform(*shared, repair, rng)
+        auto start = initial.empty() ? search::draw_uniform(*shared, {}, rng)
                                      : Expected<Configuration>(initial.front());
         if (!start) return Unexpected(start.error());
         neighbourhood = search::one_parameter_neighbourhood(*shared, std::move(*start));

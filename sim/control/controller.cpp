@@ -70,7 +70,12 @@ std::size_t find_controller(std::string_view line) {
 }
 
 Expected<Controller> parse_controller(std::string_view text, const Flavour& flavour) {
-  switch (architecture_of_text(text).value_or(Architecture::Machine)) {
+  const auto architecture = architecture_of_text(text);
+  if (!architecture) {
+    return Unexpected(error_at(tokens_of(text).front(),
+                               "control software begins with one of " + first_switches()));
+  }
+  switch (*architecture) {
     case Architecture::Tree:
       return as_controller(parse_tree(text, flavour));
     case Architecture::Network:

@@ -175,6 +175,11 @@ std::optional<Error> check(const Network& network, const Flavour& flavour) {
 
 Expected<Network> parse_network(std::string_view text, const Flavour& flavour) {
   const std::vector<Token> tokens = tokens_of(text);
+  constexpr std::size_t kList = 3;
+  if (tokens.size() > kList + 2 && tokens[kList].text.ends_with(',')) {
+    return Unexpected(
+        error_at(tokens[kList + 1], "weights are one list, with commas and without spaces"));
+  }
   const auto fields = fields_of(tokens);
   if (!fields) return Unexpected(fields.error());
   Block block("", tokens.back());

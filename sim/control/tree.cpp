@@ -25,8 +25,7 @@ std::optional<Error> need_value(Block& block, std::string_view stem, int value,
   const Expected<Field> field = block.need(stem);
   if (!field) return field.error();
   const Expected<int> number = integer_of(*field);
-  if (!number) return number.error();
-  if (*number == value) return std::nullopt;
+  if (number && *number == value) return std::nullopt;
   return error_at(field->value, quoted(field->name.text) + " must be " + std::to_string(value) +
                                     ", " + meaning + ": only Maple's trees can be read");
 }

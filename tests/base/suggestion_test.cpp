@@ -20,6 +20,14 @@ TEST(Suggestion, LooksAtNeitherCaseNorTheKindOfDash) {
   EXPECT_EQ(closest("Max-Experiments", kKeys), "max_experiments");
 }
 
+TEST(Suggestion, PrefersTheWordThatLacksADashAlone) {
+  const std::vector<std::string> searches = {"irace", "random", "f-race", "cma-es"};
+  EXPECT_EQ(closest("frace", searches), "f-race");
+  EXPECT_EQ(closest("F Race", searches), "f-race");
+  EXPECT_EQ(closest("cmaes", searches), "cma-es");
+  EXPECT_EQ(closest("race", searches), "irace");
+}
+
 TEST(Suggestion, ToleratesMoreEditsInLongerWords) {
   EXPECT_EQ(closest("repititons", kKeys), "repetitions");
 }

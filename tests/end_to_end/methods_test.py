@@ -107,7 +107,7 @@ class Extended(MethodTest):
     """A finished design goes on with more budget, and its answer is one again; or says why not."""
 
     def test_goes_on(self):
-        for preset in ("random", "vanilla", "evostick", "cma-es", "maple"):
+        for preset in ("random", "evostick", "cma-es", "maple"):
             with self.subTest(preset):
                 self.write(preset, f'method = "{preset}"\n{METHODS[preset]}')
                 digests = []
@@ -122,13 +122,16 @@ class Extended(MethodTest):
                     self.assertLessEqual(used, self.budget + 1400)
                 self.assertEqual(digests[0], digests[1])
 
-    def test_annealing_has_no_more_temperatures(self):
-        self.write("icepop", 'method = "icepop"')
-        store = self.folder / "icepop.db"
-        self.answer(store)
-        done = call("extend", store, "d1", "--budget", "1400")
-        self.assertNotEqual(done.returncode, 0)
-        self.assertIn("temperatures", done.stderr)
+    def test_what_follows_from_the_whole_budget_says_why_not(self):
+        for preset, why in (("icepop", "temperatures"), ("vanilla", "drawn once")):
+            with self.subTest(preset):
+                self.write(preset, f'method = "{preset}"')
+                store = self.folder / f"{preset}.db"
+                self.answer(store)
+                done = call("extend", store, "d1", "--budget", "1400")
+                self.assertNotEqual(done.returncode, 0)
+                self.assertIn("d1: ", done.stderr)
+                self.assertIn(why, done.stderr)
 
 
 class ExplicitForm(MethodTest):

@@ -92,6 +92,9 @@ class Words(ProgramTest):
             self.assertIn("final stage: 10 of 10 members", text)
             self.assertIn("one race: ", text)
             self.assertNotIn("iteration", text)
+        text = self.answer("status", store)
+        self.assertTrue("one configuration is left" in text or "does not fit" in text or
+                        "budget exhausted" in text, text)
         designs = json.loads(self.answer("status", store, "--json"))["designs"]
         self.assertEqual([one["stage"].split(":")[0] for one in designs],
                          ["final stage", "one race", "final stage", "final stage", "final stage"])
@@ -105,6 +108,11 @@ class Words(ProgramTest):
                                r"the final stage, .* the best mean before it")
         self.assertIn("generation 27 of 27: 10 members, 2 runs each; best c", text)
         self.assertIn("one race", self.answer("explain", "d2", store))
+        # The walk's last iterations are told of, although the final stage ended them.
+        parts = self.answer("explain", "d5", store).split("\n\n")[1].splitlines()
+        self.assertEqual([part.split(":")[0].split(";")[0].split(" ")[0] for part in parts],
+                         ["scale"] + ["iterations"] * (len(parts) - 2) + ["final"], parts)
+        self.assertRegex(parts[-2], r"^iterations \d+ to \d+$")
         told = json.loads(self.answer("explain", "d4", store, "--json"))
         self.assertEqual(told["search"], "cma-es")
         self.assertEqual(told["stages"][-1]["stage"], "final stage")
@@ -113,6 +121,16 @@ class Words(ProgramTest):
         self.assertIn("asked for   generation 1, first in step 1", text)
         self.assertIn("\nnetwork ", text)
         self.refused("has no d9", "explain", "d9", store)
+
+    def test_experiment_files_are_of_machines_alone(self):
+        store = self.store()
+        self.refused("the control software is a network, and .argos files are of state machines "
+                     "alone", "export", store, "--design", "d3", "--format", "argos")
+        done = call("export", store, "--format", "argos", "-o", self.folder / "experiments")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("2 of 5 are left out: they are trees or networks", done.stderr)
+        written = sorted(path.name[:2] for path in (self.folder / "experiments").iterdir())
+        self.assertEqual(written, ["d1", "d2", "d5"])
 
     def test_figure_race(self):
         store = self.store()

@@ -19,6 +19,23 @@ maxExperiments = 400
 seed = 42
 """
 
+REJECTS = """\
+format = 1
+[[mission]]
+name = "rejects"
+[[method]]
+name = "m"
+search = "{search}"
+parameters_text = 'x "--x " r (0, 1)'
+[method.{search}]
+{settings}
+[race]
+max_experiments = 150
+[simulator]
+kind = "command"
+command = ["./rejects"]
+"""
+
 MACHINES = """\
 format = 1
 [campaign]
@@ -58,6 +75,33 @@ class Target(ProgramTest):
         self.scenario = self.folder / "target"
         shutil.copytree(EXAMPLE, self.scenario)
         self.file = self.scenario / "campaign.toml"
+
+    def test_every_search_outlives_programs_that_reject(self):
+        """Costs of Inf, which no mean of a store can hold."""
+        options = {"random": "runs = 2\nfinalists = 3\nfinal_runs = 4",
+                   "f-race": "configurations = 20",
+                   "evolution": "population = 10\nruns = 1\nfinal_runs = 2",
+                   "cma-es": "population = 10\nruns = 1\nfinal_runs = 2",
+                   "annealing": "window = 2\nfinal_runs = 4"}
+        program = self.scenario / "rejects"
+        for search, settings in options.items():
+            for rejected in ("$2 > 0.4", "1"):
+                with self.subTest(search, rejected=rejected):
+                    program.write_text("#!/bin/sh\nshift 4\n"
+                                       f'awk "BEGIN {{ print ({rejected}) ? \\"Inf\\" : $2 }}"\n')
+                    program.chmod(0o755)
+                    self.file.write_text(REJECTS.format(search=search, settings=settings))
+                    store = self.folder / f"{search}{len(rejected)}.db"
+                    done = self.run_campaign(store)
+                    said = done.stdout + done.stderr
+                    if rejected == "1":
+                        self.assertIn("every configuration was rejected", said)
+                    else:
+                        self.assertEqual(done.returncode, 0, said)
+                        self.assertIn("best c", said)
+                    self.assert_clean(store)
+                    self.assertIn(f"search      {search}",
+                                  call("explain", "d1", store).stdout)
 
     def test_the_example_runs_and_is_found_clean_without_its_files(self):
         store = self.folder / "example.db"

@@ -145,13 +145,13 @@ class Delays(FaultTest):
     """A proxy holds bytes back: in order within a connection, out of order between them."""
     budget = 6000
 
-    def late(self, delay):
+    def late(self, delay, goodbyes_may_be_lost=False):
         serve = self.serve()
         rng = random.Random(2)
         proxies = [Proxy(self, serve.address(), delay=lambda direction: delay(rng))
                    for _ in range(3)]
         workers = [self.worker(proxy.address) for proxy in proxies]
-        numbers = self.finish(serve, workers)
+        numbers = self.finish(serve, [] if goodbyes_may_be_lost else workers)
         self.count("campaign with late bytes")
         self.assert_none(numbers, "failed", "rejected", "conflicts")
         return numbers
@@ -161,7 +161,9 @@ class Delays(FaultTest):
         self.assertEqual((numbers["lost_workers"], numbers["expired"]), (0, 0))
 
     def test_sometimes_seconds(self):
-        self.late(lambda rng: rng.uniform(1, 7) if rng.random() < 0.01 else 0.001)
+        # Whose goodbye was on its way when the coordinator left looks for it for ten minutes.
+        self.late(lambda rng: rng.uniform(1, 7) if rng.random() < 0.01 else 0.001,
+                  goodbyes_may_be_lost=True)
 
     def test_connections_are_broken_again_and_again(self):
         serve = self.serve()

@@ -63,7 +63,7 @@ void add_method_ranks(const ScoreTable& table, Comparison& comparison) {
     } else {
       comparison.notes.push_back(fmt::format(
           "{}: no ranks, since fewer than two missions have designs of every method; within "
-          "a mission the tests above compare them",
+          "a mission the tests of `compare` compare them",
           source));
     }
   }

@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 #include <string_view>
+#include <utility>
 #include <variant>
 
 namespace swarmsmith {
@@ -103,24 +104,26 @@ void read_pair(TableReader& table, Method& method, bool is_file) {
     method.architecture = preset->architecture;
     method.search.kind = preset->search;
     for (const std::string_view key : {"architecture", "search"}) {
-      if (!table.has(key)) continue;
       table.take(key);
+      if (!table.has(key)) continue;
       table.complain(key, "`method = \"" + *name + "\"` says architecture and search already: " +
                               std::string(name_of(method.architecture)) + " and " +
                               std::string(name_of(method.search.kind)) + "; leave one of them out");
     }
-  }
-  if (const auto name = table.choice("architecture", architectures)) {
-    method.architecture = kArchitectures.at(
-        static_cast<std::size_t>(std::ranges::find(architectures, *name) - architectures.begin()));
-  }
-  if (const auto name = table.choice("search", search_names())) {
-    method.search.kind =
-        *std::ranges::find(all_searches(), *name, [](SearchKind kind) { return name_of(kind); });
+  } else {
+    if (const auto said = table.choice("architecture", architectures)) {
+      method.architecture = kArchitectures.at(static_cast<std::size_t>(
+          std::ranges::find(architectures, *said) - architectures.begin()));
+    }
+    if (const auto said = table.choice("search", search_names())) {
+      method.search.kind =
+          *std::ranges::find(all_searches(), *said, [](SearchKind kind) { return name_of(kind); });
+    }
   }
   const bool wants_reals =
       method.search.kind == SearchKind::Evolution || method.search.kind == SearchKind::CmaEs;
-  if (wants_reals && !is_file && method.architecture != Architecture::Network) {
+  if (wants_reals && !is_file && method.baseline.empty() &&
+      method.architecture != Architecture::Network) {
     table.complain("search", "the search " + std::string(name_of(method.search.kind)) +
                                  " needs reals without conditions, such as the weights of "
                                  "networks (`architecture = \"network\"`), and a " +
@@ -135,14 +138,36 @@ void read_pair(TableReader& table, Method& method, bool is_file) {
   }
 }
 
+/// The published schedule has temperatures of its own. The usual values may stand there, as they do
+/// in the text that stores have.
+void refuse_temperatures_of_others(TableReader& options, const AnnealingOptions& read) {
+  if (read.cooling != Cooling::Published) return;
+  const AnnealingOptions usual;
+  for (const auto& [key, member] :
+       {std::pair{"start_temperature", &AnnealingOptions::start_temperature},
+        std::pair{"end_temperature", &AnnealingOptions::end_temperature}}) {
+    if (!options.has(key) || read.*member == usual.*member) continue;
+    options.complain(key, "`" + std::string(key) +
+                              "` is of geometric cooling; the published one begins at 125 score "
+                              "units, and again whenever it is below 0.00125");
+  }
+}
+
 /// [method.evolution] and so on: only that of the method's own search.
 void read_numbers(TableReader& table, Method& method) {
   const SearchKind own = method.search.kind;
   for (const SearchKind kind : all_searches()) {
     const std::string name(name_of(kind));
+    if (kind == SearchKind::Irace) {
+      if (table.has(name)) {
+        table.take(name);
+        table.complain(name, "[method.irace] has no keys: what irace goes by is in [race]");
+      }
+      continue;
+    }
+    table.take(name);
     if (!table.has(name)) continue;
     if (kind != own) {
-      table.take(name);
       table.complain(name, "[method." + name + "] is of the search " + name +
                                ", and this method's search is " + std::string(name_of(own)));
       continue;
@@ -158,6 +183,10 @@ void read_numbers(TableReader& table, Method& method) {
       } else if (const auto value = options->number(number.key, {number.least, number.most})) {
         std::get<1>(number.of)(method.search) = *value;
       }
+    }
+    if (kind == SearchKind::FRace && method.search.f_race.configurations == 1) {
+      options->complain("configurations",
+                        "`configurations` must be 0 (automatic) or at least 2, this is 1");
     }
     if (kind == SearchKind::Evolution) {
       if (const auto mutation = options->choice("mutation", kMutations))
@@ -179,6 +208,7 @@ void read_numbers(TableReader& table, Method& method) {
       if (method.search.annealing.moved > method.search.annealing.window)
         options->complain("moved", "`moved` is at most `window`: a window moves on by parts of it");
       const AnnealingOptions& read = method.search.annealing;
+      refuse_temperatures_of_others(*options, read);
       if (read.start_temperature > 0 && read.end_temperature > read.start_temperature) {
         options->complain(options->has("end_temperature") ? "end_temperature" : "start_temperature",
                           "`end_temperature` (" + number_text(read.end_temperature) +
@@ -195,9 +225,9 @@ void read_network(TableReader& table, Method& method) {
   const auto flavour = find_flavour(method.flavour);
   if (flavour && (*flavour)->find(Module::Phototaxis) != nullptr)
     method.inputs = NetworkInputs::Rm12;
+  table.take("network");
   if (!table.has("network")) return;
   if (!is_network) {
-    table.take("network");
     table.complain("network",
                    "[method.network] is for networks, and this method's architecture is " +
                        std::string(name_of(method.architecture)));

@@ -253,6 +253,12 @@ void read_baseline(TableReader& table, const std::filesystem::path& folder, Meth
   const auto baseline = table.text("baseline");
   if (!baseline) return;
   method.baseline = *baseline;
+  for (const std::string_view key : {"method", "search"}) {
+    if (!table.has(key)) continue;
+    table.complain(key, "`" + std::string(key) +
+                            "` says how control software is searched for, and a `baseline` is not "
+                            "searched for");
+  }
   if (method.baseline == kRandomMachine) return;
   if (!baseline->starts_with("--") && (baseline->empty() || baseline->starts_with('-') ||
                                        lower_case(*baseline) == kRandomMachine)) {
@@ -270,8 +276,8 @@ void read_baseline(TableReader& table, const std::filesystem::path& folder, Meth
     follow_head(table, filed->head, method);
     turn_clock = filed->head.turn_clock;
   }
-  for (const std::string_view key :
-       {"max_states", "max_transitions", "behaviours", "conditions", "parameters"}) {
+  for (const std::string_view key : {"max_states", "max_transitions", "max_subtrees", "behaviours",
+                                     "conditions", "parameters", "network"}) {
     if (table.has(key)) {
       table.complain(key,
                      "`" + std::string(key) +
@@ -284,6 +290,7 @@ void read_baseline(TableReader& table, const std::filesystem::path& folder, Meth
   const auto given = parse_controller(method.baseline, **flavour);
   if (given) {
     method.baseline = print_controller(*given, **flavour);
+    method.architecture = architecture_of(*given);
   } else {
     table.complain("baseline", given.error().where + ": " + given.error().message);
   }
@@ -334,13 +341,24 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
     return method;
   }
   const Flavour* flavour = read_flavour(table, method);
-  read_search(table, method, false);
-  refuse_foreign_keys(table, method);
   if (flavour != nullptr) {
     read_baseline(table, folder, method);
     flavour = *find_flavour(method.flavour);
   } else {
     table.take("baseline");
+  }
+  const bool is_given = !method.baseline.empty() && method.baseline != kRandomMachine;
+  const Architecture given = method.architecture;
+  read_search(table, method, false);
+  if (!is_given) {
+    refuse_foreign_keys(table, method);
+  } else if (method.architecture != given) {
+    if (table.has("architecture")) {
+      table.complain("architecture", "`baseline` is a " + std::string(name_of(given)) +
+                                         ", and `architecture` says " +
+                                         std::string(name_of(method.architecture)));
+    }
+    method.architecture = given;
   }
   method.max_states = table.integer("max_states", {1, kMaxStates}).value_or(kMaxStates);
   method.max_transitions =
@@ -349,6 +367,13 @@ Method read_method(TableReader& table, const std::vector<std::string>& taken,
   if (flavour != nullptr) {
     if (method.baseline.empty() || table.has("turn_clock")) {
       method.turn_clock = read_turn_clock(table, *flavour);
+    }
+    // Its usual value may stand there, as it does in the text that stores have.
+    if (table.has("turn_clock") && method.architecture == Architecture::Network &&
+        method.turn_clock != flavour->exploration.turn_clock) {
+      table.complain("turn_clock",
+                     "`turn_clock` is for machines and trees, and this method's architecture is "
+                     "network, which has no exploration");
     }
     method.behaviours = read_modules(table, "behaviours", flavour->behaviours, flavour->name);
     method.conditions = read_modules(table, "conditions", flavour->conditions, flavour->name);

@@ -38,6 +38,8 @@ void add_method(const Method& method, std::vector<Section>& sections) {
   const std::string prefix = "method." + method.name + ".";
   if (!method.parameters.empty()) {
     sections.push_back(parameter_file_section(method));
+    append(sections.back().lines, search_lines(method));
+    append(sections, search_sections(method, prefix));
     return;
   }
   Section section{"[[method]]",
@@ -46,12 +48,13 @@ void add_method(const Method& method, std::vector<Section>& sections) {
                    {"flavour", quoted_text(method.flavour)},
                    {"turn_clock", quoted_text(name_of(method.turn_clock))}}};
   if (!method.baseline.empty()) section.lines.push_back({"baseline", quoted_text(method.baseline)});
-  if (method.baseline.empty() || method.baseline == kRandomMachine) {
+  const bool is_given = !method.baseline.empty() && method.baseline != kRandomMachine;
+  if (!is_given) {
     append(section.lines, search_lines(method));
     append(section.lines, size_lines(method));
   }
   sections.push_back(std::move(section));
-  append(sections, search_sections(method, prefix));
+  if (!is_given) append(sections, search_sections(method, prefix));
   if (method.ranges.empty()) return;
   Section parameters{"[method.parameters]", prefix + "parameters.", {}};
   const auto flavour = find_flavour(method.flavour);

@@ -35,15 +35,17 @@ TEST_F(ComparisonStoreTest, SummarisesTheWinnersTests) {
   EXPECT_NEAR(comparison->groups.front().summary.mean, std::stod(mean.front().front()), 1e-9);
 }
 
-TEST_F(ComparisonStoreTest, SaysWhichMethodUsedMuchLessThanItsBudget) {
+/// Two methods of one design with a budget of 1,000, which used so much.
+Expected<Comparison> compared_budgets(const std::filesystem::path& file, std::int64_t all,
+                                      std::int64_t other, CompareBy by) {
   SyntheticCampaign made = synthetic_campaign({.designs = 2, .tests = 4});
   made.designs[0].method = "all";
-  made.designs[1].method = "half";
+  made.designs[1].method = "other";
   made.designs[0].mission = made.designs[1].mission = "m";
   for (DesignRow& design : made.designs)
     design.budget = 1000;
   {
-    auto store = open_store(folder / "two.db", made);
+    auto store = open_store(file, made);
     for (const auto& batch : made.batches)
       store->append(batch);
     std::vector<Row> ends;
@@ -52,23 +54,36 @@ TEST_F(ComparisonStoreTest, SaysWhichMethodUsedMuchLessThanItsBudget) {
         const auto* state = std::get_if<DesignStateRow>(&row);
         if (state == nullptr || state->state != DesignState::Finished) continue;
         DesignStateRow end = *state;
-        end.used = end.design == made.designs[0].id ? 960 : 480;
+        end.used = end.design == made.designs[0].id ? all : other;
         ends.emplace_back(end);
       }
     }
-    ASSERT_EQ(ends.size(), 2U);
+    EXPECT_EQ(ends.size(), 2U);
     store->append(std::move(ends));
   }
-  const auto two = open_reader(folder / "two.db");
-  const auto comparison = compare(*two, {.by = CompareBy::Method});
+  const auto two = open_reader(file);
+  return compare(*two, {.by = by});
+}
+
+TEST_F(ComparisonStoreTest, SaysWhichMethodUsedMuchLessThanItsBudget) {
+  const auto comparison = compared_budgets(folder / "two.db", 960, 480, CompareBy::Method);
   ASSERT_TRUE(comparison) << to_string(comparison.error());
   EXPECT_THAT(
       comparison->notes,
-      testing::Contains("half used 48 % of its experiments (480 of 1000): compare with what "
+      testing::Contains("other used 48 % of its experiments (480 of 1000): compare with what "
                         "the others used"));
   EXPECT_THAT(comparison->notes, testing::Not(testing::Contains(testing::HasSubstr("all used"))));
-  EXPECT_THAT(compare(*two, {.by = CompareBy::Mission})->notes,
+  EXPECT_THAT(compared_budgets(folder / "by_mission.db", 960, 480, CompareBy::Mission)->notes,
               testing::Not(testing::Contains(testing::HasSubstr("of its experiments"))));
+}
+
+TEST_F(ComparisonStoreTest, SaysWhichMethodWasExtended) {
+  const auto comparison = compared_budgets(folder / "two.db", 1000, 2300, CompareBy::Method);
+  ASSERT_TRUE(comparison) << to_string(comparison.error());
+  EXPECT_THAT(comparison->notes,
+              testing::Contains("other used 230 % of its experiments (2300 of 1000), since it was "
+                                "extended: compare with what the others used"));
+  EXPECT_THAT(comparison->notes, testing::Not(testing::Contains(testing::HasSubstr("all used"))));
 }
 
 TEST_F(ComparisonStoreTest, NamesWhatThereIsWhenSomethingElseIsAskedFor) {

@@ -91,5 +91,14 @@ TEST_F(RanksFigureTest, SaysWhyThereIsNothingToRank) {
   EXPECT_EQ(make(*store, {.by = "mission"}).error().kind, ErrorKind::BadInput);
 }
 
+TEST_F(RanksFigureTest, SaysNothingOfTheTestsBetweenGroups) {
+  const auto store = store_with("chocolate", "watermelon");
+  const auto figure = make(*store, {.filter = {.mission = "aggregation"}, .by = "method"});
+  ASSERT_FALSE(figure);
+  EXPECT_EQ(figure.error().message,
+            "there is nothing to rank: rvr: no ranks, since fewer than two missions have designs "
+            "of every method; within a mission the tests of `compare` compare them");
+}
+
 }  // namespace
 }  // namespace swarmsmith

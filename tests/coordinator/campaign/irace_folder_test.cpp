@@ -171,6 +171,17 @@ TEST(IraceFolder, SaysWhatThatIraceCannotBeTold) {
   EXPECT_EQ(timed.error().where, "max_time");
 }
 
+TEST(IraceFolder, OfABaselineHasNothingToRace) {
+  for (const char* baseline : {"random", "--nstates 1 --s0 1"}) {
+    FileText file;
+    file.method += "baseline = \"" + std::string(baseline) + "\"\n";
+    const Campaign campaign = parsed(file.text());
+    const auto made = irace_folder(campaign, design_rows(campaign).front(), IraceVersion::V4, "/p");
+    ASSERT_FALSE(made);
+    EXPECT_THAT(to_string(made.error()), testing::HasSubstr("d1: it is of the baseline"));
+  }
+}
+
 TEST(IraceFolder, OfATargetCallsItsPrograms) {
   const Campaign campaign =
       parsed(FileText{.mission = "name = \"tuning\"\ninstances.training = [\"a b\", \"c\"]\n",

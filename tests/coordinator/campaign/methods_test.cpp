@@ -180,6 +180,94 @@ TEST(Methods, OfBaselinesMayBeAnyArchitecture) {
       "baseline = \"--nroot 3 --nchildroot 1 --n0 0 --nchild0 2 --n00 6 --c00 0 --p00 1 --n01 5 "
       "--a01 1 --p01 0\"\n");
   EXPECT_THAT(campaign.methods[0].baseline, HasSubstr("--nroot 3"));
+  const auto again = parse_campaign(normalised_text(campaign), "x.toml");
+  ASSERT_TRUE(again) << to_string(again.error().front());
+  EXPECT_EQ(again->methods, campaign.methods);
+}
+
+TEST(Methods, OfBaselinesAreNotSearchedFor) {
+  const std::string machine = "baseline = \"--nstates 1 --s0 1\"\n";
+  EXPECT_EQ(complaint_about(machine + "architecture = \"machine\"\n"), "read");
+  EXPECT_THAT(complaint_about(machine + "architecture = \"tree\"\n"),
+              HasSubstr("`baseline` is a machine, and `architecture` says tree"));
+  EXPECT_THAT(complaint_about(machine + "max_subtrees = 1\n"),
+              HasSubstr("`max_subtrees` says what a race may try"));
+  for (const std::string& baseline : {machine, std::string("baseline = \"random\"\n")}) {
+    EXPECT_THAT(complaint_about(baseline + "method = \"evostick\"\n"),
+                HasSubstr("`method` says how control software is searched for, and a `baseline` is "
+                          "not searched for"));
+    EXPECT_THAT(complaint_about(baseline + "search = \"random\"\n"),
+                HasSubstr("`search` says how control software is searched for"));
+    EXPECT_THAT(complaint_about(baseline + "[method.irace]\n"), HasSubstr("irace"));
+    EXPECT_THAT(complaint_about(baseline + "[method.evolution]\nruns = 3\n"),
+                HasSubstr("[method.evolution] is of the search evolution"));
+  }
+  EXPECT_THAT(complaint_about(machine + "[method.network]\ninputs = \"rvr\"\n"),
+              HasSubstr("`network` says what a race may try"));
+  EXPECT_EQ(complaint_about("baseline = \"random\"\narchitecture = \"tree\"\nmax_subtrees = 2\n"),
+            "read");
+}
+
+TEST(Methods, SayAFaultOnceAndWhatWasMeant) {
+  const auto complaints = [](const std::string& method) {
+    const auto read = parse_campaign(file_of(method).text(), "x.toml");
+    std::vector<std::string> all;
+    if (read) return all;
+    for (const Error& error : read.error())
+      all.push_back(to_string(error));
+    return all;
+  };
+  using ::testing::ElementsAre;
+  EXPECT_THAT(complaints("method = \"evostick\"\narchitecture = \"machine\"\n"),
+              ElementsAre(HasSubstr("says architecture and search already")));
+  EXPECT_THAT(complaints("method = \"maple\"\nsearch = \"evolution\"\n"),
+              ElementsAre(HasSubstr("says architecture and search already")));
+  EXPECT_THAT(complaints("search = \"frace\"\n"),
+              ElementsAre(HasSubstr("did you mean \"f-race\"?")));
+  EXPECT_THAT(complaints("search = \"f-race\"\n[method.f_race]\nconfigurations = 30\n"),
+              ElementsAre(HasSubstr("has no key `f_race` (did you mean \"f-race\"?)")));
+  EXPECT_THAT(complaints("architecture = \"network\"\n[method.netwrok]\ninputs = \"rvr\"\n"),
+              ElementsAre(HasSubstr("(did you mean \"network\"?)")));
+}
+
+TEST(Methods, RefuseWhatDecidesNothing) {
+  EXPECT_THAT(complaint_about("method = \"evostick\"\nturn_clock = \"seconds\"\n"),
+              HasSubstr("`turn_clock` is for machines and trees"));
+  EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"
+                              "start_temperature = 2\n"),
+              HasSubstr("`start_temperature` is of geometric cooling; the published one begins at "
+                        "125 score units"));
+  EXPECT_THAT(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"
+                              "end_temperature = 0.5\n"),
+              HasSubstr("`end_temperature` is of geometric cooling"));
+  EXPECT_EQ(complaint_about("method = \"icepop\"\n[method.annealing]\ncooling = \"published\"\n"),
+            "read");
+}
+
+TEST(Methods, RefuseARepairThatTheirSearchWouldNotUse) {
+  const std::string race = "repair_configuration = \"./repair\"\n";
+  for (const char* unused : {"evostick", "cma-es", "icepop"}) {
+    EXPECT_THAT(complaint_about("method = \"" + std::string(unused) + "\"\n", race),
+                HasSubstr("repair_configuration: is for irace, f-race and random"));
+  }
+  for (const char* used : {"random", "vanilla", "maple"})
+    EXPECT_EQ(complaint_about("method = \"" + std::string(used) + "\"\n", race), "read");
+}
+
+TEST(Methods, TakeAsManyConfigurationsAsAnFRaceCanTest) {
+  for (const char* slow : {"first_test = 25\n", "mu = 40\n", "each_test = 5\nfirst_test = 20\n"})
+    EXPECT_EQ(complaint_about("method = \"vanilla\"\n", slow), "read") << slow;
+  EXPECT_EQ(complaint_about("method = \"vanilla\"\n", "min_experiments = 500\n"), "read");
+}
+
+TEST(Methods, SayWhyAnFRaceIsTooSmallOrTooLarge) {
+  EXPECT_THAT(complaint_about("method = \"vanilla\"\n[method.f-race]\nconfigurations = 1\n"),
+              HasSubstr("`configurations` must be 0 (automatic) or at least 2, this is 1"));
+  const std::string large =
+      complaint_about("method = \"vanilla\"\n[method.f-race]\nconfigurations = 50000\n");
+  EXPECT_THAT(large, HasSubstr("`configurations` is 50000"));
+  EXPECT_THAT(large, HasSubstr("at least 300000"));
+  EXPECT_THAT(large, ::testing::Not(HasSubstr("nb_configurations")));
 }
 
 }  // namespace

@@ -55,6 +55,34 @@ TEST(TargetCampaign, KeepsInstancesParametersAndPrograms) {
   expect_kept(campaign);
 }
 
+/// Of a method with parameters that every search takes.
+std::string searched_by(const std::string& search) {
+  return FileText{
+      .mission = "name = \"tuning\"\n",
+      .method = "name = \"all\"\nparameters_text = \"a \\\"--a \\\" r (0, 10)\"\n" + search,
+      .race = "max_experiments = 4000\n",
+      .rest = kSimulator}
+      .text();
+}
+
+TEST(TargetCampaign, KeepsTheSearchOfAParameterFile) {
+  const std::string races = campaign_digest(parsed(searched_by("")));
+  EXPECT_EQ(campaign_digest(parsed(searched_by("search = \"irace\"\n"))), races);
+  for (const SearchKind kind : all_searches()) {
+    if (kind == SearchKind::Irace) continue;
+    const std::string name(name_of(kind));
+    const Campaign campaign = parsed(searched_by("search = \"" + name + "\"\n"));
+    EXPECT_EQ(campaign.methods[0].search.kind, kind);
+    expect_kept(campaign);
+    EXPECT_NE(campaign_digest(campaign), races) << name;
+    const std::string key = kind == SearchKind::FRace ? "configurations" : "final_runs";
+    const Campaign other =
+        parsed(searched_by("search = \"" + name + "\"\n[method." + name + "]\n" + key + " = 7\n"));
+    expect_kept(other);
+    EXPECT_NE(campaign_digest(other), campaign_digest(campaign)) << name;
+  }
+}
+
 TEST(TargetCampaign, CallsThatNoTaskCanCarryAreRefusedAtTheStart) {
   Method method;
   for (int i = 0; i < 2000; ++i)

@@ -1,4 +1,5 @@
 #include <gmock/gmock.h>
+#include <cmath>
 #include <limits>
 #include <set>
 
@@ -111,6 +112,16 @@ TEST_P(EverySearch, FindsTheSphereBetterThanItsFirstDraws) {
   EXPECT_LT(distance, 9);
 }
 
+/// Stores take finite numbers alone, and a step or an iteration may have nobody who is any good.
+void expect_finite(const Played& played) {
+  for (const RaceStep& step : only<RaceStep>(played.events))
+    EXPECT_TRUE(std::isfinite(step.mean_best)) << "step of iteration " << step.iteration;
+  for (const IterationEnded& ended : only<IterationEnded>(played.events)) {
+    for (const Elite& elite : ended.elites)
+      EXPECT_TRUE(std::isfinite(elite.mean)) << "elite of iteration " << ended.iteration;
+  }
+}
+
 TEST_P(EverySearch, OutlivesRejectionsAndSaysWhenThereIsNothingElse) {
   const double rejected = std::numeric_limits<double>::infinity();
   auto search = started(weights_space(3), options_of(GetParam()), 3000);
@@ -119,9 +130,15 @@ TEST_P(EverySearch, OutlivesRejectionsAndSaysWhenThereIsNothingElse) {
   });
   ASSERT_FALSE(some.elites.empty());
   EXPECT_LE(search->configuration(some.elites.front().configuration)[0], 2);
+  expect_finite(some);
+
+  auto unlucky = started(weights_space(3), options_of(GetParam()), 3000);
+  expect_finite(play(*unlucky, [&](const Configuration& c, const Experiment& e) {
+    return c[0] > -4 ? rejected : noisy_sphere(c, e);
+  }));
 
   auto hopeless = started(weights_space(3), options_of(GetParam()), 3000);
-  play(*hopeless, [&](const Configuration&, const Experiment&) { return rejected; });
+  expect_finite(play(*hopeless, [&](const Configuration&, const Experiment&) { return rejected; }));
   ASSERT_TRUE(hopeless->failure());
   EXPECT_THAT(hopeless->failure()->message, HasSubstr("rejected"));
   EXPECT_TRUE(hopeless->elites().empty());
@@ -167,6 +184,45 @@ TEST_P(EverySearch, GoesOnAfterAnExtensionOrSaysWhyNot) {
   EXPECT_EQ(search->experiments_used(), played.asked);
 }
 
+TEST(Search, OfOneRaceHasNoOther) {
+  auto search = started(weights_space(3), options_of(SearchKind::FRace), 3000);
+  play(*search, noisy_sphere);
+  ASSERT_TRUE(search->finished());
+  ASSERT_FALSE(search->extend(100'000));
+  EXPECT_THAT(search->least_extension().error().message, HasSubstr("drawn once"));
+}
+
+TEST(Search, OfOneRaceDrawsAsManyAsItCanTest) {
+  const auto drawn = [](Scenario scenario, const FRaceOptions& options = {}) {
+    return f_race_scenario(scenario, options).nb_configurations;
+  };
+  Scenario scenario;
+  scenario.max_experiments = 4000;
+  EXPECT_EQ(drawn(scenario), 200);
+  scenario.first_test = 25;
+  EXPECT_EQ(drawn(scenario), 4000 / 26);
+  EXPECT_EQ(drawn(scenario, {.configurations = 70}), 70);
+  scenario.first_test = 5;
+  scenario.min_experiments = 1000;
+  EXPECT_EQ(drawn(scenario), 50);
+}
+
+TEST(Search, OfOneRaceHasNeitherTimesNorElitesThatBoundThem) {
+  Scenario scenario;
+  scenario.max_time = 5000;
+  const SearchOptions options = options_of(SearchKind::FRace);
+  const auto in_time = start_search(weights_space(3), scenario, options);
+  ASSERT_FALSE(in_time);
+  EXPECT_THAT(to_string(in_time.error()), HasSubstr("the budget of f-race is max_experiments"));
+  scenario.max_time = 0;
+  scenario.max_experiments = 4000;
+  scenario.capping = true;
+  scenario.bound_max = 10;
+  const auto capped = start_search(weights_space(3), scenario, options);
+  ASSERT_FALSE(capped);
+  EXPECT_THAT(to_string(capped.error()), HasSubstr("capping: is for irace alone"));
+}
+
 TEST(Search, OptionsOfRacesAreRefusedByTheOthers) {
   for (const SearchKind kind : all_searches()) {
     if (kind == SearchKind::Irace || kind == SearchKind::FRace) continue;
@@ -189,6 +245,37 @@ TEST(Search, OfWeightsAloneSaysWhatItCannotUse) {
     EXPECT_EQ(search.error().where, "mode");
     EXPECT_THAT(search.error().message, HasSubstr(std::string(name_of(kind))));
   }
+}
+
+/// The first weight may not be 0 or less.
+ParameterSpace space_with_forbidden() {
+  std::vector<Parameter> parameters;
+  for (const char* name : {"w0", "w1"})
+    parameters.push_back({name, std::string("--") + name + " ", Real{-5.0, 5.0}, {}});
+  std::vector<Expression> forbidden;
+  forbidden.push_back(
+      Expression::call(Operation::LessEqual, {Expression::parameter("w0"), Expression::number(0)}));
+  return ParameterSpace::make(std::move(parameters), std::move(forbidden), 4).value();
+}
+
+TEST_P(EverySearch, KeepsToWhatIsNotForbiddenOrSaysThatItCannot) {
+  Scenario scenario;
+  scenario.max_experiments = 3000;
+  scenario.n_instances = 1;
+  Configuration given(2);
+  given.set(0, -1);
+  given.set(1, 1);
+  auto search = start_search(space_with_forbidden(), scenario, options_of(GetParam()), {given});
+  if (GetParam() == SearchKind::Evolution || GetParam() == SearchKind::CmaEs) {
+    ASSERT_FALSE(search);
+    EXPECT_THAT(to_string(search.error()), HasSubstr("would not keep to forbidden combinations"));
+    return;
+  }
+  ASSERT_TRUE(search) << to_string(search.error());
+  play(**search, [](const Configuration& configuration, const Experiment& experiment) {
+    EXPECT_GT(configuration[0], 0);
+    return noisy_sphere(configuration, experiment);
+  });
 }
 
 }  // namespace

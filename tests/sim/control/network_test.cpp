@@ -129,6 +129,9 @@ TEST(NetworkText, SaysWhatIsWrongAndWhere) {
     return read ? "read" : read.error().where + ": " + read.error().message;
   };
   EXPECT_THAT(complaint("--network rvr"), HasSubstr("expected `--weights`"));
+  EXPECT_THAT(
+      complaint("--network rvr --weights 1, 2, 3"),
+      HasSubstr("token 5, column 28: weights are one list, with commas and without spaces"));
   EXPECT_THAT(complaint("--network e-puck --weights 1"),
               HasSubstr("token 2, column 11: no inputs `e-puck`"));
   EXPECT_THAT(complaint("--network rvr --weights 1,2"), HasSubstr("has 26 weights, not 2"));

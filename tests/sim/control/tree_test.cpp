@@ -121,6 +121,8 @@ TEST(TreeText, SaysWhatIsWrongAndWhere) {
   EXPECT_THAT(complaint("--n00 6", "--n00 5"), HasSubstr("a condition"));
   EXPECT_THAT(complaint("--p01 0", "--p01 1"), HasSubstr("never reports success"));
   EXPECT_THAT(complaint("--p01 0", ""), HasSubstr("expected `--p01`"));
+  EXPECT_THAT(complaint("--p01 0", "--p01 0.5"),
+              HasSubstr("`--p01` must be 0, an action that never reports success"));
   EXPECT_THAT(complaint("--a01 1", "--a01 99"), HasSubstr("has no module 99"));
   EXPECT_THAT(complaint("--p00 1", "--p00 7"), HasSubstr("`--p00`"));
   EXPECT_THAT(complaint("--p00 1", "--p00 1 --w00 3"), HasSubstr("does not belong to black_floor"));
