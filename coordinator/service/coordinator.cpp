@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "base/assert.h"
 #include "base/overloaded.h"
@@ -23,13 +24,17 @@ google::protobuf::ArenaOptions arena_options() {
   return options;
 }
 
+/// A scenario with pictures has megabytes, so there is one of it.
+PoolFacts facts_of(std::string scenario) {
+  const std::uint64_t digest = digest_of_scenario(scenario);
+  return {.campaign_digests = {}, .scenario = std::move(scenario), .scenario_digest = digest};
+}
+
 }  // namespace
 
 Coordinator::Coordinator(CoordinatorOptions options, const std::vector<CampaignWork>& campaigns)
     : options_(std::move(options)),
-      facts_{.campaign_digests = {},
-             .scenario = options_.scenario,
-             .scenario_digest = digest_of_scenario(options_.scenario)},
+      facts_(facts_of(std::move(options_.scenario))),
       budgets_(options_.budgets),
       scheduler_(options_.scheduler),
       pool_rows_(scheduler_, budgets_),

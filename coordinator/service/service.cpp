@@ -56,10 +56,10 @@ class Loop final : public Service {
       : options_(std::move(options)),
         stores_(campaigns, wakeup_),
         socket_(std::move(socket)),
-        coordinator_(options_.coordinator, works),
         referee_(options_.make_referee ? options_.make_referee(options_.coordinator.scenario,
                                                                [this] { wakeup_.notify(); })
                                        : nullptr),
+        coordinator_(std::move(options_.coordinator), works),
         telemetry_(telemetry_of(campaigns), clock_.now()),
         row_log_(searches_of(campaigns)) {}
 
@@ -299,8 +299,8 @@ class Loop final : public Service {
   Wakeup wakeup_;
   CampaignStores stores_;
   std::unique_ptr<ServerSocket> socket_;
-  Coordinator coordinator_;
   std::unique_ptr<Referee> referee_;
+  Coordinator coordinator_;
   const ServiceHooks* hooks_ = nullptr;
   Telemetry telemetry_;
   RowLog row_log_;

@@ -173,7 +173,7 @@ class Builds(FaultTest):
 
 
 class Drain(FaultTest):
-    budget = 8000
+    budget = 40000
 
     def test_sixty_four_workers_are_told_to_end_at_once(self):
         """As when an array is cancelled: all that they hold comes back at once."""
