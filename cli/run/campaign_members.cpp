@@ -53,7 +53,7 @@ ExitCode CampaignMembers::open_stores(RunListener& listener) {
     if ((*store)->trust().distrusted) {
       return fail(output_, ExitCode::Store,
                   {ErrorKind::Conflict,
-                   "scores in this store are not to be believed (`swarmsmith query STORE \"SELECT "
+                   "scores in this store are not reliable (`swarmsmith query STORE \"SELECT "
                    "text FROM event WHERE severity = 'error'\"` says why); run the campaign again "
                    "into a new store",
                    campaign.store.string()});

@@ -30,6 +30,13 @@ std::string text_of(const Said& said) {
   return said.what == Said::What::Score ? fmt::format("{}", said.score) : "no score";
 }
 
+/// Equal scores of runs whose robots ended elsewhere are no evidence without this.
+std::string text_beside(const Said& said, const Ruling& ruling) {
+  const bool is_same = said.what == Said::What::Score && ruling.kind == Ruling::Kind::Score &&
+                       said.score == ruling.score;
+  return text_of(ruling) + (is_same ? ", with another end of the run" : "");
+}
+
 }  // namespace
 
 /// The lease ends in any case. With a second copy out nothing is claimed yet: its result will show.
@@ -212,7 +219,7 @@ void Trust::on_ruled_word(const Said& said, const Ruling& ruling, TimePoint now)
   if (is_decided && !is_right(said, ruling)) {
     convict(*principal,
             "it gave " + text_of(said) + " for the evaluation of " + name_of(unpack(ruling.key)) +
-                ", and this host " + text_of(ruling),
+                ", and this host " + text_beside(said, ruling),
             now);
   } else if (is_decided) {
     ++principal->confirmed;
@@ -240,9 +247,10 @@ void Trust::compare_with_stored(const Case& ruled, const Ruling& ruling) {
     if (!said.taken || is_right(said, ruling)) continue;
     const std::uint32_t campaign = ruled.task.campaign;
     const std::string name = name_of(ruled.task.key);
-    book_->note("error", "a stored score is wrong",
-                {{"evaluation", name}, {"stored", text_of(said)}, {"this host", text_of(ruling)}},
-                campaign);
+    book_->note(
+        "error", "a stored score is wrong",
+        {{"evaluation", name}, {"stored", text_of(said)}, {"this host", text_beside(said, ruling)}},
+        campaign);
     return book_->stop(campaign,
                        "a score in the store is wrong: the evaluation of " + name + " has " +
                            text_of(said) + ", and this host gives " + text_of(ruling) +

@@ -98,7 +98,7 @@ class Liars(Visited):
                 self.say(peer, sequence, results={"scenario": welcome["scenario"],
                                                   "results": results})
         self.assertEqual(self.coordinator.wait(), 3, self.coordinator.tail())
-        self.assertIn("not to be believed", self.coordinator.log())
+        self.assertIn("scores in the store are not reliable", self.coordinator.log())
         self.count("invented score", told)
         [found] = events(self.store, "workers in quarantine")
         print(f"\n  found after {told} of its scores", end="")
