@@ -43,9 +43,11 @@ std::string seconds_text(int instant) {
 }  // namespace
 
 void RecordingArguments::declare(Options& options) {
-  options.text("--csv", csv, "Write poses, commands and states to this file (- for standard output)");
-  options.text("--readings", readings,
-               "Sensors for the table: all (except lidar), or a list such as ground_color,proximity");
+  options.text("--csv", csv,
+               "Write poses, commands and states to this file (- for standard output)");
+  options.text(
+      "--readings", readings,
+      "Sensors for the table: all (except lidar), or a list such as ground_color,proximity");
   options.text("--objects-csv", objects_csv, "Write the poses of movable objects to this file");
   options.text("--svg", svg, "Draw the run into this file (- for standard output)");
   options.text("--at", at, "Draw one instant, in seconds (default: the whole run)");

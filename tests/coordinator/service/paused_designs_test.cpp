@@ -35,7 +35,8 @@ TEST(PausedDesigns, APauseHasARowForEachDesignThatItChanges) {
   const auto again = rows_of_pause(command(CommandKind::Resume, 3), unfinished, {{2}});
   ASSERT_TRUE(again);
   EXPECT_THAT(*again, IsEmpty());
-  EXPECT_EQ(sentence_of_pause(CommandKind::Resume, *again), "nothing to do: every design is over, or resumed before");
+  EXPECT_EQ(sentence_of_pause(CommandKind::Resume, *again),
+            "nothing to do: every design is over, or resumed before");
   EXPECT_FALSE(rows_of_pause(command(CommandKind::Pause, 4), unfinished, {})) << "it is over";
 }
 
