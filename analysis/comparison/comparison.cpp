@@ -43,10 +43,11 @@ void note_lonely(const ScoreTable& table, Comparison& comparison) {
   const auto names = names_in(table, by_source ? &GroupKey::source : &GroupKey::method);
   if (names.size() != 1) return;
   const bool has_methods = by_source && names_in(table, &GroupKey::method).size() > 1;
-  comparison.notes.push_back(
+  comparison.unranked.push_back(
       fmt::format("all scores have the same {} {}: there is nothing to compare{}",
                   by_source ? "source" : "method", *names.begin(),
                   has_methods ? "; `--by method` compares the methods" : ""));
+  comparison.notes.push_back(comparison.unranked.back());
 }
 
 /// A method that used much less than it might, or was extended, is told beside one that did not.

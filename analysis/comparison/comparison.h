@@ -77,7 +77,8 @@ struct Comparison {
   std::vector<ComparedGroup> groups;   ///< by mission, method, source
   std::vector<ComparedPair> pairs;
   std::vector<ComparedRanks> ranks;
-  std::vector<std::string> notes;  ///< what was left out, and why
+  std::vector<std::string> notes;     ///< what was left out, and why
+  std::vector<std::string> unranked;  ///< those of the notes that say why there are no ranks
 };
 
 /// Of scores that were read already; the options' filters are applied to them.

@@ -204,13 +204,9 @@ Expected<Figure> ranks_figure(StoreReader& store, const FigureOptions& options) 
   const auto comparison = ranked(store, options);
   if (!comparison) return Unexpected(comparison.error());
   if (comparison->ranks.empty()) {
-    // Other notes are of the tests between groups.
-    std::vector<std::string> why_not;
-    std::ranges::copy_if(comparison->notes, std::back_inserter(why_not), [](const auto& note) {
-      return note.find("no ranks") != std::string::npos ||
-             note.find("nothing to compare") != std::string::npos;
-    });
-    const std::string why = fmt::format("{}", fmt::join(why_not, "; "));
+    const std::string why = comparison->unranked.empty()
+                                ? "no source has scores of two methods"
+                                : fmt::format("{}", fmt::join(comparison->unranked, "; "));
     return unexpected(ErrorKind::NotFound, "there is nothing to rank: " + why);
   }
   RankPlot plot{.title = fmt::format("Ranks by {}", name_of(comparison->options.by)),

@@ -61,10 +61,11 @@ void add_method_ranks(const ScoreTable& table, Comparison& comparison) {
       ranks->source = source;
       comparison.ranks.push_back(std::move(*ranks));
     } else {
-      comparison.notes.push_back(fmt::format(
+      comparison.unranked.push_back(fmt::format(
           "{}: no ranks, since fewer than two missions have designs of every method; within "
           "a mission the tests of `compare` compare them",
           source));
+      comparison.notes.push_back(comparison.unranked.back());
     }
   }
 }
@@ -82,8 +83,9 @@ void add_source_ranks(const ScoreTable& table, Comparison& comparison) {
   if (auto ranks = ranked(sources, in_order(blocks))) {
     comparison.ranks.push_back(std::move(*ranks));
   } else {
-    comparison.notes.emplace_back(
-        "no ranks, since less than two designs have scores in every source");
+    comparison.unranked.emplace_back(
+        "no ranks, since fewer than two designs have scores in every source");
+    comparison.notes.push_back(comparison.unranked.back());
   }
 }
 
