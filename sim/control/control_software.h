@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <variant>
 
 #include "base/rng.h"
@@ -24,6 +25,11 @@ class ControlSoftware {
   /// network.
   int state() const {
     return std::visit([](const auto& running) { return running.state(); }, running_);
+  }
+
+  /// How many random numbers were drawn so far.
+  std::uint64_t drawn() const {
+    return std::visit([](const auto& running) { return running.drawn(); }, running_);
   }
 
  private:

@@ -9,8 +9,8 @@ import re
 import unittest
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-TOP = ("base", "irace_core", "programs", "sim", "proto", "storage", "worker", "analysis", "coordinator", "console", "cli",
-       "tracking", "web")
+TOP = ("base", "irace_core", "programs", "sim", "proto", "storage", "worker", "robot", "analysis", "coordinator", "console",
+       "cli", "tracking", "web")
 WORDS = ("SOURCES", "HEADERS", "PUBLIC", "PRIVATE")
 
 
