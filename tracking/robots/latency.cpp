@@ -238,6 +238,7 @@ Latency latency_of(std::span<const TimedCommand> commands, std::span<const Sampl
     return latency;
   }
   if (is_at_the_edge) {
+    latency.beyond = true;
     latency.reason =
         fmt::format("its motion is {} s or more from its commands; is the start of the run right?",
                     least == 0 ? kLeast_s : kMost_s);

@@ -22,7 +22,8 @@ struct Latency {
   /// Of commanded and seen motion, -1 to 1, at the best shift: of the turns where turns were
   /// commanded, else of the way. None where nothing moved.
   std::optional<double> agreement;
-  std::string reason;  ///< why it cannot be told, a sentence without its subject
+  bool beyond = false;  ///< the best shift is at the end of what was tried
+  std::string reason;   ///< why it cannot be told, a sentence without its subject
 };
 
 /// A robot that does not follow its log agrees less than this with it: two robots that explore have
