@@ -450,6 +450,7 @@ NodeState Node::state(const Now& now) const {
                   .log_trouble = log_trouble_,
                   .order = order_,
                   .refused = refused_,
+                  .start_unix_s = is_on() ? start_unix_s_ : 0,
                   .clock_s = clock_s(now.clock),
                   .unix_s = now.unix_s};
   for (const Feed feed : kAllFeeds) {

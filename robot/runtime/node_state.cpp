@@ -82,6 +82,7 @@ std::string state_text(const NodeState& state) {
       .add("log_trouble", state.log_trouble)
       .add("order", state.order)
       .add("refused", state.refused)
+      .add("start_unix_s", state.start_unix_s)
       .add("clock_s", state.clock_s)
       .add("unix_s", state.unix_s)
       .text();
@@ -122,6 +123,7 @@ Expected<NodeState> parse_state(std::string_view text) {
   reader.read("log_trouble", state.log_trouble);
   reader.read("order", state.order);
   reader.read("refused", state.refused);
+  reader.read("start_unix_s", state.start_unix_s);
   reader.read("clock_s", state.clock_s);
   reader.read("unix_s", state.unix_s);
   return state;

@@ -51,6 +51,7 @@ struct NodeState {
   std::string log_trouble;             ///< why the log cannot be written
   std::string order;                   ///< id of the last order
   std::string refused;                 ///< why that one was refused; empty: obeyed
+  double start_unix_s = 0;             ///< the run's agreed instant, by the wall clock
   double clock_s = 0;                  ///< CLOCK_MONOTONIC
   double unix_s = 0;                   ///< wall clock
 
