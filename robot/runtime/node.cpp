@@ -353,9 +353,9 @@ Expected<Decision> Node::answer(const SensesMessage& senses, const Now& now) {
   return decision;
 }
 
-void Node::begin_counted(std::string run, const Now& now) {
+void Node::begin_counted(const Now& now) {
   lock_step_ = true;
-  begin(std::move(run), settings_.seed, 0, now);
+  begin(fmt::format("{}-seed{}", settings_.lock_step_run, settings_.seed), settings_.seed, 0, now);
 }
 
 Decision Node::step_counted(const Now& now) {

@@ -65,6 +65,7 @@ class Node {
   Node(NodeSettings settings, const Controller& controller, const Flavour& flavour);
 
   Feeds& feeds() { return feeds_; }
+  const Feeds& feeds() const { return feeds_; }
   void hear(const BatteryMessage& message) { battery_ = message.charge; }
   /// Obeys or refuses; a start that is obeyed arms the node.
   void hear(const Order& order, const Now& now);
@@ -85,9 +86,11 @@ class Node {
   /// the last one. BadInput: a cycle that is not the next.
   Expected<Decision> answer(const SensesMessage& senses, const Now& now);
   /// Lock-step by counting: begins the run, and then steps one cycle with what the feeds have.
-  void begin_counted(std::string run, const Now& now);
+  void begin_counted(const Now& now);
   Decision step_counted(const Now& now);
 
+  /// The world has ended the run.
+  void end_run() { end(Phase::Ended); }
   /// Ends whatever is going on; what a signal or a closed pipe does.
   void stop(const std::string& why);
   void fail(const std::string& why);
@@ -105,6 +108,7 @@ class Node {
   NodeState state(const Now& now) const;
   /// The head of the run's log; without an end while it goes on.
   LogHead head() const;
+  std::int64_t cycle() const { return cycle_; }
   const PerFeed<bool>& needed() const { return needed_; }
 
  private:
