@@ -259,7 +259,8 @@ ExitCode run(const Words& words, Output& output) {
                  "255 or 1",
                  "--color-scale"});
   }
-  auto end = open_robot_end(words.transport, settings->robot, end_options(words, needed, pace));
+  auto end =
+      open_robot_end(words.transport, settings->robot, end_options(words, needed, pace), output);
   if (!end) {
     return fail(output,
                 end.error().kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Unreachable,
@@ -297,7 +298,7 @@ Run declare_robot_run(Options& options) {
   options.choice("--lock-step", words->lock_step, {"senses", "topics"},
                  "Be stepped by a simulated world (swarmsmith robot world)");
   options.text("--run", words->run, "Name of runs in lock-step, for logs (default run)");
-  words->transport.declare(options);
+  words->transport.declare_node(options);
   options.choice("--ranges", words->ranges, {"array", "apart"},
                  "Proximity as one topic `ranges` or as eight (default array)");
   options.choice("--neighbours", words->neighbours, {"scan", "neighbours"},

@@ -163,7 +163,7 @@ Run declare_robot_start(Options& options) {
   options.text("--patience", words->patience,
                "Seconds until all robots have answered and are ready (default 5)");
   words->file.declare(options);
-  words->transport.declare(options);
+  words->transport.declare_client(options);
   return [words](Output& output) { return start(*words, output); };
 }
 

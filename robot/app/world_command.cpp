@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <charconv>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <fstream>
 #include <memory>
