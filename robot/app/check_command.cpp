@@ -25,7 +25,7 @@ ExitCode check(const Words& words, Output& output) {
   if (!seconds) return fail(output, ExitCode::Usage, seconds.error());
   catch_stop_signals();
   const auto end = open_operator_end(words.transport, *names);
-  if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
+  if (!end) return fail(output, ExitCode::Unreachable, end.error());
   RollCall roll(*names, operator_id());
   const auto note = [&output](const std::string& text) { print_note(output, text); };
   const TimePoint begun = now_on_both_clocks().clock;
@@ -72,7 +72,7 @@ Run declare_robot_check(Options& options) {
   options.text("--robots", words->robots, "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names",
                Options::Need::Required);
   options.text("--seconds", words->seconds, "How long to wait for answers (default 5)");
-  words->transport.declare_for_others(options);
+  words->transport.declare_client(options);
   return [words](Output& output) { return check(*words, output); };
 }
 

@@ -16,6 +16,20 @@ constexpr std::string_view kRunDetails =
     "machine\n"
     "ten times a second, and writes a log of each run. When a sensor that the machine needs is\n"
     "silent, the treads stand still. Ctrl-C or SIGTERM stops the treads and then the node.";
+constexpr std::string_view kWorldDetails =
+    "Examples:\n"
+    "  swarmsmith robot world --mission aggregation --seeds 1-20 --lock-step \\\n"
+    "      --compare --machine best.fsm\n"
+    "  swarmsmith robot world --mission aggregation --seeds 7 --real-time --csv truth.csv\n"
+    "\n"
+    "A simulated world in place of the robots' drivers, with the nodes of `swarmsmith robot run`.\n"
+    "In lock-step (nodes: --lock-step senses, or topics) it prints the scores of `evaluate`, bit "
+    "for\n"
+    "bit. In real time it is a laboratory: `swarmsmith robot start` begins the run, a command "
+    "acts\n"
+    "when it comes, and the drivers stop the treads 300 ms after the last one. Exit code 1: bits "
+    "or\n"
+    "answers are wrong; 5: a robot's node is not there or does not answer.";
 constexpr std::string_view kStartDetails =
     "Examples:\n"
     "  swarmsmith robot start --run run07 --robots 1-3 --seconds 120\n"
@@ -51,6 +65,8 @@ constexpr std::string_view kReplayDetails =
 constexpr std::array kCommands = {
     Command{"run", "Run a machine on a robot", kRunDetails, declare_robot_run, nullptr,
             without_ros_words},
+    Command{"world", "Play the world for robots' nodes", kWorldDetails, declare_robot_world,
+            nullptr, without_ros_words},
     Command{"start", "Start a run on all robots, and watch over it", kStartDetails,
             declare_robot_start, nullptr, without_ros_words},
     Command{"stop", "Stop robots", kStopDetails, declare_robot_stop, nullptr, without_ros_words},

@@ -12,6 +12,7 @@ namespace swarmsmith::cli {
 std::span<const Command> robot_commands();
 
 Run declare_robot_run(Options& options);
+Run declare_robot_world(Options& options);
 Run declare_robot_start(Options& options);
 Run declare_robot_stop(Options& options);
 Run declare_robot_check(Options& options);

@@ -10,7 +10,6 @@
 #include <utility>
 
 #include "base/math.h"
-#include "base/text/json.h"
 #include "robot/app/commands.h"
 #include "robot/app/machine_word.h"
 #include "robot/app/node_loop.h"
@@ -260,15 +259,12 @@ ExitCode run(const Words& words, Output& output) {
                  "255 or 1",
                  "--color-scale"});
   }
-  auto opened = open_robot_end(words.transport, settings->robot, end_options(words, needed, pace));
-  if (!opened) return fail(output, exit_code_of_transport(opened.error()), opened.error());
-  if (!opened->endpoint.empty()) {  // for `--at` of whoever connects
-    output.out << (output.json ? JsonObject()
-                                     .add("robot", settings->robot)
-                                     .add("endpoint", opened->endpoint)
-                                     .text()
-                               : settings->robot + "=" + opened->endpoint)
-               << std::endl;
+  auto end =
+      open_robot_end(words.transport, settings->robot, end_options(words, needed, pace), output);
+  if (!end) {
+    return fail(output,
+                end.error().kind == ErrorKind::BadInput ? ExitCode::Usage : ExitCode::Unreachable,
+                end.error());
   }
   settings->scheduling = pace == Pace::Clock ? schedule(words, output) : "lock-step";
   Node node(*settings, machine->controller, machine->flavour);
@@ -281,7 +277,7 @@ ExitCode run(const Words& words, Output& output) {
                            name_of(architecture_of(machine->controller)), machine->flavour.name,
                            settings->robot_index, settings->scheduling));
   }
-  NodeLoop loop(node, *opened->end, std::move(loop_options));
+  NodeLoop loop(node, **end, std::move(loop_options));
   return exit_code_of(loop.run());
 }
 
@@ -302,7 +298,7 @@ Run declare_robot_run(Options& options) {
   options.choice("--lock-step", words->lock_step, {"senses", "topics"},
                  "Be stepped by a simulated world (swarmsmith robot world)");
   options.text("--run", words->run, "Name of runs in lock-step, for logs (default run)");
-  words->transport.declare_for_node(options);
+  words->transport.declare_node(options);
   options.choice("--ranges", words->ranges, {"array", "apart"},
                  "Proximity as one topic `ranges` or as eight (default array)");
   options.choice("--neighbours", words->neighbours, {"scan", "neighbours"},

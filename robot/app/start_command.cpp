@@ -102,7 +102,7 @@ ExitCode start(const Words& words, Output& output) {
   if (!place) return fail(output, ExitCode::Usage, place.error());
   catch_stop_signals();
   const auto end = open_operator_end(words.transport, *names);
-  if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
+  if (!end) return fail(output, ExitCode::Unreachable, end.error());
   RunStarter starter({.run = words.run,
                       .seconds = seconds->value_or(120),
                       .seed = words.seed,
@@ -163,7 +163,7 @@ Run declare_robot_start(Options& options) {
   options.text("--patience", words->patience,
                "Seconds until all robots have answered and are ready (default 5)");
   words->file.declare(options);
-  words->transport.declare_for_others(options);
+  words->transport.declare_client(options);
   return [words](Output& output) { return start(*words, output); };
 }
 

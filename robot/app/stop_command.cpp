@@ -26,7 +26,7 @@ ExitCode stop(const Words& words, Output& output) {
   const auto names = robot_names(words.robots);
   if (!names) return fail(output, ExitCode::Usage, names.error());
   const auto end = open_operator_end(words.transport, *names);
-  if (!end) return fail(output, exit_code_of_transport(end.error()), end.error());
+  if (!end) return fail(output, ExitCode::Unreachable, end.error());
   const std::string id = operator_id();
   std::vector<std::optional<NodeState>> states(names->size());
   int sent = 0;
@@ -70,7 +70,7 @@ Run declare_robot_stop(Options& options) {
   options.text("--robots", words->robots, "Which robots: 1-3 is rvr1, rvr2, rvr3; or their names",
                Options::Need::Required);
   options.flag("--kill", words->kill, "And let no run start until the nodes are restarted");
-  words->transport.declare_for_others(options);
+  words->transport.declare_client(options);
   return [words](Output& output) { return stop(*words, output); };
 }
 

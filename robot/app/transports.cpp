@@ -1,6 +1,9 @@
 #include "robot/app/transports.h"
 
+#include <algorithm>
 #include <chrono>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "proto/access/allow_list_file.h"
@@ -12,24 +15,46 @@
 namespace swarmsmith::cli {
 namespace {
 
-bool is_ros(const TransportWords& words) {
-  return words.transport == "ros";
-}
-
 RosOptions ros_options(const TransportWords& words, const EndOptions& end) {
   return {.end = end, .remappings = words.topics};
 }
 
-Expected<std::optional<ServerKeys>> server_keys(const std::string& folder_name) {
-  if (folder_name.empty()) return std::optional<ServerKeys>();
-  const KeyFolder folder{folder_name};
-  const auto pair = read_server_key(folder.server_key());
+Expected<std::optional<ServerKeys>> server_keys(const std::string& folder) {
+  if (folder.empty()) return std::nullopt;
+  const KeyFolder keys{folder};
+  const auto pair = read_server_key(keys.server_key());
   if (!pair) return Unexpected(pair.error());
-  const auto now =
-      std::chrono::time_point_cast<std::chrono::seconds>(std::chrono::system_clock::now());
-  const auto list = AllowListFile::open(folder.clients(), now);
+  const auto list = AllowListFile::open(
+      keys.clients(), std::chrono::floor<std::chrono::seconds>(std::chrono::system_clock::now()));
   if (!list) return Unexpected(list.error().front());
-  return std::optional(ServerKeys{.secret_key = pair->secret_key, .clients = list->clients()});
+  return ServerKeys{.secret_key = pair->secret_key, .clients = list->clients()};
+}
+
+/// The places in the order of the names.
+Expected<std::vector<RobotPlace>> places_of(const TransportWords& words,
+                                            const std::vector<std::string>& names) {
+  std::map<std::string, std::string> endpoints;
+  for (const std::string& word : words.at) {
+    const std::size_t equals = word.find('=');
+    if (equals == 0 || equals == std::string::npos)
+      return bad_input("write NAME=tcp://HOST:PORT, such as rvr1=tcp://10.0.0.11:5570",
+                       "--at " + word);
+    if (!endpoints.emplace(word.substr(0, equals), word.substr(equals + 1)).second)
+      return bad_input("is there twice", "--at " + word);
+  }
+  std::vector<RobotPlace> places;
+  for (const std::string& name : names) {
+    const auto found = endpoints.find(name);
+    if (found == endpoints.end()) {
+      return bad_input("does not say where " + name + "'s node is: add --at " + name +
+                           "=tcp://HOST:PORT, as the node prints it",
+                       "--at");
+    }
+    places.push_back({name, found->second});
+    endpoints.erase(found);
+  }
+  if (!endpoints.empty()) return bad_input("there is no robot " + endpoints.begin()->first, "--at");
+  return places;
 }
 
 Expected<NodeClientOptions> client_options(const TransportWords& words, const EndOptions& end) {
@@ -41,87 +66,84 @@ Expected<NodeClientOptions> client_options(const TransportWords& words, const En
   return options;
 }
 
-/// Where each of the robots listens, in their order.
-Expected<std::vector<RobotPlace>> places_of(const TransportWords& words,
-                                            const std::vector<std::string>& names) {
-  std::vector<RobotPlace> places;
-  for (const std::string& name : names) {
-    std::string endpoint;
-    for (const std::string& word : words.places) {
-      if (word.starts_with(name + "=")) endpoint = word.substr(name.size() + 1);
-    }
-    if (endpoint.empty()) {
-      return bad_input("where does the node of " + name + " listen? give --at " + name +
-                           "=tcp://HOST:PORT, as the node said it",
-                       "--at");
-    }
-    places.push_back({name, std::move(endpoint)});
+Expected<void> check_words(const TransportWords& words) {
+  const bool ros = words.transport == "ros";
+  if (!ros && !words.topics.empty())
+    return bad_input("topics have other names only over ROS", "--topic");
+  const auto only = [&](bool given, const char* option) -> Expected<void> {
+    if (ros && given) return bad_input("is for --transport zeromq", option);
+    return {};
+  };
+  for (const auto& checked :
+       {only(!words.bind.empty(), "--bind"), only(!words.keys.empty(), "--keys"),
+        only(!words.at.empty(), "--at"), only(!words.key.empty(), "--key")}) {
+    if (!checked) return checked;
   }
-  return places;
-}
-
-void declare_transport(TransportWords& words, Options& options) {
-  options.choice("--transport", words.transport, {"ros", "zmq"},
-                 "How messages travel (default ros)");
-  options.texts("--topic", words.topics,
-                "ROS: NAME:=TOPIC, a topic that has another name here; also without --topic");
+  return {};
 }
 
 }  // namespace
 
-void TransportWords::declare_for_node(Options& options) {
-  declare_transport(*this, options);
-  options.text("--listen", listen, "zmq: the node's address (default tcp://127.0.0.1:*)");
+void TransportWords::declare(Options& options) {
+  transport = "ros";
+  options.choice("--transport", transport, {"ros", "zeromq"},
+                 "How messages travel: topics of ROS 1, or ZeroMQ with keys (default ros)");
+  options.texts("--topic", topics, "A topic's name of ours, :=, and the name it has, repeatable");
+}
+
+void TransportWords::declare_node(Options& options) {
+  declare(options);
+  options.text("--bind", bind,
+               "Of zeromq: where drivers, worlds and operators connect (default "
+               "tcp://127.0.0.1:5570)");
   options.text("--keys", keys,
-               "zmq: folder of `swarmsmith keygen`; needed when other hosts reach the address");
+               "Of zeromq: folder with server.key and clients.toml, as `swarmsmith keygen` makes "
+               "it; needed where other hosts connect");
 }
 
-void TransportWords::declare_for_others(Options& options) {
-  declare_transport(*this, options);
-  options.texts("--at", places, "zmq: ROBOT=tcp://HOST:PORT, where its node listens, repeatable");
-  options.text("--key", key, "zmq: key file of `swarmsmith keygen`");
+void TransportWords::declare_client(Options& options) {
+  declare(options);
+  options.texts("--at", at, "Of zeromq: NAME=tcp://HOST:PORT of a robot's node, repeatable");
+  options.text("--key", key,
+               "Of zeromq: file with a key: a worker's for worlds, an operator's for orders");
 }
 
-Expected<OpenedRobot> open_robot_end(const TransportWords& words, const std::string& name,
-                                     const EndOptions& options) {
-  if (is_ros(words)) {
-    auto end = ros_robot_end(name, ros_options(words, options));
-    if (!end) return Unexpected(end.error());
-    return OpenedRobot{std::move(*end), ""};
-  }
+Expected<std::unique_ptr<RobotEnd>> open_robot_end(const TransportWords& words,
+                                                   const std::string& name, const EndOptions& end,
+                                                   Output& output) {
+  if (const auto good = check_words(words); !good) return Unexpected(good.error());
+  if (words.transport == "ros") return ros_robot_end(name, ros_options(words, end));
   auto keys = server_keys(words.keys);
   if (!keys) return Unexpected(keys.error());
-  auto server =
-      zmq_robot_end(name, {.end = options, .endpoint = words.listen, .keys = std::move(*keys)});
+  NodeServerOptions options{.end = end, .keys = std::move(*keys)};
+  options.endpoint = words.bind.empty() ? "tcp://127.0.0.1:5570" : words.bind;
+  auto server = zmq_robot_end(name, std::move(options));
   if (!server) return Unexpected(server.error());
-  return OpenedRobot{std::move(server->end), std::move(server->endpoint)};
+  print_note(output, name + " listens at " + server->endpoint);
+  return std::move(server->end);
 }
 
 Expected<std::unique_ptr<WorldEnd>> open_world_end(const TransportWords& words,
                                                    const std::vector<std::string>& names,
-                                                   const EndOptions& options) {
-  if (is_ros(words)) return ros_world_end(names, ros_options(words, options));
+                                                   const EndOptions& end) {
+  if (const auto good = check_words(words); !good) return Unexpected(good.error());
+  if (words.transport == "ros") return ros_world_end(names, ros_options(words, end));
   auto places = places_of(words, names);
   if (!places) return Unexpected(places.error());
-  const auto client = client_options(words, options);
-  if (!client) return Unexpected(client.error());
-  return zmq_world_end(std::move(*places), *client);
+  const auto options = client_options(words, end);
+  if (!options) return Unexpected(options.error());
+  return zmq_world_end(std::move(*places), *options);
 }
 
 Expected<std::unique_ptr<OperatorEnd>> open_operator_end(const TransportWords& words,
                                                          const std::vector<std::string>& names) {
-  if (is_ros(words)) return ros_operator_end(names, ros_options(words, {}));
+  if (const auto good = check_words(words); !good) return Unexpected(good.error());
+  if (words.transport == "ros") return ros_operator_end(names, ros_options(words, {}));
   auto places = places_of(words, names);
   if (!places) return Unexpected(places.error());
-  const auto client = client_options(words, {});
-  if (!client) return Unexpected(client.error());
-  return zmq_operator_end(std::move(*places), *client);
-}
-
-ExitCode exit_code_of_transport(const Error& error) {
-  return error.kind == ErrorKind::BadInput || error.kind == ErrorKind::NotFound
-             ? ExitCode::Usage
-             : ExitCode::Unreachable;
+  const auto options = client_options(words, {});
+  if (!options) return Unexpected(options.error());
+  return zmq_operator_end(std::move(*places), *options);
 }
 
 }  // namespace swarmsmith::cli
