@@ -15,6 +15,7 @@
 #include <cmath>
 #include <functional>
 #include <limits>
+#include <mutex>
 #include <set>
 #include <thread>
 #include <utility>
@@ -162,16 +163,17 @@ class RosRobotEnd final : public RobotEnd {
   std::optional<ToRobot> receive(TimePoint until) override { return inbox_->take(until); }
 
   void send(const WheelsMessage& wheels) override {
-    if (form_ == WheelsForm::Doubles) return wheels_.publish(doubles_message(numbers_of(wheels)));
+    if (form_ == WheelsForm::Doubles)
+      return publish_or_keep(wheels_, doubles_message(numbers_of(wheels)));
     if (form_ == WheelsForm::Floats) {
       std_msgs::Float32MultiArray message;
       message.data = as_floats(numbers_of(wheels));
-      return wheels_.publish(message);
+      return publish_or_keep(wheels_, message);
     }
     geometry_msgs::Twist message;
     message.linear.x = (wheels.left_mps + wheels.right_mps) / 2;
     message.angular.z = (wheels.right_mps - wheels.left_mps) / kTreadDistance_m;
-    wheels_.publish(message);
+    publish_or_keep(wheels_, message);
   }
   void send(const LedsMessage& leds) override {
     std_msgs::Float32MultiArray message;
@@ -180,7 +182,7 @@ class RosRobotEnd final : public RobotEnd {
   }
   void send(const StateMessage& state) override { state_.publish(text_message(state.text)); }
   void send(const AnswerMessage& answer) override {
-    answers_.publish(doubles_message(numbers_of(answer)));
+    publish_or_keep(answers_, doubles_message(numbers_of(answer)));
   }
   bool connected() override { return (by_number_ ? answers_ : wheels_).getNumSubscribers() > 0; }
   void flush(Duration most) override { give_time(most); }
@@ -191,6 +193,26 @@ class RosRobotEnd final : public RobotEnd {
         form_(options.wheels),
         by_number_(options.sensors.senses),
         inbox_(std::make_shared<RobotInbox>(options.keep)) {}
+
+  /// A world sends its first question when this node listens to it; it may be that its own
+  /// connection for answers does not stand yet. Then the answer waits for it.
+  template <class Message>
+  void publish_or_keep(const ros::Publisher& publisher, const Message& message) {
+    if (options_.keep != Keep::All) return publisher.publish(message);
+    const std::lock_guard lock(early_mutex_);
+    if (publisher.getNumSubscribers() > 0) return publisher.publish(message);
+    early_ = [publisher, message] { publisher.publish(message); };
+  }
+  void publish_early() {
+    const std::lock_guard lock(early_mutex_);
+    if (early_) std::exchange(early_, nullptr)();
+  }
+  template <class Message>
+  ros::Publisher advertise(ros::NodeHandle& handle, const std::string& topic) {
+    return handle.advertise<Message>(
+        topic, queue_of(options_.keep),
+        [this](const ros::SingleSubscriberPublisher&) { publish_early(); });
+  }
 
   /// A message made of numbers.
   template <class Ours, class Theirs>
@@ -221,13 +243,13 @@ class RosRobotEnd final : public RobotEnd {
                                       });
     const std::uint32_t queue = queue_of(options_.keep);
     if (sensors.senses) {
-      answers_ = handle.advertise<std_msgs::Float64MultiArray>("answer", kUnlimited);
+      answers_ = advertise<std_msgs::Float64MultiArray>(handle, AnswerMessage::kTopic);
     } else if (form_ == WheelsForm::Doubles) {
-      wheels_ = handle.advertise<std_msgs::Float64MultiArray>(wheels_topic(form_), queue);
+      wheels_ = advertise<std_msgs::Float64MultiArray>(handle, wheels_topic(form_));
     } else if (form_ == WheelsForm::Floats) {
-      wheels_ = handle.advertise<std_msgs::Float32MultiArray>(wheels_topic(form_), queue);
+      wheels_ = advertise<std_msgs::Float32MultiArray>(handle, wheels_topic(form_));
     } else {
-      wheels_ = handle.advertise<geometry_msgs::Twist>(wheels_topic(form_), queue);
+      wheels_ = advertise<geometry_msgs::Twist>(handle, wheels_topic(form_));
     }
     leds_ = handle.advertise<std_msgs::Float32MultiArray>("leds", queue);
     // The last one: who sees it at the master sees all the others (RosWorldEnd::connected).
@@ -323,7 +345,9 @@ class RosRobotEnd final : public RobotEnd {
   bool by_number_;
   std::shared_ptr<RobotInbox> inbox_;
   Complaints complaints_;  ///< of the spinner's thread
-  RangesMessage ranges_;   ///< with ranges_apart
+  std::mutex early_mutex_;
+  std::function<void()> early_;  ///< sends what had nobody to go to
+  RangesMessage ranges_;         ///< with ranges_apart
   std::set<std::size_t> came_;
   ros::Publisher wheels_;
   ros::Publisher leds_;
